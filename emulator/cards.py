@@ -1,0 +1,164 @@
+"""Punched cards: 80 columns, the character set of the IBM 026 punch, decks read from and written to files.
+
+Card code: 1620 reference card X26-5743-2, page 4.  A deck file holds one card a line; a line's trailing
+blanks are the card's blank columns.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import tempfile
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from emulator.errors import CardError, DeckError
+
+COLUMNS = 80
+MAX_CARDS = 100_000
+
+_ZONES = {"": "0123456789", "12": "ABCDEFGHI", "11": "JKLMNOPQR"}
+
+
+def _punches() -> dict[str, str]:
+    code = {" ": "", "+": "12", "-": "11", "/": "0-1"}
+    code.update({str(d): str(d) for d in range(10)})
+    code.update({c: f"12-{i}" for i, c in enumerate(_ZONES["12"], 1)})
+    code.update({c: f"11-{i}" for i, c in enumerate(_ZONES["11"], 1)})
+    code.update({c: f"0-{i}" for i, c in enumerate("STUVWXYZ", 2)})
+    code.update({".": "12-3-8", ")": "12-4-8", "$": "11-3-8", "*": "11-4-8"})
+    code.update({",": "0-3-8", "(": "0-4-8", "=": "3-8", "@": "4-8", "'": "4-8"})
+    return code
+
+
+PUNCHES: dict[str, str] = _punches()
+"""Character to punches, e.g. ``{"A": "12-1", "=": "3-8"}``; the scientific (H) graphics of the 026."""
+
+CHARACTERS = frozenset(PUNCHES)
+
+COMMERCIAL = {"#": "=", "%": "(", "&": "+", "\u2311": ")", "\u00a4": ")"}
+"""Graphics of the commercial (A) arrangement over the same holes; not accepted, only explained."""
+
+
+@dataclass(frozen=True, slots=True)
+class Card:
+    """One card: its number in the deck counting from 1, and its columns without trailing blanks."""
+
+    number: int
+    text: str
+
+    def columns(self, first: int, last: int) -> str:
+        """Columns ``first`` to ``last`` (from 1, inclusive), blank where nothing is punched."""
+        return self.text.ljust(COLUMNS)[first - 1 : last]
+
+
+@dataclass(frozen=True, slots=True)
+class Deck:
+    """A deck and the name messages use for it (a file name, or a built-in's)."""
+
+    source: str
+    cards: tuple[Card, ...]
+
+    def text(self) -> str:
+        """The deck as a file's text, one card a line."""
+        return "".join(card.text + "\n" for card in self.cards)
+
+
+def deck_from_lines(source: str, lines: Iterable[str]) -> Deck:
+    """A deck from lines without line ends.  Raises CardError for a character outside the card code or an 81st column."""
+    return Deck(source, tuple(_card(source, number, line) for number, line in enumerate(lines, 1)))
+
+
+def deck_from_text(source: str, text: str) -> Deck:
+    """A deck from a file's text: LF or CRLF, the last line with or without an end."""
+    lines = text.replace("\r\n", "\n").split("\n")
+    if lines and lines[-1] == "":
+        lines.pop()
+    if len(lines) > MAX_CARDS:
+        raise DeckError(f"{source}: {len(lines)} cards; a deck of more than {MAX_CARDS} is not read")
+    return deck_from_lines(source, lines)
+
+
+def read_deck(path: str) -> Deck:
+    """Read a deck file, or standard input for ``-``.
+
+    Raises DeckError when it is missing, unreadable, a directory or empty, CardError for a bad card.
+    """
+    name = "standard input" if path == "-" else path
+    try:
+        data = sys.stdin.buffer.read() if path == "-" else Path(path).read_bytes()
+    except OSError as error:
+        raise DeckError(f"{path}: {_reason(error)}") from None
+    except ValueError:
+        raise DeckError(f"{path!r}: not a file name") from None
+    try:
+        text = data.decode("utf-8")
+    except UnicodeDecodeError:
+        text = data.decode("latin-1")
+    deck = deck_from_text(name, text)
+    if not any(card.text for card in deck.cards):
+        raise DeckError(f"{name}: the deck is empty" if not deck.cards else f"{name}: the deck has only blank cards")
+    return deck
+
+
+def write_text(path: str, text: str) -> None:
+    """Write a file whole or not at all: beside its place first, then renamed.  ``-`` is standard output.
+
+    Raises DeckError when it cannot be written.
+    """
+    if path == "-":
+        sys.stdout.write(text)
+        sys.stdout.flush()
+        return
+    target = Path(path)
+    if target.exists() and not target.is_file():
+        _write_device(target, text)
+        return
+    beside = ""
+    try:
+        handle, beside = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
+        with os.fdopen(handle, "w", encoding="ascii", errors="backslashreplace", newline="") as file:
+            file.write(text)
+        os.chmod(beside, 0o666 & ~_umask())
+        os.replace(beside, target)
+    except OSError as error:
+        if beside and os.path.exists(beside):
+            os.unlink(beside)
+        raise DeckError(f"{path}: {_reason(error)}") from None
+
+
+def _write_device(target: Path, text: str) -> None:
+    try:
+        with target.open("w", encoding="ascii", errors="backslashreplace") as file:
+            file.write(text)
+    except OSError as error:
+        raise DeckError(f"{target}: {_reason(error)}") from None
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+def _reason(error: OSError) -> str:
+    return (error.strerror or str(error)).lower()
+
+
+def _card(source: str, number: int, line: str) -> Card:
+    for column, char in enumerate(line, 1):
+        if char not in CHARACTERS:
+            raise CardError(source, number, column, _strange(char))
+    text = line.rstrip(" ")
+    if len(text) > COLUMNS:
+        raise CardError(source, number, COLUMNS + 1, f"a card has {COLUMNS} columns; this one would need {len(text)}")
+    return Card(number, text)
+
+
+def _strange(char: str) -> str:
+    if char in COMMERCIAL:
+        return f"{char!r} is the commercial graphic of the punch that FORTRAN prints as {COMMERCIAL[char]!r}"
+    if char.upper() in CHARACTERS and char != char.upper():
+        return f"{char!r} is not in the card code: letters are capitals"
+    return f"{char!r} is not in the card code" if char.isprintable() else f"character {ord(char):#04x} is not in the card code"

@@ -1,0 +1,50 @@
+"""What can go wrong outside the machine: every error is one line that names file, card and column."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+
+class EmulatorError(Exception):
+    """Base of all errors raised for bad input; ``str`` is one line fit to be shown to a user."""
+
+
+class CardError(EmulatorError):
+    """A card that cannot be read: a character outside the code, too many columns, a field that is no number."""
+
+    def __init__(self, source: str, card: int, column: int, message: str) -> None:
+        where = f"{source}: card {card}" + (f", column {column}" if column else "")
+        super().__init__(f"{where}: {message}")
+        self.source, self.card, self.column = source, card, column
+
+
+class DeckError(EmulatorError):
+    """A deck that cannot be used as a whole: missing, unreadable, empty, or too short."""
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """A message of the compiler: ``number`` is IBM's error type where one is known (C26-5619 p. 56), else 0."""
+
+    card: int
+    column: int
+    message: str
+    number: int = 0
+    warning: bool = False
+
+    def line(self, source: str) -> str:
+        kind = "warning" if self.warning else ("error" if not self.number else f"error {self.number}")
+        where = f"card {self.card}" + (f", column {self.column}" if self.column else "")
+        return f"{source}: {where}: {kind}: {self.message}"
+
+
+class CompileError(EmulatorError):
+    """A source deck that does not compile; ``diagnostics`` holds every message, ``str`` the first."""
+
+    def __init__(self, source: str, diagnostics: Iterable[Diagnostic]) -> None:
+        self.source = source
+        self.diagnostics = tuple(diagnostics)
+        errors = [d for d in self.diagnostics if not d.warning]
+        more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
+        super().__init__(errors[0].line(source) + more)

@@ -1,0 +1,177 @@
+"""Library functions and powers: the exact value, cut to the profile's digits (rounded where products are rounded).
+
+SIN, COS, ATAN, EXP, LOG, SQRT: C26-5619 p. 63, 66.  That the result is the exact one cut is executed for
+SQRT and a choice for the others (OPEN-QUESTIONS 9); what is typed and delivered for impossible arguments
+follows GOTRAN's table F1 to F6 (C26-5594 p. 28) and IBM FORTRAN II-D for SQRT of a negative number.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from emulator.arithmetic import MAX_EXPONENT, MIN_EXPONENT, ZERO, Rules, divide, from_integer, multiply
+
+
+@dataclass(frozen=True, slots=True)
+class Value:
+    """A function's result and the error code typed for it, if any ("F1" to "F6", "E3", ...)."""
+
+    mantissa: int
+    exponent: int
+    code: str = ""
+
+
+def function(name: str, mantissa: int, exponent: int, rules: Rules) -> Value:
+    """SIN, COS, ATAN, EXP, LOG or SQRT of a number."""
+    if name == "SQRT":
+        return _sqrt(mantissa, exponent, rules)
+    if mantissa == 0:
+        return _of_zero(name, rules)
+    if name == "LOG" and mantissa < 0:
+        value = function("LOG", -mantissa, exponent, rules)
+        return Value(value.mantissa, value.exponent, "F3")
+    if name in ("SIN", "COS") and exponent > rules[0]:
+        return Value(rules[1] - 1, MAX_EXPONENT, "F1")
+    if name == "EXP" and exponent > 3:
+        return Value(rules[1] - 1, MAX_EXPONENT, "F4") if mantissa > 0 else Value(0, ZERO, "F5")
+    return _transcendental(name, mantissa, exponent, rules)
+
+
+def power(base: tuple[int, int], exponent: tuple[int, int], rules: Rules) -> Value:
+    """``A ** B`` with a floating exponent; |A| ** B and F6 for a negative base, as GOTRAN does."""
+    (mb, eb), (mx, ex) = base, exponent
+    if mb == 0:
+        return Value(0, ZERO, "" if mx > 0 else "F2")
+    if mx == 0:
+        return Value(*from_integer(1, rules))
+    value = _power(abs(mb), eb, mx, ex, rules)
+    return Value(value.mantissa, value.exponent, "F6") if mb < 0 else value
+
+
+def integer_power(mantissa: int, exponent: int, count: int, rules: Rules) -> Value:
+    """``A ** J`` by repeated multiplication, each product cut as the profile cuts it (OPEN-QUESTIONS 8)."""
+    one = from_integer(1, rules)
+    if count == 0:
+        return Value(*one)
+    if mantissa == 0:
+        return Value(0, ZERO) if count > 0 else Value(rules[1] - 1, MAX_EXPONENT, "E7")
+    m, e = mantissa, exponent
+    for _ in range(abs(count) - 1):
+        m, e = multiply(m, e, mantissa, exponent, rules)
+        if e > MAX_EXPONENT + 1 or e < MIN_EXPONENT - 1:
+            break
+    if count < 0 and MIN_EXPONENT - 1 <= e <= MAX_EXPONENT + 1:
+        m, e = divide(*one, m, e, rules)
+    elif count < 0:
+        e = -e
+    return _in_range(m, e, rules, "E3", "E4")
+
+
+def _sqrt(mantissa: int, exponent: int, rules: Rules) -> Value:
+    digits = rules[0]
+    if mantissa == 0:
+        return Value(0, ZERO)
+    shift = digits + (exponent - digits) % 2
+    scaled = abs(mantissa) * 10**shift
+    root = math.isqrt(scaled)
+    power_of_ten = (exponent - digits - shift) // 2
+    return _cut(root, power_of_ten, rules)
+
+
+def _of_zero(name: str, rules: Rules) -> Value:
+    if name in ("COS", "EXP"):
+        return Value(*from_integer(1, rules))
+    if name == "LOG":
+        return Value(-(rules[1] - 1), MAX_EXPONENT, "F2")
+    return Value(0, ZERO)
+
+
+def _transcendental(name: str, mantissa: int, exponent: int, rules: Rules) -> Value:
+    from mpmath import MPContext  # imported late: most programs use none of these
+
+    context = MPContext()
+    extra = 15
+    while True:
+        context.dps = rules[0] + extra + max(exponent, 0) * (name in ("SIN", "COS"))
+        argument = context.mpf(mantissa) * context.mpf(10) ** (exponent - rules[0])
+        value = getattr(context, name.lower())(argument)
+        result = _cut_exactly(context, value, rules)
+        if result is not None:
+            return _in_range(*result, rules, "F4", "F5")
+        if extra > 200:
+            return _in_range(*_nearest(context, value, rules), rules, "F4", "F5")
+        extra *= 2
+
+
+def _power(mb: int, eb: int, mx: int, ex: int, rules: Rules) -> Value:
+    from mpmath import MPContext
+
+    context = MPContext()
+    extra = 15
+    while True:
+        context.dps = rules[0] + extra + 10
+        log = context.log(context.mpf(mb) * context.mpf(10) ** (eb - rules[0]))
+        product = log * context.mpf(mx) * context.mpf(10) ** (ex - rules[0])
+        if abs(product) > 1000:
+            return Value(rules[1] - 1, MAX_EXPONENT, "F4") if product > 0 else Value(0, ZERO, "F5")
+        value = context.exp(product)
+        result = _cut_exactly(context, value, rules)
+        if result is not None:
+            return _in_range(*result, rules, "F4", "F5")
+        if extra > 200:
+            return _in_range(*_nearest(context, value, rules), rules, "F4", "F5")
+        extra *= 2
+
+
+def _digits(value: object, context: object) -> tuple[int, int]:
+    """An mpf as a whole number of many digits and a power of ten."""
+    text = context.nstr(value, context.dps, strip_zeros=False, min_fixed=1, max_fixed=0)  # type: ignore[attr-defined]
+    body, _, power_text = text.partition("e")
+    sign = -1 if body.startswith("-") else 1
+    whole, _, fraction = body.lstrip("-").partition(".")
+    return sign * int(whole + fraction), int(power_text or 0) - len(fraction)
+
+
+def _cut_exactly(context: object, value: object, rules: Rules) -> tuple[int, int] | None:
+    """The value cut to P digits, or None when its digits behind those are all nines or all zeros (too close to say)."""
+    if not value:
+        return 0, ZERO
+    number, power_of_ten = _digits(value, context)
+    text = str(abs(number))
+    tail = text[rules[0] : -6]
+    if tail.strip("0") == "" or tail.strip("9") == "":
+        return None
+    kept = int(text[: rules[0]])
+    if rules[6] and text[rules[0]] >= "5":
+        kept += 1
+    exponent = power_of_ten + len(text)
+    if kept >= rules[1]:
+        kept, exponent = kept // 10, exponent + 1
+    return (kept if number > 0 else -kept), exponent
+
+
+def _nearest(context: object, value: object, rules: Rules) -> tuple[int, int]:
+    """For a value that is exactly (or within 10**-200 of) a P-digit number: that number."""
+    number, power_of_ten = _digits(value, context)
+    text = str(abs(number))
+    exponent = power_of_ten + len(text)
+    kept = int(text[: rules[0]]) + (text[rules[0]] == "9")
+    if kept >= rules[1]:
+        kept, exponent = kept // 10, exponent + 1
+    return (kept if number > 0 else -kept), exponent
+
+
+def _cut(size: int, power_of_ten: int, rules: Rules) -> Value:
+    text = str(size)
+    exponent = power_of_ten + len(text)
+    kept = int(text[: rules[0]].ljust(rules[0], "0"))
+    return Value(kept, exponent)
+
+
+def _in_range(mantissa: int, exponent: int, rules: Rules, over: str, under: str) -> Value:
+    if mantissa and exponent > MAX_EXPONENT:
+        return Value(rules[1] - 1 if mantissa > 0 else -(rules[1] - 1), MAX_EXPONENT, over)
+    if mantissa and exponent < MIN_EXPONENT:
+        return Value(0, ZERO, under)
+    return Value(mantissa, exponent)

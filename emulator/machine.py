@@ -1,0 +1,432 @@
+"""A 1620 with its devices: card reader, punch, typewriter, four sense switches, and core storage.
+
+A :class:`Machine` holds everything a run needs; any number of them exist side by side.  It drives the engine
+and does what the engine returns for: input, output, library functions, messages, endings.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+
+from emulator import engine
+from emulator import objectcode as op
+from emulator.arithmetic import TRUNCATING, UNDEFINED, ZERO, Profile, powers_of_ten
+from emulator.cards import COLUMNS, Card, Deck
+from emulator.errors import CardError, DeckError
+from emulator.fields import FieldError, parse_constant, read_fixed, read_floating, write_fixed, write_floating
+from emulator.formats import Field
+from emulator.functions import Value, function, integer_power, power
+from emulator.objectcode import Line, Program
+from emulator.records import Input, Layout, NoField, Output
+from emulator.storage import FIELD, FUNCTION_NAMES
+
+PUNCH_COLUMNS = 72
+TYPEWRITER_COLUMNS = 87
+DEFAULT_LIMIT = 5_000_000
+DEFAULT_CORE = 40_000
+LOOP_WINDOW = 2_000
+
+NORMAL = ("hopper", "stop", "end")
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """How a run is set up.  ``switches`` are the sense switches that are on; ``bounds`` is strict or core."""
+
+    profile: Profile = TRUNCATING
+    switches: frozenset[int] = frozenset()
+    core: int = DEFAULT_CORE
+    bounds: str = "strict"
+    limit: int = DEFAULT_LIMIT
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """What a device did, in order: ``read``, ``punch``, ``type`` or ``begin`` (a READ begins a data set)."""
+
+    what: str
+    text: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Ending:
+    """Why a run ended.
+
+    ``kind``: hopper, stop, end (all normal), limit, bounds, undefined, outside, select, mode.  ``message``
+    is one line for a user, empty for a normal end.
+    """
+
+    kind: str
+    message: str = ""
+
+    @property
+    def normal(self) -> bool:
+        return self.kind in NORMAL
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """A finished run: what the devices got, how it ended, and what was counted.
+
+    ``punched`` and ``typed`` are lines without trailing blanks; ``counts`` how often each counter of the
+    program ran; ``errors`` the arithmetic's error codes with the statement each arose in, and how often.
+    """
+
+    punched: tuple[str, ...]
+    typed: tuple[str, ...]
+    ending: Ending
+    events: tuple[Event, ...]
+    warnings: tuple[str, ...]
+    statements: int
+    counts: tuple[int, ...]
+    cards_read: int
+    numbers: tuple[tuple[str, int], ...]
+    errors: tuple[tuple[str, int], ...]
+
+
+class _Ended(Exception):
+    def __init__(self, kind: str, message: str = "") -> None:
+        super().__init__(message)
+        self.ending = Ending(kind, message)
+
+
+Tracer = Callable[[Line, "Machine"], None]
+
+
+@dataclass
+class Machine:
+    """One machine with one program in core and one deck in the hopper.
+
+    ``keyboard`` are the lines an operator types when the program asks by ACCEPT.  Raises DeckError when the
+    program does not fit the machine's core.
+    """
+
+    program: Program
+    deck: Deck
+    options: Options = field(default_factory=Options)
+    keyboard: Iterable[str] = ()
+    tracer: Tracer | None = None
+
+    def __post_init__(self) -> None:
+        program, rules = self.program, self.options.profile.rules
+        need = program.storage.fields * FIELD + FUNCTION_NAMES
+        if need > self.options.core - 8300:
+            raise DeckError(
+                f"{program.source}: OVERLAP: the data need {need} positions; a machine of {self.options.core} has {self.options.core - 8300} for data and program"
+            )
+        self.mantissas = [0] * program.storage.fields
+        self.exponents = [UNDEFINED] * program.storage.fields
+        for address, text in program.storage.constants:
+            if "." in text:
+                self.mantissas[address], self.exponents[address] = parse_constant(text, rules)
+            else:
+                self.mantissas[address], self.exponents[address] = int(text), 0
+        self.registers = [0] * engine.REGISTERS
+        self.registers[engine.CHARACTERISTIC] = ZERO
+        self.counts = [0] * len(program.counters)
+        self._code = _flatten(program)
+        self._powers = powers_of_ten(rules)
+        self._layouts = [Layout(spec) for _, spec in program.formats]
+        self._position = 0
+        self._keys = iter(self.keyboard)
+        self._first_read = -1
+        self._transfer: Input | Output | None = None
+        self._verb = ""
+        self._format = 0
+        self._punched: list[str] = []
+        self._typed: list[str] = []
+        self._events: list[Event] = []
+        self._warnings: dict[str, None] = {}
+        self._numbers: dict[str, int] = {}
+        self._errors: dict[tuple[str, int], int] = {}
+
+    def run(self) -> Result:
+        """Run to an ending.
+
+        Raises CardError for a card whose field is no number, DeckError for a hopper empty in the middle of a
+        data set or from the start.
+        """
+        window = min(LOOP_WINDOW, self.options.limit // 2)
+        before: list[int] | None = None
+        limit = self.options.limit - window
+        try:
+            while True:
+                reason = self._engine(limit)
+                if reason == engine.AT_LIMIT:
+                    if before is not None:
+                        raise _Ended("limit", self._where_it_loops(before))
+                    before, limit = list(self.counts), self.options.limit
+                else:
+                    self._serve(reason)
+        except _Ended as ended:
+            return self._result(ended.ending)
+
+    def value(self, address: int) -> str:
+        """The contents of a field as text, for a trace."""
+        mantissa, exponent = self.mantissas[address], self.exponents[address]
+        if exponent == UNDEFINED:
+            return "undefined"
+        if exponent == 0 and self._is_fixed(address):
+            return str(mantissa)
+        return write_floating(Field("E", 14, 8), mantissa, exponent, self.options.profile.rules)[0].strip()
+
+    def fac(self) -> str:
+        """The accumulator of the last branch as text, for a trace."""
+        number = write_floating(
+            Field("E", 14, 8),
+            self.registers[engine.FAC],
+            self.registers[engine.CHARACTERISTIC],
+            self.options.profile.rules,
+        )
+        return number[0].strip()
+
+    def _is_fixed(self, address: int) -> bool:
+        entry = self.program.storage.entry_of(address)
+        return entry.name[0] in "IJKLMN" if entry.kind != "constant" else "." not in entry.name
+
+    def _engine(self, limit: int) -> int:
+        operations, addresses, subscripts, seconds, table, targets, loops, begins = self._code
+        profile = self.options.profile
+        switches = [int(n in self.options.switches) for n in (1, 2, 3, 4)]
+        strict = int(self.options.bounds == "strict")
+        flags = (limit, strict, int(self.tracer is not None), int(profile.keeps_left_zero), int(profile.signed_underflow))
+        return engine.run(
+            operations,
+            addresses,
+            subscripts,
+            seconds,
+            table,
+            targets,
+            loops,
+            begins,
+            self.mantissas,
+            self.exponents,
+            self.counts,
+            self.registers,
+            switches,
+            profile.rules,
+            self._powers,
+            flags,
+        )
+
+    def _serve(self, reason: int) -> None:
+        registers = self.registers
+        here = self.program.line_at(registers[engine.AT])
+        address = registers[engine.ADDRESS]
+        if reason == engine.AT_ITEM:
+            self._item(address, here)
+        elif reason == engine.AT_BEGIN:
+            self._begin(address, here)
+        elif reason == engine.AT_FINISH:
+            assert self._transfer is not None
+            self._transfer.finish()
+        elif reason == engine.AT_STATEMENT:
+            assert self.tracer is not None
+            self.tracer(here, self)
+        elif reason == engine.AT_FUNCTION:
+            name = self.program.functions[address]
+            self._to_fac(function(name, registers[engine.FAC], registers[engine.CHARACTERISTIC], self.options.profile.rules))
+        elif reason == engine.AT_POWER:
+            base = self.mantissas[address], self.exponents[address]
+            exponent = registers[engine.FAC], registers[engine.CHARACTERISTIC]
+            self._to_fac(power(base, exponent, self.options.profile.rules))
+        elif reason == engine.AT_POWERX:
+            mantissa, exponent_ = registers[engine.FAC], registers[engine.CHARACTERISTIC]
+            self._to_fac(integer_power(mantissa, exponent_, self.mantissas[address], self.options.profile.rules))
+        elif reason == engine.AT_EVENT:
+            self._error(f"E{registers[engine.EVENT]}")
+        elif reason == engine.AT_PAUSE:
+            self._warn(f"{self.program.source}: PAUSE at {here.name}: the operator presses START")
+        else:
+            raise self._stopped(reason, here, address)
+
+    def _stopped(self, reason: int, here: Line, address: int) -> _Ended:
+        name = self.program.storage.name_of
+        index, index2 = self.registers[engine.INDEX], self.registers[engine.INDEX2]
+        where = f"{self.program.source}: card {here.place.card}"
+        words = f"{here.label} {here.text}" if here.label else here.text
+        if reason == engine.AT_STOP:
+            return _Ended("stop" if self.program.code[self.registers[engine.PC]].second == 0 else "end")
+        if reason == engine.AT_UNDEFINED:
+            return _Ended("undefined", f"{where}: {name(address)} is undefined where it is computed with, in {words}")
+        if reason == engine.AT_BOUNDS:
+            entry = self.program.storage.entry_of(address)
+            subscript = f"{index},{index2}" if len(entry.shape) > 1 else str(index)
+            shape = ",".join(map(str, entry.shape))
+            return _Ended("bounds", f"{where}: {entry.name}({subscript}) is outside {entry.name}({shape}), in {words}")
+        if reason == engine.AT_OUTSIDE:
+            return _Ended("outside", f"{where}: a subscript reaches outside the data into the program, in {words}")
+        return _Ended("select", f"{where}: a computed GO TO with value {index}, in {words}")
+
+    def _to_fac(self, value: Value) -> None:
+        self.registers[engine.FAC], self.registers[engine.CHARACTERISTIC] = value.mantissa, value.exponent
+        if value.code:
+            self._error(value.code)
+
+    def _error(self, code: str) -> None:
+        card = self.program.line_at(self.registers[engine.AT]).place.card
+        self._errors[code, card] = self._errors.get((code, card), 0) + 1
+        if self.options.profile.announces:
+            self._type(f"ERROR {code}")
+
+    def _begin(self, address: int, here: Line) -> None:
+        verb = self.program.verbs[address]
+        number = self.program.code[self.registers[engine.AT]].second
+        self._verb, self._format = verb, self.program.formats[number][0]
+        layout = self._layouts[number]
+        if verb == "READ":
+            begins = self._first_read in (-1, self.registers[engine.AT])
+            if begins:
+                self._first_read = self.registers[engine.AT]
+                self._events.append(Event("begin"))
+            card = self._take_card(here, begins)
+            self._transfer = Input(layout, lambda: self._take_card(here, False), card)
+        elif verb == "ACCEPT":
+            self._transfer = Input(layout, lambda: self._take_line(here), self._take_line(here))
+        else:
+            self._transfer = Output(layout, self._punch if verb == "PUNCH" else self._type)
+
+    def _take_card(self, here: Line, begins: bool) -> Card:
+        if self._position >= len(self.deck.cards):
+            if begins and self._position:
+                raise _Ended("hopper")
+            if not self.deck.cards:
+                raise DeckError(f"{self.deck.source}: the hopper is empty at the first READ ({self.program.source}, {here.name})")
+            last = self.deck.cards[-1].number
+            raise DeckError(
+                f"{self.deck.source}: card {last}, column 1: the deck ends in the middle of a data set; another card is read by {here.name} of {self.program.source}"
+            )
+        card = self.deck.cards[self._position]
+        self._position += 1
+        self._events.append(Event("read", card.text))
+        return card
+
+    def _take_line(self, here: Line) -> Card:
+        line = next(self._keys, None)
+        if line is None:
+            raise DeckError(f"{self.program.source}: nothing is typed for ACCEPT in {here.name}")
+        self._events.append(Event("accept", line))
+        return Card(0, line.rstrip("\r\n")[:COLUMNS])
+
+    def _item(self, address: int, here: Line) -> None:
+        fixed = self.program.code[self.registers[engine.AT]].second == 1
+        transfer = self._transfer
+        assert transfer is not None
+        try:
+            if isinstance(transfer, Output):
+                self._write(transfer, transfer.next_field(), address, fixed, here)
+            else:
+                self._read(transfer, *transfer.next_field(), address, fixed, here)
+        except NoField:
+            raise _Ended("mode", f"{self.program.source}: card {here.place.card}: FORMAT {self._format} has no field for the list") from None
+
+    def _check_mode(self, spec: Field, fixed: bool, address: int, here: Line) -> None:
+        self._numbers[spec.kind + ("<" if isinstance(self._transfer, Input) else ">")] = (
+            self._numbers.get(spec.kind + ("<" if isinstance(self._transfer, Input) else ">"), 0) + 1
+        )
+        if (spec.kind == "I") != fixed:
+            mode = "fixed" if fixed else "floating"
+            raise _Ended(
+                "mode",
+                f"{self.program.source}: card {here.place.card}: {self.program.storage.name_of(address)} is {mode} point, its field in FORMAT {self._format} is {spec}",
+            )
+
+    def _write(self, transfer: Output, spec: Field, address: int, fixed: bool, here: Line) -> None:
+        self._check_mode(spec, fixed, address, here)
+        mantissa, exponent = self.mantissas[address], self.exponents[address]
+        if exponent == UNDEFINED:
+            name = self.program.storage.name_of(address)
+            raise _Ended("undefined", f"{self.program.source}: card {here.place.card}: {name} is undefined where it is put out, in {here.text}")
+        if fixed:
+            transfer.write(write_fixed(spec, mantissa))
+            return
+        columns, overflowed = write_floating(spec, mantissa, exponent, self.options.profile.rules)
+        transfer.write(columns)
+        if overflowed:
+            self._error("F8")
+
+    def _read(self, transfer: Input, spec: Field, card: Card, column: int, address: int, fixed: bool, here: Line) -> None:
+        self._check_mode(spec, fixed, address, here)
+        columns = card.columns(column, column + spec.width - 1).ljust(spec.width)
+        source = self.deck.source if card.number else "typewriter"
+        try:
+            number = read_fixed(columns) if fixed else read_floating(spec, columns, self.options.profile.rules)
+        except FieldError as error:
+            raise CardError(source, card.number, column, str(error)) from None
+        self.mantissas[address], self.exponents[address] = number.mantissa, number.exponent
+        if number.warning:
+            self._warn(f"{source}: card {card.number}, column {column}: {number.warning}")
+
+    def _punch(self, line: str) -> None:
+        self._out("punch", self._punched, line, PUNCH_COLUMNS)
+
+    def _type(self, line: str) -> None:
+        self._out("type", self._typed, line, TYPEWRITER_COLUMNS)
+
+    def _out(self, what: str, lines: list[str], line: str, columns: int) -> None:
+        if len(line.rstrip()) > columns:
+            self._warn(f"{self.program.source}: FORMAT {self._format}: a record of {len(line)} characters, cut at {columns}")
+        text = line[:columns].rstrip()
+        lines.append(text)
+        self._events.append(Event(what, text))
+
+    def _warn(self, message: str) -> None:
+        self._warnings[message] = None
+
+    def _where_it_loops(self, before: list[int]) -> str:
+        program = self.program
+        inside = [
+            program.statements[counter.statement]
+            for counter, old, new in zip(program.counters, before, self.counts, strict=True)
+            if counter.begins and new > old
+        ]
+        cards = sorted({line.place.card for line in inside})
+        labels = [str(line.label) for line in inside if line.label]
+        span = f"card {cards[0]}" if len(cards) == 1 else f"cards {cards[0]} to {cards[-1]}"
+        among = f", statements {', '.join(labels[:12])}{' ...' if len(labels) > 12 else ''}" if labels else ""
+        return f"{program.source}: stopped after {self.options.limit} statements; it loops on {span}{among}"
+
+    def _result(self, ending: Ending) -> Result:
+        return Result(
+            punched=tuple(self._punched),
+            typed=tuple(self._typed),
+            ending=ending,
+            events=tuple(self._events),
+            warnings=tuple(self._warnings),
+            statements=self.registers[engine.STATEMENTS],
+            counts=tuple(self.counts),
+            cards_read=self._position,
+            numbers=tuple(sorted(self._numbers.items())),
+            errors=tuple((f"{code} on card {card}", n) for (code, card), n in sorted(self._errors.items())),
+        )
+
+
+_Flat = tuple[list[int], list[int], list[int], list[int], list[tuple[int, ...]], list[int], list[int], list[int]]
+
+
+def _flatten(program: Program) -> _Flat:
+    """Object code as the engine takes it: flat sequences of integers."""
+    targets: list[int] = []
+    starts: list[int] = []
+    for branch in program.branches:
+        targets.append(len(branch))
+        starts.append(len(targets))
+        targets.extend(branch)
+    operations, addresses, subscripts, seconds = [], [], [], []
+    for instruction in program.code:
+        address, second = instruction.address, instruction.second
+        if instruction.operation in (op.BRANCH, op.IF, op.IFX, op.SWITCH):
+            address = starts[address]
+        elif instruction.operation == op.SELECT:
+            second = starts[second]
+        elif instruction.operation == op.DOTEST:
+            address *= 4
+        operations.append(instruction.operation)
+        addresses.append(address)
+        subscripts.append(instruction.subscript)
+        seconds.append(second)
+    table = [(s.v1, s.c1, s.o1, s.rows, s.v2, s.c2, s.o2, s.columns) for s in program.subscripts]
+    loops = [n for loop in program.loops for n in loop]
+    begins = [int(counter.begins) for counter in program.counters]
+    return operations, addresses, subscripts, seconds, table, targets, loops, begins

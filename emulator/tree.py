@@ -1,0 +1,210 @@
+"""The syntax tree of 1620 FORTRAN: frozen dataclasses; every node keeps the card and column it was read from.
+
+Statement forms: IBM 1620 FORTRAN (with FORMAT), C26-5619; the page stands with each form.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Place:
+    """A place in the source deck: card number and column, both from 1."""
+
+    card: int
+    column: int
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    """A constant: digits as written; fixed point without a decimal point (p. 14)."""
+
+    text: str
+    place: Place
+
+    @property
+    def floating(self) -> bool:
+        return "." in self.text
+
+
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """A name, alone or with arguments: a variable, an array element or a library function (p. 16, 18, 63)."""
+
+    name: str
+    arguments: tuple[Expression, ...]
+    place: Place
+
+
+@dataclass(frozen=True, slots=True)
+class Power:
+    """``base ** exponent`` (p. 19, rule 2)."""
+
+    base: Expression
+    exponent: Expression
+    place: Place
+
+
+@dataclass(frozen=True, slots=True)
+class Product:
+    """``first`` followed by factors, each with ``*`` or ``/``, from left to right (p. 19)."""
+
+    first: Expression
+    rest: tuple[tuple[str, Expression], ...]
+    place: Place
+
+
+@dataclass(frozen=True, slots=True)
+class Sum:
+    """``first``, with a minus sign before it or not, followed by terms, each with ``+`` or ``-``."""
+
+    minus: bool
+    first: Expression
+    rest: tuple[tuple[str, Expression], ...]
+    place: Place
+
+
+Expression = Number | Reference | Power | Product | Sum
+
+
+@dataclass(frozen=True, slots=True)
+class Assignment:
+    """``variable = expression``; the mode may change across the equals sign (p. 21)."""
+
+    target: Reference
+    value: Expression
+
+
+@dataclass(frozen=True, slots=True)
+class GoTo:
+    """``GO TO n``."""
+
+    label: int
+
+
+@dataclass(frozen=True, slots=True)
+class ComputedGoTo:
+    """``GO TO (n1, n2, ...), i``."""
+
+    labels: tuple[int, ...]
+    selector: Reference
+
+
+@dataclass(frozen=True, slots=True)
+class If:
+    """``IF (expression) negative, zero, positive``."""
+
+    value: Expression
+    labels: tuple[int, int, int]
+
+
+@dataclass(frozen=True, slots=True)
+class IfSwitch:
+    """``IF (SENSE SWITCH n) on, off`` (p. 56, item 7)."""
+
+    switch: int
+    labels: tuple[int, int]
+
+
+@dataclass(frozen=True, slots=True)
+class Do:
+    """``DO label variable = first, last, step``: the test is at the bottom, so a loop runs at least once."""
+
+    label: int
+    variable: Reference
+    first: Expression
+    last: Expression
+    step: Expression | None
+
+
+@dataclass(frozen=True, slots=True)
+class Continue:
+    """``CONTINUE``."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pause:
+    """``PAUSE``, with a number or without."""
+
+    number: str
+
+
+@dataclass(frozen=True, slots=True)
+class Stop:
+    """``STOP``, with a number or without."""
+
+    number: str
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """``END``, the last card of a source deck."""
+
+
+@dataclass(frozen=True, slots=True)
+class Dimension:
+    """``DIMENSION name(rows), name(rows, columns)`` (p. 18, 56 item 9)."""
+
+    arrays: tuple[tuple[str, tuple[int, ...], Place], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Loop:
+    """An indexed list of an input or output statement: ``(items, variable = first, last, step)``."""
+
+    items: tuple[Item, ...]
+    variable: Reference
+    first: Expression
+    last: Expression
+    step: Expression | None
+
+
+Item = Reference | Loop
+
+
+@dataclass(frozen=True, slots=True)
+class InputOutput:
+    """``READ | ACCEPT | PUNCH | PRINT | TYPE  format, list`` (p. 32-43)."""
+
+    verb: str
+    format: int
+    items: tuple[Item, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Format:
+    """``FORMAT (specification)``; ``text`` holds the specification's columns untouched, blanks included.
+
+    ``places`` has one place a character.
+    """
+
+    text: str
+    places: tuple[Place, ...]
+
+
+Body = (
+    Assignment
+    | GoTo
+    | ComputedGoTo
+    | If
+    | IfSwitch
+    | Do
+    | Continue
+    | Pause
+    | Stop
+    | End
+    | Dimension
+    | InputOutput
+    | Format
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Statement:
+    """One statement: its number (0 if none), its cards, and what it says."""
+
+    label: int
+    place: Place
+    text: str
+    body: Body

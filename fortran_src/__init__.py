@@ -1,0 +1,1 @@
+"""Data: the witness of the thesis's listings, its apparatus, and the decks built from them.  No logic."""

@@ -1,0 +1,1 @@
+"""Data: what the thesis prints in its examples, as witness, apparatus and corrected card images.  No logic."""
