@@ -29,8 +29,8 @@ def add(ma: int, ea: int, mb: int, eb: int, rules: Rules, powers: list[int]) -> 
     """Sum of two numbers, neither zero.
 
     The operand of smaller exponent is moved right and its digits drop off *before* the addition; what
-    survives beyond P digits is ``guard`` (rounding a sum needs one).  With ``sticky`` the lost part still counts as a fraction, so
-    that the rounding which follows is that of the exact sum.
+    survives beyond P digits is ``guard`` (rounding a sum needs one).  With ``sticky`` the lost part still
+    counts as a fraction, so that the rounding which follows is that of the exact sum.
     """
     digits, base, low, guard, sticky, rounding = rules[0], rules[1], rules[2], rules[3], rules[4], rules[5]
     if ea < eb:
@@ -201,7 +201,8 @@ def _rules(digits: int, guard: int = 0, sticky: int = 0, sums: int = 0, products
 
 TRUNCATING = Profile(
     "truncating",
-    "thesis p. 116 (eight digits, no rounding occurs); IBM FORTRAN II-D executed in a simulator; signs of zero: the thesis's prints",
+    "thesis p. 116 (eight digits, no rounding occurs); IBM FORTRAN II-D executed in a simulator; "
+    "signs of zero: the thesis's prints",
     _rules(8),
 )
 IBM1962 = Profile(

@@ -66,7 +66,7 @@ class Deck:
 
 
 def deck_from_lines(source: str, lines: Iterable[str]) -> Deck:
-    """A deck from lines without line ends.  Raises CardError for a character outside the card code or an 81st column."""
+    """A deck from lines without line ends.  Raises CardError for a strange character or an 81st column."""
     return Deck(source, tuple(_card(source, number, line) for number, line in enumerate(lines, 1)))
 
 
@@ -161,4 +161,8 @@ def _strange(char: str) -> str:
         return f"{char!r} is the commercial graphic of the punch that FORTRAN prints as {COMMERCIAL[char]!r}"
     if char.upper() in CHARACTERS and char != char.upper():
         return f"{char!r} is not in the card code: letters are capitals"
-    return f"{char!r} is not in the card code" if char.isprintable() else f"character {ord(char):#04x} is not in the card code"
+    return (
+        f"{char!r} is not in the card code"
+        if char.isprintable()
+        else f"character {ord(char):#04x} is not in the card code"
+    )

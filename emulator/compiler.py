@@ -8,7 +8,7 @@ value past its limit.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from emulator import objectcode as op
 from emulator import tree
@@ -22,7 +22,18 @@ from emulator.storage import CORES, FIELD, FUNCTION_NAMES
 
 VERBS = ("READ", "ACCEPT", "PUNCH", "PRINT", "TYPE")
 _LARGEST = (CORES[-1] - FUNCTION_NAMES) // FIELD
-_NO_DO_END = (tree.GoTo, tree.ComputedGoTo, tree.If, tree.IfSwitch, tree.Do, tree.Stop, tree.Format, tree.Dimension, tree.End)
+_EFFECTS = {op.FMFAC: "store", op.FMFIX: "store", op.TRANSMIT: "store", op.IF: "test", op.IFX: "test fixed"}
+_NO_DO_END = (
+    tree.GoTo,
+    tree.ComputedGoTo,
+    tree.If,
+    tree.IfSwitch,
+    tree.Do,
+    tree.Stop,
+    tree.Format,
+    tree.Dimension,
+    tree.End,
+)
 
 
 def compile_deck(deck: Deck) -> Program:
@@ -162,6 +173,7 @@ class _Translation:
         self.emitter.temporaries = 0
         self.emitter.count(index, True, "statement")
         self._body(body, statement, index)
+        self.lines[index] = replace(self.lines[index], effect=_EFFECTS.get(self.emitter.code[-1].operation, ""))
         self._close_dos(statement)
 
     def _body(self, body: tree.Body, statement: tree.Statement, index: int) -> None:
@@ -263,7 +275,10 @@ class _Translation:
         while any(do.label == statement.label for do in self.open_dos):
             do = self.open_dos.pop()
             if do.label != statement.label:
-                self._error(do.place, f"the range of this DO, to {do.label}, is not inside the one that ends with {statement.label}")
+                self._error(
+                    do.place,
+                    f"the range of this DO, to {do.label}, is not inside the one that ends with {statement.label}",
+                )
                 continue
             self.emitter.count(do.statement, False, "closing of the DO")
             self.emitter.emit(op.DOTEST, address=do.loop)

@@ -31,7 +31,6 @@ from emulator.objectcode import (
     COUNT,
     DOTEST,
     FAD,
-    FDV,
     FDVR,
     FINISH,
     FIX,
@@ -39,7 +38,6 @@ from emulator.objectcode import (
     FMFAC,
     FMFIX,
     FMP,
-    FSB,
     FSBR,
     FUNCTION,
     IF,
@@ -57,7 +55,6 @@ from emulator.objectcode import (
     TOFIX,
     TRANSMIT,
     XAD,
-    XDV,
     XDVR,
     XMP,
     XSB,
@@ -88,7 +85,16 @@ PC, FAC, CHARACTERISTIC, FIXED, STATEMENTS, STORED, SENT, SENT_EXPONENT, EVENT, 
 REGISTERS = 13
 
 # Events: the error codes ERROR E1 to E8 (C26-5619 p. 60, executed on IBM's code).
-SUM_OVER, SUM_UNDER, PRODUCT_OVER, PRODUCT_UNDER, QUOTIENT_OVER, QUOTIENT_UNDER, ZERO_DIVISOR, FIXED_ZERO_DIVISOR = range(1, 9)
+(
+    SUM_OVER,
+    SUM_UNDER,
+    PRODUCT_OVER,
+    PRODUCT_UNDER,
+    QUOTIENT_OVER,
+    QUOTIENT_UNDER,
+    ZERO_DIVISOR,
+    FIXED_ZERO_DIVISOR,
+) = range(1, 9)
 
 
 def run(
@@ -262,8 +268,18 @@ def run(
                 pc = targets[a + 2]
         elif o == DOTEST:
             v = loops[a]
-            if exponents[v] == UNDEFINED or exponents[loops[a + 1]] == UNDEFINED or exponents[loops[a + 2]] == UNDEFINED:
-                a = v if exponents[v] == UNDEFINED else loops[a + 1] if exponents[loops[a + 1]] == UNDEFINED else loops[a + 2]
+            if (
+                exponents[v] == UNDEFINED
+                or exponents[loops[a + 1]] == UNDEFINED
+                or exponents[loops[a + 2]] == UNDEFINED
+            ):
+                a = (
+                    v
+                    if exponents[v] == UNDEFINED
+                    else loops[a + 1]
+                    if exponents[loops[a + 1]] == UNDEFINED
+                    else loops[a + 2]
+                )
                 reason = AT_UNDEFINED
                 break
             m = wrap_integer(mantissas[v] + mantissas[loops[a + 1]])
@@ -389,6 +405,3 @@ def run(
     registers[EVENT] = event
     registers[ADDRESS] = a
     return reason
-
-
-__all__ = ["run", "XDV", "FDV"]

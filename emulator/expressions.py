@@ -11,9 +11,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from emulator import objectcode as op
+from emulator.arithmetic import TRUNCATING
 from emulator.errors import Diagnostic
 from emulator.fields import FieldError, parse_constant
-from emulator.arithmetic import TRUNCATING
 from emulator.objectcode import Counter, Instruction, Subscript
 from emulator.storage import Allocator
 from emulator.tree import Expression, Number, Place, Power, Product, Reference, Sum
@@ -21,8 +21,26 @@ from emulator.tree import Expression, Number, Place, Power, Product, Reference, 
 LIBRARY = ("SIN", "COS", "ATAN", "EXP", "LOG", "SQRT")
 """The library functions; each is also known by its name with a final F (C26-5619 p. 63, 66)."""
 
-_FLOATING = {"to": op.TOFAC, "from": op.FMFAC, "+": op.FAD, "-": op.FSB, "-r": op.FSBR, "*": op.FMP, "/": op.FDV, "/r": op.FDVR}
-_FIXED = {"to": op.TOFIX, "from": op.FMFIX, "+": op.XAD, "-": op.XSB, "-r": op.XSBR, "*": op.XMP, "/": op.XDV, "/r": op.XDVR}
+_FLOATING = {
+    "to": op.TOFAC,
+    "from": op.FMFAC,
+    "+": op.FAD,
+    "-": op.FSB,
+    "-r": op.FSBR,
+    "*": op.FMP,
+    "/": op.FDV,
+    "/r": op.FDVR,
+}
+_FIXED = {
+    "to": op.TOFIX,
+    "from": op.FMFIX,
+    "+": op.XAD,
+    "-": op.XSB,
+    "-r": op.XSBR,
+    "*": op.XMP,
+    "/": op.XDV,
+    "/r": op.XDVR,
+}
 _REVERSED = {"+": "+", "*": "*", "-": "-r", "/": "/r"}
 _FLIPPED = {"+": "-", "-": "+"}
 
@@ -91,7 +109,10 @@ class Emitter:
         if not reference.arguments:
             raise Refused(reference.place, f"the array {reference.name} needs a subscript here")
         if len(reference.arguments) != len(shape):
-            raise Refused(reference.place, f"{reference.name} has {len(shape)} dimension{'s' * (len(shape) > 1)}, not {len(reference.arguments)}")
+            raise Refused(
+                reference.place,
+                f"{reference.name} has {len(shape)} dimension{'s' * (len(shape) > 1)}, not {len(reference.arguments)}",
+            )
         entry = self.allocator.place("array", reference.name, shape)
         parts = [self.subscript(argument) for argument in reference.arguments]
         if all(v < 0 for v, _, _ in parts) and all(1 <= o <= d for (_, _, o), d in zip(parts, shape, strict=True)):
@@ -120,7 +141,12 @@ class Emitter:
             factor, term = self._whole(term.first), term.rest[0][1]
         if isinstance(term, Number):
             return -1, 0, factor * self._whole(term) + addend
-        if not isinstance(term, Reference) or term.arguments or term.name in self.arrays or not is_fixed_name(term.name):
+        if (
+            not isinstance(term, Reference)
+            or term.arguments
+            or term.name in self.arrays
+            or not is_fixed_name(term.name)
+        ):
             raise Refused(term.place, "the variable of a subscript is a fixed-point variable without subscript")
         return self.variable(term).address, factor, addend
 

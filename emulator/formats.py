@@ -158,7 +158,9 @@ class _Reader:
                 raise FormatError(start, f"{letter} needs its width before it")
             return [self.literal(letter, int(count), start)], False
         if letter not in ("I", "E", "F") or not letter:
-            raise FormatError(self.place(), f"{letter or 'the end'!r} is no specification; there are I, E, F, X, H and /")
+            raise FormatError(
+                self.place(), f"{letter or 'the end'!r} is no specification; there are I, E, F, X, H and /"
+            )
         self.at += 1
         width = self.number()
         if not width or int(width) == 0:

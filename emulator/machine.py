@@ -10,79 +10,21 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 from emulator import engine
-from emulator import objectcode as op
-from emulator.arithmetic import TRUNCATING, UNDEFINED, ZERO, Profile, powers_of_ten
+from emulator.arithmetic import UNDEFINED, ZERO, powers_of_ten
 from emulator.cards import COLUMNS, Card, Deck
 from emulator.errors import CardError, DeckError
 from emulator.fields import FieldError, parse_constant, read_fixed, read_floating, write_fixed, write_floating
 from emulator.formats import Field
 from emulator.functions import Value, function, integer_power, power
+from emulator.loader import flatten
 from emulator.objectcode import Line, Program
 from emulator.records import Input, Layout, NoField, Output
-from emulator.storage import FIELD, FUNCTION_NAMES
+from emulator.result import Ending, Event, Options, Result
+from emulator.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 
 PUNCH_COLUMNS = 72
 TYPEWRITER_COLUMNS = 87
-DEFAULT_LIMIT = 5_000_000
-DEFAULT_CORE = 40_000
 LOOP_WINDOW = 2_000
-
-NORMAL = ("hopper", "stop", "end")
-
-
-@dataclass(frozen=True, slots=True)
-class Options:
-    """How a run is set up.  ``switches`` are the sense switches that are on; ``bounds`` is strict or core."""
-
-    profile: Profile = TRUNCATING
-    switches: frozenset[int] = frozenset()
-    core: int = DEFAULT_CORE
-    bounds: str = "strict"
-    limit: int = DEFAULT_LIMIT
-
-
-@dataclass(frozen=True, slots=True)
-class Event:
-    """What a device did, in order: ``read``, ``punch``, ``type`` or ``begin`` (a READ begins a data set)."""
-
-    what: str
-    text: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class Ending:
-    """Why a run ended.
-
-    ``kind``: hopper, stop, end (all normal), limit, bounds, undefined, outside, select, mode.  ``message``
-    is one line for a user, empty for a normal end.
-    """
-
-    kind: str
-    message: str = ""
-
-    @property
-    def normal(self) -> bool:
-        return self.kind in NORMAL
-
-
-@dataclass(frozen=True, slots=True)
-class Result:
-    """A finished run: what the devices got, how it ended, and what was counted.
-
-    ``punched`` and ``typed`` are lines without trailing blanks; ``counts`` how often each counter of the
-    program ran; ``errors`` the arithmetic's error codes with the statement each arose in, and how often.
-    """
-
-    punched: tuple[str, ...]
-    typed: tuple[str, ...]
-    ending: Ending
-    events: tuple[Event, ...]
-    warnings: tuple[str, ...]
-    statements: int
-    counts: tuple[int, ...]
-    cards_read: int
-    numbers: tuple[tuple[str, int], ...]
-    errors: tuple[tuple[str, int], ...]
 
 
 class _Ended(Exception):
@@ -111,9 +53,10 @@ class Machine:
     def __post_init__(self) -> None:
         program, rules = self.program, self.options.profile.rules
         need = program.storage.fields * FIELD + FUNCTION_NAMES
-        if need > self.options.core - 8300:
+        if need > self.options.core - OBJECT_PROGRAM:
             raise DeckError(
-                f"{program.source}: OVERLAP: the data need {need} positions; a machine of {self.options.core} has {self.options.core - 8300} for data and program"
+                f"{program.source}: OVERLAP: the data need {need} positions; a machine of {self.options.core} "
+                f"has {self.options.core - OBJECT_PROGRAM} for data and program"
             )
         self.mantissas = [0] * program.storage.fields
         self.exponents = [UNDEFINED] * program.storage.fields
@@ -125,7 +68,7 @@ class Machine:
         self.registers = [0] * engine.REGISTERS
         self.registers[engine.CHARACTERISTIC] = ZERO
         self.counts = [0] * len(program.counters)
-        self._code = _flatten(program)
+        self._code = flatten(program)
         self._powers = powers_of_ten(rules)
         self._layouts = [Layout(spec) for _, spec in program.formats]
         self._position = 0
@@ -162,35 +105,18 @@ class Machine:
         except _Ended as ended:
             return self._result(ended.ending)
 
-    def value(self, address: int) -> str:
-        """The contents of a field as text, for a trace."""
-        mantissa, exponent = self.mantissas[address], self.exponents[address]
-        if exponent == UNDEFINED:
-            return "undefined"
-        if exponent == 0 and self._is_fixed(address):
-            return str(mantissa)
-        return write_floating(Field("E", 14, 8), mantissa, exponent, self.options.profile.rules)[0].strip()
-
-    def fac(self) -> str:
-        """The accumulator of the last branch as text, for a trace."""
-        number = write_floating(
-            Field("E", 14, 8),
-            self.registers[engine.FAC],
-            self.registers[engine.CHARACTERISTIC],
-            self.options.profile.rules,
-        )
-        return number[0].strip()
-
-    def _is_fixed(self, address: int) -> bool:
-        entry = self.program.storage.entry_of(address)
-        return entry.name[0] in "IJKLMN" if entry.kind != "constant" else "." not in entry.name
-
     def _engine(self, limit: int) -> int:
         operations, addresses, subscripts, seconds, table, targets, loops, begins = self._code
         profile = self.options.profile
         switches = [int(n in self.options.switches) for n in (1, 2, 3, 4)]
         strict = int(self.options.bounds == "strict")
-        flags = (limit, strict, int(self.tracer is not None), int(profile.keeps_left_zero), int(profile.signed_underflow))
+        flags = (
+            limit,
+            strict,
+            int(self.tracer is not None),
+            int(profile.keeps_left_zero),
+            int(profile.signed_underflow),
+        )
         return engine.run(
             operations,
             addresses,
@@ -226,7 +152,9 @@ class Machine:
             self.tracer(here, self)
         elif reason == engine.AT_FUNCTION:
             name = self.program.functions[address]
-            self._to_fac(function(name, registers[engine.FAC], registers[engine.CHARACTERISTIC], self.options.profile.rules))
+            self._to_fac(
+                function(name, registers[engine.FAC], registers[engine.CHARACTERISTIC], self.options.profile.rules)
+            )
         elif reason == engine.AT_POWER:
             base = self.mantissas[address], self.exponents[address]
             exponent = registers[engine.FAC], registers[engine.CHARACTERISTIC]
@@ -292,10 +220,13 @@ class Machine:
             if begins and self._position:
                 raise _Ended("hopper")
             if not self.deck.cards:
-                raise DeckError(f"{self.deck.source}: the hopper is empty at the first READ ({self.program.source}, {here.name})")
+                raise DeckError(
+                    f"{self.deck.source}: the hopper is empty at the first READ ({self.program.source}, {here.name})"
+                )
             last = self.deck.cards[-1].number
             raise DeckError(
-                f"{self.deck.source}: card {last}, column 1: the deck ends in the middle of a data set; another card is read by {here.name} of {self.program.source}"
+                f"{self.deck.source}: card {last}, column 1: the deck ends in the middle of a data set; "
+                f"another card is read by {here.name} of {self.program.source}"
             )
         card = self.deck.cards[self._position]
         self._position += 1
@@ -319,7 +250,10 @@ class Machine:
             else:
                 self._read(transfer, *transfer.next_field(), address, fixed, here)
         except NoField:
-            raise _Ended("mode", f"{self.program.source}: card {here.place.card}: FORMAT {self._format} has no field for the list") from None
+            raise _Ended(
+                "mode",
+                f"{self.program.source}: card {here.place.card}: FORMAT {self._format} has no field for the list",
+            ) from None
 
     def _check_mode(self, spec: Field, fixed: bool, address: int, here: Line) -> None:
         self._numbers[spec.kind + ("<" if isinstance(self._transfer, Input) else ">")] = (
@@ -329,7 +263,8 @@ class Machine:
             mode = "fixed" if fixed else "floating"
             raise _Ended(
                 "mode",
-                f"{self.program.source}: card {here.place.card}: {self.program.storage.name_of(address)} is {mode} point, its field in FORMAT {self._format} is {spec}",
+                f"{self.program.source}: card {here.place.card}: {self.program.storage.name_of(address)} "
+                f"is {mode} point, its field in FORMAT {self._format} is {spec}",
             )
 
     def _write(self, transfer: Output, spec: Field, address: int, fixed: bool, here: Line) -> None:
@@ -337,7 +272,11 @@ class Machine:
         mantissa, exponent = self.mantissas[address], self.exponents[address]
         if exponent == UNDEFINED:
             name = self.program.storage.name_of(address)
-            raise _Ended("undefined", f"{self.program.source}: card {here.place.card}: {name} is undefined where it is put out, in {here.text}")
+            raise _Ended(
+                "undefined",
+                f"{self.program.source}: card {here.place.card}: {name} is undefined where it is put out, "
+                f"in {here.text}",
+            )
         if fixed:
             transfer.write(write_fixed(spec, mantissa))
             return
@@ -346,7 +285,9 @@ class Machine:
         if overflowed:
             self._error("F8")
 
-    def _read(self, transfer: Input, spec: Field, card: Card, column: int, address: int, fixed: bool, here: Line) -> None:
+    def _read(
+        self, transfer: Input, spec: Field, card: Card, column: int, address: int, fixed: bool, here: Line
+    ) -> None:
         self._check_mode(spec, fixed, address, here)
         columns = card.columns(column, column + spec.width - 1).ljust(spec.width)
         source = self.deck.source if card.number else "typewriter"
@@ -366,7 +307,9 @@ class Machine:
 
     def _out(self, what: str, lines: list[str], line: str, columns: int) -> None:
         if len(line.rstrip()) > columns:
-            self._warn(f"{self.program.source}: FORMAT {self._format}: a record of {len(line)} characters, cut at {columns}")
+            self._warn(
+                f"{self.program.source}: FORMAT {self._format}: a record of {len(line)} characters, cut at {columns}"
+            )
         text = line[:columns].rstrip()
         lines.append(text)
         self._events.append(Event(what, text))
@@ -400,33 +343,3 @@ class Machine:
             numbers=tuple(sorted(self._numbers.items())),
             errors=tuple((f"{code} on card {card}", n) for (code, card), n in sorted(self._errors.items())),
         )
-
-
-_Flat = tuple[list[int], list[int], list[int], list[int], list[tuple[int, ...]], list[int], list[int], list[int]]
-
-
-def _flatten(program: Program) -> _Flat:
-    """Object code as the engine takes it: flat sequences of integers."""
-    targets: list[int] = []
-    starts: list[int] = []
-    for branch in program.branches:
-        targets.append(len(branch))
-        starts.append(len(targets))
-        targets.extend(branch)
-    operations, addresses, subscripts, seconds = [], [], [], []
-    for instruction in program.code:
-        address, second = instruction.address, instruction.second
-        if instruction.operation in (op.BRANCH, op.IF, op.IFX, op.SWITCH):
-            address = starts[address]
-        elif instruction.operation == op.SELECT:
-            second = starts[second]
-        elif instruction.operation == op.DOTEST:
-            address *= 4
-        operations.append(instruction.operation)
-        addresses.append(address)
-        subscripts.append(instruction.subscript)
-        seconds.append(second)
-    table = [(s.v1, s.c1, s.o1, s.rows, s.v2, s.c2, s.o2, s.columns) for s in program.subscripts]
-    loops = [n for loop in program.loops for n in loop]
-    begins = [int(counter.begins) for counter in program.counters]
-    return operations, addresses, subscripts, seconds, table, targets, loops, begins

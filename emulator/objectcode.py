@@ -146,16 +146,24 @@ class Counter:
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A statement as messages and traces show it: number, place, text, and the variable it assigns, if any."""
+    """A statement as messages and traces show it.
+
+    ``effect`` says what there is to show of it: ``store``, ``test``, ``test fixed`` or nothing.
+    """
 
     label: int
     place: Place
     text: str
+    effect: str = ""
 
     @property
     def name(self) -> str:
         """How a message calls it: by its number if it has one, and by its card."""
-        return f"statement {self.label} (card {self.place.card})" if self.label else f"the statement on card {self.place.card}"
+        return (
+            f"statement {self.label} (card {self.place.card})"
+            if self.label
+            else f"the statement on card {self.place.card}"
+        )
 
 
 @dataclass(frozen=True, slots=True)

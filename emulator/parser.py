@@ -15,9 +15,7 @@ from emulator.cards import Deck
 from emulator.errors import Diagnostic
 from emulator.statements import Source, sources
 
-_STARTS = (
-    "assignment go_to computed_go_to if if_switch do continue pause stop end dimension input_output"
-).split()
+_STARTS = ("assignment go_to computed_go_to if if_switch do continue pause stop end dimension input_output").split()
 
 _FORMS = {
     "assignment": "variable = expression",
@@ -84,7 +82,7 @@ def parse_statement(source: Source) -> tree.Statement:
     try:
         body = _Builder(source.places).transform(_grammar().parse(source.text, start=source.kind))
     except UnexpectedCharacters as error:
-        at = source.places[error.pos_in_stream]
+        at = source.places[error.pos_in_stream or 0]
         raise _Refused(at, f"{error.char!r} does not fit here; the form is {_FORMS[source.kind]}", number) from None
     except UnexpectedToken as error:
         raise _Refused(*_token_message(error, source), number) from None

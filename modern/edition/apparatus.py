@@ -35,7 +35,7 @@ class Change:
     lines.  A line emptied by a change is no line of the text.  With ``after`` the lemma's lines are inserted
     behind the line instead; with ``through`` every line from ``line`` to ``through`` is dropped; with
     ``form`` they are set out as on the coding form: number in columns 1 to 5, statement from column 7, or from
-    column 1 where that passes column 72.
+    column 1 where that passes column 72.  With ``dense`` the line loses its blanks.
     """
 
     line: str
@@ -44,6 +44,7 @@ class Change:
     after: bool = False
     through: str = ""
     form: bool = False
+    dense: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +71,7 @@ class Row:
     @property
     def lemma(self) -> str:
         """The accepted reading, for a table."""
-        return " | ".join(_shown(change.lemma) or ("(set out as on the form)" if change.form else "-") for change in self.changes)
+        return " | ".join(_shown(change.lemma) or _done(change) for change in self.changes)
 
 
 @dataclass(frozen=True, slots=True)
@@ -200,8 +201,14 @@ def _apply(row: Row, lines: Sequence[Line]) -> list[Line]:
             inserted += len(new)
             result[at + 1 : at + 1] = [Line(i, t, line.page, (row.id,)) for i, t in zip(ids, new, strict=True)]
             continue
+        if change.dense:
+            result[at] = Line(line.id, "".join(line.text.split()), line.page, (*line.rows, row.id))
+            continue
         if line.text.count(change.witness) != 1:
-            raise RowMisfit(row.id, f"{change.witness!r} stands {line.text.count(change.witness)} times in line {line.id}: {line.text!r}")
+            raise RowMisfit(
+                row.id,
+                f"{change.witness!r} stands {line.text.count(change.witness)} times in line {line.id}: {line.text!r}",
+            )
         pieces = line.text.replace(change.witness, change.lemma).split("\n")
         first = Line(line.id, pieces[0], line.page, (*line.rows, row.id))
         rest = [Line(f"{row.id}.{inserted + k + 1}", t, line.page, (row.id,)) for k, t in enumerate(pieces[1:])]
@@ -231,7 +238,9 @@ def _on_form(text: str) -> str:
 
 def _row(text_id: str, raw: Mapping[str, Any], layers: Collection[str]) -> Row:
     name = str(raw.get("id", "(without id)"))
-    missing = [k for k in ("id", "page", "card", "layer", "kind", "reason", "evidence", "certainty", "change") if k not in raw]
+    missing = [
+        k for k in ("id", "page", "card", "layer", "kind", "reason", "evidence", "certainty", "change") if k not in raw
+    ]
     if missing:
         raise ApparatusError(f"{text_id}: row {name} lacks {', '.join(missing)}")
     if raw["layer"] not in layers:
@@ -246,12 +255,15 @@ def _row(text_id: str, raw: Mapping[str, Any], layers: Collection[str]) -> Row:
             after=bool(c.get("after", False)),
             through=str(c.get("through", "")),
             form=bool(c.get("form", False)),
+            dense=bool(c.get("dense", False)),
         )
         for c in raw["change"]
     )
     for change in changes:
-        if not (change.witness or change.after or change.through):
-            raise ApparatusError(f"{text_id}: row {name}: a change needs a witness reading, `after` or `through`")
+        if not (change.witness or change.after or change.through or change.dense):
+            raise ApparatusError(
+                f"{text_id}: row {name}: a change needs a witness reading, `after`, `through` or `dense`"
+            )
     return Row(
         id=name,
         text=text_id,
@@ -271,7 +283,13 @@ def _shown(text: str) -> str:
     return text.replace("\n", " / ")
 
 
+def _done(change: Change) -> str:
+    return "(set out as on the form)" if change.form else "(without blanks)" if change.dense else "-"
+
+
 def _scope(change: Change) -> str:
+    if change.dense:
+        return f"(line {change.line}, spread out)"
     if change.after:
         return f"(nothing after line {change.line})"
     return f"(lines {change.line} to {change.through})"

@@ -1,0 +1,67 @@
+"""How a run is set up, and what comes out of it: plain data."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from emulator.arithmetic import TRUNCATING, Profile
+
+DEFAULT_LIMIT = 5_000_000
+DEFAULT_CORE = 40_000
+
+NORMAL = ("hopper", "stop", "end")
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """How a run is set up.  ``switches`` are the sense switches that are on; ``bounds`` is strict or core."""
+
+    profile: Profile = TRUNCATING
+    switches: frozenset[int] = frozenset()
+    core: int = DEFAULT_CORE
+    bounds: str = "strict"
+    limit: int = DEFAULT_LIMIT
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """What a device did, in order: ``read``, ``punch``, ``type`` or ``begin`` (a READ begins a data set)."""
+
+    what: str
+    text: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Ending:
+    """Why a run ended.
+
+    ``kind``: hopper, stop, end (all normal), limit, bounds, undefined, outside, select, mode.  ``message``
+    is one line for a user, empty for a normal end.
+    """
+
+    kind: str
+    message: str = ""
+
+    @property
+    def normal(self) -> bool:
+        return self.kind in NORMAL
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """A finished run: what the devices got, how it ended, and what was counted.
+
+    ``punched`` and ``typed`` are lines without trailing blanks; ``counts`` how often each counter of the
+    program ran; ``errors`` the arithmetic's error codes with the statement each arose in, and how often.
+    """
+
+    punched: tuple[str, ...]
+    typed: tuple[str, ...]
+    ending: Ending
+    events: tuple[Event, ...]
+    warnings: tuple[str, ...]
+    statements: int
+    counts: tuple[int, ...]
+    cards_read: int
+    numbers: tuple[tuple[str, int], ...]
+    errors: tuple[tuple[str, int], ...]

@@ -1,0 +1,73 @@
+"""``hull1620 apparatus``: the emendations of the listings, and the proof that each is needed."""
+
+from __future__ import annotations
+
+import argparse
+import shutil
+import sys
+import textwrap
+from collections.abc import Iterator
+
+from emulator.errors import DeckError
+from modern.cli.main import DIFFERS, OK
+from modern.edition import decks
+from modern.edition.apparatus import Row
+from modern.edition.grounds import check_decks, check_row
+
+
+def main(args: argparse.Namespace) -> int:
+    """List rows, or check them."""
+    rows = _rows(args)
+    if not args.check:
+        width = max(48, min(shutil.get_terminal_size((100, 24)).columns, 120))
+        for row in rows:
+            print("\n".join(show(row, width)))
+        print(f"{len(rows)} rows")
+        return OK
+    findings = list(check_decks())
+    for finding in findings:
+        print(finding.line())
+    for number, row in enumerate(rows, 1):
+        if sys.stderr.isatty():
+            print(f"\r{number} of {len(rows)}", end="", file=sys.stderr, flush=True)
+        findings.append(check_row(row))
+        print(findings[-1].line())
+    if sys.stderr.isatty():
+        print("\r", end="", file=sys.stderr)
+    failed = sum(not finding.holds for finding in findings)
+    print(f"{len(findings) - failed} of {len(findings)} hold" + (f"; {failed} FAIL" if failed else ""))
+    return DIFFERS if failed else OK
+
+
+def show(row: Row, width: int) -> Iterator[str]:
+    """A row as lines of at most ``width`` columns."""
+    yield f"{row.id}  {row.text}  p. {row.page}  {row.card}  [{row.layer}, {row.kind}, {row.certainty}]"
+    yield from _folded("reads", row.witness, width)
+    yield from _folded("lemma", row.lemma, width)
+    yield from _folded("why", row.reason, width)
+    yield from _folded("evidence", row.evidence, width)
+    ground = ", ".join(f"{key} {value}" for key, value in row.ground.items() if key != "kind")
+    yield from _folded("ground", f"{row.ground.get('kind', '')}{': ' + ground if ground else ''}", width)
+
+
+def _folded(name: str, text: str, width: int) -> list[str]:
+    first = f"    {name:<9} "
+    return textwrap.wrap(
+        text, width, initial_indent=first, subsequent_indent=" " * len(first), break_long_words=True
+    ) or [first.rstrip()]
+
+
+def _rows(args: argparse.Namespace) -> list[Row]:
+    names: tuple[str, ...] = decks.TEXTS
+    if args.program is not None:
+        number = args.program.removeprefix("program")
+        if number not in ("1", "2", "3"):
+            raise DeckError(f"--program: {args.program!r} is not 1, 2 or 3")
+        names = (f"program{number}",)
+    rows = [row for name in names for row in decks.text(name).rows]
+    if args.layer is not None:
+        known = decks.text("program1").layers
+        if args.layer not in known:
+            raise DeckError(f"--layer: there is no layer {args.layer!r}; there are {', '.join(known)}")
+        rows = [row for row in rows if row.layer == args.layer]
+    return rows

@@ -1,0 +1,112 @@
+"""What several subcommands share: finding programs, setting up a machine, putting out cards and typed lines."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+
+from emulator import arithmetic
+from emulator.cards import Deck, read_deck, write_text
+from emulator.compiler import compile_deck
+from emulator.errors import DeckError
+from emulator.objectcode import Program
+from emulator.result import Options, Result
+from emulator.trace import Tracer
+from modern.edition import decks
+
+
+def layers_of(args: argparse.Namespace) -> tuple[str, ...]:
+    """The layers asked for by ``--layers``."""
+    return tuple(layer.strip() for layer in args.layers.split(",") if layer.strip())
+
+
+def source_deck(name: str, layers: tuple[str, ...]) -> Deck:
+    """A source deck: a built-in program by name, else a file.
+
+    Raises DeckError for layers with a file: only the built-in programs have an apparatus.
+    """
+    if name in decks.NAMES:
+        return decks.deck(name, layers)
+    if layers:
+        raise DeckError(f"{name}: --layers is for the built-in programs: {', '.join(decks.NAMES)}")
+    return read_deck(name)
+
+
+def load_program(name: str, layers: tuple[str, ...]) -> Program:
+    """A program compiled: a built-in by name, else a file."""
+    if name in decks.NAMES:
+        return decks.program(name, layers)
+    return compile_deck(source_deck(name, layers))
+
+
+def machine_options(args: argparse.Namespace) -> Options:
+    """The machine the options describe.  Raises DeckError for an unknown arithmetic or a limit below 1."""
+    try:
+        profile = arithmetic.profile(args.arithmetic)
+    except ValueError as error:
+        raise DeckError(f"--arithmetic: {error}") from None
+    if args.limit < 1:
+        raise DeckError(f"--limit: {args.limit} is no number of statements")
+    return Options(profile, frozenset(args.switch), args.core, args.bounds, args.limit)
+
+
+def put_out(args: argparse.Namespace, punched: Iterable[str], typed: Iterable[str]) -> None:
+    """Cards to ``--punch`` or standard output, typed lines to ``--typewriter`` or standard error."""
+    typed_text = "".join(line + "\n" for line in typed)
+    if args.typewriter:
+        write_text(args.typewriter, typed_text)
+    else:
+        sys.stderr.write(typed_text)
+        sys.stderr.flush()
+    write_text(args.punch, "".join(card + "\n" for card in punched))
+
+
+def check_places(args: argparse.Namespace) -> None:
+    """Refuse a file that cannot be written before the run, not after it.  Raises DeckError."""
+    for path in (args.punch, args.typewriter, args.trace):
+        if path and path != "-":
+            folder = os.path.dirname(path) or "."
+            if os.path.isdir(path):
+                raise DeckError(f"{path}: is a directory")
+            if not os.path.isdir(folder):
+                raise DeckError(f"{path}: no such file or directory")
+            if not os.access(path if os.path.exists(path) else folder, os.W_OK):
+                raise DeckError(f"{path}: permission denied")
+
+
+def say(lines: Iterable[str]) -> None:
+    """Lines for the user, on standard error."""
+    for line in lines:
+        print(line, file=sys.stderr)
+
+
+def say_warnings(result: Result) -> None:
+    """A run's warnings and its arithmetic's error codes."""
+    say(f"warning: {warning}" for warning in result.warnings)
+    say(f"note: {code}{f', {n} times' if n > 1 else ''}" for code, n in result.errors)
+
+
+@contextmanager
+def tracing(path: str | None) -> Iterator[Tracer | None]:
+    """A tracer that writes to ``path``, or None; the file appears, whole, when the run is over."""
+    if not path:
+        yield None
+        return
+    if path == "-":
+        tracer = Tracer(sys.stdout)
+        yield tracer
+        tracer.close()
+        return
+    beside = f"{path}.part"
+    try:
+        with open(beside, "w", encoding="ascii", errors="backslashreplace") as file:
+            tracer = Tracer(file)
+            yield tracer
+            tracer.close()
+        os.replace(beside, path)
+    finally:
+        if os.path.exists(beside):
+            os.unlink(beside)

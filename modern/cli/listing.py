@@ -1,0 +1,82 @@
+"""``hull1620 compile``: the object code of a program, statement by statement."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+
+from emulator import objectcode as op
+from emulator.objectcode import Instruction, Program
+from modern.cli.common import layers_of, load_program
+from modern.cli.main import OK
+
+
+def main(args: argparse.Namespace) -> int:
+    """Print the listing."""
+    for line in listing(load_program(args.program, layers_of(args))):
+        print(line)
+    return OK
+
+
+def listing(program: Program) -> Iterator[str]:
+    """The object code, each statement's words before its instructions."""
+    starts = {pc for branch in program.branches for pc in branch}
+    for pc, instruction in enumerate(program.code):
+        if instruction.operation == op.COUNT:
+            counter = program.counters[instruction.address]
+            line = program.statements[counter.statement]
+            if counter.begins:
+                yield f"card {line.place.card:>3}  {line.label or '':>5} {line.text}"
+            else:
+                yield f"          {counter.what} of card {line.place.card}"
+            continue
+        mark = "*" if pc in starts else " "
+        name = op.NAMES[instruction.operation]
+        yield f"{mark}{pc:>7}  {name:<9}{_operand(program, instruction):<28}{op.MEANINGS[name]}".rstrip()
+
+
+def _operand(program: Program, instruction: Instruction) -> str:
+    operation = instruction.operation
+    if operation <= op.ITEM or operation in (op.POWER, op.POWERX):
+        return _field(program, instruction)
+    if operation in (op.BRANCH, op.IF, op.IFX):
+        return ", ".join(_label(program, pc) for pc in program.branches[instruction.address])
+    if operation == op.SWITCH:
+        return f"{instruction.second}: " + ", ".join(
+            _label(program, pc) for pc in program.branches[instruction.address]
+        )
+    if operation == op.SELECT:
+        targets = ", ".join(_label(program, pc) for pc in program.branches[instruction.second])
+        return f"{_field(program, instruction)}: {targets}"
+    if operation == op.DOTEST:
+        variable, step, limit, body = program.loops[instruction.address]
+        name = program.storage.name_of
+        return f"{name(variable)} + {name(step)} <= {name(limit)}: {body}"
+    if operation == op.FUNCTION:
+        return program.functions[instruction.address]
+    if operation == op.BEGIN:
+        return f"{program.verbs[instruction.address]} by FORMAT {program.formats[instruction.second][0]}"
+    return ""
+
+
+def _field(program: Program, instruction: Instruction) -> str:
+    if instruction.subscript < 0:
+        return program.storage.name_of(instruction.address)
+    subscript = program.subscripts[instruction.subscript]
+    name = program.storage.entry_of(subscript.array).name
+    parts = [_part(program, subscript.v1, subscript.c1, subscript.o1)]
+    if subscript.columns:
+        parts.append(_part(program, subscript.v2, subscript.c2, subscript.o2))
+    return f"{name}({','.join(parts)})"
+
+
+def _part(program: Program, variable: int, factor: int, addend: int) -> str:
+    if variable < 0:
+        return str(addend)
+    times = f"{factor}*" if factor != 1 else ""
+    return f"{times}{program.storage.name_of(variable)}" + (f"{addend:+d}" if addend else "")
+
+
+def _label(program: Program, pc: int) -> str:
+    line = program.line_at(pc)
+    return f"{line.label or f'card {line.place.card}'}"

@@ -1,0 +1,161 @@
+"""``hull1620 reproduce``: the examples of chapter 6 run, and a verdict on every printed result."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import shutil
+import sys
+from collections.abc import Iterable, Iterator
+
+from emulator.cards import write_text
+from emulator.errors import DeckError
+from modern.cli.main import DIFFERS, OK
+from modern.edition.printed import EXAMPLES
+from modern.edition.reproduce import Report, reproduce, summary
+from modern.edition.verdicts import DIFFERENT, EXACT, ORDER, SPACING
+
+_STATES = {"examples": "as the examples were run (program1_examples.f)", "listing": "as listed (program1.f)"}
+_COLOURS = {EXACT: "32", SPACING: "33", ORDER: "33", DIFFERENT: "31"}
+_MOST_DIFFERENCES = 8
+
+
+def main(args: argparse.Namespace) -> int:
+    """Run the examples, print the verdicts, write them as JSON if asked."""
+    examples = [_example(text) for text in args.examples] or list(EXAMPLES)
+    colour = sys.stdout.isatty() and "NO_COLOR" not in os.environ
+    # A JSON document on standard output must be alone there.
+    out = sys.stderr if args.json == "-" else sys.stdout
+    reports: list[Report] = []
+    width = shutil.get_terminal_size((100, 24)).columns
+    for example in examples:
+        found = list(reproduce((example,)))
+        reports.extend(found)
+        for line in _example_lines(example, found, colour, width):
+            print(line, file=out)
+    good, exact, order, other = summary(reports)
+    for line in _summary_lines(reports, good, exact, order, other, colour):
+        print(line, file=out)
+    if args.json:
+        write_text(args.json, json.dumps(_document(reports, good), indent=1) + "\n")
+    return OK if good else DIFFERS
+
+
+def _example(text: str) -> int:
+    if text not in {str(example) for example in EXAMPLES}:
+        raise DeckError(f"reproduce: there is no example {text!r}; chapter 6 has 1 to {EXAMPLES[-1]}")
+    return int(text)
+
+
+def _example_lines(example: int, reports: Iterable[Report], colour: bool, width: int) -> Iterator[str]:
+    yield f"Example {example}"
+    state = ""
+    explained = False
+    for report in reports:
+        if report.state != state:
+            state = report.state
+            yield f"  program 1 {_STATES[state]}"
+        verdict = report.verdict
+        name = f"program {report.program} {'cards' if report.device == 'punch' else 'typed'}"
+        yield f"    {name:<16} {_paint(verdict.kind, verdict.kind, colour)}"
+        yield from _indented(_evidence(report), width)
+        if verdict.kind == ORDER:
+            yield from _indented(f"{verdict.same}; {'order: as above' if explained else verdict.reason}", width)
+            explained = True
+        if report.ending:
+            yield from _indented(report.ending, width)
+        if verdict.kind in (DIFFERENT, SPACING):
+            yield from _differences(report, width)
+    yield ""
+
+
+def _evidence(report: Report) -> str:
+    verdict = report.verdict
+    if report.stated:
+        if not report.printed:
+            return "nothing is typed (stated in chapter 5; chapter 6 prints no typewriter)"
+        return f"{' / '.join(report.printed)} (stated in chapter 5; chapter 6 prints no typewriter)"
+    return (
+        f"print: {verdict.numbers} numbers and {verdict.words} words on {verdict.cards} cards; "
+        f"from the FORMATs: columns and {verdict.blank} blank cards"
+    )
+
+
+def _differences(report: Report, width: int) -> Iterator[str]:
+    differences = report.verdict.differences
+    half = max(24, (width - 14) // 2)
+    side_by_side = all(len(a) <= half and len(b) <= half for _, a, b in differences[:_MOST_DIFFERENCES])
+    if side_by_side:
+        yield f"      {'card':>4}  {'printed':<{half}} produced"
+    for number, printed, produced in differences[:_MOST_DIFFERENCES]:
+        if side_by_side:
+            yield f"      {number:>4}  {printed:<{half}} {produced}".rstrip()
+        else:
+            yield f"      {number:>4}  printed   {printed}"
+            yield f"            produced  {produced}"
+    if len(differences) > _MOST_DIFFERENCES:
+        yield f"      and {len(differences) - _MOST_DIFFERENCES} more"
+
+
+def _summary_lines(
+    reports: list[Report], good: bool, exact: int, order: int, other: int, colour: bool
+) -> Iterator[str]:
+    punched = [r for r in reports if r.device == "punch" and r.state == "examples"]
+    listed = [r for r in reports if r.device == "punch" and r.state == "listing"]
+    cards = sum(r.verdict.cards + r.verdict.blank for r in punched if r.verdict.kind == EXACT)
+    of = sum(r.verdict.cards + r.verdict.blank for r in punched)
+    numbers = sum(r.verdict.numbers for r in punched if r.verdict.kind == EXACT)
+    kinds = ", ".join(
+        f"{sum(r.verdict.kind == k for r in listed)} {k}"
+        for k in (EXACT, ORDER, SPACING, DIFFERENT)
+        if any(r.verdict.kind == k for r in listed)
+    )
+    done = sum(r.verdict.kind == EXACT for r in punched)
+    yield (
+        f"As the examples were run: {done} of {len(punched)} printed results exact, "
+        f"{cards} of {of} cards, {numbers} numbers."
+    )
+    yield f"As listed: {kinds}."
+    words = "Every printed result comes out." if good else "NOT every printed result comes out."
+    yield _paint(words, EXACT if good else DIFFERENT, colour)
+
+
+def _paint(text: str, kind: str, colour: bool) -> str:
+    return f"\x1b[{_COLOURS[kind]}m{text}\x1b[0m" if colour else text
+
+
+def _indented(text: str, width: int) -> list[str]:
+    import textwrap
+
+    return textwrap.wrap(text, max(40, width), initial_indent="      ", subsequent_indent="      ")
+
+
+def _document(reports: list[Report], good: bool) -> dict[str, object]:
+    return {
+        "reproduced": good,
+        "results": [
+            {
+                "example": report.example,
+                "state": report.state,
+                "deck": report.deck,
+                "program": report.program,
+                "device": report.device,
+                "evidence": "stated in chapter 5" if report.stated else "printed in chapter 6",
+                "verdict": report.verdict.kind,
+                "same": report.verdict.same,
+                "reason": report.verdict.reason,
+                "ending": report.ending,
+                "proved_by_print": {
+                    "numbers": report.verdict.numbers,
+                    "words": report.verdict.words,
+                    "cards": report.verdict.cards,
+                },
+                "from_formats": {"blank_cards": report.verdict.blank, "columns": True},
+                "printed": list(report.printed),
+                "produced": list(report.produced),
+                "differences": [{"card": n, "printed": a, "produced": b} for n, a, b in report.verdict.differences],
+            }
+            for report in reports
+        ],
+    }

@@ -1,0 +1,115 @@
+"""Punched results read back as hulls, so that two of them can be compared whatever order they are in.
+
+The cards are those of the FORMATs of the three programs (thesis p. 73-74, 87, 102).  Numbers are exact.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+Point = tuple[Fraction, ...]
+
+_FLOAT = re.compile(r"-?\.\d+E[+-]\d\d")
+_HEADINGS = (
+    ("INSIDE POINTS", "inside"),
+    ("BOUNDARY POINTS", "boundary"),
+    ("ENDPOINTS", "vertices"),
+    ("COEFFICIENTS OF AN EQUATION", "plane"),
+    ("EQUATIONS OF", "equations"),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class CardHull:
+    """A result as it stands on the cards: points in order, equations in order, and which points satisfy which.
+
+    ``satisfied`` pairs vertex numbers with an equation's number.
+    """
+
+    inside: tuple[Point, ...]
+    boundary: tuple[Point, ...]
+    vertices: tuple[Point, ...]
+    equations: tuple[Point, ...]
+    satisfied: tuple[tuple[tuple[int, ...], int], ...]
+    plane: tuple[Point, ...]
+
+
+def number(text: str) -> Fraction:
+    """The exact value of an E field's text; minus zero is zero."""
+    return Fraction(text)
+
+
+def floats(card: str) -> Point:
+    """The floating-point numbers on a card, in order."""
+    return tuple(number(text) for text in _FLOAT.findall(card))
+
+
+def read_hull(cards: Sequence[str]) -> CardHull:
+    """Read the cards a last program punched.  Cards that are none of a hull's are passed over."""
+    found: dict[str, list[Point]] = {
+        "inside": [],
+        "boundary": [],
+        "vertices": [],
+        "equations": [],
+        "plane": [],
+    }
+    satisfied: list[tuple[tuple[int, ...], int]] = []
+    section = "vertices"
+    for card in cards:
+        words = card.strip()
+        heading = next((kind for start, kind in _HEADINGS if words.startswith(start)), "")
+        if heading:
+            section = heading
+        elif words.startswith("VERTICES"):
+            section = "satisfied" if "SATISFY" in words else "vertices"
+        elif section == "satisfied" and re.fullmatch(r"[\d, ]+", words):
+            numbers = [int(n) for n in re.findall(r"\d+", words)]
+            satisfied.append((tuple(numbers[:-1]), numbers[-1]))
+        elif section in found and (values := floats(card)):
+            found[section].append(values)
+    return CardHull(
+        tuple(found["inside"]),
+        tuple(found["boundary"]),
+        tuple(found["vertices"]),
+        tuple(found["equations"]),
+        tuple(satisfied),
+        tuple(found["plane"]),
+    )
+
+
+def same_hull(one: CardHull, other: CardHull, oriented: bool) -> bool:
+    """Whether two results say the same in whatever order and scale.
+
+    Points are compared as sets, equations up to a factor (a positive one where ``oriented``: planes and
+    lines that program 2 or 3 turned outward), satisfied equations by what they join.
+    """
+    return _canonical(one, oriented) == _canonical(other, oriented)
+
+
+def _canonical(hull: CardHull, oriented: bool) -> tuple[object, ...]:
+    equations = [scaled(equation, oriented) for equation in hull.equations]
+    joins = Counter(
+        (
+            frozenset(hull.vertices[v - 1] for v in numbers if v <= len(hull.vertices)),
+            equations[e - 1] if e <= len(equations) else None,
+        )
+        for numbers, e in hull.satisfied
+    )
+    return (
+        Counter(hull.inside),
+        Counter(hull.boundary),
+        Counter(hull.vertices),
+        Counter(equations),
+        joins,
+        Counter(scaled(p, False) for p in hull.plane),
+    )
+
+
+def scaled(equation: Point, oriented: bool) -> Point:
+    """An equation divided by its first coefficient that is not zero, or by that coefficient's size."""
+    lead = next((c for c in equation if c), Fraction(1))
+    return tuple(c / (abs(lead) if oriented else lead) for c in equation)

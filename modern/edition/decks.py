@@ -1,0 +1,98 @@
+"""The built-in programs: decks as committed, or built from witness and apparatus with further layers."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from importlib.resources.abc import Traversable
+
+from emulator.cards import Deck, deck_from_lines, deck_from_text
+from emulator.compiler import compile_deck
+from emulator.errors import DeckError
+from emulator.objectcode import Program
+from modern.edition.apparatus import Text, build, load
+
+
+@dataclass(frozen=True, slots=True)
+class BuiltIn:
+    """A built-in program: its name, the text it comes from, and the layers its committed deck is built with."""
+
+    name: str
+    text: str
+    layers: tuple[str, ...]
+    title: str
+
+
+_BASE = ("ocr", "print", "lacuna")
+
+BUILT_INS = (
+    BuiltIn("program1", "program1", _BASE, "program 1 as listed"),
+    BuiltIn("program2", "program2", _BASE, "program 2 as listed: coplanar points"),
+    BuiltIn("program3", "program3", _BASE, "program 3 as listed: points not coplanar"),
+    BuiltIn(
+        "program1_examples",
+        "program1",
+        (*_BASE, "examples"),
+        "program 1 in the state that produced the examples",
+    ),
+)
+NAMES = tuple(built_in.name for built_in in BUILT_INS)
+TEXTS = ("program1", "program2", "program3")
+
+
+def sources() -> Traversable:
+    """The data folder ``fortran_src``, in a checkout or an installed wheel."""
+    return files("fortran_src")
+
+
+def built_in(name: str) -> BuiltIn:
+    """The built-in program of that name.  Raises KeyError."""
+    for entry in BUILT_INS:
+        if entry.name == name:
+            return entry
+    raise KeyError(name)
+
+
+@cache
+def text(name: str) -> Text:
+    """The witness and apparatus of ``program1``, ``program2`` or ``program3``."""
+    return load(sources(), name)
+
+
+def committed(name: str) -> Deck:
+    """The committed deck of a built-in program."""
+    return deck_from_text(f"{name}.f", sources().joinpath(f"{name}.f").read_text(encoding="ascii"))
+
+
+def built(name: str, layers: Sequence[str] = (), without: Collection[str] = ()) -> Deck:
+    """A built-in program built anew from witness and apparatus.
+
+    ``layers`` are added to its own, the rows ``without`` left out.  Raises ApparatusError where that does not
+    build, CardError where the result is no deck (a reading the OCR left, with a row switched off).
+    """
+    entry = built_in(name)
+    lines = build(text(entry.text), (*entry.layers, *layers), without)
+    return deck_from_lines(f"{name}.f", (line.text for line in lines))
+
+
+def deck(name: str, layers: Sequence[str] = ()) -> Deck:
+    """A built-in program's deck, as committed or with layers added.
+
+    Raises DeckError for a layer the program has no row of.
+    """
+    if not layers:
+        return committed(name)
+    entry = built_in(name)
+    present = {row.layer for row in text(entry.text).rows}
+    for layer in layers:
+        if layer not in present:
+            raise DeckError(f"{name} has no rows of a layer {layer!r}; it has {', '.join(sorted(present))}")
+    return built(name, layers)
+
+
+@cache
+def program(name: str, layers: tuple[str, ...] = ()) -> Program:
+    """A built-in program compiled; the same object each time, as it is plain data."""
+    return compile_deck(deck(name, layers))

@@ -1,0 +1,196 @@
+"""Why each row of the listings' apparatus must stand: five grounds, each of them tested.
+
+``parse``: without the row the deck does not compile.  ``print``: without it a printed result that came out
+comes out no more.  ``deck``: without it a named data deck gives other cards.  ``forced``: with it the card
+is a sibling card with names exchanged, and without it is not.  ``cosmetic``: with or without it the object
+code is the same.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass
+
+from emulator.cards import Deck, deck_from_text
+from emulator.compiler import compile_deck
+from emulator.errors import CompileError, EmulatorError
+from emulator.objectcode import Program
+from emulator.result import Options
+from emulator.statements import sources
+from modern.edition import decks, printed
+from modern.edition.apparatus import ApparatusError, Row, rows_needing
+from modern.edition.reproduce import reproduce
+from modern.edition.verdicts import EXACT
+from modern.hullrun import run_hull
+
+LIMIT = 200_000
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """What a check found: the row or deck, whether it holds, and in words what was seen."""
+
+    subject: str
+    holds: bool
+    words: str
+
+    def line(self) -> str:
+        return f"{'holds' if self.holds else 'FAILS'}  {self.subject:<18} {self.words}"
+
+
+def check_decks() -> Iterator[Finding]:
+    """Whether witness and rows build each committed deck, character by character."""
+    for entry in decks.BUILT_INS:
+        built, committed = decks.built(entry.name), decks.committed(entry.name)
+        same = built.text() == committed.text()
+        rows = sum(row.layer in entry.layers for row in decks.text(entry.text).rows)
+        yield Finding(
+            f"{entry.name}.f",
+            same,
+            f"{len(built.cards)} cards {'are' if same else 'ARE NOT'} witness and {rows} rows",
+        )
+
+
+def check_row(row: Row) -> Finding:
+    """Whether a row's ground holds."""
+    kind = str(row.ground.get("kind", ""))
+    test = {"parse": _parse, "print": _print, "deck": _deck, "forced": _forced, "cosmetic": _cosmetic}.get(kind)
+    if test is None:
+        return Finding(row.id, False, f"names no ground (it says {kind!r})")
+    holds, words = test(row)
+    return Finding(row.id, holds, f"{kind}: {words}")
+
+
+def without(row: Row) -> frozenset[str]:
+    """The row and those that cannot stand without it."""
+    return frozenset({row.id, *rows_needing(decks.text(row.text), row.id)})
+
+
+def _name(row: Row) -> str:
+    """The built-in program a row is judged by: the one its ground names, else the plain listing."""
+    return str(row.ground.get("program", "program1_examples" if row.layer == "examples" else row.text))
+
+
+def _compiled(name: str, left_out: Collection[str]) -> tuple[Program | None, str]:
+    try:
+        return compile_deck(decks.built(name, without=left_out)), ""
+    except CompileError as error:
+        return None, error.diagnostics[0].message
+    except (EmulatorError, ApparatusError) as error:
+        return None, str(error)
+
+
+def _parse(row: Row) -> tuple[bool, str]:
+    program, message = _compiled(_name(row), without(row))
+    if program is None:
+        return True, f"without it: {message}"
+    return False, "without it the deck still compiles"
+
+
+def _cosmetic(row: Row) -> tuple[bool, str]:
+    whole, _ = _compiled(_name(row), ())
+    program, message = _compiled(_name(row), without(row))
+    if program is None or whole is None:
+        return False, f"without it the deck does not compile: {message}"
+    return (
+        program.code == whole.code and program.formats == whole.formats,
+        "the object code is the same with and without it",
+    )
+
+
+def _print(row: Row) -> tuple[bool, str]:
+    name = _name(row)
+    seen = []
+    for example in row.ground.get("examples", ()):
+        state = ("examples", "program1_examples") if name != "program1" else ("listing", "program1")
+        number = int(name[7])
+        with_row = _exact(example, state, number, {})
+        program, message = _compiled(name, without(row))
+        if program is None:
+            return False, f"without it the deck does not compile: {message}"
+        without_row = _exact(example, state, number, {name: program})
+        if not with_row or without_row:
+            words = ["exact" if exact else "not exact" for exact in (with_row, without_row)]
+            return False, f"example {example}, program {number}: {words[0]} with it, {words[1]} without"
+        seen.append(str(example))
+    if not seen:
+        return False, "names no example"
+    return True, f"example {', '.join(seen)} is exact with it, not without"
+
+
+def _exact(example: int, state: tuple[str, str], number: int, instead: dict[str, Program]) -> bool:
+    def load(name: str) -> Program:
+        return instead.get(name) or decks.program(name)
+
+    reports = [r for r in reproduce((example,), load, states=(state,)) if r.program == number and r.device == "punch"]
+    return bool(reports) and all(report.verdict.kind == EXACT for report in reports)
+
+
+def _deck(row: Row) -> tuple[bool, str]:
+    name, deck_name = _name(row), str(row.ground.get("deck", ""))
+    data = ground_deck(deck_name)
+    if data is None:
+        return False, f"there is no deck {deck_name!r}"
+    whole, _ = _compiled(name, ())
+    program, message = _compiled(name, without(row))
+    if whole is None or program is None:
+        return False, f"without it the deck does not compile: {message}"
+    one, other = _outcome(name, whole, data), _outcome(name, program, data)
+    if one == other:
+        return False, f"deck {deck_name} gives the same cards without it"
+    return (
+        True,
+        f"deck {deck_name} ends with {one[1] or 'an empty hopper'}; without it: {other[1] or 'other cards'}",
+    )
+
+
+def ground_deck(name: str) -> Deck | None:
+    """A deck a row names: an example's input data, or one of those made for the purpose."""
+    match = re.fullmatch(r"example([1-6])", name)
+    if match:
+        return printed.input_deck(int(match[1]))
+    entry = decks.sources().joinpath("grounds", f"{name}.deck")
+    return deck_from_text(entry.name, entry.read_text(encoding="ascii")) if entry.is_file() else None
+
+
+def _outcome(name: str, program: Program, deck: Deck) -> tuple[tuple[str, ...], str]:
+    """What a data deck gives with ``program`` in the place of the built-in ``name``."""
+    first = "program1_examples" if name == "program1_examples" else "program1"
+
+    def load(wanted: str) -> Program:
+        return program if wanted == name else decks.program(wanted)
+
+    try:
+        steps = run_hull(deck, load, Options(limit=LIMIT), first).steps
+    except EmulatorError as error:
+        return (), str(error)
+    lines = tuple(line for step in steps for line in (*step.result.punched, *step.result.typed))
+    return lines, steps[-1].result.ending.message
+
+
+def _forced(row: Row) -> tuple[bool, str]:
+    card, sibling = str(row.ground["card"]), str(row.ground["sibling"])
+    names = list(row.ground["rename"])
+    exchange = dict(zip(names[::2], names[1::2], strict=True))
+    with_row = _card(decks.built(_name(row)), card)
+    other = _renamed(_card(decks.built(_name(row)), sibling), exchange)
+    without_row = _card(decks.built(_name(row), without=without(row)), card)
+    if with_row != other:
+        return False, f"card {card} is not card {sibling} with names exchanged"
+    if without_row == other:
+        return False, f"card {card} is card {sibling} with names exchanged also without it"
+    exchanged = ", ".join(f"{a} for {b}" for a, b in exchange.items())
+    return True, f"card {card} is card {sibling} with {exchanged}, not so without it"
+
+
+def _card(deck: Deck, place: str) -> str:
+    """The statement at LABEL or LABEL+n, without blanks and number."""
+    label, _, steps = place.partition("+")
+    statements = list(sources(deck))
+    at = next(i for i, s in enumerate(statements) if s.label == label)
+    return statements[at + int(steps or 0)].text
+
+
+def _renamed(text: str, exchange: dict[str, str]) -> str:
+    return re.sub(r"[A-Z][A-Z0-9]*", lambda m: exchange.get(m[0], m[0]), text)

@@ -1,0 +1,99 @@
+"""Data decks of the hull programs: what a card must hold, checked before the machine sees it.
+
+A data set is a card with N in columns 1-2, then N cards with x, y, z in columns 1-14, 15-28, 29-42 (thesis
+p. 58-59; its data sheet gives z the columns 29 to 52, the FORMAT takes 29 to 42).  A deck may hold several.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from emulator.arithmetic import TRUNCATING, Rules
+from emulator.cards import Card, Deck
+from emulator.errors import CardError, DeckError
+from emulator.fields import FieldError, Read, read_fixed, read_floating
+from emulator.formats import Field
+
+MAX_POINTS = 51
+COORDINATE = Field("E", 14, 8)
+_LAST_COLUMN = 42
+
+
+@dataclass(frozen=True, slots=True)
+class DataSet:
+    """One data set: N, and the cards it takes up in the deck (the card with N first)."""
+
+    n: int
+    cards: tuple[Card, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class CheckedDeck:
+    """A deck that was checked: its data sets and what there is to warn about, a line each."""
+
+    source: str
+    sets: tuple[DataSet, ...]
+    warnings: tuple[str, ...]
+
+    def deck(self, index: int) -> Deck:
+        """One data set as a deck of its own; the cards keep their numbers."""
+        return Deck(self.source, self.sets[index].cards)
+
+
+def check(deck: Deck, rules: Rules = TRUNCATING.rules) -> CheckedDeck:
+    """Check every data set of a deck.
+
+    Raises CardError for an N that is no number or not 1 to 51 and for a coordinate that is no number,
+    DeckError where the deck ends before N points are there.
+    """
+    sets: list[DataSet] = []
+    warnings: list[str] = []
+    at = 0
+    cards = deck.cards
+    while at < len(cards):
+        n = _count(deck, cards[at], warnings)
+        points = cards[at + 1 : at + 1 + n]
+        if len(points) < n:
+            raise DeckError(
+                f"{deck.source}: card {cards[-1].number}, column 1: the deck ends after {len(points)} of {n} points "
+                f"(N is on card {cards[at].number})"
+            )
+        for card in points:
+            warnings.extend(_point(deck, card, rules))
+        sets.append(DataSet(n, (cards[at], *points)))
+        at += 1 + n
+    if not sets:
+        raise DeckError(f"{deck.source}: the deck is empty")
+    return CheckedDeck(deck.source, tuple(sets), tuple(warnings))
+
+
+def _count(deck: Deck, card: Card, warnings: list[str]) -> int:
+    columns = card.columns(1, 2)
+    try:
+        number = read_fixed(columns)
+    except FieldError:
+        raise CardError(deck.source, card.number, 1, f"N, in columns 1-2, is {columns!r}: no number") from None
+    if not columns.strip():
+        raise CardError(deck.source, card.number, 1, "N, in columns 1-2, is blank")
+    n = number.mantissa
+    if not 1 <= n <= MAX_POINTS:
+        raise CardError(deck.source, card.number, 1, f"N is {n}; the programs take 1 to {MAX_POINTS} points")
+    if number.warning:
+        warnings.append(f"{deck.source}: card {card.number}, column 1: {number.warning}: N is {n}")
+    if card.text[2:].strip():
+        warnings.append(f"{deck.source}: card {card.number}, column 3: what stands behind N is not read")
+    return n
+
+
+def _point(deck: Deck, card: Card, rules: Rules) -> Iterator[str]:
+    for k, axis in enumerate("xyz"):
+        first = 1 + 14 * k
+        try:
+            number: Read = read_floating(COORDINATE, card.columns(first, first + 13), rules)
+        except FieldError as error:
+            raise CardError(deck.source, card.number, first, f"{axis}: {error}") from None
+        if number.warning:
+            yield f"{deck.source}: card {card.number}, column {first}: {axis}: {number.warning}"
+    if card.text[_LAST_COLUMN:].strip():
+        yield f"{deck.source}: card {card.number}, column {_LAST_COLUMN + 1}: what stands behind z is not read"
