@@ -22,7 +22,14 @@ from emulator.storage import CORES, FIELD, FUNCTION_NAMES
 
 VERBS = ("READ", "ACCEPT", "PUNCH", "PRINT", "TYPE")
 _LARGEST = (CORES[-1] - FUNCTION_NAMES) // FIELD
-_EFFECTS = {op.FMFAC: "store", op.FMFIX: "store", op.TRANSMIT: "store", op.IF: "test", op.IFX: "test fixed"}
+_EFFECTS = {
+    op.FMFAC: "store",
+    op.FMFIX: "store",
+    op.TRANSMIT: "store",
+    op.IF: "test",
+    op.IFX: "test fixed",
+    op.FINISH: "list",
+}
 _NO_DO_END = (
     tree.GoTo,
     tree.ComputedGoTo,

@@ -16,6 +16,7 @@ from emulator.errors import CardError, DeckError
 from emulator.fields import FieldError, parse_constant, read_fixed, read_floating, write_fixed, write_floating
 from emulator.formats import Field
 from emulator.functions import Value, function, integer_power, power
+from emulator.length import code_positions
 from emulator.loader import flatten
 from emulator.objectcode import Line, Program
 from emulator.records import Input, Layout, NoField, Output
@@ -40,8 +41,8 @@ Tracer = Callable[[Line, "Machine"], None]
 class Machine:
     """One machine with one program in core and one deck in the hopper.
 
-    ``keyboard`` are the lines an operator types when the program asks by ACCEPT.  Raises DeckError when the
-    program does not fit the machine's core.
+    ``keyboard`` are the lines an operator types when the program asks by ACCEPT; ``listed`` the fields of the
+    last input or output statement.  Raises DeckError when the program does not fit the machine's core.
     """
 
     program: Program
@@ -52,11 +53,12 @@ class Machine:
 
     def __post_init__(self) -> None:
         program, rules = self.program, self.options.profile.rules
-        need = program.storage.fields * FIELD + FUNCTION_NAMES
-        if need > self.options.core - OBJECT_PROGRAM:
+        need = program.storage.fields * FIELD + code_positions(program)
+        room = self.options.core - OBJECT_PROGRAM - FUNCTION_NAMES
+        if need > room:
             raise DeckError(
-                f"{program.source}: OVERLAP: the data need {need} positions; a machine of {self.options.core} "
-                f"has {self.options.core - OBJECT_PROGRAM} for data and program"
+                f"{program.source}: OVERLAP: program and data need about {need} positions; "
+                f"a machine of {self.options.core} has {room} for them"
             )
         self.mantissas = [0] * program.storage.fields
         self.exponents = [UNDEFINED] * program.storage.fields
@@ -75,6 +77,7 @@ class Machine:
         self._keys = iter(self.keyboard)
         self._first_read = -1
         self._transfer: Input | Output | None = None
+        self.listed: list[int] = []
         self._verb = ""
         self._format = 0
         self._punched: list[str] = []
@@ -203,6 +206,7 @@ class Machine:
         number = self.program.code[self.registers[engine.AT]].second
         self._verb, self._format = verb, self.program.formats[number][0]
         layout = self._layouts[number]
+        self.listed = []
         if verb == "READ":
             begins = self._first_read in (-1, self.registers[engine.AT])
             if begins:
@@ -244,6 +248,7 @@ class Machine:
         fixed = self.program.code[self.registers[engine.AT]].second == 1
         transfer = self._transfer
         assert transfer is not None
+        self.listed.append(address)
         try:
             if isinstance(transfer, Output):
                 self._write(transfer, transfer.next_field(), address, fixed, here)
@@ -318,17 +323,19 @@ class Machine:
         self._warnings[message] = None
 
     def _where_it_loops(self, before: list[int]) -> str:
+        """Where the last statements before the limit were, from the counts before and after them."""
         program = self.program
-        inside = [
-            program.statements[counter.statement]
+        ran = [
+            (program.statements[counter.statement], new - old)
             for counter, old, new in zip(program.counters, before, self.counts, strict=True)
             if counter.begins and new > old
         ]
-        cards = sorted({line.place.card for line in inside})
-        labels = [str(line.label) for line in inside if line.label]
+        cards = sorted({line.place.card for line, _ in ran})
+        labels = [str(line.label) for line, _ in ran if line.label]
         span = f"card {cards[0]}" if len(cards) == 1 else f"cards {cards[0]} to {cards[-1]}"
         among = f", statements {', '.join(labels[:12])}{' ...' if len(labels) > 12 else ''}" if labels else ""
-        return f"{program.source}: stopped after {self.options.limit} statements; it loops on {span}{among}"
+        what = "it loops on" if all(times > 1 for _, times in ran) else "it was on"
+        return f"{program.source}: stopped after {self.options.limit} statements; {what} {span}{among}"
 
     def _result(self, ending: Ending) -> Result:
         return Result(

@@ -148,7 +148,7 @@ class Counter:
 class Line:
     """A statement as messages and traces show it.
 
-    ``effect`` says what there is to show of it: ``store``, ``test``, ``test fixed`` or nothing.
+    ``effect`` says what there is to show of it: ``store``, ``test``, ``test fixed``, ``list`` or nothing.
     """
 
     label: int

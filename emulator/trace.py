@@ -53,6 +53,9 @@ def effect(machine: Machine, line: Line) -> str:
         return _floating(machine, registers[engine.FAC], registers[engine.CHARACTERISTIC])
     if line.effect == "test fixed":
         return str(registers[engine.FIXED])
+    if line.effect == "list":
+        name = machine.program.storage.name_of
+        return ", ".join(f"{name(address)} = {contents(machine, address)}" for address in machine.listed)
     return ""
 
 

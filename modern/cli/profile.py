@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterator
 
 from emulator.objectcode import Program
@@ -21,10 +22,11 @@ def profile_lines(program: Program, result: Result) -> Iterator[str]:
     yield f"  {'processor':<20}{'':>9}{timing.processor_seconds:>11.1f}"
     for row in timing.devices:
         yield _line(row)
-    yield f"  {'all':<20}{'':>9}{timing.seconds:>11.1f}  at most: the devices partly run beside"
+    yield f"  {'all, one by one':<20}{'':>9}{timing.seconds:>11.1f}  (reader and punch may run beside)"
     if any(row.estimated for row in timing.processor):
         yield "  ~ contains times that are estimates (no source gives them)"
-    yield "  operations: " + ", ".join(f"{name} {count}" for name, count in timing.operations)
+    operations = "operations: " + ", ".join(f"{name} {count}" for name, count in timing.operations)
+    yield from textwrap.wrap(operations, 80, initial_indent="  ", subsequent_indent="    ")
     most = sorted(timing.statements, key=lambda pair: -pair[1])[:_TOP]
     yield f"  statements run most (of {len(timing.statements)} run):"
     for index, count in most:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator
 
+from emulator.length import code_positions
 from emulator.objectcode import Program
 from emulator.storage import FIELD, core_address
-from modern.capacity import capacity_lines, code_positions
+from modern.capacity import capacity_lines
 from modern.cli.common import layers_of, load_program
 from modern.cli.main import OK
 from modern.edition import decks

@@ -90,7 +90,9 @@ def _words(lines: Sequence[str]) -> Counter[str]:
 
 
 def _same_results(printed: Sequence[str], produced: Sequence[str], oriented: bool) -> bool:
-    return _words(printed) == _words(produced) and same_hull(read_hull(printed), read_hull(produced), oriented)
+    """The same hull under the same headings, and an order that does differ: a lost sign of a zero is no order."""
+    one, other = read_hull(printed), read_hull(produced)
+    return _words(printed) == _words(produced) and one != other and same_hull(one, other, oriented)
 
 
 @dataclass(frozen=True, slots=True)

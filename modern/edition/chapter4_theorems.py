@@ -1,0 +1,189 @@
+"""The worked examples of chapter 4 (theorems 4.1, 4.2 with Table 1, 4.8) as exact data tied to the print.
+
+Points and planes are rationals; each names the line of the corrected print (witness + apparatus of
+``transcripts/chapter4``) and the words there, and :func:`theorem_faults` reads those words again and compares.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from importlib.resources import files
+from importlib.resources.abc import Traversable
+from typing import Any
+
+from modern.edition.apparatus import Line, Text, build, load
+
+Vector = tuple[Fraction, ...]
+_TERM = re.compile(r"([+-]?)(\d*)([xyz]?)")
+
+
+@dataclass(frozen=True, slots=True)
+class Point:
+    """A printed point: name, exact coordinates (x, y, z), printed line and the words there."""
+
+    name: str
+    at: Vector
+    line: str
+    printed: str
+
+
+@dataclass(frozen=True, slots=True)
+class Plane:
+    """Ax + By + Cz + D = 0 with the points the thesis says it contains."""
+
+    number: int
+    coefficients: Vector
+    vertices: tuple[str, ...]
+    line: str
+    printed: str
+
+    def at(self, point: Point) -> Fraction:
+        """The left member at a point, exactly."""
+        products = (a * x for a, x in zip(self.coefficients, point.at, strict=False))
+        return sum(products, self.coefficients[3])
+
+
+@dataclass(frozen=True, slots=True)
+class Theorem:
+    """A worked example.  ``extremes`` maps lx, sx, ly, sy, lz, sz to point names; ``signs`` are (plane, point, sign).
+
+    ``lost`` names points the OCR lost and the text does not determine; they have no coordinates here.
+    """
+
+    id: str
+    pages: str
+    title: str
+    points_stated: int
+    points: tuple[Point, ...]
+    planes: tuple[Plane, ...]
+    extremes: Mapping[str, str]
+    outside_plane: tuple[str, ...]
+    signs: tuple[tuple[int, str, str], ...]
+    lost: Mapping[str, str]
+
+    def point(self, name: str) -> Point | None:
+        return next((p for p in self.points if p.name == name), None)
+
+    def plane(self, number: int) -> Plane:
+        return next(p for p in self.planes if p.number == number)
+
+
+def chapter4_folder() -> Traversable:
+    return files("transcripts").joinpath("chapter4")
+
+
+def load_text() -> Text:
+    """The text of the three examples with its apparatus."""
+    return load(chapter4_folder(), "chapter4")
+
+
+def load_theorems() -> tuple[Theorem, ...]:
+    """The data of ``theorems.toml``, in the order of the chapter."""
+    data = tomllib.loads(chapter4_folder().joinpath("theorems.toml").read_text(encoding="utf-8"))
+    return tuple(_theorem(raw) for raw in data["theorem"])
+
+
+def _theorem(raw: Mapping[str, Any]) -> Theorem:
+    return Theorem(
+        id=raw["id"],
+        pages=raw["pages"],
+        title=raw["title"],
+        points_stated=raw["points_stated"],
+        points=tuple(Point(p["name"], _vector(p["at"]), p["line"], p["printed"]) for p in raw["point"]),
+        planes=tuple(
+            Plane(p["number"], _vector(p["coefficients"]), tuple(p["vertices"]), p["line"], p["printed"])
+            for p in raw["plane"]
+        ),
+        extremes=dict(raw["extremes"]),
+        outside_plane=tuple(raw["outside_plane"]),
+        signs=tuple((s["plane"], s["point"], s["sign"]) for s in raw.get("sign", ())),
+        lost={entry["name"]: entry["reason"] for entry in raw.get("lost", ())},
+    )
+
+
+def _vector(texts: Sequence[str]) -> Vector:
+    return tuple(Fraction(text) for text in texts)
+
+
+def printed_point(words: str) -> Vector:
+    """The coordinates in ``(9/4, 4, 1/8)`` or ``P_1 = (9,6,-8)``."""
+    return _vector([part.strip() for part in words[words.index("(") + 1 : words.rindex(")")].split(",")])
+
+
+def printed_plane(words: str) -> Vector:
+    """A, B, C, D of ``2x - 5y + 14z = 0``; a term that is not printed is 0."""
+    left, right = words.replace(" ", "").split("=")
+    if right != "0":
+        raise ValueError(f"{words}: the right member is not 0")
+    found = dict.fromkeys(("x", "y", "z", ""), Fraction(0))
+    for sign, digits, variable in _TERM.findall(left):
+        if digits or variable:
+            found[variable] = Fraction(f"{sign}{digits or 1}")
+    return tuple(found[v] for v in ("x", "y", "z", ""))
+
+
+def theorem_faults(theorem: Theorem, text: Text, lines: Sequence[Line] | None = None) -> tuple[str, ...]:
+    """What is wrong with a theorem's data or claims: the tie to the print and exact arithmetic.
+
+    ``lines`` are the corrected print (default: the text's default layers).
+    """
+    faults: list[str] = []
+    at = {line.id: "".join(line.text.split()) for line in (build(text) if lines is None else lines)}
+    name = f"theorem {theorem.id}"
+    for point in theorem.points:
+        if "".join(point.printed.split()) not in at.get(point.line, ""):
+            faults.append(f"{name}: line {point.line} does not print {point.printed}")
+        if printed_point(point.printed) != point.at:
+            faults.append(f"{name}: {point.name} is not {point.printed}")
+    for plane in theorem.planes:
+        if "".join(plane.printed.split()) not in at.get(plane.line, ""):
+            faults.append(f"{name}: line {plane.line} does not print {plane.printed}")
+        if printed_plane(plane.printed) != plane.coefficients:
+            faults.append(f"{name}: plane {plane.number} is not {plane.printed}")
+        faults += _plane_faults(theorem, plane, at.get(plane.line, ""))
+    if len(theorem.points) + len(theorem.lost) != theorem.points_stated:
+        faults.append(f"{name}: it speaks of {theorem.points_stated} points")
+    for label, extreme in theorem.extremes.items():
+        faults += _extreme_faults(theorem, label, extreme)
+    for number, named, sign in theorem.signs:
+        found = theorem.point(named)
+        value = theorem.plane(number).at(found) if found else Fraction(0)
+        if (value > 0) != (sign == "+") or value == 0:
+            faults.append(f"{name}: plane {number} at {named} is {value}, stated {sign}")
+    return tuple(faults)
+
+
+def _plane_faults(theorem: Theorem, plane: Plane, words: str) -> list[str]:
+    faults = []
+    for vertex in plane.vertices:
+        point = theorem.point(vertex)
+        if point is None or plane.at(point):
+            faults.append(f"theorem {theorem.id}: plane {plane.number} does not contain {vertex}")
+        if len(theorem.planes) > 1 and point and not _named(point, words):
+            faults.append(f"theorem {theorem.id}: the table does not list {vertex} for plane {plane.number}")
+    for other in theorem.outside_plane:
+        point = theorem.point(other)
+        if point is None or not plane.at(point):
+            faults.append(f"theorem {theorem.id}: plane {plane.number} contains {other}")
+    return faults
+
+
+def _named(point: Point, words: str) -> bool:
+    """A table names a point by its coordinates (4.8) or by a P with a small digit below (4.2)."""
+    small = "P" + "₀₁₂₃₄₅₆₇₈₉"[int(point.name[1:])]
+    return small in words or "".join(str(point.at[i]) + ",)"[i == 2] for i in range(3)) in words
+
+
+def _extreme_faults(theorem: Theorem, label: str, name: str) -> list[str]:
+    """``lx``: no point has a larger x; ``sx``: none a smaller one.  A lost point is not compared."""
+    axis, point = "xyz".index(label[1]), theorem.point(name)
+    if point is None:
+        return [] if name in theorem.lost else [f"theorem {theorem.id}: there is no {name}"]
+    values = [p.at[axis] for p in theorem.points]
+    if point.at[axis] != (max(values) if label[0] == "l" else min(values)):
+        return [f"theorem {theorem.id}: {name} has not the extreme {label}"]
+    return []

@@ -1,0 +1,212 @@
+"""Checks of the chapter 6 transcript as a whole; each returns its faults, one clear line a fault.
+
+* :func:`check_witness`    the witness is the text the apparatus names (its digest);
+* :func:`check_tie`        every character of the cards is a character of the print, in order, and all lines are used;
+* :func:`check_rows`       every row stands on its ground, and none is superfluous;
+* :func:`check_layout`     columns, blank cards and words of the cards are those of the FORMAT statements;
+* :func:`check_arithmetic` the printed numbers agree among themselves;
+* :func:`check_files`      the committed device files are what witness, apparatus and layout give.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import tomllib
+from collections.abc import Sequence
+from decimal import Decimal
+from importlib.resources.abc import Traversable
+
+from modern.edition.apparatus import PAGE_MARK
+from modern.edition.chapter6_formats import FormatTextError, records
+from modern.edition.chapter6_grounds import (
+    incidences,
+    numbers,
+    of_role,
+    plane_at,
+    planes,
+    row_faults,
+    solid,
+    vertices,
+)
+from modern.edition.chapter6_layout import CardShape, DeviceLayout
+from modern.edition.transcripts import (
+    Chapter,
+    built_files,
+    cards,
+    chapter6_folder,
+    device_files,
+    printed_lines,
+)
+
+Point = tuple[Decimal, ...]
+
+
+def check_chapter(chapter: Chapter, folder: Traversable | None = None) -> tuple[str, ...]:
+    """Every check of this module on one chapter; no faults is an empty tuple."""
+    at = folder or chapter6_folder()
+    return (
+        *check_witness(at),
+        *check_tie(chapter),
+        *check_rows(chapter),
+        *check_layout(chapter),
+        *check_arithmetic(chapter),
+        *check_files(chapter, at),
+    )
+
+
+def check_witness(folder: Traversable) -> tuple[str, ...]:
+    """The witness without its page marks has the digest that ``chapter6.toml`` records."""
+    head = tomllib.loads(folder.joinpath("chapter6.toml").read_text(encoding="utf-8"))["text"]
+    lines = folder.joinpath(head["witness"]).read_text(encoding="utf-8").split("\n")
+    text = "\n".join(line for line in lines if not line.startswith(PAGE_MARK))
+    found = hashlib.sha256(text.encode()).hexdigest()
+    if found != head["sha256_without_marks"]:
+        return (f"{head['witness']}: its digest is {found}, the apparatus was made for another text",)
+    return ()
+
+
+def check_tie(chapter: Chapter) -> tuple[str, ...]:
+    """The cards' characters are those of the corrected print, and each printed line is a card's or a heading."""
+    faults: list[str] = []
+    used: list[str] = list(chapter.layout.headings)
+    for entry in chapter.layout.devices:
+        if entry.span is None:
+            continue
+        lines = printed_lines(chapter, entry)
+        used += [line.id for line in lines]
+        images = [card.image for card in cards(chapter, entry.example, entry.program, entry.device)]
+        if solid("".join(images)) != solid("".join(line.text for line in lines)):
+            faults.append(f"{entry.file}: the characters of its cards are not those of its printed lines")
+    known = [line.id for line in chapter.print]
+    faults += [
+        f"line {i} of the corrected print belongs to no card and no heading" for i in known if i not in used
+    ]
+    faults += [f"line {i} is used twice" for i in sorted(set(used)) if used.count(i) > 1]
+    faults += [f"heading line {i} is not in the corrected print" for i in used if i not in known]
+    return tuple(faults)
+
+
+def check_rows(chapter: Chapter) -> tuple[str, ...]:
+    """Every row of the apparatus stands on its ground (:mod:`modern.edition.chapter6_grounds`)."""
+    return tuple(fault for row in chapter.text.rows for fault in row_faults(chapter, row))
+
+
+def check_layout(chapter: Chapter) -> tuple[str, ...]:
+    """Cards have their FORMAT's columns, device files use whole FORMATs, printed words are the FORMATs'."""
+    faults: list[str] = []
+    words: dict[str, list[str]] = {}
+    texts = {(f.program, f.number): f.text for f in chapter.layout.formats}
+    sizes: dict[tuple[int, int, int], int] = {}
+    for shape in chapter.layout.cards:
+        try:
+            given = records(texts[shape.program, shape.format], shape.values)
+        except (KeyError, FormatTextError) as error:
+            faults.append(f"card {shape.id}: {error}")
+            continue
+        sizes[shape.program, shape.format, shape.values] = len(given)
+        wanted = given[shape.record - 1] if 0 < shape.record <= len(given) else None
+        if wanted is None or [(f.first, f.last, bool(f.words)) for f in wanted] != [
+            (f.first, f.last, f.word) for f in shape.fields
+        ]:
+            faults.append(f"card {shape.id}: its columns are not those of FORMAT {shape.format}")
+            continue
+        words[shape.id] = [f.words for f in wanted]
+    for entry in chapter.layout.devices:
+        faults += _whole_formats(entry, sizes)
+        for card in cards(chapter, entry.example, entry.program, entry.device):
+            for token, word in zip(card.tokens, words.get(card.shape, ()), strict=False):
+                if word and token.text != word:
+                    faults.append(f"{entry.file}: line {token.line} prints {token.text}, the FORMAT {word}")
+    return tuple(faults)
+
+
+def _whole_formats(entry: DeviceLayout, sizes: dict[tuple[int, int, int], int]) -> list[str]:
+    """A statement punches all the cards of its FORMAT, in order: 1, 2, ... up to the last."""
+    faults = []
+    before: CardShape | None = None
+    for shape in [*(shape for shape, _ in entry.cards), None]:
+        ended = before is None or before.record == sizes.get((before.program, before.format, before.values))
+        follows = (
+            before is not None
+            and shape is not None
+            and (shape.program, shape.format, shape.values) == (before.program, before.format, before.values)
+            and shape.record == before.record + 1
+        )
+        begins = shape is None or shape.record == 1
+        if not (follows or (ended and begins)):
+            name = shape.id if shape else "the end"
+            faults.append(f"{entry.file}: {name} cannot follow {before.id if before else 'the beginning'}")
+        before = shape
+    return faults
+
+
+def check_arithmetic(chapter: Chapter) -> tuple[str, ...]:
+    """The printed numbers agree: same points in every part of an example, N, and planes that support their hull."""
+    faults: list[str] = []
+    for example in sorted({d.example for d in chapter.layout.devices}):
+        deck = sorted(numbers(card) for card in of_role(chapter, example, 1, "point", "deck"))
+        for _, program, device, name in (f for f in device_files(chapter) if f[0] == example):
+            if device != "punch":
+                continue
+            found = _points(chapter, example, program)
+            if program == 1 and example == 2:
+                if not set(found) <= set(deck):
+                    faults.append(f"{name}: an endpoint is no point of the input deck")
+            elif sorted(found) != deck:
+                faults.append(f"{name}: its points are not those of the input deck")
+            faults += _plane_faults(chapter, example, program, name, deck)
+        faults += _counts(chapter, example, len(deck))
+    return tuple(faults)
+
+
+def _points(chapter: Chapter, example: int, program: int) -> list[Point]:
+    roles = ("point", "inside", "boundary", "vertex", "endpoint")
+    found = [numbers(card) for role in roles for card in of_role(chapter, example, program, role)]
+    if program == 1 and of_role(chapter, example, 1, "carrier"):
+        return [
+            (x, y, z) for x, z, y in found
+        ]  # KPROJ = 2: the deck for program 2 has y last (listing 1, label 213)
+    return found
+
+
+def _plane_faults(
+    chapter: Chapter, example: int, program: int, name: str, deck: Sequence[Point]
+) -> list[str]:
+    faults: list[str] = []
+    if not planes(chapter, example, program):
+        return faults
+    corners = vertices(chapter, example, program)
+    table = incidences(chapter, example, program)
+    of_output = program > 1
+    for number, plane in planes(chapter, example, program).items():
+        zero = tuple(i for i, p in enumerate(corners, start=1) if not plane_at(plane, p))
+        if not set(table[number]) <= set(zero):
+            faults.append(f"{name}: equation {number} does not vanish at its vertices")
+        if example in (5, 6) and len(table[number]) != 3:
+            faults.append(f"{name}: equation {number} has not three vertices")
+        if of_output and any(plane_at(plane, point) > 0 for point in deck):
+            faults.append(f"{name}: equation {number} has a point of the deck on its positive side")
+    return faults
+
+
+def _counts(chapter: Chapter, example: int, size: int) -> list[str]:
+    """N on every card that prints it is the number of points of the input deck."""
+    faults = []
+    for _, program, device, name in (f for f in device_files(chapter) if f[0] == example):
+        for card in cards(chapter, example, program, device):
+            texts = [token.text for token in card.tokens]
+            if (card.role == "n" or texts[:1] == ["N="]) and int(texts[0 if card.role == "n" else 1]) != size:
+                faults.append(f"{name}: card {card.number} says N is not {size}")
+    return faults
+
+
+def check_files(chapter: Chapter, folder: Traversable) -> tuple[str, ...]:
+    """Each committed device file equals its build."""
+    faults = []
+    for name, contents in built_files(chapter):
+        path = folder.joinpath(*name.split("/"))
+        if not path.is_file():
+            faults.append(f"{name} is missing")
+        elif path.read_bytes() != contents.encode("ascii"):
+            faults.append(f"{name} is not what witness, apparatus and layout give")
+    return tuple(faults)

@@ -1,0 +1,252 @@
+"""The grounds of the chapter 6 rows as checks by machine, with exact decimals.
+
+A row of the apparatus stands on its ground when the ground holds in the corrected print and fails when the
+row (and the rows that need it) is left out.  So a superfluous row is caught, and so is a wrong one.  Every
+ground speaks of the print alone; no run of a program enters.
+
+Kinds of ground (the row's ``ground`` table; ``also`` may hold a second one, which must hold too):
+
+``width``       the row's lines hold something that is no number of its field; with the row they do not
+``deck``        the numbers of ``example, program, device, card`` (one of them with ``field``) stand in the row's line
+``arithmetic``  ``check = "plane"``: equation n vanishes at its printed vertices, which are the ones named;
+                ``"carrier"``: the plane of example 4 vanishes at all points; ``"centre"``: the centre is the mean of
+                the first four points; ``"minus-with-point"``: where the OCR lost a point it lost a minus with it
+``sibling``     the words stand in the ``own`` lines and in the ``lines`` of another place of the chapter
+``order``       ``lines``: sorted by their columns the pieces give the row's order; ``role``: the numbers of a
+                table count up from 1; ``page``: the piece is the number of its page
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from decimal import Decimal
+from typing import Any
+
+from modern.edition.apparatus import ApparatusError, Line, Row, build, rows_needing
+from modern.edition.chapter6_layout import Layout
+from modern.edition.transcripts import E14, Card, Chapter, TranscriptError, cards, printed_lines, rebuilt
+
+_SIGNED = re.compile(r"[+-]\.\d{8}E[+-]\d\d")
+_STRAY = re.compile(r"\d{4}|\.\d|\d\.|(?<!\S)[.,]|[+-]\s*\d|[^A-Z0-9+\-=.,\s]")
+_LONE_SIGN = re.compile(r"(?<!\S)[+-]+(?!\S)")
+
+Ground = Mapping[str, Any]
+
+
+def row_faults(chapter: Chapter, row: Row) -> tuple[str, ...]:
+    """Why the row does not stand: its ground fails in the corrected print, or holds without the row too."""
+    grounds = [row.ground, *([row.ground["also"]] if "also" in row.ground else [])]
+    faults = []
+    gone = frozenset({row.id, *rows_needing(chapter.text, row.id)})
+    without = rebuilt(chapter.text, chapter.layout, chapter.layers, gone)
+    for ground in grounds:
+        check = _CHECKS.get(str(ground.get("kind", "")))
+        if check is None:
+            return (f"row {row.id}: there is no ground {ground.get('kind')!r}",)
+        if not _holds(check, chapter, row, ground):
+            faults.append(f"row {row.id}: its ground ({ground['kind']}) does not hold in the corrected print")
+        elif _holds(check, without, row, ground):
+            faults.append(f"row {row.id}: its ground ({ground['kind']}) holds without it")
+    return tuple(faults)
+
+
+def _holds(check: Callable[[Chapter, Row, Ground], bool], chapter: Chapter, row: Row, ground: Ground) -> bool:
+    try:
+        return check(chapter, row, ground)
+    except TranscriptError:
+        return False
+
+
+def _lines(chapter: Chapter, ids: Sequence[str]) -> tuple[Line, ...]:
+    return tuple(line for line in chapter.print if line.id in ids)
+
+
+def _touched(chapter: Chapter, row: Row) -> tuple[Line, ...]:
+    return _lines(chapter, [change.line for change in row.changes])
+
+
+def solid(text: str) -> str:
+    """The text without its blanks."""
+    return "".join(text.split())
+
+
+def well_formed(text: str, signed: bool) -> bool:
+    """Whether a printed line holds only E14.8 numbers, short integers and words of the card code.
+
+    ``signed``: the line is of an input deck, where every number has its sign printed.
+    """
+    rest = (_SIGNED if signed else E14).sub(" ", text)
+    if _STRAY.search(rest):
+        return False
+    return bool(re.search(r"[A-Z]", rest)) or not _LONE_SIGN.search(rest)
+
+
+def _signed_lines(layout: Layout, chapter: Chapter) -> frozenset[str]:
+    decks = [d for d in layout.devices if d.device == "deck"]
+    return frozenset(line.id for d in decks for line in printed_lines(chapter, d))
+
+
+def _width(chapter: Chapter, row: Row, ground: Ground) -> bool:
+    signed = _signed_lines(chapter.layout, chapter)
+    return all(well_formed(line.text, line.id in signed) for line in _touched(chapter, row))
+
+
+def numbers(card: Card) -> tuple[Decimal, ...]:
+    """The E14.8 numbers of a card as exact decimals."""
+    return tuple(Decimal(t.text) for t in card.tokens if E14.fullmatch(t.text))
+
+
+def integers(card: Card) -> tuple[int, ...]:
+    return tuple(int(t.text) for t in card.tokens if t.text.isdigit())
+
+
+def of_role(
+    chapter: Chapter, example: int, program: int, role: str, device: str = "punch"
+) -> tuple[Card, ...]:
+    """The cards of one role, in their order on the device file."""
+    return tuple(card for card in cards(chapter, example, program, device) if card.role == role)
+
+
+def _deck(chapter: Chapter, row: Row, ground: Ground) -> bool:
+    source = cards(chapter, ground["example"], ground["program"], ground["device"])[ground["card"] - 1]
+    wanted = numbers(source)
+    if "field" not in ground:
+        return wanted in (_values(chapter, line) for line in _touched(chapter, row))
+    value = wanted[ground["field"] - 1]
+    gone = frozenset({row.id, *rows_needing(chapter.text, row.id)})
+    without = rebuilt(chapter.text, chapter.layout, chapter.layers, gone)
+    return _count(chapter, row, value) > _count(without, row, value)
+
+
+def _values(chapter: Chapter, line: Line) -> tuple[Decimal, ...]:
+    signed = line.id in _signed_lines(chapter.layout, chapter)
+    return tuple(Decimal(text) for text in (_SIGNED if signed else E14).findall(line.text))
+
+
+def _count(chapter: Chapter, row: Row, value: Decimal) -> int:
+    return sum(_values(chapter, line).count(value) for line in _touched(chapter, row))
+
+
+def vertices(chapter: Chapter, example: int, program: int) -> tuple[tuple[Decimal, ...], ...]:
+    """The points that the planes of a program's output are numbered by: vertices, endpoints, or first four points."""
+    for role in ("vertex", "endpoint", "point"):
+        if found := of_role(chapter, example, program, role):
+            return tuple(numbers(card) for card in found[: 4 if role == "point" else None])
+    raise TranscriptError(f"example {example}, program {program} prints no points")
+
+
+def plane_at(plane: Sequence[Decimal], point: Sequence[Decimal]) -> Decimal:
+    """Ax + By + Cz + D, exactly."""
+    return sum((a * x for a, x in zip(plane[:3], point, strict=True)), plane[3])
+
+
+def incidences(chapter: Chapter, example: int, program: int) -> dict[int, tuple[int, ...]]:
+    """Equation number to the vertices the print gives it (the intermediate decks: on the plane's own card)."""
+    if planes := of_role(chapter, example, program, "plane"):
+        return {n: integers(card) for n, card in enumerate(planes, start=1)}
+    if program == 1 and (table := of_role(chapter, example, 1, "incidence")):
+        return {integers(card)[-1]: tuple(int(t.text.rstrip(",")) for t in card.tokens[:2]) for card in table}
+    if ends := of_role(chapter, example, program, "endpoint"):
+        return {
+            integers(c)[0]: tuple(range(1, len(ends) + 1))
+            for c in of_role(chapter, example, program, "equation")
+        }
+    return {
+        integers(card)[-1]: integers(card)[:-1] for card in of_role(chapter, example, program, "incidence")
+    }
+
+
+def planes(chapter: Chapter, example: int, program: int) -> dict[int, tuple[Decimal, ...]]:
+    """Equation number to its printed A, B, C, D."""
+    if found := of_role(chapter, example, program, "plane"):
+        return {n: numbers(card) for n, card in enumerate(found, start=1)}
+    return {integers(c)[0]: numbers(c) for c in of_role(chapter, example, program, "equation")}
+
+
+def _arithmetic(chapter: Chapter, row: Row, ground: Ground) -> bool:
+    return _ARITHMETIC[str(ground["check"])](chapter, row, ground)
+
+
+def _plane(chapter: Chapter, row: Row, ground: Ground) -> bool:
+    example, program, equation = ground["example"], ground["program"], ground["equation"]
+    plane = planes(chapter, example, program).get(equation)
+    named = tuple(ground["vertices"])
+    points = vertices(chapter, example, program)
+    if plane is None or incidences(chapter, example, program).get(equation) != named:
+        return False
+    return any(plane) and all(not plane_at(plane, points[n - 1]) for n in named)
+
+
+def _carrier(chapter: Chapter, row: Row, ground: Ground) -> bool:
+    carrier = numbers(of_role(chapter, ground["example"], ground["program"], "carrier")[0])
+    points = of_role(chapter, ground["example"], 1, "point", "deck")
+    return any(carrier) and all(not plane_at(carrier, numbers(card)) for card in points)
+
+
+def _centre(chapter: Chapter, row: Row, ground: Ground) -> bool:
+    centre = numbers(of_role(chapter, ground["example"], 1, "centre")[0])
+    first = vertices(chapter, ground["example"], 1)
+    return all(4 * c == sum(axis) for c, axis in zip(centre, zip(*first, strict=True), strict=True))
+
+
+def _minus_with_point(chapter: Chapter, row: Row, ground: Ground) -> bool:
+    """In the named table lines a number has lost its point in the witness just when it carries a minus."""
+    for line in _lines(chapter, ground["lines"]):
+        witness = next(w for w in chapter.text.witness if w.id == line.id)
+        cells = [cell.strip() for cell in witness.text.split("\t") if "E" in cell]
+        found = E14.findall(line.text)
+        if len(cells) != len(found):
+            return False
+        if any(cell[0].isdigit() != text.startswith("-") for cell, text in zip(cells, found, strict=True)):
+            return False
+    return True
+
+
+def _sibling(chapter: Chapter, row: Row, ground: Ground) -> bool:
+    words = solid(ground["words"])
+    own, other = (solid("".join(line.text for line in _lines(chapter, ground[k]))) for k in ("own", "lines"))
+    return words in own and words in other
+
+
+def _order(chapter: Chapter, row: Row, ground: Ground) -> bool:
+    if "lines" in ground:
+        return row.id not in chapter.without and _by_columns(chapter, row, ground["lines"])
+    if "page" in ground:
+        pages = {line.id: line.page for line in chapter.text.witness}
+        named = all(c.witness == ground["page"] == pages[c.line] and not c.lemma for c in row.changes)
+        return named and not _lines(chapter, [c.line for c in row.changes])
+    table = of_role(chapter, ground["example"], ground["program"], ground["role"])
+    place = -1 if ground["role"] == "incidence" else 0
+    return [integers(card)[place] for card in table] == list(range(1, len(table) + 1))
+
+
+def _by_columns(chapter: Chapter, row: Row, ids: Sequence[str]) -> bool:
+    """The row alone puts the pieces of the witness into the order of their columns, and they were out of it."""
+    witness = [line for line in chapter.text.witness if line.id in ids]
+    ordered = sorted(witness, key=lambda line: len(line.text) - len(line.text.lstrip()))
+    others = frozenset(r.id for r in chapter.text.rows) - {row.id}
+    try:
+        alone = build(chapter.text, chapter.layers, others)
+    except ApparatusError:
+        return False
+    was, wanted, now = (
+        solid("".join(line.text for line in lines))
+        for lines in (witness, ordered, [line for line in alone if line.id in ids])
+    )
+    return was != wanted == now
+
+
+_ARITHMETIC: Mapping[str, Callable[[Chapter, Row, Ground], bool]] = {
+    "plane": _plane,
+    "carrier": _carrier,
+    "centre": _centre,
+    "minus-with-point": _minus_with_point,
+}
+_CHECKS: Mapping[str, Callable[[Chapter, Row, Ground], bool]] = {
+    "width": _width,
+    "deck": _deck,
+    "arithmetic": _arithmetic,
+    "sibling": _sibling,
+    "order": _order,
+}

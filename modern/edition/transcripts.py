@@ -1,0 +1,268 @@
+"""The printed examples of chapter 6 as card images, each character tied to the page.
+
+A device file (an input deck, the cards a program punches, the lines it types) is the corrected print
+(witness + apparatus, :mod:`modern.edition.apparatus`) set into the columns of ``layout.toml``.  The print
+gives every non-blank character and their order; the layout gives only blanks and blank cards.  Typewriter
+lines are of the layer ``stated``: chapter 6 prints none.
+
+``python -m modern.edition.transcripts --write`` writes the device files from witness, apparatus and layout;
+nothing here reads a run.  ``--check`` runs every check of :mod:`modern.edition.chapter6_checks`.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from importlib.resources import files
+from importlib.resources.abc import Traversable
+from pathlib import Path
+
+from modern.edition.apparatus import Line, Text, build, load
+from modern.edition.chapter6_layout import CardShape, DeviceLayout, Field, Layout, LayoutError, load_layout
+
+E14 = re.compile(r"[+-]?\.\d{8}E[+-]\d\d")
+_INTEGER = re.compile(r"\d+")
+_BLANK = " \t"
+
+
+class TranscriptError(ValueError):
+    """The corrected print does not fit its cards; one line naming device file, card, line and columns."""
+
+
+@dataclass(frozen=True, slots=True)
+class Token:
+    """A printed number or word on a card: its text, its columns (from 1, inclusive) and its printed line."""
+
+    text: str
+    first: int
+    last: int
+    line: str
+
+
+@dataclass(frozen=True, slots=True)
+class Card:
+    """A card of a device file; ``number`` counts from 1 with blank cards, ``image`` has no trailing blanks.
+
+    ``role`` says what the card holds (n, point, centre, plane, carrier, inside, boundary, vertex, endpoint,
+    equation, incidence; empty for headings and blank cards).  A typed line has no tokens: nothing of it is printed.
+    """
+
+    example: int
+    program: int
+    device: str
+    number: int
+    shape: str
+    role: str
+    image: str
+    tokens: tuple[Token, ...]
+
+    @property
+    def line(self) -> str | None:
+        """The printed line the card begins on; None for a blank card and for a typed line."""
+        return self.tokens[0].line if self.tokens else None
+
+    @property
+    def proved_columns(self) -> frozenset[int]:
+        """The columns whose character the print proves; every other blank of the card is the layout's."""
+        return frozenset(c for t in self.tokens for c in range(t.first, t.last + 1))
+
+
+@dataclass(frozen=True, slots=True)
+class Chapter:
+    """Chapter 6: the text with its apparatus, the corrected print built from it, and the layout."""
+
+    text: Text
+    print: tuple[Line, ...]
+    layout: Layout
+    layers: tuple[str, ...]
+    without: frozenset[str]
+
+
+def chapter6_folder() -> Traversable:
+    """``transcripts/chapter6``, wherever the data package is installed."""
+    return files("transcripts").joinpath("chapter6")
+
+
+def load_chapter(layers: Iterable[str] | None = None, without: Collection[str] = ()) -> Chapter:
+    """Chapter 6 with the rows of ``layers`` (default: all), leaving out the rows ``without``.
+
+    Raises ApparatusError where rows do not fit, LayoutError for a layout that cannot be read.
+    """
+    folder = chapter6_folder()
+    return rebuilt(load(folder, "chapter6"), load_layout(folder), layers, without)
+
+
+def rebuilt(
+    text: Text, layout: Layout, layers: Iterable[str] | None = None, without: Collection[str] = ()
+) -> Chapter:
+    """A chapter from a text and a layout already read; used to see what the print is without some rows."""
+    wanted = tuple(text.default if layers is None else layers)
+    return Chapter(text, build(text, wanted, without), layout, wanted, frozenset(without))
+
+
+def device_files(chapter: Chapter | None = None) -> tuple[tuple[int, int, str, str], ...]:
+    """(example, program, device, file name) of every device file, in the order of the chapter."""
+    layout = chapter.layout if chapter else load_layout(chapter6_folder())
+    return tuple((d.example, d.program, d.device, d.file) for d in layout.devices)
+
+
+def device_layout(chapter: Chapter, example: int, program: int, device: str) -> DeviceLayout:
+    for entry in chapter.layout.devices:
+        if (entry.example, entry.program, entry.device) == (example, program, device):
+            return entry
+    raise TranscriptError(f"chapter 6 has no {device} for example {example}, program {program}")
+
+
+def printed_lines(chapter: Chapter, entry: DeviceLayout) -> tuple[Line, ...]:
+    """The lines of the corrected print a device file covers; none for a typewriter."""
+    if entry.span is None:
+        return ()
+    places = {line.id: i for i, line in enumerate(chapter.print)}
+    for end in entry.span:
+        if end not in places:
+            raise TranscriptError(f"{entry.file}: there is no line {end} in the corrected print")
+    return chapter.print[places[entry.span[0]] : places[entry.span[1]] + 1]
+
+
+def cards(chapter: Chapter, example: int, program: int, device: str) -> tuple[Card, ...]:
+    """The cards (or typed lines) of one device file, in order.
+
+    Raises TranscriptError when the printed numbers and words do not fill the fields of the cards exactly.
+    """
+    entry = device_layout(chapter, example, program, device)
+    if entry.layer == "stated":
+        return tuple(
+            Card(example, program, device, i, "", "", t, ()) for i, t in enumerate(entry.typed, start=1)
+        )
+    reader = _Reader(entry.file, printed_lines(chapter, entry))
+    result = []
+    for number, (shape, role) in enumerate(entry.cards, start=1):
+        tokens = tuple(reader.take(field, number, shape) for field in shape.fields)
+        result.append(Card(example, program, device, number, shape.id, role, _image(tokens), tokens))
+    reader.finish()
+    return tuple(result)
+
+
+def card_images(chapter: Chapter, example: int, program: int, device: str) -> tuple[str, ...]:
+    """The card images of one device file, without trailing blanks; a blank card is an empty string."""
+    return tuple(card.image for card in cards(chapter, example, program, device))
+
+
+def built_files(chapter: Chapter) -> Iterator[tuple[str, str]]:
+    """(file name, contents) of every device file: one card a line, each line ended."""
+    for example, program, device, name in device_files(chapter):
+        images = card_images(chapter, example, program, device)
+        yield name, "".join(image + "\n" for image in images)
+
+
+def write_files(chapter: Chapter, folder: Path) -> tuple[str, ...]:
+    """Write the device files under ``folder`` (each beside its place, then renamed) and return their names.
+
+    Everything is built before anything is written, so that an error leaves the folder as it was.
+    """
+    built = tuple(built_files(chapter))
+    for name, contents in built:
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        beside = path.with_name(path.name + ".new")
+        beside.write_text(contents, encoding="ascii", newline="\n")
+        beside.replace(path)
+    return tuple(name for name, _ in built)
+
+
+class _Reader:
+    """Takes the fields of cards one after the other from printed lines whose spacing means nothing."""
+
+    def __init__(self, name: str, lines: Sequence[Line]) -> None:
+        self._name = name
+        self._lines = lines
+        self._line = 0
+        self._at = 0
+
+    def take(self, field: Field, number: int, shape: CardShape) -> Token:
+        place = f"{self._name}: card {number} ({shape.id}), columns {field.first} to {field.last}"
+        if not self._seek():
+            raise TranscriptError(f"{place}: the printed lines end before it")
+        line = self._lines[self._line]
+        found = self._word(field.width) if field.word else self._number(field.width)
+        if found is None:
+            wanted = (
+                f"{field.width} characters of words" if field.word else f"a number of {field.width} columns"
+            )
+            rest = line.text[self._at :].strip()
+            raise TranscriptError(f"{place}: line {line.id} should have {wanted}, it has {rest!r}")
+        if len(found) > field.width:
+            raise TranscriptError(f"{place}: line {line.id}: {found} is wider than its field")
+        first = field.first if field.word else field.last - len(found) + 1
+        return Token(found, first, first + len(found) - 1, line.id)
+
+    def finish(self) -> None:
+        if self._seek():
+            line = self._lines[self._line]
+            raise TranscriptError(
+                f"{self._name}: line {line.id}: {line.text[self._at :].strip()!r} is left over"
+            )
+
+    def _seek(self) -> bool:
+        while self._line < len(self._lines):
+            text = self._lines[self._line].text
+            while self._at < len(text) and text[self._at] in _BLANK:
+                self._at += 1
+            if self._at < len(text):
+                return True
+            self._line, self._at = self._line + 1, 0
+        return False
+
+    def _number(self, width: int) -> str | None:
+        pattern = E14 if width == 14 else _INTEGER
+        found = pattern.match(self._lines[self._line].text, self._at)
+        if not found:
+            return None
+        self._at = found.end()
+        return found[0]
+
+    def _word(self, width: int) -> str | None:
+        text, at, taken = self._lines[self._line].text, self._at, ""
+        while len(taken) < width and at < len(text):
+            taken += text[at] if text[at] not in _BLANK else ""
+            at += 1
+        if len(taken) < width:
+            return None
+        self._at = at
+        return taken
+
+
+def _image(tokens: Sequence[Token]) -> str:
+    image = ""
+    for token in tokens:
+        image = image.ljust(token.first - 1) + token.text
+    return image
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """``--write`` the device files or ``--check`` the chapter; returns the exit status."""
+    from modern.edition.chapter6_checks import check_chapter
+
+    asked = list(sys.argv[1:] if arguments is None else arguments)
+    if asked not in (["--write"], ["--check"]):
+        print("usage: python -m modern.edition.transcripts --write | --check", file=sys.stderr)
+        return 2
+    try:
+        chapter = load_chapter()
+        if asked == ["--write"]:
+            for name in write_files(chapter, Path(str(chapter6_folder()))):
+                print(name)
+            return 0
+        faults = check_chapter(chapter)
+    except (ValueError, LayoutError) as error:
+        print(error, file=sys.stderr)
+        return 1
+    for fault in faults:
+        print(fault)
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,162 @@
+"""The worked examples of theorems 4.1, 4.2 (Table 1) and 4.8, checked by exact arithmetic."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import tomllib
+from fractions import Fraction
+
+import pytest
+
+from modern.edition.apparatus import Row, build
+from modern.edition.chapter4_theorems import (
+    Theorem,
+    chapter4_folder,
+    load_text,
+    load_theorems,
+    printed_plane,
+    printed_point,
+    theorem_faults,
+)
+
+TEXT = load_text()
+THEOREMS = {theorem.id: theorem for theorem in load_theorems()}
+
+
+@pytest.mark.parametrize("theorem", THEOREMS.values(), ids=lambda t: t.id)
+def test_theorem_is_tied_to_the_print_and_true(theorem: Theorem) -> None:
+    assert theorem_faults(theorem, TEXT) == ()
+
+
+def test_sizes_of_the_tables() -> None:
+    assert [(t.id, len(t.points), len(t.planes), len(t.signs)) for t in THEOREMS.values()] == [
+        ("4.1", 8, 1, 0),
+        ("4.2", 6, 8, 6),
+        ("4.8", 9, 8, 6),
+    ]
+
+
+def test_p3_of_theorem_4_1_is_lost_and_not_invented() -> None:
+    theorem = THEOREMS["4.1"]
+    assert theorem.point("P3") is None
+    assert "P3" in theorem.lost
+    assert theorem.extremes["ly"] == "P3"
+    assert not any("P_3=" in "".join(line.text.split()) for line in build(TEXT) if int(line.id) < 30)
+
+
+def test_table_1_faces_use_every_vertex_and_close_up() -> None:
+    """Eight triangles on six points: each edge is on two faces (Table 1)."""
+    edges: dict[frozenset[str], int] = {}
+    for plane in THEOREMS["4.2"].planes:
+        for vertex in plane.vertices:
+            edge = frozenset(set(plane.vertices) - {vertex})
+            edges[edge] = edges.get(edge, 0) + 1
+    assert len(edges) == 12
+    assert set(edges.values()) == {2}
+
+
+def test_theorem_4_8_the_last_point_is_outside_planes_3_to_8_only() -> None:
+    theorem = THEOREMS["4.8"]
+    point = theorem.point("Q9")
+    assert point is not None
+    assert point.at == (Fraction(-2, 135), Fraction(1, 9), Fraction(-1, 10))
+    assert [p.number for p in theorem.planes if p.at(point) > 0] == [3, 4, 5, 6, 7, 8]
+
+
+def test_witness_digest() -> None:
+    head = tomllib.loads(chapter4_folder().joinpath("chapter4.toml").read_text(encoding="utf-8"))["text"]
+    lines = chapter4_folder().joinpath("witness.txt").read_text(encoding="utf-8").split("\n")
+    text = "\n".join(line for line in lines if not line.startswith("## page "))
+    assert hashlib.sha256(text.encode()).hexdigest() == head["sha256_without_marks"]
+    assert text.isascii() is False
+
+
+@pytest.mark.parametrize("row", [r for r in TEXT.rows if r.ground["kind"] == "sibling"], ids=lambda r: r.id)
+def test_row_is_needed(row: Row) -> None:
+    """The words stand in the sibling line and, only with the row, in its own."""
+    words = "".join(row.ground["words"].split())
+
+    def holds(ids: list[str], without: tuple[str, ...] = ()) -> bool:
+        lines = build(TEXT, without=without)
+        return any(words in "".join(line.text.split()) for line in lines if line.id in ids)
+
+    assert holds(row.ground["lines"], (row.id,))
+    assert holds(row.ground["own"])
+    assert not holds(row.ground["own"], (row.id,))
+
+
+def test_two_term_conditions_of_theorem_4_2_are_a_slip() -> None:
+    """As printed A7 x + B7 y + C7 is positive at P6 though stated negative; with z and D it is negative."""
+    (row,) = [r for r in TEXT.rows if r.ground["kind"] == "arithmetic"]
+    theorem = THEOREMS[row.ground["theorem"]]
+    plane, point = theorem.plane(row.ground["equation"]), theorem.point(row.ground["point"])
+    assert point is not None
+    a, b, c, _ = plane.coefficients
+    assert a * point.at[0] + b * point.at[1] + c > 0 > plane.at(point)
+    for line in build(TEXT):
+        if line.id in row.ground["lines"]:
+            assert "D_" in line.text
+            assert "z_" in line.text
+    for line in build(TEXT, without=(row.id,)):
+        if line.id in row.ground["lines"]:
+            assert "D_" not in line.text
+            assert "z_" not in line.text
+
+
+def test_author_rows_off_leave_the_slips() -> None:
+    lines = build(TEXT, ("ocr",))
+    faults = theorem_faults(THEOREMS["4.8"], TEXT, lines)
+    assert faults == (
+        "theorem 4.8: line 88 does not print (-4, 4, 2)",
+        "theorem 4.8: the table does not list Q6 for plane 2",
+    )
+
+
+def test_first_point_of_theorem_4_8_as_printed_is_in_none_of_its_planes() -> None:
+    theorem = THEOREMS["4.8"]
+    first = theorem.points[0]
+    slip = dataclasses.replace(first, at=printed_point("(-4, -4, 2)"))
+    mine = [p for p in theorem.planes if first.name in p.vertices]
+    assert [p.number for p in mine] == [1, 2, 7]
+    assert all(p.at(first) == 0 != p.at(slip) for p in mine)
+
+
+@pytest.mark.parametrize("theorem", THEOREMS.values(), ids=lambda t: t.id)
+def test_guard_an_altered_coefficient_is_caught(theorem: Theorem) -> None:
+    plane = theorem.planes[0]
+    wrong = dataclasses.replace(plane, coefficients=(plane.coefficients[0] + 1, *plane.coefficients[1:]))
+    faults = theorem_faults(dataclasses.replace(theorem, planes=(wrong, *theorem.planes[1:])), TEXT)
+    assert f"theorem {theorem.id}: plane 1 is not {plane.printed}" in faults
+    assert any("does not contain" in fault for fault in faults)
+
+
+@pytest.mark.parametrize("theorem", THEOREMS.values(), ids=lambda t: t.id)
+def test_guard_an_altered_point_is_caught(theorem: Theorem) -> None:
+    point = theorem.points[-1]
+    wrong = dataclasses.replace(point, at=(point.at[0] + 30, *point.at[1:]))
+    faults = theorem_faults(dataclasses.replace(theorem, points=(*theorem.points[:-1], wrong)), TEXT)
+    assert f"theorem {theorem.id}: {point.name} is not {point.printed}" in faults
+
+
+def test_guard_a_wrong_sign_and_extreme_are_caught() -> None:
+    theorem = THEOREMS["4.2"]
+    wrong = dataclasses.replace(theorem, signs=((7, "P4", "-"),), extremes={"lx": "P2"}, points_stated=7)
+    assert theorem_faults(wrong, TEXT) == (
+        "theorem 4.2: it speaks of 7 points",
+        "theorem 4.2: P2 has not the extreme lx",
+        "theorem 4.2: plane 7 at P4 is 30, stated -",
+    )
+
+
+@pytest.mark.parametrize(
+    ("words", "plane"),
+    [
+        ("2x - 5y + 14z = 0", (2, -5, 14, 0)),
+        ("y - 4 = 0", (0, 1, 0, -4)),
+        ("-28x - 19y - 18z = 0", (-28, -19, -18, 0)),
+        ("80x - 3y + 100z - 400 = 0", (80, -3, 100, -400)),
+    ],
+)
+def test_printed_plane(words: str, plane: tuple[int, ...]) -> None:
+    assert printed_plane(words) == tuple(Fraction(n) for n in plane)

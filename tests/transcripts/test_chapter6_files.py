@@ -1,0 +1,293 @@
+"""The printed examples of chapter 6 as card images: tie to the print, committed files, guards."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from importlib.resources import files
+from pathlib import Path
+
+import pytest
+
+from modern.edition.apparatus import Line
+from modern.edition.chapter6_checks import (
+    check_arithmetic,
+    check_chapter,
+    check_files,
+    check_tie,
+    check_witness,
+)
+from modern.edition.transcripts import (
+    Chapter,
+    TranscriptError,
+    built_files,
+    card_images,
+    cards,
+    chapter6_folder,
+    device_files,
+    load_chapter,
+    main,
+    printed_lines,
+    rebuilt,
+    write_files,
+)
+
+CHAPTER = load_chapter()
+NAMES = [name for *_, name in device_files(CHAPTER)]
+
+
+def altered(line: str, old: str, new: str) -> Chapter:
+    """The chapter with one fragment of one line of the corrected print changed."""
+    lines = tuple(
+        Line(w.id, w.text.replace(old, new, 1), w.page) if w.id == line else w for w in CHAPTER.print
+    )
+    assert lines != CHAPTER.print
+    return dataclasses.replace(CHAPTER, print=lines)
+
+
+def test_the_chapter_has_no_fault() -> None:
+    assert check_chapter(CHAPTER) == ()
+
+
+def test_witness_pages_run_from_103_to_115() -> None:
+    pages = list(dict.fromkeys(line.page for line in CHAPTER.text.witness))
+    assert pages == [str(n) for n in range(103, 116)]
+
+
+def test_witness_has_its_stray_page_number_on_its_page() -> None:
+    (line,) = [w for w in CHAPTER.text.witness if w.text.strip() == "114"]
+    assert (line.id, line.page) == ("450", "114")
+
+
+@pytest.mark.parametrize(("example", "program", "device", "name"), device_files(CHAPTER), ids=NAMES)
+def test_committed_file_is_its_build(example: int, program: int, device: str, name: str) -> None:
+    committed = chapter6_folder().joinpath(*name.split("/")).read_bytes()
+    images = card_images(CHAPTER, example, program, device)
+    assert committed.decode("ascii") == "".join(image + "\n" for image in images)
+    assert all(image == image.rstrip() and len(image) <= 80 and "\t" not in image for image in images)
+
+
+def test_no_other_device_file_is_committed() -> None:
+    folder = Path(str(chapter6_folder()))
+    found = {p.relative_to(folder).as_posix() for p in folder.glob("example*/*")}
+    assert found == set(NAMES)
+
+
+@pytest.mark.parametrize(
+    "entry", [d for d in CHAPTER.layout.devices if d.layer == "layout"], ids=lambda d: str(d.file)
+)
+def test_characters_of_the_cards_are_those_of_the_print(entry) -> None:  # type: ignore[no-untyped-def]
+    """Read from the committed file and the built lines, without the card reader."""
+    committed = chapter6_folder().joinpath(*entry.file.split("/")).read_text(encoding="ascii")
+    printed = "".join(line.text for line in printed_lines(CHAPTER, entry))
+    assert "".join(committed.split()) == "".join(printed.split())
+
+
+def test_proved_columns_are_the_columns_that_are_not_blank() -> None:
+    for example, program, device, _ in device_files(CHAPTER):
+        for card in cards(CHAPTER, example, program, device):
+            if device == "typewriter":
+                assert card.line is None
+                assert not card.proved_columns
+                continue
+            assert card.proved_columns == {i for i, c in enumerate(card.image, start=1) if c != " "}
+            assert (card.line is None) == (card.image == "")
+
+
+def test_a_card_knows_its_printed_line() -> None:
+    """Example 6, equation 4: the four numbers the OCR scattered, and the restored number 4 (p. 115)."""
+    (card,) = [c for c in cards(CHAPTER, 6, 3, "punch") if c.role == "equation" and c.tokens[0].text == "4"]
+    assert card.image == "  4    .40000000E+01   .35000000E+02  -.60000000E+01  -.10400000E+03"
+    assert [t.line for t in card.tokens] == ["464", "464", "464", "464", "466"]
+    assert (card.tokens[1].first, card.tokens[1].last) == (8, 20)
+
+
+@pytest.mark.parametrize(
+    ("example", "program", "image"),
+    [
+        (1, 1, "  4  -.54000000E+02   .00000000E-99  -.23000000E+03  -.70000000E+03"),
+        (2, 1, "  2    -.60000000E+03   .38000000E+02  -.16000000E+02"),
+        (3, 1, "        .10000000E+01   .20000000E+01   .30000000E+01"),
+        (4, 1, "   8 2"),
+        (4, 2, "      -.00000000E-99  -.45000000E+02  -.00000000E-99   .90000000E+02"),
+        (4, 2, "   2   .50000000E+01   .00000000E-99  -.00000000E-99  -.20000000E+02"),
+        (5, 1, "-.16000000E+02-.34000000E+02 .45000000E+02 .15500000E+03   2   3   4"),
+        (5, 3, "  3,  4,  5                 6"),
+        (6, 3, "  2   -.35000000E+02  -.35000000E+02   .15000000E+02  -.00000000E-99"),
+    ],
+)
+def test_card_of_the_print(example: int, program: int, image: str) -> None:
+    assert image in card_images(CHAPTER, example, program, "punch")
+
+
+@pytest.mark.parametrize(
+    ("example", "typed"),
+    [
+        (1, "CONVEX HULL"),
+        (2, "CONVEX HULL"),
+        (3, "CONVEX HULL"),
+        (4, "POINTS ARE COPLANAR"),
+        (5, "POINTS ARE NOT COPLANAR"),
+        (6, "POINTS ARE NOT COPLANAR"),
+    ],
+)
+def test_typed_line_as_chapter_5_states_it(example: int, typed: str) -> None:
+    assert card_images(CHAPTER, example, 1, "typewriter") == (typed,)
+
+
+@pytest.mark.parametrize(("example", "program"), [(4, 2), (5, 3), (6, 3)])
+def test_second_programs_type_nothing(example: int, program: int) -> None:
+    assert card_images(CHAPTER, example, program, "typewriter") == ()
+
+
+def _digits() -> list[tuple[str, str, str]]:
+    """One digit of the first and of the last number of every printed device file."""
+    places = []
+    for entry in CHAPTER.layout.devices:
+        found = [
+            (line.id, n)
+            for line in printed_lines(CHAPTER, entry)
+            for n in re.findall(r"\.\d{8}E...", line.text)
+        ]
+        for line, number in (found[0], found[-1]) if found else ():
+            digit = number[1]
+            places.append((line, number, number.replace(digit, str((int(digit) + 1) % 10), 1)))
+    return places
+
+
+def test_every_printed_file_has_a_digit_to_alter() -> None:
+    assert len(_digits()) == 2 * len([d for d in CHAPTER.layout.devices if d.layer == "layout"])
+
+
+@pytest.mark.parametrize(("line", "old", "new"), _digits())
+def test_guard_one_altered_digit_is_caught(line: str, old: str, new: str) -> None:
+    chapter = altered(line, old, new)
+    assert check_files(chapter, chapter6_folder())
+    assert check_tie(chapter) == ()
+
+
+@pytest.mark.parametrize(
+    ("line", "old", "new", "fault"),
+    [
+        (
+            "67",
+            ".65020000",
+            ".65030000",
+            "example2/program1.punch: an endpoint is no point of the input deck",
+        ),
+        (
+            "31",
+            ".15880000",
+            ".15890000",
+            "example1/program1.punch: equation 3 does not vanish at its vertices",
+        ),
+        (
+            "213",
+            ".19000000",
+            ".18000000",
+            "example5/program1.punch: its points are not those of the input deck",
+        ),
+        (
+            "320",
+            ".17100000",
+            ".17200000",
+            "example5/program3.punch: equation 4 does not vanish at its vertices",
+        ),
+        ("178", "15", "16", "example5/program1.deck: card 1 says N is not 15"),
+        ("385", "N=10", "N=11", "example6/program3.punch: card 3 says N is not 10"),
+    ],
+)
+def test_guard_arithmetic_of_the_print(line: str, old: str, new: str, fault: str) -> None:
+    assert fault in check_arithmetic(altered(line, old, new))
+
+
+def test_guard_a_reversed_plane_is_caught() -> None:
+    """An equation with all its signs turned round still vanishes at its vertices; the points then lie outside."""
+    lines = [
+        Line(w.id, re.sub(r"(-?)(\.\d+E)", lambda m: ("" if m[1] else "-") + m[2], w.text), w.page)
+        if w.id in ("316", "317", "318")
+        else w
+        for w in CHAPTER.print
+    ]
+    faults = check_arithmetic(dataclasses.replace(CHAPTER, print=tuple(lines)))
+    assert faults == ("example5/program3.punch: equation 3 has a point of the deck on its positive side",)
+
+
+def test_guard_an_unused_line_is_caught() -> None:
+    layout = dataclasses.replace(CHAPTER.layout, headings=CHAPTER.layout.headings[1:])
+    assert check_tie(rebuilt(CHAPTER.text, layout)) == (
+        "line 1 of the corrected print belongs to no card and no heading",
+    )
+
+
+def test_guard_a_line_used_twice_is_caught() -> None:
+    layout = dataclasses.replace(CHAPTER.layout, headings=(*CHAPTER.layout.headings, "58"))
+    assert check_tie(rebuilt(CHAPTER.text, layout)) == ("line 58 is used twice",)
+
+
+def test_guard_a_changed_witness_is_caught(tmp_path: Path) -> None:
+    for name in ("chapter6.toml", "witness.txt"):
+        (tmp_path / name).write_bytes(chapter6_folder().joinpath(name).read_bytes())
+    assert check_witness(tmp_path) == ()
+    text = (tmp_path / "witness.txt").read_text(encoding="utf-8")
+    (tmp_path / "witness.txt").write_text(text.replace(".65020000", ".65020001"), encoding="utf-8")
+    (fault,) = check_witness(tmp_path)
+    assert fault.startswith("witness.txt: its digest is ")
+
+
+def test_guard_a_touched_device_file_is_caught(tmp_path: Path) -> None:
+    write_files(CHAPTER, tmp_path)
+    assert check_files(CHAPTER, tmp_path) == ()
+    path = tmp_path / "example5" / "program3.punch"
+    path.write_text(path.read_text().replace(".24000000E+02", ".24000001E+02"))
+    (tmp_path / "example1" / "program1.deck").unlink()
+    assert check_files(CHAPTER, tmp_path) == (
+        "example1/program1.deck is missing",
+        "example5/program3.punch is not what witness, apparatus and layout give",
+    )
+
+
+def test_written_files_are_the_built_ones(tmp_path: Path) -> None:
+    names = write_files(CHAPTER, tmp_path)
+    assert names == tuple(NAMES)
+    assert {n: (tmp_path / n).read_text() for n in names} == dict(built_files(CHAPTER))
+    assert not list(tmp_path.rglob("*.new"))
+
+
+@pytest.mark.parametrize(
+    ("line", "old", "new", "message"),
+    [
+        ("67", ".65020000E+04", ".6502E+04", r"columns 8 to 21: line 67 should have a number of 14 columns"),
+        ("66", "1", "1234", r"line 66: 1234 is wider than its field$"),
+        (
+            "60",
+            "POINTS ARE COLLINEAR",
+            "POINTS ARE COLL",
+            r"line 60 should have 9 characters of words, it has 'COLL'$",
+        ),
+        ("90", "DETERMINED", "DETERMINED 5", r"line 90: '5' is left over$"),
+    ],
+)
+def test_a_print_that_does_not_fit_is_one_clear_line(line: str, old: str, new: str, message: str) -> None:
+    with pytest.raises(TranscriptError, match=message) as caught:
+        card_images(altered(line, old, new), 2, 1, "punch")
+    assert "\n" not in str(caught.value)
+    assert str(caught.value).startswith("example2/program1.punch: ")
+
+
+def test_unknown_device_is_one_clear_line() -> None:
+    with pytest.raises(TranscriptError, match=r"^chapter 6 has no punch for example 7, program 1$"):
+        card_images(CHAPTER, 7, 1, "punch")
+
+
+def test_command_line_checks_and_refuses(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--check"]) == 0
+    assert capsys.readouterr().out == ""
+    assert main(["--run"]) == 2
+    assert capsys.readouterr().err.startswith("usage: ")
+
+
+def test_no_emendation_brings_in_what_the_card_code_lacks() -> None:
+    """Printed lines of the corrected print are ASCII (the headings of the thesis too)."""
+    assert all(line.text.isascii() for line in CHAPTER.print)
+    assert not files("transcripts").joinpath("chapter6", "witness.txt").read_text(encoding="utf-8").isascii()

@@ -1,0 +1,231 @@
+"""Every row of the chapter 6 apparatus stands on its ground; a superfluous or wrong row is caught."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from collections import Counter
+from importlib.resources import files
+
+import pytest
+
+from modern.edition.apparatus import Change, Row, Text, load
+from modern.edition.chapter6_grounds import numbers, of_role, row_faults, well_formed
+from modern.edition.transcripts import E14, Card, Chapter, cards, device_files, load_chapter, rebuilt
+
+CHAPTER = load_chapter()
+KINDS = {"dropped-zero", "lost-sign", "lost-point", "lost", "fused", "displaced", "noise", "misread", "slip"}
+
+
+def with_rows(*rows: Row) -> Chapter:
+    """The chapter with rows put in place of those of the same id, or added at the end."""
+    new = {row.id: row for row in rows}
+    kept = [new.pop(row.id, row) for row in CHAPTER.text.rows]
+    text: Text = dataclasses.replace(CHAPTER.text, rows=(*kept, *new.values()))
+    return rebuilt(text, CHAPTER.layout)
+
+
+def faults(chapter: Chapter, row_id: str) -> tuple[str, ...]:
+    return row_faults(chapter, chapter.text.row(row_id))
+
+
+def find(card: str, kind: str) -> Row:
+    (row,) = [row for row in CHAPTER.text.rows if row.card == card and row.kind == kind]
+    return row
+
+
+@pytest.mark.parametrize("row", CHAPTER.text.rows, ids=lambda row: row.id)
+def test_row_stands_on_its_ground(row: Row) -> None:
+    assert row_faults(CHAPTER, row) == ()
+
+
+def test_rows_have_known_kinds_and_reasons() -> None:
+    for row in CHAPTER.text.rows:
+        assert row.kind in KINDS
+        assert (row.kind == "slip") == (row.layer == "typist")
+        assert row.reason.endswith(".")
+        assert len(row.evidence) > 20
+
+
+def test_row_ids_follow_the_pages() -> None:
+    ids = [row.id for row in CHAPTER.text.rows]
+    pages = [int(row.page) for row in CHAPTER.text.rows]
+    assert ids == [f"C6-{n:03d}" for n in range(1, len(ids) + 1)]
+    assert pages == sorted(pages)
+
+
+def test_dropped_zero_rows_add_a_zero_to_the_run_and_nothing_else() -> None:
+    rows = [row for row in CHAPTER.text.rows if row.kind == "dropped-zero"]
+    assert rows
+    for row in rows:
+        (change,) = row.changes
+        old, new = ("".join(part.split()) for part in (change.witness, change.lemma))
+        assert len(new) == len(old) + 1
+        assert re.sub("0+", "0", new) == re.sub("0+", "0", old)
+
+
+def test_displaced_rows_move_characters_and_change_none() -> None:
+    for row in CHAPTER.text.rows:
+        if row.kind == "displaced":
+            old, new = ("".join(getattr(c, part) for c in row.changes) for part in ("witness", "lemma"))
+            assert Counter("".join(old.split())) == Counter("".join(new.split())), row.id
+
+
+def test_deck_grounds_name_the_same_point() -> None:
+    """The card a `deck` ground names has all three coordinates of the row's own card, not only the one number."""
+    seen = 0
+    for row in CHAPTER.text.rows:
+        for ground in (row.ground, row.ground.get("also", {})):
+            if ground.get("kind") != "deck":
+                continue
+            named = cards(CHAPTER, ground["example"], ground["program"], ground["device"])[ground["card"] - 1]
+            lines = {change.line for change in row.changes}
+            own = [c for c in all_cards() if lines & {t.line for t in c.tokens if E14.fullmatch(t.text)}]
+            assert any(sorted(numbers(c)) == sorted(numbers(named)) for c in own), row.id
+            seen += 1
+    assert seen > 100
+
+
+def all_cards() -> list[Card]:
+    return [card for e, p, d, _ in device_files(CHAPTER) for card in cards(CHAPTER, e, p, d)]
+
+
+@pytest.mark.parametrize(
+    ("text", "signed", "good"),
+    [
+        (" .20000000E+01-.16000000E+02", False, True),
+        (" .2000000E+01", False, False),  # 13 characters
+        ("50000000E+01", False, False),  # sign and point gone
+        ("+.10000000E+01.20000000E+01", True, False),  # no sign in an input deck
+        ("- +.20000000E+01", True, False),  # a list dash
+        ("--6000000E+01", False, False),
+        (".30000000E+01\t.00000000 E -99", False, False),
+        ("8. 2", False, False),
+        (". 3", False, False),
+        ("3, 4 -2", False, False),
+        ("~0000000E-99", False, False),
+        ("AX + BY + CZ + D = 0", False, True),
+        ("1, 2 3", False, True),
+    ],
+)
+def test_width_ground(text: str, signed: bool, good: bool) -> None:
+    assert well_formed(text, signed) is good
+
+
+def extra(ground: dict[str, object], change: Change, kind: str = "noise") -> Row:
+    return Row(
+        "X-1", "chapter6", "103", "none", "ocr", kind, "None.", "None at all.", "certain", (change,), ground
+    )
+
+
+@pytest.mark.parametrize(
+    ("ground", "change"),
+    [
+        ({"kind": "width"}, Change("67", ".65020000E+04", " .65020000E+04")),
+        (
+            {"kind": "deck", "example": 2, "program": 1, "device": "deck", "card": 9, "field": 1},
+            Change("67", "0E+04", "0E+04 "),
+        ),
+        (
+            {"kind": "arithmetic", "check": "plane", "example": 5, "program": 3, "equation": 3, "vertices": [2, 3, 5]},
+            Change("337", "2,", " 2,"),
+        ),
+        (
+            {"kind": "sibling", "words": "CONVEX HULL", "own": ["58"], "lines": ["17"]},
+            Change("58", "CONVEX HULL", "CONVEX  HULL"),
+        ),
+        ({"kind": "order", "example": 4, "program": 2, "role": "vertex"}, Change("144", "2\t", "2 \t")),
+        ({"kind": "order", "lines": ["245", "246"]}, Change("245", ".3", " .3")),
+    ],
+)  # fmt: skip
+def test_a_superfluous_row_is_caught(ground: dict[str, object], change: Change) -> None:
+    chapter = with_rows(extra(ground, change))
+    (fault,) = faults(chapter, "X-1")
+    assert fault.startswith("row X-1: its ground")
+
+
+def test_a_wrong_digit_in_a_row_is_caught_by_the_second_ground() -> None:
+    row = find("example 5, program 3, equation 2, A", "dropped-zero")
+    change = dataclasses.replace(row.changes[0], lemma=row.changes[0].lemma.replace("00E", "01E"))
+    assert change != row.changes[0]
+    assert faults(with_rows(dataclasses.replace(row, changes=(change,))), row.id)
+
+
+def test_a_wrong_vertex_is_caught() -> None:
+    row = find("example 6, program 1, intermediate deck, plane 2", "lost")
+    change = dataclasses.replace(row.changes[0], lemma="1 2 3")
+    assert faults(with_rows(dataclasses.replace(row, changes=(change,))), row.id)
+
+
+def test_the_minus_zero_of_example_4_rests_on_the_page() -> None:
+    """Without its minus equation 2's C would be the only number of the page to lose its point and no minus."""
+    row = find("example 4, program 2, equation 2, C", "lost-sign")
+    assert row.certainty == "probable"
+    change = dataclasses.replace(row.changes[0], lemma="\t.00000000E-99")
+    assert faults(with_rows(dataclasses.replace(row, changes=(change,))), row.id)
+
+
+def test_lost_points_of_example_4_line_by_line() -> None:
+    """Page 108: each number whose first witness character is a digit lost its point, and is negative in the print."""
+    negatives, zeros = 0, 0
+    printed = {line.id: line.text for line in CHAPTER.print}
+    tables = [str(n) for n in (*range(143, 148), *range(152, 157))]
+    for line in CHAPTER.text.witness:
+        if line.id in tables:
+            assert line.page == "108"
+            cells = [cell.strip() for cell in line.text.split("\t") if "E" in cell]
+            for cell, number in zip(cells, E14.findall(printed[line.id]), strict=True):
+                assert (cell[0].isdigit()) == number.startswith("-"), (line.id, cell, number)
+                negatives += number.startswith("-")
+                zeros += number == "-.00000000E-99"
+    assert (negatives, zeros) == (13, 1)
+
+
+def test_an_unknown_ground_is_a_fault() -> None:
+    chapter = with_rows(extra({"kind": "opinion"}, Change("58", "CONVEX", " CONVEX")))
+    assert faults(chapter, "X-1") == ("row X-1: there is no ground 'opinion'",)
+
+
+def test_readme_counts_the_rows() -> None:
+    table = files("transcripts").joinpath("README.md").read_text(encoding="utf-8")
+    stated = {
+        (text, layer, kind): int(n)
+        for text, layer, kind, n in re.findall(
+            r"^\| (chapter\d) \| ([\w-]+) \| ([\w-]+) \| (\d+) \|$", table, re.M
+        )
+    }
+    counted: Counter[tuple[str, str, str]] = Counter()
+    for name in ("chapter6", "chapter4"):
+        for row in load(files("transcripts").joinpath(name), name).rows:
+            counted[name, row.layer, row.kind] += 1
+    assert stated == dict(counted)
+
+
+def test_readme_counts_the_cards() -> None:
+    words = " ".join(files("transcripts").joinpath("README.md").read_text(encoding="utf-8").split())
+    punched = [card for card in all_cards() if card.device != "typewriter"]
+    tokens = [t.text for card in punched for t in card.tokens]
+    fields = sum(bool(E14.fullmatch(t)) for t in tokens)
+    integers = sum(t.isdigit() for t in tokens)
+    printed = sum(bool(card.tokens) for card in punched)
+    assert (
+        f"{fields} numbers in E14.8 fields, {integers} integers and {len(tokens) - fields - integers} words"
+        in words
+    )
+    assert f"on {printed} printed cards; the rest of the {len(punched)} cards are blank" in words
+
+
+def test_readme_counts_the_zeros() -> None:
+    output = [
+        t.text
+        for card in all_cards()
+        if card.device == "punch" and (card.program > 1 or card.example < 4 or card.role == "carrier")
+        for t in card.tokens
+        if E14.fullmatch(t.text) and t.text[-13:-3] == ".00000000E"
+    ]
+    words = " ".join(files("transcripts").joinpath("README.md").read_text(encoding="utf-8").split())
+    minus = [t for t in output if t.startswith("-")]
+    assert f"Of the {len(output)} zeros" in words
+    assert len(minus) == 8
+    assert "eight carry a minus: seven are printed with it" in words
+    assert of_role(CHAPTER, 4, 1, "carrier")
