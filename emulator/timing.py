@@ -81,10 +81,14 @@ COSTS: dict[str, Cost] = {
 SUBSCRIPT = Cost(2.0, SUBSCRIPTS, True)
 SUBSCRIPT_2 = Cost(7.0, SUBSCRIPTS, True)
 FIELD_COSTS = {
-    "E": Cost(25.0, CONVERSION, True),
-    "F": Cost(25.0, CONVERSION, True),
-    "I": Cost(8.0, CONVERSION, True),
+    "E<": Cost(100.0, CONVERSION, True),
+    "F<": Cost(100.0, CONVERSION, True),
+    "I<": Cost(20.0, CONVERSION, True),
+    "E>": Cost(180.0, CONVERSION, True),
+    "F>": Cost(180.0, CONVERSION, True),
+    "I>": Cost(30.0, CONVERSION, True),
 }
+"""Cost of a number read (<) or written (>), fitted to runs of examples 1 and 2 compiled by PDQ FORTRAN."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,7 +137,7 @@ def measure(program: Program, result: Result) -> Timing:
         causes.setdefault(COSTS[name].cause, []).append((count, COSTS[name]))
     causes.setdefault(SUBSCRIPTS, []).extend([(subscripts[1], SUBSCRIPT), (subscripts[2], SUBSCRIPT_2)])
     for kind, count in result.numbers:
-        causes.setdefault(CONVERSION, []).append((count, FIELD_COSTS[kind[0]]))
+        causes.setdefault(CONVERSION, []).append((count, FIELD_COSTS[kind]))
     processor = tuple(
         _row(cause, causes.get(cause, [])) for cause in (ARITHMETIC, FIXED, SUBSCRIPTS, CONTROL, CONVERSION)
     )

@@ -6,7 +6,6 @@ p. 58-59; its data sheet gives z the columns 29 to 52, the FORMAT takes 29 to 42
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 from emulator.arithmetic import TRUNCATING, Rules
@@ -59,8 +58,15 @@ def check(deck: Deck, rules: Rules = TRUNCATING.rules) -> CheckedDeck:
                 f"{deck.source}: card {cards[-1].number}, column 1: the deck ends after {len(points)} of {n} points "
                 f"(N is on card {cards[at].number})"
             )
+        seen: dict[tuple[tuple[int, int], ...], int] = {}
         for card in points:
-            warnings.extend(_point(deck, card, rules))
+            numbers = _point(deck, card, rules, warnings)
+            first = seen.setdefault(numbers, card.number)
+            if first != card.number:
+                warnings.append(
+                    f"{deck.source}: card {card.number}, column 1: the point of card {first} again; "
+                    "the thesis takes distinct points"
+                )
         sets.append(DataSet(n, (cards[at], *points)))
         at += 1 + n
     if not sets:
@@ -86,14 +92,19 @@ def _count(deck: Deck, card: Card, warnings: list[str]) -> int:
     return n
 
 
-def _point(deck: Deck, card: Card, rules: Rules) -> Iterator[str]:
+def _point(deck: Deck, card: Card, rules: Rules, warnings: list[str]) -> tuple[tuple[int, int], ...]:
+    """The three numbers of a card, minus zero as zero."""
+    numbers = []
     for k, axis in enumerate("xyz"):
         first = 1 + 14 * k
         try:
             number: Read = read_floating(COORDINATE, card.columns(first, first + 13), rules)
         except FieldError as error:
             raise CardError(deck.source, card.number, first, f"{axis}: {error}") from None
+        numbers.append((number.mantissa, number.exponent if number.mantissa else 0))
         if number.warning:
-            yield f"{deck.source}: card {card.number}, column {first}: {axis}: {number.warning}"
+            warnings.append(f"{deck.source}: card {card.number}, column {first}: {axis}: {number.warning}")
     if card.text[_LAST_COLUMN:].strip():
-        yield f"{deck.source}: card {card.number}, column {_LAST_COLUMN + 1}: what stands behind z is not read"
+        column = _LAST_COLUMN + 1
+        warnings.append(f"{deck.source}: card {card.number}, column {column}: what stands behind z is not read")
+    return tuple(numbers)

@@ -77,7 +77,7 @@ def run_hull(
     steps = [_run(load(first), first, deck, options, watch)]
     typed = steps[0].result.typed
     second = "program2" if COPLANAR in typed else "program3" if NOT_COPLANAR in typed else ""
-    if second and steps[0].result.ending.normal:
+    if second and steps[0].result.ending.normal and not refusal(steps[0].result):
         middle = deck_from_lines(f"cards from {first}", steps[0].result.punched)
         steps.append(_run(load(second), second, middle, options, watch))
     return HullRun(tuple(steps))

@@ -78,9 +78,7 @@ def check_tie(chapter: Chapter) -> tuple[str, ...]:
         if solid("".join(images)) != solid("".join(line.text for line in lines)):
             faults.append(f"{entry.file}: the characters of its cards are not those of its printed lines")
     known = [line.id for line in chapter.print]
-    faults += [
-        f"line {i} of the corrected print belongs to no card and no heading" for i in known if i not in used
-    ]
+    faults += [f"line {i} of the corrected print belongs to no card and no heading" for i in known if i not in used]
     faults += [f"line {i} is used twice" for i in sorted(set(used)) if used.count(i) > 1]
     faults += [f"heading line {i} is not in the corrected print" for i in used if i not in known]
     return tuple(faults)
@@ -163,15 +161,11 @@ def _points(chapter: Chapter, example: int, program: int) -> list[Point]:
     roles = ("point", "inside", "boundary", "vertex", "endpoint")
     found = [numbers(card) for role in roles for card in of_role(chapter, example, program, role)]
     if program == 1 and of_role(chapter, example, 1, "carrier"):
-        return [
-            (x, y, z) for x, z, y in found
-        ]  # KPROJ = 2: the deck for program 2 has y last (listing 1, label 213)
+        return [(x, y, z) for x, z, y in found]  # KPROJ = 2: the deck for program 2 has y last (listing 1, label 213)
     return found
 
 
-def _plane_faults(
-    chapter: Chapter, example: int, program: int, name: str, deck: Sequence[Point]
-) -> list[str]:
+def _plane_faults(chapter: Chapter, example: int, program: int, name: str, deck: Sequence[Point]) -> list[str]:
     faults: list[str] = []
     if not planes(chapter, example, program):
         return faults

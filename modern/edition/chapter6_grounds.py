@@ -101,9 +101,7 @@ def integers(card: Card) -> tuple[int, ...]:
     return tuple(int(t.text) for t in card.tokens if t.text.isdigit())
 
 
-def of_role(
-    chapter: Chapter, example: int, program: int, role: str, device: str = "punch"
-) -> tuple[Card, ...]:
+def of_role(chapter: Chapter, example: int, program: int, role: str, device: str = "punch") -> tuple[Card, ...]:
     """The cards of one role, in their order on the device file."""
     return tuple(card for card in cards(chapter, example, program, device) if card.role == role)
 
@@ -148,13 +146,8 @@ def incidences(chapter: Chapter, example: int, program: int) -> dict[int, tuple[
     if program == 1 and (table := of_role(chapter, example, 1, "incidence")):
         return {integers(card)[-1]: tuple(int(t.text.rstrip(",")) for t in card.tokens[:2]) for card in table}
     if ends := of_role(chapter, example, program, "endpoint"):
-        return {
-            integers(c)[0]: tuple(range(1, len(ends) + 1))
-            for c in of_role(chapter, example, program, "equation")
-        }
-    return {
-        integers(card)[-1]: integers(card)[:-1] for card in of_role(chapter, example, program, "incidence")
-    }
+        return {integers(c)[0]: tuple(range(1, len(ends) + 1)) for c in of_role(chapter, example, program, "equation")}
+    return {integers(card)[-1]: integers(card)[:-1] for card in of_role(chapter, example, program, "incidence")}
 
 
 def planes(chapter: Chapter, example: int, program: int) -> dict[int, tuple[Decimal, ...]]:

@@ -110,9 +110,7 @@ def _device(raw: Mapping[str, Any], shapes: Mapping[str, CardShape]) -> DeviceLa
             raise LayoutError(f"layout.toml: {raw['file']}: there is no card {entry['id']}")
         cards += [(shapes[entry["id"]], entry.get("role", ""))] * entry.get("times", 1)
     if raw["layer"] not in ("layout", "stated") or (raw["layer"] == "layout") != ("lines" in raw):
-        raise LayoutError(
-            f"layout.toml: {raw['file']}: layer `layout` names printed lines, layer `stated` none"
-        )
+        raise LayoutError(f"layout.toml: {raw['file']}: layer `layout` names printed lines, layer `stated` none")
     return DeviceLayout(
         example=raw["example"],
         program=raw["program"],

@@ -94,9 +94,7 @@ def load_chapter(layers: Iterable[str] | None = None, without: Collection[str] =
     return rebuilt(load(folder, "chapter6"), load_layout(folder), layers, without)
 
 
-def rebuilt(
-    text: Text, layout: Layout, layers: Iterable[str] | None = None, without: Collection[str] = ()
-) -> Chapter:
+def rebuilt(text: Text, layout: Layout, layers: Iterable[str] | None = None, without: Collection[str] = ()) -> Chapter:
     """A chapter from a text and a layout already read; used to see what the print is without some rows."""
     wanted = tuple(text.default if layers is None else layers)
     return Chapter(text, build(text, wanted, without), layout, wanted, frozenset(without))
@@ -133,9 +131,7 @@ def cards(chapter: Chapter, example: int, program: int, device: str) -> tuple[Ca
     """
     entry = device_layout(chapter, example, program, device)
     if entry.layer == "stated":
-        return tuple(
-            Card(example, program, device, i, "", "", t, ()) for i, t in enumerate(entry.typed, start=1)
-        )
+        return tuple(Card(example, program, device, i, "", "", t, ()) for i, t in enumerate(entry.typed, start=1))
     reader = _Reader(entry.file, printed_lines(chapter, entry))
     result = []
     for number, (shape, role) in enumerate(entry.cards, start=1):
@@ -188,9 +184,7 @@ class _Reader:
         line = self._lines[self._line]
         found = self._word(field.width) if field.word else self._number(field.width)
         if found is None:
-            wanted = (
-                f"{field.width} characters of words" if field.word else f"a number of {field.width} columns"
-            )
+            wanted = f"{field.width} characters of words" if field.word else f"a number of {field.width} columns"
             rest = line.text[self._at :].strip()
             raise TranscriptError(f"{place}: line {line.id} should have {wanted}, it has {rest!r}")
         if len(found) > field.width:
@@ -201,9 +195,7 @@ class _Reader:
     def finish(self) -> None:
         if self._seek():
             line = self._lines[self._line]
-            raise TranscriptError(
-                f"{self._name}: line {line.id}: {line.text[self._at :].strip()!r} is left over"
-            )
+            raise TranscriptError(f"{self._name}: line {line.id}: {line.text[self._at :].strip()!r} is left over")
 
     def _seek(self) -> bool:
         while self._line < len(self._lines):

@@ -182,6 +182,12 @@ def test_accepted_line_ends_and_blank_fields(room: Path, capsys: pytest.CaptureF
     assert "warning: blank.deck: card 2, column 1: x: a blank field is read as zero" in err
 
 
+def test_a_point_that_stands_twice_is_mentioned(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("twice.deck").write_text(DECK.replace(" 4", " 5") + "1.0           -.0           .0\n")
+    _, _, err = call(capsys, "hull", "twice.deck")
+    assert "warning: twice.deck: card 6, column 1: the point of card 3 again" in err
+
+
 def test_run_ends_normally_at_the_empty_hopper(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert call(capsys, "run", "good.f", "x.deck") == (0, " .20000000E+01\n .30000000E+01\n", "")
 
