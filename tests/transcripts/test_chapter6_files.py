@@ -38,9 +38,7 @@ NAMES = [name for *_, name in device_files(CHAPTER)]
 
 def altered(line: str, old: str, new: str) -> Chapter:
     """The chapter with one fragment of one line of the corrected print changed."""
-    lines = tuple(
-        Line(w.id, w.text.replace(old, new, 1), w.page) if w.id == line else w for w in CHAPTER.print
-    )
+    lines = tuple(Line(w.id, w.text.replace(old, new, 1), w.page) if w.id == line else w for w in CHAPTER.print)
     assert lines != CHAPTER.print
     return dataclasses.replace(CHAPTER, print=lines)
 
@@ -73,9 +71,7 @@ def test_no_other_device_file_is_committed() -> None:
     assert found == set(NAMES)
 
 
-@pytest.mark.parametrize(
-    "entry", [d for d in CHAPTER.layout.devices if d.layer == "layout"], ids=lambda d: str(d.file)
-)
+@pytest.mark.parametrize("entry", [d for d in CHAPTER.layout.devices if d.layer == "layout"], ids=lambda d: str(d.file))
 def test_characters_of_the_cards_are_those_of_the_print(entry) -> None:  # type: ignore[no-untyped-def]
     """Read from the committed file and the built lines, without the card reader."""
     committed = chapter6_folder().joinpath(*entry.file.split("/")).read_text(encoding="ascii")
@@ -144,11 +140,7 @@ def _digits() -> list[tuple[str, str, str]]:
     """One digit of the first and of the last number of every printed device file."""
     places = []
     for entry in CHAPTER.layout.devices:
-        found = [
-            (line.id, n)
-            for line in printed_lines(CHAPTER, entry)
-            for n in re.findall(r"\.\d{8}E...", line.text)
-        ]
+        found = [(line.id, n) for line in printed_lines(CHAPTER, entry) for n in re.findall(r"\.\d{8}E...", line.text)]
         for line, number in (found[0], found[-1]) if found else ():
             digit = number[1]
             places.append((line, number, number.replace(digit, str((int(digit) + 1) % 10), 1)))

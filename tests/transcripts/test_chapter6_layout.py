@@ -40,9 +40,7 @@ def test_format_columns(text: str, values: int, expected: list[list[tuple[int, i
     assert columns(text, values) == expected
 
 
-@pytest.mark.parametrize(
-    ("text", "values"), [("(F8.3)", 1), ("(I2)", 2), ("I2", 1), ("(5HABC)", 0), ("(I2,Q)", 1)]
-)
+@pytest.mark.parametrize(("text", "values"), [("(F8.3)", 1), ("(I2)", 2), ("I2", 1), ("(5HABC)", 0), ("(I2,Q)", 1)])
 def test_format_text_errors_are_one_line(text: str, values: int) -> None:
     with pytest.raises(FormatTextError) as caught:
         records(text, values)
@@ -57,9 +55,7 @@ def test_layout_agrees_with_its_formats() -> None:
 @pytest.mark.parametrize("entry", CHAPTER.layout.formats, ids=lambda f: f"p{f.program}-{f.number}")
 def test_listed_format_stands_in_the_listing(entry: Format) -> None:
     """`listed` is what the OCR of the listing says, blanks apart; a change to it carries a note."""
-    witness = (
-        files("fortran_src").joinpath("witness", f"program{entry.program}.txt").read_text(encoding="utf-8")
-    )
+    witness = files("fortran_src").joinpath("witness", f"program{entry.program}.txt").read_text(encoding="utf-8")
     statement = f"{entry.number}FORMAT{entry.listed}".replace(" ", "")
     assert statement in witness.replace(" ", "")
     assert (entry.listed == entry.text) == (not entry.note)
@@ -67,11 +63,7 @@ def test_listed_format_stands_in_the_listing(entry: Format) -> None:
 
 def test_listed_format_stands_on_its_page() -> None:
     for entry in CHAPTER.layout.formats:
-        witness = (
-            files("fortran_src")
-            .joinpath("witness", f"program{entry.program}.txt")
-            .read_text(encoding="utf-8")
-        )
+        witness = files("fortran_src").joinpath("witness", f"program{entry.program}.txt").read_text(encoding="utf-8")
         page = next(p for p in witness.split("## page ") if p.startswith(f"{entry.page}\n"))
         assert f"{entry.number}FORMAT{entry.listed}".replace(" ", "") in page.replace(" ", "")
 
@@ -99,9 +91,7 @@ def with_card(card_id: str, **changes: object) -> Chapter:
 def test_guard_a_moved_column_is_caught() -> None:
     card = next(c for c in CHAPTER.layout.cards if c.id == "p1.10.1")
     moved = tuple(dataclasses.replace(f, first=f.first + 1, last=f.last + 1) for f in card.fields)
-    assert check_layout(with_card("p1.10.1", fields=moved)) == (
-        "card p1.10.1: its columns are not those of FORMAT 10",
-    )
+    assert check_layout(with_card("p1.10.1", fields=moved)) == ("card p1.10.1: its columns are not those of FORMAT 10",)
 
 
 def without_card(file: str, at: int) -> Chapter:

@@ -113,9 +113,7 @@ def test_width_ground(text: str, signed: bool, good: bool) -> None:
 
 
 def extra(ground: dict[str, object], change: Change, kind: str = "noise") -> Row:
-    return Row(
-        "X-1", "chapter6", "103", "none", "ocr", kind, "None.", "None at all.", "certain", (change,), ground
-    )
+    return Row("X-1", "chapter6", "103", "none", "ocr", kind, "None.", "None at all.", "certain", (change,), ground)
 
 
 @pytest.mark.parametrize(
@@ -190,9 +188,7 @@ def test_readme_counts_the_rows() -> None:
     table = files("transcripts").joinpath("README.md").read_text(encoding="utf-8")
     stated = {
         (text, layer, kind): int(n)
-        for text, layer, kind, n in re.findall(
-            r"^\| (chapter\d) \| ([\w-]+) \| ([\w-]+) \| (\d+) \|$", table, re.M
-        )
+        for text, layer, kind, n in re.findall(r"^\| (chapter\d) \| ([\w-]+) \| ([\w-]+) \| (\d+) \|$", table, re.M)
     }
     counted: Counter[tuple[str, str, str]] = Counter()
     for name in ("chapter6", "chapter4"):
@@ -208,10 +204,7 @@ def test_readme_counts_the_cards() -> None:
     fields = sum(bool(E14.fullmatch(t)) for t in tokens)
     integers = sum(t.isdigit() for t in tokens)
     printed = sum(bool(card.tokens) for card in punched)
-    assert (
-        f"{fields} numbers in E14.8 fields, {integers} integers and {len(tokens) - fields - integers} words"
-        in words
-    )
+    assert f"{fields} numbers in E14.8 fields, {integers} integers and {len(tokens) - fields - integers} words" in words
     assert f"on {printed} printed cards; the rest of the {len(punched)} cards are blank" in words
 
 
