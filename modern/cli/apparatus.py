@@ -12,7 +12,9 @@ from emulator.errors import DeckError
 from modern.cli.main import DIFFERS, OK
 from modern.edition import decks
 from modern.edition.apparatus import Row
-from modern.edition.grounds import check_decks, check_row
+from modern.edition.chapter6_checks import check_chapter
+from modern.edition.grounds import Finding, check_decks, check_row
+from modern.edition.transcripts import device_files, load_chapter
 
 
 def main(args: argparse.Namespace) -> int:
@@ -34,9 +36,21 @@ def main(args: argparse.Namespace) -> int:
         print(findings[-1].line())
     if sys.stderr.isatty():
         print("\r", end="", file=sys.stderr)
+    if args.program is None and args.layer is None:
+        findings.append(check_transcripts())
+        print(findings[-1].line())
     failed = sum(not finding.holds for finding in findings)
     print(f"{len(findings) - failed} of {len(findings)} hold" + (f"; {failed} FAIL" if failed else ""))
     return DIFFERS if failed else OK
+
+
+def check_transcripts() -> Finding:
+    """Whether chapter 6's cards are its witness, rows and layout, and each of its rows is needed."""
+    chapter = load_chapter()
+    faults = check_chapter(chapter)
+    files, rows = len(device_files(chapter)), len(chapter.text.rows)
+    words = f"{files} device files are witness, {rows} rows and layout, each row needed"
+    return Finding("chapter6", not faults, words if not faults else faults[0])
 
 
 def show(row: Row, width: int) -> Iterator[str]:

@@ -29,11 +29,11 @@ from modern.edition.chapter6_grounds import (
     vertices,
 )
 from modern.edition.chapter6_layout import CardShape, DeviceLayout
+from modern.edition.printed import chapter6_folder
 from modern.edition.transcripts import (
     Chapter,
     built_files,
     cards,
-    chapter6_folder,
     device_files,
     printed_lines,
 )

@@ -23,7 +23,7 @@ class Print:
     lines: tuple[str, ...]
 
 
-def chapter() -> Traversable:
+def chapter6_folder() -> Traversable:
     """The data folder of chapter 6, in a checkout or an installed wheel."""
     return files("transcripts").joinpath("chapter6")
 
@@ -31,13 +31,13 @@ def chapter() -> Traversable:
 def input_deck(example: int, folder: Traversable | None = None) -> Deck:
     """The example's input data for program 1."""
     name = f"example{example}/program1.deck"
-    text = (folder or chapter()).joinpath(*name.split("/")).read_text(encoding="ascii")
+    text = (folder or chapter6_folder()).joinpath(*name.split("/")).read_text(encoding="ascii")
     return deck_from_text(name, text)
 
 
 def prints(example: int, folder: Traversable | None = None) -> Iterator[Print]:
     """Every device of every program the example prints, program by program."""
-    place = (folder or chapter()).joinpath(f"example{example}")
+    place = (folder or chapter6_folder()).joinpath(f"example{example}")
     for program in (1, 2, 3):
         for device in DEVICES:
             entry = place.joinpath(f"program{program}.{device}")

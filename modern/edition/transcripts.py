@@ -15,12 +15,11 @@ import re
 import sys
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from importlib.resources import files
-from importlib.resources.abc import Traversable
 from pathlib import Path
 
 from modern.edition.apparatus import Line, Text, build, load
 from modern.edition.chapter6_layout import CardShape, DeviceLayout, Field, Layout, LayoutError, load_layout
+from modern.edition.printed import chapter6_folder
 
 E14 = re.compile(r"[+-]?\.\d{8}E[+-]\d\d")
 _INTEGER = re.compile(r"\d+")
@@ -78,11 +77,6 @@ class Chapter:
     layout: Layout
     layers: tuple[str, ...]
     without: frozenset[str]
-
-
-def chapter6_folder() -> Traversable:
-    """``transcripts/chapter6``, wherever the data package is installed."""
-    return files("transcripts").joinpath("chapter6")
 
 
 def load_chapter(layers: Iterable[str] | None = None, without: Collection[str] = ()) -> Chapter:

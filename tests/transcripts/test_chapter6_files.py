@@ -17,13 +17,13 @@ from modern.edition.chapter6_checks import (
     check_tie,
     check_witness,
 )
+from modern.edition.printed import chapter6_folder
 from modern.edition.transcripts import (
     Chapter,
     TranscriptError,
     built_files,
     card_images,
     cards,
-    chapter6_folder,
     device_files,
     load_chapter,
     main,
