@@ -1,4 +1,4 @@
-"""A hull from cards to cards: program 1, then program 2 or 3 as the typewriter says (thesis p. 60)."""
+"""A hull from cards to cards: program 1, then program 2 or 3 as the typewriter says (thesis p. 59)."""
 
 from __future__ import annotations
 
