@@ -8,7 +8,9 @@ follows GOTRAN's table F1 to F6 (C26-5594 p. 28) and IBM FORTRAN II-D for SQRT o
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 from emulator.arithmetic import MAX_EXPONENT, MIN_EXPONENT, ZERO, Rules, divide, from_integer, multiply
 
@@ -88,52 +90,56 @@ def _of_zero(name: str, rules: Rules) -> Value:
 
 
 def _transcendental(name: str, mantissa: int, exponent: int, rules: Rules) -> Value:
-    from mpmath import MPContext  # imported late: most programs use none of these
+    def compute(context: Any) -> Any:
+        return getattr(context, name.lower())(context.mpf(mantissa) * context.mpf(10) ** (exponent - rules[0]))
 
-    context = MPContext()
-    extra = 15
-    while True:
-        context.dps = rules[0] + extra + max(exponent, 0) * (name in ("SIN", "COS"))
-        argument = context.mpf(mantissa) * context.mpf(10) ** (exponent - rules[0])
-        value = getattr(context, name.lower())(argument)
-        result = _cut_exactly(context, value, rules)
-        if result is not None:
-            return _in_range(*result, rules, "F4", "F5")
-        if extra > 200:
-            return _in_range(*_nearest(context, value, rules), rules, "F4", "F5")
-        extra *= 2
+    # The digits before the point are lost when an angle is reduced.
+    return _cut_value(compute, rules, max(exponent, 0) if name in ("SIN", "COS") else 0)
 
 
 def _power(mb: int, eb: int, mx: int, ex: int, rules: Rules) -> Value:
-    from mpmath import MPContext
+    def logarithm(context: Any) -> Any:
+        log = context.log(context.mpf(mb) * context.mpf(10) ** (eb - rules[0]))
+        return log * context.mpf(mx) * context.mpf(10) ** (ex - rules[0])
+
+    rough = logarithm(_context(30))
+    if abs(rough) > 1000:
+        return Value(rules[1] - 1, MAX_EXPONENT, "F4") if rough > 0 else Value(0, ZERO, "F5")
+    return _cut_value(lambda context: context.exp(logarithm(context)), rules, 10)
+
+
+def _context(digits: int) -> Any:
+    from mpmath import MPContext  # imported late: most programs use none of these functions
 
     context = MPContext()
+    context.dps = digits
+    return context
+
+
+def _cut_value(compute: Callable[[Any], Any], rules: Rules, more: int) -> Value:
+    """The value cut to P digits, computed with more and more digits until the cut is certain."""
     extra = 15
     while True:
-        context.dps = rules[0] + extra + 10
-        log = context.log(context.mpf(mb) * context.mpf(10) ** (eb - rules[0]))
-        product = log * context.mpf(mx) * context.mpf(10) ** (ex - rules[0])
-        if abs(product) > 1000:
-            return Value(rules[1] - 1, MAX_EXPONENT, "F4") if product > 0 else Value(0, ZERO, "F5")
-        value = context.exp(product)
+        context = _context(rules[0] + extra + more)
+        value = compute(context)
         result = _cut_exactly(context, value, rules)
+        if result is None and extra > 200:
+            result = _nearest(context, value, rules)
         if result is not None:
             return _in_range(*result, rules, "F4", "F5")
-        if extra > 200:
-            return _in_range(*_nearest(context, value, rules), rules, "F4", "F5")
         extra *= 2
 
 
-def _digits(value: object, context: object) -> tuple[int, int]:
+def _digits(value: Any, context: Any) -> tuple[int, int]:
     """An mpf as a whole number of many digits and a power of ten."""
-    text = context.nstr(value, context.dps, strip_zeros=False, min_fixed=1, max_fixed=0)  # type: ignore[attr-defined]
+    text = context.nstr(value, context.dps, strip_zeros=False, min_fixed=1, max_fixed=0)
     body, _, power_text = text.partition("e")
     sign = -1 if body.startswith("-") else 1
     whole, _, fraction = body.lstrip("-").partition(".")
     return sign * int(whole + fraction), int(power_text or 0) - len(fraction)
 
 
-def _cut_exactly(context: object, value: object, rules: Rules) -> tuple[int, int] | None:
+def _cut_exactly(context: Any, value: Any, rules: Rules) -> tuple[int, int] | None:
     """The value cut to P digits, or None when its digits behind those are all nines or all zeros (too close to say)."""
     if not value:
         return 0, ZERO
@@ -151,7 +157,7 @@ def _cut_exactly(context: object, value: object, rules: Rules) -> tuple[int, int
     return (kept if number > 0 else -kept), exponent
 
 
-def _nearest(context: object, value: object, rules: Rules) -> tuple[int, int]:
+def _nearest(context: Any, value: Any, rules: Rules) -> tuple[int, int]:
     """For a value that is exactly (or within 10**-200 of) a P-digit number: that number."""
     number, power_of_ten = _digits(value, context)
     text = str(abs(number))

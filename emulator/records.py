@@ -9,6 +9,7 @@ columns in place of its text, and X remembers the columns it skips, for the next
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
@@ -32,32 +33,27 @@ class Layout:
 
 
 @dataclass
-class Output:
-    """One output statement in progress; ``emit`` takes each finished record."""
+class _Walk(ABC):
+    """A FORMAT walked from field to field; what happens between fields is input's or output's own affair."""
 
     layout: Layout
-    emit: Callable[[str], None]
-    at: int = 0
-    line: str = ""
+    at: int = field(default=0, init=False)
 
-    def next_field(self) -> Field:
-        """Write literals and end records up to the next field, and return it.  Raises NoField."""
-        while True:
-            found = self._advance()
-            if found is not None:
-                self.at += 1
-                return found
+    def _to_field(self) -> Field:
+        """Go on to the next field and past it, taking the FORMAT again where it ends.  Raises NoField."""
+        found = self._advance()
+        while found is None:
             if not self.layout.spec.has_fields:
                 raise NoField
             self._end_record()
             self.at = 0
-
-    def write(self, columns: str) -> None:
-        self.line += columns
+            found = self._advance()
+        self.at += 1
+        return found
 
     def finish(self) -> None:
+        """The list has ended: go on to the first field it does not use."""
         self._advance()
-        self._end_record()
 
     def _advance(self) -> Field | None:
         specs = self.layout.spec.specs
@@ -68,9 +64,37 @@ class Output:
             if isinstance(spec, Slash):
                 self._end_record()
             else:
-                self.line += self.layout.literals[self.at]
+                self._literal(len(spec.text))
             self.at += 1
         return None
+
+    @abstractmethod
+    def _literal(self, width: int) -> None: ...
+
+    @abstractmethod
+    def _end_record(self) -> None: ...
+
+
+@dataclass
+class Output(_Walk):
+    """One output statement in progress; ``emit`` takes each finished record."""
+
+    emit: Callable[[str], None]
+    line: str = ""
+
+    def next_field(self) -> Field:
+        """Write literals and end records up to the next field, and return it.  Raises NoField."""
+        return self._to_field()
+
+    def write(self, columns: str) -> None:
+        self.line += columns
+
+    def finish(self) -> None:
+        super().finish()
+        self._end_record()
+
+    def _literal(self, width: int) -> None:
+        self.line += self.layout.literals[self.at]
 
     def _end_record(self) -> None:
         self.emit(self.line)
@@ -78,47 +102,24 @@ class Output:
 
 
 @dataclass
-class Input:
+class Input(_Walk):
     """One input statement in progress; ``fetch`` delivers the next card."""
 
-    layout: Layout
     fetch: Callable[[], Card]
     card: Card
-    at: int = 0
     column: int = 1
 
     def next_field(self) -> tuple[Field, Card, int]:
         """The next field, with its card and first column.  Raises NoField."""
-        while True:
-            found = self._advance()
-            if found is not None:
-                card, column = self.card, self.column
-                self.at += 1
-                self.column += found.width
-                return found, card, column
-            if not self.layout.spec.has_fields:
-                raise NoField
-            self._next_card()
-            self.at = 0
+        found = self._to_field()
+        column = self.column
+        self.column += found.width
+        return found, self.card, column
 
-    def finish(self) -> None:
-        self._advance()
+    def _literal(self, width: int) -> None:
+        self.layout.literals[self.at] = self.card.columns(self.column, self.column + width - 1).ljust(width)
+        self.column += width
 
-    def _advance(self) -> Field | None:
-        specs = self.layout.spec.specs
-        while self.at < len(specs):
-            spec = specs[self.at]
-            if isinstance(spec, Field):
-                return spec
-            if isinstance(spec, Slash):
-                self._next_card()
-            else:
-                width = len(spec.text)
-                self.layout.literals[self.at] = self.card.columns(self.column, self.column + width - 1).ljust(width)
-                self.column += width
-            self.at += 1
-        return None
-
-    def _next_card(self) -> None:
+    def _end_record(self) -> None:
         self.card = self.fetch()
         self.column = 1

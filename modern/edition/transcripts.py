@@ -5,20 +5,19 @@ A device file (an input deck, the cards a program punches, the lines it types) i
 gives every non-blank character and their order; the layout gives only blanks and blank cards.  Typewriter
 lines are of the layer ``stated``: chapter 6 prints none.
 
-``python -m modern.edition.transcripts --write`` writes the device files from witness, apparatus and layout;
-nothing here reads a run.  ``--check`` runs every check of :mod:`modern.edition.chapter6_checks`.
+``python -m modern.edition --write`` writes the device files from witness, apparatus and layout; nothing here
+reads a run.  ``python -m modern.edition --check`` runs every check of :mod:`modern.edition.chapter6_checks`.
 """
 
 from __future__ import annotations
 
 import re
-import sys
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from modern.edition.apparatus import Line, Text, build, load
-from modern.edition.chapter6_layout import CardShape, DeviceLayout, Field, Layout, LayoutError, load_layout
+from modern.edition.chapter6_layout import CardShape, DeviceLayout, Field, Layout, load_layout
 from modern.edition.printed import chapter6_folder
 
 E14 = re.compile(r"[+-]?\.\d{8}E[+-]\d\d")
@@ -225,30 +224,3 @@ def _image(tokens: Sequence[Token]) -> str:
     for token in tokens:
         image = image.ljust(token.first - 1) + token.text
     return image
-
-
-def main(arguments: Sequence[str] | None = None) -> int:
-    """``--write`` the device files or ``--check`` the chapter; returns the exit status."""
-    from modern.edition.chapter6_checks import check_chapter
-
-    asked = list(sys.argv[1:] if arguments is None else arguments)
-    if asked not in (["--write"], ["--check"]):
-        print("usage: python -m modern.edition.transcripts --write | --check", file=sys.stderr)
-        return 2
-    try:
-        chapter = load_chapter()
-        if asked == ["--write"]:
-            for name in write_files(chapter, Path(str(chapter6_folder()))):
-                print(name)
-            return 0
-        faults = check_chapter(chapter)
-    except (ValueError, LayoutError) as error:
-        print(error, file=sys.stderr)
-        return 1
-    for fault in faults:
-        print(fault)
-    return 1 if faults else 0
-
-
-if __name__ == "__main__":
-    raise SystemExit(main())

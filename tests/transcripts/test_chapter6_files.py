@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from modern.edition.__main__ import main
 from modern.edition.apparatus import Line
 from modern.edition.chapter6_checks import (
     check_arithmetic,
@@ -26,7 +27,6 @@ from modern.edition.transcripts import (
     cards,
     device_files,
     load_chapter,
-    main,
     printed_lines,
     rebuilt,
     write_files,
