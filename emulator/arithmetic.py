@@ -3,7 +3,8 @@
 A number is a pair (mantissa, exponent) of value ``mantissa * 10**(exponent - P)``: P digits behind the
 point, the first not zero, exponent -99 to +99 (C26-5619 p. 13, 38).  Zero is (0, -99), as it is printed;
 minus zero, which the machine kept as a flag, is (0, MINUS_ZERO); a field nothing was stored in is
-(0, UNDEFINED).  Operations return an exponent that may lie out of range: the engine decides what then.
+(0, UNDEFINED).  A field that holds a fixed-point number has its value and the exponent FIXED_POINT.
+Operations return an exponent that may lie out of range: the engine decides what then.
 
 The functions use only what a compiler of integer loops accepts; ``rules`` is a plain tuple for that reason.
 Where each rule was obtained stands with :data:`PROFILES`.
@@ -15,6 +16,7 @@ from dataclasses import dataclass
 
 ZERO = -99
 MINUS_ZERO = -100
+FIXED_POINT = 998
 UNDEFINED = 999
 MAX_EXPONENT = 99
 MIN_EXPONENT = -99

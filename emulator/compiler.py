@@ -7,6 +7,7 @@ value past its limit.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
@@ -59,10 +60,10 @@ def translate(deck: Deck) -> tuple[Program | None, tuple[Diagnostic, ...]]:
     parsed = parse(deck)
     if not parsed.statements and not parsed.diagnostics:
         raise DeckError(f"{deck.source}: the source deck has no statement")
-    translation = _Translation(deck.source, parsed.statements)
+    translation = _Translation(deck.source, parsed.statements, refused=parsed.refused)
     translation.diagnostics.extend(parsed.diagnostics)
     translation.run(broken=bool(parsed.diagnostics))
-    messages = tuple(sorted(translation.diagnostics, key=lambda d: (d.card, d.column)))
+    messages = tuple(sorted(dict.fromkeys(translation.diagnostics), key=lambda d: (d.card, d.column)))
     failed = any(not d.warning for d in messages)
     return (None if failed else translation.program()), messages
 
@@ -88,16 +89,23 @@ class _Translation:
     targets: dict[int, int] = field(default_factory=dict)
     open_dos: list[_OpenDo] = field(default_factory=list)
     lines: list[Line] = field(default_factory=list)
+    refused: frozenset[str] = frozenset()
+    ended: bool = False
 
     def run(self, broken: bool) -> None:
         self._collect_formats()
         self._check_labels()
         for statement in self.statements:
+            behind_end = self.ended
             try:
                 self._statement(statement)
             except Refused as refused:
                 self.diagnostics.append(refused.diagnostic)
+            if not behind_end:
+                self._close_dos(statement)
         for do in self.open_dos:
+            if str(do.label) in self.refused:
+                continue
             self._error(do.place, f"the last statement of this DO, number {do.label}, does not follow")
         last = self.statements[-1] if self.statements else None
         if last and not isinstance(last.body, tree.End) and not broken:
@@ -106,7 +114,7 @@ class _Translation:
             self._error(tree.Place(1, 0), f"OVERLAP: the data need {self.emitter.allocator.used * FIELD} positions")
         if not broken:
             for label, place in self.jumps:
-                if label not in self.targets:
+                if label not in self.targets and str(label) not in self.refused:
                     self._error(place, self._why_no_target(label))
         if not self.lines:
             self.lines.append(Line(0, tree.Place(1, 1), ""))
@@ -164,7 +172,7 @@ class _Translation:
 
     def _statement(self, statement: tree.Statement) -> None:
         body = statement.body
-        if self.lines and self.lines[-1].text.strip() == "END":
+        if self.ended:
             raise Refused(statement.place, "a card behind END")
         if statement.label:
             self.emitter.allocator.place("statement number", str(statement.label))
@@ -181,7 +189,6 @@ class _Translation:
         self.emitter.count(index, True, "statement")
         self._body(body, statement, index)
         self.lines[index] = replace(self.lines[index], effect=_EFFECTS.get(self.emitter.code[-1].operation, ""))
-        self._close_dos(statement)
 
     def _body(self, body: tree.Body, statement: tree.Statement, index: int) -> None:
         emitter = self.emitter
@@ -207,6 +214,7 @@ class _Translation:
             case tree.Stop():
                 emitter.emit(op.STOP)
             case tree.End():
+                self.ended = True
                 emitter.emit(op.STOP, second=1)
             case tree.InputOutput():
                 self._input_output(body, statement, index)
@@ -235,6 +243,8 @@ class _Translation:
                 raise Refused(place, f"{name} was used before its DIMENSION", 9)
             if 0 in shape:
                 raise Refused(place, f"{name}: a dimension of zero", 9)
+            if math.prod(shape) > _LARGEST:
+                raise Refused(place, f"OVERLAP: {name} needs {math.prod(shape) * FIELD} positions")
             self.emitter.arrays[name] = shape
             self.emitter.allocator.place("array", name, shape)
 
@@ -310,7 +320,7 @@ class _Translation:
             variable, step, limit = self._loop(item, statement.place)
             self.loops.append((variable, step, limit, len(emitter.code)))
             number = len(self.loops) - 1
-            emitter.count(index, False, "body of the list")
+            emitter.count(index, False, op.LIST_PASS)
             for inner in item.items:
                 self._item(inner, statement, index, depth + 1)
             emitter.emit(op.DOTEST, address=number)

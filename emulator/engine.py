@@ -1,9 +1,9 @@
 """The engine: one loop over object code and storage, on integers only.
 
 Storage is two sequences, mantissas and exponents (emulator/arithmetic.py); a fixed-point number is its value
-with exponent 0.  The loop runs until something outside the arithmetic is needed - input, output, a library
-function, a message, the end - and returns a reason; whatever drives it (emulator/machine.py) sees to that and
-calls it again.  The subset of the language used here is that of a compiler of integer loops; every argument
+with the exponent FIXED_POINT.  The loop runs until something outside the arithmetic is needed - input,
+output, a library function, a message, the end - and returns a reason; whatever drives it (emulator/machine.py)
+sees to that and calls it again.  The subset of the language used here is that of a compiler of integer loops; every argument
 is a flat sequence of integers.
 """
 
@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import MutableSequence, Sequence
 
 from emulator.arithmetic import (
+    FIXED_POINT,
     MAX_EXPONENT,
     MIN_EXPONENT,
     MINUS_ZERO,
@@ -118,7 +119,8 @@ def run(
     """Run until a reason to return; registers and storage are changed in place.
 
     ``table`` holds for each subscript (v1, c1, o1, rows, v2, c2, o2, columns); ``targets`` the branch tables,
-    each behind its length; ``loops`` four numbers a loop: variable, step, limit, first instruction.
+    each behind its length; ``loops`` four numbers a loop: variable, step, limit, first instruction; ``begins`` is 1
+    where a statement begins, 2 at a pass of an indexed list, which counts against the limit like a statement.
     ``options`` is (statement limit, strict bounds, stop at each statement, left zero kept, signed underflow).
     """
     limit, strict, tracing, keep_left, signed_underflow = options
@@ -139,7 +141,7 @@ def run(
             v = row[0]
             i = row[2]
             if v >= 0:
-                if exponents[v] == UNDEFINED:
+                if exponents[v] != FIXED_POINT:
                     a = v
                     reason = AT_UNDEFINED
                     break
@@ -160,7 +162,7 @@ def run(
                 j = row[6]
                 v = row[4]
                 if v >= 0:
-                    if exponents[v] == UNDEFINED:
+                    if exponents[v] != FIXED_POINT:
                         a = v
                         reason = AT_UNDEFINED
                         break
@@ -183,7 +185,7 @@ def run(
                 continue
             m = mantissas[a]
             e = exponents[a]
-            if e == UNDEFINED:
+            if e >= FIXED_POINT:
                 reason = AT_UNDEFINED
                 break
             pc += 1
@@ -242,6 +244,8 @@ def run(
                     fe = MAX_EXPONENT
                 else:
                     fe = MINUS_ZERO if signed_underflow and event != SUM_UNDER and fm < 0 else ZERO
+                    if o == FSBR:
+                        fe = MINUS_ZERO
                     fm = 0
                 reason = AT_EVENT
                 break
@@ -253,7 +257,7 @@ def run(
                 done += 1
                 counts[a] += 1
                 pc += 1
-                if tracing:
+                if tracing and begins[a] == 1:
                     reason = AT_STATEMENT
                     break
             else:
@@ -268,18 +272,12 @@ def run(
                 pc = targets[a + 2]
         elif o == DOTEST:
             v = loops[a]
-            if (
-                exponents[v] == UNDEFINED
-                or exponents[loops[a + 1]] == UNDEFINED
-                or exponents[loops[a + 2]] == UNDEFINED
-            ):
-                a = (
-                    v
-                    if exponents[v] == UNDEFINED
-                    else loops[a + 1]
-                    if exponents[loops[a + 1]] == UNDEFINED
-                    else loops[a + 2]
-                )
+            for k in range(a, a + 3):
+                if exponents[loops[k]] != FIXED_POINT:
+                    v = -1
+                    a = loops[k]
+                    break
+            if v < 0:
                 reason = AT_UNDEFINED
                 break
             m = wrap_integer(mantissas[v] + mantissas[loops[a + 1]])
@@ -299,11 +297,11 @@ def run(
         elif o <= XDVR:
             if o == FMFIX:
                 mantissas[a] = fixed
-                exponents[a] = 0
+                exponents[a] = FIXED_POINT
                 stored = a
                 pc += 1
                 continue
-            if exponents[a] == UNDEFINED:
+            if exponents[a] != FIXED_POINT:
                 reason = AT_UNDEFINED
                 break
             m = mantissas[a]
@@ -351,7 +349,7 @@ def run(
             fixed = to_integer(fm, fe, rules, powers)
             pc += 1
         elif o == SELECT:
-            if exponents[a] == UNDEFINED:
+            if exponents[a] != FIXED_POINT:
                 reason = AT_UNDEFINED
                 break
             v = mantissas[a]
@@ -380,7 +378,7 @@ def run(
             reason = AT_FUNCTION
             break
         elif o == POWER or o == POWERX:
-            if exponents[a] == UNDEFINED:
+            if exponents[a] == UNDEFINED or (exponents[a] == FIXED_POINT) != (o == POWERX):
                 reason = AT_UNDEFINED
                 break
             pc += 1

@@ -70,7 +70,10 @@ def read_floating(field: Field, columns: str, rules: Rules) -> Read:
     sign, whole, point, fraction, esign1, edigits1, esign2, edigits2 = match.groups()
     digits = whole + (fraction or "")
     scale = len(fraction or "") if point else field.decimals
-    power = int((esign1 or esign2 or "") + (edigits1 or edigits2 or "0")) if (edigits1 or edigits2) else 0
+    power_digits = (edigits1 or edigits2 or "").lstrip("0") or "0"
+    if len(power_digits) > 6:
+        raise FieldError(f"{columns.strip()[:40]!r} is out of range: the exponent is -99 to 99")
+    power = -int(power_digits) if "-" in (esign1, esign2) else int(power_digits)
     lead = digits.lstrip("0")
     if not lead:
         return Read(0, MINUS_ZERO if sign == "-" else ZERO, warning)

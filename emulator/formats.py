@@ -170,6 +170,8 @@ class _Reader:
             if self.peek() != ".":
                 raise FormatError(self.place(), f"{letter}{width} lacks its point and decimals")
             self.at += 1
+            if self.text[self.at : self.at + 1] == " ":
+                raise FormatError(self.place(), f"a blank after the point of {letter}{width}.")
             decimals = self.number()
             if not decimals:
                 raise FormatError(self.place(), f"{letter}{width}. lacks its decimals")

@@ -58,27 +58,28 @@ def integer_power(mantissa: int, exponent: int, count: int, rules: Rules) -> Val
         return Value(*one)
     if mantissa == 0:
         return Value(0, ZERO) if count > 0 else Value(rules[1] - 1, MAX_EXPONENT, "E7")
-    m, e = mantissa, exponent
+    m, e = abs(mantissa), exponent
     for _ in range(abs(count) - 1):
-        m, e = multiply(m, e, mantissa, exponent, rules)
+        m, e = multiply(m, e, abs(mantissa), exponent, rules)
         if e > MAX_EXPONENT + 1 or e < MIN_EXPONENT - 1:
             break
     if count < 0 and MIN_EXPONENT - 1 <= e <= MAX_EXPONENT + 1:
         m, e = divide(*one, m, e, rules)
     elif count < 0:
         e = -e
-    return _in_range(m, e, rules, "E3", "E4")
+    return _in_range(-m if mantissa < 0 and count % 2 else m, e, rules, "E3", "E4")
 
 
 def _sqrt(mantissa: int, exponent: int, rules: Rules) -> Value:
     digits = rules[0]
     if mantissa == 0:
         return Value(0, ZERO)
-    shift = digits + (exponent - digits) % 2
+    # Two digits more than are kept, so that a profile that rounds can.
+    shift = digits + 4 + (exponent - digits) % 2
     scaled = abs(mantissa) * 10**shift
     root = math.isqrt(scaled)
     power_of_ten = (exponent - digits - shift) // 2
-    return _cut(root, power_of_ten, rules)
+    return Value(*_cut(root, power_of_ten, rules))
 
 
 def _of_zero(name: str, rules: Rules) -> Value:
@@ -148,13 +149,7 @@ def _cut_exactly(context: Any, value: Any, rules: Rules) -> tuple[int, int] | No
     tail = text[rules[0] : -6]
     if tail.strip("0") == "" or tail.strip("9") == "":
         return None
-    kept = int(text[: rules[0]])
-    if rules[6] and text[rules[0]] >= "5":
-        kept += 1
-    exponent = power_of_ten + len(text)
-    if kept >= rules[1]:
-        kept, exponent = kept // 10, exponent + 1
-    return (kept if number > 0 else -kept), exponent
+    return _cut(number, power_of_ten, rules)
 
 
 def _nearest(context: Any, value: Any, rules: Rules) -> tuple[int, int]:
@@ -168,11 +163,15 @@ def _nearest(context: Any, value: Any, rules: Rules) -> tuple[int, int]:
     return (kept if number > 0 else -kept), exponent
 
 
-def _cut(size: int, power_of_ten: int, rules: Rules) -> Value:
-    text = str(size)
-    exponent = power_of_ten + len(text)
-    kept = int(text[: rules[0]].ljust(rules[0], "0"))
-    return Value(kept, exponent)
+def _cut(size: int, power_of_ten: int, rules: Rules) -> tuple[int, int]:
+    """A whole number of more than P digits times a power of ten: cut to P, or rounded where products are."""
+    text = str(abs(size))
+    kept, exponent = int(text[: rules[0]]), power_of_ten + len(text)
+    if rules[6] and text[rules[0]] >= "5":
+        kept += 1
+    if kept >= rules[1]:
+        kept, exponent = kept // 10, exponent + 1
+    return (kept if size > 0 else -kept), exponent
 
 
 def _in_range(mantissa: int, exponent: int, rules: Rules, over: str, under: str) -> Value:

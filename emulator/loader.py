@@ -31,5 +31,5 @@ def flatten(program: Program) -> Flat:
         seconds.append(second)
     table: list[tuple[int, ...]] = [(s.v1, s.c1, s.o1, s.rows, s.v2, s.c2, s.o2, s.columns) for s in program.subscripts]
     loops = [n for loop in program.loops for n in loop]
-    begins = [int(counter.begins) for counter in program.counters]
+    begins = [1 if c.begins else 2 if c.what == op.LIST_PASS else 0 for c in program.counters]
     return operations, addresses, subscripts, seconds, table, targets, loops, begins

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 from emulator import engine
-from emulator.arithmetic import UNDEFINED, ZERO, powers_of_ten
+from emulator.arithmetic import FIXED_POINT, UNDEFINED, ZERO, powers_of_ten
 from emulator.cards import COLUMNS, Card, Deck
 from emulator.errors import CardError, DeckError
 from emulator.fields import FieldError, parse_constant, read_fixed, read_floating, write_fixed, write_floating
@@ -66,7 +66,7 @@ class Machine:
             if "." in text:
                 self.mantissas[address], self.exponents[address] = parse_constant(text, rules)
             else:
-                self.mantissas[address], self.exponents[address] = int(text), 0
+                self.mantissas[address], self.exponents[address] = int(text), FIXED_POINT
         self.registers = [0] * engine.REGISTERS
         self.registers[engine.CHARACTERISTIC] = ZERO
         self.counts = [0] * len(program.counters)
@@ -179,8 +179,12 @@ class Machine:
         words = f"{here.label} {here.text}" if here.label else here.text
         if reason == engine.AT_STOP:
             return _Ended("stop" if self.program.code[self.registers[engine.PC]].second == 0 else "end")
-        if reason == engine.AT_UNDEFINED:
+        if reason == engine.AT_UNDEFINED and self.exponents[address] == UNDEFINED:
             return _Ended("undefined", f"{where}: {name(address)} is undefined where it is computed with, in {words}")
+        if reason == engine.AT_UNDEFINED:
+            # Only with --bounds core: a neighbour's number of the other mode.
+            held = "fixed" if self.exponents[address] == FIXED_POINT else "floating"
+            return _Ended("mode", f"{where}: {name(address)} holds a number in {held} point, in {words}")
         if reason == engine.AT_BOUNDS:
             entry = self.program.storage.entry_of(address)
             subscript = f"{index},{index2}" if len(entry.shape) > 1 else str(index)
@@ -282,6 +286,11 @@ class Machine:
                 f"{self.program.source}: card {here.place.card}: {name} is undefined where it is put out, "
                 f"in {here.text}",
             )
+        if (exponent == FIXED_POINT) != fixed:
+            name = self.program.storage.name_of(address)
+            raise _Ended(
+                "mode", f"{self.program.source}: card {here.place.card}: {name} holds a number of the other mode"
+            )
         if fixed:
             transfer.write(write_fixed(spec, mantissa))
             return
@@ -300,7 +309,8 @@ class Machine:
             number = read_fixed(columns) if fixed else read_floating(spec, columns, self.options.profile.rules)
         except FieldError as error:
             raise CardError(source, card.number, column, str(error)) from None
-        self.mantissas[address], self.exponents[address] = number.mantissa, number.exponent
+        self.mantissas[address] = number.mantissa
+        self.exponents[address] = FIXED_POINT if fixed else number.exponent
         if number.warning:
             self._warn(f"{source}: card {card.number}, column {column}: {number.warning}")
 
@@ -330,6 +340,8 @@ class Machine:
             for counter, old, new in zip(program.counters, before, self.counts, strict=True)
             if counter.begins and new > old
         ]
+        if not ran:
+            return f"{program.source}: stopped after {self.options.limit} statements"
         cards = sorted({line.place.card for line, _ in ran})
         labels = [str(line.label) for line, _ in ran if line.label]
         span = f"card {cards[0]}" if len(cards) == 1 else f"cards {cards[0]} to {cards[-1]}"
@@ -344,7 +356,7 @@ class Machine:
             ending=ending,
             events=tuple(self._events),
             warnings=tuple(self._warnings),
-            statements=self.registers[engine.STATEMENTS],
+            statements=sum(n for c, n in zip(self.program.counters, self.counts, strict=True) if c.begins),
             counts=tuple(self.counts),
             cards_read=self._position,
             numbers=tuple(sorted(self._numbers.items())),

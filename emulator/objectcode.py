@@ -131,6 +131,10 @@ class Subscript:
     columns: int = 0
 
 
+LIST_PASS = "pass of the list"
+"""What a COUNT counts in the body of an indexed list: it counts against the statement limit."""
+
+
 @dataclass(frozen=True, slots=True)
 class Counter:
     """What a COUNT instruction counts: the beginning of a statement, or a part of one run on its own.

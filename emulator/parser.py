@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -36,26 +37,33 @@ _NUMBERS = {"if_switch": 7, "do": 8, "dimension": 9, "input_output": 13}
 """Error types of C26-5619 p. 56 by the form they belong to."""
 
 MAX_NESTING = 60
+_FORMAT_LIKE = re.compile(r"FO[A-Z]*\(")
 
 
 @dataclass(frozen=True, slots=True)
 class Parsed:
-    """What the parser made of a deck: the statements that parse, and a message for each that does not."""
+    """What the parser made of a deck: the statements that parse, and a message for each that does not.
+
+    ``refused`` holds the statement numbers of those that do not.
+    """
 
     statements: tuple[tree.Statement, ...]
     diagnostics: tuple[Diagnostic, ...]
+    refused: frozenset[str] = frozenset()
 
 
 def parse(deck: Deck) -> Parsed:
     """Parse every statement of ``deck``; a card that does not parse gives a Diagnostic, and the rest goes on."""
     statements: list[tree.Statement] = []
     diagnostics: list[Diagnostic] = []
+    labels: set[str] = set()
     for source in sources(deck):
         try:
             statements.append(parse_statement(source))
         except _Refused as refused:
             diagnostics.append(refused.diagnostic)
-    return Parsed(tuple(statements), tuple(diagnostics))
+            labels.add(source.label.lstrip("0"))
+    return Parsed(tuple(statements), tuple(diagnostics), frozenset(labels))
 
 
 class _Refused(Exception):
@@ -68,13 +76,13 @@ def parse_statement(source: Source) -> tree.Statement:
     """Parse one statement."""
     if not source.text:
         raise _Refused(source.place, f"a statement number without a statement: {source.label}")
-    if source.label and not 1 <= int(source.label) <= 9999:
-        raise _Refused(source.place, f"statement number {source.label} is not between 1 and 9999")
-    label = int(source.label or 0)
+    label = _statement_number(source.label, source.place) if source.label else 0
     text = "\n".join(card.text for card in source.cards)
     if source.kind == "format":
         return tree.Statement(label, source.place, text, tree.Format(source.text, source.places))
     if source.kind == "unknown":
+        if _FORMAT_LIKE.match(source.text):
+            raise _Refused(source.place, "FORMAT is misspelled", 10)
         raise _Refused(source.place, f"not a statement of this FORTRAN: {source.text[:40]}")
     if _depth(source.text) > MAX_NESTING:
         raise _Refused(source.place, f"parentheses are nested more than {MAX_NESTING} deep")
@@ -93,6 +101,12 @@ def parse_statement(source: Source) -> tree.Statement:
             raise error.orig_exc from None
         raise
     return tree.Statement(label, source.place, text, body)
+
+
+def _statement_number(digits: str, place: tree.Place) -> int:
+    if len(digits.lstrip("0")) > 4 or not digits.strip("0"):
+        raise _Refused(place, f"statement number {digits[:12]} is not between 1 and 9999")
+    return int(digits)
 
 
 def _token_message(error: UnexpectedToken, source: Source) -> tuple[tree.Place, str]:
@@ -170,9 +184,7 @@ class _Builder(Transformer[Token, Any]):
         return tree.ComputedGoTo(tuple(map(self._label, children[:-1])), self._name(children[-1]))
 
     def _label(self, token: Token) -> int:
-        if not 1 <= int(token) <= 9999:
-            raise _Refused(self._at(token), f"statement number {token} is not between 1 and 9999")
-        return int(token)
+        return _statement_number(token, self._at(token))
 
     def if_(self, children: list[Any]) -> tree.If:
         a, b, c = map(self._label, children[1:])
@@ -204,6 +216,8 @@ class _Builder(Transformer[Token, Any]):
         name = self._name(children[0])
         if len(children) > 3:
             raise _Refused(name.place, f"{name.name} has more than two dimensions", 9)
+        if any(len(d.lstrip("0")) > 4 for d in children[1:]):
+            raise _Refused(name.place, f"{name.name}: a dimension has more than four digits", 9)
         return name.name, tuple(int(d) for d in children[1:]), name.place
 
     def dimension(self, children: list[tuple[str, tuple[int, ...], tree.Place]]) -> tree.Dimension:

@@ -16,9 +16,9 @@ from emulator.tree import Place
 
 LAST_COLUMN = 72
 
-_VERB = re.compile(r"(READ|ACCEPT|PUNCH|PRINT|TYPE)\d")
+_VERB = re.compile(r"READ|ACCEPT|PUNCH|PRINT|TYPE")
 _FORMAT = re.compile(r"\s*F\s*O\s*R\s*M\s*A\s*T\s*\(")
-_DO = re.compile(r"DO\d+[A-Z][A-Z0-9]*=")
+_DO = re.compile(r"DO\d+,?[A-Z][A-Z0-9]*=")
 _PREFIXES = (
     ("GOTO(", "computed_go_to"),
     ("GOTO", "go_to"),
@@ -49,8 +49,8 @@ class Source:
 
 
 def is_comment(card: Card) -> bool:
-    """A comment: C followed by two blanks in columns 1 to 3 (p. 12), or a card with nothing punched."""
-    return not card.text.strip() or card.text.ljust(3).startswith("C  ")
+    """A comment: C followed by two blanks in columns 1 to 3 (p. 12), or a card with no statement punched."""
+    return not card.columns(1, LAST_COLUMN).strip() or card.text.ljust(3).startswith("C  ")
 
 
 def sources(deck: Deck) -> Iterator[Source]:
@@ -81,14 +81,17 @@ def classify(text: str) -> str:
     for prefix, kind in _PREFIXES:
         if text.startswith(prefix):
             return kind
-    return "input_output" if _VERB.match(text) or text in ("READ", "ACCEPT", "PUNCH", "PRINT", "TYPE") else "unknown"
+    return "input_output" if _VERB.match(text) else "unknown"
 
 
 def _continues(card: Card) -> bool:
     """A punch other than 0 in column 6, columns 1 to 5 blank, and no statement if read by itself."""
     if card.columns(1, 5).strip() or card.columns(6, 6) in (" ", "0"):
         return False
-    return _source((card,)).kind == "unknown"
+    source = _source((card,))
+    if source.kind == "unknown" or source.text.count("(") != source.text.count(")"):
+        return True
+    return source.kind == "assignment" and _top_level(source.text, ",") >= 0
 
 
 def _source(cards: tuple[Card, ...]) -> Source:
@@ -96,7 +99,7 @@ def _source(cards: tuple[Card, ...]) -> Source:
     for n, card in enumerate(cards):
         first = 1 if n == 0 else 7
         columns.extend((char, Place(card.number, first + i)) for i, char in enumerate(card.columns(first, LAST_COLUMN)))
-    label, start = "", 0
+    label, start = "", len(columns)
     for i, (char, _) in enumerate(columns):
         if char.isdigit():
             label += char
@@ -104,7 +107,7 @@ def _source(cards: tuple[Card, ...]) -> Source:
             start = i
             break
     body = columns[start:]
-    place = body[0][1]
+    place = body[0][1] if body else next(where for char, where in columns if char != " ")
     raw = "".join(char for char, _ in body)
     match = _FORMAT.match(raw)
     if match:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TextIO
 
 from emulator import engine
-from emulator.arithmetic import UNDEFINED
+from emulator.arithmetic import FIXED_POINT, UNDEFINED
 from emulator.fields import FALLBACK, write_floating
 from emulator.machine import Machine
 from emulator.objectcode import Line, Program
@@ -64,7 +64,7 @@ def contents(machine: Machine, address: int) -> str:
     mantissa, exponent = machine.mantissas[address], machine.exponents[address]
     if exponent == UNDEFINED:
         return "undefined"
-    if machine.program.storage.entry_of(address).fixed:
+    if exponent == FIXED_POINT:
         return str(mantissa)
     return _floating(machine, mantissa, exponent)
 
