@@ -180,7 +180,7 @@ def powers_of_ten(rules: Rules) -> list[int]:
 class Profile:
     """An arithmetic: how many digits, what each operation does with the digits it cannot keep, what is typed.
 
-    ``announces``: overflow, underflow and division by zero type their error codes (ERROR E1 to E7);
+    ``announces``: every error of the arithmetic types its code (emulator.result.ERRORS);
     ``keeps_left_zero``: zero plus zero keeps the sign of the accumulator's zero; ``signed_underflow``: a
     product or quotient that underflows becomes zero with its own sign.
     """

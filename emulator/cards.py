@@ -9,9 +9,11 @@ from __future__ import annotations
 import os
 import sys
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TextIO
 
 from emulator.errors import CardError, DeckError
 
@@ -67,7 +69,7 @@ class Deck:
 
 def deck_from_lines(source: str, lines: Iterable[str]) -> Deck:
     """A deck from lines without line ends.  Raises CardError for a strange character or an 81st column."""
-    return Deck(source, tuple(_card(source, number, line) for number, line in enumerate(lines, 1)))
+    return Deck(source, tuple(read_line(source, number, line) for number, line in enumerate(lines, 1)))
 
 
 def deck_from_text(source: str, text: str) -> Deck:
@@ -87,7 +89,7 @@ def read_deck(path: str) -> Deck:
     """
     name = "standard input" if path == "-" else path
     try:
-        data = sys.stdin.buffer.read() if path == "-" else Path(path).read_bytes()
+        data = standard_input() if path == "-" else Path(path).read_bytes()
     except OSError as error:
         raise DeckError(f"{path}: {_reason(error)}") from None
     except ValueError:
@@ -102,38 +104,49 @@ def read_deck(path: str) -> Deck:
     return deck
 
 
-def write_text(path: str, text: str) -> None:
-    """Write a file whole or not at all: beside its place first, then renamed.  ``-`` is standard output.
+def standard_input() -> bytes:
+    """All of standard input.  Raises DeckError when there is none."""
+    if sys.stdin is None or getattr(sys.stdin, "closed", False):
+        raise DeckError("standard input is closed")
+    return sys.stdin.buffer.read()
 
-    Raises DeckError when it cannot be written.
+
+def write_text(path: str, text: str) -> None:
+    """Write a file whole or not at all.  ``-`` is standard output.  Raises DeckError when it cannot be written."""
+    with writing(path) as file:
+        file.write(text)
+
+
+@contextmanager
+def writing(path: str) -> Iterator[TextIO]:
+    """A file to write: beside its place first, then renamed, so that it appears whole or not at all.
+
+    ``-`` is standard output.  A link is followed, an existing file keeps its mode, and what is no plain file (a
+    device, a pipe) is written directly.  Raises DeckError when it cannot be written.
     """
     if path == "-":
-        sys.stdout.write(text)
+        yield sys.stdout
         sys.stdout.flush()
-        return
-    target = Path(path)
-    if target.exists() and not target.is_file():
-        _write_device(target, text)
         return
     beside = ""
     try:
+        target = Path(path).resolve()
+        if target.exists() and not target.is_file():
+            with target.open("w", encoding="ascii", errors="backslashreplace") as file:
+                yield file
+            return
+        mode = target.stat().st_mode & 0o777 if target.exists() else 0o666 & ~_umask()
         handle, beside = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
         with os.fdopen(handle, "w", encoding="ascii", errors="backslashreplace", newline="") as file:
-            file.write(text)
-        os.chmod(beside, 0o666 & ~_umask())
+            yield file
+        os.chmod(beside, mode)
         os.replace(beside, target)
+        beside = ""
     except OSError as error:
+        raise DeckError(f"{path}: {_reason(error)}") from None
+    finally:
         if beside and os.path.exists(beside):
             os.unlink(beside)
-        raise DeckError(f"{path}: {_reason(error)}") from None
-
-
-def _write_device(target: Path, text: str) -> None:
-    try:
-        with target.open("w", encoding="ascii", errors="backslashreplace") as file:
-            file.write(text)
-    except OSError as error:
-        raise DeckError(f"{target}: {_reason(error)}") from None
 
 
 def _umask() -> int:
@@ -146,10 +159,11 @@ def _reason(error: OSError) -> str:
     return (error.strerror or str(error)).lower()
 
 
-def _card(source: str, number: int, line: str) -> Card:
+def read_line(source: str, number: int, line: str, unit: str = "card") -> Card:
+    """A card from a line without its end.  Raises CardError for a strange character or an 81st column."""
     for column, char in enumerate(line, 1):
         if char not in CHARACTERS:
-            raise CardError(source, number, column, _strange(char))
+            raise CardError(source, number, column, _strange(char), unit)
     text = line.rstrip(" ")
     if len(text) > COLUMNS:
         raise CardError(source, number, COLUMNS + 1, f"a card has {COLUMNS} columns; this one would need {len(text)}")

@@ -107,9 +107,9 @@ class _Translation:
             if str(do.label) in self.refused:
                 continue
             self._error(do.place, f"the last statement of this DO, number {do.label}, does not follow")
-        last = self.statements[-1] if self.statements else None
-        if last and not isinstance(last.body, tree.End) and not broken:
-            self.diagnostics.append(Diagnostic(last.place.card, 0, "the deck has no END card", warning=True))
+        if self.statements and not self.ended and not broken:
+            card = self.statements[-1].place.card
+            self.diagnostics.append(Diagnostic(card, 0, "the deck has no END card", warning=True))
         if self.emitter.allocator.used > _LARGEST:
             self._error(tree.Place(1, 0), f"OVERLAP: the data need {self.emitter.allocator.used * FIELD} positions")
         if not broken:
@@ -118,7 +118,9 @@ class _Translation:
                     self._error(place, self._why_no_target(label))
         if not self.lines:
             self.lines.append(Line(0, tree.Place(1, 1), ""))
-        self.emitter.emit(op.STOP, second=1)
+        if not self.ended:
+            self.emitter.count(len(self.lines) - 1, False, "end of the deck")
+            self.emitter.emit(op.STOP, second=1)
 
     def program(self) -> Program:
         code = self.emitter
@@ -338,5 +340,4 @@ class _Translation:
 def _words(statement: tree.Statement) -> str:
     """The statement's columns without its number and the blanks around it."""
     text = " ".join(line[:72].strip() for line in statement.text.split("\n"))
-    label = str(statement.label) if statement.label else ""
-    return text[len(label) :].strip() if label and text.startswith(label) else text
+    return text.lstrip("0123456789 ") if statement.label else text

@@ -1,10 +1,10 @@
 """The engine: one loop over object code and storage, on integers only.
 
 Storage is two sequences, mantissas and exponents (emulator/arithmetic.py); a fixed-point number is its value
-with the exponent FIXED_POINT.  The loop runs until something outside the arithmetic is needed - input,
-output, a library function, a message, the end - and returns a reason; whatever drives it (emulator/machine.py)
-sees to that and calls it again.  The subset of the language used here is that of a compiler of integer loops; every argument
-is a flat sequence of integers.
+with the exponent FIXED_POINT.  The loop runs until something outside the arithmetic is needed (input, output,
+a library function, a message, the end) and returns a reason; whatever drives it (emulator/machine.py) sees to
+that and calls it again.  The subset of the language used here is that of a compiler of integer loops; every
+argument is a flat sequence of integers.
 """
 
 from __future__ import annotations

@@ -11,10 +11,13 @@ class EmulatorError(Exception):
 
 
 class CardError(EmulatorError):
-    """A card that cannot be read: a character outside the code, too many columns, a field that is no number."""
+    """A card that cannot be read: a character outside the code, too many columns, a field that is no number.
 
-    def __init__(self, source: str, card: int, column: int, message: str) -> None:
-        where = f"{source}: card {card}" + (f", column {column}" if column else "")
+    ``unit`` is what the source is made of: cards, or lines typed.
+    """
+
+    def __init__(self, source: str, card: int, column: int, message: str, unit: str = "card") -> None:
+        where = f"{source}: {unit} {card}" + (f", column {column}" if column else "")
         super().__init__(f"{where}: {message}")
         self.source, self.card, self.column = source, card, column
 

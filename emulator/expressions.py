@@ -96,9 +96,6 @@ class Emitter:
                 raise Refused(number.place, f"constant {error}") from None
         return Operand(self.allocator.place("constant", f"constant {number.text}").first)
 
-    def fixed_constant(self, value: int, place: Place) -> Operand:
-        return self.constant(Number(str(value), place))
-
     def variable(self, reference: Reference) -> Operand:
         """The operand of a variable or an array element.  Raises Refused."""
         shape = self.arrays.get(reference.name)

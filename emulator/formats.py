@@ -157,7 +157,7 @@ class _Reader:
             if not count:
                 raise FormatError(start, f"{letter} needs its width before it")
             return [self.literal(letter, int(count), start)], False
-        if letter not in ("I", "E", "F") or not letter:
+        if letter not in ("I", "E", "F"):
             raise FormatError(
                 self.place(), f"{letter or 'the end'!r} is no specification; there are I, E, F, X, H and /"
             )

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 from emulator.arithmetic import MAX_EXPONENT, MIN_EXPONENT, ZERO, Rules, divide, from_integer, multiply
@@ -24,6 +25,7 @@ class Value:
     code: str = ""
 
 
+@lru_cache(maxsize=4096)
 def function(name: str, mantissa: int, exponent: int, rules: Rules) -> Value:
     """SIN, COS, ATAN, EXP, LOG or SQRT of a number."""
     if name == "SQRT":
@@ -40,11 +42,15 @@ def function(name: str, mantissa: int, exponent: int, rules: Rules) -> Value:
     return _transcendental(name, mantissa, exponent, rules)
 
 
+@lru_cache(maxsize=4096)
 def power(base: tuple[int, int], exponent: tuple[int, int], rules: Rules) -> Value:
-    """``A ** B`` with a floating exponent; |A| ** B and F6 for a negative base, as GOTRAN does."""
+    """``A ** B`` with a floating exponent; |A| ** B and F6 for a negative base, as GOTRAN does.
+
+    Powers of zero are those of ``A ** J``: OPEN-QUESTIONS 8.
+    """
     (mb, eb), (mx, ex) = base, exponent
     if mb == 0:
-        return Value(0, ZERO, "" if mx > 0 else "F2")
+        return integer_power(0, ZERO, (mx > 0) - (mx < 0), rules)
     if mx == 0:
         return Value(*from_integer(1, rules))
     value = _power(abs(mb), eb, mx, ex, rules)
@@ -60,7 +66,10 @@ def integer_power(mantissa: int, exponent: int, count: int, rules: Rules) -> Val
         return Value(0, ZERO) if count > 0 else Value(rules[1] - 1, MAX_EXPONENT, "E7")
     m, e = abs(mantissa), exponent
     for _ in range(abs(count) - 1):
+        before = m, e
         m, e = multiply(m, e, abs(mantissa), exponent, rules)
+        if (m, e) == before:
+            break
         if e > MAX_EXPONENT + 1 or e < MIN_EXPONENT - 1:
             break
     if count < 0 and MIN_EXPONENT - 1 <= e <= MAX_EXPONENT + 1:
@@ -109,6 +118,7 @@ def _power(mb: int, eb: int, mx: int, ex: int, rules: Rules) -> Value:
     return _cut_value(lambda context: context.exp(logarithm(context)), rules, 10)
 
 
+@lru_cache(maxsize=256)
 def _context(digits: int) -> Any:
     from mpmath import MPContext  # imported late: most programs use none of these functions
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 from emulator import engine
 from emulator.arithmetic import FIXED_POINT, UNDEFINED, ZERO, powers_of_ten
-from emulator.cards import COLUMNS, Card, Deck
+from emulator.cards import COLUMNS, Card, Deck, read_line
 from emulator.errors import CardError, DeckError
 from emulator.fields import FieldError, parse_constant, read_fixed, read_floating, write_fixed, write_floating
 from emulator.formats import Field
@@ -26,6 +26,7 @@ from emulator.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 PUNCH_COLUMNS = 72
 TYPEWRITER_COLUMNS = 87
 LOOP_WINDOW = 2_000
+BAD_INPUT = Ending("input", "bad input")
 
 
 class _Ended(Exception):
@@ -71,11 +72,13 @@ class Machine:
         self.registers[engine.CHARACTERISTIC] = ZERO
         self.counts = [0] * len(program.counters)
         self._code = flatten(program)
+        self._statement_of = program.statement_numbers()
         self._powers = powers_of_ten(rules)
         self._layouts = [Layout(spec) for _, spec in program.formats]
         self._position = 0
         self._keys = iter(self.keyboard)
         self._first_read = -1
+        self._typed_in = 0
         self._transfer: Input | Output | None = None
         self.listed: list[int] = []
         self._verb = ""
@@ -106,7 +109,7 @@ class Machine:
                 else:
                     self._serve(reason)
         except _Ended as ended:
-            return self._result(ended.ending)
+            return self.result(ended.ending)
 
     def _engine(self, limit: int) -> int:
         operations, addresses, subscripts, seconds, table, targets, loops, begins = self._code
@@ -139,9 +142,12 @@ class Machine:
             flags,
         )
 
+    def _line_at(self, pc: int) -> Line:
+        return self.program.statements[self._statement_of[pc]]
+
     def _serve(self, reason: int) -> None:
         registers = self.registers
-        here = self.program.line_at(registers[engine.AT])
+        here = self._line_at(registers[engine.AT])
         address = registers[engine.ADDRESS]
         if reason == engine.AT_ITEM:
             self._item(address, here)
@@ -200,7 +206,7 @@ class Machine:
             self._error(value.code)
 
     def _error(self, code: str) -> None:
-        card = self.program.line_at(self.registers[engine.AT]).place.card
+        card = self._line_at(self.registers[engine.AT]).place.card
         self._errors[code, card] = self._errors.get((code, card), 0) + 1
         if self.options.profile.announces:
             self._type(f"ERROR {code}")
@@ -246,13 +252,15 @@ class Machine:
         if line is None:
             raise DeckError(f"{self.program.source}: nothing is typed for ACCEPT in {here.name}")
         self._events.append(Event("accept", line))
-        return Card(0, line.rstrip("\r\n")[:COLUMNS])
+        self._typed_in += 1
+        return read_line("typewriter", self._typed_in, line.rstrip("\r\n")[:COLUMNS], "line")
 
     def _item(self, address: int, here: Line) -> None:
         fixed = self.program.code[self.registers[engine.AT]].second == 1
         transfer = self._transfer
         assert transfer is not None
         self.listed.append(address)
+        self.registers[engine.STATEMENTS] += 1
         try:
             if isinstance(transfer, Output):
                 self._write(transfer, transfer.next_field(), address, fixed, here)
@@ -265,9 +273,8 @@ class Machine:
             ) from None
 
     def _check_mode(self, spec: Field, fixed: bool, address: int, here: Line) -> None:
-        self._numbers[spec.kind + ("<" if isinstance(self._transfer, Input) else ">")] = (
-            self._numbers.get(spec.kind + ("<" if isinstance(self._transfer, Input) else ">"), 0) + 1
-        )
+        key = spec.kind + ("<" if isinstance(self._transfer, Input) else ">")
+        self._numbers[key] = self._numbers.get(key, 0) + 1
         if (spec.kind == "I") != fixed:
             mode = "fixed" if fixed else "floating"
             raise _Ended(
@@ -304,15 +311,15 @@ class Machine:
     ) -> None:
         self._check_mode(spec, fixed, address, here)
         columns = card.columns(column, column + spec.width - 1).ljust(spec.width)
-        source = self.deck.source if card.number else "typewriter"
+        source, unit = (self.deck.source, "card") if self._verb == "READ" else ("typewriter", "line")
         try:
             number = read_fixed(columns) if fixed else read_floating(spec, columns, self.options.profile.rules)
         except FieldError as error:
-            raise CardError(source, card.number, column, str(error)) from None
+            raise CardError(source, card.number, column, str(error), unit) from None
         self.mantissas[address] = number.mantissa
         self.exponents[address] = FIXED_POINT if fixed else number.exponent
         if number.warning:
-            self._warn(f"{source}: card {card.number}, column {column}: {number.warning}")
+            self._warn(f"{source}: {unit} {card.number}, column {column}: {number.warning}")
 
     def _punch(self, line: str) -> None:
         self._out("punch", self._punched, line, PUNCH_COLUMNS)
@@ -327,6 +334,7 @@ class Machine:
             )
         text = line[:columns].rstrip()
         lines.append(text)
+        self.registers[engine.STATEMENTS] += 1
         self._events.append(Event(what, text))
 
     def _warn(self, message: str) -> None:
@@ -345,11 +353,13 @@ class Machine:
         cards = sorted({line.place.card for line, _ in ran})
         labels = [str(line.label) for line, _ in ran if line.label]
         span = f"card {cards[0]}" if len(cards) == 1 else f"cards {cards[0]} to {cards[-1]}"
-        among = f", statements {', '.join(labels[:12])}{' ...' if len(labels) > 12 else ''}" if labels else ""
+        word = "statement" if len(labels) == 1 else "statements"
+        among = f", {word} {', '.join(labels[:12])}{' ...' if len(labels) > 12 else ''}" if labels else ""
         what = "it loops on" if all(times > 1 for _, times in ran) else "it was on"
         return f"{program.source}: stopped after {self.options.limit} statements; {what} {span}{among}"
 
-    def _result(self, ending: Ending) -> Result:
+    def result(self, ending: Ending = BAD_INPUT) -> Result:
+        """What the devices have so far; of use after :meth:`run` raised an error for a bad card."""
         return Result(
             punched=tuple(self._punched),
             typed=tuple(self._typed),

@@ -188,8 +188,14 @@ class Program:
 
     def line_at(self, pc: int) -> Line:
         """The statement the instruction at ``pc`` belongs to."""
-        for i in range(min(pc, len(self.code) - 1), -1, -1):
-            instruction = self.code[i]
+        return self.statements[self.statement_numbers()[min(pc, len(self.code) - 1)]]
+
+    def statement_numbers(self) -> list[int]:
+        """For each instruction the index of the statement it belongs to."""
+        found: list[int] = []
+        statement = 0
+        for instruction in self.code:
             if instruction.operation == COUNT:
-                return self.statements[self.counters[instruction.address].statement]
-        return self.statements[0]
+                statement = self.counters[instruction.address].statement
+            found.append(statement)
+        return found

@@ -89,6 +89,8 @@ def _continues(card: Card) -> bool:
     if card.columns(1, 5).strip() or card.columns(6, 6) in (" ", "0"):
         return False
     source = _source((card,))
+    if source.kind == "format":
+        return False
     if source.kind == "unknown" or source.text.count("(") != source.text.count(")"):
         return True
     return source.kind == "assignment" and _top_level(source.text, ",") >= 0

@@ -27,11 +27,6 @@ class Entry:
     size: int
     shape: tuple[int, ...] = ()
 
-    @property
-    def fixed(self) -> bool:
-        """Whether the fields hold fixed-point numbers."""
-        return "." not in self.name if self.kind == "constant" else self.name[0] in "IJKLMN"
-
     def element(self, index: int) -> str:
         """The name of the field ``index`` fields behind the first: ``X(3)``, ``A(2,1)``, or the name itself."""
         if not self.shape:

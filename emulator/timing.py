@@ -155,7 +155,7 @@ def measure(program: Program, result: Result) -> Timing:
         processor,
         devices,
         tuple(sorted((n, c) for n, c in operations.items() if c)),
-        tuple(sorted(statements.items())),
+        tuple(sorted((n, c) for n, c in statements.items() if c)),
     )
 
 

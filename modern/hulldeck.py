@@ -51,6 +51,11 @@ def check(deck: Deck, rules: Rules = TRUNCATING.rules) -> CheckedDeck:
     at = 0
     cards = deck.cards
     while at < len(cards):
+        if sets and not any(card.text for card in cards[at:]):
+            warnings.append(
+                f"{deck.source}: card {cards[at].number}, column 1: blank cards behind the last data set are not read"
+            )
+            break
         n = _count(deck, cards[at], warnings)
         points = cards[at + 1 : at + 1 + n]
         if len(points) < n:

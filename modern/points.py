@@ -7,15 +7,15 @@ from __future__ import annotations
 
 import csv
 import re
-import sys
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from emulator.cards import standard_input
 from emulator.errors import DeckError
 
 MAX_N = 99
-_NUMBER = re.compile(r"([+-]?)(\d*)(?:\.(\d*))?(?:[eE]([+-]?\d{1,6}))?")
+_NUMBER = re.compile(r"([+-]?)(\d*)(?:\.(\d*))?(?:[eE]([+-]?\d{1,6}))?", re.ASCII)
 
 
 class PointError(DeckError):
@@ -82,7 +82,7 @@ def read_rows(path: str) -> Iterator[tuple[int, list[str]]]:
     """
     source = "standard input" if path == "-" else path
     try:
-        text = (sys.stdin.buffer.read() if path == "-" else Path(path).read_bytes()).decode("utf-8-sig")
+        text = (standard_input() if path == "-" else Path(path).read_bytes()).decode("utf-8-sig")
     except OSError as error:
         raise DeckError(f"{path}: {(error.strerror or str(error)).lower()}") from None
     except ValueError:

@@ -5,15 +5,15 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager
 
 from emulator import arithmetic
-from emulator.cards import Deck, read_deck, write_text
+from emulator.cards import Deck, read_deck, write_text, writing
 from emulator.compiler import compile_deck
 from emulator.errors import DeckError
 from emulator.objectcode import Program
-from emulator.result import Options, Result
+from emulator.result import ERRORS, Options, Result
 from emulator.trace import Tracer
 from modern.edition import decks
 
@@ -56,7 +56,7 @@ def machine_options(args: argparse.Namespace) -> Options:
 def put_out(args: argparse.Namespace, punched: Iterable[str], typed: Iterable[str]) -> None:
     """Cards to ``--punch`` or standard output, typed lines to ``--typewriter`` or standard error."""
     typed_text = "".join(line + "\n" for line in typed)
-    if args.typewriter:
+    if args.typewriter is not None:
         write_text(args.typewriter, typed_text)
     else:
         sys.stderr.write(typed_text)
@@ -64,17 +64,25 @@ def put_out(args: argparse.Namespace, punched: Iterable[str], typed: Iterable[st
     write_text(args.punch, "".join(card + "\n" for card in punched))
 
 
-def check_places(args: argparse.Namespace) -> None:
-    """Refuse a file that cannot be written before the run, not after it.  Raises DeckError."""
-    for path in (args.punch, args.typewriter, args.trace):
-        if path and path != "-":
-            folder = os.path.dirname(path) or "."
-            if os.path.isdir(path):
-                raise DeckError(f"{path}: is a directory")
-            if not os.path.isdir(folder):
-                raise DeckError(f"{path}: no such file or directory")
-            if not os.access(path if os.path.exists(path) else folder, os.W_OK):
-                raise DeckError(f"{path}: permission denied")
+def check_places(*paths: str | None) -> None:
+    """Refuse a file that cannot be written before the run, not after it, and two outputs to one file.
+
+    Raises DeckError.
+    """
+    named = [path for path in paths if path is not None and path != "-"]
+    for path in named:
+        if not path:
+            raise DeckError("a file without a name cannot be written")
+        folder = os.path.dirname(os.path.realpath(path))
+        if os.path.isdir(path):
+            raise DeckError(f"{path}: is a directory")
+        if not os.path.isdir(folder):
+            raise DeckError(f"{path}: no such file or directory")
+        if not os.access(path if os.path.exists(path) else folder, os.W_OK):
+            raise DeckError(f"{path}: permission denied")
+    real = [os.path.realpath(path) for path in named if os.path.isfile(path) or not os.path.exists(path)]
+    if len(set(real)) < len(real):
+        raise DeckError("two outputs are to go to one file")
 
 
 def say(lines: Iterable[str]) -> None:
@@ -83,10 +91,12 @@ def say(lines: Iterable[str]) -> None:
         print(line, file=sys.stderr)
 
 
-def say_warnings(result: Result) -> None:
-    """A run's warnings and its arithmetic's error codes."""
-    say(f"warning: {warning}" for warning in result.warnings)
-    say(f"note: {code}{f', {n} times' if n > 1 else ''}" for code, n in result.errors)
+def say_warnings(program: Program, result: Result, said: Collection[str] = ()) -> None:
+    """A run's warnings, but for those said before, and its arithmetic's error codes."""
+    say(f"warning: {warning}" for warning in result.warnings if warning not in said)
+    for error, n in result.errors:
+        code = error.split()[0]
+        say([f"note: {program.source}: {error}: {ERRORS[code]}{f', {n} times' if n > 1 else ''}"])
 
 
 @contextmanager
@@ -95,18 +105,9 @@ def tracing(path: str | None) -> Iterator[Tracer | None]:
     if not path:
         yield None
         return
-    if path == "-":
-        tracer = Tracer(sys.stdout)
-        yield tracer
-        tracer.close()
-        return
-    beside = f"{path}.part"
-    try:
-        with open(beside, "w", encoding="ascii", errors="backslashreplace") as file:
-            tracer = Tracer(file)
+    with writing(path) as file:
+        tracer = Tracer(file)
+        try:
             yield tracer
+        finally:
             tracer.close()
-        os.replace(beside, path)
-    finally:
-        if os.path.exists(beside):
-            os.unlink(beside)

@@ -28,11 +28,10 @@ def profile_lines(program: Program, result: Result) -> Iterator[str]:
     operations = "operations: " + ", ".join(f"{name} {count}" for name, count in timing.operations)
     yield from textwrap.wrap(operations, 80, initial_indent="  ", subsequent_indent="    ")
     most = sorted(timing.statements, key=lambda pair: -pair[1])[:_TOP]
-    yield f"  statements run most (of {len(timing.statements)} run):"
+    yield f"  statements run most (of {len(timing.statements)} that ran):"
     for index, count in most:
         line = program.statements[index]
-        if count:
-            yield f"  {count:>9}  card {line.place.card:>3} {line.label or '':>5} {line.text[:50]}"
+        yield f"  {count:>9}  card {line.place.card:>3} {line.label or '':>5} {line.text[:50]}"
 
 
 def _line(row: Row) -> str:

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator
 
 from emulator.cards import write_text
 from emulator.errors import DeckError
+from modern.cli.common import check_places
 from modern.cli.main import DIFFERS, OK
 from modern.edition.printed import EXAMPLES
 from modern.edition.reproduce import Report, reproduce, summary
@@ -23,7 +24,8 @@ _MOST_DIFFERENCES = 8
 
 def main(args: argparse.Namespace) -> int:
     """Run the examples, print the verdicts, write them as JSON if asked."""
-    examples = [_example(text) for text in args.examples] or list(EXAMPLES)
+    examples = list(dict.fromkeys(_example(text) for text in args.examples)) or list(EXAMPLES)
+    check_places(args.json)
     colour = sys.stdout.isatty() and "NO_COLOR" not in os.environ
     # A JSON document on standard output must be alone there.
     out = sys.stderr if args.json == "-" else sys.stdout
@@ -37,7 +39,7 @@ def main(args: argparse.Namespace) -> int:
     good, exact, order, other = summary(reports)
     for line in _summary_lines(reports, good, exact, order, other, colour):
         print(line, file=out)
-    if args.json:
+    if args.json is not None:
         write_text(args.json, json.dumps(_document(reports, good), indent=1) + "\n")
     return OK if good else DIFFERS
 

@@ -6,7 +6,7 @@ import argparse
 import sys
 
 from emulator.cards import Deck, read_deck
-from emulator.errors import DeckError
+from emulator.errors import DeckError, EmulatorError
 from emulator.machine import Machine
 from modern.cli.common import (
     check_places,
@@ -28,7 +28,7 @@ def main(args: argparse.Namespace) -> int:
     if args.program == "-" and args.deck == "-":
         raise DeckError("program and deck cannot both come from standard input")
     options = machine_options(args)
-    check_places(args)
+    check_places(args.punch, args.typewriter, args.trace)
     program = load_program(args.program, layers_of(args))
     deck = read_deck(args.deck) if args.deck else Deck("no deck", ())
     keyboard = () if "-" in (args.program, args.deck) or sys.stdin is None or sys.stdin.isatty() else sys.stdin
@@ -36,9 +36,16 @@ def main(args: argparse.Namespace) -> int:
         machine = Machine(program, deck, options, keyboard)
         if tracer:
             tracer.watch(program, machine)
-        result = machine.run()
+        bad: EmulatorError | None = None
+        try:
+            result = machine.run()
+        except EmulatorError as error:
+            # What was punched, typed and traced before the bad card is good work.
+            bad, result = error, machine.result()
     put_out(args, result.punched, result.typed)
-    say_warnings(result)
+    if bad is not None:
+        raise bad
+    say_warnings(program, result)
     if args.profile:
         say(profile_lines(program, result))
     if not result.ending.normal:

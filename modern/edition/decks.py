@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -96,3 +96,21 @@ def deck(name: str, layers: Sequence[str] = ()) -> Deck:
 def program(name: str, layers: tuple[str, ...] = ()) -> Program:
     """A built-in program compiled; the same object each time, as it is plain data."""
     return compile_deck(deck(name, layers))
+
+
+def with_layers(name: str, layers: Sequence[str]) -> Program:
+    """A built-in program compiled with those of ``layers`` that it has rows of; the three need not have all."""
+    present = {row.layer for row in text(built_in(name).text).rows}
+    return program(name, tuple(layer for layer in layers if layer in present))
+
+
+def loader(layers: tuple[str, ...]) -> Callable[[str], Program]:
+    """Programs by name with layers added, each layer to those programs that have rows of it.
+
+    Raises DeckError for a layer none of them has.
+    """
+    present = {name: {row.layer for row in text(built_in(name).text).rows} for name in NAMES}
+    for layer in layers:
+        if not any(layer in found for found in present.values()):
+            raise DeckError(f"no program has rows of a layer {layer!r}")
+    return lambda name: program(name, tuple(layer for layer in layers if layer in present[name]))

@@ -1,0 +1,12 @@
+"""The exact convex hull of points in 3-space, with a certificate: the judge of every other hull here.
+
+``exact_hull(points)`` works over integers and shares no code with the procedures it judges.  ``certify`` proves a
+result from the points alone, by means other than those that built it; ``exact_hull`` never returns an unproved one.
+"""
+
+from modern.exact_hull.build import exact_hull
+from modern.exact_hull.certificate import CertificateError, certify
+from modern.exact_hull.coordinates import PointsError
+from modern.exact_hull.result import Certificate, ExactHull, Facet
+
+__all__ = ["Certificate", "CertificateError", "ExactHull", "Facet", "PointsError", "certify", "exact_hull"]

@@ -1,0 +1,115 @@
+"""What the tests of the emulator share: decks from lines, compiling and running them, reading a field of core."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+
+from emulator import objectcode as op
+from emulator.arithmetic import FIXED_POINT, MINUS_ZERO, UNDEFINED, ZERO, profile
+from emulator.cards import Deck, deck_from_lines
+from emulator.compiler import compile_deck, translate
+from emulator.errors import Diagnostic
+from emulator.machine import Machine
+from emulator.objectcode import Program
+from emulator.result import Options, Result
+
+MakeMachine = Callable[[Program, Deck, Options], Machine]
+
+ENGINES: dict[str, MakeMachine] = {"plain": Machine}
+"""The engines every vector runs on: a name, and what makes a machine with that engine."""
+
+
+def source(*lines: str) -> Deck:
+    return deck_from_lines("deck.f", lines)
+
+
+def program(*lines: str) -> Program:
+    return compile_deck(source(*lines))
+
+
+def diagnostics(*lines: str) -> tuple[Diagnostic, ...]:
+    """All messages of the compiler, warnings too."""
+    return translate(source(*lines))[1]
+
+
+def errors(*lines: str) -> tuple[Diagnostic, ...]:
+    """The messages of the compiler that are not warnings."""
+    return tuple(d for d in diagnostics(*lines) if not d.warning)
+
+
+def machine(
+    *lines: str,
+    data: Iterable[str] = (),
+    keyboard: Iterable[str] = (),
+    arithmetic: str = "truncating",
+    limit: int = 100_000,
+    bounds: str = "strict",
+    switches: Iterable[int] = (),
+    core: int = 40_000,
+) -> Machine:
+    """A machine with the program of ``lines`` in core and ``data`` in its hopper, not yet started."""
+    options = Options(profile=profile(arithmetic), limit=limit, bounds=bounds, switches=frozenset(switches), core=core)
+    return Machine(program(*lines), deck_from_lines("data.cards", data), options, tuple(keyboard))
+
+
+def run(*lines: str, **setting: object) -> Result:
+    """Compile ``lines``, run them, and give back the result; settings as for :func:`machine`."""
+    return machine(*lines, **setting).run()  # type: ignore[arg-type]
+
+
+def punched(*lines: str, **setting: object) -> tuple[str, ...]:
+    """The cards a program punched; fails where the run did not end normally."""
+    result = run(*lines, **setting)
+    assert result.ending.normal, result.ending.message
+    return result.punched
+
+
+def code(*lines: str) -> list[str]:
+    """The object code of a deck of one statement as ``TOFAC A``, ``RSGN``, without COUNT."""
+    made = program(*lines)
+    words = []
+    for instruction in made.code:
+        if instruction.operation == op.COUNT:
+            continue
+        word = op.NAMES[instruction.operation]
+        if instruction.operation < op.COUNT or instruction.operation in (op.POWER, op.POWERX):
+            word += " " + made.storage.name_of(instruction.address)
+        words.append(word)
+    return words
+
+
+def number(of: Machine, name: str) -> str:
+    """A field of core by its name: all digits of a floating number, ``-0``, ``undefined``, or a whole number."""
+    entry = next(e for e in of.program.storage.entries if e.kind == "variable" and e.name == name)
+    mantissa, exponent = of.mantissas[entry.first], of.exponents[entry.first]
+    if exponent == UNDEFINED:
+        return "undefined"
+    if exponent == FIXED_POINT:
+        return str(mantissa)
+    if mantissa == 0:
+        return {ZERO: "0", MINUS_ZERO: "-0"}[exponent]
+    digits = of.options.profile.digits
+    assert 10 ** (digits - 1) <= abs(mantissa) < 10**digits, "a number in core is normalised"
+    return f"{'-' if mantissa < 0 else ''}.{abs(mantissa)}E{exponent:+03d}"
+
+
+class Hung(Exception):
+    """A call did not come back in time."""
+
+
+@contextmanager
+def within(seconds: float) -> Iterator[None]:
+    """Raise Hung inside the block when it takes longer than ``seconds``."""
+
+    def ring(*_: object) -> None:
+        raise Hung(f"not done after {seconds} s")
+
+    before = signal.signal(signal.SIGALRM, ring)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)

@@ -1,0 +1,23 @@
+C     PRODUCT OF TWO MATRICES, READ BY ROWS, AND ITS TRANSPOSE BY COLUMNS
+      DIMENSION A(3,4),B(4,2),C(3,2)
+  100 READ 1,N,M,L
+      DO 10 I=1,N
+   10 READ 2,(A(I,J),J=1,M)
+      READ 2,((B(I,J),J=1,L),I=1,M)
+      DO 30 I=1,N
+      DO 30 J=1,L
+      C(I,J)=0.
+      DO 20 K=1,M
+   20 C(I,J)=C(I,J)+A(I,K)*B(K,J)
+   30 CONTINUE
+      PUNCH 3,N,L
+      DO 40 I=1,N
+   40 PUNCH 4,I,(C(I,J),J=1,L)
+      PUNCH 5,C
+      GO TO 100
+    1 FORMAT(3I3)
+    2 FORMAT(4F6.1)
+    3 FORMAT(/7HPRODUCT,I3,3H BY,I3)
+    4 FORMAT(3HROW,I2,2F10.2)
+    5 FORMAT(3F10.2)
+      END

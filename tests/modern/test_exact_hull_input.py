@@ -1,0 +1,234 @@
+"""What points may be, exactly, and what is refused; the result's small readings; the filter's bound."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from modern.exact_hull import PointsError, certify, exact_hull
+from modern.exact_hull import incidence as incidence_module
+from modern.exact_hull.coordinates import decimal
+from modern.exact_hull.filter import BOUND, frame, plane_image
+from modern.exact_hull.incidence import incidences
+from modern.exact_hull.planes import lowest_terms, plane_at, plane_through, value
+
+LAW = settings(deadline=None, max_examples=300)
+
+
+@pytest.mark.parametrize(
+    ("text", "number"),
+    [
+        ("12", 12),
+        ("-1.5", Fraction(-3, 2)),
+        ("-.25E-3", Fraction(-1, 4000)),
+        ("+.20000000E+01", 2),
+        ("  7. ", 7),
+        ("1.50", Fraction(3, 2)),
+        ("-0", 0),
+        ("1e30", 10**30),
+        ("0.1", Fraction(1, 10)),
+        ("1E-9999", Fraction(1, 10**9999)),
+    ],
+)
+def test_decimal_strings(text: str, number: Fraction) -> None:
+    assert decimal(text) == number
+
+
+@pytest.mark.parametrize("text", ["", " ", ".", "-", "1,5", "1/3", "0x10", "nan", "inf", "1e", "1 2", "١", "1e10000"])
+def test_texts_that_are_no_decimal_number(text: str) -> None:
+    with pytest.raises(PointsError, match="point 1, coordinate z: "):
+        exact_hull([(0, 0, 0), (0, 0, text)])
+
+
+def test_too_many_digits() -> None:
+    with pytest.raises(PointsError, match="point 0, coordinate x: 4001 digits; at most 4000 are read"):
+        exact_hull([("1" * 4001, 0, 0)])
+
+
+def test_every_way_to_say_a_coordinate_gives_the_same_hull() -> None:
+    numbers = [(0, 0, 0), (3, 0, 0), (0, 5, 0), (0, 0, 7), (1, 1, 1), (3, 0, 0)]
+    expected = exact_hull(numbers)
+    assert expected.scale == 1
+    as_halves = exact_hull([tuple(Fraction(n, 2) for n in p) for p in numbers])
+    assert as_halves == exact_hull([tuple(n / 2 for n in p) for p in numbers])
+    assert as_halves == exact_hull([tuple(str(n / 2) for n in p) for p in numbers])
+    assert (as_halves.scale, as_halves.scaled, as_halves.facets) == (2, expected.scaled, expected.facets)
+    for kind in (np.int8, np.uint16, np.int64, np.uint64, object):
+        assert exact_hull(np.array(numbers, dtype=kind)) == expected
+    assert exact_hull([np.array(p) for p in numbers]) == expected
+    assert exact_hull(iter(numbers)) == exact_hull(map(iter, numbers)) == expected
+    assert exact_hull([[f"{n}.0" for n in p] for p in numbers]) == expected
+
+
+def test_a_float_is_the_binary_number_it_holds() -> None:
+    assert exact_hull([(0.1, 0, 0)]).scale == 2**55
+    assert exact_hull([("0.1", 0, 0)]).scale == 10
+    line = [(0.1, 0, 0), (0.2, 0, 0), (0.3, 0, 0), (0, "0.1", 0)]
+    assert exact_hull(line).dimension == 2
+
+
+def test_numpy_integers_do_not_overflow() -> None:
+    edge = 2**63 - 1
+    points = np.array([(-edge, 0, 0), (edge, 0, 0), (0, edge, 0), (0, -edge, 1), (0, 0, edge)], dtype=np.int64)
+    assert exact_hull(points).vertices == (0, 1, 2, 3, 4)
+    assert exact_hull(np.array([(2**64 - 1, 0, 0), (0, 0, 0)], dtype=np.uint64)).scaled[0][0] == 2**64 - 1
+
+
+@pytest.mark.parametrize(
+    ("points", "message"),
+    [
+        ([], "there are no points"),
+        ([(1, 2)], "point 0: 2 coordinates; a point has three"),
+        ([(1, 2, 3), (1, 2, 3, 4)], "point 1: 4 coordinates; a point has three"),
+        ([(1, 2, 3), 5], "point 1: a int is no point"),
+        (["123"], "point 0: one text is no point"),
+        ([(1, 2, float("nan"))], "point 0, coordinate z: nan is not finite"),
+        ([(1, float("-inf"), 0)], "point 0, coordinate y: -inf is not finite"),
+        ([(1, True, 0)], "point 0, coordinate y: a bool is not read"),
+        ([(None, 0, 0)], "point 0, coordinate x: a NoneType is not read"),
+        ([(1, 2, np.float64(1))], "point 0, coordinate z: a float64 is not read"),
+        (np.zeros((4, 3)), "an array of float64 is not exact"),
+        (np.zeros((4, 3), dtype=bool), "an array of bool is not exact"),
+        (np.zeros(3, dtype=int), r"an array of points has the shape \(n, 3\), not \(3,\)"),
+        (np.zeros((4, 2), dtype=int), "point 0: 2 coordinates"),
+    ],
+)
+def test_what_is_refused(points, message: str) -> None:
+    with pytest.raises(PointsError, match=message):
+        exact_hull(points)
+
+
+def test_a_point() -> None:
+    hull = exact_hull([("1.5", 2, 3)] * 3)
+    assert (hull.dimension, hull.scale, hull.scaled[0]) == (0, 2, (3, 4, 6))
+    assert (hull.vertices, hull.facets, hull.duplicates, hull.edges()) == ((0,), (), ((1, 0), (2, 0)), ())
+
+
+def test_a_segment() -> None:
+    hull = exact_hull([(1, 1, 1), ("0.5", "0.5", "0.5"), (3, 3, 3), (1, 1, 1)])
+    assert (hull.dimension, hull.vertices, hull.inside, hull.boundary) == (1, (1, 2), (0,), ())
+    assert [(facet.plane, facet.polygon) for facet in hull.facets] == [((-1, -1, -1, 3), (1,)), ((1, 1, 1, -18), (2,))]
+    assert [hull.plane_of(facet) for facet in hull.facets] == [(-2, -2, -2, 3), (1, 1, 1, -9)]
+    assert hull.edges() == ((1, 2),)
+
+
+def test_a_polygon() -> None:
+    points = [(0, 0, "0.5"), (2, 0, "0.5"), (2, 2, "0.5"), (0, 2, "0.5"), (1, 0, "0.5"), (1, 1, "0.5")]
+    hull = exact_hull(points)
+    assert (hull.dimension, hull.plane, hull.polygon) == (2, (0, 0, 1, -1), (0, 1, 2, 3))
+    assert hull.plane_of(hull.plane) == (0, 0, 2, -1)
+    assert (hull.boundary, hull.inside) == ((4,), (5,))
+    assert {facet.polygon: facet.plane for facet in hull.facets} == {
+        (0, 1): (0, -1, 0, 0),
+        (1, 2): (1, 0, 0, -4),
+        (2, 3): (0, 1, 0, -4),
+        (0, 3): (-1, 0, 0, 0),
+    }
+    assert hull.edges() == ((0, 1), (0, 3), (1, 2), (2, 3))
+
+
+def test_a_tetrahedron() -> None:
+    hull = exact_hull([(0, 0, 0), (3, 0, 0), (0, 3, 0), (0, 0, 3), (1, 1, 1), (1, 1, "0.5")])
+    assert [(facet.plane, facet.polygon) for facet in hull.facets] == [
+        ((-1, 0, 0, 0), (0, 3, 2)),
+        ((0, -1, 0, 0), (0, 1, 3)),
+        ((0, 0, -1, 0), (0, 2, 1)),
+        ((1, 1, 1, -6), (1, 2, 3)),
+    ]
+    assert (hull.scale, hull.plane_of(hull.facets[3])) == (2, (1, 1, 1, -3))
+    assert (hull.boundary, hull.inside) == ((4,), (5,))
+    assert hull.polygon == ()
+    assert hull.plane is None
+
+
+@pytest.mark.parametrize("exponent", [308, 400, 9999])
+def test_coordinates_beyond_every_float(exponent: int) -> None:
+    """A large and a tiny unit together: no image may overflow, no message may print the numbers."""
+    big, tiny = f"1E{exponent}", f"1E-{exponent}"
+    points = [(0, 0, 0), (big, 0, 0), (0, big, 0), (0, 0, tiny), (tiny, tiny, 0), (tiny, tiny, tiny), (tiny, 0, tiny)]
+    hull = exact_hull(points)
+    assert certify(points, hull).arithmetic == "float64 and integers"
+    assert (hull.dimension, hull.boundary, hull.inside) == (3, (4,), ())
+    assert hull.vertices == (0, 1, 2, 3, 5, 6)
+
+
+coordinate = st.one_of(
+    st.integers(-5, 5), st.integers(-57250, 57250), st.integers(-(10**8), 10**8), st.integers(-(10**40), 10**40)
+)
+triples = st.tuples(coordinate, coordinate, coordinate)
+
+
+@LAW
+@given(st.lists(triples, min_size=4, max_size=8))
+def test_the_bound_of_the_construction(points) -> None:
+    """The image of every value is within the bound of the true quotient; with bound 0 it is that number."""
+    space = frame(points)
+    for k in range(len(points) - 2):
+        plane = plane_through(*space.integers[k : k + 3])
+        if not any(plane[:3]):
+            continue
+        image = plane_image(plane, space.shifts)
+        power = max(abs(n).bit_length() + s if n else 0 for n, s in zip(plane[:3], space.shifts, strict=True))
+        for place, integers in zip(space.images.tolist(), space.integers, strict=True):
+            computed = Fraction(sum(a * b for a, b in zip(image, place, strict=True)))
+            true = Fraction(value(plane, integers), 1 << power)
+            assert abs(computed - true) < BOUND
+            if space.bound == 0:
+                assert computed == true
+
+
+def test_when_floats_are_exact() -> None:
+    """48 X Y Z < 2**53: half a side of 57250, not of 57251."""
+    assert 48 * 57250**3 < 2**53 < 48 * 57251**3
+    for half, bound in ((57250, 0), (57251, BOUND)):
+        assert frame([(0, 0, 0), (2 * half, 0, 0), (0, 2 * half, 0), (0, 0, 2 * half)]).bound == bound
+
+
+@pytest.mark.parametrize("size", [1, 10**5, 10**12, 10**40])
+def test_a_point_outside_by_one_unit(size: int) -> None:
+    """The least an integer value can be above 0, in a plane with coefficients of any size."""
+    plane = (size, size + 1, 1, 0)
+    on, above, below = (size + 1, -size, 0), (size + 1, -size, 1), (size + 1, -size, -1)
+    found = incidences([plane], [on, below])
+    assert (found.touching, found.outside) == ([(0, 0)], None)
+    assert incidences([plane], [on, below, above]).outside == (0, 2)
+    assert found.arithmetic == ("int64" if size < 10**9 else "float64 and integers")
+
+
+@LAW
+@given(st.lists(triples, min_size=4, max_size=8, unique=True), triples)
+def test_the_bound_of_the_certificate(points, normal) -> None:
+    if not any(normal):
+        return
+    plane = lowest_terms(plane_at(normal, points[0]))
+    image, place = incidence_module._images([plane], points)
+    side = max(max(column) - min(column) for column in zip(*points, strict=True))
+    width = side * max(map(abs, plane[:3]))
+    for column, point in enumerate(points):
+        true = Fraction(value(plane, point), width)
+        assert abs(Fraction(float(image[0] @ place[:, column])) - true) < incidence_module.BOUND / 2
+
+
+@LAW
+@given(st.lists(st.tuples(*[st.integers(-9, 9)] * 3), min_size=4, max_size=12, unique=True))
+def test_both_ways_of_the_certificate_agree(points) -> None:
+    """int64 and float64 with integers find the same incidences, on every plane that has all points on one side."""
+    planes = []
+    for k in range(len(points) - 2):
+        plane = plane_through(*points[k : k + 3])
+        heights = [value(plane, point) for point in points]
+        if any(plane[:3]) and (max(heights) <= 0 or min(heights) >= 0):
+            planes.append(plane if max(heights) <= 0 else tuple(-number for number in plane))
+    if planes:
+        first, second = incidence_module._in_int64(planes, points), incidence_module._in_floats(planes, points)
+        assert first.touching == second.touching
+        assert first.outside is second.outside is None
+        turned = [tuple(-number for number in planes[0])]
+        seen = {
+            way(turned, points).outside is None for way in (incidence_module._in_int64, incidence_module._in_floats)
+        }
+        assert seen == {all(value(planes[0], point) == 0 for point in points)}

@@ -1,0 +1,183 @@
+"""Laws of the exact hull: what reordering, moving, scaling and shearing the points may and may not change."""
+
+from __future__ import annotations
+
+import math
+import random
+from fractions import Fraction
+
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+from modern.exact_hull import exact_hull
+from modern.exact_hull.faces import faces
+from modern.exact_hull.filter import frame
+from modern.exact_hull.incremental import convex_surface
+from modern.exact_hull.planes import independent
+
+LAW = settings(deadline=None, max_examples=120)
+tiny = st.integers(-2, 2)
+mixed = st.one_of(tiny, st.integers(-(10**8), 10**8), st.integers(-(10**30), 10**30))
+point_sets = st.one_of(
+    st.lists(st.tuples(tiny, tiny, tiny), min_size=1, max_size=25),
+    st.lists(st.tuples(mixed, mixed, mixed), min_size=1, max_size=14),
+    st.lists(st.tuples(tiny, tiny, st.just(1)), min_size=1, max_size=12),
+)
+fractions = st.fractions(min_value=-1000, max_value=1000, max_denominator=60)
+positive = st.fractions(min_value=Fraction(1, 60), max_value=1000, max_denominator=60)
+
+
+def from_smallest(cycle):
+    start = cycle.index(min(cycle))
+    return (*cycle[start:], *cycle[:start])
+
+
+def planes(hull) -> set[tuple[int, ...]]:
+    """The facets' planes in the coordinates as given."""
+    return {hull.plane_of(facet) for facet in hull.facets}
+
+
+def polygons(hull) -> set[tuple[int, ...]]:
+    return {facet.polygon for facet in hull.facets}
+
+
+def classes(hull) -> tuple[object, ...]:
+    return hull.dimension, hull.vertices, hull.boundary, hull.inside, hull.duplicates
+
+
+def reduced(plane) -> tuple[int, ...]:
+    whole = math.lcm(*(Fraction(number).denominator for number in plane))
+    integers = [int(number * whole) for number in plane]
+    return tuple(number // math.gcd(*integers) for number in integers)
+
+
+@LAW
+@given(point_sets, st.randoms(use_true_random=False))
+def test_permutation(points, rng) -> None:
+    """Reordering changes the names of points and nothing else."""
+    points = list(dict.fromkeys(points))
+    order = list(range(len(points)))
+    rng.shuffle(order)
+    hull, shuffled = exact_hull(points), exact_hull([points[index] for index in order])
+    assert (shuffled.dimension, shuffled.plane) == (hull.dimension, hull.plane)
+    for name in ("vertices", "boundary", "inside"):
+        assert tuple(sorted(order[index] for index in getattr(shuffled, name))) == getattr(hull, name)
+    assert [facet.plane for facet in shuffled.facets] == [facet.plane for facet in hull.facets]
+    for mine, other in zip(hull.facets, shuffled.facets, strict=True):
+        assert from_smallest([order[index] for index in other.polygon]) == mine.polygon
+
+
+@LAW
+@given(point_sets, st.tuples(fractions, fractions, fractions))
+def test_translation(points, shift) -> None:
+    hull = exact_hull(points)
+    moved = exact_hull([tuple(number + step for number, step in zip(point, shift, strict=True)) for point in points])
+    assert classes(moved) == classes(hull)
+    assert polygons(moved) == polygons(hull)
+    assert moved.polygon == hull.polygon
+    assert planes(moved) == {
+        reduced((a, b, c, d - a * shift[0] - b * shift[1] - c * shift[2])) for a, b, c, d in planes(hull)
+    }
+
+
+@LAW
+@given(point_sets, positive)
+def test_scaling(points, factor) -> None:
+    hull = exact_hull(points)
+    scaled = exact_hull([tuple(number * factor for number in point) for point in points])
+    assert classes(scaled) == classes(hull)
+    assert polygons(scaled) == polygons(hull)
+    assert planes(scaled) == {reduced((a, b, c, d * factor)) for a, b, c, d in planes(hull)}
+
+
+@LAW
+@given(point_sets, st.lists(st.tuples(st.integers(0, 2), st.integers(1, 2), st.integers(-(10**9), 10**9)), max_size=4))
+def test_shears(points, steps) -> None:
+    """Unimodular maps: axis i gains a multiple of another axis.  All combinatorics stay, turned senses too."""
+    mapped = [list(point) for point in points]
+    for axis, distance, factor in steps:
+        for point in mapped:
+            point[axis] += factor * point[(axis + distance) % 3]
+    hull, sheared = exact_hull(points), exact_hull(mapped)
+    assert classes(sheared) == classes(hull)
+    assert polygons(sheared) == polygons(hull)
+    if hull.dimension == 2:
+        assert sheared.polygon in (hull.polygon, from_smallest(hull.polygon[::-1]))
+
+
+@LAW
+@given(point_sets)
+@example([(2**63, 0, 0), (2**63, 0, 1)])
+def test_reflection_turns_every_face(points) -> None:
+    hull, mirrored = exact_hull(points), exact_hull([(-x, y, z) for x, y, z in points])
+    assert classes(mirrored) == classes(hull)
+    if hull.dimension == 3:
+        assert polygons(mirrored) == {from_smallest(polygon[::-1]) for polygon in polygons(hull)}
+    assert planes(mirrored) == {(-a, b, c, d) for a, b, c, d in planes(hull)}
+
+
+@LAW
+@given(point_sets, st.data())
+def test_a_point_between_points_is_no_vertex(points, data) -> None:
+    """Adding a rational combination of points changes no facet; dropping all but the vertices neither."""
+    hull = exact_hull(points)
+    weights = data.draw(st.lists(st.integers(0, 5), min_size=len(points), max_size=len(points)).filter(any))
+    total = sum(weights)
+    between = tuple(
+        Fraction(sum(weight * point[axis] for weight, point in zip(weights, points, strict=True)), total)
+        for axis in range(3)
+    )
+    more = exact_hull([*points, between])
+    assert (more.vertices, planes(more), polygons(more)) == (hull.vertices, planes(hull), polygons(hull))
+    assert planes(exact_hull([points[index] for index in hull.vertices])) == planes(hull)
+
+
+@LAW
+@given(point_sets)
+def test_every_point_against_every_plane(points) -> None:
+    """The classes by their definition, with the planes for the coordinates as given."""
+    hull = exact_hull(points)
+    if hull.dimension == 0:
+        return
+    for index, (x, y, z) in enumerate(points):
+        values = [a * x + b * y + c * z + d for a, b, c, d in map(hull.plane_of, hull.facets)]
+        assert max(values) <= 0
+        assert (max(values) < 0) == (dict(hull.duplicates).get(index, index) in hull.inside)
+    if hull.dimension == 3:
+        assert len(hull.vertices) - len(hull.edges()) + len(hull.facets) == 2
+
+
+@LAW
+@given(point_sets, st.randoms(use_true_random=False))
+def test_the_order_of_insertion_changes_no_face(points, rng) -> None:
+    points = list(dict.fromkeys(points))
+    simplex = independent(points)
+    if len(simplex) < 4:
+        return
+    expected = {facet.polygon for facet in exact_hull(points).facets}
+    space = frame(points)
+    for _ in range(3):
+        others = [index for index in range(len(points)) if index not in simplex]
+        rng.shuffle(others)
+        found = faces(convex_surface(space, rng.sample(simplex, 4), others), space.integers)
+        assert len(found) == len(expected)
+        assert {facet.polygon for facet in found} == expected
+
+
+@pytest.mark.parametrize(("seed", "count"), [(1, 4), (2, 6), (3, 10), (4, 50), (5, 400), (6, 2000)])
+@pytest.mark.parametrize("shape", ["cube", "ball", "sphere"])
+def test_general_position_against_qhull(seed: int, count: int, shape: str) -> None:
+    """scipy's Qhull finds the same vertices and, as triangles, the same facets when nothing is degenerate."""
+    spatial = pytest.importorskip("scipy.spatial")
+    rng = random.Random(f"{seed} {shape}")
+    points = []
+    while len(points) < count:
+        point = [rng.uniform(-1, 1) for _ in range(3)]
+        length = math.hypot(*point)
+        if shape != "cube" and not 0.1 < length < 1:
+            continue
+        points.append(tuple(round(10**8 * number / (length if shape == "sphere" else 1)) for number in point))
+    hull, other = exact_hull(points), spatial.ConvexHull(points)
+    assert list(hull.vertices) == sorted(other.vertices.tolist())
+    assert {frozenset(facet.polygon) for facet in hull.facets} == {frozenset(s) for s in other.simplices.tolist()}
