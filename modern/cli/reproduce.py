@@ -7,15 +7,21 @@ import json
 import os
 import shutil
 import sys
-from collections.abc import Iterable, Iterator
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from emulator.cards import write_text
 from emulator.errors import DeckError
 from modern.cli.common import check_places
 from modern.cli.main import DIFFERS, OK
-from modern.edition.printed import EXAMPLES
+from modern.edition.printed import EXAMPLES, THEOREMS
 from modern.edition.reproduce import Report, reproduce, summary
 from modern.edition.verdicts import DIFFERENT, EXACT, ORDER, SPACING
+
+if TYPE_CHECKING:
+    from modern.edition.theorem_claims import Claim
+
 
 _STATES = {"examples": "as the examples were run (program1_examples.f)", "listing": "as listed (program1.f)"}
 _COLOURS = {EXACT: "32", SPACING: "33", ORDER: "33", DIFFERENT: "31"}
@@ -24,7 +30,8 @@ _MOST_DIFFERENCES = 8
 
 def main(args: argparse.Namespace) -> int:
     """Run the examples, print the verdicts, write them as JSON if asked."""
-    examples = list(dict.fromkeys(_example(text) for text in args.examples)) or list(EXAMPLES)
+    named = list(dict.fromkeys(map(_named, args.examples))) or [*map(str, EXAMPLES), *THEOREMS]
+    examples = [int(name) for name in named if name not in THEOREMS]
     check_places(args.json)
     colour = sys.stdout.isatty() and "NO_COLOR" not in os.environ
     # A JSON document on standard output must be alone there.
@@ -36,18 +43,49 @@ def main(args: argparse.Namespace) -> int:
         reports.extend(found)
         for line in _example_lines(example, found, colour, width):
             print(line, file=out)
-    good, exact, order, other = summary(reports)
-    for line in _summary_lines(reports, good, exact, order, other, colour):
+    found_claims = _claims([name for name in named if name in THEOREMS])
+    for line in _claim_lines(found_claims, colour, width):
+        print(line, file=out)
+    good, *_ = summary(reports)
+    good = good and all(claim.holds is not False for claim in found_claims)
+    for line in _summary_lines(reports, found_claims, good, colour):
         print(line, file=out)
     if args.json is not None:
-        write_text(args.json, json.dumps(_document(reports, good), indent=1) + "\n")
+        write_text(args.json, json.dumps(_document(reports, found_claims, good), indent=1) + "\n")
     return OK if good else DIFFERS
 
 
-def _example(text: str) -> int:
-    if text not in {str(example) for example in EXAMPLES}:
-        raise DeckError(f"reproduce: there is no example {text!r}; chapter 6 has 1 to {EXAMPLES[-1]}")
-    return int(text)
+def _named(text: str) -> str:
+    if text not in {*map(str, EXAMPLES), *THEOREMS}:
+        raise DeckError(
+            f"reproduce: there is no example {text!r}; "
+            f"chapter 6 has 1 to {EXAMPLES[-1]}, chapter 4 {', '.join(THEOREMS)}"
+        )
+    return text
+
+
+def _claims(names: Sequence[str]) -> list[Claim]:
+    if not names:
+        return []
+    from modern.edition.theorem_claims import all_claims  # imported late: it brings the exact hull along
+
+    return list(all_claims(names))
+
+
+def _claim_lines(claims: Iterable[Claim], colour: bool, width: int) -> Iterator[str]:
+    theorem = ""
+    for claim in claims:
+        if claim.theorem != theorem:
+            if theorem:
+                yield ""
+            theorem = claim.theorem
+            yield f"Theorem {theorem} (p. {claim.pages})"
+        kind = {True: EXACT, False: DIFFERENT, None: ""}[claim.holds]
+        word = {True: "holds", False: "DOES NOT HOLD", None: "seen"}[claim.holds]
+        yield f"  {_paint(word, kind, colour and bool(kind)):<6} {claim.says}"
+        yield from _indented(claim.seen, width)
+    if theorem:
+        yield ""
 
 
 def _example_lines(example: int, reports: Iterable[Report], colour: bool, width: int) -> Iterator[str]:
@@ -100,25 +138,20 @@ def _differences(report: Report, width: int) -> Iterator[str]:
         yield f"      and {len(differences) - _MOST_DIFFERENCES} more"
 
 
-def _summary_lines(
-    reports: list[Report], good: bool, exact: int, order: int, other: int, colour: bool
-) -> Iterator[str]:
+def _summary_lines(reports: list[Report], claims: list[Claim], good: bool, colour: bool) -> Iterator[str]:
     punched = [r for r in reports if r.device == "punch" and r.state == "examples"]
     listed = [r for r in reports if r.device == "punch" and r.state == "listing"]
-    cards = sum(r.verdict.cards + r.verdict.blank for r in punched if r.verdict.kind == EXACT)
-    of = sum(r.verdict.cards + r.verdict.blank for r in punched)
-    numbers = sum(r.verdict.numbers for r in punched if r.verdict.kind == EXACT)
-    kinds = ", ".join(
-        f"{sum(r.verdict.kind == k for r in listed)} {k}"
-        for k in (EXACT, ORDER, SPACING, DIFFERENT)
-        if any(r.verdict.kind == k for r in listed)
-    )
-    done = sum(r.verdict.kind == EXACT for r in punched)
-    yield (
-        f"As the examples were run: {done} of {len(punched)} printed results exact, "
-        f"{cards} of {of} cards, {numbers} numbers."
-    )
-    yield f"As listed: {kinds}."
+    if punched:
+        done = [r.verdict for r in punched if r.verdict.kind == EXACT]
+        cards, of = (sum(v.cards + v.blank for v in part) for part in (done, [r.verdict for r in punched]))
+        numbers = sum(verdict.numbers for verdict in done)
+        exact = f"{len(done)} of {len(punched)} printed results exact, {cards} of {of} cards, {numbers} numbers"
+        yield f"As the examples were run: {exact}."
+        kinds = Counter(r.verdict.kind for r in listed)
+        yield f"As listed: {', '.join(f'{kinds[k]} {k}' for k in (EXACT, ORDER, SPACING, DIFFERENT) if kinds[k])}."
+    if claims:
+        judged = [claim.holds for claim in claims if claim.holds is not None]
+        yield f"Chapter 4: {sum(judged)} of {len(judged)} claims hold."
     words = "Every printed result comes out." if good else "NOT every printed result comes out."
     yield _paint(words, EXACT if good else DIFFERENT, colour)
 
@@ -133,9 +166,12 @@ def _indented(text: str, width: int) -> list[str]:
     return textwrap.wrap(text, max(40, width), initial_indent="      ", subsequent_indent="      ")
 
 
-def _document(reports: list[Report], good: bool) -> dict[str, object]:
+def _document(reports: list[Report], claims: list[Claim], good: bool) -> dict[str, object]:
     return {
         "reproduced": good,
+        "theorems": [
+            {"theorem": c.theorem, "pages": c.pages, "claim": c.says, "holds": c.holds, "seen": c.seen} for c in claims
+        ],
         "results": [
             {
                 "example": report.example,

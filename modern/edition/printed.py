@@ -10,6 +10,7 @@ from importlib.resources.abc import Traversable
 from emulator.cards import Deck, deck_from_text
 
 EXAMPLES = (1, 2, 3, 4, 5, 6)
+THEOREMS = ("4.1", "4.2", "4.8")
 DEVICES = ("punch", "typewriter")
 
 

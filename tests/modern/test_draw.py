@@ -284,7 +284,9 @@ def test_a_boundary_point_that_rounding_took_off_its_face_is_still_of_that_face(
 
 
 def test_vertices_closer_than_the_eye_can_tell_share_a_number() -> None:
-    hull, picture = draw([("0", "0", "0"), ("1E9", "0", "0"), ("0", "1", "0"), ("0", "0", "1")])
+    # 300 units take 552 pixels, so the three points at one end lie within two pixels.
+    hull, picture = draw([(0, 0, 0), (300, 0, 0), (0, 1, 0), (0, 0, 1)], (1, -9, 2))
+    assert len(set(picture.vertices().values())) == 4
     alone = str(hull.vertices.index(1) + 1)
     together = ",".join(str(k) for k, index in enumerate(hull.vertices, 1) if index != 1)
     assert set(picture.numbers()) == {alone, together}
@@ -315,9 +317,10 @@ def test_a_polygon_is_seen_at_right_angles() -> None:
         draw(SQUARE, (1, 1, 0))
 
 
-def test_example_1_a_triangle_without_lines() -> None:
-    _, picture = draw([(2, -5, 20), (200, -4, -50), (-30, 80, 4)])
+def test_example_1_a_triangle() -> None:
+    hull, picture = draw([(2, -5, 20), (200, -4, -50), (-30, 80, 4)])
     assert set(picture.edges("seen")) == {(0, 1), (0, 2), (1, 2)}
+    assert draw_svg(replace(hull, faces=())) == draw_svg(hull)
 
 
 @pytest.mark.parametrize("end", [(3, 4, 12), (0, 0, 7), (0, -2, 0), (5, 0, 0)])
@@ -381,9 +384,10 @@ def test_numbers_stand_beside_their_vertex_and_off_lines_and_each_other(points: 
         assert a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] or b[3] <= a[1]
 
 
-def test_labels_of_close_points_keep_off_each_other() -> None:
-    labels = [Label(50.0 + 5 * (k % 3), 50.0 + 5 * (k // 3), str(10 + k)) for k in range(6)]
-    places = place_labels(labels, [], [], (100.0, 100.0))
+@pytest.mark.parametrize("apart", [8.0, 12.0, 20.0, 30.0])
+def test_labels_of_points_in_a_row_keep_off_each_other(apart: float) -> None:
+    labels = [Label(20.0 + apart * k, 50.0, str(100 + k)) for k in range(4)]
+    places = place_labels(labels, [], [], (150.0, 100.0))
     for (x, y), (u, v) in itertools.combinations(places, 2):
         assert abs(x - u) >= 2 * labels[0].half[0] or abs(y - v) >= HEIGHT
 

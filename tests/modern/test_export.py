@@ -246,11 +246,12 @@ def test_a_face_too_large_for_a_ply_count_of_one_byte() -> None:
     assert len(tiny_ply(export_text(convex_hull(curve), "ply"))[1][0]) == 256
 
 
-def test_a_triangle_has_no_lines_of_its_own() -> None:
-    """Example 1 of the thesis: program 1 ends with the planes of three points and no supporting lines."""
+def test_a_triangle_with_and_without_its_lines() -> None:
+    """Example 1 of the thesis: program 1 punches the planes of three points and no supporting lines."""
     hull = convex_hull([(2, -5, 20), (200, -4, -50), (-30, 80, 4)])
-    assert hull.faces == ()
-    assert len(tiny_off(export_text(hull, "off"))[1][0]) == 3
+    bare = mesh(replace(hull, faces=()))
+    assert len(bare.faces[0]) == 3
+    assert bare == mesh(hull)
 
 
 def test_a_segment_and_a_point() -> None:

@@ -1,0 +1,147 @@
+"""One form for every hull, so that any two can be compared: points by place in the input, equations by scale.
+
+An outcome's equations are for the coordinates as given: supporting planes of a polyhedron, or of a polygon its
+supporting lines projected as the thesis projects them (p. 16-17: the coordinate dropped is the first with a
+nonzero coefficient in the polygon's plane, its own coefficient in the line 0).  Everything is exact.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from modern.edition.cardhull import read_hull
+from modern.exact_hull import ExactHull
+from modern.hull import DETERMINED, Hull
+from modern.hullrun import HullRun
+
+Vector = tuple[Fraction, ...]
+Equation = tuple[Fraction, Fraction, Fraction, Fraction]
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What one route made of a point set.
+
+    ``status`` is ``determined`` or why there is no hull; ``dimension`` -1 where the route does not say.
+    ``strange`` counts points it names that are not in the input.
+    """
+
+    name: str
+    status: str
+    dimension: int
+    vertices: frozenset[int] = frozenset()
+    boundary: frozenset[int] = frozenset()
+    inside: frozenset[int] = frozenset()
+    equations: tuple[Equation, ...] = ()
+    strange: int = 0
+    notes: tuple[str, ...] = field(default=())
+
+    @property
+    def determined(self) -> bool:
+        return self.status == DETERMINED
+
+
+def places(points: Sequence[Vector]) -> dict[Vector, int]:
+    """Coordinates to the first point that has them."""
+    found: dict[Vector, int] = {}
+    for index, point in enumerate(points):
+        found.setdefault(tuple(point), index)
+    return found
+
+
+def from_cards(name: str, run: HullRun, points: Sequence[Vector]) -> Outcome:
+    """The outcome of an emulated run, read from the cards its last program punched."""
+    if run.refusal:
+        return Outcome(name, run.refusal, -1)
+    broken = next((step for step in run.steps if not step.result.ending.normal), None)
+    if broken is not None:
+        return Outcome(name, _ending(broken.result.ending.kind), -1, notes=(broken.result.ending.message,))
+    hull = read_hull(run.final.result.punched)
+    where = places(points)
+    sets, strange = [], 0
+    for group in (hull.vertices, hull.boundary, hull.inside):
+        known = [where[point] for point in group if point in where]
+        strange += len(group) - len(known)
+        sets.append(frozenset(known))
+    dimension = {"program2": 2, "program3": 3}.get(run.final.name, min(len(hull.vertices), 3) - 1)
+    equations: list[Equation] = []
+    if dimension >= 2 and run.final.name != "program1":
+        equations = [_four(equation) for equation in hull.equations]
+    notes = _line_faults(hull.equations, hull.satisfied, hull.vertices) if run.final.name == "program1" else ()
+    return Outcome(name, DETERMINED, dimension, sets[0], sets[1], sets[2], tuple(equations), strange, notes)
+
+
+def from_hull(name: str, hull: Hull) -> Outcome:
+    """The outcome of the port."""
+    equations = tuple(_four([Fraction(c) for c in face.coefficients]) for face in hull.faces)
+    return Outcome(
+        name,
+        hull.status,
+        hull.dimension,
+        frozenset(hull.vertices),
+        frozenset(hull.boundary),
+        frozenset(hull.inside),
+        equations if hull.dimension >= 2 else (),
+    )
+
+
+def from_judge(hull: ExactHull, points: Sequence[Vector]) -> Outcome:
+    """The judge's outcome; of a polygon its edges as the lines the thesis would print, exactly."""
+    if hull.dimension == 3:
+        equations = [_four([Fraction(c) for c in hull.plane_of(facet)]) for facet in hull.facets]
+    elif hull.dimension == 2:
+        equations = _lines(hull, points)
+    else:
+        equations = []
+    return Outcome(
+        "judge",
+        DETERMINED,
+        hull.dimension,
+        frozenset(hull.vertices),
+        frozenset(hull.boundary),
+        frozenset(hull.inside),
+        tuple(equations),
+    )
+
+
+def _ending(kind: str) -> str:
+    words = {"limit": "endless", "bounds": "out of bounds", "outside": "out of bounds", "undefined": "undefined value"}
+    return words.get(kind, kind)
+
+
+def _four(equation: Sequence[Fraction]) -> Equation:
+    a, b, c, d = equation
+    return a, b, c, d
+
+
+def _lines(hull: ExactHull, points: Sequence[Vector]) -> list[Equation]:
+    """The edges of a polygon as projected lines, negative at the polygon's other vertices."""
+    assert hull.plane is not None
+    drop = next(k for k in range(3) if hull.plane[k])
+    u, v = (k for k in range(3) if k != drop)
+    lines: list[Equation] = []
+    ring = hull.polygon
+    for first, second, third in zip(ring, ring[1:] + ring[:1], ring[2:] + ring[:2], strict=True):
+        p, q, r = points[first], points[second], points[third]
+        line = [Fraction(0)] * 4
+        line[u], line[v] = p[v] - q[v], q[u] - p[u]
+        line[3] = -(line[u] * p[u] + line[v] * p[v])
+        turn = -1 if line[u] * r[u] + line[v] * r[v] + line[3] > 0 else 1
+        lines.append(_four([turn * c for c in line]))
+    return lines
+
+
+def _line_faults(
+    equations: Sequence[Vector], satisfied: Sequence[tuple[tuple[int, ...], int]], vertices: Sequence[Vector]
+) -> tuple[str, ...]:
+    """Equations of program 1 that do not vanish at the points they are said to contain."""
+    pairs = satisfied or [((1, 2), number) for number in range(1, len(equations) + 1)]
+    wrong = [
+        number
+        for named, number in pairs
+        if number <= len(equations)
+        and any(sum(c * x for c, x in zip(equations[number - 1], (*vertices[k - 1], Fraction(1)), strict=True)) for k in named)
+    ]
+    return (f"equations {', '.join(map(str, wrong))} do not hold at their points",) if wrong else ()

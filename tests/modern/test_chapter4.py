@@ -1,0 +1,49 @@
+"""The worked examples of theorems 4.1, 4.2 (Table 1) and 4.8 (thesis p. 37-41, 56-57), and that a claim can fail."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+
+from modern.edition.chapter4_theorems import Theorem, load_theorems
+from modern.edition.printed import THEOREMS
+from modern.edition.theorem_claims import all_claims, claims, lost_candidates
+
+BY_ID = {theorem.id: theorem for theorem in load_theorems()}
+
+
+@pytest.mark.parametrize("name", THEOREMS)
+def test_every_claim_of_theorem(name: str) -> None:
+    found = list(all_claims([name]))
+    assert [claim.says for claim in found if claim.holds is False] == []
+    assert sum(claim.holds is True for claim in found) >= 2
+    assert [claim.theorem for claim in found if claim.holds is None] == [name]
+
+
+def moved(theorem: Theorem, name: str) -> Theorem:
+    """The theorem with one point moved by one in z."""
+    points = tuple(replace(p, at=(p.at[0], p.at[1], p.at[2] + 1)) if p.name == name else p for p in theorem.points)
+    return replace(theorem, points=points)
+
+
+@pytest.mark.parametrize(("theorem", "point"), [("4.1", "P5"), ("4.2", "P3"), ("4.8", "Q4"), ("4.8", "Q9")])
+def test_a_moved_point_fails_a_claim(theorem: str, point: str) -> None:
+    assert any(claim.holds is False for claim in claims(moved(BY_ID[theorem], point)))
+
+
+def test_an_equation_that_is_no_face_fails_the_table_of_4_8() -> None:
+    theorem = BY_ID["4.8"]
+    changed = replace(theorem.planes[0], coefficients=(*theorem.planes[0].coefficients[:3], Fraction(1)))
+    found = list(claims(replace(theorem, planes=(changed, *theorem.planes[1:]))))
+    assert any(claim.holds is False and "table lists" in claim.says for claim in found)
+
+
+def test_the_lost_point_of_4_1_has_candidates_in_the_plane() -> None:
+    theorem = BY_ID["4.1"]
+    candidates = lost_candidates(theorem)
+    assert candidates
+    for x, y, z in candidates:
+        assert 2 * x - 5 * y + 3 * z + 4 == 0
+        assert y >= 6
