@@ -3,44 +3,17 @@
 from __future__ import annotations
 
 import random
-import statistics
 import subprocess
 import sys
-import time
 from collections.abc import Callable
-from dataclasses import dataclass
 
+from benchmarks.hulls import figures
+from benchmarks.timing import RUNS, timed
 from emulator.cards import Deck, deck_from_lines
 from emulator.machine import Machine
 from emulator.result import Options
 from modern.edition import decks
 from modern.points import e_field, parse_decimal
-
-RUNS = 5
-
-
-@dataclass(frozen=True, slots=True)
-class Figure:
-    """One measured figure: seconds of each run and what to compare them with."""
-
-    what: str
-    seconds: tuple[float, ...]
-    note: str = ""
-
-    def line(self) -> str:
-        median, least, most = statistics.median(self.seconds), min(self.seconds), max(self.seconds)
-        return f"{self.what:<58} {median:8.3f} s  ({least:.3f} to {most:.3f})  {self.note}".rstrip()
-
-
-def timed(what: str, work: Callable[[], object], note: str = "") -> Figure:
-    """Time ``work`` five times; the first, untimed, fills caches."""
-    work()
-    seconds = []
-    for _ in range(RUNS):
-        start = time.perf_counter()
-        work()
-        seconds.append(time.perf_counter() - start)
-    return Figure(what, tuple(seconds), note)
 
 
 def process(*arguments: str) -> Callable[[], object]:
@@ -74,7 +47,9 @@ def main() -> None:
     name = f"program 3, 51 points, {result.statements} statements, plain engine"
     figure = timed(name, lambda: Machine(program, middle, Options()).run(), "bar 1.5 s")
     print(figure.line())
-    print(f"  {result.statements / statistics.median(figure.seconds):,.0f} statements a second")
+    print(f"  {result.statements / figure.median:,.0f} statements a second")
+    for hull in figures():
+        print(hull.line())
 
 
 if __name__ == "__main__":

@@ -1,0 +1,24 @@
+"""Convex hulls: Butler's procedure over any arithmetic, an exact judge, comparison, studies, the edition.
+
+The names below are the public interface; they are imported when first used.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from modern.hull import Face, Hull, Stage
+    from modern.port import PointsError, RangeError, convex_hull
+
+_HOMES = {"modern.hull": ("Face", "Hull", "Stage"), "modern.port": ("PointsError", "RangeError", "convex_hull")}
+
+__all__ = ["Face", "Hull", "PointsError", "RangeError", "Stage", "convex_hull"]
+
+
+def __getattr__(name: str) -> object:
+    for module, names in _HOMES.items():
+        if name in names:
+            return getattr(import_module(module), name)
+    raise AttributeError(f"module 'modern' has no attribute {name!r}")

@@ -1,29 +1,36 @@
 """What number of points fits a machine: the hull programs' arrays against the positions of core.
 
-The arrays of 51 hold a number a point, those of 98 a number a plane: 2N-4 for N points in space (thesis
-p. 3, and OPEN-QUESTIONS on NE).  The length of the object program is the estimate of
-:func:`emulator.length.code_positions`.
+The arrays of 51 hold a number a point, those of 98 a number a plane: 2N-4 for N points in space.  The layer
+``corrected`` has 52 and 193 instead, N+1 and 4N-11 (rows P2-023, P3-028).  The length of the object program is
+the estimate of :func:`emulator.length.code_positions`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from emulator.length import code_positions
 from emulator.objectcode import Program
 from emulator.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 
-POINTS, PLANES = 51, 98
+POINTS = 51
+_SIZES: dict[int, Callable[[int], int]] = {
+    51: lambda n: n,
+    52: lambda n: n + 1,
+    98: lambda n: max(2 * n - 4, 4),
+    193: lambda n: max(4 * n - 11, 5),
+}
+"""Array lengths of the hull programs, at 51 points, as functions of the number of points."""
+_WORDS = {51: "N", 52: "N+1", 98: "2N-4", 193: "4N-11"}
 
 
 def data_positions(program: Program, points: int) -> int:
     """The positions a program's data take when its arrays are dimensioned for ``points`` points."""
     fields = program.storage.fields
     for entry in program.storage.arrays():
-        if entry.shape == (POINTS,):
-            fields += points - POINTS
-        elif entry.shape == (PLANES,):
-            fields += max(2 * points - 4, 4) - PLANES
+        size = _SIZES.get(entry.size)
+        if size is not None:
+            fields += size(points) - entry.size
     return fields * FIELD
 
 
@@ -41,8 +48,8 @@ def largest(program: Program, core: int) -> int:
 def capacity_lines(program: Program, core: int) -> Iterator[str]:
     """What fits, in words."""
     points = largest(program, core)
-    planes = any(entry.shape == (PLANES,) for entry in program.storage.arrays())
-    arrays = "arrays of N and of 2N-4 fields" if planes else "arrays of N fields"
+    lengths = sorted({entry.size for entry in program.storage.arrays()} & _WORDS.keys())
+    arrays = f"arrays of {' and '.join(_WORDS[length] for length in lengths)} fields"
     if points:
         yield f"  with {arrays} about {points} points would fit; the thesis's N is {POINTS}"
     else:

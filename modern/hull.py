@@ -7,11 +7,13 @@ decimal exists; a binary float appears as the exact decimal of its value.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 DETERMINED = "determined"
 NOT_ACCEPTABLE = "DATA NOT ACCEPTABLE"
 ERROR = "ERROR IN PROGRAM"
+TABLE_FULL = "table of planes is full"
 
 Coefficients = tuple[str, str, str, str]
 
@@ -57,18 +59,20 @@ class Stage:
 class Hull:
     """A convex hull as a procedure determined it in some arithmetic.
 
-    ``status``: ``determined``, or the message the programs end with; ``statement`` the label of the listing
-    that decided it.  ``dimension`` 0 to 3.  ``points``: the input as the arithmetic took it.  ``vertices``,
-    ``boundary`` and ``inside``: points in the order the programs punch them.  ``duplicates``: (point, the
-    first point with the same coordinates); the thesis takes distinct points, so these are reported and left
-    out.  ``plane``: the plane of a polygon, as punched; ``lines``: of a segment, two equations; ``centre``:
-    the point C.
+    ``status``: ``determined``, the message the programs end with, or ``table of planes is full`` where they
+    would overrun their arrays; ``statement``: program and label of the listing that decided it.  ``dimension``
+    0 to 3.  ``points``: the input as the arithmetic took it.  ``vertices``, ``boundary`` and ``inside``: points
+    in the order the programs punch them (of a segment they punch the ends only; the points between are
+    inside).  ``duplicates``: (point, the first point with the same coordinates); the thesis takes distinct
+    points, so these are reported and left out.  ``plane``: the plane of a polygon, as punched; ``lines``: two
+    equations a line, of a segment and of the three sides of three points; ``centre``: the point C of a
+    polyhedron.
     """
 
     arithmetic: str
     status: str
     dimension: int
-    points: tuple[tuple[str, str, str], ...]
+    points: Sequence[tuple[str, str, str]]
     vertices: tuple[int, ...]
     boundary: tuple[int, ...]
     inside: tuple[int, ...]

@@ -2,6 +2,7 @@
 
 A data set is a card with N in columns 1-2, then N cards with x, y, z in columns 1-14, 15-28, 29-42 (thesis
 p. 58-59; its data sheet gives z the columns 29 to 52, the FORMAT takes 29 to 42).  A deck may hold several.
+With the layer ``epsilon`` the card with N holds e in columns 3-16 (OPEN-QUESTIONS 28).
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from emulator.formats import Field
 MAX_POINTS = 51
 COORDINATE = Field("E", 14, 8)
 _LAST_COLUMN = 42
+_E_FIRST, _E_LAST = 3, 16
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,11 +42,11 @@ class CheckedDeck:
         return Deck(self.source, self.sets[index].cards)
 
 
-def check(deck: Deck, rules: Rules = TRUNCATING.rules) -> CheckedDeck:
-    """Check every data set of a deck.
+def check(deck: Deck, rules: Rules = TRUNCATING.rules, epsilon: bool = False) -> CheckedDeck:
+    """Check every data set of a deck; ``epsilon`` says that the programs read e behind N.
 
-    Raises CardError for an N that is no number or not 1 to 51 and for a coordinate that is no number,
-    DeckError where the deck ends before N points are there.
+    Raises CardError for an N that is no number or not 1 to 51, for a coordinate that is no number and for an e
+    that is none or negative, DeckError where the deck ends before N points are there.
     """
     sets: list[DataSet] = []
     warnings: list[str] = []
@@ -56,7 +58,9 @@ def check(deck: Deck, rules: Rules = TRUNCATING.rules) -> CheckedDeck:
                 f"{deck.source}: card {cards[at].number}, column 1: blank cards behind the last data set are not read"
             )
             break
-        n = _count(deck, cards[at], warnings)
+        n = _count(deck, cards[at], warnings, _E_LAST if epsilon else _E_FIRST - 1)
+        if epsilon:
+            _interval(deck, cards[at], rules, warnings)
         points = cards[at + 1 : at + 1 + n]
         if len(points) < n:
             raise DeckError(
@@ -79,7 +83,7 @@ def check(deck: Deck, rules: Rules = TRUNCATING.rules) -> CheckedDeck:
     return CheckedDeck(deck.source, tuple(sets), tuple(warnings))
 
 
-def _count(deck: Deck, card: Card, warnings: list[str]) -> int:
+def _count(deck: Deck, card: Card, warnings: list[str], last: int) -> int:
     columns = card.columns(1, 2)
     try:
         number = read_fixed(columns)
@@ -92,9 +96,25 @@ def _count(deck: Deck, card: Card, warnings: list[str]) -> int:
         raise CardError(deck.source, card.number, 1, f"N is {n}; the programs take 1 to {MAX_POINTS} points")
     if number.warning:
         warnings.append(f"{deck.source}: card {card.number}, column 1: {number.warning}: N is {n}")
-    if card.text[2:].strip():
-        warnings.append(f"{deck.source}: card {card.number}, column 3: what stands behind N is not read")
+    if card.text[last:].strip():
+        words = f"what stands behind {'N' if last < _E_FIRST else 'e'} is not read"
+        warnings.append(f"{deck.source}: card {card.number}, column {last + 1}: {words}")
     return n
+
+
+def _interval(deck: Deck, card: Card, rules: Rules, warnings: list[str]) -> None:
+    """Check e, columns 3 to 16; blank is zero."""
+    columns = card.columns(_E_FIRST, _E_LAST)
+    if not columns.strip():
+        return
+    try:
+        number = read_floating(COORDINATE, columns, rules)
+    except FieldError as error:
+        raise CardError(deck.source, card.number, _E_FIRST, f"e: {error}") from None
+    if number.mantissa < 0:
+        raise CardError(deck.source, card.number, _E_FIRST, "e is negative: no value lies from -e to +e")
+    if number.warning:
+        warnings.append(f"{deck.source}: card {card.number}, column {_E_FIRST}: e: {number.warning}")
 
 
 def _point(deck: Deck, card: Card, rules: Rules, warnings: list[str]) -> tuple[tuple[int, int], ...]:

@@ -21,7 +21,7 @@ def main(args: argparse.Namespace) -> int:
     check_places(args.punch, args.typewriter, args.trace)
     layers = layers_of(args)
     first = "program1_examples" if args.programs == "examples" else "program1"
-    checked = hulldeck.check(read_deck(args.deck), options.profile.rules)
+    checked = hulldeck.check(read_deck(args.deck), options.profile.rules, epsilon="epsilon" in layers)
     load = decks.loader(layers)
     load(first)
     runs: list[HullRun] = []

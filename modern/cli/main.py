@@ -7,6 +7,7 @@ ran into the statement limit or out of bounds, or a result differs.  2: bad inpu
 from __future__ import annotations
 
 import argparse
+import contextlib
 import importlib
 import os
 import sys
@@ -37,10 +38,12 @@ def build_parser() -> argparse.ArgumentParser:
     reproduce = _command(
         commands,
         "reproduce",
-        "run the examples of chapter 6 and judge every printed result",
+        "run the printed examples and judge every printed result",
         "modern.cli.reproduce",
     )
-    reproduce.add_argument("examples", metavar="EXAMPLE", nargs="*", help="1 to 6; all if none is named")
+    reproduce.add_argument(
+        "examples", metavar="EXAMPLE", nargs="*", help="1 to 6, or a theorem: 4.1, 4.2, 4.8 (default: all)"
+    )
     reproduce.add_argument("--json", metavar="FILE", help="write the verdicts as JSON")
 
     run = _command(commands, "run", "run a FORTRAN program on the emulated 1620", "modern.cli.run")
@@ -67,6 +70,31 @@ def build_parser() -> argparse.ArgumentParser:
     cards.add_argument("points", metavar="POINTS.csv", help="three decimal numbers a line")
     cards.add_argument("-o", "--output", metavar="DECK", default="-")
     cards.add_argument("--truncate", action="store_true", help="cut digits a card cannot hold instead of refusing them")
+
+    diff = _command(
+        commands, "diff", "one point set by the 1963 programs, the port and the exact hull", "modern.cli.diff"
+    )
+    diff.add_argument("points", metavar="POINTS", help="a data deck, CSV points x,y,z or an OFF file")
+    diff.add_argument(
+        "--epsilon", metavar="E", help="chapter 7's e, for the programs with layer epsilon and for the port"
+    )
+    diff.add_argument("--json", metavar="FILE", help="write the comparison as JSON")
+    _layers(diff)
+
+    export = _command(commands, "export", "the exact hull of points as a mesh or as JSON", "modern.cli.export")
+    export.add_argument("points", metavar="POINTS", help="a data deck, CSV points x,y,z or an OFF file")
+    export.add_argument(
+        "-o", "--output", metavar="FILE", default="-", help="a name ending .off, .obj, .ply, .stl or .json"
+    )
+    export.add_argument(
+        "--format", choices=("off", "obj", "ply", "stl", "json"), help="the format, where the name does not say it"
+    )
+
+    draw = _command(commands, "draw", "a line drawing of the exact hull of points, as SVG", "modern.cli.draw")
+    draw.add_argument("points", metavar="POINTS", help="a data deck, CSV points x,y,z or an OFF file")
+    draw.add_argument("-o", "--output", metavar="FILE.svg", default="-")
+    draw.add_argument("--eye", metavar="X,Y,Z", help="the direction to the eye; write --eye=-1,2,3 before a minus")
+    draw.add_argument("--title", metavar="TEXT", help="the line below the picture (default: the name of the file)")
 
     apparatus = _command(commands, "apparatus", "the emendations of the listings, row by row", "modern.cli.apparatus")
     apparatus.add_argument("--program", metavar="N", help="1, 2 or 3")
@@ -95,6 +123,9 @@ def build_parser() -> argparse.ArgumentParser:
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns the exit code."""
     args = build_parser().parse_args(arguments)
+    if sys.stdout is None:
+        _complain("standard output is closed")
+        return BAD_INPUT
     try:
         command = importlib.import_module(args.module)
         code: int = command.main(args)
@@ -105,16 +136,28 @@ def main(arguments: Sequence[str] | None = None) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return OK
     except KeyboardInterrupt:
-        print("hull1620: interrupted", file=sys.stderr)
+        _complain("interrupted")
         return 130
+    except OSError as error:
+        # What cannot be opened is said where it is known by name; this is an output that fails in mid-writing.
+        _complain(f"cannot write: {(error.strerror or str(error)).lower()}")
+        return BAD_INPUT
     except Exception as error:
         from emulator.errors import EmulatorError
         from modern.edition.apparatus import ApparatusError
 
-        if isinstance(error, (EmulatorError, ApparatusError)):
-            print(f"hull1620: {error}", file=sys.stderr)
+        if isinstance(error, EmulatorError | ApparatusError):
+            _complain(str(error))
             return BAD_INPUT
         raise
+
+
+def _complain(message: str) -> None:
+    """One line on standard error, whatever a file's name holds; nothing where there is no standard error."""
+    if sys.stderr is not None:
+        shown = "".join(c if c.isprintable() else repr(c)[1:-1] for c in message)
+        with contextlib.suppress(OSError, ValueError):
+            print(f"hull1620: {shown}", file=sys.stderr)
 
 
 def _version() -> str:

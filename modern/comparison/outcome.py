@@ -141,7 +141,11 @@ def _line_faults(
     wrong = [
         number
         for named, number in pairs
-        if number <= len(equations)
-        and any(sum(c * x for c, x in zip(equations[number - 1], (*vertices[k - 1], Fraction(1)), strict=True)) for k in named)
+        if number <= len(equations) and any(_value(equations[number - 1], vertices[k - 1]) for k in named)
     ]
     return (f"equations {', '.join(map(str, wrong))} do not hold at their points",) if wrong else ()
+
+
+def _value(equation: Sequence[Fraction], point: Vector) -> Fraction:
+    """The left member of an equation at a point."""
+    return sum((c * x for c, x in zip(equation, point, strict=False)), equation[3])

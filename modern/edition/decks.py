@@ -109,8 +109,8 @@ def loader(layers: tuple[str, ...]) -> Callable[[str], Program]:
 
     Raises DeckError for a layer none of them has.
     """
-    present = {name: {row.layer for row in text(built_in(name).text).rows} for name in NAMES}
+    present = {row.layer for name in TEXTS for row in text(name).rows}
     for layer in layers:
-        if not any(layer in found for found in present.values()):
+        if layer not in present:
             raise DeckError(f"no program has rows of a layer {layer!r}")
-    return lambda name: program(name, tuple(layer for layer in layers if layer in present[name]))
+    return lambda name: with_layers(name, layers)

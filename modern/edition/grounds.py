@@ -4,6 +4,9 @@
 comes out no more.  ``deck``: without it a named data deck gives other cards.  ``forced``: with it the card
 is a sibling card with names exchanged, and without it is not.  ``cosmetic``: with or without it the object
 code is the same.
+
+A row of a layer the committed decks are built without is judged with its layer switched on, in all three
+programs, and with the layers its ground names: all rows of the layer against all but this one.
 """
 
 from __future__ import annotations
@@ -24,7 +27,9 @@ from modern.edition.reproduce import reproduce
 from modern.edition.verdicts import EXACT
 from modern.hullrun import run_hull
 
-LIMIT = 200_000
+LISTED = Options(limit=200_000)
+LAYERED = Options(limit=1_000_000, core=60_000)
+"""The later layers' tables and cards need a machine of 60,000 positions."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,9 +77,20 @@ def _name(row: Row) -> str:
     return str(row.ground.get("program", "program1_examples" if row.layer == "examples" else row.text))
 
 
-def _compiled(name: str, left_out: Collection[str]) -> tuple[Program | None, str]:
+def layers_for(row: Row) -> tuple[str, ...]:
+    """The layers switched on to judge a row: none for one of the committed decks, else its own and those it names."""
+    if row.layer in decks.built_in(_name(row)).layers:
+        return ()
+    return (row.layer, *(str(layer) for layer in row.ground.get("layers", ())))
+
+
+def _built(row: Row, left_out: Collection[str] = ()) -> Deck:
+    return decks.built(_name(row), layers_for(row), left_out)
+
+
+def _compiled(row: Row, left_out: Collection[str]) -> tuple[Program | None, str]:
     try:
-        return compile_deck(decks.built(name, without=left_out)), ""
+        return compile_deck(_built(row, left_out)), ""
     except CompileError as error:
         return None, error.diagnostics[0].message
     except (EmulatorError, ApparatusError) as error:
@@ -82,15 +98,15 @@ def _compiled(name: str, left_out: Collection[str]) -> tuple[Program | None, str
 
 
 def _parse(row: Row) -> tuple[bool, str]:
-    program, message = _compiled(_name(row), without(row))
+    program, message = _compiled(row, without(row))
     if program is None:
         return True, f"without it: {message}"
     return False, "without it the deck still compiles"
 
 
 def _cosmetic(row: Row) -> tuple[bool, str]:
-    whole, _ = _compiled(_name(row), ())
-    program, message = _compiled(_name(row), without(row))
+    whole, _ = _compiled(row, ())
+    program, message = _compiled(row, without(row))
     if program is None or whole is None:
         return False, f"without it the deck does not compile: {message}"
     return (
@@ -106,7 +122,7 @@ def _print(row: Row) -> tuple[bool, str]:
         state = ("examples", "program1_examples") if name != "program1" else ("listing", "program1")
         number = int(name[7])
         with_row = _exact(example, state, number, {})
-        program, message = _compiled(name, without(row))
+        program, message = _compiled(row, without(row))
         if program is None:
             return False, f"without it the deck does not compile: {message}"
         without_row = _exact(example, state, number, {name: program})
@@ -128,15 +144,15 @@ def _exact(example: int, state: tuple[str, str], number: int, instead: dict[str,
 
 
 def _deck(row: Row) -> tuple[bool, str]:
-    name, deck_name = _name(row), str(row.ground.get("deck", ""))
+    deck_name = str(row.ground.get("deck", ""))
     data = ground_deck(deck_name)
     if data is None:
         return False, f"there is no deck {deck_name!r}"
-    whole, _ = _compiled(name, ())
-    program, message = _compiled(name, without(row))
+    whole, _ = _compiled(row, ())
+    program, message = _compiled(row, without(row))
     if whole is None or program is None:
         return False, f"without it the deck does not compile: {message}"
-    one, other = _outcome(name, whole, data), _outcome(name, program, data)
+    one, other = _outcome(row, whole, data), _outcome(row, program, data)
     if one == other:
         return False, f"deck {deck_name} gives the same cards without it"
     return (
@@ -154,15 +170,16 @@ def ground_deck(name: str) -> Deck | None:
     return deck_from_text(entry.name, entry.read_text(encoding="ascii")) if entry.is_file() else None
 
 
-def _outcome(name: str, program: Program, deck: Deck) -> tuple[tuple[str, ...], str]:
-    """What a data deck gives with ``program`` in the place of the built-in ``name``."""
+def _outcome(row: Row, program: Program, deck: Deck) -> tuple[tuple[str, ...], str]:
+    """What a data deck gives with ``program`` in the place of the built-in the row is judged by."""
+    name, layers = _name(row), layers_for(row)
     first = "program1_examples" if name == "program1_examples" else "program1"
 
     def load(wanted: str) -> Program:
-        return program if wanted == name else decks.program(wanted)
+        return program if wanted == name else decks.with_layers(wanted, layers)
 
     try:
-        steps = run_hull(deck, load, Options(limit=LIMIT), first).steps
+        steps = run_hull(deck, load, LAYERED if layers else LISTED, first).steps
     except EmulatorError as error:
         return (), str(error)
     lines = tuple(line for step in steps for line in (*step.result.punched, *step.result.typed))
@@ -173,9 +190,9 @@ def _forced(row: Row) -> tuple[bool, str]:
     card, sibling = str(row.ground["card"]), str(row.ground["sibling"])
     names = list(row.ground["rename"])
     exchange = dict(zip(names[::2], names[1::2], strict=True))
-    with_row = _card(decks.built(_name(row)), card)
-    other = _renamed(_card(decks.built(_name(row)), sibling), exchange)
-    without_row = _card(decks.built(_name(row), without=without(row)), card)
+    with_row = _card(_built(row), card)
+    other = _renamed(_card(_built(row), sibling), exchange)
+    without_row = _card(_built(row, without(row)), card)
     if with_row != other:
         return False, f"card {card} is not card {sibling} with names exchanged"
     if without_row == other:

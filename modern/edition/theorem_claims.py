@@ -75,7 +75,7 @@ def lost_candidates(theorem: Theorem) -> list[Vector]:
     known = [point.at for point in theorem.points]
     low = [min(p[k] for p in known) for k in range(3)]
     high = [max(p[k] for p in known) for k in range(3)]
-    found = []
+    found: list[Vector] = []
     for x, z in product(range(int(low[0]), int(high[0]) + 1), range(int(low[2]), int(high[2]) + 1)):
         a, b, c, d = plane.coefficients
         y = -(a * x + c * z + d) / b
@@ -148,7 +148,7 @@ def _four_eight(theorem: Theorem) -> Iterator[Claim]:
 
 def _through_the_programs(theorem: Theorem, load: Load) -> Claim:
     """The printed points through the listing, held against the exact hull of what the cards hold."""
-    points = [tuple(_cut(x) for x in point.at) for point in theorem.points]
+    points: list[Vector] = [tuple(_cut(x) for x in point.at) for point in theorem.points]
     exactly = all(one == point.at for one, point in zip(points, theorem.points, strict=True))
     judge = from_judge(exact_hull([*map(list, points)]), points)
     outcome = from_cards("listing", run_hull(_deck(points), load, Options(limit=200_000)), points)

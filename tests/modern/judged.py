@@ -96,7 +96,7 @@ def satisfied(seen: CardHull) -> dict[tuple[int, ...], frozenset[tuple[Fraction,
 
 
 def equations(points: Sequence[Point], judge: ExactHull) -> dict[tuple[int, ...], frozenset[tuple[Fraction, ...]]]:
-    """The judge's planes, or a polygon's lines as program 2 has them (a coordinate projected away), with their vertices."""
+    """The planes with their vertices; of a polygon the lines as program 2 has them, a coordinate projected away."""
     if judge.dimension == 3:
         return {
             judge.plane_of(f): frozenset(tuple(Fraction(c) for c in points[i]) for i in f.polygon) for f in judge.facets

@@ -1,0 +1,185 @@
+"""``hull1620 diff``: one point set by the 1963 programs, by the port and by the exact judge."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Iterator
+from fractions import Fraction
+
+from emulator.cards import Deck, deck_from_lines, write_text
+from emulator.errors import DeckError
+from emulator.result import Options
+from modern.cli.common import layers_of, say
+from modern.cli.main import DIFFERS, OK
+from modern.comparison.against import Disagreement, against
+from modern.comparison.outcome import Outcome, Vector, from_cards, from_hull, from_judge
+from modern.edition import decks
+from modern.exact_hull import exact_hull
+from modern.hulldeck import MAX_POINTS
+from modern.hullrun import run_hull
+from modern.inputs import Input, read_input
+from modern.points import e_field, parse_decimal
+from modern.port import convex_hull
+
+_LIMIT = 1_000_000
+_HEAD = ("route", "status", "vertices", "misfiled", "planes", "error", "excluded")
+
+
+def main(args: argparse.Namespace) -> int:
+    """Run every route, print the table, say which points are concerned."""
+    found = read_input(args.points)
+    points: list[Vector] = [tuple(Fraction(x) for x in point) for point in found.points]
+    judge = from_judge(exact_hull(found.points), points)
+    rows = [
+        (outcome, against(outcome, judge, points) if outcome.determined else None)
+        for outcome in _routes(args, found, points)
+    ]
+    for line in _table(rows, judge, found):
+        print(line)
+    say(found.notes)
+    if args.json:
+        write_text(args.json, json.dumps(_document(rows, judge, found), indent=1) + "\n")
+    return OK if all(_fine(outcome, row) for outcome, row in rows) else DIFFERS
+
+
+def _routes(args: argparse.Namespace, found: Input, points: list[Vector]) -> Iterator[Outcome]:
+    layers = layers_of(args) or (("epsilon", "corrected") if args.epsilon else ("corrected",))
+    deck = _deck(found)
+    for name, chosen in (("listing", ()), ("listing + " + " + ".join(layers), layers)):
+        if isinstance(deck, str):
+            yield Outcome(name, f"not run: {deck}", -1)
+            continue
+        data = _with_epsilon(deck, args.epsilon) if "epsilon" in chosen else deck
+        run = run_hull(data, decks.loader(chosen), Options(limit=_LIMIT, core=60000 if chosen else 40000))
+        yield from_cards(name, run, points)
+    for arithmetic in ("float64", "exact"):
+        hull = convex_hull(found.points, arithmetic, epsilon=args.epsilon)
+        yield from_hull(f"port {arithmetic}", hull)
+
+
+def _deck(found: Input) -> Deck | str:
+    """The points as a data deck, or why they are none."""
+    if len(found.points) > MAX_POINTS:
+        return f"{len(found.points)} points; the programs take {MAX_POINTS}"
+    cards = []
+    for place, point in zip(found.places, found.points, strict=True):
+        try:
+            cards.append("".join(e_field(parse_decimal(x), False) for x in point))
+        except ValueError as error:
+            return f"{place}: {error}"
+    return deck_from_lines(found.source, [f"{len(cards):2d}", *cards])
+
+
+def _with_epsilon(deck: Deck, epsilon: str | None) -> Deck:
+    """The deck with e punched behind N, as the layer epsilon reads it."""
+    try:
+        field = e_field(parse_decimal(epsilon or "0"), False)
+    except ValueError as error:
+        raise DeckError(f"--epsilon: {error}") from None
+    first, *rest = (card.text for card in deck.cards)
+    return deck_from_lines(deck.source, [first.ljust(2) + field, *rest])
+
+
+def _table(rows: list[tuple[Outcome, Disagreement | None]], judge: Outcome, found: Input) -> Iterator[str]:
+    kinds = ("point", "segment", "polygon", "polyhedron")
+    faces = {2: "lines", 3: "planes"}.get(judge.dimension, "equations")
+    yield f"{found.source}: {len(found.points)} points"
+    yield (
+        f"the judge: a {kinds[judge.dimension]} of {len(judge.vertices)} vertices, {len(judge.equations)} {faces}, "
+        f"{len(judge.boundary)} boundary and {len(judge.inside)} inside points"
+    )
+    cells = [_HEAD, *(_cells(outcome, row) for outcome, row in rows)]
+    widths = [max(len(cell[k]) for cell in cells) for k in range(len(_HEAD))]
+    for cell in cells:
+        yield "  ".join(text.ljust(width) for text, width in zip(cell, widths, strict=True)).rstrip()
+    for outcome, row in rows:
+        for note in outcome.notes:
+            yield f"{outcome.name}: {note}"
+        if row is not None and row.points:
+            yield f"{outcome.name}:"
+            for index in row.points:
+                yield f"  {found.places[index]} ({', '.join(found.points[index])}): {_fault(row, index)}"
+    wrong = [outcome.name for outcome, row in rows if not _fine(outcome, row)]
+    yield f"differs from the judge: {', '.join(wrong)}" if wrong else "all agree with the judge"
+
+
+def _fine(outcome: Outcome, row: Disagreement | None) -> bool:
+    """A route that could not be run says nothing against the others."""
+    return outcome.status.startswith("not run") or (row is not None and row.agrees)
+
+
+def _cells(outcome: Outcome, row: Disagreement | None) -> tuple[str, ...]:
+    if row is None:
+        return outcome.name, outcome.status, "", "", "", "", ""
+    vertices = _counted((len(row.missed), "missed"), (len(row.added), "added"))
+    planes = _counted((row.planes_missing, "missing"), (row.planes_extra, "extra"), (row.planes_doubled, "doubled"))
+    return (
+        outcome.name,
+        outcome.status,
+        vertices,
+        str(len(row.misfiled)) if row.misfiled else "-",
+        planes,
+        _short(row.error),
+        _short(row.excluded),
+    )
+
+
+def _counted(*counts: tuple[int, str]) -> str:
+    return ", ".join(f"{n} {what}" for n, what in counts if n) or "-"
+
+
+def _short(value: Fraction) -> str:
+    return f"{float(value):.2e}" if value else "-"
+
+
+def _fault(row: Disagreement, index: int) -> str:
+    faults = []
+    if index in row.missed:
+        faults.append("a vertex missed")
+    if index in row.added:
+        faults.append("no vertex")
+    if index in row.misfiled:
+        faults.append("misfiled")
+    if index == row.excluded_point:
+        faults.append(f"outside by {_short(row.excluded)}")
+    return ", ".join(faults)
+
+
+def _document(rows: list[tuple[Outcome, Disagreement | None]], judge: Outcome, found: Input) -> dict[str, object]:
+    return {
+        "source": found.source,
+        "points": [
+            {"place": place, "at": list(point)} for place, point in zip(found.places, found.points, strict=True)
+        ],
+        "judge": {
+            "dimension": judge.dimension,
+            "vertices": sorted(judge.vertices),
+            "boundary": sorted(judge.boundary),
+            "inside": sorted(judge.inside),
+            "equations": [[str(c) for c in equation] for equation in judge.equations],
+        },
+        "routes": [
+            {
+                "route": outcome.name,
+                "status": outcome.status,
+                "agrees": _fine(outcome, row),
+                "notes": list(outcome.notes),
+                **({} if row is None else _details(row)),
+            }
+            for outcome, row in rows
+        ],
+    }
+
+
+def _details(row: Disagreement) -> dict[str, object]:
+    return {
+        "vertices_missed": sorted(row.missed),
+        "vertices_added": sorted(row.added),
+        "misfiled": sorted(row.misfiled),
+        "planes_missing": row.planes_missing,
+        "planes_extra": row.planes_extra,
+        "planes_doubled": row.planes_doubled,
+        "largest_relative_error": str(row.error),
+        "farthest_excluded": {"distance": str(row.excluded), "point": row.excluded_point},
+    }

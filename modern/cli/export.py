@@ -1,0 +1,42 @@
+"""``hull1620 export``: the exact hull of points in the format of another program."""
+
+from __future__ import annotations
+
+import argparse
+
+from modern.cli.common import say
+from modern.cli.main import DIFFERS, OK
+from modern.export import format_of, write_hull
+from modern.export.numbers import ExportError
+from modern.hull import Hull
+from modern.inputs import read_input
+
+
+def main(args: argparse.Namespace) -> int:
+    """Read the points, find the hull, write the file."""
+    form = args.format or _form(args.output)
+    hull = exact_hull_of(args.points)
+    if not hull.determined and form != "json":
+        say([f"hull1620: {args.points}: {hull.status}"])
+        return DIFFERS
+    write_hull(hull, args.output, form)
+    return OK if hull.determined else DIFFERS
+
+
+def exact_hull_of(path: str) -> Hull:
+    """The hull of a file's points in exact arithmetic; notes on the file go to standard error."""
+    found = read_input(path)
+    say(f"note: {note}" for note in found.notes)
+    # Imported here, so that a fault of the file is told without waiting.
+    from modern.port import convex_hull
+
+    hull = convex_hull(found.points, "exact")
+    for point, first in hull.duplicates:
+        say([f"note: {found.source}: {found.places[point]}: the point of {found.places[first]} again"])
+    return hull
+
+
+def _form(path: str) -> str:
+    if path == "-":
+        raise ExportError("export: give a file with -o, or a --format for standard output")
+    return format_of(path)

@@ -1,0 +1,137 @@
+"""Where numbers go: beside their vertex, off the lines and off each other as far as there is room.
+
+Every label tries a fixed set of places around its vertex; the cheapest is taken, and all are looked at again until
+nothing changes.  Only sums, products and quotients are used, so that the same picture comes out everywhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+Place = tuple[float, float]
+Line = tuple[Place, Place]
+_Box = tuple[float, float, float, float]
+
+HEIGHT = 13.0
+_WIDTH = 7.4
+_ROUNDS = 4
+_ROUND = tuple(
+    (a / 1000, b / 1000)
+    for a, b in (
+        *((1000, 0), (924, 383), (707, 707), (383, 924), (0, 1000), (-383, 924), (-707, 707), (-924, 383)),
+        *((-1000, 0), (-924, -383), (-707, -707), (-383, -924), (0, -1000), (383, -924), (707, -707), (924, -383)),
+    )
+)
+_GAPS = (6.5, 10.0, 15.0)
+_ON_LABEL, _ON_MARK, _OUTSIDE, _ON_LINE, _NEARER, _FARTHER, _INWARD = 60.0, 25.0, 200.0, 8.0, 12.0, 0.8, 1.5
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """A text and the point it names, in pixels, y downward."""
+
+    x: float
+    y: float
+    text: str
+
+    @property
+    def half(self) -> Place:
+        """Half the width and height of the text, as near as can be said without the font."""
+        return len(self.text) * _WIDTH / 2, HEIGHT / 2
+
+
+def place_labels(
+    labels: Sequence[Label], lines: Sequence[Line], marks: Sequence[Place], size: Place
+) -> tuple[Place, ...]:
+    """The centre of every label.  ``marks`` are other points to keep off, ``size`` that of the picture."""
+    if not labels:
+        return ()
+    middle = (sum(label.x for label in labels) / len(labels), sum(label.y for label in labels) / len(labels))
+    tries = [_tries(label, lines, [*marks, *_others(labels, label)], middle, size) for label in labels]
+    chosen = [_cheapest([cost for _, cost in found]) for found in tries]
+    near = [
+        [k for k, other in enumerate(labels) if k != order and _near(label, other)]
+        for order, label in enumerate(labels)
+    ]
+    for _ in range(_ROUNDS):
+        before = list(chosen)
+        for order, label in enumerate(labels):
+            taken = [_box(tries[k][chosen[k]][0], labels[k].half, 1.0) for k in near[order]]
+            costs = [
+                cost + _ON_LABEL * sum(_overlap(_box(centre, label.half, 1.0), box) for box in taken)
+                for centre, cost in tries[order]
+            ]
+            chosen[order] = _cheapest(costs)
+        if chosen == before:
+            break
+    return tuple(found[choice][0] for found, choice in zip(tries, chosen, strict=True))
+
+
+def _cheapest(costs: Sequence[float]) -> int:
+    return min(range(len(costs)), key=costs.__getitem__)
+
+
+def _others(labels: Sequence[Label], label: Label) -> list[Place]:
+    return [(other.x, other.y) for other in labels if other is not label]
+
+
+def _near(a: Label, b: Label) -> bool:
+    reach = 2 * (_GAPS[-1] + HEIGHT) + 2
+    return abs(a.x - b.x) <= reach + 2 * (a.half[0] + b.half[0]) and abs(a.y - b.y) <= reach + 2 * HEIGHT
+
+
+def _tries(
+    label: Label, lines: Sequence[Line], marks: Sequence[Place], middle: Place, size: Place
+) -> list[tuple[Place, float]]:
+    """Every place for a label by itself, with its cost."""
+    half = label.half
+    reach = _GAPS[-1] + 2 * half[0] + HEIGHT
+    around = (label.x - reach, label.y - reach, label.x + reach, label.y + reach)
+    lines = [line for line in lines if crosses(line, around)]
+    marks = [mark for mark in marks if _within(mark, around)]
+    outward = (label.x - middle[0], label.y - middle[1])
+    span = max(abs(outward[0]), abs(outward[1]), 1.0)
+    found = []
+    for step, gap in enumerate(_GAPS):
+        for dx, dy in _ROUND:
+            centre = (label.x + dx * (gap + half[0]), label.y + dy * (gap + half[1]))
+            box = _box(centre, half, 1.5)
+            cost = step * _FARTHER - _INWARD * (dx * outward[0] + dy * outward[1]) / span
+            cost += _ON_LINE * sum(crosses(line, box) for line in lines)
+            cost += _ON_MARK * sum(_within(mark, _box(centre, half, 4.0)) for mark in marks)
+            own = (centre[0] - label.x) ** 2 + (centre[1] - label.y) ** 2
+            cost += _NEARER * any((centre[0] - x) ** 2 + (centre[1] - y) ** 2 < own for x, y in marks)
+            if not (box[0] >= 0 and box[1] >= 0 and box[2] <= size[0] and box[3] <= size[1]):
+                cost += _OUTSIDE
+            found.append((centre, cost))
+    return found
+
+
+def _box(centre: Place, half: Place, room: float) -> _Box:
+    wide, tall = half[0] + room, half[1] + room
+    return centre[0] - wide, centre[1] - tall, centre[0] + wide, centre[1] + tall
+
+
+def _within(place: Place, box: _Box) -> bool:
+    return box[0] <= place[0] <= box[2] and box[1] <= place[1] <= box[3]
+
+
+def _overlap(a: _Box, b: _Box) -> bool:
+    return a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3]
+
+
+def crosses(line: Line, box: _Box) -> bool:
+    """Whether a line has a part within a box (Liang and Barsky, ACM Transactions on Graphics 3 (1984))."""
+    (x, y), (to_x, to_y) = line
+    first, last = 0.0, 1.0
+    for step, low, high in ((to_x - x, box[0] - x, box[2] - x), (to_y - y, box[1] - y, box[3] - y)):
+        if step == 0:
+            if low > 0 or high < 0:
+                return False
+            continue
+        enter, leave = (low / step, high / step) if step > 0 else (high / step, low / step)
+        first, last = max(first, enter), min(last, leave)
+        if first > last:
+            return False
+    return True

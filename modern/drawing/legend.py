@@ -1,0 +1,105 @@
+"""The band below a picture: what it shows, what its marks mean, and how the axes lie."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+
+from modern.drawing import svg
+from modern.drawing.layout import MARGIN, Pixel
+from modern.drawing.marks import BOUNDARY, BOUNDARY_HIDDEN, HIDDEN, INSIDE, VERTEX_HIDDEN, VISIBLE, Style, sample
+from modern.drawing.scene import Scene
+from modern.drawing.view import root
+from modern.export.mesh import dot
+
+_KINDS = ("Point", "Segment", "Polygon", "Polyhedron")
+_STEP, _LETTER, _AXES = 19, 8, 60
+_ARM, _SHORTEST, _BEYOND = 2200, 300, 800
+_LARGEST = 10**9
+_UNITS = tuple(tuple(Fraction(row == column) for column in range(3)) for row in range(3))
+
+
+def band_height(picture: Scene, width: int, title: str) -> int:
+    """The height of the band in pixels."""
+    rows = len(_rows(picture, width)) + 1 + bool(title)
+    return max(_STEP * rows + 20, 76 if picture.dimension else 0)
+
+
+def band(picture: Scene, width: int, top: int, title: str, numbered: bool) -> Iterator[str]:
+    """The band that begins at ``top``."""
+    base = top + 12
+    if title:
+        yield svg.text(Pixel(MARGIN * 100, base * 100), title, 'font-weight="bold"')
+        base += _STEP
+    words = caption(picture) + ("" if numbered else "; vertices not numbered")
+    yield svg.text(Pixel(MARGIN * 100, base * 100), words)
+    for row in _rows(picture, width):
+        base += _STEP
+        for x, style in row:
+            yield sample(style, Pixel((x + 9) * 100, base * 100 - 450))
+            yield svg.text(Pixel((x + 26) * 100, base * 100), style.name)
+    if picture.dimension:
+        yield from _axes(picture, Pixel((width - MARGIN - 16) * 100, (top + 34) * 100))
+
+
+def caption(picture: Scene) -> str:
+    """What the picture shows, in one sentence."""
+    what = _KINDS[picture.dimension]
+    if picture.dimension > 1:
+        what += ": " + _many(len(picture.images), "vertex", "vertices")
+    if picture.dimension > 2:
+        what += f", {_many(len(picture.edges), 'edge', 'edges')}, {_many(picture.faces, 'face', 'faces')}"
+    if picture.dimension == 0:
+        return what
+    if picture.chosen and picture.dimension < 3:
+        return f"{what}; seen at right angles"
+    eye = picture.view.eye
+    return f"{what}; seen from {','.join(map(str, eye))}" if max(map(abs, eye)) < _LARGEST else what
+
+
+def _many(count: int, one: str, more: str) -> str:
+    return f"{count} {one if count == 1 else more}"
+
+
+def _styles(picture: Scene) -> list[Style]:
+    """The marks that occur and do not speak for themselves."""
+    hidden = any(edge.hidden for edge in picture.edges)
+    behind = [mark.hidden for mark in picture.boundary]
+    present = (
+        (VISIBLE, hidden),
+        (HIDDEN, hidden),
+        (VERTEX_HIDDEN, any(picture.hidden)),
+        (BOUNDARY, not all(behind)),
+        (BOUNDARY_HIDDEN, any(behind)),
+        (INSIDE, bool(picture.inside)),
+    )
+    return [style for style, there in present if there]
+
+
+def _rows(picture: Scene, width: int) -> list[list[tuple[int, Style]]]:
+    """The marks with the column each begins at, in as many rows as they need beside the axes."""
+    rows: list[list[tuple[int, Style]]] = []
+    x = width
+    for style in _styles(picture):
+        wide = 26 + _LETTER * len(style.name) + 16
+        if x + wide > width - MARGIN - _AXES:
+            rows.append([])
+            x = MARGIN
+        rows[-1].append((x, style))
+        x += wide
+    return rows
+
+
+def _axes(picture: Scene, centre: Pixel) -> Iterator[str]:
+    """The directions of x, y and z; one that points to the eye, or nearly, is left out."""
+    view = picture.view
+    length = view.stretch * root(Fraction(dot(view.right, view.right)))
+    for unit, name in zip(_UNITS, "xyz", strict=True):
+        x, y = view.project((unit[0], unit[1], unit[2]))
+        dx, dy = round(_ARM * x / length), -round(_ARM * y / length)
+        size = max(abs(dx), abs(dy))
+        if size < _SHORTEST:
+            continue
+        yield svg.line(centre, Pixel(centre.x + dx, centre.y + dy), 'stroke="#555"')
+        end = Pixel(centre.x + dx + _BEYOND * dx // size, centre.y + dy + _BEYOND * dy // size + 400)
+        yield svg.text(end, name, 'text-anchor="middle" font-style="italic" fill="#555"')

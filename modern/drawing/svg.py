@@ -1,0 +1,78 @@
+"""SVG as text: numbers without superfluous zeros, text escaped, nothing but ASCII."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from xml.sax.saxutils import escape as _escape
+
+from modern.drawing.layout import Pixel
+
+_LEGAL = re.compile("[\t\n\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+FONT = "Helvetica, Arial, sans-serif"
+
+
+def number(hundredths: int) -> str:
+    """Hundredths of a pixel as text: 1250 is ``12.5``."""
+    whole, rest = divmod(abs(hundredths), 100)
+    text = f"{whole}.{rest:02d}".rstrip("0").rstrip(".")
+    return f"-{text}" if hundredths < 0 and text != "0" else text
+
+
+def escape(text: str) -> str:
+    """Text between tags: markup escaped, characters beyond ASCII as references, those XML forbids as question marks."""
+    allowed = "".join(c if _LEGAL.fullmatch(c) else "?" for c in text)
+    return _escape(allowed).encode("ascii", "xmlcharrefreplace").decode("ascii")
+
+
+def line(a: Pixel, b: Pixel, more: str = "") -> str:
+    """A straight line."""
+    return f'<line x1="{number(a.x)}" y1="{number(a.y)}" x2="{number(b.x)}" y2="{number(b.y)}"{_lead(more)}/>'
+
+
+def polygon(corners: Iterable[Pixel], more: str = "") -> str:
+    """A closed polygon."""
+    return f'<polygon points="{" ".join(f"{number(c.x)},{number(c.y)}" for c in corners)}"{_lead(more)}/>'
+
+
+def circle(centre: Pixel, radius: str, title: str = "", more: str = "") -> str:
+    """A circle, with a title where the reader points at it."""
+    start = f'<circle cx="{number(centre.x)}" cy="{number(centre.y)}" r="{radius}"{_lead(more)}'
+    return f"{start}>{_title(title)}</circle>" if title else f"{start}/>"
+
+
+def saltire(centre: Pixel, arm: int, title: str = "", more: str = "") -> str:
+    """A cross of two slanting lines, each end ``arm`` hundredths away along both axes."""
+    ends = [(centre.x + dx * arm, centre.y + dy * arm) for dx, dy in ((-1, -1), (1, 1), (-1, 1), (1, -1))]
+    a, b, c, d = (f"{number(x)} {number(y)}" for x, y in ends)
+    start = f'<path d="M{a}L{b}M{c}L{d}"{_lead(more)}'
+    return f"{start}>{_title(title)}</path>" if title else f"{start}/>"
+
+
+def text(place: Pixel, words: str, more: str = "") -> str:
+    """A line of text; ``place`` is on its base line."""
+    return f'<text x="{number(place.x)}" y="{number(place.y)}"{_lead(more)}>{escape(words)}</text>'
+
+
+def group(name: str, attributes: str, items: Iterable[str]) -> list[str]:
+    """Items that share attributes; nothing where there are none."""
+    found = list(items)
+    return [f'<g class="{name}"{_lead(attributes)}>', *found, "</g>"] if found else []
+
+
+def page(width: int, height: int, title: str, items: Iterable[str]) -> str:
+    """A whole file on white ground."""
+    head = (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
+        f'viewBox="0 0 {width} {height}" role="img">'
+    )
+    ground = f'<rect width="{width}" height="{height}" fill="#fff"/>'
+    return "\n".join((head, f"<title>{escape(title)}</title>", ground, *items, "</svg>")) + "\n"
+
+
+def _title(words: str) -> str:
+    return f"<title>{escape(words)}</title>"
+
+
+def _lead(more: str) -> str:
+    return f" {more}" if more else ""

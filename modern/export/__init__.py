@@ -1,0 +1,64 @@
+"""Hulls in the formats of other programs: OFF, OBJ, PLY and STL as text with exact decimals, and JSON.
+
+OFF, OBJ and PLY keep the faces as polygons, STL cuts them into triangles; JSON keeps everything.  The vertices of a
+mesh are those of ``Hull.vertices``, in that order; boundary and inside points are in JSON only.
+"""
+
+from __future__ import annotations
+
+from emulator.cards import write_text
+from modern.export import document, obj, off, ply, stl
+from modern.export.adapter import to_trimesh
+from modern.export.mesh import Mesh, mesh
+from modern.export.numbers import ExportError
+from modern.export.off import OffMesh, parse_off
+from modern.export.reading import read_off, read_source
+from modern.hull import Hull
+
+__all__ = [
+    "FORMATS",
+    "ExportError",
+    "Mesh",
+    "OffMesh",
+    "export_text",
+    "format_of",
+    "mesh",
+    "parse_off",
+    "read_off",
+    "read_source",
+    "to_trimesh",
+    "write_hull",
+]
+
+_MESHES = {"off": off.write, "obj": obj.write, "ply": ply.write, "stl": stl.write}
+FORMATS = (*_MESHES, "json")
+
+
+def export_text(hull: Hull, form: str, digits: int | None = None) -> str:
+    """The hull as the text of a file in one of ``FORMATS``.
+
+    digits: significant digits to round those coordinates to that have no finite decimal; None refuses them.  All
+    other coordinates stay exact, and JSON keeps fractions.  Raises ExportError.
+    """
+    if form == "json":
+        return document.write(hull)
+    if form not in _MESHES:
+        raise ExportError(f"{form!r} is no format; they are {', '.join(FORMATS)}")
+    return _MESHES[form](mesh(hull), digits)
+
+
+def format_of(path: str) -> str:
+    """The format a file's name ends with.  Raises ExportError."""
+    ending = path.rpartition(".")[2].lower() if "." in path else ""
+    if ending not in FORMATS:
+        raise ExportError(f"{path}: the name must end with one of {', '.join('.' + form for form in FORMATS)}")
+    return ending
+
+
+def write_hull(hull: Hull, path: str, form: str | None = None, digits: int | None = None) -> None:
+    """Write a hull to a file (``-``: standard output), whole or not at all.
+
+    form: one of ``FORMATS``; None takes it from the file's name.  Raises ExportError, and DeckError where the file
+    cannot be written.
+    """
+    write_text(path, export_text(hull, form or format_of(path), digits))

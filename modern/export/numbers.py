@@ -1,0 +1,104 @@
+"""The exact numbers of a result: text to fractions, fractions to decimals."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from decimal import MAX_EMAX, MIN_EMIN, ROUND_HALF_EVEN, Context, Decimal
+from fractions import Fraction
+
+from emulator.errors import EmulatorError
+from modern.exact_hull.coordinates import decimal
+
+Point = tuple[str, str, str]
+_QUOTIENT = re.compile(r"([+-]?[0-9]+)/([0-9]+)")
+_SHOWN = 40
+
+
+class ExportError(EmulatorError):
+    """A hull that cannot be written in the format asked for, or a file that cannot be read; one line."""
+
+
+def shown(text: str) -> str:
+    """A text quoted for a message, cut to 40 characters."""
+    return repr(text if len(text) <= _SHOWN else text[:_SHOWN] + "...")
+
+
+def number(text: str) -> Fraction:
+    """The number a text stands for: a decimal, ``-1.5`` or ``.25E-3``, or a fraction ``p/q``.
+
+    Raises ValueError, with the text cut to a readable length.
+    """
+    stripped = text.strip()
+    quotient = _QUOTIENT.fullmatch(stripped)
+    try:
+        if not quotient:
+            return Fraction(decimal(stripped))
+        if not int(quotient[2]):
+            raise ValueError(f"{shown(stripped)} has the denominator 0")
+        return Fraction(int(quotient[1]), int(quotient[2]))
+    except ValueError as error:
+        if len(stripped) <= _SHOWN or len(str(error)) <= 2 * _SHOWN:
+            raise
+        raise ValueError(f"{shown(stripped)} is no decimal number of at most 4000 digits") from None
+
+
+def coordinates(point: Sequence[str]) -> tuple[Fraction, Fraction, Fraction]:
+    """The three numbers of a point.  Raises ValueError."""
+    x, y, z = (number(text) for text in point)
+    return x, y, z
+
+
+def integer_text(value: int) -> str:
+    """All digits of an integer; ``str`` would refuse more than 4300."""
+    return str(Decimal(value))
+
+
+def decimal_text(text: str, digits: int | None = None) -> str:
+    """A decimal string of exactly the value of ``text``: the text itself where it is a decimal.
+
+    A plus sign in front is left out.  A fraction p/q becomes its finite decimal where there is one; where there is
+    none it is rounded to the nearest of ``digits`` significant digits, and refused if ``digits`` is None.
+    Raises ValueError.
+    """
+    stripped = text.strip()
+    value = number(stripped)
+    if "/" not in stripped:
+        return stripped.removeprefix("+")
+    exact = finite_decimal(value)
+    if exact is not None:
+        return exact
+    if digits is None:
+        raise ValueError(f"{shown(stripped)} has no finite decimal; state a number of digits to round it to")
+    if digits < 1:
+        raise ValueError(f"{digits} is no number of digits to round to")
+    context = Context(prec=digits, rounding=ROUND_HALF_EVEN, Emin=MIN_EMIN, Emax=MAX_EMAX)
+    return str(context.divide(Decimal(value.numerator), Decimal(value.denominator)))
+
+
+def finite_decimal(value: Fraction) -> str | None:
+    """The decimal string of a fraction, ``-0.25``, or None where it has no finite one.
+
+    Very large and very small numbers are written with an exponent: ``1E+90``.
+    """
+    rest, places = value.denominator, 0
+    for prime in (2, 5):
+        count = 0
+        while rest % prime == 0:
+            rest, count = rest // prime, count + 1
+        places = max(places, count)
+    if rest != 1:
+        return None
+    sign, figures, _ = Decimal(value.numerator * 10**places // value.denominator).as_tuple()
+    text = "".join(map(str, figures)).rstrip("0")
+    exponent = len(figures) - places
+    minus = "-" if sign else ""
+    if not text:
+        return "0"
+    if not -6 < exponent <= 21:
+        point = f".{text[1:]}" if len(text) > 1 else ""
+        return f"{minus}{text[0]}{point}E{exponent - 1:+d}"
+    if exponent <= 0:
+        return f"{minus}0.{'0' * -exponent}{text}"
+    whole, fraction = text[:exponent].ljust(exponent, "0"), text[exponent:]
+    return f"{minus}{whole}.{fraction}" if fraction else f"{minus}{whole}"
