@@ -1,0 +1,6 @@
+"""Butler's procedure as one would write it today, over any arithmetic."""
+
+from modern.port.arithmetic import PointsError, RangeError
+from modern.port.procedure import convex_hull
+
+__all__ = ["PointsError", "RangeError", "convex_hull"]

@@ -1,0 +1,104 @@
+"""Binary arithmetics: ``float64`` and ``float32`` in vectors of numpy, ``mp:BITS`` in numbers of mpmath."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from decimal import Decimal
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from mpmath import MPContext
+from mpmath.libmp import from_rational, round_nearest
+from numpy.typing import NDArray
+
+from modern.port.arithmetic import Arithmetic, Exact, RangeError, Scalar, Vector, exact_text
+
+MIN_BITS, MAX_BITS = 2, 100_000
+
+
+@dataclass(frozen=True)
+class FloatArithmetic(Arithmetic):
+    """IEEE 754 single or double; a decimal is taken as the nearest number (single: of the nearest double)."""
+
+    dtype: type[np.floating[Any]]
+
+    @property
+    def name(self) -> str:
+        return np.dtype(self.dtype).name
+
+    def number(self, value: Exact, minus: bool = False) -> Scalar:
+        try:
+            found = self.dtype(value.numerator / value.denominator)
+        except (OverflowError, FloatingPointError):
+            found = self.dtype("inf")
+        if not np.isfinite(found):
+            raise RangeError(f"too large for {self.name}")
+        return self.dtype(-0.0) if minus and value == 0 else found
+
+    def quotient(self, value: Scalar, count: int) -> Scalar:
+        return value / self.dtype(count)
+
+    def sign(self, values: Vector) -> NDArray[np.int8]:
+        signs: NDArray[np.int8] = np.sign(values).astype(np.int8)
+        return signs
+
+    def is_zero(self, value: Scalar) -> bool:
+        return bool(value == 0)
+
+    def root(self, value: Scalar) -> Scalar:
+        return np.sqrt(value)
+
+    def last_largest(self, values: Vector) -> int:
+        return len(values) - 1 - int(np.argmax(values[::-1]))
+
+    def descending(self, values: Vector) -> NDArray[np.intp]:
+        return np.argsort(values, kind="stable")[::-1]
+
+    def surely_distinct(self, coordinates: Vector) -> bool:
+        x, y, z = (row.astype(np.float64) for row in coordinates)
+        mixed = x + 0.7320508075688772 * y + 0.23606797749978969 * z
+        return len(np.unique(mixed)) == len(mixed)
+
+    def exact(self, value: Scalar, degree: int) -> Exact:
+        over, under = value.as_integer_ratio()
+        return over if under == 1 else Fraction(over, under)
+
+    def text(self, value: Scalar, degree: int) -> str:
+        text = str(Decimal(float(value)))
+        return exact_text(self.exact(value, degree)) if "E" in text else text
+
+
+@dataclass(frozen=True)
+class MultiprecisionArithmetic(Arithmetic):
+    """Binary floating point of any number of bits, rounded to nearest, without limits of range."""
+
+    bits: int
+    context: Any = field(default_factory=MPContext, compare=False)
+
+    def __post_init__(self) -> None:
+        self.context.prec = self.bits
+
+    @property
+    def name(self) -> str:
+        return f"mp:{self.bits}"
+
+    def number(self, value: Exact, minus: bool = False) -> Scalar:
+        return self.context.make_mpf(from_rational(value.numerator, value.denominator, self.bits, round_nearest))
+
+    def quotient(self, value: Scalar, count: int) -> Scalar:
+        return value / count
+
+    def sign(self, values: Vector) -> NDArray[np.int8]:
+        return np.asarray(values > 0, dtype=np.int8) - np.asarray(values < 0, dtype=np.int8)
+
+    def root(self, value: Scalar) -> Scalar:
+        return self.context.sqrt(value)
+
+    def exact(self, value: Scalar, degree: int) -> Exact:
+        sign, mantissa, exponent, _ = value._mpf_
+        number = -int(mantissa) if sign else int(mantissa)
+        return number * 2**exponent if exponent >= 0 else Fraction(number, 2**-exponent)
+
+    def text(self, value: Scalar, degree: int) -> str:
+        return exact_text(self.exact(value, degree))

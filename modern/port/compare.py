@@ -1,0 +1,154 @@
+"""A hull of the port beside the cards the emulated programs punched for the same points.
+
+Numbers are compared as they stand on cards, E14.8, so that a zero's sign counts; points and equations in
+order.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from fractions import Fraction
+
+from emulator.arithmetic import MINUS_ZERO, TRUNCATING, ZERO
+from emulator.fields import FALLBACK, write_floating
+from modern.hull import DETERMINED, TABLE_FULL, Hull
+from modern.hullrun import HullRun
+
+_FLOAT = re.compile(r"-?\.\d+E[+-]\d\d")
+_HEADINGS = (
+    ("INSIDE POINTS", "inside"),
+    ("BOUNDARY POINTS", "boundary"),
+    ("ENDPOINTS", "vertices"),
+    ("COEFFICIENTS OF AN EQUATION", "plane"),
+    ("EQUATIONS OF", "equations"),
+)
+Row = tuple[str, ...]
+_NO_NUMBER = 0
+"""Of an end of a line that was found to be no vertex, as rounded numbers may have it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Punched:
+    """What the last program punched: rows of numbers as on the cards, and which vertices satisfy which equation."""
+
+    status: str
+    inside: tuple[Row, ...]
+    boundary: tuple[Row, ...]
+    vertices: tuple[Row, ...]
+    equations: tuple[Row, ...]
+    satisfied: tuple[tuple[int, ...], ...]
+    plane: tuple[Row, ...]
+
+
+def from_cards(cards: Sequence[str], status: str = DETERMINED) -> Punched:
+    """The cards the last program punched, and the message it stopped with if it did."""
+    found: dict[str, list[Row]] = {name: [] for name in ("inside", "boundary", "vertices", "equations", "plane")}
+    satisfied: list[tuple[int, ...]] = []
+    section = "vertices"
+    for card in cards:
+        words = card.strip()
+        heading = next((kind for start, kind in _HEADINGS if words.startswith(start)), "")
+        if heading:
+            section = heading
+        elif words.startswith("VERTICES"):
+            section = "satisfied" if "SATISFY" in words else "vertices"
+        elif section == "satisfied" and re.fullmatch(r"[\d, ]+", words):
+            satisfied.append(tuple(int(n) for n in re.findall(r"\d+", words)))
+        elif section in found and (numbers := _FLOAT.findall(card)):
+            found[section].append(tuple(numbers))
+    return Punched(
+        status,
+        tuple(found["inside"]),
+        tuple(found["boundary"]),
+        tuple(found["vertices"]),
+        tuple(found["equations"]),
+        tuple(satisfied),
+        tuple(found["plane"]),
+    )
+
+
+def from_run(run: HullRun) -> Punched:
+    """What a run of the emulated programs punched last.
+
+    A run that filled the table of planes (``--bounds strict``) has that as its status; any other ending that is
+    not normal is its own message.
+    """
+    ending = run.final.result.ending
+    status = run.refusal or DETERMINED
+    if not ending.normal:
+        status = TABLE_FULL if ending.kind == "bounds" and run.final.name == "program3" else ending.message
+    return from_cards(run.final.result.punched, status)
+
+
+def from_hull(hull: Hull) -> Punched:
+    """What the programs would have punched for this hull."""
+
+    def points(names: Sequence[int]) -> tuple[Row, ...]:
+        return tuple(tuple(map(e_field, hull.points[k])) for k in names)
+
+    number = {name: k for k, name in enumerate(hull.vertices, start=1)}
+    equations = [face.coefficients for face in hull.faces]
+    satisfied = [
+        (*group, k)
+        for k, face in enumerate(hull.faces, start=1)
+        for group in _on_cards([number.get(v, _NO_NUMBER) for v in face.polygon], hull.dimension)
+    ]
+    plane = [hull.plane] if hull.plane and hull.dimension == 2 else []
+    if hull.lines:
+        equations, plane = list(hull.lines), []
+        triangle = ((1, 2), (1, 2), (2, 3), (2, 3), (1, 3), (1, 3))
+        satisfied = [(*pair, k) for k, pair in enumerate(triangle, start=1)] if hull.dimension == 2 else []
+    if not hull.determined:
+        satisfied, plane = [], []
+    inside = hull.inside if hull.dimension > 1 else ()
+    return Punched(
+        hull.status,
+        points(inside),
+        points(hull.boundary),
+        points(hull.vertices),
+        tuple(tuple(map(e_field, equation)) for equation in equations),
+        tuple(satisfied),
+        tuple(tuple(map(e_field, equation)) for equation in plane),
+    )
+
+
+def differences(hull: Hull, punched: Punched) -> list[str]:
+    """Where the two part, a line each; none if they agree to the last sign of a zero."""
+    mine = from_hull(hull)
+    found = []
+    for field in fields(Punched):
+        one, other = getattr(mine, field.name), getattr(punched, field.name)
+        if field.name == "satisfied":
+            other = tuple(_unnumbered(*rows) for rows in zip(one, other, strict=False)) + other[len(one) :]
+        if one != other:
+            found.append(f"{field.name}: {one} is not {other}")
+    return found
+
+
+def _unnumbered(mine: tuple[int, ...], card: tuple[int, ...]) -> tuple[int, ...]:
+    """A card's row with no number where the hull has none."""
+    if len(mine) != len(card):
+        return card
+    return tuple(_NO_NUMBER if own == _NO_NUMBER else number for own, number in zip(mine, card, strict=True))
+
+
+def e_field(text: str) -> str:
+    """Exact text as E14.8 punches it: cut to eight digits."""
+    value = Fraction(text)
+    if value == 0:
+        return write_floating(FALLBACK, 0, MINUS_ZERO if text.startswith("-") else ZERO, TRUNCATING.rules)[0].strip()
+    size = abs(value)
+    exponent = len(str(size.numerator)) - len(str(size.denominator)) + 1
+    exponent -= size < Fraction(10) ** (exponent - 1)
+    mantissa = int(size / Fraction(10) ** (exponent - 8))
+    return write_floating(FALLBACK, -mantissa if value < 0 else mantissa, exponent, TRUNCATING.rules)[0].strip()
+
+
+def _on_cards(numbers: list[int], dimension: int) -> list[list[int]]:
+    """Program 3 names the vertices that satisfy a plane three a card, program 2 both ends of a line."""
+    if dimension == 2:
+        return [numbers]
+    ordered = sorted(numbers)
+    return [ordered[k : k + 3] for k in range(0, len(ordered), 3)]

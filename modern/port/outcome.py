@@ -1,0 +1,146 @@
+"""From the procedure's numbers to the result: exact text, faces, and the stages of the construction."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import SupportsIndex, overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from modern.hull import Coefficients, Face, Stage
+from modern.port.arithmetic import Arithmetic, Exact, Scalar, Vector
+from modern.port.cycle import IntPoint, cyclic
+from modern.port.equations import Equations
+from modern.port.places import Places
+
+PLANE, LINE = (2, 2, 2, 3), (1, 1, 1, 2)
+"""Degrees in the coordinates of A, B, C, D of a plane, and of a line's equation."""
+
+
+def texts(arithmetic: Arithmetic, numbers: Sequence[Scalar], degrees: Sequence[int]) -> tuple[str, ...]:
+    return tuple(arithmetic.text(number, degree) for number, degree in zip(numbers, degrees, strict=True))
+
+
+def coefficients(arithmetic: Arithmetic, numbers: Sequence[Scalar], degrees: Sequence[int]) -> Coefficients:
+    a, b, c, d = texts(arithmetic, numbers, degrees)
+    return a, b, c, d
+
+
+def lowest(values: Sequence[Exact]) -> tuple[int, int, int, int]:
+    """The equation in integers without common divisor."""
+    common = math.lcm(*(value.denominator for value in values))
+    whole = [value.numerator * (common // value.denominator) for value in values]
+    divisor = math.gcd(*whole) or 1
+    a, b, c, d = (value // divisor for value in whole)
+    return a, b, c, d
+
+
+@dataclass(frozen=True)
+class Faces:
+    """Makes faces: what they need of the points."""
+
+    arithmetic: Arithmetic
+    places: Places
+
+    def whole_points(self, places: Sequence[int]) -> dict[int, IntPoint]:
+        """Coordinates as integers in a common unit, exactly, by place."""
+        exact = self.arithmetic.exact
+        numbers = [[exact(value, 1) for value in self.places.at(place)] for place in places]
+        unit = math.lcm(*{value.denominator for row in numbers for value in row})
+        whole = [[value.numerator * (unit // value.denominator) for value in row] for row in numbers]
+        return {place: (x, y, z) for place, (x, y, z) in zip(places, whole, strict=True)}
+
+    def polyhedral(self, table: Equations, on: list[NDArray[np.int64]], vertex: NDArray[np.bool_]) -> tuple[Face, ...]:
+        """The faces of a polyhedron; ``on`` are the places that satisfy each plane, ``vertex`` tells vertices."""
+        found = []
+        known = self.whole_points(np.flatnonzero(vertex).tolist())
+        for k, satisfied in enumerate(on):
+            row = [table.coefficients[i, k] for i in range(4)]
+            exact = [self.arithmetic.exact(value, degree) for value, degree in zip(row, PLANE, strict=True)]
+            corners = satisfied[vertex[satisfied]].tolist()
+            order = cyclic([known[place] for place in corners], exact[:3]) if len(corners) > 1 else range(len(corners))
+            found.append(
+                Face(
+                    coefficients=coefficients(self.arithmetic, row, PLANE),
+                    lowest=lowest(exact),
+                    defining=self.places.names(table.defining[:, k]),
+                    polygon=self.places.names([corners[i] for i in order]),
+                    on=self.places.names(satisfied[~vertex[satisfied]]),
+                )
+            )
+        return tuple(found)
+
+    def edges(
+        self, table: Equations, ends: NDArray[np.int64], on: list[NDArray[np.int64]], projection: int
+    ) -> tuple[Face, ...]:
+        """The lines of a polygon, ``ends`` the places of their vertices; the coordinate projected away gets 0."""
+        found = []
+        zero = self.arithmetic.number(0)
+        for k, satisfied in enumerate(on):
+            row = [table.coefficients[i, k] for i in range(3)]
+            row.insert(projection - 1, zero)
+            exact = [self.arithmetic.exact(value, degree) for value, degree in zip(row, LINE, strict=True)]
+            found.append(
+                Face(
+                    coefficients=coefficients(self.arithmetic, row, LINE),
+                    lowest=lowest(exact),
+                    defining=self.places.names(table.defining[:, k]),
+                    polygon=self.places.names(ends[:, k]),
+                    on=self.places.names([place for place in satisfied.tolist() if place not in ends[:, k]]),
+                )
+            )
+        return tuple(found)
+
+
+class Historian:
+    """Writes down each H_j as it comes about."""
+
+    def __init__(self, places: Places) -> None:
+        self.places = places
+        self.stages: list[Stage] = []
+
+    def __call__(self, table: Equations, added: tuple[int, ...], checked: int, outside: int, struck: list[int]) -> None:
+        equations = tuple(self.places.names(column) for column in table.defining.T)
+        stage = Stage(len(self.stages) + 1, added, checked, outside, tuple(struck), equations)
+        self.stages.append(stage)
+
+
+class PointTexts(Sequence[tuple[str, str, str]]):
+    """The points as the arithmetic took them, turned into text when asked for; equal to the tuple of them."""
+
+    def __init__(self, arithmetic: Arithmetic, coordinates: Vector) -> None:
+        self._arithmetic = arithmetic
+        self._coordinates = coordinates
+
+    def __len__(self) -> int:
+        return int(self._coordinates.shape[1])
+
+    @overload
+    def __getitem__(self, index: SupportsIndex) -> tuple[str, str, str]: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> tuple[tuple[str, str, str], ...]: ...
+
+    def __getitem__(self, index: SupportsIndex | slice) -> tuple[str, str, str] | tuple[tuple[str, str, str], ...]:
+        if isinstance(index, slice):
+            return tuple(self[k] for k in range(len(self))[index])
+        x, y, z = texts(self._arithmetic, list(self._coordinates[:, index]), (1, 1, 1))
+        return x, y, z
+
+    def __eq__(self, other: object) -> bool:
+        return tuple(self) == (tuple(other) if isinstance(other, PointTexts) else other)
+
+    def __hash__(self) -> int:
+        return hash(tuple(self))
+
+    def __repr__(self) -> str:
+        return repr(tuple(self))
+
+
+def point_texts(arithmetic: Arithmetic, coordinates: Vector) -> Sequence[tuple[str, str, str]]:
+    """The points as the arithmetic took them; of many floats, as text when asked for."""
+    lazy = PointTexts(arithmetic, coordinates)
+    return lazy if coordinates.dtype.kind == "f" else tuple(lazy)

@@ -1,0 +1,180 @@
+"""The hull of points that are not coplanar, program 3 (thesis p. 29-33, listing p. 93-102).
+
+Comments give statement labels.  Places and planes count from 0 here, from 1 in the listing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from modern.hull import ERROR, NOT_ACCEPTABLE, TABLE_FULL
+from modern.port.arithmetic import Arithmetic, Scalar, Vector
+from modern.port.equations import Equations
+from modern.port.formulas import plane
+from modern.port.inside import Remaining
+from modern.port.places import Places
+from modern.port.progress import LAST_PAIR, TABLE_OF_PLANES, THROUGH_CENTRE, Progress, Stopped, Watcher
+from modern.port.turning import turned
+
+_LISTED_PLANES, _PLANES = 98, 193
+"""Places for planes in the listing, and in the layer ``corrected``: 4N-11 for N = 51."""
+
+
+@dataclass(frozen=True)
+class Fresh:
+    """Planes just made: columns as in the table; which of them are through C, and zero altogether."""
+
+    coefficients: Vector
+    defining: NDArray[np.int64]
+    through: bool
+    nothing: bool
+
+
+@dataclass
+class Polyhedron:
+    """The state of program 3: places and table are changed in place."""
+
+    arithmetic: Arithmetic
+    places: Places
+    table: Equations
+    centre: tuple[Scalar, ...] | None
+    progress: Progress
+    watch: Watcher | None = None
+    vertices: int = 4
+    to_check: int = 0
+    remaining: Remaining = field(default_factory=Remaining)
+
+    def run(self) -> None:
+        """Expand H_1 to the hull of all points (103 to 160).  Raises Stopped."""
+        self.remaining.begin(len(self.places) - self.vertices)
+        added: tuple[int, ...] = self.places.names(slice(0, 4))
+        checked, outside = 0, 0
+        while True:
+            struck = self.remaining.strike_inside(self.places, self.vertices, self.table)
+            self.progress.inside += struck
+            if self.watch:
+                self.watch(self.table, added, checked, outside, struck)
+            if len(self.places) == self.vertices and not struck:
+                return
+            found = self.outside_point()
+            if found is None:
+                return
+            checked = self.to_check + 1
+            added = self.places.names(slice(found, found + 1))
+            outside = self.expand(found)
+
+    def outside_point(self) -> int | None:
+        """The place of the next vertex: farthest outside the first plane that is not supporting (115 to 125)."""
+        while self.to_check < len(self.table):
+            values = self.table.one_at(self.to_check, self.places.rows)
+            if self.arithmetic.sign(values[self.table.defining[:, self.to_check]]).any():
+                raise Stopped(NOT_ACCEPTABLE, "program3 119")
+            place = self.arithmetic.last_largest(values)
+            if self.arithmetic.sign(values[place : place + 1])[0] > 0:
+                return place
+            self.to_check += 1
+        return None
+
+    def expand(self, place: int) -> int:
+        """Make the point in ``place`` a vertex: three planes for each one it is outside of (125 to 160).
+
+        The plane being checked is replaced first, then the one it is farthest outside of, of equals the last.
+        Returns how many they were.  Raises Stopped.
+        """
+        new = self.vertices
+        if new == len(self.places):
+            raise Stopped(ERROR, "program3 103")  # a vertex of its own hull, as rounded numbers may have it
+        self.vertices += 1
+        self.places.swap(place, new)
+        self.remaining.swapped(place - new)
+        point = self.places.at(new)
+        values = self.table.all_at(point)
+        above = np.flatnonzero(self.arithmetic.sign(values) > 0)
+        others = above[above != self.to_check]
+        order = [self.to_check, *others[self.arithmetic.descending(values[others])].tolist()]
+        fresh = self.three_planes(self.table.defining[:, order], new)
+        peak = len(self.table) + 2 * len(order) + 1
+        if fresh.nothing or peak > self.limit or (self.signs(fresh, point) > 0).any():
+            self.stop(order[0], dict(zip(above.tolist(), values[above], strict=True)), new)
+        self.note(fresh, peak)
+        kept = np.ones(len(self.table), np.bool_)
+        kept[order] = False
+        self.table.replace(kept, fresh.coefficients, fresh.defining, self.single(fresh.defining))
+        return len(order)
+
+    @property
+    def limit(self) -> int:
+        return max(_PLANES, 4 * len(self.places) - 11)
+
+    def three_planes(self, replaced: NDArray[np.int64], new: int) -> Fresh:
+        """Planes through the new vertex and two of the three points of each plane replaced (126 to 135)."""
+        defining = np.repeat(replaced, 3, axis=1)
+        columns = np.arange(defining.shape[1])
+        defining[columns % 3, columns] = new
+        p, q, r = (self.places.several(row) for row in defining)
+        coefficients, through = turned(self.arithmetic, np.stack(plane(p, q, r)), self.centre)
+        nothing = any(self.arithmetic.all_squares_zero(coefficients[:3, k]) for k in np.flatnonzero(through))
+        return Fresh(coefficients, defining, bool(through.any()), nothing)
+
+    def note(self, fresh: Fresh, size: int) -> None:
+        """What the listing would have stopped at: planes through C, more planes than it has places for."""
+        if fresh.through:
+            self.progress.mend(THROUGH_CENTRE)
+        if size > _LISTED_PLANES:
+            self.progress.mend(TABLE_OF_PLANES)
+
+    def signs(self, fresh: Fresh, point: tuple[Scalar, ...]) -> NDArray[np.int8]:
+        return self.arithmetic.sign(self.table.values(fresh.coefficients, point))
+
+    def single(self, defining: NDArray[np.int64]) -> NDArray[np.bool_]:
+        """Which of the fresh planes stay when two with the same three points strike each other (141 to 160).
+
+        No older plane has the new vertex among its points, so these are struck by each other only.
+        """
+        wanted = np.ones(defining.shape[1], np.bool_)
+        if len(wanted) == 3:
+            return wanted
+        waiting: dict[tuple[int, ...], int] = {}
+        pairs: list[tuple[int, int]] = []
+        for k, key in enumerate(map(tuple, np.sort(defining, axis=0).T.tolist())):
+            if key in waiting:
+                pairs.append((waiting.pop(key), k))
+            else:
+                waiting[key] = k
+        for one, other in sorted(pairs):
+            wanted[[one, other]] = False
+            # The listing goes on with the plane in the struck one's place and looks at those behind it.
+            if wanted[one:].sum() <= 1:
+                self.progress.mend(LAST_PAIR)
+        return wanted
+
+    def stop(self, first: int, above: dict[int, Scalar], new: int) -> None:
+        """Go on plane by plane to where the arithmetic fails: it always does.  Raises Stopped.
+
+        A plane of zeros is an error.  A plane through the new point that has it outside is replaced by itself
+        and two others without end, until the table is full; so no plane need be replaced twice.
+        """
+        point = self.places.at(new)
+        defining = {k: self.table.defining[:, k] for k in above}
+        size, equation, replaced = len(self.table), first, set[tuple[int, ...]]()
+        while True:
+            corners = tuple(defining[equation].tolist())
+            if size + 3 > self.limit or corners in replaced:
+                raise Stopped(TABLE_FULL, "program3 130")
+            replaced.add(corners)
+            above.pop(equation)
+            fresh = self.three_planes(defining[equation][:, None], new)
+            if fresh.nothing:
+                raise Stopped(ERROR, "program3 133")
+            self.note(fresh, size + 3)
+            size += 2
+            values = self.table.values(fresh.coefficients, point)
+            for k in np.flatnonzero(self.arithmetic.sign(values) > 0).tolist():
+                name = len(self.table) + 3 * len(replaced) + k
+                above[name], defining[name] = values[k], fresh.defining[:, k]
+            names: Sequence[int] = sorted(above)
+            equation = names[self.arithmetic.last_largest(self.arithmetic.filled([above[k] for k in names]))]
