@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -21,6 +21,7 @@ _HEADINGS = (
     ("COEFFICIENTS OF AN EQUATION", "plane"),
     ("EQUATIONS OF", "equations"),
 )
+SECTIONS = ("inside", "boundary", "vertices", "equations", "plane")
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,16 +49,18 @@ def floats(card: str) -> Point:
     return tuple(number(text) for text in _FLOAT.findall(card))
 
 
-def read_hull(cards: Sequence[str]) -> CardHull:
+@dataclass(frozen=True, slots=True)
+class Sections:
+    """The numbers of a result as text, section by section; ``satisfied`` are the whole numbers on a card."""
+
+    points: Mapping[str, tuple[tuple[str, ...], ...]]
+    satisfied: tuple[tuple[int, ...], ...]
+
+
+def sections(cards: Sequence[str]) -> Sections:
     """Read the cards a last program punched.  Cards that are none of a hull's are passed over."""
-    found: dict[str, list[Point]] = {
-        "inside": [],
-        "boundary": [],
-        "vertices": [],
-        "equations": [],
-        "plane": [],
-    }
-    satisfied: list[tuple[tuple[int, ...], int]] = []
+    found: dict[str, list[tuple[str, ...]]] = {name: [] for name in SECTIONS}
+    satisfied: list[tuple[int, ...]] = []
     section = "vertices"
     for card in cards:
         words = card.strip()
@@ -67,18 +70,20 @@ def read_hull(cards: Sequence[str]) -> CardHull:
         elif words.startswith("VERTICES"):
             section = "satisfied" if "SATISFY" in words else "vertices"
         elif section == "satisfied" and re.fullmatch(r"[\d, ]+", words):
-            numbers = [int(n) for n in re.findall(r"\d+", words)]
-            satisfied.append((tuple(numbers[:-1]), numbers[-1]))
-        elif section in found and (values := floats(card)):
-            found[section].append(values)
-    return CardHull(
-        tuple(found["inside"]),
-        tuple(found["boundary"]),
-        tuple(found["vertices"]),
-        tuple(found["equations"]),
-        tuple(satisfied),
-        tuple(found["plane"]),
+            satisfied.append(tuple(int(n) for n in re.findall(r"\d+", words)))
+        elif section in found and (numbers := _FLOAT.findall(card)):
+            found[section].append(tuple(numbers))
+    return Sections({name: tuple(rows) for name, rows in found.items()}, tuple(satisfied))
+
+
+def read_hull(cards: Sequence[str]) -> CardHull:
+    """The cards of :func:`sections` as exact numbers."""
+    read = sections(cards)
+    inside, boundary, vertices, equations, plane = (
+        tuple(tuple(map(number, row)) for row in read.points[name]) for name in SECTIONS
     )
+    satisfied = tuple((numbers[:-1], numbers[-1]) for numbers in read.satisfied)
+    return CardHull(inside, boundary, vertices, equations, satisfied, plane)
 
 
 def same_hull(one: CardHull, other: CardHull, oriented: bool) -> bool:

@@ -63,6 +63,10 @@ class Arithmetic(ABC):
     def sign(self, values: Vector) -> NDArray[np.int8]:
         """-1, 0 or 1 each, as the three branches of an IF."""
 
+    def within(self, values: Vector, slack: Vector) -> NDArray[np.bool_]:
+        """Whether each value lies from -slack to +slack, both included."""
+        return np.asarray(self.sign(slack - abs(values)) >= 0)
+
     @abstractmethod
     def root(self, value: Scalar) -> Scalar:
         """The square root of a number that is not negative."""

@@ -43,6 +43,9 @@ class FloatArithmetic(Arithmetic):
         signs: NDArray[np.int8] = np.sign(values).astype(np.int8)
         return signs
 
+    def within(self, values: Vector, slack: Vector) -> NDArray[np.bool_]:
+        return np.asarray(abs(values) <= slack)
+
     def is_zero(self, value: Scalar) -> bool:
         return bool(value == 0)
 

@@ -6,24 +6,16 @@ order.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from fractions import Fraction
 
 from emulator.arithmetic import MINUS_ZERO, TRUNCATING, ZERO
 from emulator.fields import FALLBACK, write_floating
+from modern.edition.cardhull import SECTIONS, sections
 from modern.hull import DETERMINED, TABLE_FULL, Hull
 from modern.hullrun import HullRun
 
-_FLOAT = re.compile(r"-?\.\d+E[+-]\d\d")
-_HEADINGS = (
-    ("INSIDE POINTS", "inside"),
-    ("BOUNDARY POINTS", "boundary"),
-    ("ENDPOINTS", "vertices"),
-    ("COEFFICIENTS OF AN EQUATION", "plane"),
-    ("EQUATIONS OF", "equations"),
-)
 Row = tuple[str, ...]
 _NO_NUMBER = 0
 """Of an end of a line that was found to be no vertex, as rounded numbers may have it."""
@@ -44,29 +36,9 @@ class Punched:
 
 def from_cards(cards: Sequence[str], status: str = DETERMINED) -> Punched:
     """The cards the last program punched, and the message it stopped with if it did."""
-    found: dict[str, list[Row]] = {name: [] for name in ("inside", "boundary", "vertices", "equations", "plane")}
-    satisfied: list[tuple[int, ...]] = []
-    section = "vertices"
-    for card in cards:
-        words = card.strip()
-        heading = next((kind for start, kind in _HEADINGS if words.startswith(start)), "")
-        if heading:
-            section = heading
-        elif words.startswith("VERTICES"):
-            section = "satisfied" if "SATISFY" in words else "vertices"
-        elif section == "satisfied" and re.fullmatch(r"[\d, ]+", words):
-            satisfied.append(tuple(int(n) for n in re.findall(r"\d+", words)))
-        elif section in found and (numbers := _FLOAT.findall(card)):
-            found[section].append(tuple(numbers))
-    return Punched(
-        status,
-        tuple(found["inside"]),
-        tuple(found["boundary"]),
-        tuple(found["vertices"]),
-        tuple(found["equations"]),
-        tuple(satisfied),
-        tuple(found["plane"]),
-    )
+    read = sections(cards)
+    inside, boundary, vertices, equations, plane = (read.points[name] for name in SECTIONS)
+    return Punched(status, inside, boundary, vertices, equations, read.satisfied, plane)
 
 
 def from_run(run: HullRun) -> Punched:

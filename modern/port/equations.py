@@ -47,8 +47,7 @@ def snapped(arithmetic: Arithmetic, values: Vector, slack: Vector | None) -> Vec
     """The values with those within the slack replaced by zero."""
     if slack is None:
         return values
-    near = arithmetic.sign(slack - abs(values)) >= 0
-    return np.where(near, arithmetic.filled([arithmetic.number(0)])[0], values)
+    return np.where(arithmetic.within(values, slack), arithmetic.filled([arithmetic.number(0)])[0], values)
 
 
 @dataclass

@@ -442,3 +442,14 @@ def test_what_trimesh_cannot_hold(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("trimesh")
     with pytest.raises(ExportError, match="too large for a binary float"):
         to_trimesh(convex_hull([(f"{x}E400", y, z) for x, y, z in CUBE]))
+
+
+def test_a_hull_hands_itself_to_trimesh() -> None:
+    trimesh = pytest.importorskip("trimesh")
+    from modern import convex_hull
+
+    hull = convex_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
+    solid = hull.to_trimesh()
+    assert isinstance(solid, trimesh.Trimesh)
+    assert solid.is_watertight
+    assert abs(solid.volume - 1 / 6) < 1e-12
