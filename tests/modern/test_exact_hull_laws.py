@@ -181,3 +181,14 @@ def test_general_position_against_qhull(seed: int, count: int, shape: str) -> No
     hull, other = exact_hull(points), spatial.ConvexHull(points)
     assert list(hull.vertices) == sorted(other.vertices.tolist())
     assert {frozenset(facet.polygon) for facet in hull.facets} == {frozenset(s) for s in other.simplices.tolist()}
+
+
+@pytest.mark.parametrize("block", range(4))
+def test_two_thousand_small_sets_against_qhull(block: int) -> None:
+    """2,000 sets of 4 to 40 points of eight digits, 500 a block: the vertices Qhull finds."""
+    spatial = pytest.importorskip("scipy.spatial")
+    rng = random.Random(1963 + block)
+    for _ in range(500):
+        count = rng.randint(4, 40)
+        points = [tuple(rng.randint(-(10**8) + 1, 10**8 - 1) for _ in range(3)) for _ in range(count)]
+        assert list(exact_hull(points).vertices) == sorted(spatial.ConvexHull(points).vertices.tolist())
