@@ -48,15 +48,16 @@ def figures(largest: int = 100_000) -> Iterator[Figure]:
         points = exact_in_doubles(ball(count))
         ours = timed(f"port float64, {count:,} points uniform in a ball", lambda p=points: convex_hull(p, "float64"))  # type: ignore[misc]
         yield ours
-        qhull = _qhull(points, count)
-        if qhull is not None:
-            yield Figure(qhull.what, qhull.seconds, f"the port takes {ours.median / qhull.median:.1f} times as long")
+        other = qhull(points, count)
+        if other is not None:
+            yield Figure(other.what, other.seconds, f"the port takes {ours.median / other.median:.1f} times as long")
         whole = eight_digits(points / 80_000)
         yield timed(f"judge, {count:,} points of 8 digits in a ball", lambda p=whole: exact_hull(p))  # type: ignore[misc]
         count *= 10
 
 
-def _qhull(points: Any, count: int) -> Figure | None:
+def qhull(points: Any, count: int) -> Figure | None:
+    """Qhull through scipy, or None where scipy is not installed."""
     try:
         from scipy.spatial import ConvexHull
     except ImportError:
