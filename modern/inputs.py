@@ -6,8 +6,6 @@ programs on the machine would cut the ninth.
 
 from __future__ import annotations
 
-import csv
-from collections.abc import Iterator
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
@@ -19,6 +17,7 @@ from modern import hulldeck
 from modern.export.numbers import ExportError, Point, finite_decimal, number, shown
 from modern.export.off import parse_off
 from modern.export.reading import read_source
+from modern.points import rows
 
 DECK, CSV, OFF = "deck", "csv", "off"
 _DIGITS = 14
@@ -65,8 +64,8 @@ def recognise(text: str, source: str) -> str:
     A word that ends with OFF begins an OFF file; a comma makes it CSV; a number alone is a deck's first card.  Else
     the ending of the file's name decides.  Raises InputError.
     """
-    rows = ((number_, row.strip()) for number_, row in enumerate(text.splitlines(), 1))
-    line, first = next(((n, row) for n, row in rows if row and not row.startswith("#")), (0, ""))
+    lines = ((number_, row.strip()) for number_, row in enumerate(text.splitlines(), 1))
+    line, first = next(((n, row) for n, row in lines if row and not row.startswith("#")), (0, ""))
     if not first:
         raise InputError(f"{source}: there are no points")
     words = first.split()
@@ -119,7 +118,7 @@ def _field(columns: str) -> str:
 def _csv(text: str, source: str) -> Input:
     points: list[Point] = []
     places: list[str] = []
-    for line, row in _rows(text, source):
+    for line, row in rows(text, source):
         if len(row) != 3:
             raise InputError(f"{source}: line {line}, column 1: {len(row)} fields; a point has three, x,y,z")
         for field, word in enumerate(row, 1):
@@ -132,21 +131,6 @@ def _csv(text: str, source: str) -> Input:
         points.append((row[0].strip(), row[1].strip(), row[2].strip()))
         places.append(f"line {line}")
     return Input(source, CSV, tuple(points), tuple(places))
-
-
-def _rows(text: str, source: str) -> Iterator[tuple[int, list[str]]]:
-    """Rows with their lines; blank lines and a heading, a first line without any digit, are passed over."""
-    reader = csv.reader(text.splitlines())
-    first = True
-    try:
-        for row in reader:
-            if not any(field.strip() for field in row):
-                continue
-            if not first or any(character.isdigit() for field in row for character in field):
-                yield reader.line_num, row
-            first = False
-    except csv.Error as error:
-        raise InputError(f"{source}: line {reader.line_num}, column 1: {error}") from None
 
 
 def _off(text: str, source: str) -> Input:

@@ -76,10 +76,7 @@ def deck_lines(rows: Iterable[tuple[int, list[str]]], source: str, truncate: boo
 
 
 def read_rows(path: str) -> Iterator[tuple[int, list[str]]]:
-    """The rows of a CSV file (``-``: standard input) with line numbers.
-
-    Blank lines are passed over, and so is a first line without any number (a heading).  Raises DeckError.
-    """
+    """The rows of a CSV file (``-``: standard input), as :func:`rows` gives them.  Raises DeckError."""
     source = "standard input" if path == "-" else path
     try:
         text = (standard_input() if path == "-" else Path(path).read_bytes()).decode("utf-8-sig")
@@ -87,6 +84,14 @@ def read_rows(path: str) -> Iterator[tuple[int, list[str]]]:
         raise DeckError(f"{path}: {(error.strerror or str(error)).lower()}") from None
     except ValueError:
         raise DeckError(f"{source}: not a text file in UTF-8") from None
+    yield from rows(text, source)
+
+
+def rows(text: str, source: str) -> Iterator[tuple[int, list[str]]]:
+    """The rows of CSV text with line numbers.
+
+    Blank lines are passed over, and so is a first line without any digit (a heading).  Raises PointError.
+    """
     reader = csv.reader(text.splitlines())
     first = True
     try:

@@ -50,6 +50,9 @@ def _routes(args: argparse.Namespace, found: Input, points: list[Vector]) -> Ite
         if isinstance(deck, str):
             yield Outcome(name, f"not run: {deck}", -1)
             continue
+        if "epsilon" in chosen and (args.epsilon or "").startswith("rel:"):
+            yield Outcome(name, "not run: the cards take an absolute e", -1)
+            continue
         data = _with_epsilon(deck, args.epsilon) if "epsilon" in chosen else deck
         run = run_hull(data, decks.loader(chosen), Options(limit=_LIMIT, core=60000 if chosen else 40000))
         yield from_cards(name, run, points)

@@ -76,7 +76,7 @@ def build_parser() -> argparse.ArgumentParser:
     )
     diff.add_argument("points", metavar="POINTS", help="a data deck, CSV points x,y,z or an OFF file")
     diff.add_argument(
-        "--epsilon", metavar="E", help="chapter 7's e, for the programs with layer epsilon and for the port"
+        "--epsilon", metavar="E", help="chapter 7's e for layer epsilon and the port; rel:E, for the port only"
     )
     diff.add_argument("--json", metavar="FILE", help="write the comparison as JSON")
     _layers(diff)

@@ -14,6 +14,7 @@ from modern.hull import NOT_ACCEPTABLE
 from modern.port.arithmetic import Arithmetic, Scalar, Vector
 from modern.port.equations import Equations, Slack
 from modern.port.formulas import line
+from modern.port.growth import grow
 from modern.port.inside import Remaining
 from modern.port.places import Places
 from modern.port.progress import TABLE_OF_LINES, Progress, Stopped, Watcher
@@ -57,22 +58,7 @@ class Polygon:
 
     def run(self) -> None:
         """Expand H_1 to the hull of all points (103 to 135).  Raises Stopped."""
-        self.remaining.begin(len(self.places) - self.vertices)
-        added: tuple[int, ...] = self.places.names(slice(0, 3))
-        checked, outside = 0, 0
-        while True:
-            struck = self.remaining.strike_inside(self.places, self.vertices, self.table)
-            self.progress.inside += struck
-            if self.watch:
-                self.watch(self.table, added, checked, outside, struck)
-            if len(self.places) == self.vertices and not struck:
-                return
-            place = self.outside_point()
-            if place is None:
-                return
-            checked, outside = self.to_check + 1, 1
-            added = self.places.names(slice(place, place + 1))
-            self.expand(place)
+        grow(self)
 
     def turn(self, first: NDArray[np.int64], second: NDArray[np.int64], by: NDArray[np.int64]) -> Vector:
         return turned(self.arithmetic, lines(self.places, first, second, by), self.centre)[0]
@@ -93,7 +79,7 @@ class Polygon:
             self.to_check += 1
         return None
 
-    def expand(self, place: int) -> None:
+    def expand(self, place: int) -> int:
         """Make the point in ``place`` a vertex: two lines instead of the one it is outside of (133 to 135)."""
         new = self.vertices
         self.vertices += 1
@@ -106,3 +92,4 @@ class Polygon:
         self.table.replace(kept, self.turn(both, ends, both), np.stack([ends, both]), np.ones(2, np.bool_))
         if len(self.table) + 1 > _LISTED_LINES:
             self.progress.mend(TABLE_OF_LINES)
+        return 1

@@ -15,6 +15,7 @@ from modern.hull import ERROR, NOT_ACCEPTABLE, TABLE_FULL
 from modern.port.arithmetic import Arithmetic, Scalar, Vector
 from modern.port.equations import Equations
 from modern.port.formulas import plane
+from modern.port.growth import grow
 from modern.port.inside import Remaining
 from modern.port.places import Places
 from modern.port.progress import LAST_PAIR, TABLE_OF_PLANES, THROUGH_CENTRE, Progress, Stopped, Watcher
@@ -50,22 +51,7 @@ class Polyhedron:
 
     def run(self) -> None:
         """Expand H_1 to the hull of all points (103 to 160).  Raises Stopped."""
-        self.remaining.begin(len(self.places) - self.vertices)
-        added: tuple[int, ...] = self.places.names(slice(0, 4))
-        checked, outside = 0, 0
-        while True:
-            struck = self.remaining.strike_inside(self.places, self.vertices, self.table)
-            self.progress.inside += struck
-            if self.watch:
-                self.watch(self.table, added, checked, outside, struck)
-            if len(self.places) == self.vertices and not struck:
-                return
-            found = self.outside_point()
-            if found is None:
-                return
-            checked = self.to_check + 1
-            added = self.places.names(slice(found, found + 1))
-            outside = self.expand(found)
+        grow(self)
 
     def outside_point(self) -> int | None:
         """The place of the next vertex: farthest outside the first plane that is not supporting (115 to 125)."""

@@ -93,6 +93,22 @@ def test_json_and_points_beyond_the_cards(tmp_path: Path, capsys: pytest.Capture
     capsys.readouterr()
 
 
+def test_an_epsilon_lets_three_decimals_through(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Refused with DATA NOT ACCEPTABLE as listed; with e the programs and the port agree with the judge."""
+    deck, out = str(RUNS / "18_dec3_n6" / "deck.cards"), str(tmp_path / "d.json")
+
+    def statuses(epsilon: str) -> dict[str, tuple[str, bool]]:
+        assert main(["diff", deck, "--epsilon", epsilon, "--json", out]) == 1
+        return {r["route"]: (r["status"], r["agrees"]) for r in json.loads(Path(out).read_text())["routes"]}
+
+    absolute, scaled = statuses(".01"), statuses("rel:1e-9")
+    assert absolute.pop("listing") == scaled.pop("listing") == ("DATA NOT ACCEPTABLE", False)
+    assert set(absolute.values()) == {("determined", True)}
+    assert scaled.pop("listing + epsilon + corrected")[0] == "not run: the cards take an absolute e"
+    assert set(scaled.values()) == {("determined", True)}
+    capsys.readouterr()
+
+
 def test_bad_input(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "p.csv"
     path.write_text("0,0,x\n")
