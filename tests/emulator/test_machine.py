@@ -289,7 +289,7 @@ def test_undefined_elsewhere(lines: list[str], words: str) -> None:
 
 
 def test_an_undefined_field_may_be_copied() -> None:
-    """Part two 5: a copy is one transmit field; the thesis copies element N+1 so (OPEN-QUESTIONS 20)."""
+    """Part two 5: a copy is one transmit field; the thesis copies element N+1 so (OPEN-QUESTIONS 22)."""
     made = machine("DIMENSION X(3)", "X(1)=X(2)", "A=B", "I=J", "END")
     assert made.run().ending.kind == "end"
     assert (number(made, "A"), number(made, "I")) == ("undefined", "undefined")

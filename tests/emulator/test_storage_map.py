@@ -114,7 +114,7 @@ def test_core_mode_stops_outside_the_data() -> None:
 
 
 def test_one_past_the_end_may_be_copied() -> None:
-    """DO 119 J=I,N / R(J)=R(J+1) copies element N+1 of an array of N (part two 5; OPEN-QUESTIONS 20)."""
+    """DO 119 J=I,N / R(J)=R(J+1) copies element N+1 of an array of N (part two 5; OPEN-QUESTIONS 22)."""
     lines = ["DIMENSION X(3),Y(3)", "Y(1)=5.", "DO 1 I=1,3", "1 X(I)=2.", "I=3", "X(I)=X(I+1)"]
     made = machine(*lines, "A=X(I)", "END")
     assert made.run().ending.kind == "end"
