@@ -1,0 +1,1 @@
+"""The later papers, one folder each: what they describe, exactly, with their published results."""

@@ -1,0 +1,148 @@
+"""Published results of the later papers and the verdict on each.
+
+A paper's folder under ``transcripts`` holds a witness (the values as printed, page marks between), its apparatus
+(``apparatus`` rows, the one mechanism of :mod:`modern.edition.apparatus`), and ``results.toml``: which lines of the
+corrected print are one published result.  What a program produces is compared with the corrected print word by
+word; spacing is no evidence.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from importlib.resources import files
+from importlib.resources.abc import Traversable
+
+from modern.edition.apparatus import ApparatusError, Line, Row, Text, build, load
+from modern.edition.verdicts import DIFFERENT, EXACT
+
+CORRECTED = "as corrected"
+EXPLAINED = "differs, explained"
+CANNOT = "not reproducible"
+
+Producer = Mapping[str, Sequence[str]]
+"""Lines produced, by the id of the result; words separated by blanks, one line for each line of the print."""
+
+
+@dataclass(frozen=True, slots=True)
+class Paper:
+    """A paper with published results: its name on the command line, its folder, the module that produces them.
+
+    The module has a function ``produced()`` that returns a :data:`Producer`.
+    """
+
+    name: str
+    title: str
+    folder: str
+    module: str
+
+
+PAPERS: tuple[Paper, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Published:
+    """One published result.
+
+    ``place`` is where it stands (page, figure or table); ``printed`` its lines as the witness has them, ``corrected``
+    with the apparatus; ``rows`` the emendations that touch them.  ``differs`` says why what is computed is not what is
+    printed, ``cannot`` why nothing can be computed; both empty where the print is to come out.
+    """
+
+    id: str
+    place: str
+    says: str
+    printed: tuple[str, ...]
+    corrected: tuple[str, ...]
+    rows: tuple[Row, ...]
+    differs: str = ""
+    cannot: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """The verdict on one published result of a paper."""
+
+    paper: str
+    result: Published
+    kind: str
+    produced: tuple[str, ...] = ()
+
+    @property
+    def holds(self) -> bool:
+        """Whether the result came out, or the data say why it cannot."""
+        return self.kind != DIFFERENT
+
+
+def text_of(paper: Paper, folder: Traversable | None = None) -> Text:
+    """The paper's printed values: witness and apparatus."""
+    return load(folder or files("transcripts").joinpath(paper.folder), "apparatus")
+
+
+def results_of(paper: Paper, folder: Traversable | None = None) -> tuple[Published, ...]:
+    """Every published result of a paper, in the order of ``results.toml``.
+
+    Raises ApparatusError for a result that names a line the print does not have, and for a line of the print that
+    belongs to no result or to two.
+    """
+    folder = folder or files("transcripts").joinpath(paper.folder)
+    text = text_of(paper, folder)
+    witness = {line.id: line for line in text.witness}
+    corrected = build(text)
+    data = tomllib.loads(folder.joinpath("results.toml").read_text(encoding="utf-8"))
+    found: list[Published] = []
+    free = [line.id for line in corrected]
+    for entry in data["result"]:
+        first, last = str(entry["lines"][0]), str(entry["lines"][-1])
+        if first not in free or last not in free:
+            raise ApparatusError(f"{text.id}: result {entry['id']}: lines {first} to {last} are not free in the print")
+        span = free[free.index(first) : free.index(last) + 1]
+        free = [name for name in free if name not in span]
+        lines = [line for line in corrected if line.id in span]
+        found.append(
+            Published(
+                entry["id"],
+                entry["place"],
+                entry["says"],
+                tuple(witness[line.id].text for line in lines if line.id in witness),
+                tuple(line.text for line in lines),
+                _rows(text, lines),
+                entry.get("differs", ""),
+                entry.get("cannot", ""),
+            )
+        )
+    if free:
+        raise ApparatusError(f"{text.id}: lines {', '.join(free)} belong to no result")
+    return tuple(found)
+
+
+def judge(paper: Paper, result: Published, produced: Sequence[str]) -> Finding:
+    """Compare produced lines with the corrected print.
+
+    A result that is said to differ, or not to be reproducible, and comes out all the same is DIFFERENT from what
+    the data say.
+    """
+    same = [line.split() for line in produced] == [line.split() for line in result.corrected]
+    if result.cannot:
+        kind = DIFFERENT if produced else CANNOT
+    elif result.differs:
+        kind = DIFFERENT if same or not produced else EXPLAINED
+    elif not same:
+        kind = DIFFERENT
+    else:
+        kind = CORRECTED if result.rows else EXACT
+    return Finding(paper.name, result, kind, tuple(produced))
+
+
+def findings(paper: Paper, folder: Traversable | None = None) -> Iterator[Finding]:
+    """The verdict on every published result of a paper."""
+    produced: Producer = import_module(paper.module).produced()
+    for result in results_of(paper, folder):
+        yield judge(paper, result, produced.get(result.id, ()))
+
+
+def _rows(text: Text, lines: Sequence[Line]) -> tuple[Row, ...]:
+    names = list(dict.fromkeys(name for line in lines for name in line.rows))
+    return tuple(text.row(name) for name in names)
