@@ -42,7 +42,7 @@ def build_parser() -> argparse.ArgumentParser:
         "modern.cli.reproduce",
     )
     reproduce.add_argument(
-        "examples", metavar="EXAMPLE", nargs="*", help="1 to 6, or a theorem: 4.1, 4.2, 4.8 (default: all)"
+        "examples", metavar="EXAMPLE", nargs="*", help="1 to 6, a theorem (4.1, 4.2, 4.8) or a paper (default: all)"
     )
     reproduce.add_argument("--json", metavar="FILE", help="write the verdicts as JSON")
 

@@ -1,4 +1,4 @@
-"""``hull1620 reproduce``: the examples of chapter 6 run, and a verdict on every printed result."""
+"""``hull1620 reproduce``: what the thesis and the later papers print, computed, and a verdict on every result."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ import shutil
 import sys
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING
+from functools import partial
+from typing import TYPE_CHECKING, TextIO
 
 from emulator.cards import write_text
 from emulator.errors import DeckError
@@ -18,6 +19,7 @@ from modern.cli.main import DIFFERS, OK
 from modern.edition.printed import EXAMPLES, THEOREMS
 from modern.edition.reproduce import Report, reproduce, summary
 from modern.edition.verdicts import DIFFERENT, EXACT, ORDER, SPACING
+from modern.papers.published import PAPERS, Finding, findings
 
 if TYPE_CHECKING:
     from modern.edition.theorem_claims import Claim
@@ -30,8 +32,8 @@ _MOST_DIFFERENCES = 8
 
 def main(args: argparse.Namespace) -> int:
     """Run the examples, print the verdicts, write them as JSON if asked."""
-    named = list(dict.fromkeys(map(_named, args.examples))) or [*map(str, EXAMPLES), *THEOREMS]
-    examples = [int(name) for name in named if name not in THEOREMS]
+    named = list(dict.fromkeys(map(_named, args.examples))) or _names()
+    examples = [int(name) for name in named if name in map(str, EXAMPLES)]
     check_places(args.json)
     colour = sys.stdout.isatty() and "NO_COLOR" not in os.environ
     # A JSON document on standard output must be alone there.
@@ -46,22 +48,41 @@ def main(args: argparse.Namespace) -> int:
     found_claims = _claims([name for name in named if name in THEOREMS])
     for line in _claim_lines(found_claims, colour, width):
         print(line, file=out)
+    found_results = list(_papers(named, colour, width, out))
     good, *_ = summary(reports)
     good = good and all(claim.holds is not False for claim in found_claims)
-    for line in _summary_lines(reports, found_claims, good, colour):
+    good = good and all(finding.holds for finding in found_results)
+    for line in _summary_lines(reports, found_claims, found_results, good, colour):
         print(line, file=out)
     if args.json is not None:
-        write_text(args.json, json.dumps(_document(reports, found_claims, good), indent=1) + "\n")
+        write_text(args.json, json.dumps(_document(reports, found_claims, found_results, good), indent=1) + "\n")
     return OK if good else DIFFERS
 
 
+def _names() -> list[str]:
+    return [*map(str, EXAMPLES), *THEOREMS, *(paper.name for paper in PAPERS)]
+
+
 def _named(text: str) -> str:
-    if text not in {*map(str, EXAMPLES), *THEOREMS}:
+    if text not in _names():
         raise DeckError(
-            f"reproduce: there is no example {text!r}; "
-            f"chapter 6 has 1 to {EXAMPLES[-1]}, chapter 4 {', '.join(THEOREMS)}"
+            f"reproduce: there is no example {text!r}; chapter 6 has 1 to {EXAMPLES[-1]}, "
+            f"chapter 4 {', '.join(THEOREMS)}, the papers are {', '.join(paper.name for paper in PAPERS)}"
         )
     return text
+
+
+def _papers(names: Sequence[str], colour: bool, width: int, out: TextIO) -> Iterator[Finding]:
+    """The verdicts on the papers named, each paper printed when it is judged."""
+    for paper in PAPERS:
+        if paper.name in names:
+            from modern.cli.findings import finding_lines
+
+            found = list(findings(paper))
+            paint = partial(_paint, colour=colour)
+            for line in finding_lines(paper, found, paint, partial(_indented, width=width)):
+                print(line, file=out)
+            yield from found
 
 
 def _claims(names: Sequence[str]) -> list[Claim]:
@@ -82,7 +103,7 @@ def _claim_lines(claims: Iterable[Claim], colour: bool, width: int) -> Iterator[
             yield f"Theorem {theorem} (p. {claim.pages})"
         kind = {True: EXACT, False: DIFFERENT, None: ""}[claim.holds]
         word = {True: "holds", False: "DOES NOT HOLD", None: "seen"}[claim.holds]
-        yield f"  {_paint(word, kind, colour and bool(kind)):<6} {claim.says}"
+        yield f"  {_paint(word, kind, colour):<6} {claim.says}"
         yield from _indented(claim.seen, width)
     if theorem:
         yield ""
@@ -138,7 +159,9 @@ def _differences(report: Report, width: int) -> Iterator[str]:
         yield f"      and {len(differences) - _MOST_DIFFERENCES} more"
 
 
-def _summary_lines(reports: list[Report], claims: list[Claim], good: bool, colour: bool) -> Iterator[str]:
+def _summary_lines(
+    reports: list[Report], claims: list[Claim], found: list[Finding], good: bool, colour: bool
+) -> Iterator[str]:
     punched = [r for r in reports if r.device == "punch" and r.state == "examples"]
     listed = [r for r in reports if r.device == "punch" and r.state == "listing"]
     if punched:
@@ -152,12 +175,16 @@ def _summary_lines(reports: list[Report], claims: list[Claim], good: bool, colou
     if claims:
         judged = [claim.holds for claim in claims if claim.holds is not None]
         yield f"Chapter 4: {sum(judged)} of {len(judged)} claims hold."
+    if found:
+        from modern.cli.findings import finding_summary
+
+        yield finding_summary(found)
     words = "Every printed result comes out." if good else "NOT every printed result comes out."
     yield _paint(words, EXACT if good else DIFFERENT, colour)
 
 
 def _paint(text: str, kind: str, colour: bool) -> str:
-    return f"\x1b[{_COLOURS[kind]}m{text}\x1b[0m" if colour else text
+    return f"\x1b[{_COLOURS[kind]}m{text}\x1b[0m" if colour and kind else text
 
 
 def _indented(text: str, width: int) -> list[str]:
@@ -166,9 +193,12 @@ def _indented(text: str, width: int) -> list[str]:
     return textwrap.wrap(text, max(40, width), initial_indent="      ", subsequent_indent="      ")
 
 
-def _document(reports: list[Report], claims: list[Claim], good: bool) -> dict[str, object]:
+def _document(reports: list[Report], claims: list[Claim], found: list[Finding], good: bool) -> dict[str, object]:
+    from modern.cli.findings import finding_document
+
     return {
         "reproduced": good,
+        "papers": finding_document(found),
         "theorems": [
             {"theorem": c.theorem, "pages": c.pages, "claim": c.says, "holds": c.holds, "seen": c.seen} for c in claims
         ],
