@@ -1,0 +1,155 @@
+"""``hull1620 appel-will``: the hull of a polyhedron from its convex edges, with the tables of the paper."""
+
+from __future__ import annotations
+
+import argparse
+import shutil
+import sys
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
+
+from emulator.cards import write_text
+from modern.cli.common import check_places, say
+from modern.cli.main import DIFFERS, OK
+from modern.export import off
+from modern.export.mesh import Mesh
+from modern.export.off import parse_off
+from modern.export.reading import read_source
+from modern.inputs import OFF, Input, parse_input
+from modern.papers.appel_will import LITERAL, MENDED, Assembled, MapError, appel_will
+from modern.papers.appel_will.corners import Preprocessing
+from modern.papers.appel_will.loops import Loop
+from modern.papers.appel_will.star import as_printed, in_one_pass
+from modern.papers.appel_will.surfaces import Surface
+
+KINDS = ("a point", "a segment", "a polygon", "a polyhedron")
+
+
+def main(args: argparse.Namespace) -> int:
+    """Read points and map, find the hull, print the tables."""
+    check_places(args.output)
+    name, text = read_source(args.points)
+    found = parse_input(text, name)
+    given = parse_off(text, name).faces if found.kind == OFF else ()
+    if args.inside_corners and not given:
+        raise MapError(f"{found.source}: --inside-corners needs the surfaces of the polyhedron, in an OFF file")
+    method = LITERAL if args.literal else MENDED
+    if args.star is not None:
+        method = replace(method, star=as_printed if args.star == "printed" else in_one_pass)
+    try:
+        hull = appel_will(found.points, given, replace(method, inside_corners=args.inside_corners or ""))
+    except MapError as error:
+        raise MapError(f"{found.source}: {error}") from None
+    say(f"note: {note}" for note in found.notes)
+    say(
+        f"note: {found.source}: {found.places[index]}: the point of {found.places[first]} again"
+        for index, first in hull.duplicates
+    )
+    if args.output is not None and not hull.fault:
+        write_text(args.output, off.write(_mesh(found, hull)))
+    # An OFF file on standard output must be alone there.
+    out = sys.stderr if args.output == "-" else sys.stdout
+    for line in _report(found, given, hull, args.trace, shutil.get_terminal_size((100, 24)).columns):
+        print(line, file=out)
+    if method.star is as_printed:
+        for line in _false_edges(found, hull):
+            print(line, file=out)
+    if hull.fault:
+        print(f"no hull: {hull.fault}", file=out)
+    return DIFFERS if hull.fault else OK
+
+
+def _report(found: Input, given: Sequence[Surface], hull: Assembled, trace: bool, width: int) -> Iterator[str]:
+    surfaces = f", {len(given)} surfaces" if given else ""
+    yield f"{found.source}: {len(found.points)} points{surfaces}"
+    if hull.preprocessing is not None:
+        yield from _preprocessing(hull.preprocessing)
+    if hull.deleted:
+        between = (f"{d.point + 1} ({_line(d.between)})" for d in hull.deleted)
+        yield f"deleted as between two others: {', '.join(between)}"
+    yield f"{hull.projections} projections; {KINDS[hull.dimension]} of {len(hull.vertices)} points"
+    yield ""
+    yield "Vertex list"
+    yield from _table(("Point", "X", "Y", "Z"), ((str(i + 1), *found.points[i]) for i in hull.vertices))
+    yield ""
+    yield "Convex edge list"
+    rows = ((str(label), str(i + 1), str(j + 1)) for label, (i, j) in enumerate(hull.edges, 1))
+    yield from _table(("L", "LC1(L)", "LC2(L)"), rows)
+    yield ""
+    yield "Loop table"
+    for number, loop in enumerate(hull.table.loops, 1):
+        yield f"LUP({number},N)  {' '.join(map(str, loop.entries))}"
+        if trace:
+            yield from _growth(loop, width)
+    yield ""
+    yield "Topological map"
+    for number, surface in enumerate(hull.surfaces, 1):
+        yield f"surface {number}: {_points(surface)}"
+    if given and not hull.fault:
+        yield ""
+        yield from _fates(given, hull)
+
+
+def _preprocessing(done: Preprocessing) -> Iterator[str]:
+    lines = (f"{_line(c.line.ends)} (surfaces {c.line.on + 1}, {c.line.beyond + 1})" for c in done.inside)
+    yield f"inside corners: {', '.join(lines) or 'none'}"
+    yield f"deleted by rule {done.rule} before any projection: {_points(done.deleted) or 'none'}"
+    yield f"  relied on: {done.relied_on}"
+    if done.rule == "any":
+        if done.crowded:
+            yield f"  this is NOT so at {_points(done.crowded)}: the hull may be wrong; rules two and concave are safe"
+        else:
+            yield "  this is so for the surfaces given"
+
+
+def _growth(loop: Loop, width: int) -> Iterator[str]:
+    """The start of a loop and the use of every edge after it, in as many columns as there is room for."""
+    yield f"  type {loop.kind}, SP {loop.start + 1}, MP {loop.match + 1}"
+    cell = len(str(len(loop.uses))) + 1
+    columns = max(1, (width - len("  IUC(L)")) // cell)
+    for first in range(0, len(loop.uses), columns):
+        some = loop.uses[first : first + columns]
+        yield "  L     " + "".join(f"{label:>{cell}}" for label in range(first + 1, first + len(some) + 1))
+        yield "  IUC(L)" + "".join(f"{count:>{cell}}" for count in some)
+
+
+def _fates(given: Sequence[Surface], hull: Assembled) -> Iterator[str]:
+    yield "The surfaces given"
+    fates = hull.fates(given)
+    for number, other in enumerate(fates.of):
+        if other is None:
+            yield f"surface {number + 1}: deleted"
+        else:
+            yield f"surface {number + 1}: {'kept' if number in fates.kept else 'respecified'} as surface {other + 1}"
+    if fates.added:
+        yield f"added: {', '.join(f'surface {number + 1}' for number in fates.added)}"
+
+
+def _false_edges(found: Input, hull: Assembled) -> Iterator[str]:
+    """What the printed star polygon test took for edges."""
+    right = set(appel_will(found.points).edges)
+    wrong = [label for label, edge in enumerate(hull.edges, 1) if edge not in right]
+    if wrong:
+        yield ""
+        yield f"{len(wrong)} of {len(hull.edges)} edges are none, by images on one ray: {', '.join(map(str, wrong))}"
+
+
+def _mesh(found: Input, hull: Assembled) -> Mesh:
+    places = {index: place for place, index in enumerate(hull.vertices)}
+    faces = tuple(tuple(places[index] for index in surface) for surface in hull.outward())
+    return Mesh(hull.dimension, tuple(found.points[index] for index in hull.vertices), faces)
+
+
+def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[str]:
+    cells = [head, *rows]
+    widths = [max(len(row[k]) for row in cells) for k in range(len(head))]
+    for row in cells:
+        yield "  ".join(text.rjust(width) for text, width in zip(row, widths, strict=True))
+
+
+def _points(indices: Iterable[int]) -> str:
+    return " ".join(str(index + 1) for index in indices)
+
+
+def _line(ends: tuple[int, int]) -> str:
+    return f"{ends[0] + 1}-{ends[1] + 1}"

@@ -1,0 +1,214 @@
+"""Surface loops from convex edges (appendix, steps 1 to 10), and the topological map (Fig. 23).
+
+A line is an edge of the convex edge list, numbered L from 1, with the ends LC1(L) < LC2(L).  An entry of a loop is L
+where the loop runs from LC1 to LC2, else -L.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from modern.export.mesh import cross, dot, minus
+from modern.papers.appel_will.edges import IntPoint, Pair
+
+TIMES = 2
+"""How often each edge is used: an edge is the intersection of two convex planes."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rules:
+    """How the appendix is read.
+
+    ``dot_condition``: of the lines L2 that will do, prefer one whose direction has a positive product with that of
+    L1 (the main text's condition for two lines that give a plane), else take the first.  Without it the first is
+    taken always, as step 3 has it.
+    ``rejected_to_step_2``: "go back to step 2" in steps 5 and 7 by the letter, so that a rejected L2 costs its L1 the
+    turn; the mended number is step 3.
+    ``line_again``: step 9 by the letter, which leaves out L1 and L2 only, not the other lines already on the loop.
+    """
+
+    dot_condition: bool = True
+    rejected_to_step_2: bool = False
+    line_again: bool = False
+
+
+PREFERRED = Rules()
+"""The reading that gives all loops as printed, and every face of every hull."""
+
+
+@dataclass(frozen=True, slots=True)
+class Loop:
+    """A loop, and the table as it stood when it was closed.
+
+    ``entries`` are LUP(N, 1), LUP(N, 2), ...; ``kind`` the type of the first intersection (Fig. 20); ``start`` and
+    ``match`` the points SP and MP of step 8; ``uses`` IUC(1), IUC(2), ... after the loop.
+    """
+
+    entries: tuple[int, ...]
+    kind: int
+    start: int
+    match: int
+    uses: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class LoopTable:
+    """All loops in the order they were found; ``stopped`` says why the search ended before its end, if it did."""
+
+    loops: tuple[Loop, ...]
+    uses: tuple[int, ...]
+    stopped: str = ""
+
+    @property
+    def closed(self) -> bool:
+        """Whether every edge is used twice."""
+        return bool(self.uses) and all(count == TIMES for count in self.uses)
+
+
+@dataclass(frozen=True, slots=True)
+class Intersection:
+    """Lines L1 and L2 with a common point, classified (Fig. 20), and the two entries they make (Fig. 21).
+
+    Type 1: both lines begin at the common point; 2: L1 begins and L2 ends there; 3: L1 ends and L2 begins there; 4:
+    both end there.  Figs. 20 and 21 are lost: type 1 and its signs are certain from Figs. 21 and 22, the signs of the
+    others follow from the sense of the loop, their numbers are ours.
+    """
+
+    first: int
+    second: int
+    common: int
+    kind: int
+    entries: tuple[int, int]
+    start: int
+    match: int
+
+
+def intersect(edges: Sequence[Pair], first: int, second: int) -> Intersection | None:
+    """Lines ``first`` and ``second`` (numbered from 0), or None where they have no end in common (step 4)."""
+    one, other = edges[first], edges[second]
+    for kind, (a, b) in enumerate(((0, 0), (0, 1), (1, 0), (1, 1)), 1):
+        if one[a] == other[b]:
+            entries = (-(first + 1) if a == 0 else first + 1, second + 1 if b == 0 else -(second + 1))
+            return Intersection(first, second, one[a], kind, entries, one[1 - a], other[1 - b])
+    return None
+
+
+def find_loops(points: Sequence[IntPoint], edges: Sequence[Pair], rules: Rules) -> LoopTable:
+    """Steps 1 to 10.  The points that matter are the ends of the edges ("the vertex list" as reduced)."""
+    vertices = sorted({end for edge in edges for end in edge})
+    uses = [0] * len(edges)
+    loops: list[Loop] = []
+    on_loops: list[frozenset[int]] = []
+    while True:
+        begun = _begin(points, vertices, edges, uses, on_loops, rules)
+        if begun is None:
+            return LoopTable(tuple(loops), tuple(uses))
+        entries = _follow(points, edges, uses, begun, rules)
+        if entries is None:
+            lines = f"lines {begun.first + 1} and {begun.second + 1}"
+            return LoopTable(tuple(loops), tuple(uses), f"the loop begun with {lines} does not come back to its start")
+        for entry in entries:
+            uses[abs(entry) - 1] += 1
+        loops.append(Loop(tuple(entries), begun.kind, begun.start, begun.match, tuple(uses)))
+        on_loops.append(frozenset(surface(entries, edges)))
+
+
+def surface(entries: Sequence[int], edges: Sequence[Pair]) -> tuple[int, ...]:
+    """A loop's points: of each entry the end it starts from, LC1 of a positive and LC2 of a negative one (Fig. 23)."""
+    return tuple(edges[abs(entry) - 1][0 if entry > 0 else 1] for entry in entries)
+
+
+def _begin(
+    points: Sequence[IntPoint],
+    vertices: Sequence[int],
+    edges: Sequence[Pair],
+    uses: Sequence[int],
+    on_loops: Sequence[frozenset[int]],
+    rules: Rules,
+) -> Intersection | None:
+    """Steps 2 to 8: the two lines the next loop begins with, or None when all edges were addressed in step 2."""
+    for first in range(len(edges)):
+        if uses[first] == TIMES:
+            continue
+        found = _seconds(points, vertices, edges, uses, on_loops, rules, first)
+        chosen = next(found, None)
+        if chosen is None:
+            continue
+        if rules.dot_condition and not _acute(points, edges, chosen):
+            return next((other for other in found if _acute(points, edges, other)), chosen)
+        return chosen
+    return None
+
+
+def _seconds(
+    points: Sequence[IntPoint],
+    vertices: Sequence[int],
+    edges: Sequence[Pair],
+    uses: Sequence[int],
+    on_loops: Sequence[frozenset[int]],
+    rules: Rules,
+    first: int,
+) -> Iterator[Intersection]:
+    """Steps 3 to 7: the lines that make a plane of the hull with line ``first``, on which no loop lies yet."""
+    for second in range(len(edges)):
+        if second == first or uses[second] == TIMES:
+            continue
+        both = intersect(edges, first, second)
+        if both is None:
+            continue
+        three = {both.common, both.start, both.match}
+        if any(three <= loop for loop in on_loops) or not _is_convex_plane(points, vertices, both):
+            if rules.rejected_to_step_2:
+                return
+            continue
+        yield both
+
+
+def _is_convex_plane(points: Sequence[IntPoint], vertices: Sequence[int], both: Intersection) -> bool:
+    """Steps 6 and 7: whether all points are in the plane of the two lines or on one side of it."""
+    normal, origin = _plane(points, both)
+    sides = {(height > 0) - (height < 0) for height in (dot(normal, minus(points[p], origin)) for p in vertices)}
+    return not {1, -1} <= sides
+
+
+def _follow(
+    points: Sequence[IntPoint], edges: Sequence[Pair], uses: Sequence[int], both: Intersection, rules: Rules
+) -> list[int] | None:
+    """Steps 9 and 10: the entries of the whole loop, or None if it does not close.
+
+    The list is searched no more often than it has lines, as the appendix advises.
+    """
+    normal, origin = _plane(points, both)
+    entries = [*both.entries]
+    left_out = {both.first, both.second}
+    match = both.match
+    for _ in edges:
+        for line, (one, other) in enumerate(edges):
+            if uses[line] == TIMES or line in left_out or match not in (one, other):
+                continue
+            beyond = other if one == match else one
+            if beyond != both.start and dot(normal, minus(points[beyond], origin)):
+                continue
+            entries.append(line + 1 if one == match else -(line + 1))
+            if beyond == both.start:
+                return entries
+            if not rules.line_again:
+                left_out.add(line)
+            match = beyond
+            break
+        else:
+            return None
+    return None
+
+
+def _plane(points: Sequence[IntPoint], both: Intersection) -> tuple[IntPoint, IntPoint]:
+    """A normal of the plane of two lines and their common point (step 6)."""
+    origin = points[both.common]
+    return cross(minus(points[both.start], origin), minus(points[both.match], origin)), origin
+
+
+def _acute(points: Sequence[IntPoint], edges: Sequence[Pair], both: Intersection) -> bool:
+    """a_k a_l + b_k b_l + c_k c_l > 0 for the lines as directed from LC1 to LC2."""
+    (p, q), (r, s) = edges[both.first], edges[both.second]
+    return dot(minus(points[q], points[p]), minus(points[s], points[r])) > 0

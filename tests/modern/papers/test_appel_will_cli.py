@@ -1,0 +1,194 @@
+"""``hull1620 appel-will`` as a user meets it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from modern.cli.main import build_parser, main
+from modern.export import read_off
+from modern.papers.appel_will import RULES
+
+FIG_4 = """OFF
+10 7 15
+1 0 2
+0 0 2
+0 1 1
+1 1 1
+0 2 1
+1 2 1
+0 0 0
+1 0 0
+1 2 0
+0 2 0
+4 0 1 2 3
+4 2 3 5 4
+4 4 5 8 9
+4 0 1 6 7
+4 6 7 8 9
+5 0 3 5 8 7
+5 1 2 4 9 6
+"""
+CROWN = """OFF
+9 9 16
+3 0 0
+1 1 0
+0 3 0
+-1 1 0
+-3 0 0
+-1 -1 0
+0 -3 0
+1 -1 0
+0 0 4
+8 7 6 5 4 3 2 1 0
+""" + "".join(f"3 {k} {(k + 1) % 8} 8\n" for k in range(8))
+
+
+@pytest.fixture
+def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    Path("fig4.off").write_text(FIG_4)
+    Path("crown.off").write_text(CROWN)
+    return tmp_path
+
+
+def call(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
+    code = main(["appel-will", *arguments])
+    out, err = capsys.readouterr()
+    return code, out, err
+
+
+def section(out: str, head: str) -> list[str]:
+    """The lines below a heading, up to the next empty line."""
+    lines = out.split("\n")
+    start = lines.index(head) + 1
+    return lines[start : lines.index("", start)]
+
+
+def test_tables_of_fig_4(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, err = call(capsys, "fig4.off")
+    assert (code, err) == (0, "")
+    assert "deleted as between two others: 4 (1-9), 3 (2-10)" in out
+    assert "31 projections; a polyhedron of 8 points" in out
+    assert len(section(out, "Convex edge list")) == 13
+    assert [row.split()[0] for row in section(out, "Vertex list")[1:]] == ["1", "2", "5", "6", "7", "8", "9", "10"]
+    assert section(out, "Topological map")[0] == "surface 1: 2 1 6 5"
+    assert section(out, "The surfaces given")[-1] == "added: surface 1"
+    assert "IUC" not in out
+
+
+def test_trace_shows_the_use_of_every_edge_in_the_width_there_is(
+    room: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for columns in ("40", "100"):
+        monkeypatch.setenv("COLUMNS", columns)
+        code, out, _ = call(capsys, "fig4.off", "--trace")
+        assert code == 0
+        table = section(out, "Loop table")
+        assert max(map(len, table)) <= int(columns)
+        first = [row for row in table[: table.index("LUP(2,N)  -1 3 -9 -5")] if "IUC" in row]
+        counts = [word for row in first for word in row.split()[1:]]
+        assert counts == list("110101000000")
+        assert "  type 1, SP 2, MP 6" in table
+
+
+def test_literal_says_which_edges_are_none(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = call(capsys, "fig4.off", "--literal")
+    assert code == 1
+    assert "edges are none, by images on one ray" in out
+    assert out.splitlines()[-1].startswith("no hull: ")
+    assert "The surfaces given" not in out
+    code, out, _ = call(capsys, "fig4.off", "--literal", "--star", "mended")
+    assert code == 0
+    assert "edges are none" not in out
+    code, out, _ = call(capsys, "fig4.off", "--star", "printed")
+    assert code == 1
+    assert "edges are none" in out
+
+
+def test_literal_loops_are_those_of_the_letter(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("fig14.csv").write_text("0,0,4\n8,0,4\n4,8,4\n1,-2,0\n9,14,0\n17,-2,0\n")
+    _, preferred, _ = call(capsys, "fig14.csv")
+    code, letter, _ = call(capsys, "fig14.csv", "--literal")
+    assert code == 0
+    assert "LUP(3,N)  2 6 -7 -3" in preferred
+    assert "LUP(3,N)  -2 3 7 -6" in letter
+
+
+def test_inside_corners_say_what_they_rely_on(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    _, out, _ = call(capsys, "fig4.off", "--inside-corners", "any")
+    assert "deleted by rule any before any projection: 3 4" in out
+    assert "28 projections" in out
+    assert "this is so for the surfaces given" in out
+    _, out, _ = call(capsys, "crown.off", "--inside-corners", "any")
+    assert "this is NOT so at 9: the hull may be wrong" in out
+    _, out, _ = call(capsys, "crown.off", "--inside-corners", "two")
+    assert "NOT" not in out
+    assert "a polyhedron of 5 points" in out
+
+
+def test_output_is_an_off_file_of_the_hull(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert call(capsys, "fig4.off", "-o", "hull.off")[0] == 0
+    mesh = read_off("hull.off")
+    assert (len(mesh.points), len(mesh.faces)) == (8, 6)
+    code, out, _ = call(capsys, "hull.off")
+    assert code == 0
+    assert out.count("kept as") == 6
+    code, out, err = call(capsys, "fig4.off", "-o", "-")
+    assert out == Path("hull.off").read_text()
+    assert "Loop table" in err
+    assert call(capsys, "fig4.off", "--literal", "-o", "wrong.off")[0] == 1
+    assert not Path("wrong.off").exists()
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("1,2,3\n", "a point of 1 points"),
+        ("1,2,3\n1,2,3\n2,3,4\n", "a segment of 2 points"),
+        ("0,0,0\n1,0,0\n0,1,0\n.25,.25,0\n", "a polygon of 3 points"),
+    ],
+)
+def test_flat_input(room: Path, capsys: pytest.CaptureFixture[str], text: str, words: str) -> None:
+    Path("flat.csv").write_text(text)
+    code, out, err = call(capsys, "flat.csv")
+    assert code == 0
+    assert words in out
+    assert err == ("note: flat.csv: line 2: the point of line 1 again\n" if text.count("1,2,3") == 2 else "")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["nosuch.off"], "nosuch.off: no such file or directory"),
+        (["."], ".: is a directory"),
+        (["bad.off"], "bad.off: line 3, column 1: the file ends after 0 of 4 vertices"),
+        (["two.off"], "two.off: surface 1: 2 points; a surface has at least three"),
+        (["twice.off"], "twice.off: surface 1: a point stands in it twice"),
+        (["points.csv", "--inside-corners", "any"], "points.csv: --inside-corners needs the surfaces"),
+        (["crown.off", "--star", "both"], "argument --star: invalid choice: 'both'"),
+        (["open.off", "--inside-corners", "two"], "open.off: surface 1: line 1-2 is on 1 surface;"),
+        (["fig4.off", "-o", "nosuch/hull.off"], "nosuch/hull.off: no such file or directory"),
+        (["fig4.off", "-o", "."], ".: is a directory"),
+    ],
+)
+def test_misuse_is_one_line(room: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], words: str) -> None:
+    Path("bad.off").write_text("OFF\n4 4 6\n")
+    triangle = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n"
+    Path("two.off").write_text(triangle + "2 0 1\n")
+    Path("twice.off").write_text(triangle + "3 0 1 1\n")
+    Path("open.off").write_text(triangle + "3 0 1 2\n")
+    Path("points.csv").write_text("0,0,0\n1,0,0\n")
+    try:
+        code = main(["appel-will", *arguments])
+    except SystemExit as left:
+        code = int(left.code or 0)
+    out, err = capsys.readouterr()
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert words in err
+
+
+def test_choices_of_the_command_are_the_rules(capsys: pytest.CaptureFixture[str]) -> None:
+    for rule in RULES:
+        assert build_parser().parse_args(["appel-will", "x", "--inside-corners", rule]).inside_corners == rule

@@ -1,0 +1,191 @@
+"""Inside corners (Figs. 15, 16 and 18): which rule is right for which object, and maps that describe none."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Sequence
+
+import pytest
+
+from modern.exact_hull import exact_hull
+from modern.papers.appel_will import RULES, MapError, Method, appel_will
+from modern.papers.appel_will.corners import corners, preprocess
+from modern.papers.appel_will.results import found_solid, printed_solid
+from modern.papers.appel_will.surfaces import Surface, fates, oriented
+
+Point = tuple[int, int, int]
+Solid = tuple[list[Point], list[Surface]]
+
+
+def crown(apex: int) -> Solid:
+    """A pyramid over a star with four points: four of the eight lines at the apex are inside corners."""
+    base = [(3, 0, 0), (1, 1, 0), (0, 3, 0), (-1, 1, 0), (-3, 0, 0), (-1, -1, 0), (0, -3, 0), (1, -1, 0)]
+    sides = [(k, (k + 1) % 8, 8) for k in range(8)]
+    return [*base, (0, 0, apex)], [tuple(range(7, -1, -1)), *sides]
+
+
+def dented(source: random.Random) -> Solid:
+    """A star-shaped solid: the corners of a convex one with the origin inside, moved along their rays."""
+    while True:
+        ball = [tuple(source.randint(-9, 9) for _ in range(3)) for _ in range(12)]
+        hull = exact_hull(ball)
+        if hull.dimension == 3 and all(facet.plane[3] < 0 for facet in hull.facets):
+            break
+    places = {index: place for place, index in enumerate(hull.vertices)}
+    points = []
+    for index in hull.vertices:
+        times = source.choice((1, 1, 2, 3, 5))
+        x, y, z = (times * value for value in hull.scaled[index])
+        points.append((x, y, z))
+    polygons = [[places[index] for index in facet.polygon] for facet in hull.facets]
+    return points, [(p[0], p[k], p[k + 1]) for p in polygons for k in range(1, len(p) - 1)]
+
+
+def extruded(source: random.Random) -> Solid:
+    """A prism over a star-shaped polygon: three planes at every point, concave points on two surfaces."""
+    rays = [(3, 0), (2, 1), (1, 2), (0, 3), (-1, 2), (-2, 1), (-3, 0), (-2, -1), (-1, -2), (0, -3), (1, -2), (2, -1)]
+    outline = []
+    for x, y in rays:
+        times = source.randint(1, 4)
+        outline.append((times * x, times * y))
+    n = len(outline)
+    points = [(x, y, z) for z in (0, 5) for x, y in outline]
+    sides = [(k, (k + 1) % n, n + (k + 1) % n, n + k) for k in range(n)]
+    return points, [tuple(range(n - 1, -1, -1)), tuple(range(n, 2 * n)), *sides]
+
+
+def test_fig_18_signs_hold_for_every_line_of_the_step() -> None:
+    solid = found_solid("fig18")
+    found = corners(solid.points, oriented(solid.points, solid.surfaces))
+    assert sorted(corner.product for corner in found) == [-1] + [1] * 17
+    (inside,) = [corner for corner in found if corner.product < 0]
+    assert {inside.line.on, inside.line.beyond} == {1, 2}
+
+
+def test_fig_4_has_one_inside_corner_and_loses_its_two_points() -> None:
+    given = printed_solid()
+    plain = appel_will(given.points, given.surfaces)
+    for rule, deleted in (("any", (2, 3)), ("two", ()), ("concave", (2, 3))):
+        hull = appel_will(given.points, given.surfaces, Method(inside_corners=rule))
+        assert hull.preprocessing is not None
+        assert [set(corner.line.ends) for corner in hull.preprocessing.inside] == [{2, 3}]
+        assert hull.preprocessing.deleted == deleted
+        assert hull.preprocessing.crowded == ()
+        assert hull.edges == plain.edges
+        assert (hull.projections < plain.projections) == bool(deleted)
+
+
+def test_rule_any_is_wrong_where_more_than_three_planes_meet() -> None:
+    """What Fig. 15 warns of: the apex is on inside corners and a vertex of the hull all the same."""
+    points, surfaces = crown(4)
+    judge = exact_hull(points)
+    wrong = appel_will(points, surfaces, Method(inside_corners="any"))
+    assert wrong.preprocessing is not None
+    assert 8 in wrong.preprocessing.deleted
+    assert wrong.preprocessing.crowded == (8,)
+    assert wrong.edges != judge.edges()
+    for rule in ("two", "concave"):
+        assert appel_will(points, surfaces, Method(inside_corners=rule)).edges == judge.edges()
+
+
+def test_safe_rules_never_delete_a_vertex_of_the_hull() -> None:
+    source = random.Random(16)
+    wrong, deleted = 0, dict.fromkeys(RULES, 0)
+    for _ in range(60):
+        points, surfaces = dented(source)
+        vertices = set(exact_hull(points).vertices)
+        for rule in RULES:
+            lost = preprocess(points, surfaces, rule).deleted
+            deleted[rule] += len(lost)
+            if rule == "any":
+                wrong += not vertices.isdisjoint(lost)
+            else:
+                assert vertices.isdisjoint(lost)
+    assert wrong > 20, "rule any is wrong on many of them"
+    assert deleted["two"] > 20
+    assert deleted["concave"] == 0, "a triangle has no concave point"
+
+
+def test_all_rules_are_right_where_three_planes_meet() -> None:
+    source = random.Random(15)
+    for _ in range(30):
+        points, surfaces = extruded(source)
+        judge = exact_hull(points)
+        lost = {}
+        for rule in RULES:
+            hull = appel_will(points, surfaces, Method(inside_corners=rule))
+            assert hull.preprocessing is not None
+            assert hull.preprocessing.crowded == ()
+            assert (hull.edges, hull.fault) == (judge.edges(), "")
+            lost[rule] = set(hull.preprocessing.deleted)
+        assert lost["any"] >= lost["concave"] >= lost["two"]
+        assert lost["any"]
+
+
+def test_sense_of_the_given_surfaces_does_not_matter() -> None:
+    source = random.Random(18)
+    points, surfaces = extruded(source)
+    turned = [s if source.random() < 0.5 else s[::-1] for s in surfaces]
+    one, other = preprocess(points, surfaces, "any"), preprocess(points, turned, "any")
+    assert one.deleted == other.deleted
+    assert {frozenset(c.line.ends) for c in one.inside} == {frozenset(c.line.ends) for c in other.inside}
+
+
+def test_surfaces_may_name_a_point_by_its_duplicate() -> None:
+    points, surfaces = crown(4)
+    doubled = [*points, points[8]]
+    named = [*surfaces[:5], *(tuple(9 if index == 8 else index for index in s) for s in surfaces[5:])]
+    hull = appel_will(doubled, named, Method(inside_corners="two"))
+    assert hull.duplicates == ((9, 8),)
+    assert hull.edges == exact_hull(points).edges()
+
+
+TETRAHEDRON: Solid = ([(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4)], [(0, 1, 2), (0, 1, 3), (0, 2, 3), (1, 2, 3)])
+
+
+@pytest.mark.parametrize(
+    ("points", "surfaces", "message"),
+    [
+        (TETRAHEDRON[0], [(0, 1)], "surface 1: 2 points; a surface has at least three"),
+        (TETRAHEDRON[0], [(0, 1, 0)], "surface 1: a point stands in it twice"),
+        (TETRAHEDRON[0], [(0, 1, 4)], "surface 1: it names a point that is not there"),
+        (TETRAHEDRON[0], TETRAHEDRON[1][:3], "surface 1: line 2-3 is on 1 surface; a line is on two"),
+        ([(0, 0, 0), (1, 0, 0), (2, 0, 0), (0, 0, 4)], TETRAHEDRON[1], "surface 1: it has no area"),
+        ([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 1)], [(0, 1, 2, 3)] * 2, "surface 1: its points do not lie"),
+        ([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2), (0, 2, 1)], "the surfaces enclose no volume"),
+        (TETRAHEDRON[0], [*TETRAHEDRON[1], (0, 1, 2)], "surface 1: line 1-2 is on 3 surfaces; a line is on two"),
+        (
+            [p for at in (0, 9) for p in ((x + at, y, z) for x, y, z in TETRAHEDRON[0])],
+            [tuple(k + at for k in s) for at in (0, 4) for s in TETRAHEDRON[1]],
+            "surface 5: it is not connected with surface 1",
+        ),
+    ],
+    ids=["two points", "twice", "not there", "open", "thrice", "no area", "not plane", "no volume", "two solids"],
+)
+def test_maps_that_are_no_polyhedron(points: Sequence[Point], surfaces: Sequence[Surface], message: str) -> None:
+    with pytest.raises(MapError) as caught:
+        appel_will(points, surfaces, Method(inside_corners="any"))
+    assert message in str(caught.value)
+
+
+def test_map_without_outside() -> None:
+    """The projective plane in six points: every line is on two surfaces, and still there are not two sides."""
+    triangles = "012 023 034 045 051 124 235 341 452 513"
+    surfaces = [tuple(int(c) for c in word) for word in triangles.split()]
+    points = [(0, 0, 0), (5, 0, 1), (0, 7, 2), (3, 1, 9), (-4, 2, 6), (1, -8, 3)]
+    with pytest.raises(MapError, match="have no outside"):
+        oriented(points, surfaces)
+
+
+def test_unknown_rule() -> None:
+    with pytest.raises(ValueError, match="'all' is no rule"):
+        preprocess(*TETRAHEDRON, "all")
+
+
+def test_fates_of_the_surfaces_of_fig_4() -> None:
+    given = printed_solid()
+    hull = appel_will(given.points, given.surfaces)
+    found = fates(given.points, given.surfaces, hull.surfaces)
+    assert [k for k, other in enumerate(found.of) if other is None] == [0, 1]
+    assert found.kept == {2, 3, 4}
+    assert [set(hull.surfaces[k]) for k in found.added] == [{0, 1, 4, 5}]

@@ -1,0 +1,130 @@
+"""The whole method against the judge, general and degenerate; every kind of answer."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+from itertools import combinations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from judged import sets
+
+from modern.exact_hull import exact_hull
+from modern.papers.appel_will import LITERAL, MENDED, Method, appel_will
+from modern.papers.appel_will.loops import Rules
+from modern.papers.appel_will.star import as_mended
+
+Point = tuple[int, int, int]
+LETTER = Method(rules=Rules(dot_condition=False))
+
+
+def cycle(polygon: Sequence[int]) -> tuple[int, ...]:
+    """A polygon without beginning and sense."""
+    start = polygon.index(min(polygon))
+    turned = (*polygon[start:], *polygon[:start])
+    return min(turned, (turned[0], *turned[:0:-1]))
+
+
+def differences(points: Sequence[Sequence[object]], method: Method = MENDED) -> list[str]:
+    """In what the method differs from the judge; empty where it does not."""
+    ours, judge = appel_will(points, method=method), exact_hull(points)  # type: ignore[arg-type]
+    polygons = {3: [facet.polygon for facet in judge.facets], 2: [judge.polygon]}.get(judge.dimension, [])
+    compared = {
+        "fault": (ours.fault, ""),
+        "dimension": (ours.dimension, judge.dimension),
+        "scale": (ours.scale, judge.scale),
+        "vertices": (ours.vertices, judge.vertices),
+        "duplicates": (ours.duplicates, judge.duplicates),
+        "edges": (ours.edges, judge.edges()),
+        "faces": (Counter(map(cycle, ours.surfaces)), Counter(map(cycle, polygons))),
+    }
+    return [name for name, (one, other) in compared.items() if one != other]
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_families_agree_with_the_judge(seed: int) -> None:
+    for name, points in sets(200, seed):
+        assert differences(points) == [], name
+
+
+def test_forms_of_the_method_agree_with_the_judge() -> None:
+    for name, points in sets(60, 3):
+        assert differences(points, LETTER) == [], name
+        assert differences(points, Method(star=as_mended)) == [], name
+
+
+coordinate = st.one_of(st.integers(-1, 2), st.fractions(-2, 2, max_denominator=3))
+
+
+@given(st.lists(st.tuples(coordinate, coordinate, coordinate), min_size=1, max_size=10))
+def test_few_points_with_duplicates_and_fractions(points: list[tuple[Fraction, Fraction, Fraction]]) -> None:
+    assert differences(points) == []
+
+
+@given(st.lists(st.tuples(*[st.integers(-(10**30), 10**30)] * 3), min_size=4, max_size=9))
+def test_integers_of_thirty_digits(points: list[Point]) -> None:
+    assert differences(points) == []
+
+
+@pytest.mark.parametrize(
+    ("points", "dimension", "edges", "loops"),
+    [
+        ([(1, 2, 3)], 0, 0, 0),
+        ([(1, 2, 3)] * 3, 0, 0, 0),
+        ([(1, 2, 3), (4, 5, 6)], 1, 1, 0),
+        ([(0, 0, 0), (2, 2, 2), (1, 1, 1), (5, 5, 5)], 1, 1, 0),
+        ([(0, 0, 0), (1, 0, 0), (0, 1, 0)], 2, 3, 1),
+        ([(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (1, 1, 0), (1, 0, 0)], 2, 4, 1),
+        ([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], 3, 6, 4),
+    ],
+    ids=["point", "one point thrice", "two points", "collinear", "triangle", "flat", "tetrahedron"],
+)
+def test_kinds_of_answer(points: list[Point], dimension: int, edges: int, loops: int) -> None:
+    hull = appel_will(points)
+    assert (hull.dimension, len(hull.edges), len(hull.surfaces), hull.fault) == (dimension, edges, loops, "")
+    assert hull.table.closed == (dimension == 3)
+
+
+def test_faults_of_edges_and_loops_that_are_no_hull() -> None:
+    hull = appel_will([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
+    assert hull.fault == ""
+    used = (1, *hull.table.uses[1:])
+    assert replace(hull, table=replace(hull.table, uses=used)).fault == "1 of 6 edges are not used twice"
+    assert replace(hull, surfaces=hull.surfaces[1:]).fault == "V - E + F is 4 - 6 + 3 = 1, not 2"
+    square = [(x, y, 0) for x in (0, 1) for y in (0, 1)]
+    diagonals = appel_will([*square, (3, 1, 0)], method=LITERAL)
+    assert diagonals.dimension == 2
+    assert diagonals.fault.endswith("loops do not make one polygon")
+
+
+def test_points_between_others_are_deleted_in_passing_whatever_their_order() -> None:
+    """Fig. 13: on each line only its two ends are left."""
+    line = [(0, 0, 0), (3, 3, 3), (1, 1, 1), (2, 2, 2)]
+    for order in ([0, 1, 2, 3], [2, 3, 0, 1], [3, 0, 2, 1], [2, 0, 3, 1]):
+        points = [line[k] for k in order] + [(9, 0, 0), (0, 9, 0)]
+        hull = appel_will(points)
+        assert {points[d.point] for d in hull.deleted} == {(1, 1, 1), (2, 2, 2)}
+        assert all({points[k] for k in d.between} == {(0, 0, 0), (3, 3, 3)} for d in hull.deleted)
+        assert differences(points) == []
+
+
+def test_every_pair_of_points_is_projected_once_where_none_is_deleted() -> None:
+    points = [(k, k * k, k**3) for k in range(-4, 5)]
+    assert appel_will(points).projections == len(list(combinations(points, 2)))
+
+
+def test_surfaces_turn_outward() -> None:
+    for _, points in sets(30, 4):
+        hull, judge = appel_will(points), exact_hull(points)
+        if hull.dimension == 3:
+            outward = {cycle_from_lowest(face) for face in hull.outward()}
+            assert outward == {facet.polygon for facet in judge.facets}
+
+
+def cycle_from_lowest(polygon: Sequence[int]) -> tuple[int, ...]:
+    start = polygon.index(min(polygon))
+    return (*polygon[start:], *polygon[:start])

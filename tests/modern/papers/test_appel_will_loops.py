@@ -1,0 +1,101 @@
+"""The appendix, steps 1 to 10: types, readings of the letter, and the use of every edge (Figs. 20 to 23)."""
+
+from __future__ import annotations
+
+from itertools import product
+
+import pytest
+
+from modern.papers.appel_will import LITERAL, Method, appel_will
+from modern.papers.appel_will.loops import Rules, find_loops, intersect, surface
+from modern.papers.appel_will.results import PAPER, found_solid
+from modern.papers.published import results_of
+
+CUBE = list(product((0, 1), repeat=3))
+FIG_14, FIG_23 = found_solid("fig14").points, found_solid("fig23").points
+
+
+def entries(points: list[tuple[int, int, int]] | tuple[tuple[int, int, int], ...], rules: Rules) -> list[list[int]]:
+    return [list(loop.entries) for loop in appel_will(points, method=Method(rules=rules)).table.loops]
+
+
+@pytest.mark.parametrize(
+    ("edges", "kind", "signs", "start", "match"),
+    [
+        ([(1, 5), (1, 7)], 1, (-1, 2), 5, 7),
+        ([(4, 9), (2, 4)], 2, (-1, -2), 9, 2),
+        ([(2, 4), (4, 9)], 3, (1, 2), 2, 9),
+        ([(2, 8), (3, 8)], 4, (1, -2), 2, 3),
+    ],
+)
+def test_types_of_fig_20(
+    edges: list[tuple[int, int]], kind: int, signs: tuple[int, int], start: int, match: int
+) -> None:
+    """A loop runs from SP along L1 to the common point and along L2 to MP, whatever the type."""
+    both = intersect(edges, 0, 1)
+    assert both is not None
+    assert (both.kind, both.entries, both.start, both.match) == (kind, signs, start, match)
+    assert surface(both.entries, edges) == (start, both.common)
+
+
+def test_lines_without_common_point_do_not_intersect() -> None:
+    assert intersect([(1, 2), (3, 4)], 0, 1) is None
+
+
+@pytest.mark.parametrize("points", [FIG_14, FIG_23, CUBE], ids=["fig14", "fig23", "cube"])
+@pytest.mark.parametrize("dot", [True, False])
+def test_every_loop_uses_its_edges_once_more_and_none_thrice(points: list[tuple[int, int, int]], dot: bool) -> None:
+    table = appel_will(points, method=Method(rules=Rules(dot_condition=dot))).table
+    before = (0,) * len(table.uses)
+    for loop in table.loops:
+        grown = [label for label, (a, b) in enumerate(zip(before, loop.uses, strict=True), 1) if a != b]
+        assert sorted(map(abs, loop.entries)) == grown
+        assert max(loop.uses) <= 2
+        before = loop.uses
+    assert table.closed
+    assert before == table.uses
+
+
+def test_readings_of_the_letter_find_the_same_faces_in_the_same_order() -> None:
+    """Without the dot-product condition three of the twelve printed loops run the other way round."""
+    for points in (FIG_14, FIG_23):
+        preferred, letter = (appel_will(points, method=m) for m in (Method(), Method(rules=LITERAL.rules)))
+        assert [set(s) for s in preferred.surfaces] == [set(s) for s in letter.surfaces]
+    differing = [
+        (a, b)
+        for points in (FIG_14, FIG_23)
+        for a, b in zip(entries(points, Rules()), entries(points, LITERAL.rules), strict=True)
+        if a != b
+    ]
+    assert len(differing) == 3
+    assert all(abs(a[0]) == abs(b[0]) for a, b in differing)
+
+
+def test_step_2_for_step_3_cannot_give_the_second_printed_loop() -> None:
+    """Steps 5 and 7 say "go back to step 2": then line 1 gets no second try and the second loop begins elsewhere."""
+    (printed,) = (result.corrected for result in results_of(PAPER) if result.id == "fig22-loops-1-3")
+    second_loop = [int(word) for word in printed[0].split("\t")[3].split()]
+    for dot in (True, False):
+        assert entries(FIG_14, Rules(dot, rejected_to_step_2=True))[1][0] != second_loop[0]
+        assert entries(FIG_14, Rules(dot))[1] == second_loop
+
+
+def test_step_9_by_the_letter_takes_a_line_again_and_does_not_come_back() -> None:
+    """It leaves out L1 and L2 only.  The face of five points here needs lines 8, 7 in falling order."""
+    points = [(-6, -6, 1), (-4, -4, 5), (-8, 14, 8), (-2, 0, 10), (0, 2, 14), (-4, 20, 17)]
+    letter = appel_will(points, method=Method(rules=Rules(False, line_again=True)))
+    assert "does not come back to its start" in letter.fault
+    assert not appel_will(points, method=Method(rules=Rules(False))).fault
+
+
+def test_cube_has_no_pair_with_a_positive_product_and_falls_back() -> None:
+    """All its angles are right: the condition alone would find no loop."""
+    assert entries(CUBE, Rules()) == entries(CUBE, Rules(dot_condition=False))
+    assert len(entries(CUBE, Rules())) == 6
+
+
+def test_edges_that_bound_nothing_stop_the_search() -> None:
+    table = find_loops([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1), (0, 2)], Rules())
+    assert table.loops == ()
+    assert table.stopped == "the loop begun with lines 1 and 2 does not come back to its start"
+    assert not table.closed
