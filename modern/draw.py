@@ -1,7 +1,8 @@
 """Line drawings of hulls: parallel projection, hidden edges dashed, vertices numbered as the programs number them.
 
-A convex solid hides an edge exactly when both of the edge's faces turn away from the eye.  That is a sign of a sum of
-products, found in fractions of the exact coordinates; floating point only chooses where numbers are put.
+A convex solid hides an edge exactly when both of the edge's faces turn away from the eye.  That is the sign of
+formula (1) of Nakamae and Nishita (``modern.papers.nakamae_nishita.faces``), in fractions of the exact coordinates;
+floating point only chooses where numbers are put.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -42,11 +42,25 @@ class Layout:
 def lay_out(picture: Scene, width: int) -> Layout:
     """Fit a scene into ``width`` pixels, and at most 460 high, true to scale."""
     marks = (*picture.boundary, *picture.inside)
-    images = [*picture.images, *(mark.image for mark in marks)]
+    pixel, height = fit([*picture.images, *(mark.image for mark in marks)], width, _HIGHEST)
+    vertices = tuple(pixel(image) for image in picture.images)
+    return Layout(
+        width,
+        height,
+        vertices,
+        tuple(pixel(mark.image) for mark in picture.boundary),
+        tuple(pixel(mark.image) for mark in picture.inside),
+        _groups(vertices),
+    )
+
+
+def fit(images: Sequence[Flat], width: int, highest: int) -> tuple[Callable[[Flat], Pixel], int]:
+    """The map of images to pixels that fits them into ``width``, and ``highest`` without the margins, true to scale;
+    and the height with the margins."""
     left, right = _ends(image[0] for image in images)
     low, high = _ends(image[1] for image in images)
     room = width - 2 * MARGIN
-    scales = [Fraction(size) / extent for size, extent in ((room, right - left), (_HIGHEST, high - low)) if extent]
+    scales = [Fraction(size) / extent for size, extent in ((room, right - left), (highest, high - low)) if extent]
     scale = min(scales, default=Fraction(0))
     tall = max(_LOWEST, -int(-(high - low) * scale // 1))
 
@@ -55,15 +69,7 @@ def lay_out(picture: Scene, width: int) -> Layout:
         y = ((low + high) / 2 - image[1]) * scale + Fraction(tall, 2) + MARGIN
         return Pixel(round(100 * x), round(100 * y))
 
-    vertices = tuple(pixel(image) for image in picture.images)
-    return Layout(
-        width,
-        tall + 2 * MARGIN,
-        vertices,
-        tuple(pixel(mark.image) for mark in picture.boundary),
-        tuple(pixel(mark.image) for mark in picture.inside),
-        _groups(vertices),
-    )
+    return pixel, tall + 2 * MARGIN
 
 
 def _ends(numbers: Iterable[Fraction]) -> tuple[Fraction, Fraction]:

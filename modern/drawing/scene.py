@@ -1,4 +1,7 @@
-"""What there is to draw of a hull seen from a direction: images of points, edges seen and hidden, marks."""
+"""What there is to draw of a hull seen from a direction: images of points, edges seen and hidden, marks.
+
+Which faces are seen and which edges are hidden is found as Nakamae and Nishita find it.
+"""
 
 from __future__ import annotations
 
@@ -7,10 +10,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from modern.drawing.view import Eye, Flat, View, across, choose, facing, lowest, root, towards, view
-from modern.export.mesh import Mesh, Vector, area_vector, cross, dot, mesh, minus, sides
+from modern.drawing.view import Eye, Flat, View, across, along, choose, lowest, root, towards, view
+from modern.export.mesh import Mesh, Vector, area_vector, cross, dot, mesh, minus
 from modern.export.numbers import ExportError, coordinates, number, shown
 from modern.hull import Hull
+from modern.papers.nakamae_nishita.faces import BACK, FLAT, classify, facing
+
+_ONE = Fraction(1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +70,10 @@ def scene(hull: Hull, eye: Sequence[Fraction] | None = None) -> Scene:
     points = surface.numbers()
     normals = [area_vector(points, face) for face in surface.faces]
     sight = view(_direction(surface, points, normals, eye))
-    signs = [facing(normal, sight.eye) for normal in normals]
+    images = tuple(sight.project(point) for point in points)
+    # A mesh has its faces counterclockwise from outside, the paper clockwise.
+    faces = [face[::-1] for face in surface.faces]
+    signs = [facing([(*images[place], _ONE) for place in face]) for face in faces]
     if surface.dimension == 2:
         # A polygon has two sides; whichever the eye is on is the one drawn.
         signs = [abs(sign) for sign in signs]
@@ -81,9 +90,9 @@ def scene(hull: Hull, eye: Sequence[Fraction] | None = None) -> Scene:
         surface.dimension,
         sight,
         eye is None,
-        tuple(sight.project(point) for point in points),
+        images,
         tuple(_away(around[place]) for place in range(len(points))),
-        _edges(surface, normals, signs),
+        _edges(surface, faces, normals, signs),
         tuple(
             Pane(face, _light(normal, sight) if surface.dimension == 3 else Fraction(1))
             for face, normal, sign in zip(surface.faces, normals, signs, strict=True)
@@ -110,7 +119,7 @@ def _direction(
             raise ExportError("the direction of view is 0,0,0")
         if surface.dimension == 1 and not any(cross(minus(points[1], points[0]), direction)):
             raise ExportError("the direction of view is along the segment, which would be a point")
-        if surface.dimension == 2 and not facing(normals[0], given):
+        if surface.dimension == 2 and not along(given, normals[0]):
             raise ExportError("the direction of view is in the plane of the polygon, which would be a line")
         return given
     if surface.dimension == 3:
@@ -120,20 +129,14 @@ def _direction(
     return across(minus(points[-1], points[0]))
 
 
-def _edges(surface: Mesh, normals: Sequence[Vector], signs: Sequence[int]) -> tuple[Edge, ...]:
-    """Every edge between faces of different planes; one between two faces of one plane is no edge of the solid."""
+def _edges(
+    surface: Mesh, faces: Sequence[tuple[int, ...]], normals: Sequence[Vector], signs: Sequence[int]
+) -> tuple[Edge, ...]:
+    """Every edge between faces of different planes; of a segment its one."""
     if surface.dimension < 2:
         return tuple(Edge(a, b, False) for a, b in surface.edges() if surface.dimension)
-    beside: dict[tuple[int, int], list[int]] = defaultdict(list)
-    for order, face in enumerate(surface.faces):
-        for a, b in sides(face):
-            beside[min(a, b), max(a, b)].append(order)
-    found = []
-    for (a, b), orders in sorted(beside.items()):
-        if len(orders) == 2 and _parallel(normals[orders[0]], normals[orders[1]]):
-            continue
-        found.append(Edge(a, b, _away([signs[order] for order in orders])))
-    return tuple(found)
+    found = classify(faces, signs, lambda a, b: _parallel(normals[a], normals[b]))
+    return tuple(Edge(edge.start, edge.end, edge.kind == BACK) for edge in found if edge.kind != FLAT)
 
 
 def _parallel(u: Vector, v: Vector) -> bool:

@@ -1,4 +1,4 @@
-"""Parallel projection along a direction, exactly: a face is seen, turned away or edge-on by the sign of an integer.
+"""Parallel projection along a direction, exactly, and the choice of a direction.
 
 The direction points from the solid to the eye.  The image's x axis is ``z x eye`` and its y axis ``eye x (z x eye)``,
 so that the z axis of space stands upright; seen along z itself, x is to the right and y upright.
@@ -87,12 +87,6 @@ def lowest(vector: Sequence[Fraction]) -> Eye:
 def along(direction: Eye, point: Vector) -> Fraction:
     """The scalar product."""
     return direction[0] * point[0] + direction[1] * point[1] + direction[2] * point[2]
-
-
-def facing(normal: Vector, eye: Eye) -> int:
-    """1 where a face with this outward normal is seen, -1 where it turns away, 0 where it is edge-on."""
-    value = along(eye, normal)
-    return (value > 0) - (value < 0)
 
 
 def choose(points: Sequence[Vector], normals: Sequence[Vector]) -> Eye:

@@ -1,0 +1,96 @@
+"""Where a segment goes in behind a contour and where it comes out (sections 3.4 and 3.5, formula (6)).
+
+A place on a segment from P_A to P_B is the fraction s of the way, in space.  An index is +k where the segment goes in
+and -k where it comes out, k being the number of its intersections with the contour.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from modern.papers.nakamae_nishita.faces import line_through, sign
+from modern.papers.nakamae_nishita.projection import Homogeneous
+from modern.papers.nakamae_nishita.tables import CROSSING, Values
+
+Mark = tuple[Fraction, int]
+
+
+@dataclass(frozen=True, slots=True)
+class Passage:
+    """How a segment runs behind one contour: its intersections with their indices I_0, from P_A on.
+
+    ``enclosed``: all of it lies within the contour, without an intersection.
+    """
+
+    marks: tuple[Mark, ...]
+    enclosed: bool = False
+
+    @property
+    def order(self) -> int:
+        """What the contour adds to the order of invisibility of P_A by the paper's count: the number of -1."""
+        return sum(index == -1 for _, index in self.marks)
+
+
+CLEAR = Passage(())
+ENCLOSED = Passage((), True)
+
+
+def clipped(values: Values, first: int, last: int) -> Passage:
+    """The passage of the segment between two points behind a contour, ends on the contour included.
+
+    values: formula (1) of each contour segment at the points.  The segment is clipped to the inner side of each line,
+    so a part is hidden only where it has a length strictly within the contour.
+    """
+    enter_up, enter_down, leave_up, leave_down = 0, 1, 1, 1
+    for column in values:
+        a, b = column[first], column[last]
+        if a < 0:
+            if b <= 0:
+                return CLEAR
+            if -a * enter_down > enter_up * (b - a):
+                enter_up, enter_down = -a, b - a
+        elif b < 0:
+            if not a:
+                return CLEAR
+            if a * leave_down < leave_up * (a - b):
+                leave_up, leave_down = a, a - b
+        elif not (a or b):
+            return CLEAR
+    if enter_up * leave_down >= leave_up * enter_down:
+        return CLEAR
+    goes_in, comes_out = enter_up > 0, leave_up < leave_down
+    if not (goes_in or comes_out):
+        return ENCLOSED
+    k = goes_in + comes_out
+    marks = [(Fraction(enter_up, enter_down), k)] if goes_in else []
+    if comes_out:
+        marks.append((Fraction(leave_up, leave_down), -k))
+    return Passage(tuple(marks))
+
+
+def as_printed(
+    values: Values, first: int, last: int, ends: tuple[Homogeneous, Homogeneous], contour: Sequence[Homogeneous]
+) -> Passage:
+    """The passage by the letter of the paper: only intersections with d = -4 of formula (3) count.
+
+    A segment that ends on the contour, or runs through its corner, loses that intersection.
+    """
+    a, b, c = line_through(_flat(ends[0]), _flat(ends[1]))
+    sides = [sign(a * x + b * y + c * w) for x, y, _, w in contour]
+    places = []
+    for i, column in enumerate(values):
+        at_a, at_b = column[first], column[last]
+        d = (sides[(i + 1) % len(sides)] - sides[i]) * (sign(at_b) - sign(at_a))
+        if d == CROSSING:
+            places.append((Fraction(at_a, at_a - at_b), sign(at_b - at_a)))
+    if not places:
+        # Properties 3 and 4: no -1 in either row, and not both ends on one segment of the contour.
+        within = all(min(column[first], column[last]) >= 0 < max(column[first], column[last]) for column in values)
+        return ENCLOSED if within else CLEAR
+    return Passage(tuple((place, len(places) * sense) for place, sense in sorted(places)))
+
+
+def _flat(point: Homogeneous) -> tuple[int, int, int]:
+    return point[0], point[1], point[3]

@@ -1,0 +1,150 @@
+"""The parts of a scene file: standard shapes, their placing, and the figures on their faces."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import partial
+
+from modern.export.mesh import Vector, cross, dot, minus
+from modern.export.numbers import shown
+from modern.papers.nakamae_nishita.fields import Fields
+from modern.papers.nakamae_nishita.polyhedron import Figure, Polyhedron, SceneError, checked, outward
+from modern.papers.nakamae_nishita.shapes import (
+    column,
+    cuboid,
+    moved,
+    parallelepiped,
+    placed,
+    plate,
+    round_base,
+    turned,
+)
+
+_ZERO: Vector = (Fraction(0), Fraction(0), Fraction(0))
+MOST = 20_000
+"""The most polyhedra one part may stand for."""
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """One shape, and where its copies stand.
+
+    build: makes the shape at the origin, under a name.  thing: the object all copies belong to.  figures: in the
+    shape's own coordinates.  turn: degrees about the z axis, before the move by ``at``.  count: copies along x, y and
+    z, ``step`` apart.
+    """
+
+    place: str
+    build: Callable[[str], Polyhedron]
+    thing: str = ""
+    figures: tuple[tuple[Vector, ...], ...] = ()
+    turn: Fraction = Fraction(0)
+    at: Vector = _ZERO
+    count: tuple[int, ...] = (1, 1, 1)
+    step: Vector = _ZERO
+
+
+def part(fields: Fields) -> Part:
+    """A part from its table.  Raises SceneError."""
+    shape = fields.text("shape", "")
+    if shape not in _SHAPES:
+        raise fields.wrong("shape", f"{shown(shape)} is none of {', '.join(_SHAPES)}")
+    build = _SHAPES[shape](fields)
+    name = fields.text("name", "")
+    count = fields.whole("count", 3) or (1, 1, 1)
+    if min(count) < 1 or count[0] * count[1] * count[2] > MOST:
+        raise fields.wrong("count", f"copies are 1 or more along each axis, and {MOST:,} at the most")
+    step = fields.vector("step")
+    if max(count) > 1 and step is None:
+        raise fields.wrong("step", "how far apart the copies stand is not said")
+    found = Part(
+        f"{fields.place} ({name})" if name else fields.place,
+        build,
+        fields.text("object", ""),
+        fields.polygons("figures"),
+        fields.number("turn") or Fraction(0),
+        fields.vector("at") or _ZERO,
+        count,
+        step or _ZERO,
+    )
+    fields.done()
+    return found
+
+
+def make(item: Part) -> Iterator[Polyhedron]:
+    """The copies of a part.  Raises SceneError."""
+    shape = item.build(item.place)
+    figures = tuple(_figure(item.place, shape, corners) for corners in item.figures)
+    shape = placed(replace(shape, thing=item.thing, figures=figures), turned(item.turn), item.place)
+    for place in itertools.product(*map(range, item.count)):
+        x, y, z = (start + k * step for start, k, step in zip(item.at, place, item.step, strict=True))
+        copy = f", copy {','.join(str(k + 1) for k in place)}" if max(item.count) > 1 else ""
+        yield placed(shape, moved((x, y, z)), item.place + copy)
+
+
+def _figure(place: str, shape: Polyhedron, corners: tuple[Vector, ...]) -> Figure:
+    """A figure on the face that holds it; of a plate on the side from which its corners run clockwise."""
+    if len(corners) < 3:
+        raise SceneError(f"{place}: figures: a figure has three corners or more, not {len(corners)}")
+    for order, face in enumerate(shape.faces):
+        normal = outward(shape, face)
+        points = [shape.vertices[k] for k in face]
+        sides = list(zip(points, [*points[1:], points[0]], strict=True))
+        if all(
+            not dot(normal, minus(corner, points[0]))
+            and all(dot(normal, cross(minus(q, p), minus(corner, p))) <= 0 for p, q in sides)
+            for corner in corners
+        ):
+            return Figure(order, corners)
+    raise SceneError(f"{place}: figures: no face holds all corners of a figure")
+
+
+def _cuboid(fields: Fields) -> Callable[[str], Polyhedron]:
+    size = fields.vector("size")
+    if size is None:
+        raise fields.wrong("size", "the sides of the cuboid are not said")
+    return partial(cuboid, x=size[0], y=size[1], z=size[2])
+
+
+def _parallelepiped(fields: Fields) -> Callable[[str], Polyhedron]:
+    edges = fields.vectors("edges") or ()
+    if len(edges) != 3:
+        raise fields.wrong("edges", "a parallelepiped has three")
+    return partial(parallelepiped, a=edges[0], b=edges[1], c=edges[2])
+
+
+def _column(fields: Fields) -> Callable[[str], Polyhedron]:
+    base, sides, radius = fields.vectors("base", flat=True), fields.count("sides"), fields.number("radius")
+    along, height = fields.vector("along"), fields.number("height")
+    if (base is None) == (sides is None) or (sides is None) != (radius is None):
+        raise fields.wrong("base", "a column has a base, or a number of sides and a radius")
+    if (along is None) == (height is None):
+        raise fields.wrong("height", "a column has a height, or a vector along which it rises")
+    rise = along or (Fraction(0), Fraction(0), height or Fraction(0))
+    if sides is not None and radius is not None:
+        base = tuple(round_base(fields.place, sides, radius))
+    return partial(column, base=base or (), along=rise)
+
+
+def _plate(fields: Fields) -> Callable[[str], Polyhedron]:
+    return partial(plate, corners=fields.vectors("corners", flat=True) or ())
+
+
+def _polyhedron(fields: Fields) -> Callable[[str], Polyhedron]:
+    vertices, faces = fields.vectors("vertices") or (), fields.counts("faces")
+    if not all(1 <= place <= len(vertices) for face in faces for place in face):
+        raise fields.wrong("faces", f"vertices are counted from 1 to {len(vertices)}")
+    counted = tuple(tuple(place - 1 for place in face) for face in faces)
+    return lambda name: checked(Polyhedron(name, vertices, counted))
+
+
+_SHAPES = {
+    "cuboid": _cuboid,
+    "parallelepiped": _parallelepiped,
+    "column": _column,
+    "plate": _plate,
+    "polyhedron": _polyhedron,
+}

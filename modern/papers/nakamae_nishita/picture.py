@@ -1,0 +1,84 @@
+"""A drawing on paper: SVG of nothing but lines, or HPGL for a plotter.
+
+What is drawn is straight strokes, each from one end of a visible piece to the other; where parts of objects touch, a
+line that belongs to both may be drawn twice.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+
+from modern.drawing import hpgl, svg
+from modern.drawing.layout import MARGIN, Pixel, fit
+from modern.drawing.marks import HIDDEN, VISIBLE
+from modern.drawing.view import Flat
+from modern.papers.nakamae_nishita.hidden import Drawing, Piece
+from modern.papers.nakamae_nishita.polyhedron import SceneError
+from modern.papers.nakamae_nishita.projection import Homogeneous, image
+
+_HIGHEST_SHAPE = Fraction(3, 4)
+_NARROWEST, _WIDEST = 320, 4000
+_BAND = 24
+
+
+def ends(drawing: Drawing, piece: Piece) -> tuple[Homogeneous, Homogeneous]:
+    """The two ends of a piece, homogeneous."""
+    points = drawing.solids[piece.solid].points
+    a, b = points[piece.start], points[piece.end]
+    return _between(a, b, piece.first), _between(a, b, piece.last)
+
+
+def as_svg(drawing: Drawing, title: str = "", width: int = 640) -> str:
+    """The text of an SVG file; ``data-edge`` of a line is its polyhedron and the two vertices of its edge, from 1.
+
+    A corner of a figure is counted on from the vertices.  Raises SceneError for a width out of range.
+    """
+    if not _NARROWEST <= width <= _WIDEST:
+        raise SceneError(f"a picture {width} pixels wide is not drawn; {_NARROWEST} to {_WIDEST} are")
+    pixel, height = fit(_extent(drawing), width, int(width * _HIGHEST_SHAPE))
+
+    def strokes(seen: bool) -> Iterator[str]:
+        for piece in drawing.pieces:
+            if piece.seen == seen:
+                a, b = (pixel(image(end, drawing.observer)) for end in ends(drawing, piece))
+                name = f'data-edge="{piece.solid + 1}: {piece.start + 1} {piece.end + 1}"'
+                if a != b:
+                    yield svg.line(a, b, name)
+
+    items = [
+        *svg.group(HIDDEN.key, HIDDEN.attributes, strokes(False)),
+        *svg.group(VISIBLE.key, VISIBLE.attributes, strokes(True)),
+    ]
+    if title:
+        font = f'font-family="{svg.FONT}" font-size="13" fill="#000"'
+        items += svg.group("legend", font, [svg.text(Pixel(100 * MARGIN, 100 * height), title)])
+        height += _BAND
+    return svg.page(width, height, title or "Hidden lines removed", items)
+
+
+def as_hpgl(drawing: Drawing) -> str:
+    """The text of a plot on a sheet of A4, hidden pieces dashed."""
+    pixel, height = fit(_extent(drawing), hpgl.WIDTH // 10, hpgl.HEIGHT // 10 - 2 * MARGIN)
+
+    def strokes(seen: bool) -> Iterator[hpgl.Stroke]:
+        for piece in drawing.pieces:
+            if piece.seen == seen:
+                # Hundredths of a pixel are tenths of a plotter unit; a plotter's y axis points upward.
+                a, b = (pixel(image(end, drawing.observer)) for end in ends(drawing, piece))
+                start, end = ((round(p.x / 10), 10 * height - round(p.y / 10)) for p in (a, b))
+                if start != end:
+                    yield start, end
+
+    return hpgl.plot(((hpgl.SOLID, strokes(True)), (hpgl.DASHED, strokes(False))))
+
+
+def _extent(drawing: Drawing) -> list[Flat]:
+    """The images of all vertices, so that the picture is in one place whatever is hidden."""
+    return [image(point, drawing.observer) for item in drawing.solids for point in item.vertices]
+
+
+def _between(a: Homogeneous, b: Homogeneous, s: Fraction) -> Homogeneous:
+    up, down = s.numerator, s.denominator
+    x, y, z, w = ((down - up) * p + up * q for p, q in zip(a, b, strict=True))
+    return x, y, z, w

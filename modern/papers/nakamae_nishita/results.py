@@ -1,0 +1,92 @@
+"""The paper's published results, computed: what ``transcripts/nakamae_nishita_1972`` is held against."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+
+from modern.papers.nakamae_nishita.crossings import clipped
+from modern.papers.nakamae_nishita.faces import line_through, sign
+from modern.papers.nakamae_nishita.hidden import Drawing, draw
+from modern.papers.nakamae_nishita.projection import Homogeneous, parallel
+from modern.papers.nakamae_nishita.scenes import names, scene
+from modern.papers.nakamae_nishita.tables import Tables, tables, values
+from modern.papers.published import PAPERS, Producer
+
+PAPER = next(paper for paper in PAPERS if paper.module == __name__)
+
+Place = tuple[int, int]
+_SQUARE: tuple[Place, ...] = ((0, 0), (0, 4), (4, 4), (4, 0))
+_NUMBERS = ("none", "one", "two", "three", "four")
+_OTHER_SIDE = (-34, 37, 41)
+
+
+def produced() -> Producer:
+    """The lines of every result that can be computed, by its id."""
+    found: dict[str, Sequence[str]] = {}
+    found.update(_crossing_numbers())
+    drawings = {name: drawing(name) for name in names()}
+    most = max(
+        len(passage.marks) for item in drawings.values() for found in item.passages for _, passage in found.behind
+    )
+    found["intersections"] = [f"intersection between a contour line and a segment is no more than {_NUMBERS[most]}"]
+    found["sense"] = [f"{_contour_sense()} \\times (P_A - P_B)"]
+    found["table1-a"] = [_row("a", drawings["columns"])]
+    found["table1-b"] = [_row("b", drawing("columns", _OTHER_SIDE))]
+    found["table1-c"] = [_row("c", drawings["cuboids"])]
+    return found
+
+
+def drawing(name: str, eye: Sequence[int] | None = None) -> Drawing:
+    """A scene of the project drawn, from its own direction or from another."""
+    found = scene(name)
+    observer = found.sight.observer(found.make) if eye is None else parallel([Fraction(number) for number in eye])
+    return draw(found.make, observer)
+
+
+def contour_tables(v: Sequence[Place], w: Sequence[Place]) -> Tables:
+    """The tables of two clockwise polygons that overlap."""
+    of_v, of_w = values(_lines(v), _points(w)), values(_lines(w), _points(v))
+    assert of_v is not None
+    assert of_w is not None
+    return tables(of_v, of_w)
+
+
+def _crossing_numbers() -> Iterator[tuple[str, Sequence[str]]]:
+    """d of a square's upper side, from (0, 4) to (4, 4), and the first side of a polygon that is as the words say."""
+    upper = 1
+    for name, words, other in (
+        ("d-crossing", "means that $[P_i, P_{i+1}]$ intersects", ((2, 2), (2, 6), (6, 6), (6, 2))),
+        ("d-on-segment", "means that a vertex lies on another line segment", ((2, 4), (3, 6), (6, 6), (3, 2))),
+        ("d-on-vertex", "means that a vertex overlaps a vertex", ((4, 4), (6, 3), (2, 1))),
+        ("d-apart", "means not to intersect", ((2, 2), (2, 3), (6, 3), (6, 2))),
+    ):
+        yield name, [f"{contour_tables(_SQUARE, other).crossing_number(upper, 0)} {words}"]
+
+
+def _contour_sense() -> str:
+    """The difference along the contour whose product with P_A - P_B has the sign of the index of formula (6)."""
+    start, end, a, b = (0, 0), (0, 4), (-1, 1), (1, 2)
+    of_square = values(_lines(_SQUARE), _points((a, b)))
+    assert of_square is not None
+    ((_, index),) = clipped(of_square, 0, 1).marks
+    for words, (x, y) in (
+        ("(P_i - P_{i+1})", (start[0] - end[0], start[1] - end[1])),
+        ("(P_{i+1} - P_i)", (end[0] - start[0], end[1] - start[1])),
+    ):
+        if sign(x * (a[1] - b[1]) - y * (a[0] - b[0])) == sign(index):
+            return words
+    raise AssertionError("one of two opposite products has the sign")
+
+
+def _row(letter: str, found: Drawing) -> str:
+    return " ".join((f"({letter})", *map(str, found.counts)))
+
+
+def _points(places: Sequence[Place]) -> tuple[Homogeneous, ...]:
+    return tuple((x, y, 0, 1) for x, y in places)
+
+
+def _lines(places: Sequence[Place]) -> list[tuple[int, int, int]]:
+    flat = [(x, y, 1) for x, y in places]
+    return [line_through(a, b) for a, b in zip(flat, [*flat[1:], flat[0]], strict=True)]

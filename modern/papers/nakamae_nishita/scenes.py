@@ -1,0 +1,140 @@
+"""Scenes as data: a TOML file of parts, each a standard shape and its placing (section 2 of the paper).
+
+The numbers are exact: integers and decimals as they stand, and fractions as text, "1/3".  The format is described in
+``docs/papers/nakamae_nishita.md``; the project's own scenes are in the folder ``scenes`` and are known by name.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from importlib.resources import files
+
+from modern.drawing.view import EYES, choose
+from modern.export.mesh import Vector
+from modern.export.numbers import number, shown
+from modern.export.reading import read_source
+from modern.papers.nakamae_nishita.fields import Fields
+from modern.papers.nakamae_nishita.parts import Part, make, part
+from modern.papers.nakamae_nishita.polyhedron import Polyhedron, SceneError, outward
+from modern.papers.nakamae_nishita.projection import Observer, parallel, perspective
+
+PARALLEL, PERSPECTIVE = "parallel", "perspective"
+_AT = re.compile(r"(.*) \(at (?:line (\d+), column (\d+)|end of document)\)", re.DOTALL)
+
+
+@dataclass(frozen=True, slots=True)
+class Sight:
+    """How a scene is looked at.  eye: the direction to the eye, or the observation point in perspective; towards: the
+    point looked at, in perspective; None is the middle of all."""
+
+    eye: Vector
+    projection: str = PARALLEL
+    towards: Vector | None = None
+
+    def observer(self, make: Callable[[], Sequence[Polyhedron]]) -> Observer:
+        """The observer of the polyhedra that ``make`` makes, if their middle is wanted.
+
+        Raises SceneError for a direction without a length.
+        """
+        if self.projection == PARALLEL:
+            return parallel(self.eye)
+        return perspective(self.eye, self.towards or _middle(make()))
+
+
+@dataclass(frozen=True, slots=True)
+class SceneFile:
+    """A scene as it was read: its parts are made by ``make``, the first of the paper's three steps."""
+
+    source: str
+    title: str
+    sight: Sight
+    parts: tuple[Part, ...]
+
+    def make(self) -> tuple[Polyhedron, ...]:
+        """The polyhedra.  Raises SceneError for a part that is no convex polyhedron."""
+        return tuple(polyhedron for part in self.parts for polyhedron in make(part))
+
+
+DEFAULT_EYE: Vector = (Fraction(EYES[0][0]), Fraction(EYES[0][1]), Fraction(EYES[0][2]))
+
+
+def names() -> tuple[str, ...]:
+    """The names of the project's own scenes."""
+    folder = files("modern.papers.nakamae_nishita").joinpath("scenes")
+    return tuple(sorted(item.name[:-5] for item in folder.iterdir() if item.name.endswith(".toml")))
+
+
+def scene(name: str) -> SceneFile:
+    """A scene of the project by its name.  Raises SceneError where there is none."""
+    if name not in names():
+        raise SceneError(f"{shown(name)} is no scene of the project; there are {', '.join(names())}")
+    text = files("modern.papers.nakamae_nishita").joinpath("scenes", f"{name}.toml").read_text(encoding="utf-8")
+    return parse(text, name)
+
+
+def read(path: str) -> SceneFile:
+    """A scene from a file.  Raises ExportError, and SceneError naming line and column, or the part."""
+    name, text = read_source(path)
+    return parse(text, name)
+
+
+def of_polyhedron(polyhedron: Polyhedron) -> SceneFile:
+    """A scene of one polyhedron, seen from where its faces and vertices can be told apart."""
+    eye = choose(polyhedron.vertices, [outward(polyhedron, face) for face in polyhedron.faces])
+    sight = Sight((Fraction(eye[0]), Fraction(eye[1]), Fraction(eye[2])))
+    return SceneFile(polyhedron.name, polyhedron.name, sight, (Part(polyhedron.name, lambda _: polyhedron),))
+
+
+def parse(text: str, source: str) -> SceneFile:
+    """A scene from its text.  Raises SceneError."""
+    try:
+        data = tomllib.loads(text, parse_float=_decimal)
+    except tomllib.TOMLDecodeError as error:
+        raise SceneError(_located(source, text, str(error))) from None
+    except (ValueError, RecursionError) as error:
+        raise SceneError(f"{source}: {error}") from None
+    fields = Fields(data, source)
+    title = fields.text("title", "")
+    sight = _sight(Fields(fields.table("view"), f"{source}: view"))
+    tables = fields.tables("part")
+    fields.done()
+    if not tables:
+        raise SceneError(f"{source}: there are no parts")
+    return SceneFile(
+        source, title, sight, tuple(part(Fields(table, f"{source}: part {k}")) for k, table in enumerate(tables, 1))
+    )
+
+
+def _sight(fields: Fields) -> Sight:
+    eye = fields.vector("eye") or DEFAULT_EYE
+    projection = fields.text("projection", PARALLEL)
+    if projection not in (PARALLEL, PERSPECTIVE):
+        raise fields.wrong("projection", f"{shown(projection)} is neither {PARALLEL} nor {PERSPECTIVE}")
+    towards = fields.vector("towards")
+    if towards and projection == PARALLEL:
+        raise fields.wrong("towards", "a parallel projection has a direction only, eye")
+    fields.done()
+    return Sight(eye, projection, towards)
+
+
+def _middle(polyhedra: Sequence[Polyhedron]) -> Vector:
+    columns = list(zip(*(point for polyhedron in polyhedra for point in polyhedron.vertices), strict=True))
+    x, y, z = ((min(column) + max(column)) / 2 for column in columns)
+    return x, y, z
+
+
+def _decimal(text: str) -> Fraction:
+    """A TOML float as the decimal it is written as."""
+    return number(text.replace("_", ""))
+
+
+def _located(source: str, text: str, message: str) -> str:
+    found = _AT.fullmatch(message)
+    if not found:
+        return f"{source}: {message}"
+    line, column = (found[2], found[3]) if found[2] else (text.count("\n") + 1, len(text) - text.rfind("\n"))
+    return f"{source}: line {line}, column {column}: {found[1][:1].lower()}{found[1][1:]}"

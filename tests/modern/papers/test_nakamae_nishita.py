@@ -1,0 +1,433 @@
+"""Formulas (1) to (6) of Nakamae and Nishita, each by a route of its own, and the mends of the paper's gaps."""
+
+from __future__ import annotations
+
+import itertools
+import random
+import sys
+from collections import Counter
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from modern.papers.nakamae_nishita.boxes import boxes, overlapping
+from modern.papers.nakamae_nishita.crossings import as_printed, clipped
+from modern.papers.nakamae_nishita.faces import BACK, CONTOUR, FLAT, INNER, line_through, sign, value
+from modern.papers.nakamae_nishita.hidden import ENCLOSED, ENDS, GHOSTS, TOUCHING, Drawing, draw
+from modern.papers.nakamae_nishita.nearness import BY_CROSSING, BY_FACE, BY_PLANE, by_plane
+from modern.papers.nakamae_nishita.polyhedron import Polyhedron, SceneError
+from modern.papers.nakamae_nishita.projection import parallel, perspective
+from modern.papers.nakamae_nishita.scenes import scene
+from modern.papers.nakamae_nishita.shapes import column, cuboid, moved, placed, plate
+from modern.papers.nakamae_nishita.solids import height, solid
+from modern.papers.nakamae_nishita.tables import values
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+from scenes_at_random import apart, blocks, direction, hull_of, shards, vector
+from visibility import Judge, wrong
+
+ORIGIN = vector(0, 0, 0)
+_WHOLE = st.integers(-20, 20)
+_IMAGE = st.tuples(_WHOLE, _WHOLE, st.integers(1, 9))
+
+
+def box(low: tuple[int, ...], high: tuple[int, ...], thing: str = "") -> Polyhedron:
+    name = f"box at {low}"
+    made = placed(cuboid(name, *vector(*(b - a for a, b in zip(low, high, strict=True)))), moved(vector(*low)), name)
+    return Polyhedron(name, made.vertices, made.faces, thing)
+
+
+def determinant(rows: list[tuple[int | Fraction, ...]]) -> Fraction:
+    """By permutations, as nobody would compute it."""
+    total = Fraction(0)
+    for order in itertools.permutations(range(len(rows))):
+        product = Fraction((-1) ** sum(a > b for a, b in itertools.combinations(order, 2)))
+        for row, column_ in zip(rows, order, strict=True):
+            product *= row[column_]
+        total += product
+    return total
+
+
+# --- the formulas
+
+
+@given(_IMAGE, _IMAGE, _IMAGE)
+def test_formula_1(p: tuple[int, int, int], a: tuple[int, int, int], b: tuple[int, int, int]) -> None:
+    ones = [(Fraction(x, w), Fraction(y, w), Fraction(1)) for x, y, w in (p, a, b)]
+    assert sign(value(line_through(a, b), p)) == sign(-determinant(ones))
+    # On the right: with the y axis upward, (1, 0) is to the right of the way from (0, 0) to (0, 1).
+    assert value(line_through((0, 0, 1), (0, 1, 1)), (1, 0, 1)) > 0
+
+
+@settings(max_examples=20)
+@given(st.integers(0, 200))
+def test_formula_5_is_positive_outside_and_its_own_determinant(seed: int) -> None:
+    source = random.Random(seed)
+    for polyhedron in apart(seed, 3):
+        for observer in (parallel(direction(source)), perspective(vector(50, 40, -60), ORIGIN)):
+            seen = solid(0, polyhedron, observer, ORIGIN)
+            for face, plane in zip(polyhedron.faces, seen.planes, strict=True):
+                corners = [seen.points[place] for place in face]
+                for point in seen.vertices:
+                    # Lines of three points are passed over by the program, so only the sign is asked for.
+                    dr = -determinant([point, *corners[:3]])
+                    assert sign(height(plane, point)) == sign(dr)
+                    assert dr <= 0
+                towards = (0, 0, 1, 0)
+                front = seen.signs[polyhedron.faces.index(face)]
+                assert sign(height(plane, towards)) == front
+
+
+@given(st.lists(_IMAGE, min_size=4, max_size=4))
+def test_formula_6_is_the_change_of_formula_1(points: list[tuple[int, int, int]]) -> None:
+    (xi, yi), (xj, yj), (xa, ya), (xb, yb) = ((x, y) for x, y, _ in points)
+    line = line_through((xi, yi, 1), (xj, yj, 1))
+    index = determinant([(xj - xi, yj - yi), (xa - xb, ya - yb)])
+    assert index == value(line, (xb, yb, 1)) - value(line, (xa, ya, 1))
+
+
+def test_formula_4_in_space() -> None:
+    """dr = (P1 - P0).(P1 - P2) of points in space on one ray, found from the vertices."""
+    eye, checked = vector(40, -50, 30), 0
+    for seed in range(12):
+        polyhedra = apart(seed)
+        drawing = draw(polyhedra, perspective(eye, vector(9, 9, 9)))
+        for relation in drawing.relations:
+            for i, j in relation.tables.crossings():
+                ends = []
+                for mine, other, k, m in ((relation.v, relation.w, i, j), (relation.w, relation.v, j, i)):
+                    me, it = drawing.solids[mine], drawing.solids[other]
+                    a, b = me.contour[k], me.contour[(k + 1) % len(me.contour)]
+                    at_a, at_b = (
+                        value(it.lines[m], (me.points[place][0], me.points[place][1], me.points[place][3]))
+                        for place in (a, b)
+                    )
+                    s = Fraction(at_a, at_a - at_b)
+                    p, q = me.polyhedron.vertices[a], me.polyhedron.vertices[b]
+                    ends.append([x + s * (y - x) for x, y in zip(p, q, strict=True)])
+                p1, p2 = ends
+                rays = [[x - e for x, e in zip(p, eye, strict=True)] for p in ends]
+                assert all(rays[0][k - 1] * rays[1][k] == rays[0][k] * rays[1][k - 1] for k in range(3))
+                dr = sum((x - e) * (x - y) for x, y, e in zip(p1, p2, eye, strict=True))
+                assert sign(dr) == -relation.nearer
+                checked += 1
+    assert checked > 20
+
+
+# --- faces and edges
+
+
+def test_a_cuboid_has_three_faces_nine_lines_and_a_contour_of_six() -> None:
+    seen = solid(0, box((0, 0, 0), (1, 2, 3)), parallel((3, -2, 1)), ORIGIN)
+    assert Counter(edge.kind for edge in seen.edges) == {INNER: 3, CONTOUR: 6, BACK: 3}
+    assert len(seen.contour) == 6
+    assert len(seen.segments) == 9
+
+
+@given(st.integers(0, 300), st.booleans())
+def test_the_contour_is_the_hull_of_the_images_clockwise(seed: int, near: bool) -> None:
+    source = random.Random(seed)
+    observer = perspective(vector(60, 50, 70), ORIGIN) if near else parallel(direction(source))
+    for number, polyhedron in enumerate(apart(seed, 4)):
+        seen = solid(number, polyhedron, observer, ORIGIN)
+        if not seen.contour:
+            assert not any(seen.signs)
+            continue
+        inner = values(seen.lines, seen.vertices)
+        assert inner is not None
+        assert all(min(column_) == 0 for column_ in inner)
+        # Every vertex once, and once around: each segment turns to the right, or goes straight on.
+        assert len(set(seen.contour)) == len(seen.contour)
+        contour = {frozenset(pair) for pair in zip(seen.contour, seen.contour[1:] + seen.contour[:1], strict=True)}
+        assert contour == {frozenset((edge.start, edge.end)) for edge in seen.edges if edge.kind == CONTOUR}
+
+
+def test_an_edge_between_faces_of_one_plane_is_none() -> None:
+    square = box((0, 0, 0), (1, 1, 1))
+    halves = [*square.faces[1:], square.faces[0][:3], (*square.faces[0][2:], square.faces[0][0])]
+    for eye in ((1, 2, -3), (1, 2, 3)):
+        seen = solid(0, Polyhedron("cube", square.vertices, tuple(halves)), parallel(eye), ORIGIN)
+        assert Counter(edge.kind for edge in seen.edges) == {INNER: 3, CONTOUR: 6, BACK: 3, FLAT: 1}
+
+
+# --- tables
+
+
+@settings(max_examples=30)
+@given(st.integers(0, 500))
+def test_d_is_minus_4_exactly_where_segments_cross(seed: int) -> None:
+    source = random.Random(seed)
+    polyhedra = blocks(seed) if seed % 2 else apart(seed)
+    assume(polyhedra)
+    drawing = draw(polyhedra, parallel(direction(source)))
+    for relation in drawing.relations:
+        v, w = drawing.solids[relation.v], drawing.solids[relation.w]
+        crossing = set(relation.tables.crossings())
+        assert not relation.tables.separate
+        for i, j in itertools.product(range(len(v.contour)), range(len(w.contour))):
+            d = relation.tables.crossing_number(i, j)
+            assert d in (0, -1, -2, -4)
+            a, b, c, e = (
+                (Fraction(p[0], p[3]), Fraction(p[1], p[3]))
+                for p in (
+                    v.images[i],
+                    v.images[(i + 1) % len(v.contour)],
+                    w.images[j],
+                    w.images[(j + 1) % len(w.contour)],
+                )
+            )
+            assert (d == -4) == _properly_cross(a, b, c, e) == ((i, j) in crossing)
+            if d == -1:
+                assert {a, b} & {c, e}
+
+
+def _properly_cross(a, b, c, d) -> bool:
+    """By solving for the point of intersection."""
+    r, s = (b[0] - a[0], b[1] - a[1]), (d[0] - c[0], d[1] - c[1])
+    bottom = r[0] * s[1] - r[1] * s[0]
+    if not bottom:
+        return False
+    t = ((c[0] - a[0]) * s[1] - (c[1] - a[1]) * s[0]) / bottom
+    u = ((c[0] - a[0]) * r[1] - (c[1] - a[1]) * r[0]) / bottom
+    return 0 < t < 1 and 0 < u < 1
+
+
+@settings(max_examples=20)
+@given(st.integers(0, 500))
+def test_boxes_lose_no_pair_of_contours(seed: int) -> None:
+    polyhedra = apart(seed)
+    drawing = draw(polyhedra, parallel(direction(random.Random(seed))), check=False)
+    found = {(relation.v, relation.w) for relation in drawing.relations}
+    for v, w in itertools.combinations(drawing.solids, 2):
+        if v.contour and w.contour:
+            overlap = values(v.lines, w.images) is not None and values(w.lines, v.images) is not None
+            assert overlap == ((v.number, w.number) in found)
+
+
+@given(st.lists(st.tuples(_WHOLE, st.integers(0, 30), _WHOLE, st.integers(0, 30)), max_size=30), st.integers(-70, 70))
+def test_overlapping_boxes(found: list[tuple[int, int, int, int]], power: int) -> None:
+    scale = Fraction(2) ** power
+    corners = [
+        [
+            ((x * scale.numerator), (y * scale.numerator), 0, scale.denominator)
+            for x, y in ((left, low), (left + wide, low + tall))
+        ]
+        for left, wide, low, tall in found
+    ]
+    pairs = [
+        (a, b)
+        for (a, p), (b, q) in itertools.combinations(enumerate(found), 2)
+        if p[0] <= q[0] + q[1] and q[0] <= p[0] + p[1] and p[2] <= q[2] + q[3] and q[2] <= p[2] + p[3]
+    ]
+    assert list(overlapping(boxes(corners))) == pairs
+
+
+# --- near and far
+
+
+def test_each_rule_decides_somewhere() -> None:
+    def by(*polyhedra: Polyhedron) -> tuple[int, str]:
+        (relation,) = draw(polyhedra, parallel((2, -3, 1))).relations
+        return relation.nearer, relation.by
+
+    assert by(box((0, 0, 0), (2, 2, 2)), box((1, 3, 0), (3, 5, 2))) == (1, BY_CROSSING)
+    assert by(box((0, 0, 0), (8, 1, 8)), box((3, 2, 3), (4, 3, 4))) == (1, BY_FACE)
+    assert by(box((0, 0, 0), (1, 1, 1)), box((0, 0, 1), (1, 1, 2))) == (-1, BY_PLANE)
+
+
+def test_edges_that_touch_crosswise_need_a_plane_through_an_edge_and_a_vertex() -> None:
+    """No face of either separates two wedges that touch in the middle of an edge of each."""
+    lower = hull_of([vector(-2, 0, 0), vector(2, 0, 0), vector(0, -1, -2), vector(0, 1, -2)], "lower")
+    upper = hull_of([vector(0, -2, 0), vector(0, 2, 0), vector(-1, 0, 2), vector(1, 0, 2)], "upper")
+    assert lower is not None
+    assert upper is not None
+    for eye, nearer in (((0, 0, 1), -1), ((0, 0, -1), 1), ((1, 1, 9), -1)):
+        v, w = (solid(k, p, parallel(eye), ORIGIN) for k, p in enumerate((lower, upper)))
+        assert not any(
+            all(height(plane, point) >= 0 for point in other.vertices)
+            for one, other in ((v, w), (w, v))
+            for plane in one.planes
+        )
+        assert by_plane(v, w)[0] == nearer
+        drawing = draw([lower, upper], parallel(eye))
+        assert wrong(drawing, Judge([lower, upper], direction=eye))[0] == []
+
+
+def test_polyhedra_that_intersect_are_refused() -> None:
+    with pytest.raises(SceneError, match=r"^box at \(0, 0, 0\) and box at \(1, 1, 1\) intersect$"):
+        draw([box((0, 0, 0), (2, 2, 2)), box((1, 1, 1), (3, 3, 3))], parallel((2, -3, 1)))
+    with pytest.raises(SceneError, match="intersect"):
+        draw([box((0, 0, 0), (9, 9, 9)), box((1, 1, 1), (3, 3, 3))], parallel((2, -3, 1)))
+    assert draw([box((0, 0, 0), (2, 2, 2)), box((1, 1, 1), (3, 3, 3))], parallel((2, -3, 1)), check=False).pieces
+
+
+def test_two_plates_in_one_plane_do_not_hide_each_other() -> None:
+    plates = [
+        plate("a", [vector(*p, 0) for p in square]) for square in (((0, 0), (2, 0), (2, 2)), ((1, 0), (3, 0), (3, 2)))
+    ]
+    drawing = draw(plates, parallel((1, -1, 3)))
+    assert all(piece.seen and (piece.first, piece.last) == (0, 1) for piece in drawing.pieces)
+    assert len(drawing.pieces) == 6
+
+
+def test_a_plate_edge_on_is_not_drawn() -> None:
+    assert draw([plate("a", [vector(0, 0, 0), vector(1, 0, 0), vector(1, 1, 0)])], parallel((1, 2, 0))).pieces == ()
+
+
+# --- the mends
+
+
+def difference(polyhedra: list[Polyhedron], eye: tuple[int, int, int], *without: str) -> int:
+    drawing = draw(polyhedra, parallel(eye), without)
+    return len(wrong(drawing, Judge(polyhedra, direction=eye))[0])
+
+
+BEHIND = [box((0, 0, 0), (9, 1, 9)), box((4, 2, 4), (5, 3, 5))]
+STACKED = [box((0, 0, 0), (1, 1, 1)), box((0, 0, 1), (1, 1, 2))]
+BESIDE = [box((0, 0, 0), (2, 2, 2)), box((2, 0, 0), (4, 2, 1))]
+DIVIDED = [box((0, 0, 0), (1, 2, 1), "wall"), box((1, 0, 0), (3, 2, 1), "wall"), box((3, 0, 0), (4, 1, 1), "wall")]
+
+
+@pytest.mark.parametrize(
+    ("mend", "polyhedra"), [(ENCLOSED, BEHIND), (TOUCHING, STACKED), (ENDS, BESIDE), (GHOSTS, DIVIDED)]
+)
+def test_each_mend_is_needed(mend: str, polyhedra: list[Polyhedron]) -> None:
+    eye = (2, -3, 2)
+    assert difference(polyhedra, eye) == 0
+    assert difference(polyhedra, eye, mend) > 0
+
+
+def test_no_mend_has_another_name() -> None:
+    with pytest.raises(SceneError, match=r"^'end' is none of enclosed, touching, ends, ghosts$"):
+        draw(BEHIND, parallel((1, 1, 1)), ("end",))
+
+
+def test_in_general_position_clipping_finds_what_the_paper_counts() -> None:
+    """The same indices with the same k, for every segment and every contour."""
+    compared = 0
+    for seed in range(20):
+        drawing = draw(apart(seed), parallel((1009 + seed, -2003, 1511)))
+        for relation in drawing.relations:
+            for one, other in ((relation.v, relation.w), (relation.w, relation.v)):
+                near, far = drawing.solids[one], drawing.solids[other]
+                found = values(near.lines, far.images)
+                assert found is not None
+                contour = near.images[: len(near.contour)]
+                if any(0 in column_ for column_ in found):
+                    continue
+                for segment in far.segments:
+                    ends = far.points[segment.start], far.points[segment.end]
+                    printed = as_printed(found, segment.first, segment.last, ends, contour)
+                    assert printed == clipped(found, segment.first, segment.last)
+                    compared += bool(printed.marks)
+    assert compared > 100
+
+
+# --- drawings against the judge
+
+
+def judged(polyhedra: list[Polyhedron], seed: int) -> tuple[list[object], int]:
+    source = random.Random(seed)
+    if seed % 3 == 2:
+        point = vector(*(source.choice((-40, 40, 33, -29, 27)) for _ in range(3)))
+        drawing = draw(polyhedra, perspective(point, vector(4, 4, 4)))
+        found, count = wrong(drawing, Judge(polyhedra, point=point))
+    else:
+        eye = direction(source)
+        drawing = draw(polyhedra, parallel(eye))
+        found, count = wrong(drawing, Judge(polyhedra, direction=eye))
+    return list(found), count
+
+
+@pytest.mark.parametrize("made", [apart, blocks, shards])
+def test_no_sample_is_wrong(made) -> None:
+    """Polyhedra apart, and the parts of a block or a crystal that touch; parallel, and from a point."""
+    total = 0
+    for seed in range(1000, 1015):
+        polyhedra = made(seed)
+        if polyhedra:
+            found, count = judged(polyhedra, seed)
+            assert found == [], seed
+            total += count
+    assert total > 3000
+
+
+@pytest.mark.parametrize("name", ["cuboids", "columns", "house"])
+def test_no_sample_of_the_scenes_is_wrong(name: str) -> None:
+    found = scene(name)
+    polyhedra = found.make()
+    drawing = draw(polyhedra, found.sight.observer(found.make))
+    assert wrong(drawing, Judge(polyhedra, direction=drawing.observer.eye), samples=1)[0] == []
+
+
+def test_the_judge_finds_faults() -> None:
+    """A piece too long, a piece lost, a line that is hidden: each is a wrong sample."""
+    drawing = draw(BEHIND, parallel((2, -3, 2)))
+    judge = Judge(BEHIND, direction=(2, -3, 2))
+    assert wrong(drawing, judge)[0] == []
+    lost = Drawing(*(getattr(drawing, name) for name in ("observer", "solids", "relations", "passages")), (), (0, 0, 0))
+    assert wrong(lost, judge)[0]
+
+
+# --- what must not change a drawing
+
+
+def pieces(drawing: Drawing) -> set[tuple[str, int, int, Fraction, Fraction]]:
+    return {
+        (drawing.solids[p.solid].polyhedron.name, p.start, p.end, p.first, p.last) for p in drawing.pieces if p.seen
+    }
+
+
+@settings(max_examples=30)
+@given(st.integers(0, 500), st.randoms(use_true_random=False))
+def test_order_size_and_place_do_not_matter(seed: int, shuffler: random.Random) -> None:
+    polyhedra = shards(seed, 3)
+    eye = direction(random.Random(seed))
+    once = pieces(draw(polyhedra, parallel(eye)))
+    changed = [placed(p, lambda q: tuple(c * Fraction(10) ** 30 + 10**60 for c in q), p.name) for p in polyhedra]
+    shuffler.shuffle(changed)
+    assert pieces(draw(changed, parallel([7 * c for c in eye]))) == once
+
+
+@settings(max_examples=30)
+@given(st.integers(0, 500))
+def test_seen_and_hidden_pieces_make_up_every_edge(seed: int) -> None:
+    polyhedra = apart(seed)
+    drawing = draw(polyhedra, parallel(direction(random.Random(seed))), (GHOSTS,), hidden=True)
+    length: Counter[tuple[int, int, int]] = Counter()
+    for piece in drawing.pieces:
+        length[piece.solid, piece.start, piece.end] += piece.last - piece.first
+    kinds = (INNER, CONTOUR, BACK)
+    assert set(length) == {(s.number, e.start, e.end) for s in drawing.solids for e in s.edges if e.kind in kinds}
+    assert set(length.values()) <= {1}
+    assert pieces(drawing) == pieces(draw(polyhedra, drawing.observer, (GHOSTS,)))
+
+
+@pytest.mark.parametrize("eye", [(2, -3, 2), (-2, 3, 1), (1, 1, -1), (9, 1, 1)])
+def test_an_object_in_parts_has_the_lines_of_the_whole(eye: tuple[int, int, int]) -> None:
+    """Seen and dashed: a box cut in two, of which every edge of the cut lies in a face of the box."""
+    parts, whole = (draw(made, parallel(eye), hidden=True) for made in (DIVIDED[:2], [box((0, 0, 0), (3, 2, 1))]))
+    for seen in (True, False):
+        assert _length(parts, seen) == _length(whole, seen)
+
+
+def _length(drawing: Drawing, seen: bool) -> Fraction:
+    """The length of all pieces; edges are parallel to the axes."""
+    total = Fraction(0)
+    for piece in drawing.pieces:
+        if piece.seen == seen:
+            points = drawing.solids[piece.solid].polyhedron.vertices
+            edge = [abs(a - b) for a, b in zip(points[piece.start], points[piece.end], strict=True)]
+            total += sum(edge) * (piece.last - piece.first)
+    return total
+
+
+def test_a_column_without_height_and_an_eye_inside_are_refused() -> None:
+    with pytest.raises(SceneError, match="not wholly before the observation point"):
+        draw([box((0, 0, 0), (2, 2, 2))], perspective(vector(1, 1, 1), vector(9, 9, 9)))
+    with pytest.raises(SceneError, match="does not rise"):
+        column("c", [vector(0, 0, 0), vector(1, 0, 0), vector(0, 1, 0)], vector(1, 1, 0))

@@ -1,0 +1,417 @@
+"""Shapes, scene files, OFF files, pictures, and the command ``hidden-line``."""
+
+from __future__ import annotations
+
+import math
+import re
+import shutil
+from fractions import Fraction
+from importlib.resources import files
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from modern.cli.main import main
+from modern.drawing import hpgl
+from modern.export.mesh import Vector
+from modern.export.off import parse_off
+from modern.papers.nakamae_nishita.hidden import draw
+from modern.papers.nakamae_nishita.picture import as_hpgl, as_svg, ends
+from modern.papers.nakamae_nishita.polyhedron import Polyhedron, SceneError, checked
+from modern.papers.nakamae_nishita.projection import image, parallel
+from modern.papers.nakamae_nishita.scenes import names, parse, scene
+from modern.papers.nakamae_nishita.shapes import column, cuboid, parallelepiped, plate, rotation, round_base
+from modern.papers.nakamae_nishita.sources import polyhedron_of_hull, polyhedron_of_off
+from modern.port import convex_hull
+
+CUBE = """OFF
+8 6 12
+0 0 0
+1 0 0
+1 1 0
+0 1 0
+0 0 1
+1 0 1
+1 1 1
+0 1 1
+4 3 2 1 0
+4 4 5 6 7
+4 0 1 5 4
+4 1 2 6 5
+4 2 3 7 6
+4 3 0 4 7
+"""
+
+
+def point(*numbers: int | Fraction) -> Vector:
+    x, y, z = map(Fraction, numbers)
+    return x, y, z
+
+
+# --- shapes
+
+
+@given(st.fractions(-800, 800, max_denominator=60))
+def test_a_turn_is_exact_and_near_to_its_angle(degrees: Fraction) -> None:
+    cosine, sine = rotation(degrees)
+    assert cosine * cosine + sine * sine == 1
+    angle = math.radians(float(degrees))
+    assert math.hypot(float(cosine) - math.cos(angle), float(sine) - math.sin(angle)) < math.radians(0.001)
+    if degrees % 90 == 0:
+        assert {abs(cosine), abs(sine)} == {0, 1}
+
+
+@pytest.mark.parametrize("sides", [3, 4, 5, 12, 37])
+def test_columns_and_plates_are_convex_polyhedra_clockwise_from_outside(sides: int) -> None:
+    base = round_base("c", sides, Fraction(7, 2))
+    assert all(x * x + y * y == Fraction(49, 4) and z == 0 for x, y, z in base)
+    for corners in (base, base[::-1]):
+        for along in (point(0, 0, 2), point(1, 3, -2)):
+            made = column("c", corners, along)
+            assert checked(made) == made
+            assert (len(made.vertices), len(made.faces)) == (2 * sides, sides + 2)
+        flat = plate("c", corners)
+        assert checked(flat) == flat
+
+
+@given(st.lists(st.tuples(*[st.integers(-5, 5)] * 3), min_size=3, max_size=3))
+def test_parallelepipeds(edges: list[tuple[int, int, int]]) -> None:
+    a, b, c = (point(*edge) for edge in edges)
+    volume = sum(a[k] * (b[k - 2] * c[k - 1] - b[k - 1] * c[k - 2]) for k in range(3))
+    if not volume:
+        with pytest.raises(SceneError, match="the three edges lie in one plane"):
+            parallelepiped("p", a, b, c)
+        return
+    made = parallelepiped("p", a, b, c)
+    assert checked(made) == made
+    assert {tuple(map(sum, zip(*some, strict=True))) for some in _sums(a, b, c)} == set(made.vertices)
+
+
+def _sums(*vectors: Vector) -> list[list[Vector]]:
+    found: list[list[Vector]] = [[point(0, 0, 0)]]
+    for vector in vectors:
+        found += [[*some, vector] for some in found]
+    return found
+
+
+def test_shapes_that_are_none() -> None:
+    corner = [point(0, 0, 0), point(4, 0, 0), point(1, 1, 0), point(0, 4, 0)]
+    with pytest.raises(SceneError, match=r"^c: the polygon is not convex$"):
+        column("c", corner, point(0, 0, 1))
+    star = [point(*p, 0) for p in ((0, 3), (2, -3), (-3, 1), (3, 1), (-2, -3))]
+    with pytest.raises(SceneError, match="not convex"):
+        plate("c", star)
+    with pytest.raises(SceneError, match="one plane"):
+        plate("c", [*corner[:2], point(1, 1, 1), corner[3]])
+    with pytest.raises(SceneError, match="all lie in a line"):
+        plate("c", [point(k, k, k) for k in range(3)])
+    with pytest.raises(SceneError, match="three corners or more"):
+        plate("c", corner[:2])
+    with pytest.raises(SceneError, match="length 0"):
+        cuboid("c", Fraction(1), Fraction(0), Fraction(1))
+    with pytest.raises(SceneError, match="2 is no number of sides"):
+        round_base("c", 2, Fraction(1))
+
+
+# --- polyhedra from elsewhere
+
+
+def off(text: str) -> Polyhedron:
+    return polyhedron_of_off(parse_off(text, "f.off"))
+
+
+def test_an_off_file_either_way_round() -> None:
+    turned = "\n".join(
+        " ".join([words[0], *words[:0:-1]]) if len(words := line.split()) == 5 else line for line in CUBE.splitlines()
+    )
+    assert off(CUBE) == off(turned)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("4 3 0 4 7\n", "3 3 0 4\n3 3 4 7\n", ""),
+        ("8 6 12", "8 5 12", "not closed: one face only at vertices 1 and 4"),
+        ("4 3 2 1 0", "4 0 1 2 3", "two faces run the same way along vertices 1 and 2"),
+        ("1 1 1\n", "0.6 0.6 0.6\n", "face 2 is not plane"),
+        ("4 3 2 1 0", "4 3 2 1 1", "face 1 is not of three or more different vertices"),
+        ("0 1 1\n", "0 0 0\n", "vertices 1 and 8 are one point"),
+    ],
+)
+def test_off_files_that_are_no_convex_polyhedron(old: str, new: str, message: str) -> None:
+    text = CUBE.replace(old, new, 1)
+    text = text.replace("8 6 12", "8 7 12") if "\n3" in new else text
+    text = text[: -len("4 3 0 4 7\n")] if "8 5" in new else text
+    if message:
+        with pytest.raises(SceneError, match=f"^f.off: {message}"):
+            off(text)
+    else:
+        assert len(off(text).faces) == 7
+
+
+def test_a_dent_is_named() -> None:
+    """The cube with its top pressed in to a point: closed, every face plane, not convex."""
+    dented = CUBE.replace("8 6 12", "9 9 0").replace("0 1 1\n", "0 1 1\n0.5 0.5 0.5\n")
+    dented = dented.replace("4 4 5 6 7\n", "3 4 5 8\n3 5 6 8\n3 6 7 8\n3 7 4 8\n")
+    with pytest.raises(SceneError, match=r"^f\.off: not convex: vertex \d lies beyond face \d$"):
+        off(dented)
+    raised = dented.replace("0.5 0.5 0.5", "0.5 0.5 1.5")
+    assert len(off(raised).faces) == 9
+
+
+def test_every_hull_of_the_project_can_be_drawn() -> None:
+    hull = convex_hull([(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4), (1, 1, 1), (3, 3, 3)])
+    made = polyhedron_of_hull(hull)
+    assert {tuple(map(str, map(int, v))) for v in made.vertices} == {hull.points[k] for k in hull.vertices}
+    flat = polyhedron_of_hull(convex_hull([(0, 0, 0), (4, 0, 0), (0, 4, 0)]))
+    assert len(flat.faces) == 2
+    with pytest.raises(SceneError, match="a segment is no polyhedron"):
+        polyhedron_of_hull(convex_hull([(0, 0, 0), (4, 0, 0)]))
+
+
+# --- scene files
+
+HEAD = "[[part]]\nshape = "
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("", "s: there are no parts"),
+        ("a = = 1", "s: line 1, column 5: invalid value"),
+        ("[[part]]\nshape = 'cuboid", "s: line 2, column 16"),
+        ("a = 1\n" + HEAD + "'cuboid'\nsize = [1, 1, 1]", "s: 'a' is no field of this place"),
+        (HEAD + "'ball'", "s: part 1: shape: 'ball' is none of cuboid, parallelepiped, column, plate, polyhedron"),
+        (HEAD + "'cuboid'", "s: part 1: size: the sides of the cuboid are not said"),
+        (HEAD + "'cuboid'\nsize = [1, 1]", "s: part 1: size: a point is three numbers in brackets"),
+        (HEAD + "'cuboid'\nsize = [1, 1, true]", "s: part 1: size: a number is due"),
+        (HEAD + "'cuboid'\nsize = [1, 1, inf]", "s: 'inf' is no decimal number"),
+        (HEAD + "'cuboid'\nsize = [1, 1, '1/0']", "s: part 1: size: '1/0' has the denominator 0"),
+        (HEAD + "'cuboid'\nsize = [1, 1, 1]\ncount = [2, 1, 1]", "s: part 1: step: how far apart"),
+        (HEAD + "'cuboid'\nsize = [1, 1, 1]\ncount = [200, 200, 1]\nstep = [2, 2, 2]", "20,000 at the most"),
+        (HEAD + "'cuboid'\nsize = [1, 1, 1]\nname = 3", "s: part 1: name: a text is due"),
+        (HEAD + "'column'\nsides = 5\nheight = 2", "s: part 1: base: a column has a base, or"),
+        (HEAD + "'column'\nsides = 5\nradius = 1", "s: part 1: height: a column has a height, or"),
+        (HEAD + "'polyhedron'\nvertices = [[0, 0, 0]]\nfaces = [[0]]", "faces: vertices are counted from 1 to 1"),
+        ("view = 3\n" + HEAD + "'cuboid'\nsize = [1, 1, 1]", "s: view: a table is due"),
+        ("[view]\nprojection = 'flat'\n" + HEAD + "'cuboid'\nsize = [1, 1, 1]", "'flat' is neither parallel nor"),
+        ("[view]\ntowards = [1, 1, 1]\n" + HEAD + "'cuboid'\nsize = [1, 1, 1]", "has a direction only, eye"),
+        (
+            HEAD + "'cuboid'\nsize = [1, 1, 1]\nfigures = [[[0, 0, 0], [1, 1, 1], [0, 1, 0]]]",
+            "no face holds all corners",
+        ),
+        (
+            HEAD + "'cuboid'\nsize = [1, 1, 1]\nfigures = [[[0, 0, 0], [2, 0, 0], [0, 1, 0]]]",
+            "no face holds all corners",
+        ),
+        (HEAD + "'cuboid'\nsize = [1, 1, 1]\nfigures = [[[0, 0, 0], [1, 0, 0]]]", "a figure has three corners or more"),
+    ],
+)
+def test_what_is_wrong_with_a_scene_is_said_in_one_line(text: str, message: str) -> None:
+    with pytest.raises(SceneError) as caught:
+        parse(text, "s").make()
+    assert message in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_numbers_are_exact() -> None:
+    text = HEAD + "'cuboid'\nsize = [0.1, '1/3', 1e-40]\nat = [1_0.5, 0, 0]"
+    (made,) = parse(text, "s").make()
+    assert max(v[0] for v in made.vertices) == Fraction(106, 10)
+    assert {v[1] for v in made.vertices} == {0, Fraction(1, 3)}
+    assert {v[2] for v in made.vertices} == {0, Fraction(1, 10**40)}
+
+
+def test_copies_turns_and_objects() -> None:
+    text = (
+        HEAD
+        + "'cuboid'\nsize = [2, 1, 1]\nturn = 90\nat = [5, 0, 0]\ncount = [2, 1, 3]\nstep = [4, 9, 2]\nobject = 'o'"
+    )
+    made = parse(text, "s").make()
+    assert [p.name for p in made[:2]] == ["s: part 1, copy 1,1,1", "s: part 1, copy 1,1,2"]
+    assert {p.thing for p in made} == {"o"}
+    corners = [tuple(map(min, zip(*p.vertices, strict=True))) for p in made]
+    assert corners == [(4 + 4 * i, 0, 2 * k) for i in range(2) for k in range(3)]
+
+
+def test_the_scenes_of_the_project() -> None:
+    counts = {name: draw(scene(name).make(), parallel((3, -5, 2))).counts for name in names()}
+    assert counts.keys() == {"columns", "cuboids", "house"}
+    assert counts["cuboids"] == (60, 480, 360, 0)
+    assert counts["columns"] == (11, 116, 80, 0)
+    assert counts["house"][3] == 32
+    with pytest.raises(SceneError, match="'barn' is no scene of the project; there are columns, cuboids, house"):
+        scene("barn")
+
+
+def test_the_house_has_no_line_where_its_floors_meet() -> None:
+    found = scene("house")
+    drawing = draw(found.make(), found.sight.observer(found.make))
+    lower = next(s for s in drawing.solids if "lower floor" in s.polyhedron.name)
+    top = {k for k, v in enumerate(lower.polyhedron.vertices) if v[2] == 3}
+    front = {k for k, v in enumerate(lower.polyhedron.vertices) if v[1] == 0}
+    edge = tuple(sorted(top & front))
+    assert not [p for p in drawing.pieces if p.solid == lower.number and (p.start, p.end) == edge]
+    with_ghosts = draw(found.make(), drawing.observer, ("ghosts",))
+    assert [p for p in with_ghosts.pieces if p.solid == lower.number and (p.start, p.end) == edge]
+
+
+def test_the_committed_picture_of_the_house_is_the_one_drawn() -> None:
+    found = scene("house")
+    committed = Path(__file__).parents[3] / "docs" / "papers" / "house.svg"
+    assert committed.read_text() == as_svg(draw(found.make, found.sight.observer(found.make)), found.title)
+
+
+# --- pictures
+
+
+def test_the_svg_has_the_pieces_and_nothing_but_lines() -> None:
+    found = scene("house")
+    drawing = draw(found.make(), found.sight.observer(found.make), hidden=True)
+    root = ElementTree.fromstring(as_svg(drawing, "a <title>"))
+    names_ = {item.tag.rpartition("}")[2] for item in root.iter()}
+    assert names_ == {"svg", "title", "rect", "g", "line", "text"}
+    groups = {item.attrib["class"]: item for item in root if "class" in item.attrib}
+    for name, seen in (("seen", True), ("hidden", False)):
+        drawn = [item.attrib["data-edge"] for item in groups[name]]
+        wanted = [f"{p.solid + 1}: {p.start + 1} {p.end + 1}" for p in drawing.pieces if p.seen == seen]
+        assert [edge for edge in wanted if edge in drawn] == wanted
+        assert set(drawn) == set(wanted)
+    wide, tall = int(root.attrib["width"]), int(root.attrib["height"])
+    for item in groups["seen"]:
+        assert all(0 <= float(item.attrib[k]) <= wide for k in ("x1", "x2"))
+        assert all(0 <= float(item.attrib[k]) <= tall for k in ("y1", "y2"))
+
+
+def test_svg_and_plot_are_true_to_scale() -> None:
+    """Distances in either picture, to those between the exact images, have one ratio."""
+    found = scene("columns")
+    drawing = draw(found.make(), found.sight.observer(found.make))
+    root = ElementTree.fromstring(as_svg(drawing))
+    lines = [item.attrib for item in root.iter() if item.tag.endswith("line")]
+    drawn = [((float(a["x1"]), -float(a["y1"])), (float(a["x2"]), -float(a["y2"]))) for a in lines]
+    exact = [tuple(tuple(map(float, image(end, drawing.observer))) for end in ends(drawing, p)) for p in drawing.pieces]
+    plotted = strokes(as_hpgl(drawing))
+    for found_, close in ((drawn, 0.03), (plotted, 3)):
+        assert len(found_) == len(exact)
+        low, high = min(exact), max(exact)
+        scale = math.dist(found_[exact.index(low)][0], found_[exact.index(high)][0]) / math.dist(low[0], high[0])
+        for (a, b), (p, q) in zip(found_, exact, strict=True):
+            assert b[0] - a[0] == pytest.approx(scale * (q[0] - p[0]), abs=close)
+            assert b[1] - a[1] == pytest.approx(scale * (q[1] - p[1]), abs=close)
+
+
+def strokes(text: str) -> list[tuple[tuple[int, int], tuple[int, int]]]:
+    """The strokes of a plot, by moving its pen."""
+    found, at = [], (0, 0)
+    for kind, x, y in re.findall(r"(PU|PD)(\d+),(\d+);", text):
+        there = (int(x), int(y))
+        if kind == "PD":
+            found.append((at, there))
+        at = there
+    return found
+
+
+def test_the_plot_is_on_the_sheet_and_ends_with_the_pen_up() -> None:
+    found = scene("cuboids")
+    drawing = draw(found.make(), found.sight.observer(found.make), hidden=True)
+    text = as_hpgl(drawing)
+    assert text.startswith("IN;\nSP1;\nLT;\n")
+    assert text.endswith("PU;\nSP0;\n")
+    assert text.count(hpgl.DASHED) == 1
+    places = [place for stroke in strokes(text) for place in stroke]
+    assert all(0 <= x <= hpgl.WIDTH and 0 <= y <= hpgl.HEIGHT for x, y in places)
+    assert hpgl.plot([(hpgl.SOLID, [((0, 0), (1, 0)), ((1, 0), (1, 1))])]).count("PU") == 2
+
+
+# --- the command
+
+
+def run(*arguments: str) -> int:
+    return main(["hidden-line", *arguments])
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "cube.off").write_text(CUBE)
+    (tmp_path / "points.csv").write_text("0,0,0\n1,0,0\n0,1,0\n0,0,1\n")
+    shutil.copy(str(files("modern.papers.nakamae_nishita").joinpath("scenes", "house.toml")), tmp_path / "mine.toml")
+    return tmp_path
+
+
+@pytest.mark.parametrize("source", ["cube.off", "points.csv", "mine.toml", "columns"])
+def test_what_can_be_drawn(folder: Path, source: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(source, "-o", "a.svg") == 0
+    assert run(source, "-o", "a.hpgl", "--hidden") == 0
+    ElementTree.parse(folder / "a.svg")
+    assert (folder / "a.hpgl").read_text().startswith("IN;")
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert said.err.splitlines()[0].split() == [
+        "polyhedra",
+        "vertices",
+        "faces",
+        "points",
+        "I",
+        "II",
+        "III",
+        "(seconds)",
+    ]
+    assert run(source) == 0
+    assert capsys.readouterr().out == (folder / "a.svg").read_text()
+
+
+def test_the_points_of_view(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    pictures = []
+    for more in ((), ("--eye=-1,2,3",), ("--eye", "9,8,7", "--perspective"), ("--without", "ghosts,ends")):
+        assert run("mine.toml", *more, *(("--eye", "60,-60,30") if more[-1:] == ("--perspective",) else ())) == 0
+        pictures.append(capsys.readouterr().out)
+    assert len(set(pictures)) == 4
+    assert run("mine.toml", "--perspective", "--eye", "60,-60,30", "--towards", "5,5,5") == 0
+    assert capsys.readouterr().out not in pictures
+
+
+def test_tables(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (folder / "two.toml").write_text(
+        HEAD
+        + "'cuboid'\nsize = [2, 2, 2]\n"
+        + HEAD
+        + "'cuboid'\nsize = [2, 2, 2]\nat = [1, 3, 0]\n[view]\neye = [2, -3, 1]\n"
+    )
+    assert run("two.toml", "--tables") == 0
+    said = capsys.readouterr().out
+    assert "V = 1, V' = 2: V = 1 is the nearer, by (4)" in said
+    assert said.count("-4") == 2
+    assert "2: 1-2 (contour), order 1\n  behind 1: -1 at 1/6\n" in said
+    assert "<svg" not in said
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("none.toml",), "none.toml: no such file or directory"),
+        ((".",), "is a directory"),
+        (("cube.off", "-o", "no/a.svg"), "no/a.svg: no such file or directory"),
+        (("cube.off", "--eye", "0,0,0"), "the direction of view is 0,0,0"),
+        (("cube.off", "--eye", "1,2"), "the direction of view is 2 numbers; it has three, X,Y,Z"),
+        (("cube.off", "--perspective"), "--perspective needs the observation point, --eye X,Y,Z"),
+        (("cube.off", "--perspective", "--eye", "0.5,0.5,0.5"), "the observation point is the point looked at"),
+        (("cube.off", "--perspective", "--eye", "0.5,0.5,0.6"), "cube.off: not wholly before the observation point"),
+        (("cube.off", "--towards", "1,2,3"), "--towards is for a perspective"),
+        (("cube.off", "--without", "all"), "'all' is none of enclosed, touching, ends, ghosts"),
+        (("cube.off", "--width", "5"), "a picture 5 pixels wide is not drawn"),
+        (("flat.csv",), "flat.csv: a segment is no polyhedron"),
+    ],
+)
+def test_refusals(folder: Path, arguments: tuple[str, ...], message: str, capsys: pytest.CaptureFixture[str]) -> None:
+    (folder / "flat.csv").write_text("0,0,0\n1,0,0\n")
+    assert run(*arguments) == 2
+    said = capsys.readouterr()
+    assert message in said.err
+    assert said.err.count("\n") == 1
+    assert said.out == ""
+    assert not list(folder.glob("*.svg"))
