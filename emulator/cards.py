@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TextIO
+from typing import Any, BinaryIO, TextIO
 
 from emulator.errors import CardError, DeckError
 
@@ -119,25 +119,41 @@ def write_text(path: str, text: str) -> None:
 
 @contextmanager
 def writing(path: str) -> Iterator[TextIO]:
-    """A file to write: beside its place first, then renamed, so that it appears whole or not at all.
+    """A text file to write: beside its place first, then renamed, so that it appears whole or not at all.
 
     ``-`` is standard output.  A link is followed, an existing file keeps its mode, and what is no plain file (a
     device, a pipe) is written directly.  Raises DeckError when it cannot be written.
     """
+    with _writing(
+        path, sys.stdout, {"mode": "w", "encoding": "ascii", "errors": "backslashreplace", "newline": ""}
+    ) as f:
+        yield f
+
+
+@contextmanager
+def writing_bytes(path: str) -> Iterator[BinaryIO]:
+    """As ``writing``, for a file of bytes."""
+    with _writing(path, getattr(sys.stdout, "buffer", None), {"mode": "wb"}) as file:
+        yield file
+
+
+@contextmanager
+def _writing(path: str, standard: Any, how: dict[str, str]) -> Iterator[Any]:
+    """``standard`` is standard output in the form wanted, ``how`` the arguments of ``open``."""
     if path == "-":
-        yield sys.stdout
-        sys.stdout.flush()
+        yield standard
+        standard.flush()
         return
     beside = ""
     try:
         target = Path(path).resolve()
         if target.exists() and not target.is_file():
-            with target.open("w", encoding="ascii", errors="backslashreplace") as file:
+            with target.open(**how) as file:  # type: ignore[call-overload]
                 yield file
             return
         mode = target.stat().st_mode & 0o777 if target.exists() else 0o666 & ~_umask()
         handle, beside = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
-        with os.fdopen(handle, "w", encoding="ascii", errors="backslashreplace", newline="") as file:
+        with os.fdopen(handle, **how) as file:  # type: ignore[call-overload]
             yield file
         os.chmod(beside, mode)
         os.replace(beside, target)

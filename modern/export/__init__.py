@@ -23,6 +23,7 @@ __all__ = [
     "export_text",
     "format_of",
     "mesh",
+    "mesh_text",
     "parse_off",
     "read_off",
     "read_source",
@@ -40,11 +41,17 @@ def export_text(hull: Hull, form: str, digits: int | None = None) -> str:
     digits: significant digits to round those coordinates to that have no finite decimal; None refuses them.  All
     other coordinates stay exact, and JSON keeps fractions.  Raises ExportError.
     """
-    if form == "json":
-        return document.write(hull)
+    return document.write(hull) if form == "json" else mesh_text(mesh(hull), form, digits)
+
+
+def mesh_text(surface: Mesh, form: str, digits: int | None = None) -> str:
+    """A surface as the text of a file in one of ``FORMATS`` but JSON, which needs a ``Hull``.
+
+    digits: as of ``export_text``.  Raises ExportError.
+    """
     if form not in _MESHES:
-        raise ExportError(f"{form!r} is no format; they are {', '.join(FORMATS)}")
-    return _MESHES[form](mesh(hull), digits)
+        raise ExportError(f"{form!r} is no format of a mesh; they are {', '.join(_MESHES)}")
+    return _MESHES[form](surface, digits)
 
 
 def format_of(path: str) -> str:

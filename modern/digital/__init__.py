@@ -1,0 +1,1 @@
+"""Digital solids: voxel volumes, and their convex hulls as volumes again."""

@@ -1,0 +1,105 @@
+"""Sets of voxels: the type, and digital balls and half-balls.
+
+A voxel is named by its whole coordinates (x, y, z); its centre is that point, and as a cube it reaches half a unit
+further each way.  Pixels of a plane picture are voxels with two coordinates.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from emulator.errors import EmulatorError
+
+VOXEL, VERTEX = "voxel", "vertex"
+MAX_CELLS = 2**31
+
+Voxels = NDArray[np.bool_]
+
+
+class VolumeError(EmulatorError):
+    """A volume that cannot be read or made; the message names file and place."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Volume:
+    """A finite set of voxels in a box.
+
+    ``array``: truth values of shape (nx, ny) or (nx, ny, nz), indexed [x, y, z]; any order of memory.  ``origin``: the
+    coordinates of the voxel at index 0, 0, 0, so that array[i, j, k] is voxel origin + (i, j, k).  ``source``: what
+    messages call it.  ``notes``: what the reader of the file should know, a line each.
+
+    Raises VolumeError for an array of another type or dimension.
+    """
+
+    array: Voxels
+    origin: tuple[int, ...]
+    source: str = "volume"
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        if self.array.dtype != np.bool_ or self.array.ndim not in (2, 3):
+            raise VolumeError(
+                f"{self.source}: a volume is an array of truth values with two or three dimensions, "
+                f"not of {self.array.dtype} with {self.array.ndim}"
+            )
+        if len(self.origin) != self.array.ndim:
+            raise VolumeError(f"{self.source}: {len(self.origin)} coordinates of the origin for {self.array.ndim} axes")
+
+    @property
+    def dimension(self) -> int:
+        """2 for a picture, 3 for a volume."""
+        return self.array.ndim
+
+    @property
+    def count(self) -> int:
+        """The number of voxels."""
+        return int(np.count_nonzero(self.array))
+
+    def coordinates(self) -> NDArray[np.int64]:
+        """The voxels as an int64 array of shape (count, dimension) in raster order: x runs fastest, then y, then z."""
+        found = np.argwhere(self.array.T)[:, ::-1]
+        return found.astype(np.int64) + np.array(self.origin, dtype=np.int64)
+
+
+def ball(diameter: int, centre: str = VOXEL) -> Volume:
+    """The digital ball of a whole diameter: the voxels whose centres lie in it, those on its surface included.
+
+    centre: ``voxel``: the ball's centre is that of voxel (0, 0, 0), as of Kovalevsky and Schulz's ball of diameter 32
+    with 17077 voxels; ``vertex``: it is the corner (1/2, 1/2, 1/2) that voxels (0, 0, 0) and (1, 1, 1) share, as of the
+    half-balls of their Table 5.  Raises VolumeError for another centre, or a diameter too small or too large.
+    """
+    return _ball(f"ball:{diameter}:{centre}", diameter, centre, half=False)
+
+
+def half_ball(diameter: int, centre: str = VERTEX) -> Volume:
+    """The half of ``ball(diameter, centre)`` with z from its centre up.
+
+    With the centre at a vertex these are the layers z = 1, 2, ... and just half of the voxels (Kovalevsky and Schulz,
+    Table 5); with the centre at a voxel the layer z = 0 belongs to it whole.  Raises VolumeError as ``ball`` does.
+    """
+    return _ball(f"half-ball:{diameter}:{centre}", diameter, centre, half=True)
+
+
+def _ball(name: str, diameter: int, centre: str, half: bool) -> Volume:
+    if centre not in (VOXEL, VERTEX):
+        raise VolumeError(f"{name}: the centre is {VOXEL} or {VERTEX}")
+    if diameter < 1:
+        raise VolumeError(f"{name}: the diameter is a whole number from 1 on")
+    if (diameter + 1) ** 3 > MAX_CELLS:
+        raise VolumeError(f"{name}: a box of more than {MAX_CELLS} voxels is not made")
+    # Twice the distance from the ball's centre is a whole number: even for a centre in a voxel, else odd.
+    shift = 0 if centre == VOXEL else 1
+    first = -((diameter - shift) // 2)
+    twice = 2 * np.arange(first, (diameter + shift) // 2 + 1, dtype=np.int64) - shift
+    low = max(first, shift) if half else first
+    squares = twice**2
+    plane = squares[:, None] + squares[None, low - first :]
+    array = np.empty((len(squares), *plane.shape), dtype=np.bool_)
+    for x, square in enumerate(squares):
+        np.less_equal(plane, diameter**2 - square, out=array[x])
+    if not array.any():
+        raise VolumeError(f"{name}: there is no voxel in it")
+    return Volume(array, (first, first, low), name)

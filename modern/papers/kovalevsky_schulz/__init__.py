@@ -1,0 +1,33 @@
+"""Kovalevsky and Schulz, "Convex Hulls in a 3-dimensional Space": hulls of voxels by local corners and the cell list.
+
+``voxel_hull(volume)`` is the whole way; the steps are ``local_corners``, ``convex_polyhedron``, ``merged`` and
+``straightened``, and ``reconstructed`` leads back from the economical encoding to the voxels.
+"""
+
+from modern.papers.kovalevsky_schulz.cells import CellList, CellListError, Economical, decoded, expanded
+from modern.papers.kovalevsky_schulz.corners import CENTRES, VERTICES, local_corners
+from modern.papers.kovalevsky_schulz.hull import Surface, VoxelHull, voxel_hull
+from modern.papers.kovalevsky_schulz.merging import merged, straightened
+from modern.papers.kovalevsky_schulz.polyhedron import INVISIBLE, VISIBLE, Flat, convex_polyhedron
+from modern.papers.kovalevsky_schulz.reconstruction import reconstructed
+
+__all__ = [
+    "CENTRES",
+    "INVISIBLE",
+    "VERTICES",
+    "VISIBLE",
+    "CellList",
+    "CellListError",
+    "Economical",
+    "Flat",
+    "Surface",
+    "VoxelHull",
+    "convex_polyhedron",
+    "decoded",
+    "expanded",
+    "local_corners",
+    "merged",
+    "reconstructed",
+    "straightened",
+    "voxel_hull",
+]

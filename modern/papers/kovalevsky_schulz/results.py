@@ -1,0 +1,80 @@
+"""The paper's published results, computed: what ``transcripts/kovalevsky_schulz`` is held against.
+
+The bodies are not defined in the paper; these definitions are the ones that give its numbers.  The ball of diameter 32
+is centred on a voxel, Table 5's half-balls on a corner of voxels; hulls are of voxels' corners; the tables and the 1404
+triangles need 6 neighbours and coplanar faces counted as invisible, though the text decides for 26 and for visible.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from decimal import ROUND_HALF_UP, Decimal
+from fractions import Fraction
+
+from modern.digital.solids import ball, half_ball
+from modern.papers.kovalevsky_schulz.cells import CellList
+from modern.papers.kovalevsky_schulz.hull import voxel_hull
+from modern.papers.kovalevsky_schulz.polyhedron import INVISIBLE, convex_polyhedron
+from modern.papers.kovalevsky_schulz.sizes import cell_list_size, cube_triangles, triangulation_size
+from modern.papers.kovalevsky_schulz.tables import edge_rows, face_rows, vertex_rows
+from modern.papers.published import PAPERS, Producer, results_of
+
+PAPER = next(paper for paper in PAPERS if paper.module == __name__)
+TETRAHEDRON = ((0, 0, 0), (0, 1, 0), (1, 0, 0), (0, 0, 1))
+"""Four points that stand to each other as those of Fig. 4: point 4 lies behind 1, 2, 3 counterclockwise."""
+
+
+def produced() -> Producer:
+    """The lines of every result that can be computed, by its id."""
+    found: dict[str, Sequence[str]] = {}
+    found.update(_ball(32))
+    found.update(_tetrahedron())
+    printed = {result.id: result.corrected for result in results_of(PAPER)}
+    found["formula-5"] = [f"{_decimal(triangulation_size(1), 1)} integers for each triangle"]
+    found.update(_future_car(printed["future-car"][0], printed["table4-hull"][0]))
+    found.update((name, [_table_5_row(rows[0])]) for name, rows in printed.items() if name.startswith("table5-"))
+    return found
+
+
+def _ball(diameter: int) -> Iterator[tuple[str, Sequence[str]]]:
+    hull = voxel_hull(ball(diameter), neighbours=6, coplanar=INVISIBLE)
+    yield "ball-voxels", [f"diameter {diameter} contains {hull.voxels} voxels"]
+    yield "ball-corners-6", [f"{hull.corners[6]} when testing 6 neighbors"]
+    yield "ball-corners-26", [f"{hull.corners[26]} when testing 26 neighbors"]
+    yield "ball-triangles", [f"diameter {diameter} contains {len(hull.polyhedron.triangles.faces)} triangles"]
+    yield "ball-faces", [f"the hull contains only {len(hull.polyhedron.faces.faces)} faces"]
+
+
+def _tetrahedron() -> Iterator[tuple[str, Sequence[str]]]:
+    cells = convex_polyhedron(TETRAHEDRON)
+    assert isinstance(cells, CellList)
+    yield "table1", list(vertex_rows(cells, lambda number, _: f"(x_{number}, y_{number}, z_{number})"))
+    yield "table2", list(edge_rows(cells))
+    yield "table3", list(face_rows(cells))
+
+
+def _future_car(surface: str, hull: str) -> Iterator[tuple[str, Sequence[str]]]:
+    """Table 4 from the three counts that the paper gives of a body it does not define."""
+    voxel_faces = int(surface.split()[-2])
+    triangles = cube_triangles(voxel_faces)
+    size = _decimal(triangulation_size(triangles), 0)
+    yield "table4-triangulation", [f"MC-triangulation {triangles} ~{triangles // 2} {size}"]
+    faces, vertices = map(int, hull.split()[2:4])
+    yield "table4-hull", [f"convex hull {faces} {vertices} {cell_list_size(vertices, faces)}"]
+
+
+def _table_5_row(printed: str) -> str:
+    """A row of Table 5; diameter and number of Marching Cubes triangles are taken from the print."""
+    diameter, triangles = map(int, printed.split()[:2])
+    size = triangulation_size(triangles)
+    cells = voxel_hull(half_ball(diameter), neighbours=6, coplanar=INVISIBLE).polyhedron.faces
+    integers = cell_list_size(len(cells.vertices), len(cells.faces))
+    each = _decimal(Fraction(integers, len(cells.faces)), 2)
+    left = f"{diameter} {triangles} {_decimal(size, 0)} {_decimal(size / triangles, 1)}"
+    return f"{left} {len(cells.faces)} {integers} {each}"
+
+
+def _decimal(number: Fraction, places: int) -> str:
+    """A positive fraction with so many decimals, rounded half up."""
+    exact = Decimal(number.numerator) / Decimal(number.denominator)
+    return str(exact.quantize(Decimal(1).scaleb(-places), ROUND_HALF_UP))

@@ -1,0 +1,48 @@
+"""The cell list as the paper prints it: Tables 1, 2 and 3, a row each, columns apart by tabs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+
+from modern.papers.kovalevsky_schulz.cells import CellList, IntPoint
+
+VERTEX_HEADING = "Vertex\tCoordinates\tEdges"
+EDGE_HEADING = "Edge\tStartP\tEndP\tLeftF\tRightF"
+FACE_HEADING = "Face\tn\tPairs (P, L)"
+
+
+def coordinates(number: int, point: IntPoint) -> str:
+    """The coordinates of a vertex as they are; Table 1 has symbols in their place."""
+    return str(point)
+
+
+def vertex_rows(cells: CellList, shown: Callable[[int, IntPoint], str] = coordinates) -> Iterator[str]:
+    """Table 1; ``shown``: what stands for the coordinates of a vertex, given its number and point."""
+    for number, vertex in enumerate(cells.vertices, 1):
+        yield f"{number}\t{shown(number, vertex.point)}\t{_listed(vertex.edges)}"
+
+
+def edge_rows(cells: CellList) -> Iterator[str]:
+    """Table 2."""
+    for number, edge in enumerate(cells.edges, 1):
+        yield f"{number}\t{edge.start}\t{edge.end}\t{edge.left}\t{edge.right}"
+
+
+def face_rows(cells: CellList) -> Iterator[str]:
+    """Table 3."""
+    for number, face in enumerate(cells.faces, 1):
+        yield f"{number}\t{len(face.pairs)}\t{_listed(face.pairs)}"
+
+
+def all_rows(cells: CellList) -> Iterator[str]:
+    """The three tables with their headings."""
+    yield VERTEX_HEADING
+    yield from vertex_rows(cells)
+    yield EDGE_HEADING
+    yield from edge_rows(cells)
+    yield FACE_HEADING
+    yield from face_rows(cells)
+
+
+def _listed(items: Iterable[object]) -> str:
+    return ", ".join(map(str, items))

@@ -1,0 +1,185 @@
+"""The cell list: its conventions (Tables 1 to 3), merging, and the economical encoding there and back."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from modern.digital.volumes import ball, half_ball
+from modern.papers.kovalevsky_schulz import (
+    INVISIBLE,
+    VISIBLE,
+    CellList,
+    CellListError,
+    Economical,
+    Flat,
+    convex_polyhedron,
+    decoded,
+    expanded,
+    local_corners,
+    merged,
+    straightened,
+    voxel_hull,
+)
+from modern.papers.kovalevsky_schulz.cells import plane_of
+from modern.papers.kovalevsky_schulz.sizes import cube_triangles, economical_size
+from modern.papers.kovalevsky_schulz.tables import all_rows
+
+POINTS = st.lists(st.tuples(*[st.integers(-3, 3)] * 3), min_size=4, max_size=40)
+COPLANAR = st.sampled_from([VISIBLE, INVISIBLE])
+CUBE = Economical(
+    tuple((x, y, z) for z in (0, 2) for y in (0, 2) for x in (0, 2)),
+    ((1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (2, 4, 8, 6), (3, 7, 8, 4), (1, 5, 7, 3)),
+)
+
+
+def states(points: list[tuple[int, int, int]], coplanar: str) -> list[CellList]:
+    """The cell list with triangles, merged, and straightened; none for points in one plane."""
+    cells = convex_polyhedron(points, coplanar)
+    return [] if isinstance(cells, Flat) else [cells, merged(cells), straightened(merged(cells))]
+
+
+@given(POINTS, COPLANAR)
+def test_the_lists_say_the_same(points: list[tuple[int, int, int]], coplanar: str) -> None:
+    """Each of the three sublists, as the paper words them, from the others."""
+    for cells in states(points, coplanar):
+        around: list[list[int]] = [[] for _ in cells.vertices]
+        for number, edge in enumerate(cells.edges, 1):
+            around[edge.start - 1].append(-number)
+            around[edge.end - 1].append(number)
+            left, right = (dict(map(reversed, cells.faces[f - 1].pairs)) for f in (edge.left, edge.right))
+            assert left[number] == edge.start
+            assert right[-number] == edge.end
+        assert [list(vertex.edges) for vertex in cells.vertices] == around
+        for face in cells.faces:
+            assert face.pairs[0][0] == min(face.vertices)
+            for (here, signed), (there, _) in zip(face.pairs, face.pairs[1:] + face.pairs[:1], strict=True):
+                edge = cells.edges[abs(signed) - 1]
+                assert (here, there) == ((edge.start, edge.end) if signed > 0 else (edge.end, edge.start))
+        assert len(cells.vertices) - len(cells.edges) + len(cells.faces) == 2
+
+
+@given(POINTS, COPLANAR)
+def test_merging_leaves_maximal_faces_and_straightening_corners(
+    points: list[tuple[int, int, int]], coplanar: str
+) -> None:
+    found = states(points, coplanar)
+    if not found:
+        return
+    triangles, faces, straight = found
+    assert set(triangles.planes()) == set(faces.planes()) == set(straight.planes())
+    assert max(Counter(faces.planes()).values()) == 1
+    assert len(straight.edges) == len(straight.vertices) + len(straight.faces) - 2
+    assert all(len(vertex.edges) >= 3 for vertex in straight.vertices)
+    assert set(straight.points) <= set(faces.points) <= set(triangles.points) <= set(points)
+    on_edges = len(faces.vertices) - len(straight.vertices)
+    assert len(faces.edges) - len(straight.edges) == on_edges
+
+
+def test_merging_keeps_a_vertex_on_an_edge_and_drops_one_within_a_face() -> None:
+    square = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0), (2, 2, 4)]
+    cells = convex_polyhedron([(1, 1, 0), (2, 0, 0), *square], INVISIBLE)
+    assert isinstance(cells, CellList)
+    assert {(1, 1, 0), (2, 0, 0)} <= set(cells.points)
+    assert set(merged(cells).points) == {(2, 0, 0), *square}
+    assert set(straightened(merged(cells)).points) == set(square)
+
+
+@given(POINTS, COPLANAR)
+def test_the_economical_encoding_there_and_back(points: list[tuple[int, int, int]], coplanar: str) -> None:
+    for cells in states(points, coplanar):
+        encoding = cells.economical()
+        assert decoded(encoding.integers()) == encoding
+        assert expanded(encoding).economical() == encoding
+        assert len(encoding.integers()) == economical_size(cells) + 2 + len(cells.faces)
+
+
+def test_a_cube_from_its_encoding() -> None:
+    cells = expanded(CUBE)
+    assert cells.economical() == CUBE
+    assert cells.planes() == ((0, 0, -1, 0), (0, 0, 1, -2), (0, -1, 0, 0), (1, 0, 0, -2), (0, 1, 0, -2), (-1, 0, 0, 0))
+    assert len(list(all_rows(cells))) == 3 + 8 + 12 + 6
+
+
+def faces(*cycles: tuple[int, ...]) -> Economical:
+    return replace(CUBE, faces=cycles)
+
+
+@pytest.mark.parametrize(
+    ("encoding", "message"),
+    [
+        (faces((1, 3), *CUBE.faces[1:]), "face 1: it has fewer than three vertices"),
+        (faces((1, 3, 1, 2), *CUBE.faces[1:]), "face 1: it has fewer than three vertices, or one of them twice"),
+        (faces((1, 3, 4, 9), *CUBE.faces[1:]), "face 1: there is no vertex 9"),
+        (faces((0, 3, 4, 2), *CUBE.faces[1:]), "face 1: there is no vertex 0"),
+        (faces(*CUBE.faces[1:]), "has a face on one side only"),
+        (faces((1, 2, 4, 3), *CUBE.faces[1:]), "has a face on one side only"),
+        (replace(CUBE, points=(*CUBE.points, (1, 1, 1))), "vertex 9: no face has it"),
+        (
+            Economical(
+                (*CUBE.points, *((x + 9, y, z) for x, y, z in CUBE.points)),
+                (*CUBE.faces, *(tuple(number + 8 for number in face) for face in CUBE.faces)),
+            ),
+            "16 vertices, 24 edges and 12 faces make no polyhedron",
+        ),
+        (replace(CUBE, points=((0, 0, -1), *CUBE.points[1:])), "face 1: its vertices do not lie in one plane"),
+        (replace(CUBE, points=((1, 1, 1), *CUBE.points[1:])), "face 1: vertex 2 lies outside of its plane"),
+        (faces(*(face[::-1] for face in CUBE.faces)), "lies outside of its plane"),
+        (
+            Economical(((0, 0, 0), (1, 0, 0), (2, 0, 0), (0, 1, 0)), ((1, 2, 3), (1, 4, 2), (2, 4, 3), (1, 3, 4))),
+            "a face has no area",
+        ),
+    ],
+)
+def test_what_is_no_convex_surface_is_refused(encoding: Economical, message: str) -> None:
+    with pytest.raises(CellListError) as caught:
+        expanded(encoding)
+    assert message in str(caught.value)
+
+
+@given(st.data())
+def test_a_row_of_numbers_that_ends_early_or_late(data: st.DataObject) -> None:
+    row = CUBE.integers()
+    with pytest.raises(CellListError, match="ends before its last face"):
+        decoded(row[: data.draw(st.integers(0, len(row) - 1))])
+    with pytest.raises(CellListError, match="left over"):
+        decoded((*row, 1))
+
+
+@pytest.mark.parametrize("row", [(-1, 0), (0, -1), (1, 1, 0, 0, 0, -3)])
+def test_a_row_with_a_count_below_zero(row: tuple[int, ...]) -> None:
+    with pytest.raises(CellListError):
+        expanded(decoded(row))
+
+
+def test_plane_of_a_polygon_with_vertices_in_line() -> None:
+    assert plane_of([(0, 0, 5), (2, 0, 5), (4, 0, 5), (4, 4, 5), (0, 4, 5)]) == (0, 0, 1, -5)
+    with pytest.raises(CellListError):
+        plane_of([(0, 0, 0), (1, 1, 1), (2, 2, 2)])
+
+
+def test_marching_cubes_makes_two_triangles_less_four_of_every_square() -> None:
+    """The relation that links the two counts of Fig. 10 and Table 4, by another program."""
+    measure = pytest.importorskip("skimage.measure")
+    for volume in (ball(8), half_ball(8), half_ball(10)):
+        wide = np.pad(volume.array, 1)
+        squares = sum(int(np.count_nonzero(np.diff(wide, axis=axis))) for axis in range(3))
+        triangles = measure.marching_cubes(wide.astype(np.float32), 0.5, method="lorensen")[1]
+        assert len(triangles) == cube_triangles(squares)
+
+
+def test_26_neighbours_need_716_triangles_in_either_mode_and_any_order() -> None:
+    """Twice 360 vertices less four: the text's own choices do not give its 1404."""
+    points = local_corners(ball(32), "vertices", 26)
+    for order in (points, points[::-1], points[np.random.default_rng(1963).permutation(len(points))]):
+        for coplanar in (VISIBLE, INVISIBLE):
+            cells = convex_polyhedron(order, coplanar)
+            assert isinstance(cells, CellList)
+            assert len(cells.faces) == 2 * 360 - 4
+    hull = voxel_hull(ball(32), neighbours=6, coplanar=VISIBLE).polyhedron
+    assert len(hull.triangles.faces) == 2 * 360 - 4
