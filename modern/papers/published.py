@@ -39,7 +39,26 @@ class Paper:
     module: str
 
 
-PAPERS: tuple[Paper, ...] = ()
+PAPERS: tuple[Paper, ...] = (
+    Paper(
+        "appel-will",
+        'Appel and Will, "Determining the Three-dimensional Convex Hull of a Polyhedron" (1976)',
+        "appel_will_1976",
+        "modern.papers.appel_will.results",
+    ),
+    Paper(
+        "kovalevsky-schulz",
+        'Kovalevsky and Schulz, "Convex Hulls in a 3-dimensional Space"',
+        "kovalevsky_schulz",
+        "modern.papers.kovalevsky_schulz.results",
+    ),
+    Paper(
+        "nakamae-nishita",
+        'Nakamae and Nishita, "An Algorithm for Hidden Line Elimination of Polyhedra" (1972)',
+        "nakamae_nishita_1972",
+        "modern.papers.nakamae_nishita.results",
+    ),
+)
 
 
 @dataclass(frozen=True, slots=True)
