@@ -9,12 +9,17 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from modern.digital.hull import DigitalHull, digital_hull
     from modern.hull import Face, Hull, Stage
     from modern.port import PointsError, RangeError, convex_hull
 
-_HOMES = {"modern.hull": ("Face", "Hull", "Stage"), "modern.port": ("PointsError", "RangeError", "convex_hull")}
+_HOMES = {
+    "modern.digital.hull": ("DigitalHull", "digital_hull"),
+    "modern.hull": ("Face", "Hull", "Stage"),
+    "modern.port": ("PointsError", "RangeError", "convex_hull"),
+}
 
-__all__ = ["Face", "Hull", "PointsError", "RangeError", "Stage", "convex_hull"]
+__all__ = ["DigitalHull", "Face", "Hull", "PointsError", "RangeError", "Stage", "convex_hull", "digital_hull"]
 
 
 def __getattr__(name: str) -> object:

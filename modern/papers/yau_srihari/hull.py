@@ -1,0 +1,82 @@
+"""Algorithm Digital Convex Hull (section 4.5) on octrees, step by step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from modern.digital.solids import Volume, VolumeError
+from modern.papers.yau_srihari import octree as trees
+from modern.papers.yau_srihari.connectivity import components
+from modern.papers.yau_srihari.envelope import Envelope, envelope
+from modern.papers.yau_srihari.octree import Octree
+from modern.papers.yau_srihari.printed import Printed
+from modern.papers.yau_srihari.quadtree import Place, ceiling, floor, graph_side, heights, mirrored
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class OctreeHull:
+    """The digital hull of a solid, with all that leads to it.
+
+    side: of the cube the trees divide.  solid, hull: octrees.  floor, ceiling: lowest and highest voxel of every
+    column, by (x, y).  lower: the convex envelope of the floor; upper: that of the negative ceiling, heights negative.
+    filled: the hull as truth values of the volume's shape.  components: how many 6-connected parts the volume has; of
+    one part the hull is the digital convex hull of section 3.3, of more it is the digital points of the Euclidean hull.
+    """
+
+    side: int
+    solid: Octree
+    hull: Octree
+    floor: dict[Place, int]
+    ceiling: dict[Place, int]
+    lower: Envelope
+    upper: Envelope
+    filled: NDArray[np.bool_]
+    components: int
+
+    @property
+    def given(self) -> int:
+        """How many voxels the solid has."""
+        return trees.count(self.solid, self.side)
+
+    @property
+    def voxels(self) -> int:
+        """How many voxels the hull has."""
+        return trees.count(self.hull, self.side)
+
+    @property
+    def faults(self) -> tuple[str, ...]:
+        """Where a construction stopped early; empty for the corrected algorithm."""
+        named = (("floor", self.lower), ("ceiling", self.upper))
+        return tuple(f"{name}: {found.fault}" for name, found in named if found.fault)
+
+
+def octree_hull(volume: Volume | NDArray[np.bool_], printed: Printed | None = None) -> OctreeHull:
+    """The digital hull by octrees of a volume of truth values with two or three axes.
+
+    printed: the statements of the paper taken as printed; none by default.  Raises VolumeError for another array and
+    for one without voxels.
+    """
+    volume = volume if isinstance(volume, Volume) else Volume(np.asarray(volume), (0,) * np.ndim(volume))
+    printed = printed or Printed()
+    array: NDArray[Any] = volume.array.reshape(volume.array.shape + (1,) * (3 - volume.dimension))
+    if not array.any():
+        raise VolumeError(f"{volume.source}: there are no voxels")
+    side = trees.side_for(max(array.shape))
+    cube = np.zeros((side, side, side), dtype=np.bool_)
+    box = tuple(slice(length) for length in array.shape)
+    cube[box] = array
+    solid = trees.octree(cube)
+    lowest, highest = floor(solid, side), ceiling(solid, side)  # step 1
+    lower = envelope(lowest, side, printed)  # step 2
+    upper = envelope(mirrored(highest), side, printed)  # step 3: the envelope of -beta is that of beta, negated
+    hull = trees.intersection(  # step 4
+        graph_side(lower.tree, side, above=True), graph_side(mirrored(upper.tree), side, above=False)
+    )
+    filled = trees.cube_of(hull, side)[box].reshape(volume.array.shape)
+    return OctreeHull(
+        side, solid, hull, heights(lowest, side), heights(highest, side), lower, upper, filled, components(array)
+    )

@@ -1,0 +1,151 @@
+"""``hull1620 octree-hull`` and ``hull1620 voxel-hull --fill`` as a user meets them."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from digital_judge import judged, solid_of
+
+from modern.cli.main import build_parser, main
+from modern.papers.yau_srihari.printed import NAMES
+
+STAIR = "x,y,z\n5,0,-1\n5,1,-1\n5,1,0\n6,0,-1\n6,0,0\n6,1,0\n6,2,0\n"
+VOXELS = [(0, 0, 0), (0, 1, 0), (0, 1, 1), (1, 0, 0), (1, 0, 1), (1, 1, 1), (1, 2, 1)]
+
+
+@pytest.fixture
+def stair(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+    monkeypatch.chdir(tmp_path)
+    Path("stair.csv").write_text(STAIR)
+    return "stair.csv"
+
+
+def call(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
+    try:
+        code = main(list(arguments))
+    except SystemExit as left:
+        code = int(left.code or 0)
+    out, err = capsys.readouterr()
+    return code, out, err
+
+
+def test_every_stage_is_printed_in_the_coordinates_given(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, err = call(capsys, "octree-hull", stair)
+    assert (code, err) == (0, "")
+    assert out == (
+        "solid: 7 voxels, an octree of 25 nodes over a cube of side 4\n"
+        "floor, x to the right, y up:\n"
+        "  2 |  .  0\n"
+        "  1 | -1  0\n"
+        "  0 | -1 -1\n"
+        "       5  6\n"
+        "ceiling, x to the right, y up:\n"
+        "  2 |  .  0\n"
+        "  1 |  0  0\n"
+        "  0 | -1  0\n"
+        "       5  6\n"
+        "floor: 4 of 5 columns are in the reduced set:\n"
+        "  (5,0,-1) (5,1,-1) (6,0,-1) (6,2,0)\n"
+        "floor: 2 faces, outward normal and vertices:\n"
+        "  (0,0,-1): (6,0,-1) (5,0,-1) (5,1,-1)\n"
+        "  (1,1,-2): (6,2,0) (6,0,-1) (5,1,-1)\n"
+        "ceiling: 4 of 5 columns are in the reduced set:\n"
+        "  (5,0,-1) (5,1,0) (6,0,0) (6,2,0)\n"
+        "ceiling: 2 faces, outward normal and vertices:\n"
+        "  (-1,-1,1): (5,1,0) (5,0,-1) (6,0,0)\n"
+        "  (0,0,1): (5,1,0) (6,0,0) (6,2,0)\n"
+        "digital hull: 7 voxels, an octree of 25 nodes\n"
+    )
+
+
+def test_faces_run_counterclockwise_seen_from_outside(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
+    out = call(capsys, "octree-hull", stair)[1]
+    faces = re.findall(r"^  (\S+): (\S+) (\S+) (\S+)", out, re.MULTILINE)
+    assert len(faces) == 4
+    for face in faces:
+        normal, *points = (np.array([int(word) for word in text.strip("()").split(",")]) for text in face)
+        turned = np.cross(points[1] - points[0], points[2] - points[0])
+        assert turned @ normal > 0
+        assert not np.cross(turned, normal).any()
+
+
+def test_the_trace_has_a_step_for_every_face(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
+    out = call(capsys, "octree-hull", stair, "--trace")[1]
+    assert [line for line in out.splitlines() if line.startswith("  step")] == [
+        "  step 1: edge (6,0,-1)-(5,0,-1) of a face with normal (0,-1,0)",
+        "  step 2: edge (6,2,0)-(6,0,-1) of a face with normal (1,0,0)",
+        "  step 1: edge (6,0,0)-(5,0,-1) of a face with normal (0,-1,0)",
+        "  step 2: edge (6,2,0)-(6,0,0) of a face with normal (1,0,0)",
+    ]
+    assert "    entered (6,0,-1)-(5,1,-1)\n    removed (5,0,-1)-(5,1,-1)\n    3 values entered, 3 edges waiting" in out
+
+
+def test_the_letter_of_the_paper_differs(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, err = call(capsys, "octree-hull", stair, "--literal")
+    assert code == 1
+    assert out.endswith(
+        "digital hull: 8 voxels, an octree of 25 nodes\nagainst the corrected algorithm: 0 voxels missing, 1 too many\n"
+    )
+    assert f"note: taken as printed: {', '.join(NAMES)}\n" in err
+    assert "note: floor: no point is found for 4 of 6 edges" in err
+
+
+def test_a_statement_that_does_no_harm_here(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("row.csv").write_text("0,0,0\n1,0,0\n2,0,0\n")
+    code, out, err = call(capsys, "octree-hull", "row.csv", "--printed", "marks, start")
+    assert code == 0
+    assert out.endswith("against the corrected algorithm: 0 voxels missing, 0 too many\n")
+    assert err == "note: taken as printed: start, marks\n"
+
+
+def test_help_names_every_statement(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        build_parser().parse_args(["octree-hull", "--help"])
+    assert ", ".join(NAMES) in " ".join(capsys.readouterr().out.split())
+
+
+@pytest.mark.parametrize("command", [["octree-hull"], ["voxel-hull", "--fill"]])
+def test_the_filled_hull_as_an_array(stair: str, command: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    Path("far.csv").write_text("0,0,0\n3,3,3\n0,3,0\n3,0,0\n")
+    code, _, _ = call(capsys, *command, "far.csv", "-o", "hull.npy")
+    assert code == 0
+    expected = judged(solid_of([(0, 0, 0), (3, 3, 3), (0, 3, 0), (3, 0, 0)]))[1]
+    assert np.array_equal(np.load("hull.npy"), expected)
+
+
+def test_where_an_array_begins_is_said(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert call(capsys, "octree-hull", stair, "-o", "hull.npy")[2] == "note: the array's first voxel is (5,0,-1)\n"
+
+
+def test_what_is_not_connected_says_so(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("apart.csv").write_text("0,0\n4,2\n")
+    code, out, _ = call(capsys, "octree-hull", "apart.csv")
+    assert code == 0
+    assert "over one line; vertices of its envelope:\n  (0,0,0) (4,2,0)\n" in out
+    assert out.endswith("digital points of the hull of 2 6-connected parts: 3 voxels, an octree of 49 nodes\n")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["stair.csv", "--printed", "angel"], "--printed: 'angel' is none of angle, start"),
+        (["stair.csv", "--literal", "--printed", "angle"], "not allowed with argument"),
+        (["stair.csv", "-o", "hull.off"], "hull.off: a filled hull is written as an array"),
+        (["stair.csv", "-o", "no/hull.npy"], "no/hull.npy: no such file or directory"),
+        (["none.csv"], "none.csv: no such file or directory"),
+        (["."], "is a directory"),
+        (["ball:0"], "ball:0"),
+        (["stair.csv", "--shape", "1,b"], "--shape: '1,b' is not NX,NY,NZ"),
+    ],
+)
+def test_bad_input_is_one_line(
+    stair: str, arguments: list[str], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    code, out, err = call(capsys, "octree-hull", *arguments)
+    assert (code, out) == (2, "")
+    assert err.count("\n") == 1
+    assert message in err
+    assert not list(Path().glob("*.npy"))

@@ -1,0 +1,232 @@
+"""Yau and Srihari: octrees, floor and ceiling quadtrees, and the search with its bounds."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+from digital_judge import random_solid, solid_of
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as arrays
+
+from modern.digital.chain import lower_chain
+from modern.papers.yau_srihari import Printed, octree_hull
+from modern.papers.yau_srihari.chains import outline, reduced
+from modern.papers.yau_srihari.octree import QUADRANTS, count, cube_of, intersection, nodes, octree, side_for
+from modern.papers.yau_srihari.quadtree import (
+    Leaf,
+    Node,
+    Quadtree,
+    ceiling,
+    floor,
+    graph_side,
+    heights,
+    line,
+    mirrored,
+    sons_of,
+    written,
+)
+from modern.papers.yau_srihari.search import Search
+
+CUBES = st.sampled_from([1, 2, 4, 8]).flatmap(lambda side: arrays.arrays(np.bool_, (side, side, side)))
+
+
+@given(CUBES)
+def test_an_octree_holds_its_cube(cube: np.ndarray) -> None:
+    tree = octree(cube)
+    assert np.array_equal(cube_of(tree, len(cube)), cube)
+    assert count(tree, len(cube)) == np.count_nonzero(cube)
+
+
+@pytest.mark.parametrize(("length", "side"), [(0, 1), (1, 1), (2, 2), (3, 4), (8, 8), (9, 16)])
+def test_sides_are_powers_of_two(length: int, side: int) -> None:
+    assert side_for(length) == side
+
+
+def test_sons_two_by_two_stand_over_quadrants() -> None:
+    for number in range(8):
+        i, j = QUADRANTS[number // 2]
+        cube = np.zeros((2, 2, 2), dtype=np.bool_)
+        cube[i, j, number % 2] = True
+        assert octree(cube) == tuple(k == number for k in range(8))
+
+
+def test_uniform_octants_are_leaves() -> None:
+    cube = np.zeros((4, 4, 4), dtype=np.bool_)
+    cube[:2, :2, :2] = True
+    assert octree(cube) == (True, *[False] * 7)
+    assert nodes(octree(cube)) == 9
+
+
+@given(st.data())
+def test_intersection_node_by_node(data: st.DataObject) -> None:
+    side = data.draw(st.sampled_from([1, 2, 4]))
+    a, b = (data.draw(arrays.arrays(np.bool_, (side, side, side))) for _ in range(2))
+    both = intersection(octree(a), octree(b))
+    assert both == octree(a & b)
+
+
+@given(CUBES)
+def test_floor_and_ceiling_are_the_ends_of_columns(cube: np.ndarray) -> None:
+    tree = octree(cube)
+    lowest: dict[tuple[int, int], int] = {}
+    highest: dict[tuple[int, int], int] = {}
+    for x, y, z in np.argwhere(cube).tolist():
+        lowest.setdefault((x, y), z)
+        highest[x, y] = z
+    assert heights(floor(tree, len(cube)), len(cube)) == lowest
+    assert heights(ceiling(tree, len(cube)), len(cube)) == highest
+    assert heights(mirrored(ceiling(tree, len(cube))), len(cube)) == {place: -z for place, z in highest.items()}
+
+
+def values_hold(tree: Quadtree) -> bool:
+    """Whether every node has the least and the greatest unmarked value below it."""
+    if not isinstance(tree, Node):
+        return True
+    there = [son for son in tree.sons if son is not None]
+    lows, highs = [son.low for son in there if son.low is not None], [s.high for s in there if s.high is not None]
+    fits = (tree.low, tree.high) == (min(lows, default=None), max(highs, default=None))
+    return fits and all(values_hold(son) for son in there)
+
+
+@given(CUBES)
+def test_lines_of_a_quadtree(cube: np.ndarray) -> None:
+    side = len(cube)
+    tree = floor(octree(cube), side)
+    found = heights(tree, side)
+    assert values_hold(tree)
+    for at in range(side):
+        assert list(line(tree, side, 0, at)) == sorted((y, z) for (x, y), z in found.items() if x == at)
+        assert list(line(tree, side, 1, at)) == sorted((x, z) for (x, y), z in found.items() if y == at)
+
+
+@given(CUBES, st.data())
+def test_written_leaves_stand_in_the_tree(cube: np.ndarray, data: st.DataObject) -> None:
+    side = len(cube)
+    places = st.tuples(*[st.integers(0, side - 1)] * 2)
+    cells = data.draw(st.dictionaries(places, st.builds(Leaf, st.integers(-9, 9), st.booleans()), max_size=9))
+    tree = floor(octree(cube), side)
+    after = written(tree, side, cells)
+    assert heights(after, side) == heights(tree, side) | {place: leaf.value for place, leaf in cells.items()}
+    assert values_hold(after)
+
+
+def test_a_node_without_unmarked_leaves_has_no_value() -> None:
+    tree = written(None, 2, {(0, 0): Leaf(3, marked=True), (1, 0): Leaf(5, marked=True)})
+    assert isinstance(tree, Node)
+    assert (tree.low, tree.high) == (None, None)
+
+
+@given(CUBES)
+def test_epigraph_and_hypograph(cube: np.ndarray) -> None:
+    side = len(cube)
+    tree = octree(cube)
+    over = cube_of(graph_side(floor(tree, side), side, above=True), side)
+    under = cube_of(graph_side(ceiling(tree, side), side, above=False), side)
+    assert np.array_equal(over, np.maximum.accumulate(cube, axis=2))
+    assert np.array_equal(under, np.maximum.accumulate(cube[:, :, ::-1], axis=2)[:, :, ::-1])
+
+
+@given(st.dictionaries(st.integers(-9, 9), st.integers(-9, 9), min_size=1))
+def test_a_lower_chain_turns_left_and_has_no_point_below(points: dict[int, int]) -> None:
+    chain = lower_chain(sorted(points.items()))
+    assert (chain[0][0], chain[-1][0]) == (min(points), max(points))
+    for (a, x), (b, y), (c, z) in zip(chain, chain[1:], chain[2:], strict=False):
+        assert (b - a) * (z - y) > (c - b) * (y - x)
+    for (a, x), (b, y) in pairwise(chain):
+        assert all((b - a) * (z - x) >= (y - x) * (t - a) for t, z in points.items() if a <= t <= b)
+
+
+@pytest.mark.parametrize(
+    ("places", "corners"),
+    [
+        ([(3, 4)], [(3, 4)]),
+        ([(0, 0), (1, 1), (2, 2)], [(0, 0), (2, 2)]),
+        ([(1, 0), (1, 1), (1, 2)], [(1, 0), (1, 2)]),
+        ([(x, y) for x in range(3) for y in range(2)], [(0, 0), (2, 0), (2, 1), (0, 1)]),
+    ],
+)
+def test_outlines(places: list[tuple[int, int]], corners: list[tuple[int, int]]) -> None:
+    assert outline(places) == corners
+
+
+# The bounds of section 4.6.2.
+
+
+def squares(tree: Quadtree, side: int, x: int = 0, y: int = 0) -> Iterator[tuple[Quadtree, int, int, int]]:
+    if tree is not None:
+        yield tree, x, y, side
+        half = side // 2
+        for (i, j), son in zip(QUADRANTS, sons_of(tree), strict=True):
+            if half:
+                yield from squares(son, half, x + i * half, y + j * half)
+
+
+def broken(array: Any, printed: Printed) -> tuple[int, int, int]:
+    """Squares bounded; those of which every point scores less than delta_1; those with a point above delta_2.
+
+    The edges and faces are those of the corrected algorithm.
+    """
+    hull = octree_hull(array)
+    cube = np.zeros((hull.side,) * 3, dtype=np.bool_)
+    cube[tuple(slice(length) for length in array.shape)] = array
+    tree = reduced(floor(octree(cube), hull.side), hull.side)
+    seen = least_broken = most_broken = 0
+    for step in hull.lower.steps:
+        search = Search(*step.edge, step.normal, printed)
+        for square in squares(tree, hull.side):
+            least, most = search.bounds(*square)
+            if least is None or most is None:
+                continue
+            part, x, y, side = square
+            found = [search.score((x + i, y + j, z)) for (i, j), z in heights(part, side).items()]
+            best = max(score for score in found if score is not None)
+            seen += 1
+            least_broken += best < least
+            most_broken += best > most
+    return seen, least_broken, most_broken
+
+
+@given(st.integers(0, 10**9))
+def test_no_square_breaks_its_bounds(seed: int) -> None:
+    array = random_solid(random.Random(seed), side=9, steps=60)
+    assert broken(array, Printed())[1:] == (0, 0)
+    # Theorem 2 as printed asks for the greatest angle, and z = max goes with it.
+    assert broken(array, Printed(angle=True))[1:] == (0, 0)
+
+
+def test_z_max_does_not_bound_the_least_angle() -> None:
+    array = solid_of([(0, 1, 0), (0, 2, 0), (1, 0, 1), (1, 1, 0), (1, 1, 1), (2, 0, 1), (2, 1, 0)])
+    seen, _, most = broken(array, Printed(bound=True))
+    assert 0 < most < seen
+
+
+LOW_CORNER = [
+    *[(1, 2, 4), (1, 2, 5), (1, 3, 3), (1, 3, 4), (1, 4, 5), (2, 3, 3), (2, 3, 4), (2, 4, 2), (2, 4, 3), (2, 4, 5)],
+    *[(3, 1, 4), (3, 2, 3), (3, 2, 4), (3, 3, 3), (3, 3, 4), (3, 4, 2), (3, 4, 3), (3, 4, 4), (3, 4, 5), (4, 1, 3)],
+    *[(4, 2, 2), (4, 2, 3), (4, 2, 4), (4, 3, 3), (4, 4, 4), (5, 0, 2), (5, 1, 2), (5, 1, 3), (5, 2, 2), (5, 2, 3)],
+    *[(6, 0, 2), (6, 1, 3)],
+]
+"""A square of this solid has a corner below the plane of a face, and a point that turns the plane hardly at all."""
+
+
+def test_a_corner_below_the_known_face_bounds_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    array = np.zeros((8, 5, 6), dtype=np.bool_)
+    array[tuple(np.array(LOW_CORNER).T)] = True
+    assert broken(array, Printed())[1:] == (0, 0)
+    monkeypatch.setattr(Search, "_corner", lambda search, corner: search.score(corner))
+    assert broken(array, Printed())[2] > 0
+
+
+def test_the_search_does_not_look_everywhere() -> None:
+    source = np.random.default_rng(5)
+    array = source.random((32, 32, 32)) < 0.02
+    hull = octree_hull(array)
+    whole = sum(1 for _ in squares(reduced(floor(octree(array), 32), 32), 32))
+    visited = [step.visited for step in hull.lower.steps]
+    assert sum(visited) < len(visited) * whole / 2
