@@ -5,21 +5,22 @@ from __future__ import annotations
 import sys
 from typing import Any
 
-from benchmarks.hulls import ball, eight_digits, exact_in_doubles, qhull
+from benchmarks.hulls import ball, eight_digits, exact_in_doubles, port, qhull
 from benchmarks.timing import timed
 from modern.exact_hull import exact_hull
-from modern.port import convex_hull
 
 COUNTS = (100, 1_000, 10_000, 100_000, 1_000_000)
 LARGEST_FOR_JUDGE = 100_000
+PORT = ("port, float64, numpy", "port, float64, fast")
 
 
 def measured() -> dict[str, list[tuple[int, float]]]:
     """Median seconds by route and number of points, uniform in a ball."""
-    found: dict[str, list[tuple[int, float]]] = {"port, float64": [], "judge, exact": [], "Qhull (scipy)": []}
+    found: dict[str, list[tuple[int, float]]] = {name: [] for name in (*PORT, "judge, exact", "Qhull (scipy)")}
     for count in COUNTS:
         points = exact_in_doubles(ball(count))
-        found["port, float64"].append((count, timed("", lambda p=points: convex_hull(p, "float64")).median))  # type: ignore[misc]
+        for name, figure in zip(PORT, port(points), strict=False):
+            found[name].append((count, figure.median))
         other = qhull(points, count)
         if other is not None:
             found["Qhull (scipy)"].append((count, other.median))
@@ -40,6 +41,7 @@ def plot(found: dict[str, list[tuple[int, float]]], path: str) -> None:
     figure, axes = pyplot.subplots(figsize=(7, 4.5))
     styles: list[dict[str, Any]] = [
         {"marker": "o", "linestyle": "-", "color": "0"},
+        {"marker": "D", "linestyle": "-.", "color": "0"},
         {"marker": "s", "linestyle": "--", "color": "0.35"},
         {"marker": "^", "linestyle": ":", "color": "0.5"},
     ]

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Iterator
+from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
 
-from benchmarks.timing import Figure, timed
+from benchmarks.timing import Figure, timed, timed_once
 from modern.exact_hull import exact_hull
 from modern.port import convex_hull
 
@@ -43,17 +48,45 @@ def figures(largest: int = 100_000) -> Iterator[Figure]:
     yield timed("judge, 10,000 points of 8 digits uniform in a cube", lambda: exact_hull(cube), "bar 2 s")
     ball_on_sphere = eight_digits(sphere)
     yield timed("judge, 10,000 points of 8 digits on a sphere", lambda: exact_hull(ball_on_sphere), "bar 20 s")
+    yield from starts()
     count = 100
     while count <= largest:
         points = exact_in_doubles(ball(count))
-        ours = timed(f"port float64, {count:,} points uniform in a ball", lambda p=points: convex_hull(p, "float64"))  # type: ignore[misc]
-        yield ours
+        ours = list(port(points))
+        yield from ours
         other = qhull(points, count)
         if other is not None:
-            yield Figure(other.what, other.seconds, f"the port takes {ours.median / other.median:.1f} times as long")
+            times = " and ".join(f"{figure.median / other.median:.1f}" for figure in ours)
+            yield Figure(other.what, other.seconds, f"the port takes {times} times as long")
         whole = eight_digits(points / 80_000)
         yield timed(f"judge, {count:,} points of 8 digits in a ball", lambda p=whole: exact_hull(p))  # type: ignore[misc]
         count *= 10
+
+
+def port(points: Any) -> Iterator[Figure]:
+    """The port in float64 by numpy alone, and by compiled kernels where numba is installed."""
+    what = f"port float64, {len(points):,} points uniform in a ball"
+    yield timed(f"{what}, numpy", lambda: convex_hull(points, "float64", fast=False))
+    if find_spec("numba"):
+        yield timed(f"{what}, fast", lambda: convex_hull(points, "float64", fast=True))
+
+
+def starts() -> Iterator[Figure]:
+    """A process that makes one small hull: without the kernels, with them, and with them to be compiled first."""
+    if not find_spec("numba"):
+        return
+    yield timed("a process with one small hull, numpy", small_hull(False))
+    yield timed("a process with one small hull, fast", small_hull(True))
+    with tempfile.TemporaryDirectory() as folder:
+        yield timed_once("a process with one small hull, fast, nothing compiled", small_hull(True, folder))
+
+
+def small_hull(fast: bool, cache: str = "") -> Callable[[], object]:
+    """A process with the hull of a cube; ``cache``: a folder for machine code other than the user's."""
+    text = "import numpy as np; from modern.port import convex_hull; p = np.indices((2, 2, 2)).reshape(3, 8).T * 2.0;"
+    text += f"convex_hull(p, 'float64', fast={fast})"
+    environment = {**os.environ, "NUMBA_CACHE_DIR": cache} if cache else dict(os.environ)
+    return lambda: subprocess.run([sys.executable, "-c", text], check=True, env=environment)
 
 
 def qhull(points: Any, count: int) -> Figure | None:

@@ -79,6 +79,11 @@ def read_points(points: Points) -> list[ExactPoint]:
         points = points.tolist()
     found: list[ExactPoint] = []
     for index, point in enumerate(points):
+        if type(point) in (tuple, list) and len(point) == 3:  # the usual point, quickly
+            x, y, z = point
+            if type(x) is int and type(y) is int and type(z) is int:
+                found.append((x, y, z))
+                continue
         if isinstance(point, str):
             raise PointsError(f"point {index}: one text is no point; a point has three coordinates")
         try:

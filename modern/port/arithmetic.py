@@ -79,6 +79,14 @@ class Arithmetic(ABC):
     def text(self, value: Scalar, degree: int) -> str:
         """The value as exact text; minus zero, where the arithmetic has one, is ``-0``."""
 
+    def exacts(self, values: Vector, degree: int) -> list[Exact]:
+        """:meth:`exact` of each."""
+        return [self.exact(value, degree) for value in values]
+
+    def texts(self, values: Vector, degree: int) -> list[str]:
+        """:meth:`text` of each."""
+        return [self.text(value, degree) for value in values]
+
     def keys(self, coordinates: Vector) -> Iterable[object]:
         """Something for each point that is equal for equal points."""
         return zip(*coordinates.tolist(), strict=True)

@@ -68,8 +68,20 @@ class FloatArithmetic(Arithmetic):
         return over if under == 1 else Fraction(over, under)
 
     def text(self, value: Scalar, degree: int) -> str:
-        text = str(Decimal(float(value)))
-        return exact_text(self.exact(value, degree)) if "E" in text else text
+        return _float_text(float(value))
+
+    def exacts(self, values: Vector, degree: int) -> list[Exact]:
+        return [int(value) if value.is_integer() else Fraction(*value.as_integer_ratio()) for value in values.tolist()]
+
+    def texts(self, values: Vector, degree: int) -> list[str]:
+        return [_float_text(value) for value in values.tolist()]
+
+
+def _float_text(value: float) -> str:
+    if value and value.is_integer():
+        return str(int(value))
+    text = str(Decimal(value))
+    return exact_text(Fraction(value)) if "E" in text else text
 
 
 @dataclass(frozen=True)

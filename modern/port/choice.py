@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from emulator.arithmetic import profile
+from emulator.arithmetic import FAMILIES, PROFILES, profile
 from modern.port.arithmetic import Arithmetic, PointsError, RangeError, Vector
 from modern.port.binary import MAX_BITS, MIN_BITS, FloatArithmetic, MultiprecisionArithmetic
 from modern.port.decimal1620 import Arithmetic1620
 from modern.port.points import Points, Read, read_points
 from modern.port.rational import exact_arithmetic
 
-NAMES = ("exact", "float64", "float32", "mp:BITS", "truncating", "ibm1962", "truncating:P", "rounding:P")
+NAMES = ("exact", "float64", "float32", "mp:BITS", *PROFILES, *FAMILIES)
 
 
 def fixed_arithmetic(name: str) -> Arithmetic | None:
@@ -27,7 +27,7 @@ def fixed_arithmetic(name: str) -> Arithmetic | None:
         if count.isdecimal() and count.isascii() and MIN_BITS <= int(count) <= MAX_BITS:
             return MultiprecisionArithmetic(int(count))
         raise ValueError(f"{name}: mp takes a number of bits from {MIN_BITS} to {MAX_BITS}, as mp:100")
-    if family in ("truncating", "rounding", "ibm1962"):
+    if family in PROFILES or f"{family}:P" in FAMILIES:
         return Arithmetic1620(profile(name))
     raise ValueError(f"no arithmetic is called {name!r}; there are {', '.join(NAMES)}")
 

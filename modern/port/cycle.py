@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from fractions import Fraction
 from functools import cmp_to_key
 
 from modern.port.arithmetic import Exact
@@ -17,18 +16,20 @@ def cyclic(points: Sequence[IntPoint], normal: Sequence[Exact]) -> list[int]:
     ``points`` are the corners of a convex polygon, exactly or nearly so: the order is that of the directions
     from the lowest corner, in the projection along the normal's largest component.
     """
-    sizes = [abs(Fraction(component)) for component in normal]
+    sizes: list[Exact] = [component if component > 0 else -component for component in normal]
     axis = sizes.index(max(sizes))
     u, v = ((1, 2), (2, 0), (0, 1))[axis]
     if normal[axis] < 0:
         u, v = v, u
     flat = [(p[u], p[v]) for p in points]
+    if len(flat) == 3 and (turn := _turn(*flat)):
+        return [0, 1, 2] if turn > 0 else [0, 2, 1]
     start = min(range(len(flat)), key=lambda k: flat[k])
     x0, y0 = flat[start]
 
     def compare(i: int, j: int) -> int:
         (x1, y1), (x2, y2) = flat[i], flat[j]
-        turn = (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)
+        turn = _turn(flat[start], flat[i], flat[j])
         if turn:
             return -1 if turn > 0 else 1
         return -1 if abs(x1 - x0) + abs(y1 - y0) < abs(x2 - x0) + abs(y2 - y0) else 1
@@ -36,3 +37,8 @@ def cyclic(points: Sequence[IntPoint], normal: Sequence[Exact]) -> list[int]:
     order = [start, *sorted((k for k in range(len(flat)) if k != start), key=cmp_to_key(compare))]
     first = order.index(0)
     return order[first:] + order[:first]
+
+
+def _turn(p: tuple[int, int], q: tuple[int, int], r: tuple[int, int]) -> int:
+    """Positive where the way from p by q to r turns left."""
+    return (q[0] - p[0]) * (r[1] - p[1]) - (r[0] - p[0]) * (q[1] - p[1])

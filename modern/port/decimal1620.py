@@ -1,4 +1,4 @@
-"""Numbers of the 1620 as Python numbers: the arithmetics ``truncating``, ``ibm1962``, ``truncating:P``, ``rounding:P``.
+"""Numbers of the 1620 as Python numbers: the profiles of :mod:`emulator.arithmetic`.
 
 The digits come from :mod:`emulator.arithmetic`; here stands only what an accumulator machine does around
 them: zeros and their signs, overflow, underflow.  In ``a op b`` the left operand is the one in the

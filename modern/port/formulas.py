@@ -42,8 +42,8 @@ def line(u1: Number, v1: Number, u2: Number, v2: Number, cu: Number, cv: Number)
 def at(equation: tuple[Number, ...], point: tuple[Number, ...]) -> Number:
     """A x + B y + C z + D, or A x + B y + C."""
     total = equation[0] * point[0]
-    for coefficient, coordinate in zip(equation[1:-1], point[1:], strict=True):
-        total = coefficient * coordinate + total
+    for k in range(1, len(point)):
+        total = equation[k] * point[k] + total
     return total + equation[-1]
 
 

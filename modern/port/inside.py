@@ -22,6 +22,8 @@ class Remaining:
         """Serial number of an equation whose value is not negative; -1: none known."""
         self.tried = 0
         """Equations made before this serial number were there when the points were last looked at."""
+        self.struck = False
+        """Whether that eliminated any."""
 
     def begin(self, count: int) -> None:
         self.keeper = np.full(count, -1, np.int64)
@@ -38,6 +40,7 @@ class Remaining:
 
     def strike_inside(self, places: Places, vertices: int, table: Equations) -> list[int]:
         """Eliminate the inside points; returns which of the input they are, in order of place."""
+        self.struck = False
         if len(places) <= vertices:
             return []
         alive = np.zeros(table.made + 1, np.bool_)
@@ -55,6 +58,7 @@ class Remaining:
         self.tried = table.made
         if not doubtful.size:
             return []
+        self.struck = True
         wanted = np.ones(len(places), np.bool_)
         wanted[vertices + doubtful] = False
         self.keeper = self.keeper[wanted[vertices:]]

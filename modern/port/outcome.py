@@ -31,11 +31,13 @@ def coefficients(arithmetic: Arithmetic, numbers: Sequence[Scalar], degrees: Seq
 
 def lowest(values: Sequence[Exact]) -> tuple[int, int, int, int]:
     """The equation in integers without common divisor."""
-    common = math.lcm(*(value.denominator for value in values))
-    whole = [value.numerator * (common // value.denominator) for value in values]
-    divisor = math.gcd(*whole) or 1
-    a, b, c, d = (value // divisor for value in whole)
-    return a, b, c, d
+    a, b, c, d = values
+    common = math.lcm(a.denominator, b.denominator, c.denominator, d.denominator)
+    if common != 1:
+        a, b, c, d = (value * common for value in values)
+    a, b, c, d = a.numerator, b.numerator, c.numerator, d.numerator
+    divisor = math.gcd(a, b, c, d) or 1
+    return a // divisor, b // divisor, c // divisor, d // divisor
 
 
 @dataclass(frozen=True)
@@ -47,28 +49,32 @@ class Faces:
 
     def whole_points(self, places: Sequence[int]) -> dict[int, IntPoint]:
         """Coordinates as integers in a common unit, exactly, by place."""
-        exact = self.arithmetic.exact
-        numbers = [[exact(value, 1) for value in self.places.at(place)] for place in places]
-        unit = math.lcm(*{value.denominator for row in numbers for value in row})
-        whole = [[value.numerator * (unit // value.denominator) for value in row] for row in numbers]
-        return {place: (x, y, z) for place, (x, y, z) in zip(places, whole, strict=True)}
+        rows = [self.arithmetic.exacts(row[places], 1) for row in self.places.rows]
+        unit = math.lcm(*{value.denominator for row in rows for value in row})
+        whole = [[value.numerator * (unit // value.denominator) for value in row] for row in rows]
+        return dict(zip(places, zip(*whole, strict=True), strict=True))
 
     def polyhedral(self, table: Equations, on: list[NDArray[np.int64]], vertex: NDArray[np.bool_]) -> tuple[Face, ...]:
         """The faces of a polyhedron; ``on`` are the places that satisfy each plane, ``vertex`` tells vertices."""
-        found = []
+        arithmetic, who, is_vertex = self.arithmetic, self.places.who.tolist(), vertex.tolist()
         known = self.whole_points(np.flatnonzero(vertex).tolist())
-        for k, satisfied in enumerate(on):
-            row = [table.coefficients[i, k] for i in range(4)]
-            exact = [self.arithmetic.exact(value, degree) for value, degree in zip(row, PLANE, strict=True)]
-            corners = satisfied[vertex[satisfied]].tolist()
-            order = cyclic([known[place] for place in corners], exact[:3]) if len(corners) > 1 else range(len(corners))
+        by_row = list(zip(table.coefficients, PLANE, strict=True))
+        exact = list(zip(*(arithmetic.exacts(row, degree) for row, degree in by_row), strict=True))
+        text = list(zip(*(arithmetic.texts(row, degree) for row, degree in by_row), strict=True))
+        found = []
+        for k, defining in enumerate(table.defining.T.tolist()):
+            satisfied = on[k].tolist()
+            corners = [place for place in satisfied if is_vertex[place]]
+            others = [] if len(corners) == len(satisfied) else [place for place in satisfied if not is_vertex[place]]
+            if len(corners) > 1:
+                corners = [corners[i] for i in cyclic([known[place] for place in corners], exact[k][:3])]
             found.append(
                 Face(
-                    coefficients=coefficients(self.arithmetic, row, PLANE),
-                    lowest=lowest(exact),
-                    defining=self.places.names(table.defining[:, k]),
-                    polygon=self.places.names([corners[i] for i in order]),
-                    on=self.places.names(satisfied[~vertex[satisfied]]),
+                    coefficients=text[k],
+                    lowest=lowest(exact[k]),
+                    defining=tuple([who[place] for place in defining]),
+                    polygon=tuple([who[place] for place in corners]),
+                    on=tuple([who[place] for place in others]),
                 )
             )
         return tuple(found)

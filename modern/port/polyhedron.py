@@ -5,7 +5,7 @@ Comments give statement labels.  Places and planes count from 0 here, from 1 in 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -15,13 +15,13 @@ from modern.hull import ERROR, NOT_ACCEPTABLE, TABLE_FULL
 from modern.port.arithmetic import Arithmetic, Scalar, Vector
 from modern.port.equations import Equations
 from modern.port.formulas import plane
-from modern.port.growth import grow
+from modern.port.growth import Grown, grow, stage
 from modern.port.inside import Remaining
 from modern.port.places import Places
 from modern.port.progress import LAST_PAIR, TABLE_OF_PLANES, THROUGH_CENTRE, Progress, Stopped, Watcher
 from modern.port.turning import turned
 
-_LISTED_PLANES, _PLANES = 98, 193
+LISTED_PLANES, PLANES = 98, 193
 """Places for planes in the listing, and in the layer ``corrected``: 4N-11 for N = 51."""
 
 
@@ -49,9 +49,9 @@ class Polyhedron:
     to_check: int = 0
     remaining: Remaining = field(default_factory=Remaining)
 
-    def run(self) -> None:
-        """Expand H_1 to the hull of all points (103 to 160).  Raises Stopped."""
-        grow(self)
+    def run(self, grown: Callable[[Polyhedron, bool], Grown | None] = stage) -> None:
+        """Expand H_1 to the hull of all points (103 to 160), stage by stage as ``grown`` does it.  Raises Stopped."""
+        grow(self, grown)
 
     def outside_point(self) -> int | None:
         """The place of the next vertex: farthest outside the first plane that is not supporting (115 to 125)."""
@@ -94,7 +94,7 @@ class Polyhedron:
 
     @property
     def limit(self) -> int:
-        return max(_PLANES, 4 * len(self.places) - 11)
+        return max(PLANES, 4 * len(self.places) - 11)
 
     def three_planes(self, replaced: NDArray[np.int64], new: int) -> Fresh:
         """Planes through the new vertex and two of the three points of each plane replaced (126 to 135)."""
@@ -110,7 +110,7 @@ class Polyhedron:
         """What the listing would have stopped at: planes through C, more planes than it has places for."""
         if fresh.through:
             self.progress.mend(THROUGH_CENTRE)
-        if size > _LISTED_PLANES:
+        if size > LISTED_PLANES:
             self.progress.mend(TABLE_OF_PLANES)
 
     def signs(self, fresh: Fresh, point: tuple[Scalar, ...]) -> NDArray[np.int8]:

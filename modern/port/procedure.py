@@ -21,6 +21,7 @@ from modern.port.points import Points, first_of_equals, read_decimal
 from modern.port.polygon import Polygon, projection
 from modern.port.polyhedron import Polyhedron
 from modern.port.progress import Progress, Stopped
+from modern.port.steps import choose
 from modern.port.turning import turned
 
 Epsilon = str | int | Fraction | None
@@ -32,27 +33,30 @@ def convex_hull(
     epsilon: Epsilon = None,
     translate: bool = False,
     history: bool = False,
+    fast: bool | None = None,
 ) -> Hull:
     """The convex hull of points by Butler's procedure (thesis chapter 3; programs 1 to 3, chapter 5).
 
     points: three coordinates each, an int, a Fraction, a decimal string or a float; or an array of shape (n, 3).
     arithmetic: ``exact``, ``float64``, ``float32``, ``mp:BITS``, ``truncating`` (the thesis's eight digits),
-    ``ibm1962``, ``truncating:P`` or ``rounding:P``.  epsilon: chapter 7's e (thesis p. 117): where a given
-    point is put into an equation a value from -e to +e counts as zero; ``"rel:E"`` takes E times the equation's
-    largest coefficient A, B or C.  translate: the origin is moved to C and the constant terms tell how equations are
-    turned (thesis p. 118).  history: the result tells every H_j.
+    ``ibm1962``, ``truncating:P``, ``guarded:P`` or ``rounding:P``.  epsilon: chapter 7's e (thesis p. 117): where a
+    given point is put into an equation a value from -e to +e counts as zero; ``"rel:E"`` takes E times the
+    equation's largest coefficient A, B or C.  translate: the origin is moved to C and the constant terms tell how
+    equations are turned (thesis p. 118).  history: the result tells every H_j.  fast: compiled kernels (numba, the
+    extra ``fast``) for ``float64`` and ``float32``; None: where they are there and points are many.  The result is
+    the same.
 
     The mends of the layer ``corrected`` are built in; :attr:`Hull.mended` names those that mattered.  Numbers
     that are rounded may end in a status other than ``determined``, as the programs do.
 
-    Raises PointsError for points that are none, ValueError for an arithmetic or epsilon that is none,
-    RangeError where an intermediate result exceeds what floats hold.
+    Raises PointsError for points that are none, ValueError for an arithmetic or epsilon that is none or for kernels
+    asked for where numba is missing, RangeError where an intermediate result exceeds what floats hold.
     """
     size = read_epsilon(epsilon)
     with np.errstate(over="raise", invalid="raise", divide="raise", under="ignore"):
         numbers, coordinates = take(points, arithmetic, wide=size is not None)
         try:
-            return _Run(numbers, coordinates, size, translate, history).hull()
+            return _Run(numbers, coordinates, size, translate, history, fast).hull()
         except FloatingPointError:
             raise RangeError(f"{arithmetic}: a product of coordinates exceeds the largest number") from None
 
@@ -85,6 +89,7 @@ class _Run:
     epsilon: tuple[Fraction, bool] | None
     translate: bool
     history: bool
+    fast: bool | None
     watcher: Historian | None = field(init=False, default=None)
     progress: Progress = field(init=False, default_factory=Progress)
     slack: Slack | None = field(init=False)
@@ -134,11 +139,12 @@ class _Run:
         test = self.move(places, centre)
         if self.translate:
             table.coefficients[3] = at(tuple(table.coefficients), centre)
+        steps = choose(numbers, places, self.slack, self.fast)
         polyhedron = Polyhedron(numbers, places, table, test, self.progress, self.historian(places))
-        polyhedron.run()
+        polyhedron.run(steps.stage)
         self.move_back(places, table, centre)
         count = polyhedron.vertices
-        on = surface.strike_repeats(table, places, self.progress)
+        on = surface.strike_repeats(table, steps.satisfied(table, places), len(places), self.progress)
         vertex = surface.vertices(on, count, len(places))
         self.progress.boundary += places.names(slice(count, None)) + places.names(np.flatnonzero(~vertex[:count]))
         # With no vertex left the listing looks for the vertices of a plane in vain (199).

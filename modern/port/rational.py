@@ -71,6 +71,10 @@ class ExactArithmetic(Arithmetic):
     def exact(self, value: Scalar, degree: int) -> Exact:
         return Fraction(int(value), self.unit**degree)
 
+    def exacts(self, values: Vector, degree: int) -> list[Exact]:
+        under = self.unit**degree
+        return [Fraction(value, under) for value in values.tolist()]
+
     def text(self, value: Scalar, degree: int) -> str:
         return exact_text(self.exact(value, degree))
 

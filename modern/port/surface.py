@@ -9,21 +9,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from modern.port.equations import Equations
-from modern.port.places import Places
 from modern.port.progress import LAST_REPEAT, Progress
 
 On = list[NDArray[np.int64]]
 
 
-def strike_repeats(table: Equations, places: Places, progress: Progress) -> On:
-    """One equation of each plane stays, the first (164 to 174); returns for each the places that satisfy it.
+def strike_repeats(table: Equations, on: On, places: int, progress: Progress) -> On:
+    """One equation of each plane stays, the first (164 to 174); of the places that satisfy each, what stays of them.
 
     An equation is struck when the three points of an earlier one satisfy it.
     """
-    on = table.satisfied(places.coordinates)
     mm, nn, kk = table.defining
     struck_by = np.full(len(table), -1)
-    member = np.zeros(len(places), np.bool_)
+    member = np.zeros(places, np.bool_)
     for k, points in enumerate(on):
         if k and not (len(points) == 3 and set(points.tolist()) == {mm[k], nn[k], kk[k]}):
             member[points] = True

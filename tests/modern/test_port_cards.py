@@ -114,7 +114,7 @@ def run(cards: Deck, arithmetic: str, *layers: str) -> HullRun:
     return run_hull(cards, load, Options(profile=profile(arithmetic), core=CORE, limit=3_000_000))
 
 
-@pytest.mark.parametrize("arithmetic", ["truncating", "truncating:4", "ibm1962", "rounding:5"])
+@pytest.mark.parametrize("arithmetic", ["truncating", "truncating:4", "ibm1962", "guarded:5", "rounding:5"])
 def test_the_cards_of_layer_corrected(arithmetic: str) -> None:
     statuses = set()
     for seed in range(SETS):

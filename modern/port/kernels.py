@@ -1,0 +1,342 @@
+"""Program 3 from H_1 on for floats, one number at a time, in the part of Python that numba compiles.
+
+The steps are those of :mod:`modern.port.growth`, :mod:`modern.port.polyhedron` and :mod:`modern.port.inside`, and so
+are the decisions and the numbers, which come from the formulas those use.  What is not ordinary is left to them: a
+stage that stops, that meets a mend not yet noted, or that takes back a vertex returns UNUSUAL with nothing
+changed but the equation to check.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from modern.port.formulas import at, less, plane
+from modern.port.workspace import (
+    ADDED,
+    ALIVE,
+    CHECK,
+    CHECKED,
+    COUNT,
+    GONE,
+    KNOWN,
+    MADE,
+    OUTSIDE,
+    PAIR,
+    STAGES,
+    STRUCK,
+    TABLE,
+    THROUGH,
+    TRIED,
+    VERTICES,
+    corner,
+    equation,
+    is_not_inside,
+    is_on,
+    is_outside,
+    pack,
+    tolerance,
+)
+
+GROWN, ENDED, UNUSUAL, FULL = range(4)
+"""How a stage came out: grown; no stage can follow; left to numpy; no slots left for its planes."""
+
+BLOCK = 256
+"""Points put into an equation before the largest value is looked for among them."""
+
+
+def keeper_among(point: Any, slots: Any, first: int, last: int) -> int:
+    """The first slot of a plane the point is not inside of, -1 if there is none."""
+    for slot in range(first, last):
+        if slots.alive[slot] and is_not_inside(at(equation(slots.coefficients, slot), point), slots.tolerances[slot]):
+            return slot
+    return -1
+
+
+def strike_inside(cloud: Any, slots: Any, state: NDArray[np.int64]) -> None:
+    """Eliminate the points inside of every plane: ``Remaining.strike_inside``."""
+    made, tried, before = state[MADE], state[TRIED], state[GONE]
+    to = state[VERTICES]
+    for place in range(state[VERTICES], state[COUNT]):
+        kept = cloud.keeper[place]
+        if kept < 0 or not slots.alive[kept]:
+            point = corner(cloud.coordinates, place)
+            kept = keeper_among(point, slots, tried, made)
+            if kept < 0:
+                kept = keeper_among(point, slots, 0, tried)
+        if kept < 0:
+            cloud.gone[state[GONE]] = cloud.who[place]
+            state[GONE] += 1
+            continue
+        if to != place:
+            for i in range(3):
+                cloud.coordinates[i, to] = cloud.coordinates[i, place]
+            cloud.who[to] = cloud.who[place]
+        cloud.keeper[to] = kept
+        to += 1
+    state[COUNT] = to
+    state[TRIED] = made
+    state[STRUCK] = state[GONE] > before
+
+
+def reaching(coordinates: NDArray[Any], start: int, end: int, found: Any, least: Any) -> int:
+    """How many points have at least that value: no branches, so that the compiler takes several points at a time."""
+    x, y, z = coordinates[0, start:end], coordinates[1, start:end], coordinates[2, start:end]
+    count = 0
+    for k in range(len(x)):
+        count += at(found, (x[k], y[k], z[k])) >= least
+    return count
+
+
+def farthest_outside(coordinates: NDArray[Any], count: int, found: Any, e: Any) -> int:
+    """The place of the largest value, the last of equals, if it is outside; else -1."""
+    least = np.nextafter(e if e > 0 else e - e, np.inf)
+    if not reaching(coordinates, 0, count, found, least):
+        return -1
+    place = -1
+    for start in range(0, count, BLOCK):
+        end = min(start + BLOCK, count)
+        if reaching(coordinates, start, end, found, least):
+            for k in range(start, end):
+                value = at(found, corner(coordinates, k))
+                if value >= least:
+                    place, least = k, value
+    return place
+
+
+def outside_point(cloud: Any, slots: Any, state: NDArray[np.int64]) -> int:
+    """``Polyhedron.outside_point``; -1 when every equation supports, -2 when a defining point is off its plane."""
+    while state[CHECK] < state[MADE]:
+        slot = state[CHECK]
+        if slots.alive[slot]:
+            found, e = equation(slots.coefficients, slot), slots.tolerances[slot]
+            for i in range(3):
+                if not is_on(at(found, corner(cloud.coordinates, slots.defining[i, slot])), e):
+                    return -2
+            place = farthest_outside(cloud.coordinates, state[COUNT], found, e)
+            if place >= 0:
+                return place
+            state[CHECKED] += 1
+        state[CHECK] += 1
+    return -1
+
+
+def replaced(point: Any, slots: Any, state: NDArray[np.int64]) -> NDArray[np.int64]:
+    """The slots of the planes the point is outside of, in the order they are replaced.
+
+    None stands before the one to check: those have been put to every point that is left.
+    """
+    above = np.empty(state[ALIVE], np.int64)
+    values = np.empty(state[ALIVE], slots.coefficients.dtype)
+    k = 0
+    for slot in range(state[CHECK] + 1, state[MADE]):
+        if slots.alive[slot]:
+            value = at(equation(slots.coefficients, slot), point)
+            if is_outside(value, slots.tolerances[slot]):
+                above[k], values[k] = slot, value
+                k += 1
+    order = np.empty(k + 1, np.int64)
+    order[0] = state[CHECK]
+    order[1:] = above[:k][np.argsort(values[:k], kind="mergesort")[::-1]]
+    return order
+
+
+def three_planes(order: NDArray[np.int64], place: int, cloud: Any, slots: Any, state: Any, rules: Any) -> int:
+    """``Polyhedron.three_planes`` into the slots behind those used; the bits of mends, -1 if the stage is to stop."""
+    new, slot, mends = state[VERTICES], state[MADE], 0
+    point = corner(cloud.coordinates, place)
+    for old in order:
+        for turn in range(3):
+            for i in range(3):
+                slots.defining[i, slot] = slots.defining[i, old]
+            slots.defining[turn, slot] = new
+            p = point if turn == 0 else corner(cloud.coordinates, slots.defining[0, slot])
+            q = point if turn == 1 else corner(cloud.coordinates, slots.defining[1, slot])
+            r = point if turn == 2 else corner(cloud.coordinates, slots.defining[2, slot])
+            found = plane(p, q, r)
+            value = found[3] if rules.moved else at(found, (rules.centre[0], rules.centre[1], rules.centre[2]))
+            if value > 0:
+                found = (-found[0], -found[1], -found[2], -found[3])
+            e = tolerance(found, rules)
+            if value == 0:
+                mends |= THROUGH
+                if found[0] * found[0] == 0 and found[1] * found[1] == 0 and found[2] * found[2] == 0:
+                    return -1
+            if is_outside(at(found, point), e):
+                return -1
+            for i in range(4):
+                slots.coefficients[i, slot] = found[i]
+            slots.tolerances[slot] = e
+            slot += 1
+    return mends
+
+
+def doubles(defining: NDArray[np.int64], first: int, last: int) -> NDArray[np.int64]:
+    """For each fresh plane from slot ``first`` on the other with the same three points, counted from 0; -1: none.
+
+    Of three equal ones the first two are a pair.  Planes wait in chains, found by a hash of their points.
+    """
+    size = 4
+    while size < 2 * (last - first):
+        size *= 2
+    chains = np.full(size, -1, np.int64)
+    behind = np.empty(last - first, np.int64)
+    partner = np.full(last - first, -1, np.int64)
+    keys = np.empty((2, last - first), np.int64)
+    for k in range(last - first):
+        a, b, c = defining[0, first + k], defining[1, first + k], defining[2, first + k]
+        new = max(a, b, c)
+        low, high = min(a, b, c), a + b + c - new - min(a, b, c)
+        keys[0, k], keys[1, k] = low, high
+        bucket = (low * 40503 + high) & (size - 1)
+        before, other = -1, chains[bucket]
+        while other >= 0 and not (keys[0, other] == low and keys[1, other] == high):
+            before, other = other, behind[other]
+        if other < 0:
+            behind[k] = chains[bucket]
+            chains[bucket] = k
+        else:
+            partner[k], partner[other] = other, k
+            if before < 0:
+                chains[bucket] = behind[other]
+            else:
+                behind[before] = behind[other]
+    return partner
+
+
+def takes_last_pair(partner: NDArray[np.int64]) -> bool:
+    """Whether a pair is struck with at most one plane left behind it, as ``Polyhedron.single`` notes it."""
+    left = len(partner)
+    for k in range(len(partner)):
+        if partner[k] < 0:
+            left -= 1
+        elif partner[k] > k:
+            left -= 2
+            if left <= 1:
+                return True
+    return False
+
+
+def expand(place: int, cloud: Any, slots: Any, state: NDArray[np.int64], rules: Any) -> int:
+    """``Polyhedron.expand``."""
+    order = replaced(corner(cloud.coordinates, place), slots, state)
+    made, new = state[MADE], state[VERTICES]
+    last = made + 3 * len(order)
+    if last > len(slots.alive):
+        return FULL
+    peak = state[ALIVE] + 2 * len(order) + 1
+    mends = three_planes(order, place, cloud, slots, state, rules)
+    if mends < 0 or peak > max(rules.room, 4 * state[COUNT] - 11):
+        return UNUSUAL
+    if peak > rules.listed:
+        mends |= TABLE
+    partner = doubles(slots.defining, made, last)
+    if len(order) > 1 and takes_last_pair(partner):
+        mends |= PAIR
+    if mends & ~state[KNOWN]:
+        return UNUSUAL
+    for slot in order:
+        slots.alive[slot] = False
+    to = made
+    for k in range(last - made):
+        if partner[k] < 0:
+            for i in range(4):
+                slots.coefficients[i, to] = slots.coefficients[i, made + k]
+            for i in range(3):
+                slots.defining[i, to] = slots.defining[i, made + k]
+            slots.tolerances[to] = slots.tolerances[made + k]
+            slots.alive[to] = True
+            to += 1
+    state[MADE] = to
+    state[ALIVE] += to - made - len(order)
+    for i in range(3):
+        cloud.coordinates[i, place], cloud.coordinates[i, new] = cloud.coordinates[i, new], cloud.coordinates[i, place]
+    cloud.who[place], cloud.who[new] = cloud.who[new], cloud.who[place]
+    cloud.keeper[place] = cloud.keeper[new]
+    state[VERTICES] += 1
+    state[ADDED], state[OUTSIDE] = cloud.who[new], len(order)
+    return GROWN
+
+
+def grow(cloud: Any, slots: Any, state: NDArray[np.int64], rules: Any, first: bool, stages: int) -> int:
+    """So many stages, or all if negative; ``first``: the first of them is H_1 itself, which has no new vertex."""
+    while True:
+        if not first:
+            if state[COUNT] == state[VERTICES] and not state[STRUCK]:
+                return ENDED
+            if state[MADE] > state[ALIVE] + state[ALIVE] // 2 + 16:
+                pack(cloud, slots, state)
+            place = outside_point(cloud, slots, state)
+            if place == -1:
+                return ENDED
+            if place < state[VERTICES]:
+                return UNUSUAL
+            code = expand(place, cloud, slots, state, rules)
+            if code != GROWN:
+                return code
+        strike_inside(cloud, slots, state)
+        first = False
+        state[STAGES] += 1
+        if state[STAGES] == stages:
+            return GROWN
+
+
+def touching(coordinates: NDArray[Any], start: int, end: int, found: Any, e: Any) -> int:
+    """How many points are on the plane; no branches, as in :func:`reaching`."""
+    x, y, z = coordinates[0, start:end], coordinates[1, start:end], coordinates[2, start:end]
+    count = 0
+    for k in range(len(x)):
+        count += abs(at(found, (x[k], y[k], z[k]))) <= e
+    return count
+
+
+def satisfied(slots: Any, coordinates: NDArray[Any]) -> Any:
+    """``Equations.satisfied``: how many points satisfy each equation, and their places one behind the other."""
+    counts = np.zeros(len(slots.alive), np.int64)
+    places = np.empty(4 * len(slots.alive), np.int64)
+    k, count = 0, coordinates.shape[1]
+    for slot in range(len(slots.alive)):
+        found, e, first = equation(slots.coefficients, slot), slots.tolerances[slot], k
+        e = e if e > 0 else e - e
+        for start in range(0, count, BLOCK):
+            end = min(start + BLOCK, count)
+            here = touching(coordinates, start, end, found, e)
+            if k + here > len(places):
+                longer = np.empty(2 * (k + here), np.int64)
+                longer[:k] = places[:k]
+                places = longer
+            if here:
+                for place in range(start, end):
+                    if is_on(at(found, corner(coordinates, place)), e):
+                        places[k] = place
+                        k += 1
+        counts[slot] = k - first
+    return counts, places[:k]
+
+
+ENTRIES = (grow, satisfied)
+HELPERS = (
+    less,
+    at,
+    plane,
+    is_outside,
+    is_not_inside,
+    is_on,
+    corner,
+    equation,
+    tolerance,
+    pack,
+    keeper_among,
+    strike_inside,
+    reaching,
+    touching,
+    farthest_outside,
+    outside_point,
+    replaced,
+    three_planes,
+    doubles,
+    takes_last_pair,
+    expand,
+)

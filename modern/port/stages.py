@@ -1,0 +1,116 @@
+"""The compiled form of a polyhedron's growth: its state handed to the kernels, and taken back.
+
+The kernels (:mod:`modern.port.kernels`) run as many stages as they can; a stage they leave alone is numpy's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from emulator.compiling import Function, compiled
+from modern.port import growth, kernels, workspace
+from modern.port.equations import Equations
+from modern.port.places import Places
+from modern.port.polyhedron import LISTED_PLANES, PLANES, Polyhedron
+from modern.port.progress import LAST_PAIR, TABLE_OF_PLANES, THROUGH_CENTRE
+from modern.port.workspace import Cloud, Rules, Slots
+
+_MENDS = {THROUGH_CENTRE: workspace.THROUGH, TABLE_OF_PLANES: workspace.TABLE, LAST_PAIR: workspace.PAIR}
+
+_FIRST = 4
+"""Vertices of H_1."""
+_SPARE = 1024
+"""Slots to begin with, besides six for each equation: a stage needs at most four and a half, of those that stand."""
+
+Stage = Callable[[Polyhedron, bool], growth.Grown | None]
+Satisfied = Callable[[Equations, Places], list[NDArray[np.int64]]]
+
+
+@cache
+def load() -> tuple[Stage, Satisfied]:
+    """The steps by compiled kernels.  Raises NotInstalled."""
+    return with_kernels(*compiled(kernels.ENTRIES, kernels.HELPERS, [kernels, workspace]))
+
+
+def with_kernels(grow: Function, find: Function) -> tuple[Stage, Satisfied]:
+    """The steps by the kernels given, compiled or as they stand in Python."""
+
+    def stage(hull: Polyhedron, first: bool) -> growth.Grown | None:
+        """One stage if somebody watches, else as many as come."""
+        cloud, slots, state = _cloud(hull), _slots(hull.table, 6 * len(hull.table) + _SPARE), _state(hull)
+        code = grow(cloud, slots, state, _rules(hull), first, 1 if hull.watch else -1)
+        _take_back(hull, cloud, slots, state)
+        if not state[workspace.STAGES]:
+            return None if code == kernels.ENDED else growth.stage(hull, first)
+        struck = cloud.gone[: state[workspace.GONE]].tolist()
+        if first:
+            return growth.Grown(hull.places.names(slice(0, _FIRST)), 0, 0, struck)
+        return growth.Grown((int(state[workspace.ADDED]),), hull.to_check + 1, int(state[workspace.OUTSIDE]), struck)
+
+    def satisfied(table: Equations, places: Places) -> list[NDArray[np.int64]]:
+        counts, found = find(_slots(table, 0), np.array(places.coordinates, order="C"))
+        ends = np.cumsum(counts).tolist()
+        return [found[start:end] for start, end in zip([0, *ends], ends, strict=False)]
+
+    return stage, satisfied
+
+
+def _cloud(hull: Polyhedron) -> Cloud:
+    """The points; each keeps the slot of its equation, -1 where that was struck."""
+    places, serial = hull.places, hull.table.serial
+    behind = hull.remaining.keeper
+    slot = np.searchsorted(serial, behind)
+    slot[slot == len(serial)] = 0
+    keeper = np.full(len(places), -1, np.int64)
+    keeper[hull.vertices :] = np.where(serial[slot] == behind, slot, -1)
+    # Copies in C order: for each other layout numba would compile the kernels again.
+    return Cloud(np.array(places.coordinates, order="C"), places.who.copy(), keeper, np.empty(len(places), np.int64))
+
+
+def _slots(table: Equations, spare: int) -> Slots:
+    """The table in the first slots, and so many empty ones."""
+    count = len(table)
+    coefficients = np.zeros((4, count + spare), table.coefficients.dtype)
+    defining = np.zeros((3, count + spare), np.int64)
+    tolerances = np.full(count + spare, -1, table.coefficients.dtype)
+    coefficients[:, :count], defining[:, :count] = table.coefficients, table.defining
+    if table.tolerances is not None:
+        tolerances[:count] = table.tolerances
+    return Slots(coefficients, defining, tolerances, np.arange(count + spare) < count)
+
+
+def _state(hull: Polyhedron) -> NDArray[np.int64]:
+    state = np.zeros(workspace.STATE_SIZE, np.int64)
+    state[workspace.COUNT], state[workspace.VERTICES] = len(hull.places), hull.vertices
+    state[workspace.CHECK] = state[workspace.CHECKED] = hull.to_check
+    state[workspace.MADE] = state[workspace.ALIVE] = len(hull.table)
+    state[workspace.TRIED] = np.searchsorted(hull.table.serial, hull.remaining.tried)
+    state[workspace.STRUCK] = hull.remaining.struck
+    state[workspace.KNOWN] = sum(bit for name, bit in _MENDS.items() if name in hull.progress.mended)
+    return state
+
+
+def _rules(hull: Polyhedron) -> Rules:
+    number, slack = hull.arithmetic.dtype, hull.table.slack
+    centre = np.array(hull.centre or (0, 0, 0), number)
+    size = number(-1) if slack is None else hull.arithmetic.tolerance(slack.size, 0)
+    return Rules(centre, hull.centre is None, size, slack is not None and slack.relative, LISTED_PLANES, PLANES)
+
+
+def _take_back(hull: Polyhedron, cloud: Cloud, slots: Slots, state: NDArray[np.int64]) -> None:
+    """What the kernels made of the state; slots become the serial numbers of the equations in them."""
+    count, made = state[workspace.COUNT], state[workspace.MADE]
+    standing = np.flatnonzero(slots.alive[:made])
+    places, table, remaining = hull.places, hull.table, hull.remaining
+    places.coordinates, places.who = cloud.coordinates[:, :count], cloud.who[:count]
+    table.coefficients, table.defining = slots.coefficients[:, standing], slots.defining[:, standing]
+    table.serial, table.made = standing, int(made)
+    if table.tolerances is not None:
+        table.tolerances = slots.tolerances[standing]
+    hull.vertices, hull.to_check = int(state[workspace.VERTICES]), int(state[workspace.CHECKED])
+    remaining.keeper, remaining.tried = cloud.keeper[hull.vertices : count], int(state[workspace.TRIED])
+    remaining.struck = bool(state[workspace.STRUCK])
