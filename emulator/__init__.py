@@ -11,8 +11,10 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from emulator.arithmetic import Profile, profile
+    from emulator.batch import run_batch
     from emulator.cards import Card, Deck, deck_from_lines, deck_from_text, read_deck
     from emulator.compiler import compile_deck, translate
+    from emulator.divergence import Divergence, diverge
     from emulator.errors import CardError, CompileError, DeckError, Diagnostic, EmulatorError
     from emulator.machine import Machine
     from emulator.objectcode import Program
@@ -21,8 +23,10 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "arithmetic": ("Profile", "profile"),
+    "batch": ("run_batch",),
     "cards": ("Card", "Deck", "deck_from_lines", "deck_from_text", "read_deck"),
     "compiler": ("compile_deck", "translate"),
+    "divergence": ("Divergence", "diverge"),
     "errors": ("CardError", "CompileError", "DeckError", "Diagnostic", "EmulatorError"),
     "machine": ("Machine",),
     "objectcode": ("Program",),
@@ -37,6 +41,7 @@ __all__ = [
     "Deck",
     "DeckError",
     "Diagnostic",
+    "Divergence",
     "EmulatorError",
     "Ending",
     "Machine",
@@ -48,9 +53,11 @@ __all__ = [
     "compile_deck",
     "deck_from_lines",
     "deck_from_text",
+    "diverge",
     "measure",
     "profile",
     "read_deck",
+    "run_batch",
     "translate",
 ]
 

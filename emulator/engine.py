@@ -103,7 +103,7 @@ def run(
     addresses: Sequence[int],
     subscripts: Sequence[int],
     seconds: Sequence[int],
-    table: Sequence[Sequence[int]],
+    table: Sequence[int],
     targets: Sequence[int],
     loops: Sequence[int],
     begins: Sequence[int],
@@ -113,15 +113,16 @@ def run(
     registers: MutableSequence[int],
     switches: Sequence[int],
     rules: Rules,
-    powers: list[int],
+    powers: Sequence[int],
     options: tuple[int, int, int, int, int],
 ) -> int:
     """Run until a reason to return; registers and storage are changed in place.
 
-    ``table`` holds for each subscript (v1, c1, o1, rows, v2, c2, o2, columns); ``targets`` the branch tables,
-    each behind its length; ``loops`` four numbers a loop: variable, step, limit, first instruction; ``begins`` is 1
-    where a statement begins, 2 at a pass of an indexed list, which counts against the limit like a statement.
-    ``options`` is (statement limit, strict bounds, stop at each statement, left zero kept, signed underflow).
+    ``table`` holds for each subscript (v1, c1, o1, rows, v2, c2, o2, columns), found by ``subscripts``, which is -1
+    where an instruction has none; ``targets`` the branch tables, each behind its length; ``loops`` four numbers a
+    loop: variable, step, limit, first instruction; ``begins`` is 1 where a statement begins, 2 at a pass of an
+    indexed list, which counts against the limit like a statement.  ``options`` is (statement limit, strict bounds,
+    stop at each statement, left zero kept, signed underflow).
     """
     limit, strict, tracing, keep_left, signed_underflow = options
     size = len(mantissas)
@@ -137,18 +138,19 @@ def run(
         a = addresses[pc]
         s = subscripts[pc]
         if s >= 0:
-            row = table[s]
-            v = row[0]
-            i = row[2]
+            v = table[s]
+            i = table[s + 2]
+            rows = table[s + 3]
+            columns = table[s + 7]
             if v >= 0:
                 if exponents[v] != FIXED_POINT:
                     a = v
                     reason = AT_UNDEFINED
                     break
-                i += row[1] * mantissas[v]
-            if row[7] == 0:
-                if strict and (i < 1 or i > row[3]):
-                    if o == SEND and i == row[3] + 1:
+                i += table[s + 1] * mantissas[v]
+            if columns == 0:
+                if strict and (i < 1 or i > rows):
+                    if o == SEND and i == rows + 1:
                         sm = 0
                         se = UNDEFINED
                         pc += 1
@@ -159,20 +161,20 @@ def run(
                     break
                 a += i - 1
             else:
-                j = row[6]
-                v = row[4]
+                j = table[s + 6]
+                v = table[s + 4]
                 if v >= 0:
                     if exponents[v] != FIXED_POINT:
                         a = v
                         reason = AT_UNDEFINED
                         break
-                    j += row[5] * mantissas[v]
-                if strict and (i < 1 or i > row[3] or j < 1 or j > row[7]):
+                    j += table[s + 5] * mantissas[v]
+                if strict and (i < 1 or i > rows or j < 1 or j > columns):
                     registers[INDEX] = i
                     registers[INDEX2] = j
                     reason = AT_BOUNDS
                     break
-                a += i - 1 + row[3] * (j - 1)
+                a += i - 1 + rows * (j - 1)
             if a < 0 or a >= size:
                 reason = AT_OUTSIDE
                 break
@@ -264,12 +266,7 @@ def run(
                 counts[a] += 1
                 pc += 1
         elif o == IF:
-            if fm < 0:
-                pc = targets[a]
-            elif fm == 0:
-                pc = targets[a + 1]
-            else:
-                pc = targets[a + 2]
+            pc = targets[a] if fm < 0 else targets[a + 1] if fm == 0 else targets[a + 2]
         elif o == DOTEST:
             v = loops[a]
             for k in range(a, a + 3):
@@ -327,12 +324,7 @@ def run(
                 quotient = abs(fixed) // abs(m)
                 fixed = quotient if (fixed < 0) == (m < 0) else -quotient
         elif o == IFX:
-            if fixed < 0:
-                pc = targets[a]
-            elif fixed == 0:
-                pc = targets[a + 1]
-            else:
-                pc = targets[a + 2]
+            pc = targets[a] if fixed < 0 else targets[a + 1] if fixed == 0 else targets[a + 2]
         elif o == RSGN:
             if fm == 0:
                 fe = MINUS_ZERO if fe == ZERO else ZERO

@@ -7,13 +7,12 @@ follows GOTRAN's table F1 to F6 (C26-5594 p. 28) and IBM FORTRAN II-D for SQRT o
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from emulator.arithmetic import MAX_EXPONENT, MIN_EXPONENT, ZERO, Rules, divide, from_integer, multiply
+from emulator.arithmetic import MAX_EXPONENT, MIN_EXPONENT, ZERO, Rules, from_integer, square_root, whole_power
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,36 +58,12 @@ def power(base: tuple[int, int], exponent: tuple[int, int], rules: Rules) -> Val
 
 def integer_power(mantissa: int, exponent: int, count: int, rules: Rules) -> Value:
     """``A ** J`` by repeated multiplication, each product cut as the profile cuts it (OPEN-QUESTIONS 8)."""
-    one = from_integer(1, rules)
-    if count == 0:
-        return Value(*one)
-    if mantissa == 0:
-        return Value(0, ZERO) if count > 0 else Value(rules[1] - 1, MAX_EXPONENT, "E7")
-    m, e = abs(mantissa), exponent
-    for _ in range(abs(count) - 1):
-        before = m, e
-        m, e = multiply(m, e, abs(mantissa), exponent, rules)
-        if (m, e) == before:
-            break
-        if e > MAX_EXPONENT + 1 or e < MIN_EXPONENT - 1:
-            break
-    if count < 0 and MIN_EXPONENT - 1 <= e <= MAX_EXPONENT + 1:
-        m, e = divide(*one, m, e, rules)
-    elif count < 0:
-        e = -e
-    return _in_range(-m if mantissa < 0 and count % 2 else m, e, rules, "E3", "E4")
+    m, e, code = whole_power(mantissa, exponent, count, rules)
+    return Value(m, e, f"E{code}" if code else "")
 
 
 def _sqrt(mantissa: int, exponent: int, rules: Rules) -> Value:
-    digits = rules[0]
-    if mantissa == 0:
-        return Value(0, ZERO)
-    # Two digits more than are kept, so that a profile that rounds can.
-    shift = digits + 4 + (exponent - digits) % 2
-    scaled = abs(mantissa) * 10**shift
-    root = math.isqrt(scaled)
-    power_of_ten = (exponent - digits - shift) // 2
-    return Value(*_cut(root, power_of_ten, rules))
+    return Value(*square_root(mantissa, exponent, rules)) if mantissa else Value(0, ZERO)
 
 
 def _of_zero(name: str, rules: Rules) -> Value:

@@ -5,7 +5,10 @@ from __future__ import annotations
 from emulator import objectcode as op
 from emulator.objectcode import Program
 
-Flat = tuple[list[int], list[int], list[int], list[int], list[tuple[int, ...]], list[int], list[int], list[int]]
+Flat = tuple[list[int], list[int], list[int], list[int], list[int], list[int], list[int], list[int]]
+
+SUBSCRIPT = 8
+"""Numbers in the table for one subscript."""
 
 
 def flatten(program: Program) -> Flat:
@@ -27,9 +30,9 @@ def flatten(program: Program) -> Flat:
             address *= 4
         operations.append(instruction.operation)
         addresses.append(address)
-        subscripts.append(instruction.subscript)
+        subscripts.append(SUBSCRIPT * instruction.subscript if instruction.subscript >= 0 else -1)
         seconds.append(second)
-    table: list[tuple[int, ...]] = [(s.v1, s.c1, s.o1, s.rows, s.v2, s.c2, s.o2, s.columns) for s in program.subscripts]
+    table = [n for s in program.subscripts for n in (s.v1, s.c1, s.o1, s.rows, s.v2, s.c2, s.o2, s.columns)]
     loops = [n for loop in program.loops for n in loop]
     begins = [1 if c.begins else 2 if c.what == op.LIST_PASS else 0 for c in program.counters]
     return operations, addresses, subscripts, seconds, table, targets, loops, begins

@@ -6,26 +6,26 @@ and does what the engine returns for: input, output, library functions, messages
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
-from emulator import engine
+from emulator import engine, hosted
 from emulator.arithmetic import FIXED_POINT, UNDEFINED, ZERO, powers_of_ten
 from emulator.cards import COLUMNS, Card, Deck, read_line
+from emulator.endings import begun, error_counts, looped, pausing, stopped, undecided
 from emulator.errors import CardError, DeckError
-from emulator.fields import FieldError, parse_constant, read_fixed, read_floating, write_fixed, write_floating
+from emulator.fields import FieldError, read_fixed, write_fixed
 from emulator.formats import Field
-from emulator.functions import Value, function, integer_power, power
 from emulator.length import code_positions
 from emulator.loader import flatten
+from emulator.numbers.base import Undecided
 from emulator.objectcode import Line, Program
 from emulator.records import Input, Layout, NoField, Output
-from emulator.result import Ending, Event, Options, Result
+from emulator.result import LOOP_WINDOW, PUNCH_COLUMNS, TYPEWRITER_COLUMNS, Ending, Event, Options, Result, Uncut
 from emulator.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
+from emulator.unit import DecimalUnit, HostedUnit, Stored, Unit
 
-PUNCH_COLUMNS = 72
-TYPEWRITER_COLUMNS = 87
-LOOP_WINDOW = 2_000
 BAD_INPUT = Ending("input", "bad input")
 
 
@@ -43,7 +43,9 @@ class Machine:
     """One machine with one program in core and one deck in the hopper.
 
     ``keyboard`` are the lines an operator types when the program asks by ACCEPT; ``listed`` the fields of the
-    last input or output statement.  Raises DeckError when the program does not fit the machine's core.
+    last input or output statement.  ``uncut`` holds numbers that go with the deck's cards, in their order
+    (:attr:`emulator.result.Result.uncut`), and are read in place of the columns.  ``journal`` is where a run over
+    ``options.numbers`` is written down.  Raises DeckError when the program does not fit the machine's core.
     """
 
     program: Program
@@ -51,9 +53,11 @@ class Machine:
     options: Options = field(default_factory=Options)
     keyboard: Iterable[str] = ()
     tracer: Tracer | None = None
+    journal: hosted.Journal | None = None
+    uncut: Sequence[Sequence[Uncut]] = ()
 
     def __post_init__(self) -> None:
-        program, rules = self.program, self.options.profile.rules
+        program, rules, numbers = self.program, self.options.profile.rules, self.options.numbers
         need = program.storage.fields * FIELD + code_positions(program)
         room = self.options.core - OBJECT_PROGRAM - FUNCTION_NAMES
         if need > room:
@@ -61,20 +65,29 @@ class Machine:
                 f"{program.source}: OVERLAP: program and data need about {need} positions; "
                 f"a machine of {self.options.core} has {room} for them"
             )
-        self.mantissas = [0] * program.storage.fields
+        self.unit: Unit = DecimalUnit(rules) if numbers is None else HostedUnit(numbers)
+        self.mantissas: list[Any] = [0] * program.storage.fields
         self.exponents = [UNDEFINED] * program.storage.fields
         for address, text in program.storage.constants:
             if "." in text:
-                self.mantissas[address], self.exponents[address] = parse_constant(text, rules)
+                self.mantissas[address], self.exponents[address] = self.unit.constant(text)
             else:
                 self.mantissas[address], self.exponents[address] = int(text), FIXED_POINT
-        self.registers = [0] * engine.REGISTERS
+        self.registers: list[Any] = [0] * engine.REGISTERS
         self.registers[engine.CHARACTERISTIC] = ZERO
         self.counts = [0] * len(program.counters)
         self._code = flatten(program)
         self._statement_of = program.statement_numbers()
         self._powers = powers_of_ten(rules)
+        self._enters = hosted.entered(program) if self.journal else []
         self._layouts = [Layout(spec) for _, spec in program.formats]
+        self._whole = {
+            (card.number, column, width): stored
+            for card, beside in zip(self.deck.cards, self.uncut, strict=False)
+            for column, width, stored in beside
+        }
+        self._beside: list[Uncut] = []
+        self._uncut: list[tuple[Uncut, ...]] = []
         self._position = 0
         self._keys = iter(self.keyboard)
         self._first_read = -1
@@ -97,25 +110,45 @@ class Machine:
         data set or from the start.
         """
         window = min(LOOP_WINDOW, self.options.limit // 2)
-        before: list[int] | None = None
-        limit = self.options.limit - window
+        ending = self.advance(self.options.limit - window)
+        if ending is None:
+            before = list(self.counts)
+            ending = self.advance(self.options.limit)
+            ending = ending or looped(self.program, self.options.limit, before, self.counts)
+        return self.result(ending)
+
+    def advance(self, limit: int) -> Ending | None:
+        """Run on until ``limit`` statements are done in all; how the run ended, or None where it did not.
+
+        Raises what :meth:`run` does.
+        """
         try:
-            while True:
-                reason = self._engine(limit)
-                if reason == engine.AT_LIMIT:
-                    if before is not None:
-                        raise _Ended("limit", self._where_it_loops(before))
-                    before, limit = list(self.counts), self.options.limit
-                else:
-                    self._serve(reason)
+            while (reason := self._engine(limit)) != engine.AT_LIMIT:
+                self._serve(reason)
         except _Ended as ended:
-            return self.result(ended.ending)
+            return ended.ending
+        except Undecided as error:
+            return undecided(self.program, self.registers[engine.AT], str(error))
+        return None
 
     def _engine(self, limit: int) -> int:
         operations, addresses, subscripts, seconds, table, targets, loops, begins = self._code
         profile = self.options.profile
         switches = [int(n in self.options.switches) for n in (1, 2, 3, 4)]
         strict = int(self.options.bounds == "strict")
+        if self.options.numbers is not None:
+            return hosted.run(
+                self._code,
+                self.mantissas,
+                self.exponents,
+                self.counts,
+                self.registers,
+                switches,
+                self.options.numbers,
+                (limit, strict, int(self.tracer is not None)),
+                self.journal,
+                self._enters,
+            )
         flags = (
             limit,
             strict,
@@ -160,50 +193,27 @@ class Machine:
             assert self.tracer is not None
             self.tracer(here, self)
         elif reason == engine.AT_FUNCTION:
-            name = self.program.functions[address]
-            self._to_fac(
-                function(name, registers[engine.FAC], registers[engine.CHARACTERISTIC], self.options.profile.rules)
-            )
+            self._to_fac(*self.unit.function(self.program.functions[address], self._fac()))
         elif reason == engine.AT_POWER:
-            base = self.mantissas[address], self.exponents[address]
-            exponent = registers[engine.FAC], registers[engine.CHARACTERISTIC]
-            self._to_fac(power(base, exponent, self.options.profile.rules))
+            self._to_fac(*self.unit.power((self.mantissas[address], self.exponents[address]), self._fac()))
         elif reason == engine.AT_POWERX:
-            mantissa, exponent_ = registers[engine.FAC], registers[engine.CHARACTERISTIC]
-            self._to_fac(integer_power(mantissa, exponent_, self.mantissas[address], self.options.profile.rules))
+            self._to_fac(*self.unit.integer_power(self._fac(), self.mantissas[address]))
         elif reason == engine.AT_EVENT:
             self._error(f"E{registers[engine.EVENT]}")
         elif reason == engine.AT_PAUSE:
-            self._warn(f"{self.program.source}: PAUSE at {here.name}: the operator presses START")
+            self._warn(pausing(self.program, self._statement_of[registers[engine.AT]]))
         else:
-            raise self._stopped(reason, here, address)
+            held = self.exponents[address] if reason == engine.AT_UNDEFINED else ZERO
+            ending = stopped(self.program, reason, registers, held)
+            raise _Ended(ending.kind, ending.message)
 
-    def _stopped(self, reason: int, here: Line, address: int) -> _Ended:
-        name = self.program.storage.name_of
-        index, index2 = self.registers[engine.INDEX], self.registers[engine.INDEX2]
-        where = f"{self.program.source}: card {here.place.card}"
-        words = f"{here.label} {here.text}" if here.label else here.text
-        if reason == engine.AT_STOP:
-            return _Ended("stop" if self.program.code[self.registers[engine.PC]].second == 0 else "end")
-        if reason == engine.AT_UNDEFINED and self.exponents[address] == UNDEFINED:
-            return _Ended("undefined", f"{where}: {name(address)} is undefined where it is computed with, in {words}")
-        if reason == engine.AT_UNDEFINED:
-            # Only with --bounds core: a neighbour's number of the other mode.
-            held = "fixed" if self.exponents[address] == FIXED_POINT else "floating"
-            return _Ended("mode", f"{where}: {name(address)} holds a number in {held} point, in {words}")
-        if reason == engine.AT_BOUNDS:
-            entry = self.program.storage.entry_of(address)
-            subscript = f"{index},{index2}" if len(entry.shape) > 1 else str(index)
-            shape = ",".join(map(str, entry.shape))
-            return _Ended("bounds", f"{where}: {entry.name}({subscript}) is outside {entry.name}({shape}), in {words}")
-        if reason == engine.AT_OUTSIDE:
-            return _Ended("outside", f"{where}: a subscript reaches outside the data into the program, in {words}")
-        return _Ended("select", f"{where}: a computed GO TO with value {index}, in {words}")
+    def _fac(self) -> Stored:
+        return self.registers[engine.FAC], self.registers[engine.CHARACTERISTIC]
 
-    def _to_fac(self, value: Value) -> None:
-        self.registers[engine.FAC], self.registers[engine.CHARACTERISTIC] = value.mantissa, value.exponent
-        if value.code:
-            self._error(value.code)
+    def _to_fac(self, value: Stored, code: str) -> None:
+        self.registers[engine.FAC], self.registers[engine.CHARACTERISTIC] = value
+        if code:
+            self._error(code)
 
     def _error(self, code: str) -> None:
         card = self._line_at(self.registers[engine.AT]).place.card
@@ -301,7 +311,8 @@ class Machine:
         if fixed:
             transfer.write(write_fixed(spec, mantissa))
             return
-        columns, overflowed = write_floating(spec, mantissa, exponent, self.options.profile.rules)
+        columns, overflowed = self.unit.write(spec, (mantissa, exponent))
+        self._beside.append((len(transfer.line) + 1, len(columns), (mantissa, exponent)))
         transfer.write(columns)
         if overflowed:
             self._error("F8")
@@ -313,15 +324,22 @@ class Machine:
         columns = card.columns(column, column + spec.width - 1).ljust(spec.width)
         source, unit = (self.deck.source, "card") if self._verb == "READ" else ("typewriter", "line")
         try:
-            number = read_fixed(columns) if fixed else read_floating(spec, columns, self.options.profile.rules)
+            if fixed:
+                read = read_fixed(columns)
+                stored, warning = (read.mantissa, FIXED_POINT), read.warning
+            elif self._verb == "READ" and (card.number, column, spec.width) in self._whole:
+                stored, warning = self._whole[card.number, column, spec.width], ""
+            else:
+                stored, warning = self.unit.read(spec, columns)
         except FieldError as error:
             raise CardError(source, card.number, column, str(error), unit) from None
-        self.mantissas[address] = number.mantissa
-        self.exponents[address] = FIXED_POINT if fixed else number.exponent
-        if number.warning:
-            self._warn(f"{source}: {unit} {card.number}, column {column}: {number.warning}")
+        self.mantissas[address], self.exponents[address] = stored
+        if warning:
+            self._warn(f"{source}: {unit} {card.number}, column {column}: {warning}")
 
     def _punch(self, line: str) -> None:
+        if self.options.uncut:
+            self._uncut.append(tuple(self._beside))
         self._out("punch", self._punched, line, PUNCH_COLUMNS)
 
     def _type(self, line: str) -> None:
@@ -334,29 +352,12 @@ class Machine:
             )
         text = line[:columns].rstrip()
         lines.append(text)
+        self._beside.clear()
         self.registers[engine.STATEMENTS] += 1
         self._events.append(Event(what, text))
 
     def _warn(self, message: str) -> None:
         self._warnings[message] = None
-
-    def _where_it_loops(self, before: list[int]) -> str:
-        """Where the last statements before the limit were, from the counts before and after them."""
-        program = self.program
-        ran = [
-            (program.statements[counter.statement], new - old)
-            for counter, old, new in zip(program.counters, before, self.counts, strict=True)
-            if counter.begins and new > old
-        ]
-        if not ran:
-            return f"{program.source}: stopped after {self.options.limit} statements"
-        cards = sorted({line.place.card for line, _ in ran})
-        labels = [str(line.label) for line, _ in ran if line.label]
-        span = f"card {cards[0]}" if len(cards) == 1 else f"cards {cards[0]} to {cards[-1]}"
-        word = "statement" if len(labels) == 1 else "statements"
-        among = f", {word} {', '.join(labels[:12])}{' ...' if len(labels) > 12 else ''}" if labels else ""
-        what = "it loops on" if all(times > 1 for _, times in ran) else "it was on"
-        return f"{program.source}: stopped after {self.options.limit} statements; {what} {span}{among}"
 
     def result(self, ending: Ending = BAD_INPUT) -> Result:
         """What the devices have so far; of use after :meth:`run` raised an error for a bad card."""
@@ -366,9 +367,10 @@ class Machine:
             ending=ending,
             events=tuple(self._events),
             warnings=tuple(self._warnings),
-            statements=sum(n for c, n in zip(self.program.counters, self.counts, strict=True) if c.begins),
+            statements=begun(self.program, self.counts),
             counts=tuple(self.counts),
             cards_read=self._position,
             numbers=tuple(sorted(self._numbers.items())),
-            errors=tuple((f"{code} on card {card}", n) for (code, card), n in sorted(self._errors.items())),
+            errors=error_counts(self._errors),
+            uncut=tuple(self._uncut),
         )

@@ -3,25 +3,41 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from emulator.arithmetic import TRUNCATING, Profile
+from emulator.numbers.base import Numbers
 
 DEFAULT_LIMIT = 5_000_000
 DEFAULT_CORE = 40_000
+
+LOOP_WINDOW = 2_000
+"""How many statements before the limit a message about a loop looks at."""
+PUNCH_COLUMNS = 72
+TYPEWRITER_COLUMNS = 87
 
 NORMAL = ("hopper", "stop", "end")
 
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """How a run is set up.  ``switches`` are the sense switches that are on; ``bounds`` is strict or core."""
+    """How a run is set up.  ``switches`` are the sense switches that are on; ``bounds`` is strict or core.
+
+    ``numbers``, where it is given, takes the place of the profile's decimal numbers.  ``uncut``: the numbers punched
+    are kept as they were before the card's field cut them (:attr:`Result.uncut`).
+    """
 
     profile: Profile = TRUNCATING
     switches: frozenset[int] = frozenset()
     core: int = DEFAULT_CORE
     bounds: str = "strict"
     limit: int = DEFAULT_LIMIT
+    numbers: Numbers | None = None
+    uncut: bool = False
 
+
+Uncut = tuple[int, int, tuple[Any, int]]
+"""A number punched: its first column, how many columns it takes, and the field of storage it comes from."""
 
 ERRORS = {
     "E1": "a sum overflows",
@@ -55,7 +71,7 @@ class Event:
 class Ending:
     """Why a run ended.
 
-    ``kind``: hopper, stop, end (all normal), limit, bounds, undefined, outside, select, mode.  ``message``
+    ``kind``: hopper, stop, end (all normal), limit, bounds, undefined, outside, select, mode, undecided.  ``message``
     is one line for a user, empty for a normal end.
     """
 
@@ -71,7 +87,8 @@ class Ending:
 class Result:
     """A finished run: what the devices got, how it ended, and what was counted.
 
-    ``punched`` and ``typed`` are lines without trailing blanks; ``counts`` how often each counter of the
+    ``uncut``, where it was asked for, holds for each punched card its floating-point numbers.  ``punched`` and
+    ``typed`` are lines without trailing blanks; ``counts`` how often each counter of the
     program ran; ``errors`` the arithmetic's error codes with the statement each arose in, and how often.
     """
 
@@ -85,3 +102,4 @@ class Result:
     cards_read: int
     numbers: tuple[tuple[str, int], ...]
     errors: tuple[tuple[str, int], ...]
+    uncut: tuple[tuple[Uncut, ...], ...] = ()

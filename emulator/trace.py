@@ -6,7 +6,6 @@ from typing import TextIO
 
 from emulator import engine
 from emulator.arithmetic import FIXED_POINT, UNDEFINED
-from emulator.fields import FALLBACK, write_floating
 from emulator.machine import Machine
 from emulator.objectcode import Line, Program
 
@@ -70,4 +69,4 @@ def contents(machine: Machine, address: int) -> str:
 
 
 def _floating(machine: Machine, mantissa: int, exponent: int) -> str:
-    return write_floating(FALLBACK, mantissa, exponent, machine.options.profile.rules)[0].strip()
+    return machine.unit.text((mantissa, exponent))

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from emulator.cards import Deck, deck_from_lines
 from emulator.machine import Machine
 from emulator.objectcode import Program
-from emulator.result import Options, Result
+from emulator.result import Options, Result, Uncut
 
 COPLANAR = "POINTS ARE COPLANAR"
 NOT_COPLANAR = "POINTS ARE NOT COPLANAR"
@@ -61,6 +61,13 @@ def refusal(result: Result) -> str:
     return last
 
 
+def second_program(result: Result) -> str:
+    """The program that takes the cards of this run of program 1, by name; empty where none does."""
+    typed = result.typed
+    second = "program2" if COPLANAR in typed else "program3" if NOT_COPLANAR in typed else ""
+    return second if result.ending.normal and not refusal(result) else ""
+
+
 def run_hull(
     deck: Deck,
     load: Load,
@@ -70,16 +77,16 @@ def run_hull(
 ) -> HullRun:
     """Run one data set through program 1 and the program its typewriter names.
 
-    ``first`` is the built-in that plays program 1; ``watch`` sees each machine before it runs.  Raises what
+    With ``options.uncut`` numbers go from program 1 to the next whole, not as the card's digits.  ``first`` is the
+    built-in that plays program 1; ``watch`` sees each machine before it runs.  Raises what
     :meth:`emulator.machine.Machine.run` raises.
     """
     options = options or Options()
-    steps = [_run(load(first), first, deck, options, watch)]
-    typed = steps[0].result.typed
-    second = "program2" if COPLANAR in typed else "program3" if NOT_COPLANAR in typed else ""
-    if second and steps[0].result.ending.normal and not refusal(steps[0].result):
+    steps = [_run(load(first), first, deck, options, watch, ())]
+    second = second_program(steps[0].result)
+    if second:
         middle = deck_from_lines(f"cards from {first}", steps[0].result.punched)
-        steps.append(_run(load(second), second, middle, options, watch))
+        steps.append(_run(load(second), second, middle, options, watch, steps[0].result.uncut))
     return HullRun(tuple(steps))
 
 
@@ -89,8 +96,9 @@ def _run(
     deck: Deck,
     options: Options,
     watch: Callable[[Program, Machine], None] | None,
+    uncut: Sequence[Sequence[Uncut]],
 ) -> Step:
-    machine = Machine(program, deck, options)
+    machine = Machine(program, deck, options, uncut=uncut)
     if watch is not None:
         watch(program, machine)
     return Step(program, name, machine.run())

@@ -9,7 +9,7 @@ import textwrap
 from collections.abc import Iterator
 
 from emulator.errors import DeckError
-from modern.cli.main import DIFFERS, OK
+from modern.cli.exits import DIFFERS, OK
 from modern.edition import decks
 from modern.edition.apparatus import Row
 from modern.edition.chapter6_checks import check_chapter

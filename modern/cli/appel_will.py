@@ -9,8 +9,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from emulator.cards import write_text
-from modern.cli.common import check_places, say
-from modern.cli.main import DIFFERS, OK
+from modern.cli.common import check_places, counted, say
+from modern.cli.exits import DIFFERS, OK
 from modern.export import off
 from modern.export.mesh import Mesh
 from modern.export.off import parse_off
@@ -60,14 +60,15 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _report(found: Input, given: Sequence[Surface], hull: Assembled, trace: bool, width: int) -> Iterator[str]:
-    surfaces = f", {len(given)} surfaces" if given else ""
-    yield f"{found.source}: {len(found.points)} points{surfaces}"
+    surfaces = f", {counted(len(given), 'surface')}" if given else ""
+    yield f"{found.source}: {counted(len(found.points), 'point')}{surfaces}"
     if hull.preprocessing is not None:
         yield from _preprocessing(hull.preprocessing)
     if hull.deleted:
         between = (f"{d.point + 1} ({_line(d.between)})" for d in hull.deleted)
         yield f"deleted as between two others: {', '.join(between)}"
-    yield f"{hull.projections} projections; {KINDS[hull.dimension]} of {len(hull.vertices)} points"
+    of = f" of {len(hull.vertices)} points" if hull.dimension else ""
+    yield f"{counted(hull.projections, 'projection')}; {KINDS[hull.dimension]}{of}"
     yield ""
     yield "Vertex list"
     yield from _table(("Point", "X", "Y", "Z"), ((str(i + 1), *found.points[i]) for i in hull.vertices))

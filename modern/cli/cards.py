@@ -6,7 +6,7 @@ import argparse
 
 from emulator.cards import write_text
 from modern.cli.common import say
-from modern.cli.main import OK
+from modern.cli.exits import OK
 from modern.hulldeck import MAX_POINTS
 from modern.points import deck_lines, read_rows
 

@@ -6,7 +6,7 @@ import argparse
 
 from emulator.compiler import translate
 from modern.cli.common import layers_of, source_deck
-from modern.cli.main import BAD_INPUT, OK
+from modern.cli.exits import BAD_INPUT, OK
 
 
 def main(args: argparse.Namespace) -> int:

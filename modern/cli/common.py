@@ -7,11 +7,15 @@ import os
 import sys
 from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 
-from emulator import arithmetic
+from emulator.arithmetic import TRUNCATING, Rules
 from emulator.cards import Deck, read_deck, write_text, writing
 from emulator.compiler import compile_deck
 from emulator.errors import DeckError
+from emulator.fields import FALLBACK
+from emulator.numbers import DecimalNumbers, Numbers, numbers
+from emulator.numbers.base import cutting_rules
 from emulator.objectcode import Program
 from emulator.result import ERRORS, Options, Result
 from emulator.trace import Tracer
@@ -44,13 +48,26 @@ def load_program(name: str, layers: tuple[str, ...]) -> Program:
 
 def machine_options(args: argparse.Namespace) -> Options:
     """The machine the options describe.  Raises DeckError for an unknown arithmetic or a limit below 1."""
-    try:
-        profile = arithmetic.profile(args.arithmetic)
-    except ValueError as error:
-        raise DeckError(f"--arithmetic: {error}") from None
+    found = number_system(args.arithmetic, "--arithmetic")
     if args.limit < 1:
         raise DeckError(f"--limit: {args.limit} is no number of statements")
-    return Options(profile, frozenset(args.switch), args.core, args.bounds, args.limit)
+    options = Options(TRUNCATING, frozenset(args.switch), args.core, args.bounds, args.limit)
+    if isinstance(found, DecimalNumbers):
+        return replace(options, profile=found.profile)
+    return replace(options, numbers=found)
+
+
+def number_system(name: str, option: str) -> Numbers:
+    """An arithmetic by name.  Raises DeckError, which names the option."""
+    try:
+        return numbers(name)
+    except ValueError as error:
+        raise DeckError(f"{option}: {error}") from None
+
+
+def card_rules(options: Options) -> Rules:
+    """How many digits of a card's field the machine takes: all of them where its numbers are not decimal."""
+    return options.profile.rules if options.numbers is None else cutting_rules(FALLBACK.width)
 
 
 def put_out(args: argparse.Namespace, punched: Iterable[str], typed: Iterable[str]) -> None:
@@ -83,6 +100,11 @@ def check_places(*paths: str | None) -> None:
     real = [os.path.realpath(path) for path in named if os.path.isfile(path) or not os.path.exists(path)]
     if len(set(real)) < len(real):
         raise DeckError("two outputs are to go to one file")
+
+
+def counted(count: int, what: str) -> str:
+    """``1 voxel``, ``2 voxels``."""
+    return f"{count} {what}{'s' * (count != 1)}"
 
 
 def say(lines: Iterable[str]) -> None:

@@ -11,7 +11,7 @@ from emulator.cards import Deck, deck_from_lines, write_text
 from emulator.errors import DeckError
 from emulator.result import Options
 from modern.cli.common import layers_of, say
-from modern.cli.main import DIFFERS, OK
+from modern.cli.exits import DIFFERS, OK
 from modern.comparison.against import Disagreement, against
 from modern.comparison.outcome import Outcome, Vector, from_cards, from_hull, from_judge
 from modern.edition import decks

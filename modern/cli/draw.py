@@ -7,8 +7,8 @@ from pathlib import PurePath
 
 from emulator.cards import write_text
 from modern.cli.common import say
+from modern.cli.exits import DIFFERS, OK
 from modern.cli.export import exact_hull_of
-from modern.cli.main import DIFFERS, OK
 from modern.draw import draw_svg
 from modern.drawing.scene import eye_of
 

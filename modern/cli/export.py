@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from modern.cli.common import say
-from modern.cli.main import DIFFERS, OK
+from modern.cli.exits import DIFFERS, OK
 from modern.export import format_of, write_hull
 from modern.export.numbers import ExportError
 from modern.hull import Hull

@@ -9,8 +9,8 @@ from pathlib import PurePath
 
 from emulator.cards import write_text
 from modern.cli.common import check_places, say
+from modern.cli.exits import OK
 from modern.cli.export import exact_hull_of
-from modern.cli.main import OK
 from modern.drawing.scene import eye_of
 from modern.export.mesh import Vector
 from modern.export.reading import read_off

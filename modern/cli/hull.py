@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 
 from emulator.cards import read_deck
 from emulator.machine import Machine
 from emulator.objectcode import Program
 from modern import hulldeck
-from modern.cli.common import check_places, layers_of, machine_options, put_out, say, say_warnings, tracing
-from modern.cli.main import DIFFERS, OK
+from modern.cli.common import card_rules, check_places, layers_of, machine_options, put_out, say, say_warnings, tracing
+from modern.cli.exits import DIFFERS, OK
 from modern.cli.profile import profile_lines
 from modern.edition import decks
 from modern.hullrun import HullRun, run_hull
@@ -17,11 +18,11 @@ from modern.hullrun import HullRun, run_hull
 
 def main(args: argparse.Namespace) -> int:
     """Check the deck, run every data set, put out the final cards."""
-    options = machine_options(args)
+    options = replace(machine_options(args), uncut=args.uncut)
     check_places(args.punch, args.typewriter, args.trace)
     layers = layers_of(args)
     first = "program1_examples" if args.programs == "examples" else "program1"
-    checked = hulldeck.check(read_deck(args.deck), options.profile.rules, epsilon="epsilon" in layers)
+    checked = hulldeck.check(read_deck(args.deck), card_rules(options), epsilon="epsilon" in layers)
     load = decks.loader(layers)
     load(first)
     runs: list[HullRun] = []

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from emulator import objectcode as op
 from emulator.objectcode import Instruction, Program
 from modern.cli.common import layers_of, load_program
-from modern.cli.main import OK
+from modern.cli.exits import OK
 
 
 def main(args: argparse.Namespace) -> int:

@@ -9,8 +9,8 @@ from collections.abc import Callable, Iterable, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.cli.common import check_places, say
-from modern.cli.main import DIFFERS, OK
+from modern.cli.common import check_places, counted, say
+from modern.cli.exits import DIFFERS, OK
 from modern.cli.volumes import volume_of
 from modern.digital.volumes import VolumeError, write_npy
 from modern.papers.yau_srihari import OctreeHull, Printed, octree_hull
@@ -33,7 +33,7 @@ def main(args: argparse.Namespace) -> int:
     if args.output is not None:
         write_npy(args.output, hull.filled)
     x, y, z = (*volume.origin, 0)[:3]
-    for line in _lines(hull, (x, y, z), args.trace):
+    for line in _lines(hull, volume.source, (x, y, z), args.trace):
         print(line)
     if printed.names():
         say([f"note: taken as printed: {', '.join(printed.names())}"])
@@ -48,7 +48,7 @@ def _printed(args: argparse.Namespace) -> Printed:
     if args.literal:
         return LITERAL
     try:
-        return Printed.only(*(name.strip() for name in args.printed.split(","))) if args.printed else Printed()
+        return Printed() if args.printed is None else Printed.only(*(name.strip() for name in args.printed.split(",")))
     except ValueError as error:
         raise VolumeError(f"--printed: {error}") from None
 
@@ -56,13 +56,14 @@ def _printed(args: argparse.Namespace) -> Printed:
 def _compared(literal: NDArray[np.bool_], corrected: NDArray[np.bool_]) -> int:
     """What the printed statements make of the hull; DIFFERS if it is another."""
     missing, more = int(np.count_nonzero(corrected & ~literal)), int(np.count_nonzero(literal & ~corrected))
-    print(f"against the corrected algorithm: {missing} voxels missing, {more} too many")
+    print(f"against the corrected algorithm: {counted(missing, 'voxel')} missing, {more} too many")
     return DIFFERS if missing or more else OK
 
 
-def _lines(hull: OctreeHull, origin: Point, trace: bool) -> Iterator[str]:
-    side, x, y, z = hull.side, *origin
-    yield f"solid: {hull.given} voxels, an octree of {nodes(hull.solid)} nodes over a cube of side {side}"
+def _lines(hull: OctreeHull, source: str, origin: Point, trace: bool) -> Iterator[str]:
+    x, y, z = origin
+    over = f"an octree of {counted(nodes(hull.solid), 'node')} over a cube of side {hull.side}"
+    yield f"{source}: {counted(hull.given, 'voxel')}, {over}"
     floor = {(i + x, j + y): value + z for (i, j), value in hull.floor.items()}
     ceiling = {(i + x, j + y): value + z for (i, j), value in hull.ceiling.items()}
     yield from _table("floor", floor)
@@ -71,7 +72,7 @@ def _lines(hull: OctreeHull, origin: Point, trace: bool) -> Iterator[str]:
     yield from _side("ceiling", hull.upper, len(ceiling), origin, -1, trace)
     parts = hull.components
     what = "digital hull" if parts == 1 else f"digital points of the hull of {parts} 6-connected parts"
-    yield f"{what}: {hull.voxels} voxels, an octree of {nodes(hull.hull)} nodes"
+    yield f"{what}: {counted(hull.voxels, 'voxel')}, an octree of {counted(nodes(hull.hull), 'node')}"
 
 
 def _table(name: str, heights: dict[Place, int]) -> Iterator[str]:
@@ -102,7 +103,7 @@ def _side(name: str, found: Envelope, columns: int, origin: Point, sign: int, tr
         yield f"{name}: over one line; vertices of its envelope:"
         yield from _wrapped(_shown(at(point)) for point in found.chain)
         return
-    yield f"{name}: {len(found.faces)} face{'s' * (len(found.faces) != 1)}, outward normal and vertices:"
+    yield f"{name}: {counted(len(found.faces), 'face')}, outward normal and vertices:"
     for face in found.faces:
         # Turned over, the vertices of a ceiling's face run clockwise seen from outside.
         vertices = " ".join(_shown(at(vertex)) for vertex in face.vertices[::sign])

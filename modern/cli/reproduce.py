@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, TextIO
 from emulator.cards import write_text
 from emulator.errors import DeckError
 from modern.cli.common import check_places
-from modern.cli.main import DIFFERS, OK
+from modern.cli.exits import DIFFERS, OK
 from modern.edition.printed import EXAMPLES, THEOREMS
 from modern.edition.reproduce import Report, reproduce, summary
 from modern.edition.verdicts import DIFFERENT, EXACT, ORDER, SPACING

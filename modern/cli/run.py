@@ -18,7 +18,7 @@ from modern.cli.common import (
     say_warnings,
     tracing,
 )
-from modern.cli.main import DIFFERS, OK
+from modern.cli.exits import DIFFERS, OK
 from modern.cli.profile import profile_lines
 from modern.hullrun import refusal
 

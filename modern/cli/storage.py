@@ -10,7 +10,7 @@ from emulator.objectcode import Program
 from emulator.storage import FIELD, core_address
 from modern.capacity import capacity_lines
 from modern.cli.common import layers_of, load_program
-from modern.cli.main import OK
+from modern.cli.exits import OK
 from modern.edition import decks
 
 _PLURALS = {"constant": "constants", "temporary": "temporaries", "statement number": "statement numbers"}

@@ -6,8 +6,8 @@ import argparse
 from collections.abc import Iterator
 
 from emulator.cards import write_text
-from modern.cli.common import check_places
-from modern.cli.main import OK
+from modern.cli.common import check_places, counted
+from modern.cli.exits import OK
 from modern.cli.volumes import volume_of
 from modern.digital.volumes import Volume, VolumeError, write_npy
 from modern.export import FORMATS, mesh_text
@@ -23,7 +23,7 @@ def main(args: argparse.Namespace) -> int:
     form = _form(args)
     check_places(args.output)
     volume = volume_of(args)
-    print(f"{volume.source}: {_voxels(volume.count)}")
+    print(f"{volume.source}: {counted(volume.count, 'voxel')}")
     if args.fill:
         _fill(volume, args.output)
         return OK
@@ -77,7 +77,7 @@ def _fill(volume: Volume, output: str | None) -> None:
     hull = digital_hull(volume)
     if output is not None:
         write_npy(output, hull.filled)
-    print(f"filled hull of the voxels' centres ({hull.kind}): {_voxels(hull.voxels)}")
+    print(f"filled hull of the voxels' centres ({hull.kind}): {counted(hull.voxels, 'voxel')}")
     if any(volume.origin):
         print(f"the array's first voxel is {volume.origin}")
 
@@ -102,10 +102,6 @@ def _count_lines(hull: VoxelHull, of: str) -> Iterator[str]:
         f"{cell_list_size(len(faces.vertices), len(faces.faces))} for the cell list by (6), "
         f"{economical_size(faces)} counted"
     )
-
-
-def _voxels(count: int) -> str:
-    return f"{count} voxel" if count == 1 else f"{count} voxels"
 
 
 def _cells(cells: CellList) -> str:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import isqrt
+from math import gcd, isqrt, lcm
+from typing import NamedTuple
 
 from modern.comparison.outcome import Equation, Outcome, Vector
 
@@ -19,7 +21,8 @@ class Disagreement:
 
     ``error`` is the largest relative error of a coefficient among the equations found, relative to the
     equation's largest coefficient of x, y and z (of D: to the largest of all); ``excluded`` the greatest
-    distance, to six digits, of a point outside an equation of the outcome, and which point.
+    distance, to six digits, of a point outside an equation of the outcome, and which point.  ``places``: for each
+    equation of the outcome the judge's it was taken for, -1 where it is none of them.
     """
 
     missed: frozenset[int]
@@ -31,6 +34,7 @@ class Disagreement:
     error: Fraction
     excluded: Fraction
     excluded_point: int | None
+    places: tuple[int, ...] = ()
 
     @property
     def agrees(self) -> bool:
@@ -56,29 +60,64 @@ def against(outcome: Outcome, judge: Outcome, points: Sequence[Vector]) -> Disag
         {i for i, kind in right.items() if filed.get(i) != kind and i not in outcome.vertices} if lists else set()
     )
     misfiled |= {i for i in filed if i not in right and i not in missed}
-    missing, extra, doubled, error = _match(outcome.equations, judge.equations)
-    if not outcome.equations and not lists:
-        missing = 0
-    distance, farthest = _excluded(outcome.equations, points)
+    matches = _match(outcome.equations, judge.equations)
+    places = tuple(match.place for match in matches)
+    hits = Counter(places)
+    extra = hits.pop(-1, 0)
+    missing = len(judge.equations) - len(hits) if outcome.equations or lists else 0
+    doubled = sum(hits.values()) - len(hits)
+    error = max((match.error for match in matches if match.place >= 0), default=Fraction(0))
+    # What is exactly an equation of the judge's excludes no point.
+    others = [e for e, match in zip(outcome.equations, matches, strict=True) if match.place < 0 or match.error]
+    distance, farthest = _excluded(others, points)
     return Disagreement(
-        frozenset(missed), frozenset(added), frozenset(misfiled), missing, extra, doubled, error, distance, farthest
+        frozenset(missed),
+        frozenset(added),
+        frozenset(misfiled),
+        missing,
+        extra,
+        doubled,
+        error,
+        distance,
+        farthest,
+        places,
     )
 
 
-def _match(found: Sequence[Equation], right: Sequence[Equation]) -> tuple[int, int, int, Fraction]:
-    """(missing, extra, doubled, largest error): each equation found goes to the nearest right one."""
-    scaled = [_scaled(equation) for equation in right]
-    hits = [0] * len(right)
-    extra, worst = 0, Fraction(0)
+class _Match(NamedTuple):
+    """The judge's equation nearest to one found, -1 where none is near, and how far it is."""
+
+    place: int
+    error: Fraction
+
+
+def _match(found: Sequence[Equation], right: Sequence[Equation]) -> list[_Match]:
+    """Each equation found goes to the nearest right one, the first of equals."""
+    exactly: dict[tuple[int, ...], int] = {}
+    for place, equation in enumerate(right):
+        exactly.setdefault(_whole(equation), place)
+    scaled: list[Equation] = []
+    matches = []
     for equation in found:
-        errors = [_distance(_scaled(equation), other) for other in scaled]
-        best = min(range(len(errors)), key=errors.__getitem__, default=None)
-        if best is None or errors[best] > NEAR:
-            extra += 1
+        place = exactly.get(_whole(equation), -1)
+        if place >= 0 and any(equation[:3]):
+            matches.append(_Match(place, Fraction(0)))
             continue
-        hits[best] += 1
-        worst = max(worst, errors[best])
-    return hits.count(0), extra, sum(n - 1 for n in hits if n > 1), worst
+        scaled = scaled or [_scaled(other) for other in right]
+        own = _scaled(equation)
+        errors = [_distance(own, other) for other in scaled]
+        best = min(range(len(errors)), key=errors.__getitem__, default=-1)
+        near = best >= 0 and errors[best] <= NEAR
+        matches.append(_Match(best if near else -1, errors[best] if near else Fraction(0)))
+    return matches
+
+
+def _whole(numbers: Sequence[Fraction]) -> tuple[int, ...]:
+    """The numbers times a positive factor, as integers without common divisor: equal for equal scaled equations."""
+    scale = lcm(*(c.denominator for c in numbers))
+    whole = [c.numerator * (scale // c.denominator) for c in numbers]
+    divisor = gcd(*whole) or 1
+    return tuple(c // divisor for c in whole)
 
 
 def _scaled(equation: Equation) -> Equation:
@@ -95,14 +134,23 @@ def _distance(one: Equation, other: Equation) -> Fraction:
 def _excluded(equations: Sequence[Equation], points: Sequence[Vector]) -> tuple[Fraction, int | None]:
     """The greatest distance of a point beyond an equation, and the point."""
     worst, which = Fraction(0), None
-    for a, b, c, d in equations:
+    if not equations:
+        return worst, which
+    scale = lcm(*(c.denominator for point in points for c in point))
+    places = [tuple(c.numerator * (scale // c.denominator) for c in point) for point in points]
+    for equation in equations:
+        # The distance is the same for any positive multiple of the equation.
+        a, b, c, d = _whole(equation)
         square = a * a + b * b + c * c
         if not square:
             continue
-        for index, (x, y, z) in enumerate(points):
-            value = a * x + b * y + c * z + d
-            if value > 0 and value * value > worst * worst * square:
-                worst, which = _root(value * value / square), index
+        d *= scale
+        for index, (x, y, z) in enumerate(places):
+            number = a * x + b * y + c * z + d
+            if number > 0:
+                value = Fraction(number, scale)
+                if value * value > worst * worst * square:
+                    worst, which = _root(value * value / square), index
     return worst, which
 
 

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from modern.edition.cardhull import read_hull
+from modern.edition.cardhull import CardHull, read_hull
 from modern.exact_hull import ExactHull
 from modern.hull import DETERMINED, Hull
 from modern.hullrun import HullRun
@@ -58,18 +58,23 @@ def from_cards(name: str, run: HullRun, points: Sequence[Vector]) -> Outcome:
     broken = next((step for step in run.steps if not step.result.ending.normal), None)
     if broken is not None:
         return Outcome(name, _ending(broken.result.ending.kind), -1, notes=(broken.result.ending.message,))
-    hull = read_hull(run.final.result.punched)
+    return from_card_hull(name, run.final.name, read_hull(run.final.result.punched), points)
+
+
+def from_card_hull(name: str, program: str, hull: CardHull, points: Sequence[Vector]) -> Outcome:
+    """The outcome a hull on cards is, punched by ``program`` (a built-in's name) as the last of a complete run."""
     where = places(points)
     sets, strange = [], 0
     for group in (hull.vertices, hull.boundary, hull.inside):
         known = [where[point] for point in group if point in where]
         strange += len(group) - len(known)
         sets.append(frozenset(known))
-    dimension = {"program2": 2, "program3": 3}.get(run.final.name, min(len(hull.vertices), 3) - 1)
+    dimension = {"program2": 2, "program3": 3}.get(program, min(len(hull.vertices), 3) - 1)
+    first = program not in ("program2", "program3")
     equations: list[Equation] = []
-    if dimension >= 2 and run.final.name != "program1":
+    if not first:
         equations = [_four(equation) for equation in hull.equations]
-    notes = _line_faults(hull.equations, hull.satisfied, hull.vertices) if run.final.name == "program1" else ()
+    notes = _line_faults(hull.equations, hull.satisfied, hull.vertices) if first else ()
     return Outcome(name, DETERMINED, dimension, sets[0], sets[1], sets[2], tuple(equations), strange, notes)
 
 

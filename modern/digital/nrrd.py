@@ -36,13 +36,14 @@ _TYPES = {
 }
 _CODES = {name: code for code, names in _TYPES.items() for name in names}
 _ENDIANS = {"little": "<", "big": ">"}
+_RAW, _PACKED = "raw", ("gzip", "gz")
 
 
 def parse_nrrd(data: bytes, source: str) -> NDArray[Any]:
     """The array of an NRRD file, indexed [x, y] or [x, y, z].
 
     source: the name messages use; a detached header's data file is looked for beside it.  Raises VolumeError with the
-    header's line for a field that is missing, unknown here or no number, and for data that are too short.
+    header's line for a field that is missing, unknown here or no number, and for data that are too short, too long or damaged.
     """
     head, body = _cut(data)
     fields = _fields(head, source)
@@ -56,6 +57,9 @@ def parse_nrrd(data: bytes, source: str) -> NDArray[Any]:
     sizes = tuple(int(word) for word in words)
     if math.prod(sizes) > MAX_CELLS:
         raise VolumeError(f"{source}: line {line}: a volume of more than {MAX_CELLS} voxels is not read")
+    line, encoding = fields["encoding"]
+    if encoding.lower() not in (_RAW, *_PACKED):
+        raise VolumeError(f"{source}: line {line}: encoding: {encoding!r} is not read, only raw and gzip")
     kind = _type(fields, source)
     for name in ("line skip", "byte skip"):
         if name in fields and _number(fields, name, source):
@@ -63,10 +67,13 @@ def parse_nrrd(data: bytes, source: str) -> NDArray[Any]:
     if "data file" in fields:
         body = _beside(source, *fields["data file"])
     wanted = math.prod(sizes) * kind.itemsize
-    body = _decoded(body, wanted, source, *fields.get("encoding", (0, "")))
+    if encoding.lower() in _PACKED:
+        body = _unpacked(body, wanted, source)
     if len(body) < wanted:
         raise VolumeError(f"{source}: the data end after {len(body)} of {wanted} bytes")
-    return np.frombuffer(body, kind, math.prod(sizes)).reshape(sizes, order="F")
+    if len(body) > wanted:
+        raise VolumeError(f"{source}: the data go on behind the {wanted} bytes of {'x'.join(map(str, sizes))} numbers")
+    return np.frombuffer(body, kind).reshape(sizes, order="F")
 
 
 def _cut(data: bytes) -> tuple[bytes, bytes]:
@@ -136,14 +143,11 @@ def _beside(source: str, line: int, name: str) -> bytes:
         raise VolumeError(f"{source}: line {line}: {name}: {why.lower()}") from None
 
 
-def _decoded(body: bytes, wanted: int, source: str, line: int, encoding: str) -> bytes:
-    """The data's bytes; of a packed file no more than are wanted are unpacked."""
-    if encoding.lower() == "raw":
-        return body
-    if encoding.lower() not in ("gzip", "gz"):
-        raise VolumeError(f"{source}: line {line}: encoding: {encoding!r} is not read, only raw and gzip")
+def _unpacked(body: bytes, wanted: int, source: str) -> bytes:
+    """The data of a packed file, checked by its checksum; of longer data one byte more than is wanted."""
     try:
         with gzip.GzipFile(fileobj=io.BytesIO(body)) as packed:
-            return packed.read(wanted)
+            found = packed.read(wanted)
+            return found + packed.read(1)
     except (OSError, EOFError, zlib.error) as error:
         raise VolumeError(f"{source}: the data cannot be unpacked: {str(error).lower()}") from None

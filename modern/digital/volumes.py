@@ -101,7 +101,7 @@ def _npy(data: bytes, source: str) -> NDArray[Any]:
 def _raw(data: bytes, source: str, shape: Sequence[int] | None, dtype: str) -> NDArray[Any]:
     try:
         kind = np.dtype(dtype)
-    except TypeError:
+    except (TypeError, ValueError, SyntaxError, OverflowError):  # numpy reads a small language here
         raise VolumeError(f"--dtype: {shown(dtype)} is no type of numbers; for instance uint8, int16, >i2") from None
     if kind.kind not in "biuf":
         raise VolumeError(f"--dtype: {kind} is no type of numbers; for instance uint8, int16, >i2")

@@ -112,6 +112,12 @@ def _same_deck(printed: Sequence[str], produced: Sequence[str]) -> bool:
     return one.count == other.count and Counter(one.points) == Counter(other.points) and _planes_fit(other)
 
 
+def planes_hold(cards: Sequence[str]) -> bool:
+    """Whether every plane of an intermediate deck vanishes exactly at the points it names; true of other decks."""
+    middle = _middle(cards)
+    return middle is None or _planes_fit(middle)
+
+
 def _middle(cards: Sequence[str]) -> _Middle | None:
     for i, card in enumerate(cards):
         if card.strip() and not floats(card):

@@ -3,22 +3,84 @@
 from __future__ import annotations
 
 import signal
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
+
+import pytest
 
 from emulator import objectcode as op
 from emulator.arithmetic import FIXED_POINT, MINUS_ZERO, UNDEFINED, ZERO, profile
+from emulator.batch import run_batch
 from emulator.cards import Deck, deck_from_lines
+from emulator.compiled import why_plain
 from emulator.compiler import compile_deck, translate
-from emulator.errors import Diagnostic
+from emulator.errors import Diagnostic, EmulatorError
 from emulator.machine import Machine
+from emulator.numbers import DecimalNumbers
 from emulator.objectcode import Program
 from emulator.result import Options, Result
+from emulator.runner import BLOCK, Runner, packed
 
 MakeMachine = Callable[[Program, Deck, Options], Machine]
 
-ENGINES: dict[str, MakeMachine] = {"plain": Machine}
+
+def hosted(made: Program, data: Deck, options: Options) -> Machine:
+    """A machine over the same decimal numbers as numbers of Python (emulator/hosted.py)."""
+    return Machine(made, data, replace(options, numbers=DecimalNumbers(options.profile)))
+
+
+class ComparedMachine(Machine):
+    """A machine whose run must be that of the compiled engine too: result, and every field of core afterwards."""
+
+    def run(self) -> Result:
+        pytest.importorskip("numba")
+        result = super().run()
+        runner = compiled_in_core(self.program, self.options)
+        if runner is not None:
+            (run,) = runner.runs([packed(self.deck)])
+            if run is not None:
+                assert runner.core.mantissas.tolist() == self.mantissas  # type: ignore[attr-defined]
+                assert runner.core.exponents.tolist() == self.exponents  # type: ignore[attr-defined]
+        assert run_batch(self.program, [self.deck], self.options) == (result,)
+        return result
+
+
+ENGINES: dict[str, MakeMachine] = {"plain": Machine, "hosted": hosted, "compiled": ComparedMachine}
 """The engines every vector runs on: a name, and what makes a machine with that engine."""
+
+
+def compiled_in_core(program: Program, options: Options) -> Runner | None:
+    """The compiled engine with a program in core; None where the plain one is to run it."""
+    return None if why_plain(options) else Runner(program, options)
+
+
+def agreed(program: Program, decks: Sequence[Deck], options: Options) -> int:
+    """Run decks on both engines, which must agree in everything; how many the compiled one ran by itself.
+
+    A deck that raises an error must raise the same from both.
+    """
+    runner = compiled_in_core(program, options)
+    alone = 0
+    for start in range(0, len(decks), BLOCK):
+        block = decks[start : start + BLOCK]
+        runs = runner.runs([packed(deck) for deck in block]) if runner else iter([None] * len(block))
+        alone += sum(run is not None for run in runs)
+    good = []
+    for deck in decks:
+        try:
+            good.append((deck, Machine(program, deck, options).run()))
+        except EmulatorError as error:
+            kind, words = type(error), str(error)
+        else:
+            continue
+        with pytest.raises(kind) as caught:
+            run_batch(program, [deck], options)
+        assert str(caught.value) == words
+    found = run_batch(program, [deck for deck, _ in good], options)
+    for (deck, expected), result in zip(good, found, strict=True):
+        assert result == expected, deck.text()
+    return alone
 
 
 def source(*lines: str) -> Deck:
@@ -84,6 +146,8 @@ def number(of: Machine, name: str) -> str:
     """A field of core by its name: all digits of a floating number, ``-0``, ``undefined``, or a whole number."""
     entry = next(e for e in of.program.storage.entries if e.kind == "variable" and e.name == name)
     mantissa, exponent = of.mantissas[entry.first], of.exponents[entry.first]
+    if isinstance(mantissa, tuple):
+        mantissa, exponent = mantissa
     if exponent == UNDEFINED:
         return "undefined"
     if exponent == FIXED_POINT:

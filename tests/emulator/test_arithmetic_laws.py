@@ -95,6 +95,19 @@ def test_sums_are_those_of_the_operand_cut_first(case: tuple[Profile, Number, Nu
     assert plus(a, b, found) == nearest(exact, p, half=False)
 
 
+@given(operands("guarded"))
+def test_a_guard_digit_keeps_the_first_of_the_digits_that_drop_off(case: tuple[Profile, Number, Number]) -> None:
+    found, a, b = case
+    p = found.digits
+    if a[1] < b[1]:
+        a, b = b, a
+    kept = Fraction(abs(b[0]) * 10 // 10 ** (a[1] - b[1]), 10) * (1 if b[0] > 0 else -1)
+    exact = (Fraction(a[0]) + kept) * Fraction(10) ** (a[1] - p)
+    assert plus(a, b, found) == nearest(exact, p, half=False)
+    assert multiply(*a, *b, found.rules) == nearest(value(a, p) * value(b, p), p, half=False)
+    assert divide(*a, *b, found.rules) == nearest(value(a, p) / value(b, p), p, half=False)
+
+
 @given(operands("rounding"))
 def test_rounding_gives_the_exact_result_rounded(case: tuple[Profile, Number, Number]) -> None:
     found, a, b = case
@@ -113,7 +126,7 @@ def test_ibm1962_rounds_products_only(case: tuple[Profile, Number, Number]) -> N
     assert multiply(*a, *b, rules) == nearest(value(a, p) * value(b, p), p, half=True)
 
 
-families = st.sampled_from(["truncating", "rounding"])
+families = st.sampled_from(["truncating", "guarded", "rounding"])
 
 
 @given(families.flatmap(operands))
@@ -211,7 +224,7 @@ def test_wrap(whole: int) -> None:
 # Names.
 
 
-@pytest.mark.parametrize("name", ["truncating", "ibm1962", "truncating:2", "rounding:28", "truncating:08"])
+@pytest.mark.parametrize("name", ["truncating", "ibm1962", "truncating:2", "guarded:5", "rounding:28", "truncating:08"])
 def test_profiles_by_name(name: str) -> None:
     assert profile(name).name == name
 

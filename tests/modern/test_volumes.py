@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import gzip
 import io
+import tracemalloc
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -108,6 +110,14 @@ def test_nrrd(encoding: str, kind: str, dtype: str, fields: tuple[str, ...]) -> 
     assert same(parse_volume(nrrd(array, kind, *fields, encoding=encoding), "a.nrrd"), array)
 
 
+@pytest.mark.parametrize(("endian", "dtype"), [("little", "<f4"), ("big", ">f4")])
+def test_a_negative_zero_is_no_voxel_in_either_order_of_bytes(endian: str, dtype: str) -> None:
+    array = np.array([[1.0, -0.0, 2.0]], dtype=dtype)
+    data = nrrd(array, "float", f"endian: {endian}", data=array.tobytes(order="F"))
+    assert parse_volume(data, "a.nrrd").array.tolist() == [[True, False, True]]
+    assert parse_volume(array.tobytes(), "raw", (1, 3), dtype).array.tolist() == [[True, False, True]]
+
+
 def test_nrrd_with_its_data_in_another_file(tmp_path: Path) -> None:
     array = STEPS.astype("u1")
     (tmp_path / "a.raw").write_bytes(array.tobytes(order="F"))
@@ -121,8 +131,20 @@ def test_nrrd_with_its_data_in_another_file(tmp_path: Path) -> None:
 
 def test_a_packed_nrrd_is_not_unpacked_beyond_its_sizes() -> None:
     array = np.ones((2, 2, 2), dtype="u1")
-    packed = gzip.compress(bytes([1]) * 8 + bytes(10**6))
-    assert parse_volume(nrrd(array, "uchar", encoding="gzip", data=packed), "a.nrrd").count == 8
+    packed = gzip.compress(bytes([1]) * 8 + bytes(10**9))
+    tracemalloc.start()
+    with pytest.raises(VolumeError, match=r"a\.nrrd: the data go on behind the 8 bytes of 2x2x2 numbers"):
+        parse_volume(nrrd(array, "uchar", encoding="gzip", data=packed), "a.nrrd")
+    assert tracemalloc.get_traced_memory()[1] < 10**7
+    tracemalloc.stop()
+
+
+@pytest.mark.parametrize("damage", [lambda packed: packed[:-8], lambda packed: packed[:-8] + bytes(8)])
+def test_a_packed_nrrd_is_checked_by_its_checksum(damage: Callable[[bytes], bytes]) -> None:
+    array = np.ones((2, 2, 2), dtype="u1")
+    packed = damage(gzip.compress(array.tobytes()))
+    with pytest.raises(VolumeError, match=r"a\.nrrd: the data cannot be unpacked"):
+        parse_volume(nrrd(array, "uchar", encoding="gzip", data=packed), "a.nrrd")
 
 
 @given(st.integers(1, 4), st.integers(1, 4), st.integers(1, 4), st.data())
@@ -190,7 +212,9 @@ BAD_HEADER = nrrd(STEPS.astype("u1"), "uchar")
         (BAD_HEADER.replace(b"# a", b"type: a"), "line 3, column 1: type stands twice"),
         (BAD_HEADER.replace(b"key:=", b"byte skip: -1\nkey:="), "line 7: byte skip: only 0 is read"),
         (BAD_HEADER.replace(b"key:=", b"data file: LIST\nkey:="), "line 7: data in several files are not read"),
+        (BAD_HEADER.replace(b"type: uchar", b"type: int").replace(b"raw", b"ascii"), "encoding: 'ascii' is not read"),
         (BAD_HEADER[:-3], "the data end after 21 of 24 bytes"),
+        (BAD_HEADER + b"12", "the data go on behind the 24 bytes of 2x3x4 numbers"),
     ],
 )
 def test_bad_files_are_told_in_one_line(data: bytes, message: str) -> None:
@@ -207,6 +231,8 @@ def test_bad_files_are_told_in_one_line(data: bytes, message: str) -> None:
         ((2, 2, 3), None, "file: 8 bytes; 2x2x3 numbers of uint8 are 12 bytes"),
         ((2, 2, 1), "i1", "file: 8 bytes; 2x2x1 numbers of int8 are 4 bytes"),
         ((2, 2, 2), "nonsense", "--dtype: 'nonsense' is no type of numbers"),
+        ((2, 2, 2), ",", "--dtype: ',' is no type of numbers"),
+        ((2, 2, 2), "(99999999999,)u1", "--dtype: '(99999999999,)u1' is no type of numbers"),
         ((2, 2, 2), "U4", "--dtype: <U4 is no type of numbers"),
         (None, "u1", "--dtype: bare numbers need --shape"),
         ((8,), "u1", "--shape: two or three numbers"),

@@ -8,14 +8,14 @@ voxel's centre is in the first.  Of any other object the result is the convex ob
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
 from modern.digital.solids import MAX_CELLS, Volume, VolumeError
 from modern.papers.kovalevsky_schulz.cells import Economical, Plane, expanded
 from modern.papers.kovalevsky_schulz.corners import CENTRES, VERTICES
+
+Places = NDArray[np.int64]
 
 
 def reconstructed(encoding: Economical, of: str = VERTICES, source: str = "reconstruction") -> Volume:
@@ -45,15 +45,16 @@ def reconstructed(encoding: Economical, of: str = VERTICES, source: str = "recon
     return Volume(np.asarray(array, dtype=np.bool_), low, source)
 
 
-def _intervals(planes: list[Plane], sizes: list[int]) -> tuple[NDArray[Any], NDArray[Any]]:
-    """The first and last z within all planes over every (x, y) of the box; an empty column has first > last."""
-    most = sum(max(abs(plane[k]) for plane in planes) * size for k, size in enumerate([*sizes[:2], 1, 0]) if size)
-    most += max(abs(plane[3]) for plane in planes)
-    kind = np.int64 if most < 2**62 else object
-    x = np.arange(sizes[0]).astype(kind)[:, None]
-    y = np.arange(sizes[1]).astype(kind)[None, :]
-    first = np.zeros((sizes[0], sizes[1]), dtype=kind)
-    last = np.full((sizes[0], sizes[1]), sizes[2] - 1, dtype=kind)
+def _intervals(planes: list[Plane], sizes: list[int]) -> tuple[Places, Places]:
+    """The first and last z within all planes over every (x, y) of the box; an empty column has first > last.
+
+    A normal's component is at most twice the product of two sides of the box, so no term of a plane's value exceeds
+    twice ``MAX_CELLS``: 64 bits hold all values.
+    """
+    x = np.arange(sizes[0], dtype=np.int64)[:, None]
+    y = np.arange(sizes[1], dtype=np.int64)[None, :]
+    first = np.zeros((sizes[0], sizes[1]), dtype=np.int64)
+    last = np.full((sizes[0], sizes[1]), sizes[2] - 1, dtype=np.int64)
     for a, b, c, d in planes:
         rest = -(a * x + b * y + d)
         if c > 0:

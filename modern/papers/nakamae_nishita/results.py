@@ -61,7 +61,7 @@ def _crossing_numbers() -> Iterator[tuple[str, Sequence[str]]]:
         ("d-on-vertex", "means that a vertex overlaps a vertex", ((4, 4), (6, 3), (2, 1))),
         ("d-apart", "means not to intersect", ((2, 2), (2, 3), (6, 3), (6, 2))),
     ):
-        yield name, [f"{contour_tables(_SQUARE, other).crossing_number(upper, 0)} {words}"]
+        yield name, [f"${contour_tables(_SQUARE, other).crossing_number(upper, 0)}$ {words}"]
 
 
 def _contour_sense() -> str:

@@ -117,6 +117,10 @@ def _sight(fields: Fields) -> Sight:
     towards = fields.vector("towards")
     if towards and projection == PARALLEL:
         raise fields.wrong("towards", "a parallel projection has a direction only, eye")
+    if projection == PARALLEL and not any(eye):
+        raise fields.wrong("eye", "the direction of view is 0,0,0")
+    if towards == eye:
+        raise fields.wrong("towards", "it is the observation point")
     fields.done()
     return Sight(eye, projection, towards)
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.digital.solids import Volume, VolumeError
+from modern.digital.solids import MAX_CELLS, Volume, VolumeError
 from modern.papers.yau_srihari import octree as trees
 from modern.papers.yau_srihari.connectivity import components
 from modern.papers.yau_srihari.envelope import Envelope, envelope
@@ -57,8 +57,8 @@ class OctreeHull:
 def octree_hull(volume: Volume | NDArray[np.bool_], printed: Printed | None = None) -> OctreeHull:
     """The digital hull by octrees of a volume of truth values with two or three axes.
 
-    printed: the statements of the paper taken as printed; none by default.  Raises VolumeError for another array and
-    for one without voxels.
+    printed: the statements of the paper taken as printed; none by default.  Raises VolumeError for another array, for
+    one without voxels, and for one whose cube has more than ``MAX_CELLS``.
     """
     volume = volume if isinstance(volume, Volume) else Volume(np.asarray(volume), (0,) * np.ndim(volume))
     printed = printed or Printed()
@@ -66,17 +66,17 @@ def octree_hull(volume: Volume | NDArray[np.bool_], printed: Printed | None = No
     if not array.any():
         raise VolumeError(f"{volume.source}: there are no voxels")
     side = trees.side_for(max(array.shape))
-    cube = np.zeros((side, side, side), dtype=np.bool_)
-    box = tuple(slice(length) for length in array.shape)
-    cube[box] = array
-    solid = trees.octree(cube)
+    if side**3 > MAX_CELLS:
+        raise VolumeError(f"{volume.source}: a cube of side {side}, more than {MAX_CELLS} voxels, is not divided")
+    solid = trees.octree(array)
     lowest, highest = floor(solid, side), ceiling(solid, side)  # step 1
     lower = envelope(lowest, side, printed)  # step 2
     upper = envelope(mirrored(highest), side, printed)  # step 3: the envelope of -beta is that of beta, negated
     hull = trees.intersection(  # step 4
         graph_side(lower.tree, side, above=True), graph_side(mirrored(upper.tree), side, above=False)
     )
-    filled = trees.cube_of(hull, side)[box].reshape(volume.array.shape)
+    nx, ny, nz = array.shape
+    filled = trees.voxels_of(hull, side, (nx, ny, nz)).reshape(volume.array.shape)
     return OctreeHull(
         side, solid, hull, heights(lowest, side), heights(highest, side), lower, upper, filled, components(array)
     )

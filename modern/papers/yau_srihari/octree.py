@@ -7,6 +7,7 @@ Quadrant i is x half (i mod 2), y half (i div 2); the figures with the paper's n
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TypeAlias
 
 import numpy as np
@@ -23,18 +24,9 @@ def side_for(length: int) -> int:
     return 1 << max(0, length - 1).bit_length()
 
 
-def octree(cube: NDArray[np.bool_]) -> Octree:
-    """The tree of a cube of voxels [x, y, z] whose side is a power of two."""
-    if cube.all():
-        return True
-    if not cube.any():
-        return False
-    half = len(cube) // 2
-    return tuple(
-        octree(cube[i * half : (i + 1) * half, j * half : (j + 1) * half, k * half : (k + 1) * half])
-        for i, j in QUADRANTS
-        for k in (0, 1)
-    )
+def octree(array: NDArray[np.bool_]) -> Octree:
+    """The tree of voxels [x, y, z]; its cube has the side ``side_for`` the array's longest and is empty beyond it."""
+    return _divided(array, side_for(max(array.shape)))
 
 
 def joined(sons: tuple[Octree, ...]) -> Octree:
@@ -67,19 +59,32 @@ def nodes(tree: Octree) -> int:
     return 1 if isinstance(tree, bool) else 1 + sum(nodes(son) for son in tree)
 
 
-def cube_of(tree: Octree, side: int) -> NDArray[np.bool_]:
-    """The voxels of a tree as an array [x, y, z]."""
-    cube = np.zeros((side, side, side), dtype=np.bool_)
-    _paint(tree, cube)
-    return cube
+def voxels_of(tree: Octree, side: int, shape: tuple[int, int, int]) -> NDArray[np.bool_]:
+    """The voxels of a tree as an array [x, y, z] of a shape; those of its cube that lie beyond it are left out."""
+    array = np.zeros(shape, dtype=np.bool_)
+    _paint(tree, array, side)
+    return array
 
 
-def _paint(tree: Octree, cube: NDArray[np.bool_]) -> None:
+def _divided(part: NDArray[np.bool_], side: int) -> Octree:
+    """The tree of a cube of which ``part`` is what lies in the array."""
+    if not part.any():
+        return False
+    if part.shape == (side, side, side) and part.all():
+        return True
+    return tuple(_divided(octant, side // 2) for octant in _octants(part, side // 2))
+
+
+def _paint(tree: Octree, part: NDArray[np.bool_], side: int) -> None:
     if isinstance(tree, bool):
-        cube[...] = tree
-        return
-    half = len(cube) // 2
-    for number, son in enumerate(tree):
-        i, j = QUADRANTS[number // 2]
-        k = number % 2
-        _paint(son, cube[i * half : (i + 1) * half, j * half : (j + 1) * half, k * half : (k + 1) * half])
+        part[...] = tree
+    elif part.size:
+        for son, octant in zip(tree, _octants(part, side // 2), strict=True):
+            _paint(son, octant, side // 2)
+
+
+def _octants(part: NDArray[np.bool_], half: int) -> Iterator[NDArray[np.bool_]]:
+    """The eight parts of a cube in the order of the sons, each as far as it lies in the array."""
+    for i, j in QUADRANTS:
+        for k in (0, 1):
+            yield part[i * half : (i + 1) * half, j * half : (j + 1) * half, k * half : (k + 1) * half]

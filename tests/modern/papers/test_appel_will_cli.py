@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from modern.cli.main import build_parser, main
+from modern.cli.arguments import build_parser
+from modern.cli.main import main
 from modern.export import read_off
 from modern.papers.appel_will import RULES
 

@@ -13,6 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
+from modern.digital.chain import lower_chain
 from modern.digital.hull import digital_hull
 from modern.digital.volumes import Volume, VolumeError, ball
 from modern.exact_hull import exact_hull
@@ -164,6 +165,10 @@ def test_the_reduced_set_keeps_every_vertex(seed: int) -> None:
         vertices = {judge.scaled[k] for facet in facets for k in facet.polygon}
         assert {(x, y, sign * z) for x, y, z in vertices} <= set(found.reduced)
         assert {point[:2] for point in found.reduced} <= set(hull.floor)
+        for axis in (0, 1):
+            for at in range(hull.side):
+                on_line = sorted((point[1 - axis], point[2]) for point in found.reduced if point[axis] == at)
+                assert lower_chain(on_line) == on_line
 
 
 @given(SEEDS)
@@ -229,6 +234,11 @@ def test_a_picture_is_a_layer() -> None:
 def test_what_is_no_solid_is_refused(array: np.ndarray) -> None:
     with pytest.raises(VolumeError, match=r"no voxels|a volume is"):
         octree_hull(array)
+
+
+def test_a_solid_longer_than_a_cube_that_can_be_divided_is_refused() -> None:
+    with pytest.raises(VolumeError, match="a cube of side 2048, more than 2147483648 voxels, is not divided"):
+        octree_hull(np.ones((1025, 1, 1), dtype=np.bool_))
 
 
 def test_statements_have_names() -> None:

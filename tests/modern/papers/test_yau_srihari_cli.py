@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from digital_judge import judged, solid_of
 
-from modern.cli.main import build_parser, main
+from modern.cli.arguments import build_parser
+from modern.cli.main import main
 from modern.papers.yau_srihari.printed import NAMES
 
 STAIR = "x,y,z\n5,0,-1\n5,1,-1\n5,1,0\n6,0,-1\n6,0,0\n6,1,0\n6,2,0\n"
@@ -36,7 +37,7 @@ def test_every_stage_is_printed_in_the_coordinates_given(stair: str, capsys: pyt
     code, out, err = call(capsys, "octree-hull", stair)
     assert (code, err) == (0, "")
     assert out == (
-        "solid: 7 voxels, an octree of 25 nodes over a cube of side 4\n"
+        "stair.csv: 7 voxels, an octree of 25 nodes over a cube of side 4\n"
         "floor, x to the right, y up:\n"
         "  2 |  .  0\n"
         "  1 | -1  0\n"
@@ -59,6 +60,13 @@ def test_every_stage_is_printed_in_the_coordinates_given(stair: str, capsys: pyt
         "  (0,0,1): (5,1,0) (6,0,0) (6,2,0)\n"
         "digital hull: 7 voxels, an octree of 25 nodes\n"
     )
+
+
+def test_one_voxel_is_one(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("one.csv").write_text("4,5,6\n")
+    out = call(capsys, "octree-hull", "one.csv")[1].splitlines()
+    assert out[0] == "one.csv: 1 voxel, an octree of 1 node over a cube of side 1"
+    assert out[-1] == "digital hull: 1 voxel, an octree of 1 node"
 
 
 def test_faces_run_counterclockwise_seen_from_outside(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
@@ -132,6 +140,7 @@ def test_what_is_not_connected_says_so(stair: str, capsys: pytest.CaptureFixture
     ("arguments", "message"),
     [
         (["stair.csv", "--printed", "angel"], "--printed: 'angel' is none of angle, start"),
+        (["stair.csv", "--printed", ""], "--printed: '' is none of angle, start"),
         (["stair.csv", "--literal", "--printed", "angle"], "not allowed with argument"),
         (["stair.csv", "-o", "hull.off"], "hull.off: a filled hull is written as an array"),
         (["stair.csv", "-o", "no/hull.npy"], "no/hull.npy: no such file or directory"),

@@ -17,7 +17,7 @@ from hypothesis.extra import numpy as arrays
 from modern.digital.chain import lower_chain
 from modern.papers.yau_srihari import Printed, octree_hull
 from modern.papers.yau_srihari.chains import outline, reduced
-from modern.papers.yau_srihari.octree import QUADRANTS, count, cube_of, intersection, nodes, octree, side_for
+from modern.papers.yau_srihari.octree import QUADRANTS, count, intersection, nodes, octree, side_for, voxels_of
 from modern.papers.yau_srihari.quadtree import (
     Leaf,
     Node,
@@ -33,14 +33,20 @@ from modern.papers.yau_srihari.quadtree import (
 )
 from modern.papers.yau_srihari.search import Search
 
+ARRAYS = arrays.arrays(np.bool_, st.tuples(*[st.integers(1, 9)] * 3))
 CUBES = st.sampled_from([1, 2, 4, 8]).flatmap(lambda side: arrays.arrays(np.bool_, (side, side, side)))
 
 
-@given(CUBES)
-def test_an_octree_holds_its_cube(cube: np.ndarray) -> None:
-    tree = octree(cube)
-    assert np.array_equal(cube_of(tree, len(cube)), cube)
-    assert count(tree, len(cube)) == np.count_nonzero(cube)
+@given(ARRAYS)
+def test_an_octree_holds_its_array(array: np.ndarray) -> None:
+    side = side_for(max(array.shape))
+    cube = np.zeros((side, side, side), dtype=np.bool_)
+    cube[tuple(slice(length) for length in array.shape)] = array
+    tree = octree(array)
+    assert tree == octree(cube)
+    assert np.array_equal(voxels_of(tree, side, array.shape), array)
+    assert np.array_equal(voxels_of(tree, side, cube.shape), cube)
+    assert count(tree, side) == np.count_nonzero(array)
 
 
 @pytest.mark.parametrize(("length", "side"), [(0, 1), (1, 1), (2, 2), (3, 4), (8, 8), (9, 16)])
@@ -126,8 +132,8 @@ def test_a_node_without_unmarked_leaves_has_no_value() -> None:
 def test_epigraph_and_hypograph(cube: np.ndarray) -> None:
     side = len(cube)
     tree = octree(cube)
-    over = cube_of(graph_side(floor(tree, side), side, above=True), side)
-    under = cube_of(graph_side(ceiling(tree, side), side, above=False), side)
+    over = voxels_of(graph_side(floor(tree, side), side, above=True), side, cube.shape)
+    under = voxels_of(graph_side(ceiling(tree, side), side, above=False), side, cube.shape)
     assert np.array_equal(over, np.maximum.accumulate(cube, axis=2))
     assert np.array_equal(under, np.maximum.accumulate(cube[:, :, ::-1], axis=2)[:, :, ::-1])
 

@@ -1,0 +1,167 @@
+"""``mp:BITS``: binary floating point of any number of bits, rounded to nearest, by mpmath.
+
+Exponents go from -100,000 to 100,000 (powers of two); beyond, a number overflows to an infinity or underflows to
+zero, noted with the 1620's error code.  Input and cards: as with the other binary numbers (:mod:`.binary`).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from mpmath import MPContext
+from mpmath.libmp import from_rational, round_nearest
+
+from emulator import engine
+from emulator.arithmetic import ZERO
+from emulator.numbers.base import SHOWN, Numbers, Trap, Undecided, cut_decimal, decimal_length, decimal_text
+
+MIN_BITS, MAX_BITS = 2, 100_000
+MAX_POWER = 100_000
+
+
+@dataclass(frozen=True)
+class MultiprecisionNumbers(Numbers):
+    """Numbers of ``bits`` bits, objects of an mpmath context of their own."""
+
+    bits: int
+
+    @property
+    def name(self) -> str:
+        return f"mp:{self.bits}"
+
+    @property
+    def digits(self) -> float:
+        return self.bits * math.log10(2)
+
+    @cached_property
+    def _context(self) -> Any:
+        context = MPContext()
+        context.prec = self.bits
+        return context
+
+    @cached_property
+    def _infinity(self) -> Any:
+        return self._context.inf
+
+    def decimal(self, whole: int, power: int, minus: bool = False) -> Any:
+        over, under = (whole * 10**power, 1) if power >= 0 else (whole, 10**-power)
+        return self._context.make_mpf(from_rational(over, under, self.bits, round_nearest))
+
+    def add(self, first: Any, second: Any) -> Any:
+        return self._in_range(first + second, engine.SUM_OVER, engine.SUM_UNDER)
+
+    def subtract(self, first: Any, second: Any) -> Any:
+        return self._in_range(first - second, engine.SUM_OVER, engine.SUM_UNDER)
+
+    def multiply(self, first: Any, second: Any) -> Any:
+        return self._in_range(first * second, engine.PRODUCT_OVER, engine.PRODUCT_UNDER)
+
+    def divide(self, dividend: Any, divisor: Any) -> Any:
+        if divisor == 0:
+            sign = 0 if dividend == 0 else 1 if dividend > 0 else -1
+            raise Trap(engine.ZERO_DIVISOR, self._context.nan if sign == 0 else sign * self._infinity)
+        return self._in_range(dividend / divisor, engine.QUOTIENT_OVER, engine.QUOTIENT_UNDER)
+
+    def _in_range(self, value: Any, over: int, under: int) -> Any:
+        _, mantissa, exponent, bits = value._mpf_
+        if mantissa and not -MAX_POWER <= exponent + bits <= MAX_POWER:
+            if exponent > 0:
+                raise Trap(over, self._infinity if value > 0 else -self._infinity)
+            raise Trap(under, self._context.zero)
+        return value
+
+    def negate(self, value: Any) -> Any:
+        return -value
+
+    def sign(self, value: Any) -> int:
+        if self._context.isnan(value):
+            raise Undecided(f"{self.name} has no sign for what is no number (NaN)")
+        return int(value > 0) - int(value < 0)
+
+    def to_integer(self, value: Any) -> int:
+        if not self._context.isfinite(value):
+            raise Undecided(f"{self.name} has no whole number for {value}")
+        size = int(abs(value)) % 10000
+        return -size if value < 0 else size
+
+    def function(self, name: str, value: Any) -> tuple[Any, str]:
+        context = self._context
+        if name == "SQRT":
+            return context.sqrt(abs(value)), ""
+        if name == "LOG":
+            return (-self._infinity, "F2") if value == 0 else (context.log(abs(value)), "F3" if value < 0 else "")
+        if name in ("SIN", "COS") and not context.isfinite(value):
+            return context.nan, "F1"
+        if name == "EXP":
+            return self._exponential(value)
+        return getattr(context, name.lower())(value), ""
+
+    def _exponential(self, value: Any) -> tuple[Any, str]:
+        """EXP, kept from computing what cannot be in range."""
+        if value > MAX_POWER:
+            return self._infinity, "F4"
+        if value < -MAX_POWER:
+            return self._context.zero, "F5"
+        return self._coded(self._context.exp(value), "F4", "F5")
+
+    def _coded(self, value: Any, over: str, under: str) -> tuple[Any, str]:
+        try:
+            return self._in_range(value, 0, 1), ""
+        except Trap as trap:
+            return trap.value, under if trap.event else over
+
+    def power(self, base: Any, exponent: Any) -> tuple[Any, str]:
+        if base == 0:
+            return self.integer_power(base, self.sign(exponent))
+        context, size = self._context, abs(base)
+        if not context.isfinite(exponent) or not context.isfinite(size):
+            return context.nan, "F4"
+        result, code = self._exponential(context.log(size) * exponent)
+        if not code:
+            result, code = self._coded(context.power(size, exponent), "F4", "F5")
+        return result, code or ("F6" if base < 0 else "")
+
+    def integer_power(self, base: Any, count: int) -> tuple[Any, str]:
+        context = self._context
+        if base == 0 and count < 0:
+            return self._infinity, "E7"
+        if base == 0 or not context.isfinite(base):
+            return base**count, ""
+        return self._coded(base**count, "E3", "E4")
+
+    def exact(self, value: Any, digits: int) -> Fraction | int | None:
+        if not self._context.isfinite(value):
+            return None
+        sign, mantissa, exponent, _ = value._mpf_
+        whole = -int(mantissa) if sign else int(mantissa)
+        return whole * 2**exponent if exponent >= 0 else Fraction(whole, 2**-exponent)
+
+    def cut(self, value: Any, digits: int) -> tuple[int, int]:
+        exact = self.exact(value, digits)
+        if exact is None:
+            raise Undecided(f"{value} cannot be put on a card")
+        return cut_decimal(*self._shortest(value, exact), digits) if exact else (0, ZERO)
+
+    def text(self, value: Any) -> str:
+        exact = self.exact(value, SHOWN)
+        if exact:
+            whole, power = self._shortest(value, exact)
+            if decimal_length(whole) <= SHOWN:
+                return decimal_text(whole, power)
+        return super().text(value)
+
+    def _shortest(self, value: Any, exact: Fraction | int) -> tuple[int, int]:
+        """The shortest decimal that is read back as the same number: a whole number and a power of ten."""
+        # Every decimal of so many digits is read back; fewer by two, as the length is known but for one.
+        least = max(int(self.digits) - 2, 1)
+        lead = decimal_length(exact.numerator) - decimal_length(exact.denominator)
+        while True:
+            power = lead - least
+            whole = round(exact / Fraction(10) ** power)
+            if self.decimal(whole, power) == value:
+                return whole, power
+            least += 1

@@ -1,0 +1,42 @@
+"""What is run: program 3 with the layer ``corrected`` over decks of 51 points, as program 1 punches them."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Sequence
+
+from emulator.batch import run_batch
+from emulator.cards import Deck, deck_from_lines
+from emulator.result import Options
+from modern.edition import decks
+from modern.points import e_field, parse_decimal
+
+PROGRAM, LAYERS = "program3", ("corrected",)
+OPTIONS = Options(core=60_000)
+POINTS, LARGEST, SEED = 51, 99, 1963
+
+Point = tuple[int, int, int]
+
+
+def random_points(count: int, seed: int) -> list[Point]:
+    """Distinct points with uniform integers in [-99, 99], in no order."""
+    source = random.Random(seed)
+    found: set[Point] = set()
+    while len(found) < count:
+        x, y, z = (source.randint(-LARGEST, LARGEST) for _ in range(3))
+        found.add((x, y, z))
+    points = sorted(found)
+    source.shuffle(points)
+    return points
+
+
+def data_deck(points: Sequence[Point]) -> Deck:
+    """The deck for program 1: N, and a card a point."""
+    cards = ["".join(e_field(parse_decimal(str(x)), False) for x in point) for point in points]
+    return deck_from_lines("random deck", [f"{len(points):2d}", *cards])
+
+
+def middle_texts(sets: Sequence[Sequence[Point]]) -> list[str]:
+    """The decks program 1 punches of the sets, as texts."""
+    results = run_batch(decks.program("program1"), [data_deck(points) for points in sets])
+    return ["".join(card + "\n" for card in result.punched) for result in results]

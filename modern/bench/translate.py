@@ -1,0 +1,172 @@
+"""A source deck of 1620 FORTRAN as free-form Fortran that a present compiler accepts, computing in doubles.
+
+What differs between the two languages, and what becomes of it:
+
+- a statement may begin in any column, names run together with blanks: printed anew from the syntax tree;
+- PUNCH goes to standard output, PRINT and TYPE to a second file, READ comes from standard input, and a hopper
+  that is empty ends the run (C26-5619 p. 32-43);
+- a DO runs at least once and its limit is looked up at each pass (p. 25-28): step, test and jump are written
+  out behind its last statement, so that jumps into its range do what they do on the machine;
+- IF (SENSE SWITCH n) asks a logical constant;
+- Hollerith texts of a FORMAT become quoted ones, on input blanks;
+- floating-point constants become double precision, names keep their implicit type; SQRTF is SQRT.
+
+Whole numbers are the compiler's, not four digits modulo 10000; ACCEPT has no counterpart and is refused.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+
+from emulator import tree
+from emulator.cards import Deck
+from emulator.errors import DeckError
+from emulator.formats import Field, Literal, parse_format
+from emulator.parser import parse
+
+LIBRARY = {name + end: name for name in ("SQRT", "SIN", "COS", "ATAN", "EXP", "LOG") for end in ("", "F")}
+EMPTY = 90000
+"""Label of the end of the run; statement numbers of the 1620 have four digits (C26-5619 p. 12)."""
+TOPS = 90001
+LINE = 100
+"""Where a statement is continued on the next line."""
+TYPED = 8
+"""The unit of typed lines."""
+
+
+def translated(deck: Deck, switches: Collection[int] = ()) -> str:
+    """The program, one free-form source text.
+
+    Raises DeckError for a deck that does not parse or has an ACCEPT.
+    """
+    parsed = parse(deck)
+    if parsed.diagnostics:
+        raise DeckError(parsed.diagnostics[0].line(deck.source))
+    return "\n".join(_Writer(deck.source, parsed.statements).lines(switches)) + "\n"
+
+
+class _Writer:
+    def __init__(self, source: str, statements: tuple[tree.Statement, ...]) -> None:
+        self.source, self.statements = source, statements
+        bodies = [s.body for s in statements]
+        self.arrays = {name for body in bodies if isinstance(body, tree.Dimension) for name, _, _ in body.arrays}
+        self.inputs = {body.format for body in bodies if isinstance(body, tree.InputOutput) and body.verb == "READ"}
+        self.open: list[tuple[tree.Do, int]] = []
+        self.top = TOPS
+
+    def lines(self, switches: Collection[int]) -> Iterator[str]:
+        yield "program deck"
+        yield "implicit double precision (a-h,o-z), integer (i-n)"
+        for number in (1, 2, 3, 4):
+            yield f"logical, parameter :: switch_{number} = .{'true' if number in switches else 'false'}."
+        for statement in self.statements:
+            if isinstance(statement.body, tree.Dimension):
+                yield from _wrapped("dimension " + ",".join(map(_array, statement.body.arrays)))
+        yield f"open({TYPED}, file='typewriter')"
+        for statement in self.statements:
+            yield from self.statement(statement)
+        yield f"{EMPTY} continue"
+        yield "end program"
+
+    def statement(self, statement: tree.Statement) -> Iterator[str]:
+        body = statement.body
+        if isinstance(body, tree.Dimension | tree.End):
+            return
+        label = f"{statement.label} " if statement.label else ""
+        if isinstance(body, tree.Do):
+            self.top += 1
+            yield f"{label}{body.variable.name} = {self.text(body.first)}"
+            yield f"{self.top} continue"
+            self.open.append((body, self.top))
+            return
+        yield from _wrapped(label + self.words(body, statement))
+        while self.open and statement.label and self.open[-1][0].label == statement.label:
+            loop, top = self.open.pop()
+            name, step = loop.variable.name, self.text(loop.step) if loop.step else "1"
+            yield f"{name} = {name} + {step}"
+            yield f"if ({name} <= {self.text(loop.last)}) go to {top}"
+
+    def words(self, body: tree.Body, statement: tree.Statement) -> str:
+        match body:
+            case tree.Assignment(target, value):
+                return f"{self.text(target)} = {self.text(value)}"
+            case tree.GoTo(label):
+                return f"go to {label}"
+            case tree.ComputedGoTo(labels, selector):
+                return f"go to ({_commas(labels)}), {self.text(selector)}"
+            case tree.If(value, labels):
+                return f"if ({self.text(value)}) {_commas(labels)}"
+            case tree.IfSwitch(number, (on, off)):
+                return f"go to ({on},{off}), merge(1, 2, switch_{number})"
+            case tree.Stop():
+                return f"go to {EMPTY}"
+            case tree.InputOutput():
+                return self.transfer(body, statement)
+            case tree.Format():
+                return self.format(statement, body)
+        return "continue"
+
+    def transfer(self, body: tree.InputOutput, statement: tree.Statement) -> str:
+        if body.verb == "ACCEPT":
+            raise DeckError(f"{self.source}: card {statement.place.card}: ACCEPT has no counterpart in a file")
+        if body.verb == "READ":
+            verb = f"read (*,{body.format},end={EMPTY})"
+        else:
+            verb = f"write ({'*' if body.verb == 'PUNCH' else TYPED},{body.format})"
+        return f"{verb} {_commas(map(self.item, body.items))}".rstrip()
+
+    def item(self, item: tree.Item) -> str:
+        if isinstance(item, tree.Reference):
+            return self.text(item)
+        first, last = self.text(item.first), self.text(item.last)
+        bounds = f"{item.variable.name}={first},max({first},{last})"
+        step = f",{self.text(item.step)}" if item.step else ""
+        return f"({_commas(map(self.item, item.items))},{bounds}{step})"
+
+    def format(self, statement: tree.Statement, body: tree.Format) -> str:
+        reads = statement.label in self.inputs
+        specs = []
+        for spec in parse_format(body)[0].specs:
+            if isinstance(spec, Field):
+                specs.append(str(spec))
+            elif isinstance(spec, Literal):
+                blank = spec.skip or reads
+                specs.append(f"{len(spec.text)}x" if blank else "'" + spec.text.replace("'", "''") + "'")
+            else:
+                specs.append("/")
+        return f"format ({_commas(specs)})"
+
+    def text(self, node: tree.Expression) -> str:
+        match node:
+            case tree.Number(digits):
+                return (digits.replace("E", "d") + ("" if "E" in digits else "d0")) if node.floating else digits
+            case tree.Reference(name, arguments):
+                called = LIBRARY.get(name, name) if arguments and name not in self.arrays else name
+                return called + (f"({_commas(map(self.text, arguments))})" if arguments else "")
+            case tree.Power(base, exponent):
+                return f"{self.factor(base)}**{self.factor(exponent)}"
+            case tree.Product(first, rest):
+                return self.factor(first) + "".join(sign + self.factor(other) for sign, other in rest)
+            case tree.Sum(minus, first, rest):
+                head = ("-" if minus else "") + self.factor(first)
+                return head + "".join(sign + self.factor(other) for sign, other in rest)
+
+    def factor(self, node: tree.Expression) -> str:
+        """An operand, in parentheses where it is an expression itself: the tree's order is kept."""
+        simple = isinstance(node, tree.Reference) or (isinstance(node, tree.Number) and node.text[0] not in "+-")
+        return self.text(node) if simple else f"({self.text(node)})"
+
+
+def _array(array: tuple[str, tuple[int, ...], tree.Place]) -> str:
+    return f"{array[0]}({_commas(array[1])})"
+
+
+def _commas(parts: object) -> str:
+    return ",".join(map(str, parts))  # type: ignore[call-overload]
+
+
+def _wrapped(text: str) -> Iterator[str]:
+    """A statement on lines of at most LINE columns; a text in quotes may go on too."""
+    lines = [text[at : at + LINE] for at in range(0, len(text), LINE)]
+    for n, line in enumerate(lines):
+        yield ("&" if n else "") + line + ("&" if n < len(lines) - 1 else "")

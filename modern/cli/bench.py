@@ -1,0 +1,25 @@
+"""``hull1620 bench``: the engines side by side, and beside the same program through a Fortran compiler of today."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+
+from emulator.cards import write_text
+from emulator.errors import DeckError
+from modern.bench.measure import document, lines, measure
+from modern.cli.common import check_places, say
+from modern.cli.exits import OK
+
+
+def main(args: argparse.Namespace) -> int:
+    """Measure, print the table, write the figures."""
+    if args.decks < 1:
+        raise DeckError(f"--decks: {args.decks} is no number of decks")
+    check_places(args.json)
+    bench = measure(args.decks, lambda line: say([f"{line} ..."]))
+    sys.stdout.write("".join(line + "\n" for line in lines(bench)))
+    if args.json is not None:
+        write_text(args.json, json.dumps(document(bench), indent=1) + "\n")
+    return OK

@@ -1,0 +1,55 @@
+"""``hull1620 study``: a study of many samples, from plan to table, plot and words."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from modern.cli.exits import OK
+from modern.study.plan import PlanError
+from modern.study.registry import entries, names, study
+from modern.study.report import spoken
+from modern.study.run import run_study
+from modern.study.tomlplan import is_plan_file, read_plan
+
+_SEED = 1963
+
+
+def main(args: argparse.Namespace) -> int:
+    """Carry out the study named, or list those there are."""
+    if args.list:
+        for entry in entries():
+            print(f"{entry.name:<14} {entry.title}; {entry.samples:,} samples")
+        return OK
+    if args.name is None:
+        raise PlanError(f"which study? There are {', '.join(names())}, or a plan file; --list says what they are")
+    for name, value in (("--samples", args.samples), ("--workers", args.workers)):
+        if value is not None and value < 1:
+            raise PlanError(f"{name}: {value} is less than 1")
+    if args.workers is not None and args.dask:
+        raise PlanError("--workers and --dask are one or the other")
+    options = {
+        "workers": args.workers or 0,
+        "dask": args.dask or "",
+        "resume": args.resume,
+        "quiet": args.quiet,
+        "command": ("hull1620", *sys.argv[1:]),
+    }
+    try:
+        if is_plan_file(args.name):
+            plan = read_plan(args.name, args.samples, args.seed)
+            report = run_study(plan, args.out or plan.name, **options)
+        else:
+            try:
+                found = study(args.name)
+            except KeyError:
+                raise PlanError(
+                    f"no study is called {args.name!r}; there are {', '.join(names())}, or a plan file NAME.toml"
+                ) from None
+            plan = found.plan(args.samples or found.SAMPLES, _SEED if args.seed is None else args.seed)
+            report = run_study(plan, args.out or plan.name, found.report, **options)
+    except KeyboardInterrupt:
+        print("hull1620: interrupted; what is done is kept, --resume goes on", file=sys.stderr)
+        return 130
+    print(spoken(report), end="")
+    return OK

@@ -1,0 +1,202 @@
+"""Hours on the 1620: reader, punch, typewriter and processor against the number of points.
+
+The corrected programs, which lose no set to the listing's faults; the times of emulator/timing.py, which were measured
+and in part estimated (docs/emulator.md).  ``samples`` counts the sets of each family and N.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isinf
+
+from modern.study.charts import Lines, Mark, Series
+from modern.study.filing import DETERMINED
+from modern.study.plan import Cell, Plan, Programs, Value
+from modern.study.report import Report
+from modern.study.statistics import Interval, mean_of
+from modern.study.store import Store
+from modern.study.summary import cells, values
+from modern.study.tables import Table, with_interval
+
+TITLE = "time on the 1620 against the number of points"
+SAMPLES = 60
+FAMILIES = ("ball", "integers", "cube", "sphere")
+POINTS = (4, 6, 8, 12, 16, 20, 25, 30, 35, 40, 45, 51)
+ROUTE = "corrected"
+PARTS = ("processor", "reader", "punch", "typewriter")
+_NAMES = {"integers": "cube, solid", "cube": "cube, surface"}
+_HOUR, _MINUTE = 3600, 60
+
+
+def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
+    """The plan for ``samples`` sets of each family and N."""
+    route = Programs(ROUTE, layers=("corrected",), core=60_000, measures=("machine_time", "operations"))
+    grid = tuple(
+        Cell({"sets": _NAMES.get(family, family), "n": n}, family, {"digits": 2, "n": n}, (route,), samples, chunk=20)
+        for family in FAMILIES
+        for n in POINTS
+    )
+    return Plan(
+        "machine-time",
+        TITLE[0].upper() + TITLE[1:],
+        "How long would a set of N points have taken, and was the machine reading, computing or punching?",
+        grid,
+        seed,
+        (
+            "Coordinates have two digits, which eight digits bear; only runs that give the hull are timed. The layer "
+            "corrected is used so that the listing's faults lose no set; its cards change the time little.",
+            "Programs are in core: loading the program decks and the operator's hands are not counted. Reader and "
+            "punch are buffered and may run beside the processor, so that the sum is the most a run takes.",
+        ),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Time:
+    """A cell's times in seconds, by part and in all; ``sets`` is how many were timed, ``longest`` the longest run."""
+
+    sets: int
+    parts: dict[str, Interval]
+    total: Interval
+    longest: float
+    operations: float
+
+
+def _times(store: Store) -> dict[int, _Time]:
+    figures = [f"CAST(json_extract(figures, '$.seconds_{part}') AS REAL)" for part in PARTS]
+    sums = [*figures, " + ".join(figures)]
+    moments = ", ".join(f"AVG({s}), SUM(({s}) * ({s}))" for s in sums)
+    counted = " + ".join(f"json_extract(figures, '$.{name}')" for name in ("additions", "products", "quotients"))
+    asked = store.query(
+        f"SELECT cell, COUNT(*), MAX({sums[-1]}), AVG({counted}), {moments} FROM runs "
+        f"WHERE outcome IN ({', '.join('?' * len(DETERMINED))}) GROUP BY cell ORDER BY cell",
+        DETERMINED,
+    )
+    found = {}
+    for cell, count, longest, operations, *numbers in asked:
+        pairs = zip(numbers[::2], numbers[1::2], strict=True)
+        means = [mean_of(count, average, max(0.0, squares - count * average**2)) for average, squares in pairs]
+        found[cell] = _Time(count, dict(zip(PARTS, means, strict=False)), means[-1], longest, operations)
+    return found
+
+
+def report(plan: Plan, store: Store) -> Report:
+    """Tables, charts and words."""
+    times = _times(store)
+    return Report(
+        (_main(plan, times), _sizes(plan, times)),
+        (_chart(plan, times), _parts(plan, times)),
+        tuple(_words(plan, times)),
+    )
+
+
+def spoken_time(seconds: float) -> str:
+    """A duration in words: ``1 h 24 min``, ``7.5 min``, ``18 s``; of an interval without bounds its end says so."""
+    if isinf(seconds):
+        return "no bound"
+    if seconds >= _HOUR:
+        minutes = round(seconds / _MINUTE)
+        return f"{minutes // _MINUTE} h {minutes % _MINUTE} min"
+    return f"{seconds / _MINUTE:.1f} min" if seconds >= 2 * _MINUTE else f"{seconds:.0f} s"
+
+
+def _in_minutes(seconds: Interval) -> Interval:
+    return Interval(seconds.value / _MINUTE, seconds.low / _MINUTE, seconds.high / _MINUTE)
+
+
+def _along(plan: Plan, times: dict[int, _Time], name: Value) -> list[tuple[float, _Time]]:
+    """N and the times of a kind of set, where any was timed."""
+    return [(float(cell.key["n"]), times[k]) for k, cell in cells(plan, sets=name) if k in times]
+
+
+def _row(name: Value, n: float, time: _Time) -> tuple[str, ...]:
+    parts = [f"{time.parts[part].value / _MINUTE:.2f}" for part in PARTS]
+    each = 1000 * time.parts["processor"].value / time.operations if time.operations else 0.0
+    return (
+        str(name),
+        str(int(n)),
+        str(time.sets),
+        with_interval(_in_minutes(time.total)),
+        f"{time.longest / _MINUTE:.2f}",
+        *parts,
+        f"{time.operations:.0f}",
+        f"{each:.0f}",
+    )
+
+
+_HEAD = ("sets", "N", "timed", "minutes", "longest", *PARTS, "operations", "ms an operation")
+_NOTES = (
+    "In brackets: 95 % intervals of the mean by Student's t. Processor, reader, punch and typewriter: mean minutes.",
+    "Operations: floating-point additions, products and quotients; the last column is the processor's time for one.",
+)
+
+
+def _main(plan: Plan, times: dict[int, _Time]) -> Table:
+    rows = tuple(_row(name, *along[-1]) for name in values(plan, "sets") if (along := _along(plan, times, name)))
+    return Table("table", "Minutes on the 1620 at the largest N", _HEAD, rows, _NOTES)
+
+
+def _sizes(plan: Plan, times: dict[int, _Time]) -> Table:
+    rows = tuple(_row(name, n, time) for name in values(plan, "sets") for n, time in _along(plan, times, name))
+    return Table("sizes", "Minutes on the 1620 at each N", _HEAD, rows, _NOTES)
+
+
+def _chart(plan: Plan, times: dict[int, _Time]) -> Lines:
+    series = tuple(
+        Series(str(name), tuple((n, _in_minutes(time.total)) for n, time in _along(plan, times, name)))
+        for name in values(plan, "sets")
+    )
+    return Lines(
+        "time",
+        "Time on the 1620, by number of points",
+        "points N",
+        "minutes",
+        tuple(one for one in series if one.points),
+        log_x=True,
+        log_y=True,
+        marks=(Mark(60, "one hour"),),
+        note=f"{plan.cells[0].samples} sets at each point; bars: 95 % intervals of the mean (Student)",
+    )
+
+
+def _parts(plan: Plan, times: dict[int, _Time]) -> Lines:
+    name = values(plan, "sets")[-1]
+    along = _along(plan, times, name)
+    series = tuple(Series(part, tuple((n, _in_minutes(time.parts[part])) for n, time in along)) for part in PARTS)
+    return Lines(
+        "parts",
+        f"What the machine does meanwhile: sets on a {name}",
+        "points N",
+        "minutes",
+        series if along else (),
+        log_x=True,
+        log_y=True,
+        note=f"{plan.cells[0].samples} sets at each point; bars: 95 % intervals of the mean (Student)",
+    )
+
+
+def _words(plan: Plan, times: dict[int, _Time]) -> list[str]:
+    told = []
+    for name in values(plan, "sets"):
+        along = _along(plan, times, name)
+        if not along:
+            continue
+        n, time = along[-1]
+        told.append(
+            f"{name}: {spoken_time(time.total.value)} ({spoken_time(time.total.low)} to "
+            f"{spoken_time(time.total.high)}), the longest {spoken_time(time.longest)}"
+        )
+    if not told:
+        return ["No set was determined, so nothing was timed."]
+    n = max(int(n) for name in values(plan, "sets") for n, _ in _along(plan, times, name))
+    first = f"A set of {n} points takes on the mean, by kind: {'; '.join(told)}."
+    shares = []
+    for number in (POINTS[1], n):
+        there = [t for name in values(plan, "sets") for m, t in _along(plan, times, name) if m == number]
+        if there:
+            share = sum(t.parts["processor"].value for t in there) / sum(t.total.value for t in there)
+            shares.append(f"{100 * share:.0f} % at N = {number}")
+    second = (
+        f"The processor has this part of the time, over all kinds: {', '.join(shares)}; the rest is cards and typing."
+    )
+    return [first, second]

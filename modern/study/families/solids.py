@@ -1,0 +1,66 @@
+"""Prisms and pyramids, whose faces hold many points, and points that are nearly in one plane."""
+
+from __future__ import annotations
+
+from math import isqrt
+
+from modern.study.families.drawing import Count, Draw, Drawn, FamilyError, Whole, drawn, size_of
+from modern.study.families.rounds import nearest
+
+_FINE = 10**12
+
+
+def prism(draw: Draw, digits: int, n: Count) -> Drawn:
+    """A polygon and its copy moved along an axis: an even number of points, 6 at least, in shuffled order.
+
+    The base has coordinates up to 10**digits - 1, its points rounded from a circle; so does the height.
+    """
+    size = size_of(digits)
+    half = max(3, draw.count(n) // 2)
+    base = _base(draw, half, size)
+    low, high = draw.whole(-size, -1), draw.whole(0, size)
+    return _turned(draw, [(x, y, z) for z in (low, high) for x, y in base], "prism")
+
+
+def pyramid(draw: Draw, digits: int, n: Count) -> Drawn:
+    """A polygon and an apex, 4 points at least, in shuffled order; coordinates up to 10**digits - 1."""
+    size = size_of(digits)
+    base = _base(draw, max(3, draw.count(n) - 1), size)
+    apex = draw.whole(-size, size), draw.whole(-size, size), draw.whole(1, size)
+    return _turned(draw, [*((x, y, 0) for x, y in base), apex], "pyramid")
+
+
+def near_coplanar(draw: Draw, digits: int, n: Count, gap: int) -> Drawn:
+    """Points of a plane, about a third of them lifted or lowered by 10**-gap.
+
+    x and y are whole numbers of up to ``digits`` digits, z = p x + q y + (-1, 0 or 1) 10**-gap with p and q of -1,
+    0, 1; 4 points at least and one at least off the plane.  Raises FamilyError where z has more than eight digits.
+    """
+    size, unit = size_of(digits), 10**gap
+    if gap < 0:
+        raise FamilyError(f"gap is {gap}; it is 0 or more, for 10**-gap")
+    p, q = draw.whole(-1, 1), draw.whole(-1, 1)
+    base = draw.distinct(max(4, draw.count(n)), lambda: (draw.whole(-size, size), draw.whole(-size, size), 0))
+    lifts = [draw.random.choice((0, 0, 0, 0, 1, -1)) for _ in base]
+    lifts[draw.whole(0, len(lifts) - 1)] = 1
+    points = [(x * unit, y * unit, (p * x + q * y) * unit + lift) for (x, y, _), lift in zip(base, lifts, strict=True)]
+    return drawn(points, gap)
+
+
+def _base(draw: Draw, count: int, size: int) -> list[tuple[int, int]]:
+    def point() -> Whole:
+        while True:
+            x, y = draw.whole(-_FINE, _FINE), draw.whole(-_FINE, _FINE)
+            if 0 < x * x + y * y <= _FINE * _FINE:
+                length = isqrt(x * x + y * y)
+                return nearest(size * x, length), nearest(size * y, length), 0
+
+    return [(x, y) for x, y, _ in draw.distinct(count, point)]
+
+
+def _turned(draw: Draw, points: list[Whole], kind: str) -> Drawn:
+    """The points shuffled, their axes exchanged at random."""
+    axes = [0, 1, 2]
+    draw.random.shuffle(axes)
+    draw.random.shuffle(points)
+    return drawn([(p[axes[0]], p[axes[1]], p[axes[2]]) for p in points], kind=kind)

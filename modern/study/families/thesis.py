@@ -1,0 +1,116 @@
+"""Sets like those the thesis shows: small, of small whole numbers, many of them in one plane or line.
+
+The thesis says that its programs were tested on approximately 70 examples, of which all but two came out, and
+nothing of what they were (chapter 1).  What is left of them are the six of chapter 6 (p. 103-115), one for each kind of
+output; so each kind here is modelled on one of the six, and all are equally likely:
+
+=================  =======  =====================================================================================
+kind               example  as printed, and as drawn here
+=================  =======  =====================================================================================
+three points       1        coordinates to 200: whole numbers from -200 to 200, not in line
+line               2        9 points, from -600 to 6502: a small whole direction, multiples from -3000 to 3000
+one point          3        1, 2, 3: whole numbers from -9 to 9
+plane              4        8 points with y = 2, others from -5 to 7: a plane of whole points, from -9 to 9 in it
+slab               5        15 points, y from 1 to 4, others from -12 to 19: -20 to 20, one coordinate from 1 to 4
+plane and points   6        example 4 and two points off its plane
+=================  =======  =====================================================================================
+
+The four larger examples have 9, 8, 15 and 10 points; here the number is drawn from 4 to 17, whose mean is theirs,
+10.5.  Points are in the order drawn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from modern.study.families.drawing import Count, Draw, Drawn, FamilyError, Whole, drawn
+
+N = (4, 17)
+_LARGE, _SMALL, _WIDE, _MULTIPLE = 200, 9, 20, 3000
+
+
+def thesis(draw: Draw, kinds: Mapping[str, int] | None = None, n: Count = N) -> Drawn:
+    """A set of a kind drawn by weight (default: all kinds alike), of ``n`` points where the kind does not say."""
+    weights = dict.fromkeys(KINDS, 1) if kinds is None else dict(kinds)
+    unknown = [kind for kind in weights if kind not in KINDS]
+    if unknown or not weights or min(weights.values()) < 0 or not any(weights.values()):
+        raise FamilyError(f"kinds are {', '.join(KINDS)}, each with a weight of 0 or more")
+    pick = draw.whole(1, sum(weights.values()))
+    for kind, weight in weights.items():
+        pick -= weight
+        if pick <= 0:
+            return drawn(KINDS[kind](draw, draw.count(n)), kind=kind)
+    raise AssertionError
+
+
+def three_points(draw: Draw, _: int) -> list[Whole]:
+    while True:
+        p, q, r = draw.distinct(3, lambda: _in_box(draw, _LARGE))
+        u, v = _minus(q, p), _minus(r, p)
+        if any(u[i] * v[j] != u[j] * v[i] for i, j in ((0, 1), (0, 2), (1, 2))):
+            return [p, q, r]
+
+
+def line(draw: Draw, count: int) -> list[Whole]:
+    start, along = _in_box(draw, _SMALL), (0, 0, 0)
+    while not any(along):
+        along = _in_box(draw, 2)
+    return draw.distinct(count, lambda: _plus(start, along, draw.whole(-_MULTIPLE, _MULTIPLE)))
+
+
+def one_point(draw: Draw, _: int) -> list[Whole]:
+    return [_in_box(draw, _SMALL)]
+
+
+def plane(draw: Draw, count: int) -> list[Whole]:
+    """Half of the planes at right angles to an axis, as example 4's, half spanned by two small directions."""
+    if draw.whole(0, 1):
+        axis, height = draw.whole(0, 2), draw.whole(-_SMALL, _SMALL)
+        return draw.distinct(count, lambda: _replaced(_in_box(draw, _SMALL), axis, height))
+    start = _in_box(draw, _SMALL)
+    while True:
+        u, v = _in_box(draw, 2), _in_box(draw, 2)
+        if any(u[i] * v[j] != u[j] * v[i] for i, j in ((0, 1), (0, 2), (1, 2))):
+            break
+    return draw.distinct(
+        count, lambda: _plus(_plus(start, u, draw.whole(-_SMALL, _SMALL)), v, draw.whole(-_SMALL, _SMALL))
+    )
+
+
+def slab(draw: Draw, count: int) -> list[Whole]:
+    axis = draw.whole(0, 2)
+    return draw.distinct(count, lambda: _replaced(_in_box(draw, _WIDE), axis, draw.whole(1, 4)))
+
+
+def plane_and_points(draw: Draw, count: int) -> list[Whole]:
+    """Two points of the box before or behind a plane's others, as example 6 puts its two before example 4's eight."""
+    inner = plane(draw, max(count - 2, 2))
+    outer = [p for p in draw.distinct(len(inner) + 2, lambda: _in_box(draw, _SMALL)) if p not in inner][:2]
+    return [*outer, *inner]
+
+
+KINDS: Mapping[str, Callable[[Draw, int], list[Whole]]] = {
+    "three points": three_points,
+    "line": line,
+    "one point": one_point,
+    "plane": plane,
+    "slab": slab,
+    "plane and points": plane_and_points,
+}
+
+
+def _in_box(draw: Draw, size: int) -> Whole:
+    return draw.whole(-size, size), draw.whole(-size, size), draw.whole(-size, size)
+
+
+def _replaced(point: Whole, axis: int, value: int) -> Whole:
+    x, y, z = (value if k == axis else c for k, c in enumerate(point))
+    return x, y, z
+
+
+def _minus(p: Whole, q: Whole) -> Whole:
+    return p[0] - q[0], p[1] - q[1], p[2] - q[2]
+
+
+def _plus(p: Whole, u: Whole, times: int) -> Whole:
+    return p[0] + times * u[0], p[1] + times * u[1], p[2] + times * u[2]

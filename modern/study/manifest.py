@@ -1,0 +1,97 @@
+"""The manifest: what a study is, with what it was made, and the sums that prove a repetition equal."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import platform
+from collections.abc import Mapping, Sequence
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+from modern.study.files import StudyFileError, put
+from modern.study.plan import Plan, Programs
+from modern.study.routes import programs_of
+
+NAME = "manifest.json"
+_PACKAGES = ("hull1620", "numpy", "numba")
+_ROLES = ("program2", "program3")
+
+
+def versions() -> dict[str, str]:
+    """The versions a study is made with; an empty text for a package that is not there."""
+    found = {"python": platform.python_version()}
+    for package in _PACKAGES:
+        try:
+            found[package] = version(package)
+        except PackageNotFoundError:
+            found[package] = ""
+    return found
+
+
+def manifest(plan: Plan, command: Sequence[str], made: Mapping[str, str]) -> dict[str, Any]:
+    """The manifest of a study that begins."""
+    programs = {
+        route.name: _programs(route) for cell in plan.cells for route in cell.routes if isinstance(route, Programs)
+    }
+    return {
+        "study": plan.name,
+        "command": list(command),
+        "versions": dict(made),
+        "plan": plan.document(),
+        "programs_sha256": programs,
+        "samples": plan.samples,
+        "complete": False,
+    }
+
+
+def write_manifest(folder: Path, document: Mapping[str, Any]) -> None:
+    """Raises StudyFileError."""
+    put(folder / NAME, json.dumps(document, indent=1) + "\n")
+
+
+def read_manifest(folder: Path) -> dict[str, Any]:
+    """Raises StudyFileError where there is none that can be read."""
+    path = folder / NAME
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+        if not isinstance(found, dict) or not {"plan", "versions", "programs_sha256"} <= found.keys():
+            raise ValueError
+    except OSError as error:
+        raise StudyFileError(f"{path}: {(error.strerror or str(error)).lower()}") from None
+    except ValueError:
+        raise StudyFileError(f"{path}: this is no manifest of a study") from None
+    return found
+
+
+def differences(there: Mapping[str, Any], here: Mapping[str, Any]) -> str:
+    """The first thing in which a study begun differs from the one to be resumed; empty where nothing does."""
+    was, now = there["plan"], here["plan"]
+    if was["name"] != now["name"]:
+        return f"it is of the study {was['name']}, not {now['name']}"
+    if was["seed"] != now["seed"]:
+        return f"its seed is {was['seed']}, not {now['seed']}"
+    if there.get("samples") != here["samples"]:
+        return f"it has {there.get('samples')} samples, not {here['samples']}"
+    if was != now:
+        return "its plan is another"
+    for package, wanted in here["versions"].items():
+        other = there["versions"].get(package, "")
+        if other != wanted:
+            return f"it was begun with {package} {other or '(not installed)'}, not {wanted or '(not installed)'}"
+    if there["programs_sha256"] != here["programs_sha256"]:
+        return "its programs are others: the listings or their apparatus have changed"
+    return ""
+
+
+def _programs(route: Programs) -> dict[str, str]:
+    """SHA-256 of the statements of each program of a route, card by card."""
+    first, load = programs_of(route)
+    sums = {}
+    for name in (first, *_ROLES):
+        program = load(name)
+        words = "".join(f"{line.place.card} {line.label} {line.text}\n" for line in program.statements)
+        formats = "".join(f"{number} {spec}\n" for number, spec in program.formats)
+        sums[name] = hashlib.sha256((words + formats).encode("ascii")).hexdigest()
+    return sums

@@ -1,0 +1,157 @@
+"""A study as data: what is drawn, what each sample is sent through, and how often.
+
+Nothing here runs anything.  A plan becomes JSON (:meth:`Plan.document`) for the manifest, and its cells give every
+sample a seed of its own, so that a sample depends on the study's seed, its cell's key and its index alone, and on no
+worker count or order.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass, field
+from random import Random
+from typing import Any, Literal
+
+from emulator.errors import EmulatorError
+from emulator.result import DEFAULT_CORE, DEFAULT_LIMIT
+
+Value = str | int
+CHUNK = 200
+"""Samples a chunk by default: about a second's work of small sets."""
+
+
+class PlanError(EmulatorError):
+    """A study that cannot be carried out as it is written; one line."""
+
+
+@dataclass(frozen=True, slots=True)
+class Programs:
+    """A route through the emulated programs: program 1, then 2 or 3 as it types.
+
+    name: what tables call it.  state: of program 1, ``listing`` or ``examples``.  layers: of the apparatus, added
+    to the three programs.  rows: single rows of the apparatus, added without the rest of their layer.
+    arithmetic: of the emulator, ``truncating``, ``ibm1962``, ``truncating:P``, ``guarded:P``, ``rounding:P``, or
+    ``float64``, ``float32``, ``mp:BITS``, ``exact`` (:func:`emulator.numbers.numbers`).
+    epsilon: chapter 7's e, punched behind N; it needs the layer ``epsilon``.  limit: statements a program may run
+    before it counts as endless.  core, bounds: as :class:`emulator.result.Options` has them.  measures: names of
+    further figures (:mod:`modern.study.measures`).
+    """
+
+    name: str
+    state: Literal["listing", "examples"] = "listing"
+    layers: tuple[str, ...] = ()
+    rows: tuple[str, ...] = ()
+    arithmetic: str = "truncating"
+    epsilon: str = ""
+    limit: int = DEFAULT_LIMIT
+    core: int = DEFAULT_CORE
+    bounds: str = "strict"
+    measures: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Port:
+    """A route through the modern port (:func:`modern.port.convex_hull`), with that function's parameters.
+
+    ``history`` keeps the construction H_1, H_2, ... for the measures.
+    """
+
+    name: str
+    arithmetic: str = "exact"
+    epsilon: str = ""
+    translate: bool = False
+    history: bool = False
+    measures: tuple[str, ...] = ()
+
+
+Route = Programs | Port
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """Samples of one kind: one family with fixed parameters, every sample sent through every route.
+
+    key: the parameters a table shows, in order; no two cells of a plan have the same.  family: a name of
+    :data:`modern.study.families.FAMILIES`, or ``module:function``; parameters: its keyword arguments.  reference:
+    the route whose order of cards counts as the order (default: the first).  chunk: samples worked on at once, about
+    a second's work; rows do not depend on it.
+    """
+
+    key: Mapping[str, Value]
+    family: str
+    parameters: Mapping[str, Any]
+    routes: tuple[Route, ...]
+    samples: int
+    reference: str = ""
+    chunk: int = CHUNK
+
+    @property
+    def name(self) -> str:
+        """The key as text: ``digits=3 n=20``."""
+        return " ".join(f"{name}={value}" for name, value in self.key.items())
+
+    def seed(self, study: int, index: int) -> str:
+        """The seed of a sample: 32 hexadecimal digits of SHA-256 of study seed, key and index."""
+        text = json.dumps([study, list(self.key.items()), index])
+        return hashlib.sha256(text.encode("ascii")).hexdigest()[:32]
+
+
+def random_of(seed: str) -> Random:
+    """The generator a sample is drawn with."""
+    return Random(int(seed, 16))
+
+
+@dataclass(frozen=True, slots=True)
+class Chunk:
+    """Samples ``start`` to ``stop`` (not included) of a cell, worked on at once; ``cell`` counts from 0."""
+
+    cell: int
+    start: int
+    stop: int
+
+    @property
+    def name(self) -> str:
+        """The name of its file, in the order of the cells and samples."""
+        return f"{self.cell:04d}-{self.start:09d}.jsonl"
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """A study: its name, its question, its seed and its cells.
+
+    notes: what a reader of the manifest should know, such as why the parameters are what they are.
+    """
+
+    name: str
+    title: str
+    question: str
+    cells: tuple[Cell, ...]
+    seed: int = 1963
+    notes: tuple[str, ...] = field(default=())
+
+    @property
+    def samples(self) -> int:
+        """Samples in all."""
+        return sum(cell.samples for cell in self.cells)
+
+    def chunks(self) -> Iterator[Chunk]:
+        """All the work, in order."""
+        for number, cell in enumerate(self.cells):
+            for start in range(0, cell.samples, cell.chunk):
+                yield Chunk(number, start, min(start + cell.chunk, cell.samples))
+
+    def document(self) -> dict[str, Any]:
+        """The plan as JSON data: equal exactly for equal plans."""
+        data = asdict(self)
+        data["cells"] = [
+            {**asdict(cell), "key": list(map(list, cell.key.items())), "routes": [document(r) for r in cell.routes]}
+            for cell in self.cells
+        ]
+        return dict(json.loads(json.dumps(data)))
+
+
+def document(route: Route) -> dict[str, Any]:
+    """A route as JSON data, with the kind it is."""
+    return {"kind": "programs" if isinstance(route, Programs) else "port", **asdict(route)}

@@ -1,0 +1,77 @@
+"""How far a study is: a bar on a terminal, a line now and then elsewhere, or nothing."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TextIO
+
+_REDRAW = 0.2
+_LINES = 60.0
+"""Seconds between two drawings of the bar, and between two lines where there is no terminal."""
+
+
+@dataclass
+class Progress:
+    """Counts samples and shows the count on ``file``; ``before`` of them were there already."""
+
+    total: int
+    before: int = 0
+    file: TextIO = field(default_factory=lambda: sys.stderr)
+    quiet: bool = False
+    clock: Callable[[], float] = time.monotonic
+    done: int = field(init=False, default=0)
+    _shown: float = field(init=False, default=0.0)
+    _began: float = field(init=False, default=0.0)
+
+    def __post_init__(self) -> None:
+        self._began = self._shown = self.clock()
+        self.quiet = self.quiet or self.file is None
+        self._bar = not self.quiet and self.file.isatty()
+
+    def add(self, samples: int) -> None:
+        """So many samples more are kept."""
+        self.done += samples
+        now = self.clock()
+        if not self.quiet and now - self._shown >= (_REDRAW if self._bar else _LINES):
+            self._shown = now
+            self._show(now)
+
+    def close(self) -> None:
+        """The last state, with an end of line."""
+        if self._bar:
+            self._show(self.clock())
+            self._say("\n")
+
+    def _show(self, now: float) -> None:
+        at = self.before + self.done
+        seconds = now - self._began
+        rate = self.done / seconds if seconds > 0 else 0.0
+        left = f", {_span((self.total - at) / rate)} left" if rate and at < self.total else ""
+        words = f"{at:,} of {self.total:,} samples, {rate:,.0f} a second{left}"
+        if not self._bar:
+            self._say(words + "\n")
+            return
+        columns = shutil.get_terminal_size().columns - 1
+        room = columns - len(words) - 3
+        if room >= 10:
+            full = room * at // max(self.total, 1)
+            words = f"[{'#' * full}{'.' * (room - full)}] {words}"
+        self._say("\r" + words[:columns].ljust(columns))
+
+    def _say(self, text: str) -> None:
+        try:
+            self.file.write(text)
+            self.file.flush()
+        except (OSError, ValueError):
+            # Whoever read the progress has gone; the study goes on.
+            self.quiet, self._bar = True, False
+
+
+def _span(seconds: float) -> str:
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours} h {minutes:02d} min" if hours else f"{minutes} min {rest:02d} s" if minutes else f"{rest} s"

@@ -1,0 +1,106 @@
+"""A route carried out: a chunk's samples through the programs or the port, each filed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import cache
+
+from emulator.compiler import compile_deck
+from emulator.errors import EmulatorError
+from emulator.numbers import DecimalNumbers, numbers
+from emulator.objectcode import Program
+from emulator.result import Options
+from modern.edition import decks
+from modern.edition.apparatus import ApparatusError
+from modern.hull import Hull
+from modern.hullrun import HullRun, Load
+from modern.port import RangeError, convex_hull
+from modern.study.batch import Runs, run_hulls
+from modern.study.filing import OTHERWISE, Figures, Filed, file_hull, file_run
+from modern.study.judged import Judged, with_epsilon
+from modern.study.measures import measure_of
+from modern.study.plan import PlanError, Port, Programs, Route
+
+
+def carry_out(route: Route, samples: Sequence[Judged], runs: Runs) -> list[Filed]:
+    """Each sample through the route.  ``runs`` carries runs over to the other routes of the same samples."""
+    return _programs(route, samples, runs) if isinstance(route, Programs) else [_port(route, one) for one in samples]
+
+
+def options_of(route: Programs) -> Options:
+    """The machine a route runs on.  Raises PlanError."""
+    try:
+        found = numbers(route.arithmetic)
+    except ValueError as error:
+        raise PlanError(f"route {route.name}: {error}") from None
+    options = Options(core=route.core, bounds=route.bounds, limit=route.limit)
+    if isinstance(found, DecimalNumbers):
+        return replace(options, profile=found.profile)
+    return replace(options, numbers=found)
+
+
+def programs_of(route: Programs) -> tuple[str, Load]:
+    """The built-in that plays program 1, and the programs by name.  Raises PlanError."""
+    first = "program1_examples" if route.state == "examples" else "program1"
+    present = {row.layer for name in decks.TEXTS for row in decks.text(name).rows}
+    missing = [layer for layer in route.layers if layer not in present]
+    if missing:
+        raise PlanError(f"route {route.name}: no program has rows of a layer {missing[0]!r}")
+    known = {row.id for name in decks.TEXTS for row in decks.text(name).rows}
+    missing = [row for row in route.rows if row not in known]
+    if missing:
+        raise PlanError(f"route {route.name}: the apparatus has no row {missing[0]!r}")
+    return first, lambda name: _program(name, route.layers, route.rows)
+
+
+@cache
+def _program(name: str, layers: tuple[str, ...], rows: tuple[str, ...]) -> Program:
+    """A built-in with layers added, and single rows: those rows' layers without their other rows."""
+    chosen = [row for row in decks.text(decks.built_in(name).text).rows if row.id in rows and row.layer not in layers]
+    if not chosen:
+        return decks.with_layers(name, layers)
+    single = {row.layer for row in chosen}
+    text = decks.text(decks.built_in(name).text)
+    others = {row.id for row in text.rows if row.layer in single and row.id not in rows}
+    present = {row.layer for row in text.rows}
+    wanted = (*(layer for layer in layers if layer in present), *sorted(single))
+    try:
+        return compile_deck(decks.built(name, wanted, others))
+    except (ApparatusError, EmulatorError) as error:
+        raise PlanError(f"rows {', '.join(rows)} of {name} do not stand without others: {error}") from None
+
+
+def _programs(route: Programs, samples: Sequence[Judged], runs: Runs) -> list[Filed]:
+    options, (first, load) = options_of(route), programs_of(route)
+    data = [with_epsilon(one.deck, route.epsilon) if route.epsilon else one.deck for one in samples]
+    found = []
+    for one, run in zip(samples, run_hulls(data, load, options, first, runs), strict=True):
+        if isinstance(run, EmulatorError):
+            found.append(Filed(OTHERWISE, str(run)))
+            continue
+        filed = file_run(run, one, options, runs)
+        statements = sum(step.result.statements for step in run.steps)
+        found.append(_with(filed, {"statements": statements, **_measured(route, one, run)}))
+    return found
+
+
+def _port(route: Port, one: Judged) -> Filed:
+    try:
+        hull = convex_hull(
+            one.drawn.points, route.arithmetic, route.epsilon or None, route.translate, history=route.history
+        )
+    except RangeError as error:
+        return Filed(OTHERWISE, str(error))
+    return _with(file_hull(hull, one), _measured(route, one, hull))
+
+
+def _measured(route: Route, one: Judged, run: HullRun | Hull) -> Figures:
+    figures: dict[str, int | str] = {}
+    for name in route.measures:
+        figures.update(measure_of(name)(one, run))
+    return figures
+
+
+def _with(filed: Filed, figures: Figures) -> Filed:
+    return Filed(filed.outcome, filed.detail, {**filed.figures, **figures}, filed.order)

@@ -1,0 +1,165 @@
+"""A study's folder: manifest, rows by chunk, index; and what reports ask of it.
+
+``rows/`` is the record: a file a chunk, JSONL, a line a sample.  A chunk's file is there whole or not at all, so
+that counting the files is counting the work done.  ``index.sqlite`` is made from them.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import sqlite3
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from modern.study.files import StudyFileError, put, sweep
+from modern.study.index import clear, enter, known_chunks, open_index
+from modern.study.plan import Chunk, Plan
+
+ROWS = "rows"
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """One route's answer to one sample, as reports read it."""
+
+    cell: int
+    index: int
+    n: int
+    dimension: int
+    tags: dict[str, Any]
+    route: str
+    outcome: str
+    detail: str
+    figures: dict[str, Any]
+
+
+@dataclass
+class Store:
+    """The rows of a study on disk, for writing while it runs and for reading when it is done.
+
+    Reading methods give rows in the order of cells and samples and hold one at a time.
+    """
+
+    folder: Path
+    plan: Plan
+    database: sqlite3.Connection
+
+    @classmethod
+    def open(cls, folder: Path, plan: Plan) -> Store:
+        """The store in a folder that exists.  Raises StudyFileError."""
+        try:
+            (folder / ROWS).mkdir(exist_ok=True)
+        except OSError as error:
+            raise StudyFileError(f"{folder / ROWS}: {(error.strerror or str(error)).lower()}") from None
+        store = cls(folder, plan, open_index(folder))
+        sweep(folder)
+        sweep(folder / ROWS)
+        return store
+
+    def close(self) -> None:
+        self.database.close()
+
+    def missing(self) -> list[Chunk]:
+        """The chunks whose rows are not there, after the index was brought in step with the files."""
+        chunks = {chunk.name: chunk for chunk in self.plan.chunks()}
+        present = {path.name for path in (self.folder / ROWS).glob("*.jsonl")}
+        strange = present - chunks.keys()
+        if strange:
+            raise StudyFileError(f"{self.folder / ROWS}: {min(strange)} is no chunk of this study")
+        known = known_chunks(self.database)
+        if not known <= present:
+            clear(self.database)
+            known = set()
+        for name in sorted(present - known):
+            enter(self.database, name, self._lines(name))
+        return [chunk for name, chunk in chunks.items() if name not in present]
+
+    def add(self, chunk: Chunk, text: str) -> None:
+        """Keep a chunk's rows.  Raises StudyFileError where they cannot be written; nothing is kept then."""
+        put(self.folder / ROWS / chunk.name, text)
+        enter(self.database, chunk.name, text.splitlines())
+
+    def rows(self) -> Iterator[dict[str, Any]]:
+        """Every row, as the files have it."""
+        for chunk in self.plan.chunks():
+            for line in self._lines(chunk.name):
+                yield json.loads(line)
+
+    def decks_sha256(self) -> str:
+        """SHA-256 of all decks, card by card, in order."""
+        digest = hashlib.sha256()
+        for row in self.rows():
+            digest.update("".join(card + "\n" for card in row["deck"]).encode("ascii"))
+        return digest.hexdigest()
+
+    def runs(self, cell: int | None = None, route: str | None = None) -> Iterator[Run]:
+        """Answers, of one cell or route or of all."""
+        where, values = [], []
+        for column, value in (("cell", cell), ("route", route)):
+            if value is not None:
+                where.append(f"runs.{column} = ?")
+                values.append(value)
+        asked = self.database.execute(
+            "SELECT runs.cell, runs.place, n, dimension, tags, route, outcome, detail, figures FROM runs "
+            "JOIN samples ON samples.cell = runs.cell AND samples.place = runs.place "
+            f"{'WHERE ' + ' AND '.join(where) if where else ''} ORDER BY runs.cell, runs.place, route",
+            values,
+        )
+        for c, place, n, dimension, tags, name, outcome, detail, figures in asked:
+            yield Run(c, place, n, dimension, json.loads(tags), name, outcome, detail, json.loads(figures))
+
+    def counts(self, *columns: str, cell: int | None = None, route: str | None = None) -> dict[tuple[Any, ...], int]:
+        """How many answers there are of each combination of columns, sorted.
+
+        Columns are those of the index (cell, route, outcome, detail, n, dimension, vertices, planes) and tags, as
+        ``tags.kind``.
+        """
+        names = [_column(name) for name in columns]
+        where, values = [], []
+        for column, value in (("cell", cell), ("route", route)):
+            if value is not None:
+                where.append(f"runs.{column} = ?")
+                values.append(value)
+        asked = self.database.execute(
+            f"SELECT {', '.join(names)}, COUNT(*) FROM runs "
+            "JOIN samples ON samples.cell = runs.cell AND samples.place = runs.place "
+            f"{'WHERE ' + ' AND '.join(where) if where else ''} "
+            f"GROUP BY {', '.join(names)} ORDER BY {', '.join(names)}",
+            values,
+        )
+        return {tuple(row[:-1]): row[-1] for row in asked}
+
+    def parquet(self) -> None:
+        """``rows.parquet``, a row for each answer, where pyarrow is there; nothing where it is not."""
+        try:
+            from modern.study.parquet import write_parquet
+        except ImportError:
+            return
+        write_parquet(self.folder / "rows.parquet", self.rows())
+
+    def query(self, sql: str, values: Sequence[Any] = ()) -> Iterator[tuple[Any, ...]]:
+        """A query of one's own over the tables ``samples`` and ``runs`` (modern/study/index.py)."""
+        return self.database.execute(sql, values)
+
+    def _lines(self, name: str) -> list[str]:
+        path = self.folder / ROWS / name
+        try:
+            return path.read_text(encoding="utf-8").splitlines()
+        except OSError as error:
+            raise StudyFileError(f"{path}: {(error.strerror or str(error)).lower()}") from None
+
+
+def _column(name: str) -> str:
+    if name.startswith("tags."):
+        key = name.removeprefix("tags.")
+        if not key.replace("_", "").isalnum():
+            raise ValueError(f"{name!r} names no tag")
+        return f"json_extract(tags, '$.{key}')"
+    if name in ("cell", "route", "outcome", "detail"):
+        return f"runs.{name}"
+    if name in ("n", "dimension", "vertices", "planes", "boundary", "inside"):
+        return f"samples.{name}"
+    raise ValueError(f"{name!r} is no column of the index")

@@ -1,0 +1,60 @@
+"""Cells by their keys, and how often each outcome was, by cell and route: what most reports are computed from."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+from modern.study.filing import DETERMINED, OUTCOMES
+from modern.study.plan import Cell, Plan, Value
+from modern.study.statistics import Interval, wilson
+from modern.study.store import Store
+
+
+def values(plan: Plan, key: str) -> tuple[Value, ...]:
+    """The values a part of the key has in a plan, in the order of the cells."""
+    return tuple(dict.fromkeys(cell.key[key] for cell in plan.cells if key in cell.key))
+
+
+def cells(plan: Plan, **key: Value) -> tuple[tuple[int, Cell], ...]:
+    """The cells, with their numbers, whose keys have these values."""
+    wanted = key.items()
+    return tuple((k, cell) for k, cell in enumerate(plan.cells) if all(cell.key.get(a) == b for a, b in wanted))
+
+
+@dataclass(frozen=True, slots=True)
+class Summary:
+    """Counts of outcomes; cells are numbered from 0 as in the plan."""
+
+    counts: Mapping[tuple[int, str], Counter[str]]
+
+    def of(self, cell: int, route: str) -> int:
+        """Samples of a cell sent through a route."""
+        return self.counts[cell, route].total()
+
+    def hits(self, cell: int, route: str, outcomes: Iterable[str] = DETERMINED) -> int:
+        """Samples filed under one of the outcomes; by default those whose hull was found."""
+        wanted = frozenset(outcomes)
+        return sum(n for outcome, n in self.counts[cell, route].items() if outcome in wanted)
+
+    def failed(self, cell: int, route: str) -> int:
+        """Samples whose hull was not found."""
+        return self.of(cell, route) - self.hits(cell, route)
+
+    def share(self, cell: int, route: str, outcomes: Iterable[str] = DETERMINED) -> Interval:
+        """The proportion of samples under one of the outcomes, with Wilson's interval."""
+        return wilson(self.hits(cell, route, outcomes), self.of(cell, route))
+
+    def seen(self) -> tuple[str, ...]:
+        """The outcomes that occur, in the order of the filing."""
+        present = {outcome for counter in self.counts.values() for outcome in counter}
+        return tuple(outcome for outcome in OUTCOMES if outcome in present)
+
+
+def summary(store: Store) -> Summary:
+    """Count a study's outcomes."""
+    counts: dict[tuple[int, str], Counter[str]] = {}
+    for (cell, route, outcome), n in store.counts("cell", "route", "outcome").items():
+        counts.setdefault((cell, route), Counter())[outcome] += n
+    return Summary(counts)

@@ -1,0 +1,138 @@
+"""A plan from a TOML file: a study without a line of Python.
+
+::
+
+    name = "mine"
+    title = "What three digits do"
+    question = "How often do the programs refuse them?"
+    samples = 200                    # of each cell that does not say otherwise
+
+    [[route]]
+    name = "as listed"               # kind = "programs" where it does not say "port"
+
+    [[route]]
+    name = "float64"
+    kind = "port"
+    arithmetic = "float64"
+
+    [[cell]]
+    family = "integers"
+    parameters = { digits = 3, n = [4, 20] }
+
+    [[cell]]
+    family = "file"                  # the points of a deck, CSV or OFF file, beside the plan
+    parameters = { path = "mine.csv", shuffle = true }
+
+Every route serves every cell that does not name its own (``routes = ["float64"]``).  A cell without ``key`` has its
+family and parameters for one.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+from modern.study.families.given import file_points
+from modern.study.plan import Cell, Plan, PlanError, Port, Programs, Route
+
+_SAMPLES = 1000
+_HEAD = ("name", "title", "question", "samples", "seed", "notes", "route", "cell")
+_CELL = ("key", "family", "parameters", "routes", "samples", "reference", "chunk")
+
+
+def is_plan_file(name: str) -> bool:
+    """Whether a study's name on the command line is a file's."""
+    return name.endswith(".toml")
+
+
+def read_plan(path: str, samples: int | None = None, seed: int | None = None) -> Plan:
+    """The plan of a file; ``samples`` and ``seed`` go before the file's own.  Raises PlanError, EmulatorError."""
+    try:
+        data = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+    except OSError as error:
+        raise PlanError(f"{path}: {(error.strerror or str(error)).lower()}") from None
+    except (tomllib.TOMLDecodeError, ValueError) as error:
+        raise PlanError(f"{path}: {str(error).splitlines()[0]}") from None
+    try:
+        return _plan(data, Path(path), samples, seed)
+    except (TypeError, AttributeError, KeyError) as error:
+        raise PlanError(f"{path}: {error} is missing or of a wrong kind") from None
+
+
+def _plan(data: Mapping[str, Any], path: Path, samples: int | None, seed: int | None) -> Plan:
+    _known(data, _HEAD, f"{path}")
+    routes: dict[str, Route] = {}
+    for number, raw in enumerate(data.get("route", ()), 1):
+        route = _route(raw, f"{path}: route {number}")
+        if route.name in routes:
+            raise PlanError(f"{path}: two routes have the name {route.name!r}")
+        routes[route.name] = route
+    if not routes:
+        raise PlanError(f"{path}: there is no [[route]]")
+    cells = []
+    for number, raw in enumerate(data.get("cell", ()), 1):
+        where = f"{path}: cell {number}"
+        size = samples or raw.get("samples", data.get("samples", _SAMPLES))
+        cells.append(_cell(raw, routes, size, path.parent, where))
+    name = str(data.get("name", path.stem))
+    chosen = data.get("seed", 1963) if seed is None else seed
+    if not isinstance(chosen, int):
+        raise PlanError(f"{path}: the seed is a whole number")
+    return Plan(
+        name,
+        str(data.get("title", name)),
+        str(data.get("question", "")),
+        tuple(cells),
+        chosen,
+        tuple(map(str, data.get("notes", ()))),
+    )
+
+
+def _route(raw: Mapping[str, Any], where: str) -> Route:
+    values = {name: tuple(value) if isinstance(value, list) else value for name, value in raw.items()}
+    kind = values.pop("kind", "programs")
+    if kind not in ("programs", "port"):
+        raise PlanError(f"{where}: kind is programs or port, not {kind!r}")
+    made: type[Any] = Programs if kind == "programs" else Port
+    types = {field.name: field for field in fields(made)}
+    _known(values, tuple(types), where)
+    if not isinstance(values.get("name"), str):
+        raise PlanError(f"{where}: it has no name")
+    sample = made("")
+    for name, value in values.items():
+        if type(value) is not type(getattr(sample, name)):
+            raise PlanError(f"{where}: {name} = {value!r} is of a wrong kind")
+    route: Route = made(**values)
+    return route
+
+
+def _cell(raw: Mapping[str, Any], routes: Mapping[str, Route], samples: int, folder: Path, where: str) -> Cell:
+    _known(raw, _CELL, where)
+    if "family" not in raw:
+        raise PlanError(f"{where}: it has no family")
+    named = raw.get("routes", list(routes))
+    missing = [name for name in named if name not in routes]
+    if missing:
+        raise PlanError(f"{where}: there is no route {missing[0]!r}")
+    family, parameters = str(raw["family"]), dict(raw.get("parameters", {}))
+    shown = {name: str(value) for name, value in parameters.items()}
+    if family == "file":
+        if not isinstance(parameters.get("path"), str):
+            raise PlanError(f"{where}: the family file needs a path")
+        family, place = "points", folder / parameters.pop("path")
+        parameters["points"] = file_points(str(place))
+    if not isinstance(samples, int) or not isinstance(raw.get("chunk", 1), int):
+        raise PlanError(f"{where}: samples and chunk are whole numbers")
+    key = dict(raw.get("key", {"family": str(raw["family"]), **shown}))
+    chosen = tuple(routes[name] for name in named)
+    extra = {name: raw[name] for name in ("reference", "chunk") if name in raw}
+    return Cell(key, family, parameters, chosen, samples, **extra)
+
+
+def _known(data: Mapping[str, Any], names: tuple[str, ...], where: str) -> None:
+    unknown = [name for name in data if name not in names]
+    if unknown:
+        raise PlanError(f"{where}: there is no {unknown[0]!r}; there are {', '.join(names)}")
