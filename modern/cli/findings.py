@@ -26,7 +26,7 @@ def finding_lines(paper: Paper, found: Sequence[Finding], paint: Paint, indented
         word = paint(finding.kind, _PAINTED_AS[finding.kind])
         yield f"  {result.place}: {word}"
         yield from indented(result.says)
-        if finding.kind in (CANNOT, EXPLAINED):
+        if finding.excused:
             yield from indented(result.cannot or result.differs)
         if finding.kind == CORRECTED:
             rows = ", ".join(f"{row.id} ({row.kind})" for row in result.rows)

@@ -179,7 +179,8 @@ def _summary_lines(
         from modern.cli.findings import finding_summary
 
         yield finding_summary(found)
-    words = "Every printed result comes out." if good else "NOT every printed result comes out."
+    words = "Every printed result comes out" if good else "NOT every printed result comes out"
+    words += ", or it is said why it does not." if good and any(finding.excused for finding in found) else "."
     yield _paint(words, EXACT if good else DIFFERENT, colour)
 
 

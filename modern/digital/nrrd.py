@@ -43,7 +43,8 @@ def parse_nrrd(data: bytes, source: str) -> NDArray[Any]:
     """The array of an NRRD file, indexed [x, y] or [x, y, z].
 
     source: the name messages use; a detached header's data file is looked for beside it.  Raises VolumeError with the
-    header's line for a field that is missing, unknown here or no number, and for data that are too short, too long or damaged.
+    header's line for a field that is missing, unknown here or no number, and for data that are too short, too long or
+    damaged.
     """
     head, body = _cut(data)
     fields = _fields(head, source)

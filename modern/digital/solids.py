@@ -1,4 +1,4 @@
-"""Sets of voxels: the type, and digital balls and half-balls.
+"""Sets of voxels: the type, sets from arrays and from lists of coordinates, digital balls and half-balls.
 
 A voxel is named by its whole coordinates (x, y, z); its centre is that point, and as a cube it reaches half a unit
 further each way.  Pixels of a plane picture are voxels with two coordinates.
@@ -6,7 +6,10 @@ further each way.  Pixels of a plane picture are voxels with two coordinates.
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +18,9 @@ from emulator.errors import EmulatorError
 
 VOXEL, VERTEX = "voxel", "vertex"
 MAX_CELLS = 2**31
+DIGITS = 18
+FARTHEST = 10**DIGITS
+"""No coordinate is as far from 0: sums with the sides of a box stay within 64 bits."""
 
 Voxels = NDArray[np.bool_]
 
@@ -62,6 +68,46 @@ class Volume:
         """The voxels as an int64 array of shape (count, dimension) in raster order: x runs fastest, then y, then z."""
         found = np.argwhere(self.array.T)[:, ::-1]
         return found.astype(np.int64) + np.array(self.origin, dtype=np.int64)
+
+
+def as_volume(volume: Volume | Voxels) -> Volume:
+    """A volume as it is; an array of truth values as one whose voxels have their indices for coordinates.
+
+    Raises VolumeError as ``Volume`` does.
+    """
+    if isinstance(volume, Volume):
+        return volume
+    array = np.asarray(volume)
+    return Volume(array, (0,) * array.ndim)
+
+
+def listed(coordinates: Sequence[Sequence[int]] | NDArray[np.integer[Any]], source: str = "volume") -> Volume:
+    """The volume of voxels by their whole coordinates, in any order, shape (n, 2) or (n, 3); it keeps them.
+
+    A voxel that is listed again counts once, and a note says so.  Raises VolumeError for coordinates of another shape
+    or type, for none, for one of more than ``DIGITS``, and for voxels in a box of more than ``MAX_CELLS``.
+    """
+    given = np.asarray(coordinates)
+    if not given.size:
+        raise VolumeError(f"{source}: there are no voxels")
+    if given.ndim != 2 or given.shape[1] not in (2, 3) or given.dtype.kind not in "iu":
+        raise VolumeError(
+            f"{source}: coordinates are whole numbers, two or three a voxel, "
+            f"not an array of {given.dtype} of shape {given.shape}"
+        )
+    if int(given.min()) <= -FARTHEST or int(given.max()) >= FARTHEST:
+        raise VolumeError(f"{source}: a coordinate has more than {DIGITS} digits")
+    places = given.astype(np.int64)
+    low = [int(least) for least in places.min(axis=0)]
+    sides = [int(most) - least + 1 for most, least in zip(places.max(axis=0), low, strict=True)]
+    if math.prod(sides) > MAX_CELLS:
+        size = " x ".join(map(str, sides))
+        raise VolumeError(f"{source}: the voxels lie in a box of {size}; more than {MAX_CELLS} places are not kept")
+    array = np.zeros(sides, dtype=np.bool_)
+    array[tuple((places - places.min(axis=0)).T)] = True
+    again = len(places) - int(np.count_nonzero(array))
+    notes = (f"{source}: {again} of {len(places)} voxels are listed before",) if again else ()
+    return Volume(array, tuple(low), source, notes)
 
 
 def ball(diameter: int, centre: str = VOXEL) -> Volume:

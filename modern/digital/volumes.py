@@ -18,14 +18,25 @@ from numpy.typing import NDArray
 
 from emulator.cards import standard_input, writing_bytes
 from modern.digital.nrrd import MAGIC, parse_nrrd
-from modern.digital.solids import MAX_CELLS, VERTEX, VOXEL, Volume, VolumeError, ball, half_ball
+from modern.digital.solids import DIGITS, VERTEX, VOXEL, Volume, VolumeError, ball, half_ball, listed
 from modern.export.numbers import shown
 from modern.points import rows
 
-__all__ = ["VERTEX", "VOXEL", "Volume", "VolumeError", "ball", "half_ball", "parse_volume", "read_volume", "write_npy"]
+__all__ = [
+    "VERTEX",
+    "VOXEL",
+    "Volume",
+    "VolumeError",
+    "ball",
+    "half_ball",
+    "listed",
+    "parse_volume",
+    "read_volume",
+    "write_npy",
+]
 
 _BALL = re.compile(r"(half-)?ball:([0-9]{1,5})(?::(voxel|vertex))?", re.ASCII)
-_WHOLE = re.compile(r"[+-]?[0-9]{1,18}", re.ASCII)
+_WHOLE = re.compile(r"[+-]?[0-9]+", re.ASCII)
 _NPY = b"\x93NUMPY"
 
 
@@ -126,17 +137,7 @@ def _listed(text: str, source: str) -> Volume:
         for field, word in enumerate(row, 1):
             if not _WHOLE.fullmatch(word.strip()):
                 raise VolumeError(f"{source}: line {line}, field {field}: {shown(word.strip())} is no whole number")
+            if len(word.strip().lstrip("+-")) > DIGITS:
+                raise VolumeError(f"{source}: line {line}, field {field}: more than {DIGITS} digits")
         found.append(tuple(int(word) for word in row))
-    if not found:
-        raise VolumeError(f"{source}: there are no voxels")
-    places = np.array(found, dtype=np.int64)
-    low = places.min(axis=0)
-    sides = tuple(int(most) - int(least) + 1 for most, least in zip(places.max(axis=0), low, strict=True))
-    if math.prod(sides) > MAX_CELLS:
-        size = " x ".join(map(str, sides))
-        raise VolumeError(f"{source}: the voxels lie in a box of {size}; more than {MAX_CELLS} places are not kept")
-    array = np.zeros(sides, dtype=np.bool_)
-    array[tuple((places - low).T)] = True
-    again = len(found) - int(np.count_nonzero(array))
-    notes = (f"{source}: {again} of {len(found)} voxels are listed before",) if again else ()
-    return Volume(array, tuple(int(number) for number in low), source, notes)
+    return listed(found, source)

@@ -94,6 +94,11 @@ class Finding:
         """Whether the result came out, or the data say why it cannot."""
         return self.kind != DIFFERENT
 
+    @property
+    def excused(self) -> bool:
+        """Whether the result did not come out and the data say why."""
+        return self.kind in (EXPLAINED, CANNOT)
+
 
 def text_of(paper: Paper, folder: Traversable | None = None) -> Text:
     """The paper's printed values: witness and apparatus."""

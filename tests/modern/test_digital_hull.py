@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import random
 import subprocess
 import sys
@@ -105,6 +106,13 @@ def test_axes_and_memory_do_not_matter(array: np.ndarray, order: list[int]) -> N
     axes = order if array.ndim == 3 else [axis for axis in order if axis < 2]
     turned = digital_hull(array.transpose(axes)[..., ::-1])
     assert np.array_equal(turned.filled[..., ::-1].transpose(np.argsort(axes)), digital_hull(array).filled)
+
+
+@pytest.mark.parametrize("axes", list(itertools.permutations(range(3))))
+def test_the_axes_stay_in_their_order_whatever_that_of_memory(axes: tuple[int, int, int]) -> None:
+    array = np.zeros((3, 5, 7), dtype=np.bool_)
+    array[0, 0, 0] = array[2, 1, 3] = array[1, 4, 2] = array[0, 2, 6] = True
+    assert agrees(array.transpose(axes))
 
 
 @given(VOLUMES)

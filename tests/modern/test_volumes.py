@@ -7,6 +7,7 @@ import io
 import tracemalloc
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from emulator.errors import EmulatorError
-from modern.digital.volumes import Volume, VolumeError, ball, half_ball, parse_volume, read_volume, write_npy
+from modern.digital.volumes import Volume, VolumeError, ball, half_ball, listed, parse_volume, read_volume, write_npy
 
 STEPS = np.arange(24).reshape(2, 3, 4) % 5
 """Values 0 to 4 at places that no exchange of axes leaves alone."""
@@ -188,6 +189,7 @@ BAD_HEADER = nrrd(STEPS.astype("u1"), "uchar")
         (b"1,2,3,4\n", "line 1, column 1: 4 fields; a voxel has three, x,y,z"),
         (b"1,2,3.5\n", "line 1, field 3: '3.5' is no whole number"),
         (b"1,2,\n", "line 1, field 3: '' is no whole number"),
+        (b"1,2,-1000000000000000000\n", "line 1, field 3: more than 18 digits"),
         (b"0,0,0\n2000000,2000,2000\n", "lie in a box of 2000001 x 2001 x 2001"),
         (b"\xff\xfe\x00", "neither NPY nor NRRD nor text in UTF-8"),
         (npy(np.zeros((2, 2, 2))), "there are no voxels: every value is 0"),
@@ -270,6 +272,33 @@ def test_standard_input(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("sys.stdin", None)
     with pytest.raises(EmulatorError, match="standard input is closed"):
         read_volume("-")
+
+
+def test_a_list_of_coordinates() -> None:
+    volume = listed(np.array([[-100, 3, 2], [100, 4, 2], [-100, 3, 2]], dtype=np.int8), "list")
+    assert (volume.count, volume.origin, volume.array.shape) == (2, (-100, 3, 2), (201, 2, 1))
+    assert volume.coordinates().tolist() == [[-100, 3, 2], [100, 4, 2]]
+    assert volume.notes == ("list: 1 of 3 voxels are listed before",)
+    assert listed([(5, 6)]).dimension == 2
+
+
+@pytest.mark.parametrize(
+    ("coordinates", "message"),
+    [
+        ([], "there are no voxels"),
+        ([1, 2, 3], "two or three a voxel, not an array of int64 of shape (3,)"),
+        ([(1, 2, 3, 4)], "of shape (1, 4)"),
+        ([(1, 2.5, 3)], "an array of float64"),
+        ([(0, 0, 10**18)], "a coordinate has more than 18 digits"),
+        (np.array([[2**64 - 1, 0]], dtype=np.uint64), "a coordinate has more than 18 digits"),
+        ([(0, 0, 0), (2**31, 0, 0)], "lie in a box of 2147483649 x 1 x 1"),
+    ],
+)
+def test_what_is_no_list_of_coordinates(coordinates: Any, message: str) -> None:
+    with pytest.raises(VolumeError) as caught:
+        listed(coordinates, "list")
+    assert str(caught.value).startswith("list: ")
+    assert message in str(caught.value)
 
 
 def test_a_ball_takes_no_shape_and_no_other_centre() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from modern.digital.solids import Volume, VolumeError
+from modern.digital.solids import Volume, VolumeError, Voxels, as_volume
 from modern.papers.kovalevsky_schulz.cells import CellList
 from modern.papers.kovalevsky_schulz.corners import VERTICES, Points, corner_mask, places, points_of
 from modern.papers.kovalevsky_schulz.merging import merged, straightened
@@ -44,13 +44,17 @@ class VoxelHull:
         return self.surface
 
 
-def voxel_hull(volume: Volume, of: str = VERTICES, neighbours: int = 26, coplanar: str = VISIBLE) -> VoxelHull:
+def voxel_hull(volume: Volume | Voxels, of: str = VERTICES, neighbours: int = 26, coplanar: str = VISIBLE) -> VoxelHull:
     """The hull of a solid's voxels (``of="centres"``) or of their corners (``of="vertices"``).
 
+    volume: a volume, or an array of truth values indexed [x, y, z].
     neighbours: 6 or 26, the test that chooses local corners.  coplanar: ``visible`` or ``invisible``, see
     ``convex_polyhedron``.  The hull does not depend on either, the number of triangles does.  Raises VolumeError for a
-    picture of two dimensions.
+    picture of two dimensions and for a volume without voxels.
     """
+    volume = as_volume(volume)
+    if not volume.count:
+        raise VolumeError(f"{volume.source}: there are no voxels")
     array = places(volume, of)
     masks = {count: corner_mask(array, count) for count in (6, 26)}
     inserted = points_of(masks[neighbours], volume.origin)

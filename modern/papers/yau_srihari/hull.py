@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.digital.solids import MAX_CELLS, Volume, VolumeError
+from modern.digital.solids import MAX_CELLS, Volume, VolumeError, as_volume
 from modern.papers.yau_srihari import octree as trees
 from modern.papers.yau_srihari.connectivity import components
 from modern.papers.yau_srihari.envelope import Envelope, envelope
@@ -60,7 +60,7 @@ def octree_hull(volume: Volume | NDArray[np.bool_], printed: Printed | None = No
     printed: the statements of the paper taken as printed; none by default.  Raises VolumeError for another array, for
     one without voxels, and for one whose cube has more than ``MAX_CELLS``.
     """
-    volume = volume if isinstance(volume, Volume) else Volume(np.asarray(volume), (0,) * np.ndim(volume))
+    volume = as_volume(volume)
     printed = printed or Printed()
     array: NDArray[Any] = volume.array.reshape(volume.array.shape + (1,) * (3 - volume.dimension))
     if not array.any():

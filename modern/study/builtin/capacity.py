@@ -203,7 +203,7 @@ def _words(plan: Plan, found: Summary, peaks: dict[int, _Peak]) -> list[str]:
                 f"{percent(found.share(last, LISTED, (TABLE,)))} of the runs as listed end with the table full."
             )
         else:
-            words.append(f"{name}: never more than {most} places, so {PLACES} bear N = {int(n)}.")
+            words.append(f"{name}: never more than {most} places, up to N = {int(n)}.")
     tried = [(int(cell.key["n"]), peaks[k].most) for k, cell in enumerate(plan.cells) if k in peaks]
     bears = max((n for n, _ in tried if all(most <= PLACES for m, most in tried if m <= n)), default=0)
     most = max((peak.most for peak in peaks.values()), default=0)

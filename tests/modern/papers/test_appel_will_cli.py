@@ -146,7 +146,7 @@ def test_output_is_an_off_file_of_the_hull(room: Path, capsys: pytest.CaptureFix
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("1,2,3\n", "a point of 1 points"),
+        ("1,2,3\n", "1 point\n0 projections; a point\n"),
         ("1,2,3\n1,2,3\n2,3,4\n", "a segment of 2 points"),
         ("0,0,0\n1,0,0\n0,1,0\n.25,.25,0\n", "a polygon of 3 points"),
     ],

@@ -126,6 +126,8 @@ def test_cells_are_printed_as_tables(capsys: pytest.CaptureFixture[str]) -> None
     table = [line.split("\t") for line in out.splitlines() if "\t" in line]
     assert [row[0] for row in table] == ["Vertex", *"12345678", "Edge", *map(str, range(1, 13)), "Face", *"123456"]
     assert table[1][1] == "(0, 0, 0)"
+    # 9/2 x 12 triangles; 3 x 8 vertices and 5 x 6 faces; the cube's faces have four vertices each.
+    assert "integers to save: 54 for the triangles by (5), 54 for the cell list by (6), 48 counted" in out
 
 
 @pytest.mark.parametrize(
@@ -178,3 +180,12 @@ def test_bad_calls_end_with_one_line(
     assert message in err
     assert err.count("\n") == 1
     assert sorted(path.name for path in Path().iterdir()) == ["flat.npy"]
+
+
+def test_too_little_memory_is_one_line(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    def too_much(*_: object) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr("modern.cli.voxel_hull.voxel_hull", too_much)
+    code, _, err = run(capsys, "ball:4")
+    assert (code, err) == (2, "hull1620: there is not enough memory for this\n")

@@ -198,7 +198,10 @@ HEAD = "[[part]]\nshape = "
         (HEAD + "'polyhedron'\nvertices = [[0, 0, 0]]\nfaces = [[0]]", "faces: vertices are counted from 1 to 1"),
         ("view = 3\n" + HEAD + "'cuboid'\nsize = [1, 1, 1]", "s: view: a table is due"),
         ("[view]\nprojection = 'flat'\n" + HEAD + "'cuboid'\nsize = [1, 1, 1]", "'flat' is neither parallel nor"),
-        ("[view]\neye = [0, 0, 0]\n" + HEAD + "'cuboid'\nsize = [1, 1, 1]", "view: eye: the direction of view is 0,0,0"),
+        (
+            "[view]\neye = [0, 0, 0]\n" + HEAD + "'cuboid'\nsize = [1, 1, 1]",
+            "view: eye: the direction of view is 0,0,0",
+        ),
         (
             "[view]\nprojection = 'perspective'\neye = [3, 2, 1]\ntowards = [3, 2, 1]\n"
             + HEAD

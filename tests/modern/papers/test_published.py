@@ -1,0 +1,92 @@
+"""The verdicts on published results, and ``hull1620 reproduce`` with the name of a paper."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from dataclasses import replace
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+from modern.cli.main import main
+from modern.edition.apparatus import ApparatusError
+from modern.edition.verdicts import DIFFERENT, EXACT
+from modern.papers.published import CANNOT, CORRECTED, EXPLAINED, PAPERS, Paper, Published, findings, judge, results_of
+
+PAPER = PAPERS[0]
+PLAIN = Published("one", "Fig. 1", "two numbers", ("1 2",), ("1 2",), ())
+ROW = next(result.rows[0] for result in results_of(PAPER) if result.rows)
+
+
+@pytest.mark.parametrize(
+    ("result", "produced", "kind"),
+    [
+        (PLAIN, ["1   2"], EXACT),
+        (PLAIN, ["1 3"], DIFFERENT),
+        (PLAIN, ["1 2", "3"], DIFFERENT),
+        (PLAIN, [], DIFFERENT),
+        (replace(PLAIN, rows=(ROW,)), ["1 2"], CORRECTED),
+        (replace(PLAIN, rows=(ROW,)), ["1 3"], DIFFERENT),
+        (replace(PLAIN, differs="a slip"), ["1 3"], EXPLAINED),
+        (replace(PLAIN, differs="a slip"), ["1 2"], DIFFERENT),
+        (replace(PLAIN, differs="a slip"), [], DIFFERENT),
+        (replace(PLAIN, cannot="no data"), [], CANNOT),
+        (replace(PLAIN, cannot="no data"), ["1 2"], DIFFERENT),
+    ],
+)
+def test_verdicts(result: Published, produced: list[str], kind: str) -> None:
+    finding = judge(PAPER, result, produced)
+    assert finding.kind == kind
+    assert finding.holds == (kind != DIFFERENT)
+    assert finding.excused == (kind in (EXPLAINED, CANNOT))
+
+
+@pytest.mark.parametrize(
+    ("lines", "message"),
+    [
+        (('"1", "2"', '"2", "3"'), "two: result two: lines 2 to 3 are not free in the print"),
+        (('"1", "2"', '"3", "4"'), "two: result two: lines 3 to 4 are not free in the print"),
+        (('"1", "1"', '"3", "3"'), "two: lines 2 belong to no result"),
+    ],
+)
+def test_every_line_of_the_print_belongs_to_one_result(tmp_path: Path, lines: tuple[str, str], message: str) -> None:
+    (tmp_path / "witness.txt").write_text("## page 1\n1 2\n3 4\n5 6\n")
+    (tmp_path / "apparatus.toml").write_text(
+        '[text]\nid = "two"\ntitle = "two"\nwitness = "witness.txt"\nlayers = ["ocr"]\ndefault = ["ocr"]\n'
+    )
+    entry = '[[result]]\nid = "{}"\nplace = "p. 1"\nsays = "numbers"\nlines = [{}]\n'
+    (tmp_path / "results.toml").write_text(entry.format("one", lines[0]) + entry.format("two", lines[1]))
+    with pytest.raises(ApparatusError) as caught:
+        results_of(PAPER, tmp_path)
+    assert str(caught.value) == message
+
+
+@pytest.mark.parametrize("paper", PAPERS, ids=lambda paper: paper.name)
+def test_the_command_says_every_verdict(paper: Paper, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "verdicts.json"
+    assert main(["reproduce", paper.name, "--json", str(path)]) == 0
+    out = " ".join(capsys.readouterr().out.split())
+    found = list(findings(paper))
+    kinds = Counter(finding.kind for finding in found)
+    assert out.startswith(paper.title)
+    assert all(f"{count} {kind}" in out for kind, count in kinds.items())
+    assert all(finding.result.cannot in out and finding.result.differs in out for finding in found)
+    assert out.endswith("Every printed result comes out, or it is said why it does not.")
+    document = json.loads(path.read_text())["papers"]
+    assert [(entry["result"], entry["verdict"]) for entry in document] == [(f.result.id, f.kind) for f in found]
+
+
+def test_a_result_that_does_not_come_out_is_an_exit_code(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    module = import_module(PAPER.module)
+    lines = dict(module.produced())
+    lines["fig14"] = ["1 1 3", *lines["fig14"][1:]]
+    monkeypatch.setattr(module, "produced", lambda: lines)
+    assert main(["reproduce", PAPER.name]) == 1
+    out = capsys.readouterr().out
+    assert "Fig. 14: different" in out
+    assert "printed 1 1 2; computed 1 1 3" in " ".join(out.split())
+    assert "NOT every printed result comes out." in out
