@@ -169,7 +169,7 @@ def _chart(plan: Plan, peaks: dict[int, _Peak]) -> Lines:
         "points N",
         "places",
         tuple(series),
-        marks=(Mark(PLACES, "98 places, as listed"),),
+        marks=(Mark(PLACES, "98 places, as listed", left=True),),
         note=f"{plan.cells[0].samples} sets at each point; marks: means, bars: up to the most seen",
     )
 

@@ -16,6 +16,7 @@ from modern.study.statistics import Interval, exact
 from modern.study.store import Store
 from modern.study.summary import Summary, summary
 from modern.study.tables import Table, percent
+from modern.study.words import series
 
 TITLE = "digits of coordinates against digits of the arithmetic"
 SAMPLES = 300
@@ -70,12 +71,7 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 
 def least(found: Summary, cell: int) -> int | None:
     """The least P from which on no set of the cell failed; None where the greatest fails too."""
-    best = None
-    for p in reversed(WORKING):
-        if found.failed(cell, working(p)):
-            break
-        best = p
-    return best
+    return found.sound_from(cell, working, WORKING)
 
 
 def report(plan: Plan, store: Store) -> Report:
@@ -142,7 +138,7 @@ def _outcomes(found: Summary, cells: Cells) -> Table:
 
 
 def _growth(found: Summary, cells: Cells) -> Lines:
-    series = tuple(
+    lines = tuple(
         Series(f"d = {d}", tuple((float(p), found.share(cell, working(p))) for p in WORKING))
         for cell, d in cells
         if d in _SHOWN
@@ -152,7 +148,7 @@ def _growth(found: Summary, cells: Cells) -> Lines:
         f"Sets of {POINTS} points whose hull is found with P truncated digits",
         "working digits P",
         "hull found, of all sets",
-        series,
+        lines,
         percent=True,
         marks=(Mark(8, "the 1620's eight", upright=True),),
         note=f"whole coordinates of d digits, {found.of(0, LISTED)} sets each; bars: 95 % intervals (Wilson)",
@@ -186,7 +182,7 @@ def _drawn(place: int, value: int) -> tuple[float, Interval]:
 
 def _eight(found: Summary, cells: Cells) -> Bars:
     parts = (("hull found", DETERMINED), (NOT_ACCEPTABLE, (NOT_ACCEPTABLE,)), (WRONG, (WRONG,)))
-    series = tuple(
+    bars = tuple(
         Series(name, tuple((str(d), found.share(cell, CORRECTED, outcomes)) for cell, d in cells))
         for name, outcomes in parts
     )
@@ -195,7 +191,7 @@ def _eight(found: Summary, cells: Cells) -> Bars:
         "The corrected programs with eight digits",
         "digits of the coordinates d",
         "share of all sets",
-        series,
+        bars,
         percent=True,
         note=f"{found.of(0, CORRECTED)} sets of {POINTS} points each; bars: 95 % intervals (Wilson)",
     )
@@ -210,12 +206,13 @@ def _words(found: Summary, cells: Cells) -> list[str]:
     first = (
         f"Of sets of {POINTS} points the programs as listed find the hull with these proportions, by digits of the "
         f"coordinates: {', '.join(listed)}. With the mends of the layer corrected eight digits "
-        + (f"never failed for coordinates of {_series(safe)}" if safe else "failed for coordinates of every length")
-        + (f"; for {_series(none)} it found no hull at all." if none else ".")
+        + (f"never failed for coordinates of {_lengths(safe)}" if safe else "failed for coordinates of every length")
+        + (f"; for {_lengths(none)} it found no hull at all." if none else ".")
     )
     second = (
-        f"The programs notice it themselves: of {lost} sets that failed with the mends, {wrong} ended in a wrong hull "
-        f"that looks like a right one ({percent(exact(wrong, lost))}); the others were refused or did not end."
+        f"{'' if wrong else 'The programs notice it themselves. '}Of {lost} sets that failed with the mends, {wrong} "
+        f"ended in a wrong hull that looks like a right one ({percent(exact(wrong, lost))})"
+        f"{'; the others were refused or did not end' if wrong < lost else ''}."
         if lost
         else "No set failed with the mends."
     )
@@ -233,7 +230,5 @@ def _words(found: Summary, cells: Cells) -> list[str]:
     return [first, second, third]
 
 
-def _series(numbers: list[int]) -> str:
-    words = [str(n) for n in numbers]
-    listed = words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
-    return f"{listed} digit{'' if numbers == [1] else 's'}"
+def _lengths(numbers: list[int]) -> str:
+    return f"{series(numbers)} digit{'' if numbers == [1] else 's'}"

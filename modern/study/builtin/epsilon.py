@@ -198,7 +198,7 @@ def _chart(
         file,
         title,
         "k, where e = 10^k",
-        "a vertex swallowed or a body taken for flat, of all sets" if swallows else "hull found, of all sets",
+        "vertex swallowed, of all sets" if swallows else "hull found, of all sets",
         tuple(
             Series(str(cell.key["sets"]), tuple((float(k), shares(number, name(k))) for k in tried))
             for number, cell in enumerate(plan.cells)

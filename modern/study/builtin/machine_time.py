@@ -154,7 +154,7 @@ def _chart(plan: Plan, times: dict[int, _Time]) -> Lines:
         tuple(one for one in series if one.points),
         log_x=True,
         log_y=True,
-        marks=(Mark(60, "one hour"),),
+        marks=(Mark(60, "one hour", left=True),),
         note=f"{plan.cells[0].samples} sets at each point; bars: 95 % intervals of the mean (Student)",
     )
 

@@ -19,6 +19,7 @@ from modern.study.report import INTERVALS, Report
 from modern.study.statistics import Interval, exact, mean, wilson
 from modern.study.store import Store
 from modern.study.tables import Table, percent, with_interval
+from modern.study.words import count
 
 TITLE = "failures in seventy examples, with and without the mend of the last pair"
 SEVENTY = 70
@@ -26,6 +27,8 @@ SAMPLES = 2_000 * SEVENTY
 THESIS = 2
 LISTED, MENDED = "as listed", "last pair mended"
 _LIMIT = 200_000
+_RARE = 0.05
+"""What happens to a smaller share of the seventies is called unusual."""
 _IN_SPACE = ("slab", "plane and points")
 
 
@@ -219,27 +222,32 @@ def _share(kinds: dict[tuple[str, ...], int], names: tuple[str, ...], route: str
 
 def _words(listed: _Route, mended: _Route, kinds: dict[tuple[str, ...], int], longest: int) -> list[str]:
     space = tuple(name for name in _names(kinds) if name in _IN_SPACE)
-    often = listed.mean
+    often, like = listed.mean, listed.groups(THESIS)
     digits, wrong = (
         sum(n for (outcome, _), n in listed.causes.items() if outcome == named) for named in (NOT_ACCEPTABLE, WRONG)
     )
-    within = often.low <= THESIS <= often.high
+    beside = "less than" if often.high < THESIS else "more than" if often.low > THESIS else "as may be"
     first = (
-        f"As listed, the programs fail on {often.value:.2f} of seventy such sets ({often.low:.2f} to "
-        f"{often.high:.2f}), {'which is' if within else 'less than' if often.high < THESIS else 'more than'} the "
-        f"thesis's two; exactly two fail in {percent(listed.groups(THESIS, THESIS))} of the seventies, two or more in "
-        f"{percent(listed.groups(THESIS))}. So two failures in seventy are "
-        f"{'nothing unusual' if listed.groups(THESIS).low > 0.05 else 'unusual'} for such sets."
+        f"As listed, the programs fail on {with_interval(often)} of seventy such sets, {beside} the thesis's two; "
+        f"exactly two fail in {percent(listed.groups(THESIS, THESIS))} of the seventies, two or more in "
+        f"{percent(like)}. "
     )
+    if like.low > _RARE or like.high < _RARE:
+        first += f"So two failures in seventy are {'nothing unusual' if like.low > _RARE else 'unusual'} for such sets."
+    else:
+        first += "Whether two failures are unusual for such sets, so few seventies do not tell."
     causes = listed.causes.most_common(3)
     told = "; ".join(f"{outcome} at {where}, {percent(wilson(n, listed.failed))}" for (outcome, where), n in causes)
-    second = f"Of the {listed.failed} failures the most frequent are: {told}." if listed.failed else "No set failed."
-    second += (
-        f" {digits or 'None'} of them {'is' if digits < 2 else 'are'} DATA NOT ACCEPTABLE, the programs' own word for "
-        "too few digits, which is what the limits of the computer, to which the thesis puts its two down, lead to; "
-        f"{wrong or 'none'} {'ends' if wrong < 2 else 'end'} with a hull that is wrong, without a word. The others are "
-        "stops and loops within the programs."
-    )
+    second = "As listed, no set failed."
+    if listed.failed:
+        second = (
+            f"Of the {count(listed.failed, 'failure')} the most frequent are: {told}. {digits or 'None'} of them "
+            f"{'is' if digits < 2 else 'are'} DATA NOT ACCEPTABLE, the programs' own word for too few digits, which is "
+            "what the limits of the computer, to which the thesis puts its two down, lead to; "
+            f"{wrong or 'none'} {'ends' if wrong < 2 else 'end'} with a hull that is wrong, without a word."
+        )
+        if digits + wrong < listed.failed:
+            second += " The others are stops and loops within the programs."
     fewer = listed.mean.value - mended.mean.value
     third = (
         f"One card, the check that mends the last pair of inside planes, leaves {with_interval(mended.mean)} failures "
@@ -255,6 +263,8 @@ def _words(listed: _Route, mended: _Route, kinds: dict[tuple[str, ...], int], lo
             f"and two are expected where {THESIS / share.value:.0f} of the seventy are."
             if SEVENTY * share.value >= THESIS
             else "fewer than two."
+            if SEVENTY * share.high < THESIS
+            else "which may be two."
         )
     third += f" The longest run that gave a hull took {longest:,} statements, where {_LIMIT:,} count as endless."
     return [first, second, third]

@@ -240,12 +240,7 @@ def _by_ratio(pairs: list[_Pair]) -> Table:
 
 def _least(found: Summary, cell: int, name: str) -> int | None:
     """The least P from which on no set failed; None where the greatest fails too."""
-    best = None
-    for p in reversed(WORKING):
-        if found.failed(cell, working(name, p)):
-            break
-        best = p
-    return best
+    return found.sound_from(cell, lambda p: working(name, p), WORKING)
 
 
 def _digits(plan: Plan, found: Summary) -> Table:
