@@ -288,7 +288,11 @@ class _Comparison:
         """Digits lost and the relative difference of two stores; None and None where they are the same."""
         if mine[1] == other[1]:
             x, y = self._value(self._studied, mine[2]), self._value(self._reference, other[2])
-            if x == y and (x is not None or mine[2] is other[2] is None):
+            if x is None and y is None:
+                # Copies of what is undefined, infinities, no numbers: the same where they are called the same.
+                if _text(self._studied, mine[2], None) == _text(self._reference, other[2], None):
+                    return None, None
+            elif x == y:
                 return None, None
             if x is not None and y:
                 logarithm = _logarithm(abs(Fraction(x) - y)) - _logarithm(abs(Fraction(y)))

@@ -114,7 +114,7 @@ def _study(commands: Commands) -> None:
     )
     parser.add_argument("name", metavar="NAME", nargs="?", help="a study built in, or a plan file NAME.toml")
     parser.add_argument("--list", action="store_true", help="list the studies built in")
-    parser.add_argument("--samples", metavar="N", type=int, help="samples (what they count, --list says)")
+    parser.add_argument("--samples", metavar="N", type=int, help="samples (--list: the sets they make)")
     parser.add_argument("--seed", metavar="S", type=int, help="the seed of all samples (default: 1963)")
     parser.add_argument("--workers", metavar="W", type=int, help="processes (default: one a processor)")
     parser.add_argument(

@@ -33,7 +33,7 @@ def main(args: argparse.Namespace) -> int:
         print(line)
     if args.json:
         write_text(args.json, json.dumps(_document(found), indent=1) + "\n")
-    return DIFFERS if found.decisions or found.apart else OK
+    return DIFFERS if found.decisions or found.apart or _cut_short(found) else OK
 
 
 def _report(found: Divergence, width: int, values: bool) -> Iterator[str]:
@@ -44,9 +44,16 @@ def _report(found: Divergence, width: int, values: bool) -> Iterator[str]:
     yield from _first_decision(found, width)
     if found.apart:
         yield from _wrapped(f"not compared further: {found.apart}", width)
-    if found.losses:
+    elif _cut_short(found):
+        yield from _wrapped(f"not compared further: both were {_cut_short(found)}", width)
+    if found.losses and found.digits:
         yield ""
         yield from _table(found, width)
+
+
+def _cut_short(found: Divergence) -> str:
+    """How both runs, in step to their ends, were stopped by the statement limit; empty where they were not."""
+    return next((ending.message for ending in found.endings if ending and ending.kind == "limit"), "")
 
 
 def _first_value(found: Divergence, width: int) -> Iterator[str]:

@@ -6,26 +6,30 @@ import argparse
 import sys
 
 from modern.cli.exits import OK
-from modern.study.plan import PlanError
+from modern.study.plan import SEED, PlanError
 from modern.study.registry import entries, names, study
 from modern.study.report import spoken
 from modern.study.run import run_study
 from modern.study.tomlplan import is_plan_file, read_plan
-
-_SEED = 1963
+from modern.study.words import count
 
 
 def main(args: argparse.Namespace) -> int:
     """Carry out the study named, or list those there are."""
     if args.list:
         for entry in entries():
-            print(f"{entry.name:<14} {entry.title}; {entry.samples:,} samples")
+            print(f"{entry.name:<14} {entry.title}")
+            sets = f"{count(entry.sets, 'set')} in {count(entry.cells, 'cell')}"
+            print(f"{'':<14} --samples {entry.samples} (default): {sets}")
         return OK
     if args.name is None:
         raise PlanError(f"which study? There are {', '.join(names())}, or a plan file; --list says what they are")
     for name, value in (("--samples", args.samples), ("--workers", args.workers)):
         if value is not None and value < 1:
             raise PlanError(f"{name}: {value} is less than 1")
+    for name, value in (("--out", args.out), ("--dask", args.dask)):
+        if value == "":
+            raise PlanError(f"{name} is empty")
     if args.workers is not None and args.dask:
         raise PlanError("--workers and --dask are one or the other")
     options = {
@@ -46,7 +50,7 @@ def main(args: argparse.Namespace) -> int:
                 raise PlanError(
                     f"no study is called {args.name!r}; there are {', '.join(names())}, or a plan file NAME.toml"
                 ) from None
-            plan = found.plan(args.samples or found.SAMPLES, _SEED if args.seed is None else args.seed)
+            plan = found.plan(args.samples or found.SAMPLES, SEED if args.seed is None else args.seed)
             report = run_study(plan, args.out or plan.name, found.report, **options)
     except KeyboardInterrupt:
         print("hull1620: interrupted; what is done is kept, --resume goes on", file=sys.stderr)

@@ -19,11 +19,15 @@ class Series:
 
 @dataclass(frozen=True, slots=True)
 class Mark:
-    """A value to compare with: a line across the chart at x (``upright``) or at y, with its words."""
+    """A value to compare with: a line across the chart at x (``upright``) or at y, with its words.
+
+    The words of a level line stand at its right end, or with ``left`` at the other, where nothing is drawn.
+    """
 
     at: float
     words: str
     upright: bool = False
+    left: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,6 +14,9 @@ from modern.study.measures import measure_of
 from modern.study.plan import Cell, Plan, PlanError, Programs, Route
 from modern.study.routes import options_of, programs_of
 
+MOST_FILES = 1_000_000
+"""Files of rows a study may have: their names are held in memory while it runs."""
+
 
 def check_plan(plan: Plan) -> None:
     """Raises PlanError (or FamilyError) for a plan that cannot be carried out."""
@@ -22,8 +25,14 @@ def check_plan(plan: Plan) -> None:
     if not plan.cells:
         raise PlanError(f"{plan.name}: the plan has no cells")
     _differ((cell.name for cell in plan.cells), f"{plan.name}: two cells have the key")
+    files = 0
     for cell in plan.cells:
         _check_cell(cell, plan.seed)
+        files += -(-cell.samples // cell.chunk)
+    if files > MOST_FILES:
+        raise PlanError(
+            f"{plan.name}: {plan.samples:,} samples are {files:,} files of rows; a study has at most {MOST_FILES:,}"
+        )
 
 
 def _check_cell(cell: Cell, seed: int) -> None:
@@ -41,6 +50,8 @@ def _check_cell(cell: Cell, seed: int) -> None:
 
 
 def _check_route(route: Route) -> None:
+    if not route.name:
+        raise PlanError("a route has no name")
     for name in route.measures:
         measure_of(name)
     if not isinstance(route, Programs):

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import json
 import sqlite3
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
+from typing import Any
 
 from modern.study.files import StudyFileError
 
@@ -82,11 +83,10 @@ def clear(index: sqlite3.Connection) -> None:
     index.execute("COMMIT")
 
 
-def enter(index: sqlite3.Connection, name: str, lines: Iterable[str]) -> None:
+def enter(index: sqlite3.Connection, name: str, rows: Iterable[Mapping[str, Any]]) -> None:
     """Put a chunk's rows in, all or none.  Raises StudyFileError."""
     samples, runs = [], []
-    for line in lines:
-        row = json.loads(line)
+    for row in rows:
         key = (row["cell"], row["index"])
         tags = json.dumps(row.get("tags", {}), sort_keys=True)
         samples.append((*key, *(row["judge"][column] for column in _COLUMNS), tags))

@@ -16,6 +16,7 @@ from modern.study.routes import programs_of
 
 NAME = "manifest.json"
 _PACKAGES = ("hull1620", "numpy", "numba")
+_PARTS = ("plan", "versions", "programs_sha256")
 _ROLES = ("program2", "program3")
 
 
@@ -56,7 +57,7 @@ def read_manifest(folder: Path) -> dict[str, Any]:
     path = folder / NAME
     try:
         found = json.loads(path.read_text(encoding="utf-8"))
-        if not isinstance(found, dict) or not {"plan", "versions", "programs_sha256"} <= found.keys():
+        if not isinstance(found, dict) or not all(isinstance(found.get(name), dict) for name in _PARTS):
             raise ValueError
     except OSError as error:
         raise StudyFileError(f"{path}: {(error.strerror or str(error)).lower()}") from None
@@ -68,10 +69,10 @@ def read_manifest(folder: Path) -> dict[str, Any]:
 def differences(there: Mapping[str, Any], here: Mapping[str, Any]) -> str:
     """The first thing in which a study begun differs from the one to be resumed; empty where nothing does."""
     was, now = there["plan"], here["plan"]
-    if was["name"] != now["name"]:
-        return f"it is of the study {was['name']}, not {now['name']}"
-    if was["seed"] != now["seed"]:
-        return f"its seed is {was['seed']}, not {now['seed']}"
+    if was.get("name") != now["name"]:
+        return f"it is of the study {was.get('name')}, not {now['name']}"
+    if was.get("seed") != now["seed"]:
+        return f"its seed is {was.get('seed')}, not {now['seed']}"
     if there.get("samples") != here["samples"]:
         return f"it has {there.get('samples')} samples, not {here['samples']}"
     if was != now:

@@ -18,6 +18,8 @@ from emulator.errors import EmulatorError
 from emulator.result import DEFAULT_CORE, DEFAULT_LIMIT
 
 Value = str | int
+SEED = 1963
+"""The seed of a study that is given none."""
 CHUNK = 200
 """Samples a chunk by default: about a second's work of small sets."""
 
@@ -128,7 +130,7 @@ class Plan:
     title: str
     question: str
     cells: tuple[Cell, ...]
-    seed: int = 1963
+    seed: int = SEED
     notes: tuple[str, ...] = field(default=())
 
     @property

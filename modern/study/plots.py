@@ -88,7 +88,9 @@ def _frame(figure: Any, axes: Any, chart: Chart) -> None:
         if mark.upright:
             where = {"xy": (mark.at, 1), "xycoords": ("data", "axes fraction"), "xytext": (4, -4), "va": "top"}
         else:
-            where = {"xy": (1, mark.at), "xycoords": ("axes fraction", "data"), "xytext": (-4, 3), "ha": "right"}
+            side, end = (4, "left") if mark.left else (-4, "right")
+            place = (0 if mark.left else 1, mark.at)
+            where = {"xy": place, "xycoords": ("axes fraction", "data"), "xytext": (side, 3), "ha": end}
         axes.annotate(mark.words, textcoords="offset points", fontsize=9, bbox=_PAPER, **where)
     if len(chart.series) > 1 and (isinstance(chart, Bars) or len(chart.series) > _CROWD):
         # Bars, and many lines, leave no room for a legend among them.

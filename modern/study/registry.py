@@ -9,7 +9,7 @@ from pkgutil import iter_modules
 from typing import Protocol
 
 from modern.study import builtin
-from modern.study.plan import Plan
+from modern.study.plan import SEED, Plan
 from modern.study.report import Report
 from modern.study.store import Store
 
@@ -31,11 +31,13 @@ class Study(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """A built-in study as a list shows it."""
+    """A built-in study as a list shows it: its default of ``--samples``, and how many sets and cells that makes."""
 
     name: str
     title: str
     samples: int
+    sets: int
+    cells: int
 
 
 def names() -> tuple[str, ...]:
@@ -55,4 +57,5 @@ def entries() -> Iterator[Entry]:
     """All studies built in."""
     for name in names():
         found = study(name)
-        yield Entry(name, found.TITLE, found.SAMPLES)
+        plan = found.plan(found.SAMPLES, SEED)
+        yield Entry(name, found.TITLE, found.SAMPLES, plan.samples, len(plan.cells))

@@ -11,9 +11,11 @@ import json
 import sqlite3
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any
 
+from modern.study.chunks import Row
 from modern.study.files import StudyFileError, put, sweep
 from modern.study.index import clear, enter, known_chunks, open_index
 from modern.study.plan import Chunk, Plan
@@ -74,19 +76,18 @@ class Store:
             clear(self.database)
             known = set()
         for name in sorted(present - known):
-            enter(self.database, name, self._lines(name))
+            enter(self.database, name, self._chunk_rows(chunks[name]))
         return [chunk for name, chunk in chunks.items() if name not in present]
 
     def add(self, chunk: Chunk, text: str) -> None:
         """Keep a chunk's rows.  Raises StudyFileError where they cannot be written; nothing is kept then."""
         put(self.folder / ROWS / chunk.name, text)
-        enter(self.database, chunk.name, text.splitlines())
+        enter(self.database, chunk.name, map(json.loads, text.splitlines()))
 
     def rows(self) -> Iterator[dict[str, Any]]:
-        """Every row, as the files have it."""
+        """Every row, as the files have it.  Raises StudyFileError where a file does not hold its chunk's rows."""
         for chunk in self.plan.chunks():
-            for line in self._lines(chunk.name):
-                yield json.loads(line)
+            yield from self._chunk_rows(chunk)
 
     def decks_sha256(self) -> str:
         """SHA-256 of all decks, card by card, in order."""
@@ -97,15 +98,11 @@ class Store:
 
     def runs(self, cell: int | None = None, route: str | None = None) -> Iterator[Run]:
         """Answers, of one cell or route or of all."""
-        where, values = [], []
-        for column, value in (("cell", cell), ("route", route)):
-            if value is not None:
-                where.append(f"runs.{column} = ?")
-                values.append(value)
+        where, values = _where(cell, route)
         asked = self.database.execute(
             "SELECT runs.cell, runs.place, n, dimension, tags, route, outcome, detail, figures FROM runs "
             "JOIN samples ON samples.cell = runs.cell AND samples.place = runs.place "
-            f"{'WHERE ' + ' AND '.join(where) if where else ''} ORDER BY runs.cell, runs.place, route",
+            f"{where} ORDER BY runs.cell, runs.place, route",
             values,
         )
         for c, place, n, dimension, tags, name, outcome, detail, figures in asked:
@@ -118,16 +115,11 @@ class Store:
         ``tags.kind``.
         """
         names = [_column(name) for name in columns]
-        where, values = [], []
-        for column, value in (("cell", cell), ("route", route)):
-            if value is not None:
-                where.append(f"runs.{column} = ?")
-                values.append(value)
+        where, values = _where(cell, route)
         asked = self.database.execute(
             f"SELECT {', '.join(names)}, COUNT(*) FROM runs "
             "JOIN samples ON samples.cell = runs.cell AND samples.place = runs.place "
-            f"{'WHERE ' + ' AND '.join(where) if where else ''} "
-            f"GROUP BY {', '.join(names)} ORDER BY {', '.join(names)}",
+            f"{where} GROUP BY {', '.join(names)} ORDER BY {', '.join(names)}",
             values,
         )
         return {tuple(row[:-1]): row[-1] for row in asked}
@@ -144,12 +136,38 @@ class Store:
         """A query of one's own over the tables ``samples`` and ``runs`` (modern/study/index.py)."""
         return self.database.execute(sql, values)
 
-    def _lines(self, name: str) -> list[str]:
-        path = self.folder / ROWS / name
+    def _chunk_rows(self, chunk: Chunk) -> Iterator[Row]:
+        """The rows of a chunk's file, each its sample's, none missing."""
+        path = self.folder / ROWS / chunk.name
         try:
-            return path.read_text(encoding="utf-8").splitlines()
+            lines = path.read_bytes().splitlines()
         except OSError as error:
             raise StudyFileError(f"{path}: {(error.strerror or str(error)).lower()}") from None
+        routes = {route.name for route in self.plan.cells[chunk.cell].routes}
+        for number, (line, index) in enumerate(zip_longest(lines, range(chunk.start, chunk.stop)), 1):
+            row = _row(line or b"")
+            if not row or (row["cell"], row["index"], row["runs"].keys()) != (chunk.cell, index, routes):
+                raise StudyFileError(
+                    f"{path}: line {number} is damaged; take the file away, and --resume makes it anew"
+                )
+            yield row
+
+
+def _row(line: bytes) -> Row:
+    """A line of a chunk's file as data; empty where it is no row."""
+    try:
+        found = json.loads(line)
+    except ValueError:
+        return {}
+    whole = isinstance(found, dict) and {"cell", "index", "deck", "judge"} <= found.keys()
+    return found if whole and isinstance(found.get("runs"), dict) else {}
+
+
+def _where(cell: int | None, route: str | None) -> tuple[str, list[int | str]]:
+    """The condition for one cell or route, and its values; empty for all."""
+    wanted = {name: value for name, value in (("cell", cell), ("route", route)) if value is not None}
+    condition = " AND ".join(f"runs.{name} = ?" for name in wanted)
+    return f"WHERE {condition}" if wanted else "", list(wanted.values())
 
 
 def _column(name: str) -> str:

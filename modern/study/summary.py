@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from modern.study.filing import DETERMINED, OUTCOMES
@@ -41,6 +41,18 @@ class Summary:
     def failed(self, cell: int, route: str) -> int:
         """Samples whose hull was not found."""
         return self.of(cell, route) - self.hits(cell, route)
+
+    def sound_from(self, cell: int, route: Callable[[int], str], tried: Sequence[int]) -> int | None:
+        """The least of the numbers tried, which rise, from which on no set failed; None where the greatest fails.
+
+        ``route`` names the route of a number.
+        """
+        best = None
+        for number in reversed(tried):
+            if self.failed(cell, route(number)):
+                break
+            best = number
+        return best
 
     def share(self, cell: int, route: str, outcomes: Iterable[str] = DETERMINED) -> Interval:
         """The proportion of samples under one of the outcomes, with Wilson's interval."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from dataclasses import dataclass
+from math import isinf
 
 from modern.study.statistics import Interval
 
@@ -60,5 +61,7 @@ def percent(share: Interval) -> str:
 
 
 def with_interval(estimate: Interval, digits: int = 2) -> str:
-    """An estimate with its interval: ``1.43 (1.38 to 1.48)``."""
+    """An estimate with its interval: ``1.43 (1.38 to 1.48)``; of one value alone, which has none, the value."""
+    if isinf(estimate.high):
+        return f"{estimate.value:.{digits}f}"
     return f"{estimate.value:.{digits}f} ({estimate.low:.{digits}f} to {estimate.high:.{digits}f})"

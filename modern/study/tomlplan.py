@@ -36,11 +36,18 @@ from pathlib import Path
 from typing import Any
 
 from modern.study.families.given import file_points
-from modern.study.plan import Cell, Plan, PlanError, Port, Programs, Route
+from modern.study.plan import SEED, Cell, Plan, PlanError, Port, Programs, Route
 
 _SAMPLES = 1000
 _HEAD = ("name", "title", "question", "samples", "seed", "notes", "route", "cell")
 _CELL = ("key", "family", "parameters", "routes", "samples", "reference", "chunk")
+_KINDS: tuple[tuple[str, type, str], ...] = (
+    ("key", dict, "{ name = value }"),
+    ("family", str, "text"),
+    ("parameters", dict, "{ name = value }"),
+    ("routes", list, "a list of names"),
+    ("reference", str, "a route's name"),
+)
 
 
 def is_plan_file(name: str) -> bool:
@@ -58,12 +65,14 @@ def read_plan(path: str, samples: int | None = None, seed: int | None = None) ->
         raise PlanError(f"{path}: {str(error).splitlines()[0]}") from None
     try:
         return _plan(data, Path(path), samples, seed)
-    except (TypeError, AttributeError, KeyError) as error:
-        raise PlanError(f"{path}: {error} is missing or of a wrong kind") from None
+    except (TypeError, AttributeError) as error:
+        raise PlanError(f"{path}: something is of a wrong kind: {error}") from None
 
 
 def _plan(data: Mapping[str, Any], path: Path, samples: int | None, seed: int | None) -> Plan:
     _known(data, _HEAD, f"{path}")
+    for name, kind, words in (("notes", list, "a list"), ("route", list, "[[route]]"), ("cell", list, "[[cell]]")):
+        _of_kind(data, name, kind, words, f"{path}")
     routes: dict[str, Route] = {}
     for number, raw in enumerate(data.get("route", ()), 1):
         route = _route(raw, f"{path}: route {number}")
@@ -75,11 +84,12 @@ def _plan(data: Mapping[str, Any], path: Path, samples: int | None, seed: int | 
     cells = []
     for number, raw in enumerate(data.get("cell", ()), 1):
         where = f"{path}: cell {number}"
+        _known(raw, _CELL, where)
         size = samples or raw.get("samples", data.get("samples", _SAMPLES))
         cells.append(_cell(raw, routes, size, path.parent, where))
     name = str(data.get("name", path.stem))
-    chosen = data.get("seed", 1963) if seed is None else seed
-    if not isinstance(chosen, int):
+    chosen = data.get("seed", SEED) if seed is None else seed
+    if type(chosen) is not int:
         raise PlanError(f"{path}: the seed is a whole number")
     return Plan(
         name,
@@ -110,9 +120,10 @@ def _route(raw: Mapping[str, Any], where: str) -> Route:
 
 
 def _cell(raw: Mapping[str, Any], routes: Mapping[str, Route], samples: int, folder: Path, where: str) -> Cell:
-    _known(raw, _CELL, where)
     if "family" not in raw:
         raise PlanError(f"{where}: it has no family")
+    for name, kind, words in _KINDS:
+        _of_kind(raw, name, kind, words, where)
     named = raw.get("routes", list(routes))
     missing = [name for name in named if name not in routes]
     if missing:
@@ -124,12 +135,19 @@ def _cell(raw: Mapping[str, Any], routes: Mapping[str, Route], samples: int, fol
             raise PlanError(f"{where}: the family file needs a path")
         family, place = "points", folder / parameters.pop("path")
         parameters["points"] = file_points(str(place))
-    if not isinstance(samples, int) or not isinstance(raw.get("chunk", 1), int):
+    if type(samples) is not int or type(raw.get("chunk", 1)) is not int:
         raise PlanError(f"{where}: samples and chunk are whole numbers")
     key = dict(raw.get("key", {"family": str(raw["family"]), **shown}))
+    if not all(isinstance(value, str | int) for value in key.values()):
+        raise PlanError(f"{where}: the values of its key are text or whole numbers")
     chosen = tuple(routes[name] for name in named)
     extra = {name: raw[name] for name in ("reference", "chunk") if name in raw}
     return Cell(key, family, parameters, chosen, samples, **extra)
+
+
+def _of_kind(data: Mapping[str, Any], name: str, kind: type, words: str, where: str) -> None:
+    if name in data and not isinstance(data[name], kind):
+        raise PlanError(f"{where}: {name} is {words}, not {data[name]!r}")
 
 
 def _known(data: Mapping[str, Any], names: tuple[str, ...], where: str) -> None:

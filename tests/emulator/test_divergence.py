@@ -146,6 +146,14 @@ def test_undefined_copies_are_the_same() -> None:
     assert (found.compared, found.values) == (2, 0)
 
 
+@pytest.mark.parametrize("names", [("float64", "float64"), ("float32", "float64"), ("float64", "mp:80")])
+def test_infinities_and_what_is_no_number_are_the_same(names: tuple[str, str]) -> None:
+    """-2/0 is minus infinity in each of them, and that less itself no number; 2/0 is another value."""
+    lines = ["Z=0.", "A=-2./Z", "B=A", "C=A-A", "D=C", "END"]
+    found = compared(*lines, names=names)
+    assert (found.compared, found.values, found.apart) == (5, 0, "")
+
+
 def test_a_bad_card_is_a_bad_card() -> None:
     with pytest.raises(CardError, match="d: card 1, column 1: 'X' is no number"):
         compared("READ 1,A", "1 FORMAT(E14.8)", "END", data=["X"])

@@ -19,7 +19,7 @@ from emulator.fields import FALLBACK
 from emulator.formats import Field
 from emulator.machine import Machine
 from emulator.numbers import Trap, Undecided, numbers
-from emulator.numbers.roots import MAX_ROOTS, RootSum
+from emulator.numbers.roots import MAX_ROOTS, RootSum, square_root
 from emulator.result import Options, Result
 
 EXACT, DOUBLE, SINGLE = numbers("exact"), numbers("float64"), numbers("float32")
@@ -300,6 +300,16 @@ def test_too_many_roots_end_the_run() -> None:
     result = run("exact", *lines)
     assert result.ending.kind == "undecided"
     assert f"a sum of more than {MAX_ROOTS} square roots, in A=A+SQRT(P)" in result.ending.message
+
+
+@pytest.mark.parametrize("whole", range(10**9, 10**9 + 30))
+def test_the_sign_of_a_sum_that_nearly_vanishes(whole: int) -> None:
+    """The root's third derivative is positive, so that is the sign of the third difference, some 1E-23 here."""
+    terms = [((whole + k), (-1) ** (3 - k) * math.comb(3, k)) for k in range(4)]
+    total = sum((square_root(n) * c for n, c in terms), start=RootSum(()))
+    assert isinstance(total, RootSum)
+    assert (total.sign(), (-total).sign()) == (1, -1)
+    assert (total.floor(), (-total).floor()) == (0, -1)
 
 
 def test_roots_of_one_kind_are_one_root() -> None:

@@ -110,6 +110,19 @@ def test_nothing_differs(room: Path, capsys: pytest.CaptureFixture[str]) -> None
     assert "values: 2 compared, none differs" in out
 
 
+def test_a_limit_is_no_end(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = call(capsys, "diverge", "program2", "side.cards", "--limit", "10")
+    assert code == 1
+    assert "decisions: 1 compared, none differs" in out
+    assert "not compared further: both were stopped after 10 statements" in out
+
+
+def test_exact_numbers_lose_no_digits(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = call(capsys, "diverge", "program2", "side.cards", "--arithmetic", "exact")
+    assert code == 0
+    assert "digits lost" not in out
+
+
 MISUSE = [
     (["diverge", "program1"], "the following arguments are required: DECK"),
     (["diverge", "nosuch.f", "side.deck"], "nosuch.f: no such file"),

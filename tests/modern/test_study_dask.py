@@ -7,6 +7,7 @@ import signal
 import threading
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -64,6 +65,37 @@ def test_a_worker_of_another_version_is_refused(cluster: Any, tmp_path: Path, mo
     monkeypatch.setattr(study_dask, "versions", lambda: {**own, "numpy": "0.1"})
     with pytest.raises(PlanError, match=rf"a worker has numpy {own['numpy']}, this process 0.1"):
         run_study(PLAN, tmp_path / "old", dask=cluster.scheduler_address, quiet=True)
+
+
+def test_a_worker_without_hull1620_is_refused(cluster: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def missing() -> None:
+        raise ModuleNotFoundError("No module named 'modern'")
+
+    monkeypatch.setattr(study_dask, "_loaded", missing)
+    with pytest.raises(PlanError, match=r"a worker cannot load hull1620: .*No module named 'modern'") as refused:
+        run_study(PLAN, tmp_path / "none", dask=cluster.scheduler_address, quiet=True)
+    assert "\n" not in str(refused.value)
+
+
+def test_a_cluster_that_goes_away_is_said_in_a_line(tmp_path: Path) -> None:
+    """Its rows are kept; the study ends elsewhere."""
+    folder = tmp_path / "gone"
+    with distributed.LocalCluster(
+        n_workers=1, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=50
+    ) as short:
+
+        def close() -> None:
+            while not list(folder.glob("rows/*.jsonl")):
+                time.sleep(0.01)
+            short.close()
+
+        thread = threading.Thread(target=close)
+        thread.start()
+        plan = replace(PLAN, cells=tuple(replace(cell, samples=4_000) for cell in PLAN.cells))
+        with pytest.raises(PlanError, match=r"--dask: .*--resume goes on") as lost:
+            run_study(plan, folder, dask=short.scheduler_address, quiet=True)
+        thread.join()
+    assert "\n" not in str(lost.value)
 
 
 @pytest.mark.parametrize("address", ["nonsense", "tcp://", "tcp://127.0.0.1:1"])

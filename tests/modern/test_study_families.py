@@ -88,8 +88,8 @@ def test_ball_sphere_and_cube(seed: int) -> None:
     for x, y, z in numbers(draw("ball", seed)):
         assert x * x + y * y + z * z <= 99 * 99
     for x, y, z in numbers(draw("sphere", seed)):
-        # Each coordinate is rounded by a half at most.
-        assert abs(x * x + y * y + z * z - 9999 * 9999) <= 3 * (9999 + Fraction(1, 4))
+        # Each coordinate is rounded by a half at most, and |x| + |y| + |z| is at most the root of 3 times the radius.
+        assert abs(x * x + y * y + z * z - 9999 * 9999) <= Fraction("1.7321") * 9999 + Fraction(3, 4)
     assert all(max(map(abs, point)) == 99 for point in numbers(draw("cube", seed)))
 
 
@@ -153,6 +153,14 @@ def test_published_sets_are_those_of_the_thesis_in_turn() -> None:
         ("integers", {"digits": 1, "n": [9, 3]}, "n is 9 to 3"),
         ("integers", {"digits": 1}, "missing"),
         ("integers", {"digits": 1, "n": 3, "x": 1}, "unexpected"),
+        ("integers", {"digits": 1.5, "n": 3}, "digits is 1.5"),
+        ("integers", {"digits": "x", "n": 3}, "digits is x"),
+        ("integers", {"digits": 1, "n": [9]}, "n is [9]; it is a whole number"),
+        ("integers", {"digits": 1, "n": "ab"}, "n is 'ab'; it is a whole number"),
+        ("integers", {"digits": 1, "n": [3, 4.5]}, "n is [3, 4.5]; it is a whole number"),
+        ("decimals", {"digits": 3, "n": 5, "exponent": "x"}, "exponent is 'x'; it is a whole number"),
+        ("box", {"most": 1.5, "n": 5}, "most is 1.5"),
+        ("near-coplanar", {"digits": 2, "n": 5, "gap": 1.5}, "gap is 1.5"),
         ("decimals", {"digits": 3, "n": 5, "exponent": 40}, "exponent is 40"),
         ("near-coplanar", {"digits": 5, "n": 5, "gap": 6}, "significant digits"),
         ("near-coplanar", {"digits": 2, "n": 5, "gap": -1}, "gap is -1"),

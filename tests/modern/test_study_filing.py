@@ -161,6 +161,26 @@ def test_changed_cards_are_filed_as_what_they_say() -> None:
     assert refiled(punched_otherwise(run, fewer), one) == ("wrong hull", "vertex missed")
 
 
+@pytest.mark.parametrize(
+    ("printed", "outcome"),
+    [
+        (".00000000E-99   .45000000E+02   .00000000E-99  -.90000000E+02", "right"),
+        (".00000000E-99  -.20000000E+01   .00000000E-99   .40000000E+01", "right"),
+        (".10000000E+01   .45000000E+02   .00000000E-99  -.90000000E+02", "wrong hull"),
+        (".00000000E-99   .00000000E-99   .45000000E+02  -.90000000E+02", "wrong hull"),
+        (".00000000E-99   .45000000E+02   .00000000E-99  -.91000000E+02", "wrong hull"),
+    ],
+)
+def test_the_plane_of_coplanar_points_is_judged_too(printed: str, outcome: str) -> None:
+    """Example 4 lies in y = 2: its plane turned or moved is wrong, any multiple of it right."""
+    run, one = run_of("example4")
+    cards = list(run.final.result.punched)
+    title = next(k for k, card in enumerate(cards) if card.startswith("COEFFICIENTS OF AN EQUATION"))
+    where = next(k for k in range(title, len(cards)) if cards[k].count("E") == 4 and "." in cards[k])
+    cards[where] = f"{'':7}{printed}"
+    assert refiled(punched_otherwise(run, cards), one) == (outcome, "" if outcome == "right" else "equations wrong")
+
+
 def test_other_endings_are_filed_by_where_they_were() -> None:
     """No deck has reached an undefined value (OPEN-QUESTIONS 22); the ending is put in the place of a run's own."""
     run, one = run_of("example5")

@@ -21,7 +21,7 @@ from modern.study.charts import Bars, Lines, Mark, Series
 from modern.study.filing import DETERMINED, OUTCOMES
 from modern.study.plots import can_plot, draw
 from modern.study.registry import entries, names, study
-from modern.study.statistics import Interval, wilson
+from modern.study.statistics import Interval, exact, mean, wilson
 from modern.study.tables import Table, percent, with_interval
 from modern.study.tomlplan import read_plan
 
@@ -76,6 +76,7 @@ def test_tables_say_the_same_three_times() -> None:
     assert percent(Interval(0.5, 0.25, 0.75)) == "50.0 (25.0 to 75.0) %"
     assert percent(Interval(0, 0, 0.0049)) == "0.000 (0.000 to 0.490) %"
     assert with_interval(Interval(1.5, 1, 2)) == "1.50 (1.00 to 2.00)"
+    assert with_interval(mean([3.0])) == "3.00"
 
 
 @pytest.mark.skipif(bool(can_plot()), reason="needs matplotlib")
@@ -119,6 +120,7 @@ def test_seventy_counts_what_its_rows_say(tmp_path: Path) -> None:
             groups[row["index"] // 70] += row["runs"][route]["outcome"] not in DETERMINED
         assert table[route]["failed"] == str(sum(groups))
         assert table[route]["failures in 70"].startswith(f"{sum(groups) / 4:.2f} ")
+        assert table[route]["of all sets"] == percent(exact(sum(groups), 280))
         spread = read(folder / "distribution.csv")
         assert {int(r["failures"]): int(r[f"70s, {route}"]) for r in spread if r[f"70s, {route}"] != "0"} == Counter(
             groups
@@ -132,6 +134,13 @@ def test_seventy_counts_what_its_rows_say(tmp_path: Path) -> None:
     manifest = json.loads((folder / "manifest.json").read_text())
     assert "Chapter 6 prints six" in manifest["plan"]["notes"][0]
     assert len(manifest["decks_sha256"]) == 64
+
+
+def test_one_seventy_tells_little(tmp_path: Path) -> None:
+    report = run_study(seventy.plan(70, 1963), tmp_path / "one", seventy.report, workers=1, quiet=True)
+    words = " ".join(report.words)
+    assert "inf" not in words + " ".join(report.tables[0].rows[0])
+    assert "so few seventies do not tell" in words
 
 
 @pytest.mark.parametrize("samples", [0, 69, 71])
@@ -182,7 +191,14 @@ def test_a_plan_file_is_what_it_says(plan_file: Path) -> None:
         ("[[route]]\nname = 'a'\n[[cell]]\nfamily = 'file'\nparameters = {path = 'no'}", "no such file"),
         ("[[route]]\nname = 'a'\n[[cell]]\nfamily = 'thesis'\nsamples = '3'", "whole numbers"),
         ("seed = 1.5\n[[route]]\nname = 'a'", "the seed is a whole number"),
-        ("route = 3", "of a wrong kind"),
+        ("seed = true\n[[route]]\nname = 'a'", "the seed is a whole number"),
+        ("route = 3", "route is [[route]], not 3"),
+        ("route = [3]", "of a wrong kind"),
+        ("[[route]]\nname = 'a'\n[[cell]]\nfamily = 3", "cell 1: family is text, not 3"),
+        ("[[route]]\nname = 'a'\n[[cell]]\nfamily = 'thesis'\nroutes = 3", "routes is a list of names, not 3"),
+        ("[[route]]\nname = 'a'\n[[cell]]\nfamily = 'thesis'\nparameters = 3", "parameters is { name = value }"),
+        ("[[route]]\nname = 'a'\n[[cell]]\nfamily = 'thesis'\nkey = {a = [1]}", "values of its key"),
+        ("[[route]]\nname = 'a'\n[[cell]]\nfamily = 'thesis'\nchunk = true", "whole numbers"),
     ],
 )
 def test_a_plan_file_that_is_none_is_refused_in_a_line(tmp_path: Path, text: str, words: str) -> None:
@@ -226,6 +242,9 @@ def test_the_command_line(plan_file: Path, capsys: pytest.CaptureFixture[str]) -
         (["seventy", "--samples", "0"], "--samples: 0"),
         (["seventy", "--samples", "71"], "no multiple of 70"),
         (["seventy", "--workers", "-1"], "--workers: -1"),
+        (["seventy", "--out", ""], "--out is empty"),
+        (["seventy", "--dask", ""], "--dask is empty"),
+        (["seventy", "--samples", "70000000000"], "333,333,334 files of rows"),
         (["seventy", "--workers", "1", "--dask", "tcp://h:1"], "one or the other"),
         (["seventy", "--samples", "70", "--out", "three.toml"], "three.toml: is there"),
         (["seventy", "--samples", "70", "--out", "three.toml/in"], "not a directory"),

@@ -36,6 +36,15 @@ from tests.modern.studied import PLAN
 if __name__ == "__main__":
     run_study(PLAN, sys.argv[1], workers=2, resume=True, quiet=True)
 """
+WORKER = """
+import multiprocessing
+from concurrent.futures import ProcessPoolExecutor
+from modern.study.runner import _begin_worker
+
+pool = ProcessPoolExecutor(1, multiprocessing.get_context("spawn"), initializer=_begin_worker)
+pool.submit(print, "at work", flush=True).result()
+pool.submit(input).result()
+"""
 ROOT = Path(__file__).parents[2]
 
 
@@ -98,6 +107,16 @@ def test_another_seed_gives_other_decks(finished: Path, tmp_path: Path) -> None:
     run_study(replace(PLAN, seed=6), tmp_path / "six", workers=1, quiet=True)
     name = "rows/0000-000000000.jsonl"
     assert contents(tmp_path / "six")[name] != contents(finished)[name]
+
+
+def test_workers_end_with_the_process_that_began_them() -> None:
+    """Killed, it can tell them nothing; the pipe they share closes when the last of them has gone."""
+    command = [sys.executable, "-c", WORKER]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, env={**os.environ, "PYTHONPATH": str(ROOT)})
+    assert process.stdout is not None
+    assert process.stdout.readline() == b"at work\n"
+    process.kill()
+    process.communicate(timeout=30)
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
@@ -233,13 +252,14 @@ def test_another_version_or_program_is_not_resumed(tmp_path: Path) -> None:
     path = folder / "manifest.json"
     whole = json.loads(path.read_text())
     for change, words in (
+        ({"plan": {}}, "it is of the study None"),
         ({"versions": {**whole["versions"], "numpy": "0.1"}}, "begun with numpy 0.1"),
         ({"programs_sha256": {}}, "its programs are others"),
     ):
         path.write_text(json.dumps({**whole, **change}))
         with pytest.raises(PlanError, match=words):
             run_study(plan, folder, workers=1, quiet=True, resume=True)
-    for text in ("{}", "no json", "[]"):
+    for text in ("{}", "no json", "[]", '{"plan": 3, "versions": {}, "programs_sha256": {}}'):
         path.write_text(text)
         with pytest.raises(PlanError, match="no manifest of a study"):
             run_study(plan, folder, workers=1, quiet=True, resume=True)
@@ -333,6 +353,34 @@ def test_a_row_file_that_is_none_of_the_plan_is_named(tmp_path: Path) -> None:
     (tmp_path / "s/rows/0009-000000000.jsonl").write_text("{}\n")
     with pytest.raises(StudyFileError, match=r"0009-000000000.jsonl is no chunk of this study"):
         run_study(plan, tmp_path / "s", workers=1, quiet=True, resume=True)
+
+
+@pytest.mark.parametrize("damage", ["empty", "short", "cut", "noise", "other", "long", "list"])
+def test_a_damaged_row_file_is_named_and_not_counted(finished: Path, tmp_path: Path, damage: str) -> None:
+    folder = tmp_path / "damaged"
+    run_study(PLAN, folder, workers=1, quiet=True)
+    path = folder / "rows/0000-000000005.jsonl"
+    whole = path.read_bytes()
+    lines = whole.splitlines(keepends=True)
+    path.write_bytes(
+        {
+            "empty": b"",
+            "short": b"".join(lines[:-1]),
+            "cut": whole[:-9],
+            "noise": b"\xff\x00" * 400,
+            "other": (folder / "rows/0000-000000010.jsonl").read_bytes(),
+            "long": whole + lines[0],
+            "list": b"[1]\n" * 5,
+        }[damage]
+    )
+    for index in folder.glob(f"{INDEX}*"):
+        index.unlink()
+    with pytest.raises(StudyFileError, match=r"0000-000000005.jsonl: line \d is damaged") as refused:
+        run_study(PLAN, folder, workers=1, quiet=True, resume=True)
+    assert "\n" not in str(refused.value)
+    path.unlink()
+    run_study(PLAN, folder, workers=1, quiet=True, resume=True)
+    assert contents(folder) == contents(finished)
 
 
 class Terminal(io.StringIO):

@@ -56,7 +56,7 @@ def draw_sample(cell: Cell, study: int, index: int) -> Drawn:
     family = family_of(cell.family)
     try:
         drawn = family(Draw(random_of(cell.seed(study, index)), index), **_keywords(cell.parameters))
-    except TypeError as error:
+    except (TypeError, ValueError) as error:
         raise PlanError(f"cell {cell.name}: family {cell.family}: {error}") from None
     except FamilyError as error:
         raise FamilyError(f"cell {cell.name}: family {cell.family}: {error}") from None

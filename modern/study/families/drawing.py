@@ -36,7 +36,7 @@ class Draw:
 
     def count(self, n: Count) -> int:
         """A number of points.  Raises FamilyError where it is not within 1 to 51."""
-        low, high = (n, n) if isinstance(n, int) else tuple(n)
+        low, high = whole_range(n, "n")
         if not 1 <= low <= high <= MOST:
             raise FamilyError(f"n is {low}{'' if low == high else f' to {high}'}; the programs take 1 to {MOST} points")
         return self.whole(low, high)
@@ -70,8 +70,16 @@ def _text(number: int, places: int) -> str:
     return scaled_decimal(number, -places) if places else str(number)
 
 
+def whole_range(value: Count, name: str) -> tuple[int, int]:
+    """A parameter that is a whole number, or the least and the greatest.  Raises FamilyError."""
+    ends = (value, value) if isinstance(value, int) else value
+    if not isinstance(ends, list | tuple) or len(ends) != 2 or not all(isinstance(end, int) for end in ends):
+        raise FamilyError(f"{name} is {value!r}; it is a whole number, or the least and the greatest as [4, 20]")
+    return ends[0], ends[1]
+
+
 def size_of(digits: int) -> int:
     """The largest whole number of so many digits.  Raises FamilyError."""
-    if not 1 <= digits <= DIGITS:
+    if not isinstance(digits, int) or not 1 <= digits <= DIGITS:
         raise FamilyError(f"digits is {digits}; a card holds 1 to {DIGITS}")
     return int(10**digits - 1)

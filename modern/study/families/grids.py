@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from modern.port.arithmetic import scaled_decimal
-from modern.study.families.drawing import DIGITS, Count, Draw, Drawn, FamilyError, Whole, drawn, size_of
+from modern.study.families.drawing import DIGITS, Count, Draw, Drawn, FamilyError, Whole, drawn, size_of, whole_range
 
 
 def integers(draw: Draw, digits: int, n: Count) -> Drawn:
@@ -18,7 +18,7 @@ def integers(draw: Draw, digits: int, n: Count) -> Drawn:
 
 def box(draw: Draw, most: int, n: Count, centre: int = 0) -> Drawn:
     """Whole numbers from centre - most to centre + most, each coordinate uniform."""
-    if most < 1 or abs(centre) + most > size_of(DIGITS):
+    if not isinstance(most, int) or not isinstance(centre, int) or most < 1 or abs(centre) + most > size_of(DIGITS):
         raise FamilyError(f"most is {most}, centre {centre}; a card holds whole numbers of {DIGITS} digits")
 
     def point() -> Whole:
@@ -34,7 +34,7 @@ def decimals(draw: Draw, digits: int, n: Count, exponent: Count = (0, 1)) -> Dra
     exponent: the power, or the least and the greatest it is drawn from, for each coordinate anew: with more than
     one the digits of two coordinates do not stand one under the other, and a difference of them has more.
     """
-    low, high = (exponent, exponent) if isinstance(exponent, int) else tuple(exponent)
+    low, high = whole_range(exponent, "exponent")
     if not -20 <= low <= high <= 20:
         raise FamilyError(f"exponent is {low} to {high}; it is from -20 to 20")
     least, most = 10 ** (digits - 1), size_of(digits)

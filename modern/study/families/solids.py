@@ -37,7 +37,7 @@ def near_coplanar(draw: Draw, digits: int, n: Count, gap: int) -> Drawn:
     0, 1; 4 points at least and one at least off the plane.  Raises FamilyError where z has more than eight digits.
     """
     size, unit = size_of(digits), 10**gap
-    if gap < 0:
+    if not isinstance(gap, int) or gap < 0:
         raise FamilyError(f"gap is {gap}; it is 0 or more, for 10**-gap")
     p, q = draw.whole(-1, 1), draw.whole(-1, 1)
     base = draw.distinct(max(4, draw.count(n)), lambda: (draw.whole(-size, size), draw.whole(-size, size), 0))
