@@ -10,8 +10,7 @@ import sys
 from pathlib import Path
 
 import pytest
-
-from modern.cli.main import main
+from commands import call
 
 DECK = " 4\n" + "".join(
     f"{x}{y}{z}\n"
@@ -33,15 +32,6 @@ def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     Path("good.f").write_text(PROGRAM)
     Path("x.deck").write_text("2.\n3.\n")
     return tmp_path
-
-
-def call(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
-    try:
-        code = main(list(arguments))
-    except SystemExit as left:
-        code = int(left.code or 0)
-    out, err = capsys.readouterr()
-    return code, out, err
 
 
 def points(n: str, *cards: str) -> str:

@@ -7,6 +7,7 @@ import os
 from pathlib import Path
 
 import pytest
+from commands import call
 
 from modern.cli.main import main
 
@@ -31,16 +32,6 @@ def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     Path("sine.f").write_text("      A=1.\n    7 B=SIN(A)\n      END\n")
     Path("any.deck").write_text(" 1\n")
     return tmp_path
-
-
-def call(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
-    capsys.readouterr()
-    try:
-        code = main(list(arguments))
-    except SystemExit as left:
-        code = int(left.code or 0)
-    out, err = capsys.readouterr()
-    return code, out, err
 
 
 def test_a_square_of_nine_digits(room: Path, capsys: pytest.CaptureFixture[str]) -> None:

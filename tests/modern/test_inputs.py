@@ -10,10 +10,10 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
+from commands import call
 
 from emulator.errors import EmulatorError
 from modern.cli import export as export_command
-from modern.cli.main import main
 from modern.export import parse_off
 from modern.hull import ERROR, Hull
 from modern.inputs import Input, parse_input, read_input, recognise
@@ -175,15 +175,6 @@ def test_bad_points(
 
 
 # --- the subcommands
-
-
-def call(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
-    try:
-        code = main(list(arguments))
-    except SystemExit as left:
-        code = int(left.code or 0)
-    out, err = capsys.readouterr()
-    return code, out, err
 
 
 @pytest.fixture

@@ -12,11 +12,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from studied import PLAN
+from test_study_runs import contents
 
 from modern.study import Plan, PlanError, run_study
 from modern.study import dasked as study_dask
-from tests.modern.studied import PLAN
-from tests.modern.test_study_runs import contents
 
 distributed = pytest.importorskip("distributed")
 pytestmark = [pytest.mark.filterwarnings("ignore")]

@@ -7,6 +7,7 @@ from contextlib import closing
 from pathlib import Path
 
 import pytest
+from judged import OPTIONS
 
 from emulator.arithmetic import UNDEFINED
 from emulator.machine import Machine
@@ -26,7 +27,6 @@ from modern.study.run import run_study
 from modern.study.statistics import exact
 from modern.study.store import Store
 from modern.study.summary import cells, summary, values
-from tests.modern.judged import OPTIONS
 
 
 def _sample(family: str, index: int, **parameters: int) -> Judged:

@@ -18,6 +18,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from studied import PLAN, ROUTES
 
 from modern.study import Plan, PlanError, Port, Programs, run_study
 from modern.study import files as study_files
@@ -26,7 +27,6 @@ from modern.study.index import NAME as INDEX
 from modern.study.progress import Progress
 from modern.study.runner import carry_out
 from modern.study.store import Store
-from tests.modern.studied import PLAN, ROUTES
 
 SCRIPT = """
 import sys

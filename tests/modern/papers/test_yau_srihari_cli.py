@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from commands import call
 from digital_judge import judged, solid_of
 
 from modern.cli.arguments import build_parser
-from modern.cli.main import main
 from modern.papers.yau_srihari.printed import NAMES
 
 STAIR = "x,y,z\n5,0,-1\n5,1,-1\n5,1,0\n6,0,-1\n6,0,0\n6,1,0\n6,2,0\n"
@@ -22,15 +22,6 @@ def stair(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
     monkeypatch.chdir(tmp_path)
     Path("stair.csv").write_text(STAIR)
     return "stair.csv"
-
-
-def call(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
-    try:
-        code = main(list(arguments))
-    except SystemExit as left:
-        code = int(left.code or 0)
-    out, err = capsys.readouterr()
-    return code, out, err
 
 
 def test_every_stage_is_printed_in_the_coordinates_given(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
