@@ -1,8 +1,6 @@
-"""The standard shapes of section 2 and their placing: parallelepiped, column, convex polygonal plate.
+"""The standard shapes that section 2 has subroutines for, and their placing: parallelepiped, column, polygonal plate.
 
-"Our program, therefore, has the subroutines designing automatically such as the parallelepiped, the column, the convex
-polygonal plane and so forth."  All coordinates are fractions; a turn is made by fractions too, so that a turned shape
-is exactly the shape.
+All coordinates are fractions; a turn is made by fractions too, so that a turned shape is exactly the shape.
 """
 
 from __future__ import annotations

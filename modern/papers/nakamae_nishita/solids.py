@@ -1,5 +1,4 @@
-"""A polyhedron as it is seen: the second step of the paper, "transformation of the coordinate and searching the contour
-lines and the inner edges" (section 4, time II)."""
+"""A polyhedron as it is seen: the paper's second step, from coordinates to contour and inner edges (section 4, time II)."""
 
 from __future__ import annotations
 
