@@ -1,4 +1,4 @@
-"""A polyhedron as it is seen: the paper's second step, from coordinates to contour and inner edges (section 4, time II)."""
+"""A polyhedron as it is seen: the paper's second step, to contour and inner edges (section 4, time II)."""
 
 from __future__ import annotations
 
