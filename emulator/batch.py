@@ -12,7 +12,8 @@ from typing import TypeVar
 
 from emulator import devices, engine
 from emulator.cards import Deck, deck_from_text
-from emulator.compiled import why_plain
+from emulator.compiled import INSTEAD, why_plain
+from emulator.compiling import NotInstalled
 from emulator.endings import begun, error_counts, looped, pausing, stopped
 from emulator.machine import Machine
 from emulator.objectcode import Program
@@ -73,9 +74,14 @@ def _blocks(items: Iterable[T]) -> Iterator[list[T]]:
 
 def _runner(program: Program, options: Options, note: Note | None) -> Runner | None:
     why = why_plain(options)
-    if why and note is not None:
+    if not why:
+        try:
+            return Runner(program, options)
+        except NotInstalled as error:
+            why = f"{error}: {INSTEAD}"
+    if note is not None:
         note(why)
-    return None if why else Runner(program, options)
+    return None
 
 
 def _result(program: Program, deck: Deck, options: Options, run: Run) -> Result:

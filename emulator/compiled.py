@@ -50,7 +50,10 @@ _HELPERS = (
 
 
 def why_plain(options: Options) -> str:
-    """Why the compiled engine cannot run with these options, one line; empty where it can."""
+    """Why the compiled engine cannot run with these options, one line; empty where it can.
+
+    Code that cannot be made or loaded comes to light in :class:`emulator.runner.Runner`.
+    """
     if options.numbers is not None:
         return f"the compiled engine has no {options.numbers.name} numbers: {INSTEAD}"
     if options.uncut:

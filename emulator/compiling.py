@@ -16,7 +16,13 @@ Function = Callable[..., Any]
 
 
 class NotInstalled(ValueError):
-    """numba was asked for and cannot be imported; one line."""
+    """numba was asked for and is not there, or is no numba that compiles this; one line."""
+
+
+def refused(error: Exception) -> NotInstalled:
+    """What numba raised, as one line."""
+    said = next(iter(str(error).strip().splitlines()), "")
+    return NotInstalled(f"numba cannot make the compiled code: {type(error).__name__}{': ' if said else ''}{said}")
 
 
 def compiled(
@@ -28,22 +34,27 @@ def compiled(
     takes seconds once; the machine code is kept in :func:`cache_folder` if that can be written, else for this process
     only.  ``modules`` are those whose constants the functions use; ``options`` are numba's.
 
-    Raises NotInstalled.
+    Raises NotInstalled: without numba, with one that refuses the functions, and where NUMBA_DISABLE_JIT keeps it from
+    compiling: as Python over numpy's arrays the functions compute something else (codes of eight bits overflow).
     """
     try:
         import numba
         from numba.extending import register_jitable
     except ImportError as error:
         raise NotInstalled(f"compiled code needs numba (extra fast): {error}") from None
+    config: Any = numba.config
+    if config.DISABLE_JIT:
+        raise NotInstalled("compiled code is turned off by NUMBA_DISABLE_JIT")
     for helper in helpers:
         register_jitable(helper)
-    config: Any = numba.config
     before = config.CACHE_DIR
     folder = cache_folder(before, [*entries, *helpers, *modules], repr(options))
     try:
         # numba asks for the folder as it wraps a function, and only then.
         config.CACHE_DIR = str(folder or "")
         return [numba.njit(cache=folder is not None, **options)(entry) for entry in entries]
+    except Exception as error:  # numba's own reasons, of no common kind; an option it does not know may wait for a call
+        raise refused(error) from None
     finally:
         config.CACHE_DIR = before
 

@@ -13,6 +13,7 @@ from emulator import devices, engine, unattended
 from emulator.arithmetic import powers_of_ten
 from emulator.cards import CHARACTERS, COLUMNS, MAX_CARDS, Deck
 from emulator.compiled import run_decks
+from emulator.compiling import refused
 from emulator.formats import MAX_RECORD, Field, Literal
 from emulator.loader import flatten
 from emulator.machine import Machine
@@ -78,7 +79,10 @@ class Run:
 
 
 class Runner:
-    """One program in core, ready to be run over blocks of decks."""
+    """One program in core, ready to be run over blocks of decks.
+
+    Raises what Machine does, and emulator.compiling.NotInstalled.
+    """
 
     def __init__(self, program: Program, options: Options) -> None:
         self.kernel = run_decks()
@@ -111,6 +115,12 @@ class Runner:
         self.rules = profile.rules
         flags = options.bounds == "strict", profile.keeps_left_zero, profile.signed_underflow, profile.announces
         self.setting = (options.limit, *map(int, flags))
+        try:
+            self._some([])
+        except Exception as error:
+            # The first call compiles, or loads what is kept: a file that is damaged, or a numba of another kind, comes
+            # to light here, before a deck is begun, and as any error.
+            raise refused(error) from None
 
     def runs(self, packed: Sequence[bytes | None]) -> Iterator[Run | None]:
         """One after the other; None for a deck that needs a Machine.  At most BLOCK decks."""

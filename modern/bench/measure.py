@@ -16,7 +16,6 @@ from typing import Any
 
 from emulator.batch import punched
 from emulator.cards import deck_from_text
-from emulator.compiled import why_plain
 from emulator.machine import Machine
 from modern.bench import native
 from modern.bench.agreement import Agreement, compared, data_sets
@@ -72,10 +71,9 @@ def measure(count: int, say: Say = lambda line: None) -> Bench:
     works: dict[str, Callable[[], object]] = {}
     sizes = {PLAIN: len(few), COMPILED: count, PORT: len(some), NATIVE: count}
     remarks: list[str] = []
-    why = why_plain(OPTIONS)
-    if why:
-        remarks.append(why)
-    else:
+    next(punched(program, texts, OPTIONS, remarks.append))
+    compiles = not remarks
+    if compiles:
         works[COMPILED] = lambda: list(punched(program, texts, OPTIONS))
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -98,7 +96,7 @@ def measure(count: int, say: Say = lambda line: None) -> Bench:
         if version:
             ours = [text.splitlines() for text in punched(program, texts, OPTIONS)]
             agreement = compared(ours, data_sets(taken.read_text(encoding="ascii").splitlines()))
-        starts = () if why else _starts(texts[0], folder, say)
+        starts = _starts(texts[0], folder, say) if compiles else ()
     return Bench(rows, starts, agreement, version, tuple(remarks))
 
 
@@ -115,15 +113,15 @@ def _starts(text: str, folder: Path, say: Say) -> tuple[Figure, ...]:
 
 
 def lines(bench: Bench) -> list[str]:
-    """The table as text, 79 columns."""
+    """The table as text, 78 columns; below it sentences, a line each."""
     compiled, made = bench.row(COMPILED), bench.row(NATIVE)
     against = " ".join(f"{f'/ {word}':>10}" for word, row in (("compiled", compiled), ("native", made)) if row)
-    found = [f"{'program 3, 51 points, text to text':<36}{'decks':>6}{'ms/deck':>9}{'decks/s':>9} {against}".rstrip()]
+    found = [f"{'program 3, 51 points, text to text':<34}{'decks':>6}{'ms/deck':>8}{'decks/s':>8} {against}".rstrip()]
     for row in bench.rows:
         ratios = " ".join(f"{row.each / other.each:10.2f}" for other in (compiled, made) if other)
-        line = f"{row.figure.what:<36}{row.decks:>6}{row.each * 1000:>9.3f}{1 / row.each:>9.0f} {ratios}"
+        line = f"{row.figure.what:<34}{row.decks:>6}{row.each * 1000:>8.3f}{1 / row.each:>8.0f} {ratios}"
         found.append(line.rstrip())
-    found += [f"{figure.what:<51}{figure.median:>9.3f} s" for figure in bench.starts]
+    found += [f"{figure.what:<47}{figure.median:>9.3f} s" for figure in bench.starts]
     if bench.compiler:
         found.append(f"native program: {bench.compiler}, -O2, doubles, one process for all decks")
     if bench.agreement:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from emulator.cards import Deck
+from emulator.errors import EmulatorError
 from modern.bench.translate import translated
 
 COMPILERS = ("gfortran", "flang", "flang-new", "ifx", "f95")
@@ -19,7 +20,7 @@ _EXTRA = {"gfortran": ("-std=legacy", "-w"), "ifx": ("-w",)}
 _PATIENCE = 120
 
 
-class NoCompiler(Exception):
+class NoCompiler(EmulatorError):
     """No Fortran compiler, or one that does not do; ``str`` is one line."""
 
 
@@ -33,7 +34,10 @@ class Compiler:
 
 def compiler() -> Compiler:
     """The compiler FC names, else the first one found.  Raises NoCompiler."""
-    named = shlex.split(os.environ.get("FC", ""))
+    try:
+        named = shlex.split(os.environ.get("FC", ""))
+    except ValueError as error:
+        raise NoCompiler(f"FC names no Fortran compiler, {os.environ['FC']}: {error}") from None
     commands = [tuple(named)] if named else [(name,) for name in COMPILERS]
     for command in commands:
         if shutil.which(command[0]):
@@ -53,6 +57,8 @@ def built(deck: Deck, with_: Compiler, folder: Path) -> Path:
     if done.returncode:
         said = [line for line in done.stderr.splitlines() if "rror" in line] or ["no reason given"]
         raise NoCompiler(f"{with_.version} does not compile the translated program: {said[0].strip()}")
+    if not program.exists():
+        raise NoCompiler(f"{with_.command[0]} is no Fortran compiler: it makes no program")
     return program
 
 

@@ -8,6 +8,8 @@ from contextlib import ExitStack, closing
 from pathlib import Path
 from typing import Any
 
+from emulator.compiled import why_plain
+from emulator.result import Options
 from modern.study.check import check_plan
 from modern.study.dasked import carry_out_on_dask, connect
 from modern.study.files import BESIDE, StudyFileError
@@ -52,6 +54,9 @@ def run_study(
     with ExitStack() as stack:
         client = stack.enter_context(closing(connect(dask))) if dask else None
         document = _begin(plan, folder, resume, command)
+        plain = "" if quiet else why_plain(Options())
+        if plain:
+            print(plain, file=sys.stderr)
         store = stack.enter_context(closing(Store.open(folder, plan)))
         _complete(plan, store, client, workers or processes(), quiet)
         found = report(plan, store)

@@ -159,6 +159,7 @@ def test_endings() -> None:
     for lines in (
         ["STOP"],
         ["PAUSE", "PAUSE", "DO 5 J=1,3", "5 PAUSE"],
+        ["GO TO 6", "5 PAUSE", "STOP", "6 PAUSE", "GO TO 5"],
         ["5 GO TO 5"],
         ["X(I)=1."],
         ["M(I,2)=1"],
@@ -223,6 +224,28 @@ def test_a_log_too_long_for_its_room(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(runner, "MOST_LOG_ROOM", 1 << 10)
     lines = ["READ 1,N", "DO 5 I=1,N", "5 PUNCH 2,I", "1 FORMAT(I4)", "2 FORMAT(5X,I5)", "END"]
     assert alone(lines, *([f"{n:4d}"] for n in (1, 3, 0, 40, 7, 500, 2, 39))) == 7
+
+
+def test_a_deck_finds_nothing_of_the_one_before() -> None:
+    """The text of a FORMAT that reading changed, storage, and PAUSEs met are the next deck's from the start."""
+    lines = ["M=0", "1 PUNCH 2", "READ 2", "IF(SENSE SWITCH 1)3,1", "3 PAUSE", "GO TO 1", "2 FORMAT(5HFIRST)", "END"]
+    assert alone(lines, ["AAAAA", "BBBBB"], ["CCCCC"], ["DDDDD"] * 3) == 3
+
+
+def test_columns_beyond_the_card_are_blank() -> None:
+    """They are not those of the card behind it."""
+    lines = ["1 READ 2,A", "TYPE 3,A", "READ 4", "TYPE 4", "GO TO 1", "2 FORMAT(49X,29X,F5.1)", "3 FORMAT(F5.1)"]
+    lines += ["4 FORMAT(49X,29X,4HABCD)", "END"]
+    card = f"{'77':78}1."
+    assert alone(lines, [card] * 4, [card] * 2) == 2
+
+
+def test_a_limit_wherever_it_falls() -> None:
+    """Statements, passes of lists, records and typed error codes all count; each limit stops both engines alike."""
+    lines = ["A=1.E60", "1 B=A*A", "PUNCH 2,B,(A,I=1,2)", "GO TO 1", "2 FORMAT(F5.1/E14.8,3H E=/F9.2)", "END"]
+    for name in ("truncating", "ibm1962"):
+        for limit in range(40):
+            assert alone(lines, ["1"], options=Options(profile=profile(name), limit=limit)) == 1
 
 
 def test_text_in_text_out() -> None:

@@ -14,7 +14,7 @@ from deckwork import program
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from emulator import compiled, compiling, unattended
+from emulator import compiled, compiling, runner, unattended
 from emulator.arithmetic import profile
 from emulator.batch import run_batch
 from emulator.cards import deck_from_lines
@@ -44,6 +44,46 @@ def test_without_numba(monkeypatch: pytest.MonkeyPatch) -> None:
     (note,) = notes
     assert note.startswith("compiled code needs numba (extra fast): ")
     assert note.endswith(": the plain engine runs instead")
+
+
+def said_instead(monkeypatch: pytest.MonkeyPatch) -> str:
+    """What is said where numba does not do; the result is the plain engine's."""
+    anew = compiled.run_decks.__wrapped__
+    for module in (compiled, runner):
+        monkeypatch.setattr(module, "run_decks", anew)
+    notes: list[str] = []
+    (result,) = run_batch(program(*LINES), [DECK], None, notes.append)
+    assert result == Machine(program(*LINES), DECK).run()
+    (note,) = notes
+    assert note.endswith(": the plain engine runs instead")
+    assert "\n" not in note
+    return note
+
+
+def test_a_numba_that_does_not_compile(monkeypatch: pytest.MonkeyPatch) -> None:
+    """NUMBA_DISABLE_JIT leaves Python over numpy's eight-bit codes, whose sums overflow: wrong numbers."""
+    numba = pytest.importorskip("numba")
+    monkeypatch.setattr(numba.config, "DISABLE_JIT", 1)
+    assert "turned off by NUMBA_DISABLE_JIT" in said_instead(monkeypatch)
+
+
+def test_a_numba_that_does_not_know_an_option(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("numba")
+    make = compiling.compiled
+    monkeypatch.setattr(compiled, "compiled", lambda *given, **options: make(*given, **options, unheard_of=1))
+    assert "numba cannot make the compiled code: KeyError: " in said_instead(monkeypatch)
+
+
+def test_kept_code_that_is_damaged(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It comes to light as the program is put in core, before a deck is begun."""
+    pytest.importorskip("numba")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.setattr("numba.core.config.CACHE_DIR", "")
+    kernel: Any = compiled.run_decks.__wrapped__()
+    kernel._cache.flush()
+    (index,) = tmp_path.rglob("*.nbi")
+    index.write_bytes(b"")
+    assert "numba cannot make the compiled code: EOFError: " in said_instead(monkeypatch)
 
 
 @pytest.mark.parametrize(

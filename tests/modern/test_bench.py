@@ -207,7 +207,7 @@ def test_the_table() -> None:
     assert table[1].split() == ["compiled", "engine", "1000", "2.000", "500", "1.00", "8.00"]
     assert table[3].split() == ["plain", "engine", "20", "100.000", "10", "50.00", "400.00"]
     assert table[-1] == "a remark"
-    assert max(map(len, table[:4])) <= 83
+    assert max(map(len, table[:4])) <= 78
     assert json.loads(json.dumps(document(bench)))["engines"][1]["seconds_a_deck"] == 0.00025
 
 
@@ -228,6 +228,21 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeyp
     assert [engine["what"] for engine in found["engines"]] == [PLAIN, PORT]
     assert found["compiler"] is None
     assert found["agreement"] is None
+
+
+@pytest.mark.parametrize(
+    ("named", "words"),
+    [
+        ('gfortran "', "FC names no Fortran compiler"),
+        ("true", "true is no Fortran compiler: it makes no program"),
+        ("false", "^false.* does not compile the translated program: no reason given"),
+    ],
+)
+def test_what_is_no_compiler(named: str, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("FC", named)
+    with pytest.raises(native.NoCompiler, match=words) as caught:
+        native.built(decks.deck(PROGRAM, LAYERS), native.compiler(), tmp_path)
+    assert "\n" not in str(caught.value)
 
 
 @needs_compiler

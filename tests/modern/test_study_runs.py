@@ -447,3 +447,13 @@ def test_threads_are_none_of_a_study() -> None:
     before = threading.active_count()
     list(carry_out(PLAN, list(PLAN.chunks())[:1], 1))
     assert threading.active_count() == before
+
+
+def test_a_study_without_the_compiled_engine_says_so(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("modern.study.run.why_plain", lambda options: "no compiled engine here")
+    run_study(PLAN, tmp_path / "loud", workers=1)
+    assert capsys.readouterr().err.count("no compiled engine here\n") == 1
+    run_study(PLAN, tmp_path / "quiet", workers=1, quiet=True)
+    assert capsys.readouterr().err == ""
