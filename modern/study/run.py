@@ -9,15 +9,15 @@ from pathlib import Path
 from typing import Any
 
 from emulator.compiled import why_plain
-from emulator.result import Options
 from modern.study.check import check_plan
 from modern.study.dasked import carry_out_on_dask, connect
 from modern.study.files import BESIDE, StudyFileError
 from modern.study.manifest import NAME, differences, manifest, read_manifest, versions, write_manifest
-from modern.study.plan import Plan
+from modern.study.plan import Plan, Programs
 from modern.study.plots import can_plot, draw
 from modern.study.progress import Progress
 from modern.study.report import Report, outcome_report, write_report
+from modern.study.routes import options_of
 from modern.study.runner import carry_out, processes
 from modern.study.store import Store
 
@@ -54,9 +54,9 @@ def run_study(
     with ExitStack() as stack:
         client = stack.enter_context(closing(connect(dask))) if dask else None
         document = _begin(plan, folder, resume, command)
-        plain = "" if quiet else why_plain(Options())
-        if plain:
-            print(plain, file=sys.stderr)
+        # The engine of a cluster's workers is theirs; nothing is known of it here.
+        for line in () if quiet or client else plain_lines(plan):
+            print(line, file=sys.stderr)
         store = stack.enter_context(closing(Store.open(folder, plan)))
         _complete(plan, store, client, workers or processes(), quiet)
         found = report(plan, store)
@@ -69,6 +69,12 @@ def run_study(
         store.parquet()
         write_manifest(folder, {**document, "decks_sha256": store.decks_sha256(), "complete": True})
     return found
+
+
+def plain_lines(plan: Plan) -> tuple[str, ...]:
+    """Why routes of a plan run on the plain engine, a line for each reason; none where all can be compiled."""
+    routes = dict.fromkeys(route for cell in plan.cells for route in cell.routes if isinstance(route, Programs))
+    return tuple(line for line in dict.fromkeys(why_plain(options_of(route)) for route in routes) if line)
 
 
 def _complete(plan: Plan, store: Store, client: Any, workers: int, quiet: bool) -> None:

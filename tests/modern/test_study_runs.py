@@ -25,6 +25,7 @@ from modern.study import files as study_files
 from modern.study.files import BESIDE, StudyFileError
 from modern.study.index import NAME as INDEX
 from modern.study.progress import Progress
+from modern.study.run import plain_lines
 from modern.study.runner import carry_out
 from modern.study.store import Store
 
@@ -447,6 +448,15 @@ def test_threads_are_none_of_a_study() -> None:
     before = threading.active_count()
     list(carry_out(PLAN, list(PLAN.chunks())[:1], 1))
     assert threading.active_count() == before
+
+
+def test_arithmetics_that_cannot_be_compiled_are_named_once_each() -> None:
+    pytest.importorskip("numba")
+    wide = (Programs("a", arithmetic="truncating:20"), Programs("b", arithmetic="truncating:20", layers=("corrected",)))
+    other = (Programs("c"), Programs("d", arithmetic="exact"), Port("e", "truncating:20"))
+    lines = plain_lines(replace(PLAN, cells=tuple(replace(cell, routes=wide + other) for cell in PLAN.cells)))
+    assert [line.split(":")[0] for line in lines] == ["truncating", "the compiled engine has no exact numbers"]
+    assert "at most 9" in lines[0]
 
 
 def test_a_study_without_the_compiled_engine_says_so(
