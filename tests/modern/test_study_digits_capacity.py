@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 import re
 from contextlib import closing
 from pathlib import Path
@@ -13,6 +14,7 @@ from emulator.arithmetic import UNDEFINED
 from emulator.machine import Machine
 from emulator.objectcode import Program
 from modern.edition import decks
+from modern.exact_hull import exact_hull
 from modern.hullrun import HullRun, run_hull
 from modern.port import convex_hull
 from modern.study.builtin import capacity, digits, divergence, machine_time
@@ -216,3 +218,23 @@ def test_cells_by_their_keys() -> None:
 def test_no_failure_among_so_many_bounds_the_share() -> None:
     """The rule of three: none of n leaves about 3.7/n at 95 % with two tails (Clopper and Pearson 1934)."""
     assert exact(0, 300).high == pytest.approx(1 - 0.025 ** (1 / 300), rel=1e-9)
+
+
+@pytest.mark.parametrize("d", [1, 2, 3])
+def test_3d_plus_4_digits_are_enough_for_nearly_flat_sets_too(d: int) -> None:
+    """docs/studies.md, digits: sets a unit off a plane have the least values at C that whole numbers can have."""
+    source = random.Random(d)
+    size = 10**d - 1
+    for _ in range(60):
+        a, b = source.choice((-1, 0, 1)), source.choice((-1, 0, 1))
+        found: set[tuple[int, int, int]] = set()
+        while len(found) < 8:
+            x, y = source.randint(-size, size), source.randint(-size, size)
+            z = a * x + b * y + source.randint(-1, 1)
+            if abs(z) <= size:
+                found.add((x, y, z))
+        points = [[str(c) for c in point] for point in sorted(found)]
+        judged, hull = exact_hull(points), convex_hull(points, f"truncating:{digits.enough(d)}")
+        assert hull.determined
+        assert set(hull.vertices) == set(judged.vertices)
+        assert len(hull.faces) == len(judged.facets) or judged.dimension < 3
