@@ -21,7 +21,7 @@ wheel: $(VENV)/.dev
 	$(BIN)/python -m build --wheel --outdir dist .
 
 benchmark: $(VENV)/.dev
-	$(BIN)/python -m benchmarks
+	$(BIN)/python -m modern.bench
 
 $(VENV)/.run: pyproject.toml
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "hull1620 needs Python 3.11 or later; set PYTHON=...")'

@@ -10,28 +10,28 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from emulator.arithmetic import Profile, profile
-    from emulator.batch import run_batch
-    from emulator.cards import Card, Deck, deck_from_lines, deck_from_text, read_deck
-    from emulator.compiler import compile_deck, translate
-    from emulator.divergence import Divergence, diverge
+    from emulator.compiled.batch import run_batch
     from emulator.errors import CardError, CompileError, DeckError, Diagnostic, EmulatorError
-    from emulator.machine import Machine
-    from emulator.objectcode import Program
-    from emulator.result import Ending, Options, Result
-    from emulator.timing import Timing, measure
+    from emulator.language.cards import Card, Deck, deck_from_lines, deck_from_text, read_deck
+    from emulator.language.compiler import compile_deck, translate
+    from emulator.language.objectcode import Program
+    from emulator.machine.divergence import Divergence, diverge
+    from emulator.machine.machine import Machine
+    from emulator.machine.result import Ending, Options, Result
+    from emulator.machine.timing import Timing, measure
+    from emulator.numbers.arithmetic import Profile, profile
 
 _HOMES = {
-    "arithmetic": ("Profile", "profile"),
-    "batch": ("run_batch",),
-    "cards": ("Card", "Deck", "deck_from_lines", "deck_from_text", "read_deck"),
-    "compiler": ("compile_deck", "translate"),
-    "divergence": ("Divergence", "diverge"),
+    "numbers.arithmetic": ("Profile", "profile"),
+    "compiled.batch": ("run_batch",),
+    "language.cards": ("Card", "Deck", "deck_from_lines", "deck_from_text", "read_deck"),
+    "language.compiler": ("compile_deck", "translate"),
+    "machine.divergence": ("Divergence", "diverge"),
     "errors": ("CardError", "CompileError", "DeckError", "Diagnostic", "EmulatorError"),
-    "machine": ("Machine",),
-    "objectcode": ("Program",),
-    "result": ("Ending", "Options", "Result"),
-    "timing": ("Timing", "measure"),
+    "machine.machine": ("Machine",),
+    "language.objectcode": ("Program",),
+    "machine.result": ("Ending", "Options", "Result"),
+    "machine.timing": ("Timing", "measure"),
 }
 
 __all__ = [

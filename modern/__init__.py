@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from modern.digital.hull import DigitalHull, digital_hull
-    from modern.hull import Face, Hull, Stage
+    from modern.geometry.hull import Face, Hull, Stage
     from modern.port import PointsError, RangeError, convex_hull
 
 _HOMES = {
     "modern.digital.hull": ("DigitalHull", "digital_hull"),
-    "modern.hull": ("Face", "Hull", "Stage"),
+    "modern.geometry.hull": ("Face", "Hull", "Stage"),
     "modern.port": ("PointsError", "RangeError", "convex_hull"),
 }
 

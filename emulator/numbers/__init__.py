@@ -1,18 +1,18 @@
 """Number systems for the object code: the same program over binary, exact or decimal numbers of Python.
 
-:func:`numbers` gives one by its name; :mod:`emulator.hosted` runs object code over it.
+:func:`numbers` gives one by its name; :mod:`emulator.machine.interpreter` runs object code over it.
 """
 
 from __future__ import annotations
 
-from emulator.arithmetic import Profile, profile
+from emulator.numbers.arithmetic import Profile, profile
 from emulator.numbers.base import Number, Numbers, Trap, Undecided
-from emulator.numbers.decimal1620 import DecimalNumbers
+from emulator.numbers.decimal import DecimalNumbers
 
 __all__ = ["HOSTED", "DecimalNumbers", "Number", "Numbers", "Trap", "Undecided", "hosted", "numbers"]
 
 HOSTED = ("float64", "float32", "mp:BITS", "exact")
-"""The names that are no decimal profile of emulator/arithmetic.py."""
+"""The names that are no decimal profile of emulator/numbers/arithmetic.py."""
 
 
 def hosted(name: str) -> Numbers | None:

@@ -4,7 +4,7 @@ A number is whatever its system says; nothing outside looks into it.  Rules that
 
 - Input takes every digit of the columns or of the constant; output cuts the number's decimal digits to the
   field's, never rounds (C26-5619 p. 38-40).
-- What the 1620's subroutines answer with an error code is answered with the same code (emulator.result.ERRORS).
+- What the 1620's subroutines answer with an error code is answered with the same code (emulator.machine.result.ERRORS).
 - What a system cannot say ends the run by :class:`Undecided`; it is never guessed.
 """
 
@@ -15,9 +15,9 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
-from emulator.arithmetic import MAX_EXPONENT, MIN_EXPONENT, MINUS_ZERO, ZERO, Rules
-from emulator.fields import FALLBACK, read_floating, write_floating
-from emulator.formats import Field
+from emulator.language.formats import Field
+from emulator.numbers.arithmetic import MAX_EXPONENT, MIN_EXPONENT, MINUS_ZERO, ZERO, Rules
+from emulator.numbers.fields import FALLBACK, read_floating, write_floating
 
 Number = Any
 """A number of some system."""
@@ -27,7 +27,8 @@ SHOWN = 20
 
 
 class Trap(Exception):
-    """An operation that has a result and an error event (emulator.engine: SUM_OVER and so on); the run goes on."""
+    """An operation that has a result and an error event (emulator.compiled.kernel: SUM_OVER and so on); the run goes
+    on."""
 
     def __init__(self, event: int, value: Number) -> None:
         super().__init__(event)
@@ -122,7 +123,7 @@ class Numbers(ABC):
 
     @abstractmethod
     def cut(self, value: Number, digits: int) -> tuple[int, int]:
-        """The first ``digits`` decimal digits, as mantissa and exponent of emulator/arithmetic.py.
+        """The first ``digits`` decimal digits, as mantissa and exponent of emulator/numbers/arithmetic.py.
 
         Raises Undecided for what is not finite.
         """

@@ -17,8 +17,8 @@ from decimal import Decimal
 from fractions import Fraction
 from functools import cached_property
 
-from emulator import engine
-from emulator.arithmetic import MINUS_ZERO, ZERO
+from emulator.compiled import kernel as engine
+from emulator.numbers.arithmetic import MINUS_ZERO, ZERO
 from emulator.numbers.base import Numbers, Trap, Undecided, cut_decimal
 
 _INFINITE = math.inf

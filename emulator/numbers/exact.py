@@ -11,7 +11,7 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
-from emulator.arithmetic import MINUS_ZERO, ZERO
+from emulator.numbers.arithmetic import MINUS_ZERO, ZERO
 from emulator.numbers.base import Numbers, Undecided, cut_decimal, decimal_length
 from emulator.numbers.roots import Rational, RootSum, quotient, square_root
 

@@ -15,8 +15,8 @@ from typing import Any
 from mpmath import MPContext
 from mpmath.libmp import from_rational, round_nearest
 
-from emulator import engine
-from emulator.arithmetic import ZERO
+from emulator.compiled import kernel as engine
+from emulator.numbers.arithmetic import ZERO
 from emulator.numbers.base import SHOWN, Numbers, Trap, Undecided, cut_decimal, decimal_length, decimal_text
 
 MIN_BITS, MAX_BITS = 2, 100_000

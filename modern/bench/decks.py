@@ -5,11 +5,11 @@ from __future__ import annotations
 import random
 from collections.abc import Sequence
 
-from emulator.batch import run_batch
-from emulator.cards import Deck, deck_from_lines
-from emulator.result import Options
+from emulator.compiled.batch import run_batch
+from emulator.language.cards import Deck, deck_from_lines
+from emulator.machine.result import Options
 from modern.edition import decks
-from modern.points import e_field, parse_decimal
+from modern.formats.csv import e_field, parse_decimal
 
 PROGRAM, LAYERS = "program3", ("corrected",)
 OPTIONS = Options(core=60_000)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 
-from emulator.batch import punched
+from emulator.compiled.batch import punched
 from modern.bench.decks import LAYERS, OPTIONS, PROGRAM
 from modern.edition import decks
 

@@ -14,9 +14,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from emulator.batch import punched
-from emulator.cards import deck_from_text
-from emulator.machine import Machine
+from emulator.compiled.batch import punched
+from emulator.language.cards import deck_from_text
+from emulator.machine.machine import Machine
 from modern.bench import native
 from modern.bench.agreement import Agreement, compared, data_sets
 from modern.bench.decks import LAYERS, OPTIONS, POINTS, PROGRAM, SEED, middle_texts, random_points

@@ -9,8 +9,8 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
-from emulator.cards import Deck
 from emulator.errors import EmulatorError
+from emulator.language.cards import Deck
 from modern.bench.translate import translated
 
 COMPILERS = ("gfortran", "flang", "flang-new", "ifx", "f95")

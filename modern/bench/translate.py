@@ -18,11 +18,11 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 
-from emulator import tree
-from emulator.cards import Deck
 from emulator.errors import DeckError
-from emulator.formats import Field, Literal, parse_format
-from emulator.parser import parse
+from emulator.language import tree
+from emulator.language.cards import Deck
+from emulator.language.formats import Field, Literal, parse_format
+from emulator.language.parser import parse
 
 LIBRARY = {name + end: name for name in ("SQRT", "SIN", "COS", "ATAN", "EXP", "LOG") for end in ("", "F")}
 EMPTY = 90000

@@ -8,14 +8,14 @@ import sys
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
-from emulator.cards import write_text
+from emulator.language.cards import write_text
 from modern.cli.common import check_places, counted, say
 from modern.cli.exits import DIFFERS, OK
-from modern.export import off
-from modern.export.mesh import Mesh
-from modern.export.off import parse_off
-from modern.export.reading import read_source
-from modern.inputs import OFF, Input, parse_input
+from modern.formats import off
+from modern.formats.off import parse_off
+from modern.formats.points import OFF, Input, parse_input
+from modern.formats.reading import read_source
+from modern.geometry.mesh import Mesh
 from modern.papers.appel_will import LITERAL, MENDED, Assembled, MapError, appel_will
 from modern.papers.appel_will.corners import Preprocessing
 from modern.papers.appel_will.loops import Loop

@@ -6,8 +6,8 @@ import argparse
 import json
 import sys
 
-from emulator.cards import write_text
 from emulator.errors import DeckError
+from emulator.language.cards import write_text
 from modern.bench.measure import document, lines, measure
 from modern.cli.common import check_places, say
 from modern.cli.exits import OK

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import argparse
 
-from emulator.cards import write_text
+from emulator.language.cards import write_text
 from modern.cli.common import say
 from modern.cli.exits import OK
-from modern.hulldeck import MAX_POINTS
-from modern.points import deck_lines, read_rows
+from modern.formats.csv import deck_lines, read_rows
+from modern.thesis.deck import MAX_POINTS
 
 
 def main(args: argparse.Namespace) -> int:

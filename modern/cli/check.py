@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from emulator.compiler import translate
+from emulator.language.compiler import translate
 from modern.cli.common import layers_of, source_deck
 from modern.cli.exits import BAD_INPUT, OK
 

@@ -9,16 +9,16 @@ from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 
-from emulator.arithmetic import TRUNCATING, Rules
-from emulator.cards import Deck, read_deck, write_text, writing
-from emulator.compiler import compile_deck
 from emulator.errors import DeckError
-from emulator.fields import FALLBACK
+from emulator.language.cards import Deck, read_deck, write_text, writing
+from emulator.language.compiler import compile_deck
+from emulator.language.objectcode import Program
+from emulator.machine.result import ERRORS, Options, Result
+from emulator.machine.trace import Tracer
 from emulator.numbers import DecimalNumbers, Numbers, numbers
+from emulator.numbers.arithmetic import TRUNCATING, Rules
 from emulator.numbers.base import cutting_rules
-from emulator.objectcode import Program
-from emulator.result import ERRORS, Options, Result
-from emulator.trace import Tracer
+from emulator.numbers.fields import FALLBACK
 from modern.edition import decks
 
 

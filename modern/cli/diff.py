@@ -7,20 +7,20 @@ import json
 from collections.abc import Iterator
 from fractions import Fraction
 
-from emulator.cards import Deck, deck_from_lines, write_text
 from emulator.errors import DeckError
-from emulator.result import Options
+from emulator.language.cards import Deck, deck_from_lines, write_text
+from emulator.machine.result import Options
 from modern.cli.common import layers_of, say
 from modern.cli.exits import DIFFERS, OK
-from modern.comparison.against import Disagreement, against
+from modern.comparison.difference import Disagreement, against
 from modern.comparison.outcome import Outcome, Vector, from_cards, from_hull, from_judge
 from modern.edition import decks
 from modern.exact_hull import exact_hull
-from modern.hulldeck import MAX_POINTS
-from modern.hullrun import run_hull
-from modern.inputs import Input, read_input
-from modern.points import e_field, parse_decimal
+from modern.formats.csv import e_field, parse_decimal
+from modern.formats.points import Input, read_input
 from modern.port import convex_hull
+from modern.thesis.deck import MAX_POINTS
+from modern.thesis.job import run_hull
 
 _LIMIT = 1_000_000
 _HEAD = ("route", "status", "vertices", "misfiled", "planes", "error", "excluded")

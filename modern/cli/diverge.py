@@ -8,10 +8,10 @@ import shutil
 import textwrap
 from collections.abc import Iterator
 
-from emulator.cards import read_deck, write_text
-from emulator.divergence import Divergence, Loss, diverge
 from emulator.errors import DeckError
-from emulator.objectcode import Line
+from emulator.language.cards import read_deck, write_text
+from emulator.language.objectcode import Line
+from emulator.machine.divergence import Divergence, Loss, diverge
 from modern.cli.common import check_places, layers_of, load_program, machine_options, number_system
 from modern.cli.exits import DIFFERS, OK
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import argparse
 from pathlib import PurePath
 
-from emulator.cards import write_text
+from emulator.language.cards import write_text
 from modern.cli.common import say
 from modern.cli.exits import DIFFERS, OK
 from modern.cli.export import exact_hull_of
-from modern.draw import draw_svg
+from modern.drawing.draw import draw_svg
 from modern.drawing.scene import eye_of
 
 

@@ -6,10 +6,10 @@ import argparse
 
 from modern.cli.common import say
 from modern.cli.exits import DIFFERS, OK
-from modern.export import format_of, write_hull
-from modern.export.numbers import ExportError
-from modern.hull import Hull
-from modern.inputs import read_input
+from modern.formats import format_of, write_hull
+from modern.formats.points import read_input
+from modern.geometry.hull import Hull
+from modern.geometry.numbers import ExportError
 
 
 def main(args: argparse.Namespace) -> int:

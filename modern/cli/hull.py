@@ -5,15 +5,15 @@ from __future__ import annotations
 import argparse
 from dataclasses import replace
 
-from emulator.cards import read_deck
-from emulator.machine import Machine
-from emulator.objectcode import Program
-from modern import hulldeck
+from emulator.language.cards import read_deck
+from emulator.language.objectcode import Program
+from emulator.machine.machine import Machine
 from modern.cli.common import card_rules, check_places, layers_of, machine_options, put_out, say, say_warnings, tracing
 from modern.cli.exits import DIFFERS, OK
 from modern.cli.profile import profile_lines
 from modern.edition import decks
-from modern.hullrun import HullRun, run_hull
+from modern.thesis import deck as hulldeck
+from modern.thesis.job import HullRun, run_hull
 
 
 def main(args: argparse.Namespace) -> int:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator
 
-from emulator import objectcode as op
-from emulator.objectcode import Instruction, Program
+from emulator.language import objectcode as op
+from emulator.language.objectcode import Instruction, Program
 from modern.cli.common import layers_of, load_program
 from modern.cli.exits import OK
 

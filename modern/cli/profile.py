@@ -5,9 +5,9 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterator
 
-from emulator.objectcode import Program
-from emulator.result import Result
-from emulator.timing import Row, measure
+from emulator.language.objectcode import Program
+from emulator.machine.result import Result
+from emulator.machine.timing import Row, measure
 
 _TOP = 10
 

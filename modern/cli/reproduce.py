@@ -12,14 +12,14 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, TextIO
 
-from emulator.cards import write_text
 from emulator.errors import DeckError
+from emulator.language.cards import write_text
 from modern.cli.common import check_places
 from modern.cli.exits import DIFFERS, OK
 from modern.edition.printed import EXAMPLES, THEOREMS
+from modern.edition.published import PAPERS, Finding, findings
 from modern.edition.reproduce import Report, reproduce, summary
 from modern.edition.verdicts import DIFFERENT, EXACT, ORDER, SPACING
-from modern.papers.published import PAPERS, Finding, findings
 
 if TYPE_CHECKING:
     from modern.edition.theorem_claims import Claim

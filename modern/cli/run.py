@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 import sys
 
-from emulator.cards import Deck, read_deck
 from emulator.errors import DeckError, EmulatorError
-from emulator.machine import Machine
+from emulator.language.cards import Deck, read_deck
+from emulator.machine.machine import Machine
 from modern.cli.common import (
     check_places,
     layers_of,
@@ -20,7 +20,7 @@ from modern.cli.common import (
 )
 from modern.cli.exits import DIFFERS, OK
 from modern.cli.profile import profile_lines
-from modern.hullrun import refusal
+from modern.thesis.job import refusal
 
 
 def main(args: argparse.Namespace) -> int:

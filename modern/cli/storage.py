@@ -5,13 +5,13 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator
 
-from emulator.length import code_positions
-from emulator.objectcode import Program
-from emulator.storage import FIELD, core_address
-from modern.capacity import capacity_lines
+from emulator.language.length import code_positions
+from emulator.language.objectcode import Program
+from emulator.language.storage import FIELD, core_address
 from modern.cli.common import layers_of, load_program
 from modern.cli.exits import OK
 from modern.edition import decks
+from modern.thesis.capacity import capacity_lines
 
 _PLURALS = {"constant": "constants", "temporary": "temporaries", "statement number": "statement numbers"}
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator
 
-from emulator.cards import write_text
+from emulator.language.cards import write_text
 from modern.cli.common import check_places, counted
 from modern.cli.exits import OK
 from modern.cli.volumes import volume_of
 from modern.digital.volumes import Volume, VolumeError, write_npy
-from modern.export import FORMATS, mesh_text
-from modern.export.mesh import Mesh
+from modern.formats import FORMATS, mesh_text
+from modern.geometry.mesh import Mesh
 from modern.papers.kovalevsky_schulz import CENTRES, VERTICES, VISIBLE, CellList, Flat, Surface, VoxelHull, voxel_hull
 from modern.papers.kovalevsky_schulz.sizes import cell_list_size, economical_size, triangulation_size
 from modern.papers.kovalevsky_schulz.tables import all_rows

@@ -11,10 +11,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from modern.edition.cardhull import CardHull, read_hull
 from modern.exact_hull import ExactHull
-from modern.hull import DETERMINED, Hull
-from modern.hullrun import HullRun
+from modern.geometry.hull import DETERMINED, Hull
+from modern.thesis.cards import CardHull, read_hull
+from modern.thesis.job import HullRun
 
 Vector = tuple[Fraction, ...]
 Equation = tuple[Fraction, Fraction, Fraction, Fraction]

@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from emulator.compiling import compiled
+from emulator.compiled.jit import compiled
 
 Integers = MutableSequence[int]
 Grid = NDArray[np.int64]

@@ -16,11 +16,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from emulator.cards import standard_input, writing_bytes
+from emulator.language.cards import standard_input, writing_bytes
 from modern.digital.nrrd import MAGIC, parse_nrrd
 from modern.digital.solids import DIGITS, VERTEX, VOXEL, Volume, VolumeError, ball, half_ball, listed
-from modern.export.numbers import shown
-from modern.points import rows
+from modern.formats.csv import rows
+from modern.geometry.numbers import shown
 
 __all__ = [
     "VERTEX",

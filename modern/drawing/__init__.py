@@ -1,1 +1,1 @@
-"""Parts of ``modern.draw``: the direction of view, what is hidden, the places of labels, the SVG text."""
+"""Parts of ``modern.drawing.draw``: the direction of view, what is hidden, the places of labels, the SVG text."""

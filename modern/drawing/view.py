@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from modern.export.mesh import Vector, cross, dot, minus
+from modern.geometry.mesh import Vector, cross, dot, minus
 
 Eye = tuple[int, int, int]
 Flat = tuple[Fraction, Fraction]

@@ -8,10 +8,10 @@ from functools import cache
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 
-from emulator.cards import Deck, deck_from_lines, deck_from_text
-from emulator.compiler import compile_deck
 from emulator.errors import DeckError
-from emulator.objectcode import Program
+from emulator.language.cards import Deck, deck_from_lines, deck_from_text
+from emulator.language.compiler import compile_deck
+from emulator.language.objectcode import Program
 from modern.edition.apparatus import Text, build, load
 
 

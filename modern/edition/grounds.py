@@ -15,17 +15,17 @@ import re
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
-from emulator.cards import Deck, deck_from_text
-from emulator.compiler import compile_deck
 from emulator.errors import CompileError, EmulatorError
-from emulator.objectcode import Program
-from emulator.result import Options
-from emulator.statements import sources
+from emulator.language.cards import Deck, deck_from_text
+from emulator.language.compiler import compile_deck
+from emulator.language.objectcode import Program
+from emulator.language.statements import sources
+from emulator.machine.result import Options
 from modern.edition import decks, printed
 from modern.edition.apparatus import ApparatusError, Row, rows_needing
 from modern.edition.reproduce import reproduce
 from modern.edition.verdicts import EXACT
-from modern.hullrun import run_hull
+from modern.thesis.job import run_hull
 
 LISTED = Options(limit=200_000)
 LAYERED = Options(limit=1_000_000, core=60_000)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 
-from emulator.cards import Deck, deck_from_text
+from emulator.language.cards import Deck, deck_from_text
 
 EXAMPLES = (1, 2, 3, 4, 5, 6)
 THEOREMS = ("4.1", "4.2", "4.8")

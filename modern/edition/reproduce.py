@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from importlib.resources.abc import Traversable
 
 from emulator.errors import EmulatorError
-from emulator.result import Options
+from emulator.machine.result import Options
 from modern.edition import decks
 from modern.edition.printed import EXAMPLES, Print, input_deck, prints
 from modern.edition.verdicts import DIFFERENT, EXACT, ORDER, Verdict, compare
-from modern.hullrun import Load, run_hull
+from modern.thesis.job import Load, run_hull
 
 STATES = (("examples", "program1_examples"), ("listing", "program1"))
 

@@ -11,17 +11,17 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
 
-from emulator.cards import Deck, deck_from_lines
-from emulator.result import Options
-from modern.comparison.against import against
+from emulator.language.cards import Deck, deck_from_lines
+from emulator.machine.result import Options
+from modern.comparison.difference import against
 from modern.comparison.outcome import Outcome, Vector, from_cards, from_judge
 from modern.edition import decks
-from modern.edition.cardhull import scaled
 from modern.edition.chapter4_theorems import Point, Theorem, load_text, load_theorems, theorem_faults
 from modern.edition.printed import THEOREMS
 from modern.exact_hull import exact_hull
-from modern.hullrun import Load, run_hull
-from modern.points import e_field, parse_decimal
+from modern.formats.csv import e_field, parse_decimal
+from modern.thesis.cards import scaled
+from modern.thesis.job import Load, run_hull
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from modern.edition.cardhull import floats, read_hull, same_hull
+from modern.thesis.cards import floats, read_hull, same_hull
 
 EXACT, SPACING, ORDER, DIFFERENT = "exact", "exact but for spacing", "exact in another order", "different"
 
@@ -47,7 +47,7 @@ def compare(printed: Sequence[str], produced: Sequence[str], final: bool, orient
     """The verdict on a device's lines.
 
     ``final`` cards are a hull's, others an intermediate deck; ``oriented``: see
-    :func:`modern.edition.cardhull.same_hull`; ``reason`` is given where the order differs.
+    :func:`modern.thesis.cards.same_hull`; ``reason`` is given where the order differs.
     """
     tokens = [token for line in printed for token in line.split()]
     numbers = sum(len(_NUMBER.findall(line)) for line in printed)

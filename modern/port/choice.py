@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from emulator.arithmetic import FAMILIES, PROFILES, profile
+from emulator.numbers.arithmetic import FAMILIES, PROFILES, profile
 from modern.port.arithmetic import Arithmetic, PointsError, RangeError, Vector
 from modern.port.binary import MAX_BITS, MIN_BITS, FloatArithmetic, MultiprecisionArithmetic
-from modern.port.decimal1620 import Arithmetic1620
+from modern.port.decimal import Arithmetic1620
+from modern.port.exact import exact_arithmetic
 from modern.port.points import Points, Read, read_points
-from modern.port.rational import exact_arithmetic
 
 NAMES = ("exact", "float64", "float32", "mp:BITS", *PROFILES, *FAMILIES)
 

@@ -10,11 +10,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from fractions import Fraction
 
-from emulator.arithmetic import MINUS_ZERO, TRUNCATING, ZERO
-from emulator.fields import FALLBACK, write_floating
-from modern.edition.cardhull import SECTIONS, sections
-from modern.hull import DETERMINED, TABLE_FULL, Hull
-from modern.hullrun import HullRun
+from emulator.numbers.arithmetic import MINUS_ZERO, TRUNCATING, ZERO
+from emulator.numbers.fields import FALLBACK, write_floating
+from modern.geometry.hull import DETERMINED, TABLE_FULL, Hull
+from modern.thesis.cards import SECTIONS, sections
+from modern.thesis.job import HullRun
 
 Row = tuple[str, ...]
 _NO_NUMBER = 0

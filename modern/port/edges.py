@@ -10,7 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.hull import ERROR
+from modern.geometry.hull import ERROR
 from modern.port.arithmetic import Arithmetic
 from modern.port.equations import Equations
 from modern.port.formulas import distance_squared

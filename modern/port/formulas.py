@@ -3,7 +3,7 @@
 In ``a op b`` the left operand stands for the accumulator.  The compiler computes a product into the
 accumulator and then adds the sum waiting for it, so ``t + a*b`` of the listing is written ``a*b + t`` here;
 ``t - a*b`` is the product less t with the sign reversed (:func:`less`), which is why a cancellation there
-gives minus zero (emulator/expressions.py).
+gives minus zero (emulator/language/expressions.py).
 """
 
 from __future__ import annotations

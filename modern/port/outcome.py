@@ -10,7 +10,7 @@ from typing import SupportsIndex, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.hull import Coefficients, Face, Stage
+from modern.geometry.hull import Coefficients, Face, Stage
 from modern.port.arithmetic import Arithmetic, Exact, Scalar, Vector
 from modern.port.cycle import IntPoint, cyclic
 from modern.port.equations import Equations

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.hull import NOT_ACCEPTABLE
+from modern.geometry.hull import NOT_ACCEPTABLE
 from modern.port.arithmetic import Arithmetic, Scalar, Vector
 from modern.port.equations import Equations, Slack
 from modern.port.formulas import line

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.hull import ERROR, NOT_ACCEPTABLE, TABLE_FULL
+from modern.geometry.hull import ERROR, NOT_ACCEPTABLE, TABLE_FULL
 from modern.port.arithmetic import Arithmetic, Scalar, Vector
 from modern.port.equations import Equations
 from modern.port.formulas import plane

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from modern.hull import DETERMINED, ERROR, Hull
+from modern.geometry.hull import DETERMINED, ERROR, Hull
 from modern.port import edges, surface
 from modern.port.arithmetic import Arithmetic, RangeError, Scalar, Vector
 from modern.port.choice import take

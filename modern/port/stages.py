@@ -11,7 +11,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from emulator.compiling import Function, compiled
+from emulator.compiled.jit import Function, compiled
 from modern.port import growth, kernels, workspace
 from modern.port.equations import Equations
 from modern.port.places import Places

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from emulator.compiling import NotInstalled
+from emulator.compiled.jit import NotInstalled
 from modern.port import growth
 from modern.port.arithmetic import Arithmetic
 from modern.port.binary import FloatArithmetic

@@ -9,12 +9,12 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 
-from emulator.cards import deck_from_lines
-from emulator.formats import Literal
-from emulator.objectcode import LIST_PASS, Program
-from emulator.result import Options, Result
-from modern.hullrun import Step
-from modern.study.batch import Runs
+from emulator.language.cards import deck_from_lines
+from emulator.language.formats import Literal
+from emulator.language.objectcode import LIST_PASS, Program
+from emulator.machine.result import Options, Result
+from modern.thesis.batch import Runs
+from modern.thesis.job import Step
 
 _CARDS = re.compile(r"; it (?:loops|was) on cards? (\d+)(?: to (\d+))?")
 _BOUNDS = re.compile(r": (\w+)\((-?\d+)\) is outside \w+\((\d+)\)")

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from emulator.cards import deck_from_lines
-from emulator.machine import Machine
+from emulator.language.cards import deck_from_lines
+from emulator.machine.machine import Machine
 from modern.edition import decks
-from modern.points import e_field, parse_decimal
+from modern.formats.csv import e_field, parse_decimal
 from modern.port import convex_hull
 from modern.study.families import draw_sample
 from modern.study.measures import measure_of

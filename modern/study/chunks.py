@@ -6,12 +6,12 @@ import json
 from collections.abc import Iterator
 from typing import Any
 
-from modern.study.batch import Runs
 from modern.study.families import draw_sample
 from modern.study.filing import Filed, reordered
 from modern.study.judged import Judged, judge
 from modern.study.plan import Cell, Chunk
 from modern.study.routes import carry_out
+from modern.thesis.batch import Runs
 
 Row = dict[str, Any]
 

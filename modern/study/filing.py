@@ -19,7 +19,8 @@ stopped otherwise      any other ending (its kind, program and statement), or a 
 =====================  ============================================================================================
 
 Of a line the programs punch the ends only, and of three points or fewer no inside points; equations of the judge and
-of a route are the same plane within :data:`modern.comparison.against.NEAR`, the error of coefficients being a figure.
+of a route are the same plane within :data:`modern.comparison.difference.NEAR`, the error of coefficients being a
+figure.
 """
 
 from __future__ import annotations
@@ -29,15 +30,15 @@ from dataclasses import dataclass, field, replace
 from decimal import Context, Decimal
 from fractions import Fraction
 
-from emulator.result import Options
-from modern.comparison.against import NEAR, Disagreement, against
+from emulator.machine.result import Options
+from modern.comparison.difference import NEAR, Disagreement, against
 from modern.comparison.outcome import Outcome, from_card_hull, from_hull
-from modern.edition.cardhull import CardHull, read_hull
-from modern.hull import ERROR, NOT_ACCEPTABLE, TABLE_FULL, Hull
-from modern.hullrun import HullRun, refusal
-from modern.study.batch import Runs
+from modern.geometry.hull import ERROR, NOT_ACCEPTABLE, TABLE_FULL, Hull
 from modern.study.causes import looping_at, out_of_bounds, refused_at, stopped_at
 from modern.study.judged import Judged, held
+from modern.thesis.batch import Runs
+from modern.thesis.cards import CardHull, read_hull
+from modern.thesis.job import HullRun, refusal
 
 RIGHT, REORDERED, DOUBLED = "right", "reordered", "doubled plane"
 ENDLESS, TABLE, BOUNDS, UNDEFINED = "endless", "table full", "out of bounds", "undefined value"

@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from emulator.arithmetic import Rules
-from emulator.cards import Deck, deck_from_lines
-from emulator.fields import read_floating
+from emulator.language.cards import Deck, deck_from_lines
+from emulator.numbers.arithmetic import Rules
+from emulator.numbers.fields import read_floating
 from modern.comparison.outcome import Outcome, Vector, from_judge
 from modern.exact_hull import ExactHull, exact_hull
-from modern.hulldeck import COORDINATE
-from modern.points import deck_lines, e_field, parse_decimal
+from modern.formats.csv import deck_lines, e_field, parse_decimal
 from modern.study.families.drawing import Drawn
+from modern.thesis.deck import COORDINATE
 
 _CARD_DIGITS = 8
 

@@ -1,7 +1,7 @@
 """Further figures of a run, by name: what a route asks for with ``measures``.
 
-A measure is a function of a sample and of its run, a :class:`modern.hullrun.HullRun` of the programs or a
-:class:`modern.hull.Hull` of the port, that gives figures: whole numbers, or decimal text where they are none.
+A measure is a function of a sample and of its run, a :class:`modern.thesis.job.HullRun` of the programs or a
+:class:`modern.geometry.hull.Hull` of the port, that gives figures: whole numbers, or decimal text where they are none.
 ``module:function`` names one of a user's own.
 """
 
@@ -13,18 +13,18 @@ from decimal import Decimal
 from importlib import import_module
 from itertools import pairwise
 
-from emulator.cards import deck_from_lines
-from emulator.divergence import diverge
+from emulator.language.cards import deck_from_lines
+from emulator.machine.divergence import diverge
+from emulator.machine.result import Options
+from emulator.machine.timing import measure
 from emulator.numbers import numbers
-from emulator.result import Options
-from emulator.timing import measure
 from modern.edition.verdicts import planes_hold
-from modern.hull import Hull
-from modern.hullrun import HullRun
+from modern.geometry.hull import Hull
 from modern.study.causes import place
 from modern.study.filing import Figures
 from modern.study.judged import Judged
 from modern.study.plan import PlanError
+from modern.thesis.job import HullRun
 
 Run = HullRun | Hull
 Measure = Callable[[Judged, Run], Figures]
@@ -32,7 +32,8 @@ _MILLISECOND = Decimal("0.001")
 
 
 def machine_time(judged: Judged, run: Run) -> Figures:
-    """Seconds on a 1620 of all programs run, processor, reader, punch and typewriter apart (emulator/timing.py)."""
+    """Seconds on a 1620 of all programs run, processor, reader, punch and typewriter apart
+    (emulator/machine/timing.py)."""
     if not isinstance(run, HullRun):
         return {}
     tables = [measure(step.program, step.result) for step in run.steps]
@@ -74,7 +75,7 @@ def divergence(judged: Judged, run: Run) -> Figures:
 
     ``diverges`` is program and statement; ``cards to program3`` where no decision of program 1 differs but a plane it
     punched, of eight digits, misses its own points, which no arithmetic of the next program can mend; empty where
-    every decision is the same.  ``undecided`` says so where exact numbers cannot follow (emulator/divergence.py).
+    every decision is the same.  ``undecided`` says so where exact numbers cannot follow.
     """
     if not isinstance(run, HullRun):
         return {}

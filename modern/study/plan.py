@@ -15,7 +15,7 @@ from random import Random
 from typing import Any, Literal
 
 from emulator.errors import EmulatorError
-from emulator.result import DEFAULT_CORE, DEFAULT_LIMIT
+from emulator.machine.result import DEFAULT_CORE, DEFAULT_LIMIT
 
 Value = str | int
 SEED = 1963
@@ -37,8 +37,8 @@ class Programs:
     arithmetic: of the emulator, ``truncating``, ``ibm1962``, ``truncating:P``, ``guarded:P``, ``rounding:P``, or
     ``float64``, ``float32``, ``mp:BITS``, ``exact`` (:func:`emulator.numbers.numbers`).
     epsilon: chapter 7's e, punched behind N; it needs the layer ``epsilon``.  limit: statements a program may run
-    before it counts as endless.  core, bounds: as :class:`emulator.result.Options` has them.  measures: names of
-    further figures (:mod:`modern.study.measures`).
+    before it counts as endless.  core, bounds: as :class:`emulator.machine.result.Options` has them.  measures: names
+    of further figures (:mod:`modern.study.measures`).
     """
 
     name: str

@@ -6,21 +6,21 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
 
-from emulator.compiler import compile_deck
 from emulator.errors import EmulatorError
+from emulator.language.compiler import compile_deck
+from emulator.language.objectcode import Program
+from emulator.machine.result import Options
 from emulator.numbers import DecimalNumbers, numbers
-from emulator.objectcode import Program
-from emulator.result import Options
 from modern.edition import decks
 from modern.edition.apparatus import ApparatusError
-from modern.hull import Hull
-from modern.hullrun import HullRun, Load
+from modern.geometry.hull import Hull
 from modern.port import RangeError, convex_hull
-from modern.study.batch import Runs, run_hulls
 from modern.study.filing import OTHERWISE, Figures, Filed, file_hull, file_run
 from modern.study.judged import Judged, with_epsilon
 from modern.study.measures import measure_of
 from modern.study.plan import PlanError, Port, Programs, Route
+from modern.thesis.batch import Runs, run_hulls
+from modern.thesis.job import HullRun, Load
 
 
 def carry_out(route: Route, samples: Sequence[Judged], runs: Runs) -> list[Filed]:

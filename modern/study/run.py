@@ -8,7 +8,7 @@ from contextlib import ExitStack, closing
 from pathlib import Path
 from typing import Any
 
-from emulator.compiled import why_plain
+from emulator.compiled.engine import why_plain
 from modern.study.check import check_plan
 from modern.study.dasked import carry_out_on_dask, connect
 from modern.study.files import BESIDE, StudyFileError

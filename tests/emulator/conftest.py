@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from deckwork import ENGINES, MakeMachine
+
+from tests.support.deckwork import ENGINES, MakeMachine
 
 
 @pytest.fixture(params=sorted(ENGINES))

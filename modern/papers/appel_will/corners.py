@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from modern.export.mesh import cross, dot, minus
+from modern.geometry.mesh import cross, dot, minus
 from modern.papers.appel_will.edges import IntPoint
 from modern.papers.appel_will.surfaces import Line, Surface, area_normal, lines, oriented
 

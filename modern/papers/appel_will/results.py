@@ -14,13 +14,13 @@ from fractions import Fraction
 from importlib.resources import files
 from itertools import combinations
 
-from modern.export.mesh import cross, dot, minus
+from modern.edition.published import PAPERS, Producer, results_of
+from modern.geometry.mesh import cross, dot, minus
 from modern.papers.appel_will.corners import corners, triple_product, vectors
 from modern.papers.appel_will.edges import IntPoint, Pair, project
 from modern.papers.appel_will.hull import Assembled, Method, appel_will
 from modern.papers.appel_will.star import as_mended
 from modern.papers.appel_will.surfaces import Line, Surface, area_normal, oriented
-from modern.papers.published import PAPERS, Producer, results_of
 
 PAPER = next(paper for paper in PAPERS if paper.module == __name__)
 BY_STAR = Method(star=as_mended)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from emulator.errors import EmulatorError
-from modern.export.mesh import cross, dot, minus
+from modern.geometry.mesh import cross, dot, minus
 from modern.papers.appel_will.edges import IntPoint, Pair
 
 Surface = tuple[int, ...]

@@ -12,12 +12,12 @@ from decimal import ROUND_HALF_UP, Decimal
 from fractions import Fraction
 
 from modern.digital.solids import ball, half_ball
+from modern.edition.published import PAPERS, Producer, results_of
 from modern.papers.kovalevsky_schulz.cells import CellList
 from modern.papers.kovalevsky_schulz.hull import voxel_hull
 from modern.papers.kovalevsky_schulz.polyhedron import INVISIBLE, convex_polyhedron
 from modern.papers.kovalevsky_schulz.sizes import cell_list_size, cube_triangles, triangulation_size
 from modern.papers.kovalevsky_schulz.tables import edge_rows, face_rows, vertex_rows
-from modern.papers.published import PAPERS, Producer, results_of
 
 PAPER = next(paper for paper in PAPERS if paper.module == __name__)
 TETRAHEDRON = ((0, 0, 0), (0, 1, 0), (1, 0, 0), (0, 0, 1))

@@ -8,7 +8,7 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from modern.export.mesh import Vector
+from modern.geometry.mesh import Vector
 from modern.papers.nakamae_nishita.boxes import boxes, overlapping
 from modern.papers.nakamae_nishita.crossings import Passage, as_printed, clipped
 from modern.papers.nakamae_nishita.faces import BACK

@@ -13,7 +13,7 @@ from fractions import Fraction
 
 from emulator.errors import EmulatorError
 from modern.drawing.view import lowest, tuple3
-from modern.export.mesh import Vector, area_vector, cross, dot, minus, sides
+from modern.geometry.mesh import Vector, area_vector, cross, dot, minus, sides
 
 
 class SceneError(EmulatorError):

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from modern.drawing.view import Eye, lowest, view
-from modern.export.mesh import Vector, dot, minus
+from modern.geometry.mesh import Vector, dot, minus
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron, SceneError, denominator, integers
 
 Homogeneous = tuple[int, int, int, int]

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
+from modern.edition.published import PAPERS, Producer
 from modern.papers.nakamae_nishita.crossings import clipped
 from modern.papers.nakamae_nishita.faces import line_through, sign
 from modern.papers.nakamae_nishita.hidden import Drawing, draw
 from modern.papers.nakamae_nishita.projection import Homogeneous, parallel
 from modern.papers.nakamae_nishita.scenes import names, scene
 from modern.papers.nakamae_nishita.tables import Tables, tables, values
-from modern.papers.published import PAPERS, Producer
 
 PAPER = next(paper for paper in PAPERS if paper.module == __name__)
 

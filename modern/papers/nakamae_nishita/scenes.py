@@ -14,9 +14,9 @@ from fractions import Fraction
 from importlib.resources import files
 
 from modern.drawing.view import EYES, choose
-from modern.export.mesh import Vector
-from modern.export.numbers import number, shown
-from modern.export.reading import read_source
+from modern.formats.reading import read_source
+from modern.geometry.mesh import Vector
+from modern.geometry.numbers import number, shown
 from modern.papers.nakamae_nishita.fields import Fields
 from modern.papers.nakamae_nishita.parts import Part, make, part
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron, SceneError, outward

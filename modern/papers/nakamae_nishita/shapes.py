@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from fractions import Fraction
 
-from modern.export.mesh import Vector, cross, dot, minus
+from modern.geometry.mesh import Vector, cross, dot, minus
 from modern.papers.nakamae_nishita.polyhedron import Figure, Polyhedron, SceneError, turns_once
 
 Move = Callable[[Vector], Vector]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from modern.export.mesh import Vector
+from modern.geometry.mesh import Vector
 from modern.papers.nakamae_nishita import faces
 from modern.papers.nakamae_nishita.faces import Edge, line_through
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import PurePath
 
-from modern.export.mesh import mesh
-from modern.export.numbers import coordinates
-from modern.export.off import OffMesh
-from modern.hull import Hull
+from modern.formats.off import OffMesh
+from modern.geometry.hull import Hull
+from modern.geometry.mesh import mesh
+from modern.geometry.numbers import coordinates
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron, SceneError, checked
 
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from emulator.length import code_positions
-from emulator.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
+from emulator.language.length import code_positions
+from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 from modern.edition import decks
 from modern.study.charts import Lines, Mark, Series
 from modern.study.filing import TABLE

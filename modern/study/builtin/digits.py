@@ -7,7 +7,7 @@ each d.  docs/studies.md derives the digits that decide every zero, and those th
 
 from __future__ import annotations
 
-from modern.hull import NOT_ACCEPTABLE
+from modern.geometry.hull import NOT_ACCEPTABLE
 from modern.study.charts import Bars, Lines, Mark, Series
 from modern.study.filing import DETERMINED, WRONG
 from modern.study.plan import Cell, Plan, Port, Programs, Route

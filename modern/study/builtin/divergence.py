@@ -1,7 +1,8 @@
 """Where eight digits first decide otherwise than exact numbers, statement by statement.
 
 Each set goes through the programs as listed; then every program runs again over exact numbers in step with that run,
-on the same cards, up to the first IF, computed GO TO or end of a DO that goes two ways (emulator/divergence.py).
+on the same cards, up to the first IF, computed GO TO or end of a DO that goes two ways
+(emulator/machine/divergence.py).
 Between two programs the planes on the cards, cut to eight digits, may already miss the points they go through.
 ``samples`` counts the sets of each family.
 """

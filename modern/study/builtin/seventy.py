@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass
 
-from modern.hull import NOT_ACCEPTABLE
+from modern.geometry.hull import NOT_ACCEPTABLE
 from modern.study.charts import Bars, Mark, Series
 from modern.study.families.thesis import KINDS
 from modern.study.filing import DETERMINED, WRONG

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any
 
-from modern.points import e_field, parse_decimal
+from modern.formats.csv import e_field, parse_decimal
 from modern.study.families import given, grids, rounds, solids, thesis
 from modern.study.families.drawing import Draw, Drawn, FamilyError
 from modern.study.plan import Cell, PlanError, random_of

@@ -7,8 +7,8 @@ from functools import cache
 
 from modern.edition import printed
 from modern.edition.chapter4_theorems import load_theorems
-from modern.export.numbers import finite_decimal
-from modern.inputs import parse_input, read_input
+from modern.formats.points import parse_input, read_input
+from modern.geometry.numbers import finite_decimal
 from modern.study.families.drawing import MOST, Count, Draw, Drawn, FamilyError, Point
 
 

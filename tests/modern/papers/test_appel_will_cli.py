@@ -8,7 +8,7 @@ import pytest
 
 from modern.cli.arguments import build_parser
 from modern.cli.main import main
-from modern.export import read_off
+from modern.formats import read_off
 from modern.papers.appel_will import RULES
 
 FIG_4 = """OFF

@@ -11,12 +11,12 @@ from itertools import combinations
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from judged import sets
 
 from modern.exact_hull import exact_hull
 from modern.papers.appel_will import LITERAL, MENDED, Method, appel_will
 from modern.papers.appel_will.loops import Rules
 from modern.papers.appel_will.star import as_mended
+from tests.support.judged import sets
 
 Point = tuple[int, int, int]
 LETTER = Method(rules=Rules(dot_condition=False))

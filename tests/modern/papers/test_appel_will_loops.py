@@ -6,10 +6,10 @@ from itertools import product
 
 import pytest
 
+from modern.edition.published import results_of
 from modern.papers.appel_will import LITERAL, Method, appel_will
 from modern.papers.appel_will.loops import Rules, find_loops, intersect, surface
 from modern.papers.appel_will.results import PAPER, found_solid
-from modern.papers.published import results_of
 
 CUBE = list(product((0, 1), repeat=3))
 FIG_14, FIG_23 = found_solid("fig14").points, found_solid("fig23").points

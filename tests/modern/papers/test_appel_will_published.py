@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 
 from modern.edition.apparatus import ApparatusError
+from modern.edition.published import CANNOT, CORRECTED, findings, judge, results_of, text_of
 from modern.edition.verdicts import DIFFERENT, EXACT
 from modern.papers.appel_will.results import PAPER, found_solid, printed_solid, produced
-from modern.papers.published import CANNOT, CORRECTED, findings, judge, results_of, text_of
 
 RESULTS = {result.id: result for result in results_of(PAPER)}
 PRODUCED = produced()

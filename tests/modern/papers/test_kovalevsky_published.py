@@ -11,10 +11,10 @@ import pytest
 from modern.cli.main import main
 from modern.digital.volumes import half_ball
 from modern.edition.apparatus import build
+from modern.edition.published import CANNOT, CORRECTED, EXPLAINED, findings, judge, results_of, text_of
 from modern.edition.verdicts import DIFFERENT, EXACT
-from modern.export import parse_off
+from modern.formats import parse_off
 from modern.papers.kovalevsky_schulz.results import PAPER, produced
-from modern.papers.published import CANNOT, CORRECTED, EXPLAINED, findings, judge, results_of, text_of
 
 KINDS = {
     **dict.fromkeys(("ball-voxels", "ball-corners-6", "ball-corners-26", "ball-triangles", "ball-faces"), EXACT),

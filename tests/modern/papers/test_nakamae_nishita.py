@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import itertools
 import random
-import sys
 from collections import Counter
 from fractions import Fraction
-from pathlib import Path
 
 import pytest
 from hypothesis import assume, given, settings
@@ -24,11 +22,8 @@ from modern.papers.nakamae_nishita.scenes import scene
 from modern.papers.nakamae_nishita.shapes import column, cuboid, moved, placed, plate
 from modern.papers.nakamae_nishita.solids import height, solid
 from modern.papers.nakamae_nishita.tables import values
-
-sys.path.insert(0, str(Path(__file__).parent))
-
-from scenes_at_random import apart, blocks, direction, hull_of, shards, vector
-from visibility import Judge, wrong
+from tests.support.scenes_at_random import apart, blocks, direction, hull_of, shards, vector
+from tests.support.visibility import Judge, wrong
 
 ORIGIN = vector(0, 0, 0)
 _WHOLE = st.integers(-20, 20)

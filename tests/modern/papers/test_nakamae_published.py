@@ -7,12 +7,12 @@ from fractions import Fraction
 import pytest
 
 from modern.edition.apparatus import build
+from modern.edition.published import CANNOT, CORRECTED, findings, judge, results_of, text_of
 from modern.edition.verdicts import DIFFERENT, EXACT
 from modern.papers.nakamae_nishita.hidden import draw
 from modern.papers.nakamae_nishita.projection import parallel
 from modern.papers.nakamae_nishita.results import PAPER, produced
 from modern.papers.nakamae_nishita.shapes import column, moved, placed, plate, round_base
-from modern.papers.published import CANNOT, CORRECTED, findings, judge, results_of, text_of
 
 KINDS = {
     **dict.fromkeys(("d-crossing", "d-on-segment", "d-on-vertex", "d-apart", "intersections"), EXACT),

@@ -16,8 +16,8 @@ from hypothesis import strategies as st
 
 from modern.cli.main import main
 from modern.drawing import hpgl
-from modern.export.mesh import Vector
-from modern.export.off import parse_off
+from modern.formats.off import parse_off
+from modern.geometry.mesh import Vector
 from modern.papers.nakamae_nishita.hidden import draw
 from modern.papers.nakamae_nishita.picture import as_hpgl, as_svg, ends
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron, SceneError, checked
@@ -26,6 +26,7 @@ from modern.papers.nakamae_nishita.scenes import names, parse, scene
 from modern.papers.nakamae_nishita.shapes import column, cuboid, parallelepiped, plate, rotation, round_base
 from modern.papers.nakamae_nishita.sources import polyhedron_of_hull, polyhedron_of_off
 from modern.port import convex_hull
+from tests.support.paths import ROOT
 
 CUBE = """OFF
 8 6 12
@@ -271,7 +272,7 @@ def test_the_house_has_no_line_where_its_floors_meet() -> None:
 
 def test_the_committed_picture_of_the_house_is_the_one_drawn() -> None:
     found = scene("house")
-    committed = Path(__file__).parents[3] / "docs" / "papers" / "house.svg"
+    committed = ROOT / "docs" / "papers" / "house.svg"
     assert committed.read_text() == as_svg(draw(found.make, found.sight.observer(found.make)), found.title)
 
 

@@ -12,8 +12,8 @@ import pytest
 
 from modern.cli.main import main
 from modern.edition.apparatus import ApparatusError
+from modern.edition.published import CANNOT, CORRECTED, EXPLAINED, PAPERS, Paper, Published, findings, judge, results_of
 from modern.edition.verdicts import DIFFERENT, EXACT
-from modern.papers.published import CANNOT, CORRECTED, EXPLAINED, PAPERS, Paper, Published, findings, judge, results_of
 
 PAPER = PAPERS[0]
 PLAIN = Published("one", "Fig. 1", "two numbers", ("1 2",), ("1 2",), ())

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from digital_judge import judged, random_solid, solid_of
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
@@ -22,6 +21,7 @@ from modern.papers.yau_srihari import OctreeHull, Printed, octree_hull
 from modern.papers.yau_srihari.connectivity import components
 from modern.papers.yau_srihari.envelope import Envelope
 from modern.papers.yau_srihari.printed import LITERAL, NAMES
+from tests.support.digital_judge import judged, random_solid, solid_of
 
 SEEDS = st.integers(0, 10**9)
 

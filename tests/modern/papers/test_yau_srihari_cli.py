@@ -7,11 +7,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from commands import call
-from digital_judge import judged, solid_of
 
 from modern.cli.arguments import build_parser
 from modern.papers.yau_srihari.printed import NAMES
+from tests.support.commands import call
+from tests.support.digital_judge import judged, solid_of
 
 STAIR = "x,y,z\n5,0,-1\n5,1,-1\n5,1,0\n6,0,-1\n6,0,0\n6,1,0\n6,2,0\n"
 VOXELS = [(0, 0, 0), (0, 1, 0), (0, 1, 1), (1, 0, 0), (1, 0, 1), (1, 1, 1), (1, 2, 1)]

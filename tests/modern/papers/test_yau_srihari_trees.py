@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from digital_judge import random_solid, solid_of
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
@@ -32,6 +31,7 @@ from modern.papers.yau_srihari.quadtree import (
     written,
 )
 from modern.papers.yau_srihari.search import Search
+from tests.support.digital_judge import random_solid, solid_of
 
 ARRAYS = arrays.arrays(np.bool_, st.tuples(*[st.integers(1, 9)] * 3))
 CUBES = st.sampled_from([1, 2, 4, 8]).flatmap(lambda side: arrays.arrays(np.bool_, (side, side, side)))

@@ -1,0 +1,1 @@
+"""The same object code over many decks: a kernel in integers, compiled by numba."""

@@ -1,0 +1,198 @@
+"""A deck run from its first card to its ending in integers alone: the engine with the devices it needs.
+
+Most runs need READ, PUNCH, PRINT and TYPE by any FORMAT, SQRT, whole powers, error codes, PAUSE and the endings.  A
+deck that needs anything else (another function, ACCEPT, a field that is no number or that a warning goes with, a
+record too long, a list its FORMAT does not fit, a hopper empty too early) ends with NOT_HERE, and whoever asked
+runs it on a :class:`emulator.machine.machine.Machine` from the start.
+
+The functions use only what a compiler of integer loops accepts.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from emulator.compiled.devices import (
+    CARDS_READ,
+    DEVICES,
+    FIRST_CARD,
+    FIRST_READ,
+    GO_ON,
+    HELD,
+    LAST_CARD,
+    LOG_FROM,
+    LOG_FULL,
+    LOG_TO,
+    NEXT,
+    NOT_HERE,
+    PAUSES,
+    READ,
+    REASON,
+    USED,
+    VERB,
+    Cards,
+    Code,
+    Core,
+    Forms,
+    Report,
+    Row,
+    begin,
+    end_record,
+    error,
+    item,
+    to_field,
+)
+from emulator.compiled.kernel import (
+    ADDRESS,
+    AT,
+    AT_BEGIN,
+    AT_EVENT,
+    AT_FINISH,
+    AT_FUNCTION,
+    AT_ITEM,
+    AT_LIMIT,
+    AT_PAUSE,
+    AT_POWER,
+    AT_POWERX,
+    CHARACTERISTIC,
+    EVENT,
+    FAC,
+    run,
+)
+from emulator.machine.result import LOOP_WINDOW
+from emulator.numbers.arithmetic import ZERO, Rules, square_root, whole_power
+
+
+class Start(NamedTuple):
+    """Core storage as it is loaded."""
+
+    mantissas: Row
+    exponents: Row
+
+
+Setting = tuple[int, int, int, int, int]
+"""(statement limit, strict bounds, left zero kept, signed underflow, errors typed)."""
+
+
+def run_decks(
+    code: Code, forms: Forms, start: Start, cards: Cards, core: Core, report: Report, rules: Rules, setting: Setting
+) -> int:
+    """Run one deck after the other; how many were run.
+
+    It is fewer than there are where the log is full: the next deck is then to be run again, with an empty log.
+    """
+    used = 0
+    for d in range(len(cards.first) - 1):
+        load(forms, start, core, report, d)
+        devices, ends = core.devices, report.ends[d]
+        devices[USED] = used
+        devices[NEXT] = cards.first[d]
+        devices[FIRST_CARD] = cards.first[d]
+        devices[LAST_CARD] = cards.first[d + 1]
+        reason = run_deck(code, forms, cards, core, report, d, rules, setting)
+        if reason == LOG_FULL:
+            return d
+        ends[REASON] = reason
+        ends[CARDS_READ] = devices[NEXT] - devices[FIRST_CARD]
+        ends[LOG_FROM] = used
+        used = devices[USED]
+        ends[LOG_TO] = used
+        address = report.registers[d][ADDRESS]
+        ends[HELD] = core.exponents[address] if 0 <= address < len(core.exponents) else 0
+    return len(cards.first) - 1
+
+
+def load(forms: Forms, start: Start, core: Core, report: Report, d: int) -> None:
+    """Core and row ``d`` of the report as they are before a run."""
+    for k in range(len(start.mantissas)):
+        core.mantissas[k] = start.mantissas[k]
+        core.exponents[k] = start.exponents[k]
+    for k in range(len(forms.texts)):
+        core.texts[k] = forms.texts[k]
+    for k in range(DEVICES):
+        core.devices[k] = 0
+    core.devices[FIRST_READ] = -1
+    clear(report.registers[d])
+    clear(report.counts[d])
+    clear(report.numbers[d])
+    clear(report.errors[d])
+    clear(report.pauses[d])
+    report.registers[d][CHARACTERISTIC] = ZERO
+
+
+def clear(row: Row) -> None:
+    for k in range(len(row)):
+        row[k] = 0
+
+
+def run_deck(
+    code: Code, forms: Forms, cards: Cards, core: Core, report: Report, d: int, rules: Rules, setting: Setting
+) -> int:
+    """Run the deck the devices are set to; how it ended."""
+    limit, strict, keep_left, signed_underflow, announces = setting
+    registers, counts = report.registers[d], report.counts[d]
+    now = limit - min(LOOP_WINDOW, limit // 2)
+    last = False
+    while True:
+        reason = run(
+            code.operations,
+            code.addresses,
+            code.subscripts,
+            code.seconds,
+            code.table,
+            code.targets,
+            code.loops,
+            code.begins,
+            core.mantissas,
+            core.exponents,
+            counts,
+            registers,
+            core.switches,
+            rules,
+            core.powers,
+            (now, strict, 0, keep_left, signed_underflow),
+        )
+        pc = registers[AT]
+        address = registers[ADDRESS]
+        status = GO_ON
+        if reason == AT_ITEM:
+            status = item(code, forms, cards, core, report, d, rules, announces)
+        elif reason == AT_BEGIN:
+            status = begin(code, forms, cards, core, report, d)
+        elif reason == AT_FINISH:
+            status = to_field(forms, cards, core, report, d, False)
+            if status == GO_ON and core.devices[VERB] != READ:
+                status = end_record(cards, core, report, d)
+        elif reason == AT_EVENT:
+            status = error(registers[EVENT], code, core, report, d, announces)
+        elif reason == AT_POWERX:
+            m, e, event = whole_power(registers[FAC], registers[CHARACTERISTIC], core.mantissas[address], rules)
+            registers[FAC] = m
+            registers[CHARACTERISTIC] = e
+            if event:
+                status = error(event, code, core, report, d, announces)
+        elif reason == AT_FUNCTION:
+            if code.roots[address] == 0:
+                return NOT_HERE
+            m, e = registers[FAC], ZERO
+            if m != 0:
+                m, e = square_root(m, registers[CHARACTERISTIC], rules)
+            registers[FAC] = m
+            registers[CHARACTERISTIC] = e
+        elif reason == AT_PAUSE:
+            pauses = report.pauses[d]
+            if pauses[code.statements[pc]] == 0:
+                core.devices[PAUSES] += 1
+                pauses[code.statements[pc]] = core.devices[PAUSES]
+        elif reason == AT_LIMIT and not last:
+            before = report.before[d]
+            for k in range(len(counts)):
+                before[k] = counts[k]
+            now = limit
+            last = True
+        elif reason == AT_POWER:
+            return NOT_HERE
+        else:
+            return reason
+        if status != GO_ON:
+            return status

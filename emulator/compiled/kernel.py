@@ -1,0 +1,397 @@
+"""The engine: one loop over object code and storage, on integers only.
+
+Storage is two sequences, mantissas and exponents (emulator/numbers/arithmetic.py); a fixed-point number is its value
+with the exponent FIXED_POINT.  The loop runs until something outside the arithmetic is needed (input, output,
+a library function, a message, the end) and returns a reason; whatever drives it (emulator/machine/machine.py) sees to
+that and calls it again.  The subset of the language used here is that of a compiler of integer loops; every
+argument is a flat sequence of integers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import MutableSequence, Sequence
+
+from emulator.language.objectcode import (
+    BEGIN,
+    BRANCH,
+    COUNT,
+    DOTEST,
+    FAD,
+    FDVR,
+    FINISH,
+    FIX,
+    FLOAT,
+    FMFAC,
+    FMFIX,
+    FMP,
+    FSBR,
+    FUNCTION,
+    IF,
+    IFX,
+    ITEM,
+    PAUSE,
+    POWER,
+    POWERX,
+    RSGN,
+    RSGX,
+    SELECT,
+    SEND,
+    SWITCH,
+    TOFAC,
+    TOFIX,
+    TRANSMIT,
+    XAD,
+    XDVR,
+    XMP,
+    XSB,
+    XSBR,
+)
+from emulator.numbers.arithmetic import (
+    FIXED_POINT,
+    MAX_EXPONENT,
+    MIN_EXPONENT,
+    MINUS_ZERO,
+    UNDEFINED,
+    ZERO,
+    Rules,
+    add,
+    divide,
+    from_integer,
+    multiply,
+    to_integer,
+    wrap_integer,
+)
+
+# Reasons to return.
+(
+    AT_LIMIT,
+    AT_STATEMENT,
+    AT_BEGIN,
+    AT_ITEM,
+    AT_FINISH,
+    AT_FUNCTION,
+    AT_POWER,
+    AT_POWERX,
+    AT_PAUSE,
+    AT_STOP,
+    AT_EVENT,
+    AT_UNDEFINED,
+    AT_BOUNDS,
+    AT_OUTSIDE,
+    AT_SELECT,
+) = range(15)
+
+# Registers kept between calls.
+PC, FAC, CHARACTERISTIC, FIXED, STATEMENTS, STORED, SENT, SENT_EXPONENT, EVENT, ADDRESS, INDEX, INDEX2, AT = range(13)
+REGISTERS = 13
+
+# Events: the error codes ERROR E1 to E8 (C26-5619 p. 60, executed on IBM's code).
+(
+    SUM_OVER,
+    SUM_UNDER,
+    PRODUCT_OVER,
+    PRODUCT_UNDER,
+    QUOTIENT_OVER,
+    QUOTIENT_UNDER,
+    ZERO_DIVISOR,
+    FIXED_ZERO_DIVISOR,
+) = range(1, 9)
+
+
+def run(
+    operations: Sequence[int],
+    addresses: Sequence[int],
+    subscripts: Sequence[int],
+    seconds: Sequence[int],
+    table: Sequence[int],
+    targets: Sequence[int],
+    loops: Sequence[int],
+    begins: Sequence[int],
+    mantissas: MutableSequence[int],
+    exponents: MutableSequence[int],
+    counts: MutableSequence[int],
+    registers: MutableSequence[int],
+    switches: Sequence[int],
+    rules: Rules,
+    powers: Sequence[int],
+    options: tuple[int, int, int, int, int],
+) -> int:
+    """Run until a reason to return; registers and storage are changed in place.
+
+    ``table`` holds for each subscript (v1, c1, o1, rows, v2, c2, o2, columns), found by ``subscripts``, which is -1
+    where an instruction has none; ``targets`` the branch tables, each behind its length; ``loops`` four numbers a
+    loop: variable, step, limit, first instruction; ``begins`` is 1 where a statement begins, 2 at a pass of an
+    indexed list, which counts against the limit like a statement.  ``options`` is (statement limit, strict bounds,
+    stop at each statement, left zero kept, signed underflow).
+    """
+    limit, strict, tracing, keep_left, signed_underflow = options
+    size = len(mantissas)
+    biggest = rules[1] - 1
+    pc = registers[PC]
+    fm, fe, fixed = registers[FAC], registers[CHARACTERISTIC], registers[FIXED]
+    done, stored = registers[STATEMENTS], registers[STORED]
+    sm, se = registers[SENT], registers[SENT_EXPONENT]
+    event = 0
+    a = 0
+    while True:
+        o = operations[pc]
+        a = addresses[pc]
+        s = subscripts[pc]
+        if s >= 0:
+            v = table[s]
+            i = table[s + 2]
+            rows = table[s + 3]
+            columns = table[s + 7]
+            if v >= 0:
+                if exponents[v] != FIXED_POINT:
+                    a = v
+                    reason = AT_UNDEFINED
+                    break
+                i += table[s + 1] * mantissas[v]
+            if columns == 0:
+                if strict and (i < 1 or i > rows):
+                    if o == SEND and i == rows + 1:
+                        sm = 0
+                        se = UNDEFINED
+                        pc += 1
+                        continue
+                    registers[INDEX] = i
+                    registers[INDEX2] = 0
+                    reason = AT_BOUNDS
+                    break
+                a += i - 1
+            else:
+                j = table[s + 6]
+                v = table[s + 4]
+                if v >= 0:
+                    if exponents[v] != FIXED_POINT:
+                        a = v
+                        reason = AT_UNDEFINED
+                        break
+                    j += table[s + 5] * mantissas[v]
+                if strict and (i < 1 or i > rows or j < 1 or j > columns):
+                    registers[INDEX] = i
+                    registers[INDEX2] = j
+                    reason = AT_BOUNDS
+                    break
+                a += i - 1 + rows * (j - 1)
+            if a < 0 or a >= size:
+                reason = AT_OUTSIDE
+                break
+        if o <= FDVR:
+            if o == FMFAC:
+                mantissas[a] = fm
+                exponents[a] = fe
+                stored = a
+                pc += 1
+                continue
+            m = mantissas[a]
+            e = exponents[a]
+            if e >= FIXED_POINT:
+                reason = AT_UNDEFINED
+                break
+            pc += 1
+            if o == TOFAC:
+                fm = m
+                fe = e
+                continue
+            if o == FMP:
+                if fm == 0 or m == 0:
+                    fm = 0
+                    fe = ZERO
+                    continue
+                fm, fe = multiply(fm, fe, m, e, rules)
+                if fe > MAX_EXPONENT:
+                    event = PRODUCT_OVER
+                elif fe < MIN_EXPONENT:
+                    event = PRODUCT_UNDER
+            elif o <= FSBR:
+                if m == 0:
+                    if fm == 0 and not keep_left:
+                        fe = ZERO
+                elif fm == 0:
+                    fm = m if o == FAD else -m
+                    fe = e
+                else:
+                    fm, fe = add(fm, fe, m if o == FAD else -m, e, rules, powers)
+                    if fe > MAX_EXPONENT:
+                        event = SUM_OVER
+                    elif fe < MIN_EXPONENT and fm != 0:
+                        event = SUM_UNDER
+                if o == FSBR:
+                    if fm == 0:
+                        fe = MINUS_ZERO if fe == ZERO else ZERO
+                    else:
+                        fm = -fm
+            else:
+                if o == FDVR:
+                    fm, fe, m, e = m, e, fm, fe
+                if m == 0:
+                    event = ZERO_DIVISOR
+                elif fm == 0:
+                    fm = 0
+                    fe = ZERO
+                else:
+                    fm, fe = divide(fm, fe, m, e, rules)
+                    if fe > MAX_EXPONENT:
+                        event = QUOTIENT_OVER
+                    elif fe < MIN_EXPONENT:
+                        event = QUOTIENT_UNDER
+            if event:
+                if event == ZERO_DIVISOR:
+                    fm = biggest
+                    fe = MAX_EXPONENT
+                elif event % 2 == 1:
+                    fm = biggest if fm > 0 else -biggest
+                    fe = MAX_EXPONENT
+                else:
+                    fe = MINUS_ZERO if signed_underflow and event != SUM_UNDER and fm < 0 else ZERO
+                    if o == FSBR:
+                        fe = MINUS_ZERO
+                    fm = 0
+                reason = AT_EVENT
+                break
+        elif o == COUNT:
+            if begins[a]:
+                if done >= limit:
+                    reason = AT_LIMIT
+                    break
+                done += 1
+                counts[a] += 1
+                pc += 1
+                if tracing and begins[a] == 1:
+                    reason = AT_STATEMENT
+                    break
+            else:
+                counts[a] += 1
+                pc += 1
+        elif o == IF:
+            pc = targets[a] if fm < 0 else targets[a + 1] if fm == 0 else targets[a + 2]
+        elif o == DOTEST:
+            v = loops[a]
+            for k in range(a, a + 3):
+                if exponents[loops[k]] != FIXED_POINT:
+                    v = -1
+                    a = loops[k]
+                    break
+            if v < 0:
+                reason = AT_UNDEFINED
+                break
+            m = wrap_integer(mantissas[v] + mantissas[loops[a + 1]])
+            mantissas[v] = m
+            pc = loops[a + 3] if m <= mantissas[loops[a + 2]] else pc + 1
+        elif o == SEND:
+            sm = mantissas[a]
+            se = exponents[a]
+            pc += 1
+        elif o == TRANSMIT:
+            mantissas[a] = sm
+            exponents[a] = se
+            stored = a
+            pc += 1
+        elif o == BRANCH:
+            pc = targets[a]
+        elif o <= XDVR:
+            if o == FMFIX:
+                mantissas[a] = fixed
+                exponents[a] = FIXED_POINT
+                stored = a
+                pc += 1
+                continue
+            if exponents[a] != FIXED_POINT:
+                reason = AT_UNDEFINED
+                break
+            m = mantissas[a]
+            pc += 1
+            if o == TOFIX:
+                fixed = m
+            elif o == XAD:
+                fixed = wrap_integer(fixed + m)
+            elif o == XSB:
+                fixed = wrap_integer(fixed - m)
+            elif o == XSBR:
+                fixed = wrap_integer(m - fixed)
+            elif o == XMP:
+                fixed = wrap_integer(fixed * m)
+            else:
+                if o == XDVR:
+                    fixed, m = m, fixed
+                if m == 0:
+                    fixed = 9999
+                    event = FIXED_ZERO_DIVISOR
+                    reason = AT_EVENT
+                    break
+                quotient = abs(fixed) // abs(m)
+                fixed = quotient if (fixed < 0) == (m < 0) else -quotient
+        elif o == IFX:
+            pc = targets[a] if fixed < 0 else targets[a + 1] if fixed == 0 else targets[a + 2]
+        elif o == RSGN:
+            if fm == 0:
+                fe = MINUS_ZERO if fe == ZERO else ZERO
+            else:
+                fm = -fm
+            pc += 1
+        elif o == RSGX:
+            fixed = -fixed
+            pc += 1
+        elif o == FLOAT:
+            fm, fe = from_integer(fixed, rules)
+            pc += 1
+        elif o == FIX:
+            fixed = to_integer(fm, fe, rules, powers)
+            pc += 1
+        elif o == SELECT:
+            if exponents[a] != FIXED_POINT:
+                reason = AT_UNDEFINED
+                break
+            v = mantissas[a]
+            s = seconds[pc]
+            if v < 1 or v > targets[s - 1]:
+                registers[INDEX] = v
+                reason = AT_SELECT
+                break
+            pc = targets[s + v - 1]
+        elif o == SWITCH:
+            pc = targets[a] if switches[seconds[pc] - 1] else targets[a + 1]
+        elif o == ITEM:
+            pc += 1
+            reason = AT_ITEM
+            break
+        elif o == BEGIN:
+            pc += 1
+            reason = AT_BEGIN
+            break
+        elif o == FINISH:
+            pc += 1
+            reason = AT_FINISH
+            break
+        elif o == FUNCTION:
+            pc += 1
+            reason = AT_FUNCTION
+            break
+        elif o == POWER or o == POWERX:
+            if exponents[a] == UNDEFINED or (exponents[a] == FIXED_POINT) != (o == POWERX):
+                reason = AT_UNDEFINED
+                break
+            pc += 1
+            reason = AT_POWER if o == POWER else AT_POWERX
+            break
+        elif o == PAUSE:
+            pc += 1
+            reason = AT_PAUSE
+            break
+        else:
+            reason = AT_STOP
+            break
+    registers[AT] = pc if reason in (AT_UNDEFINED, AT_BOUNDS, AT_OUTSIDE, AT_SELECT, AT_LIMIT, AT_STOP) else pc - 1
+    registers[PC] = pc
+    registers[FAC] = fm
+    registers[CHARACTERISTIC] = fe
+    registers[FIXED] = fixed
+    registers[STATEMENTS] = done
+    registers[STORED] = stored
+    registers[SENT] = sm
+    registers[SENT_EXPONENT] = se
+    registers[EVENT] = event
+    registers[ADDRESS] = a
+    return reason

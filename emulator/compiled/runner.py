@@ -1,0 +1,207 @@
+"""The compiled engine with one program in core: blocks of packed decks in, one row of numbers and a log a deck out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import accumulate
+from typing import Any
+
+import numpy as np
+
+from emulator.compiled import deck as unattended
+from emulator.compiled import devices
+from emulator.compiled import kernel as engine
+from emulator.compiled.engine import run_decks
+from emulator.compiled.jit import refused
+from emulator.language.cards import CHARACTERS, COLUMNS, MAX_CARDS, Deck
+from emulator.language.formats import MAX_RECORD, Field, Literal
+from emulator.language.loader import flatten
+from emulator.language.objectcode import Program
+from emulator.machine.machine import Machine
+from emulator.machine.result import Options
+from emulator.numbers.arithmetic import powers_of_ten
+
+BLOCK = 128
+"""The most decks at a time."""
+LOG_ROOM = 1 << 20
+MOST_LOG_ROOM = 1 << 26
+"""Room for the log of a block; a deck that needs more than the most is left to the plain engine."""
+
+WAYS = ("E<", "E>", "F<", "F>", "I<", "I>")
+"""What Result.numbers counts, in order of Report.numbers."""
+
+_VERBS = {"READ": devices.READ, "PUNCH": devices.PUNCH, "ACCEPT": devices.ACCEPT}
+_KINDS = {"E": devices.E_FIELD, "F": devices.F_FIELD, "I": devices.I_FIELD}
+_CARD_CODES = "".join(sorted(CHARACTERS)).encode("ascii")
+
+
+def packed(deck: Deck) -> bytes | None:
+    """80 codes a card; None for what only a deck not made by emulator/language/cards.py can hold."""
+    return _columns([card.text for card in deck.cards])
+
+
+def packed_text(text: str) -> bytes | None:
+    """The same of a deck's text; None for what is no deck, which whoever reads it card by card can say better."""
+    lines = text.replace("\r\n", "\n").split("\n")
+    if lines[-1] == "":
+        lines.pop()
+    if len(lines) > MAX_CARDS:
+        return None
+    return _columns([line.rstrip(" ") for line in lines])
+
+
+def _columns(lines: list[str]) -> bytes | None:
+    packed = "".join([line.ljust(COLUMNS) for line in lines]).encode("ascii", "replace")
+    if len(packed) != COLUMNS * len(lines) or packed.translate(None, _CARD_CODES):
+        return None
+    return packed
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """A deck's row of the report, as numbers of Python."""
+
+    reason: int
+    cards_read: int
+    held: int
+    log: bytes
+    registers: list[int]
+    counts: list[int]
+    before: list[int]
+    numbers: list[int]
+    errors: list[tuple[int, int]]
+    """(CODES * statement + number of the code, how often)"""
+    pauses: list[int]
+    """Statements, in order of their first pause."""
+
+    def lines(self) -> list[str]:
+        """The log: a letter and a text each."""
+        return self.log.decode("ascii").split("\n")[:-1]
+
+
+class Runner:
+    """One program in core, ready to be run over blocks of decks.
+
+    Raises what Machine does, and emulator.compiled.jit.NotInstalled.
+    """
+
+    def __init__(self, program: Program, options: Options) -> None:
+        self.kernel = run_decks()
+        loaded = Machine(program, Deck("no deck", ()), options)
+        profile = options.profile
+        self.code, self.forms = _code(program), _forms(program)
+        self.start = unattended.Start(_row(loaded.mantissas), _short(loaded.exponents))
+        fields, statements = len(loaded.mantissas), len(program.statements)
+        self.core = devices.Core(
+            mantissas=_row([0] * fields),
+            exponents=_short([0] * fields),
+            texts=_codes(bytes(self.forms.texts)),
+            devices=_row([0] * devices.DEVICES),
+            line=_codes(bytes(devices.LINE_ROOM)),
+            field=_codes(bytes(MAX_RECORD)),
+            switches=_row([int(n in options.switches) for n in (1, 2, 3, 4)]),
+            powers=_row(powers_of_ten(profile.rules)),
+        )
+        widths = {
+            "ends": devices.ENDS,
+            "registers": engine.REGISTERS,
+            "counts": len(program.counters),
+            "before": len(program.counters),
+            "numbers": len(WAYS),
+            "errors": devices.CODES * statements,
+            "pauses": statements,
+        }
+        rows: dict[str, Any] = {name: np.zeros((BLOCK, width), np.int64) for name, width in widths.items()}
+        self.report = devices.Report(**rows, log=_codes(bytes(LOG_ROOM)))
+        self.rules = profile.rules
+        flags = options.bounds == "strict", profile.keeps_left_zero, profile.signed_underflow, profile.announces
+        self.setting = (options.limit, *map(int, flags))
+        try:
+            self._some([])
+        except Exception as error:
+            # The first call compiles, or loads what is kept: a file that is damaged, or a numba of another kind, comes
+            # to light here, before a deck is begun, and as any error.
+            raise refused(error) from None
+
+    def runs(self, packed: Sequence[bytes | None]) -> Iterator[Run | None]:
+        """One after the other; None for a deck that needs a Machine.  At most BLOCK decks."""
+        at = 0
+        while at < len(packed):
+            # What cannot be packed goes in as an empty hopper.
+            found = self._some([deck or b"" for deck in packed[at:]])
+            for run in found:
+                yield None if packed[at] is None else run
+                at += 1
+            if not found:
+                # Not even one deck's log had room.
+                log = self.report.log
+                if len(log) < MOST_LOG_ROOM:
+                    self.report = self.report._replace(log=_codes(bytes(4 * len(log))))
+                else:
+                    yield None
+                    at += 1
+
+    def _some(self, packed: list[bytes]) -> list[Run | None]:
+        """As many decks as the log has room for."""
+        first = _row(accumulate((len(deck) // COLUMNS for deck in packed), initial=0))
+        cards = devices.Cards(_codes(b"".join(packed)), first)
+        done = self.kernel(self.code, self.forms, self.start, cards, self.core, self.report, self.rules, self.setting)
+        return [self._run(d) for d in range(done)]
+
+    def _run(self, d: int) -> Run | None:
+        report: Any = self.report
+        reason, cards_read, start, end, held = report.ends[d].tolist()
+        if reason == devices.NOT_HERE:
+            return None
+        errors, pauses = report.errors[d], report.pauses[d]
+        paused = np.flatnonzero(pauses)
+        return Run(
+            reason=reason,
+            cards_read=cards_read,
+            held=held,
+            log=report.log[start:end].tobytes(),
+            registers=report.registers[d].tolist(),
+            counts=report.counts[d].tolist(),
+            before=report.before[d].tolist() if reason == engine.AT_LIMIT else [],
+            numbers=report.numbers[d].tolist(),
+            errors=[(k, int(errors[k])) for k in np.flatnonzero(errors).tolist()],
+            pauses=paused[np.argsort(pauses[paused])].tolist(),
+        )
+
+
+def _row(numbers: Iterable[int]) -> Any:
+    return np.array(list(numbers), dtype=np.int64)
+
+
+def _short(numbers: Iterable[int]) -> Any:
+    return np.array(list(numbers), dtype=np.int32)
+
+
+def _codes(text: bytes) -> Any:
+    return np.array(bytearray(text), dtype=np.uint8)
+
+
+def _code(program: Program) -> devices.Code:
+    roots = [int(name == "SQRT") for name in program.functions]
+    verbs = [_VERBS.get(verb, devices.TYPE) for verb in program.verbs]
+    return devices.Code._make(map(_short, (*flatten(program), program.statement_numbers(), roots, verbs)))
+
+
+def _forms(program: Program) -> devices.Forms:
+    first, last, fields, texts = [], [], [], ""
+    rows: list[tuple[int, int, int, int]] = []
+    for _, spec in program.formats:
+        first.append(len(rows))
+        for part in spec.specs:
+            if isinstance(part, Field):
+                rows.append((_KINDS[part.kind], part.width, part.decimals, 0))
+            elif isinstance(part, Literal):
+                rows.append((devices.TEXT, len(part.text), 0, len(texts)))
+                texts += part.text
+            else:
+                rows.append((devices.SLASH, 0, 0, 0))
+        last.append(len(rows))
+        fields.append(int(spec.has_fields))
+    columns = ([row[k] for row in rows] for k in range(4))
+    return devices.Forms._make([*map(_row, (first, last, fields, *columns)), _codes(texts.encode("ascii"))])

@@ -1,0 +1,1 @@
+"""The language: a source deck becomes object code.  Nothing here runs a program."""

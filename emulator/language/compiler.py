@@ -1,0 +1,343 @@
+"""From the syntax tree to object code: statement numbers, DO loops, input and output, storage.
+
+Sources: C26-5619 (statement forms; p. 56 for the compiler's error types); the DO as executed on IBM's object
+code: the variable is stepped and compared at the bottom, so a loop runs at least once and leaves the first
+value past its limit.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+from emulator.errors import CompileError, DeckError, Diagnostic
+from emulator.language import objectcode as op
+from emulator.language import tree
+from emulator.language.cards import Deck
+from emulator.language.expressions import LIBRARY, Emitter, Operand, Refused, is_fixed_name
+from emulator.language.formats import FormatError, FormatSpec, parse_format
+from emulator.language.objectcode import Line, Program
+from emulator.language.parser import parse
+from emulator.language.storage import CORES, FIELD, FUNCTION_NAMES
+
+VERBS = ("READ", "ACCEPT", "PUNCH", "PRINT", "TYPE")
+_LARGEST = (CORES[-1] - FUNCTION_NAMES) // FIELD
+_EFFECTS = {
+    op.FMFAC: "store",
+    op.FMFIX: "store",
+    op.TRANSMIT: "store",
+    op.IF: "test",
+    op.IFX: "test fixed",
+    op.FINISH: "list",
+}
+_NO_DO_END = (
+    tree.GoTo,
+    tree.ComputedGoTo,
+    tree.If,
+    tree.IfSwitch,
+    tree.Do,
+    tree.Stop,
+    tree.Format,
+    tree.Dimension,
+    tree.End,
+)
+
+
+def compile_deck(deck: Deck) -> Program:
+    """Compile a source deck.
+
+    Raises CompileError with every message of the compiler, DeckError for a deck without statements.
+    """
+    program, diagnostics = translate(deck)
+    if program is None:
+        raise CompileError(deck.source, diagnostics)
+    return program
+
+
+def translate(deck: Deck) -> tuple[Program | None, tuple[Diagnostic, ...]]:
+    """Compile a source deck; the program (None if there are errors) and all messages in order of cards."""
+    parsed = parse(deck)
+    if not parsed.statements and not parsed.diagnostics:
+        raise DeckError(f"{deck.source}: the source deck has no statement")
+    translation = _Translation(deck.source, parsed.statements, refused=parsed.refused)
+    translation.diagnostics.extend(parsed.diagnostics)
+    translation.run(broken=bool(parsed.diagnostics))
+    messages = tuple(sorted(dict.fromkeys(translation.diagnostics), key=lambda d: (d.card, d.column)))
+    failed = any(not d.warning for d in messages)
+    return (None if failed else translation.program()), messages
+
+
+@dataclass
+class _OpenDo:
+    label: int
+    loop: int
+    statement: int
+    place: tree.Place
+
+
+@dataclass
+class _Translation:
+    source: str
+    statements: tuple[tree.Statement, ...]
+    emitter: Emitter = field(default_factory=Emitter)
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+    branches: list[tuple[int, ...]] = field(default_factory=list)
+    jumps: list[tuple[int, tree.Place]] = field(default_factory=list)
+    loops: list[tuple[int, int, int, int]] = field(default_factory=list)
+    formats: dict[int, FormatSpec] = field(default_factory=dict)
+    targets: dict[int, int] = field(default_factory=dict)
+    open_dos: list[_OpenDo] = field(default_factory=list)
+    lines: list[Line] = field(default_factory=list)
+    refused: frozenset[str] = frozenset()
+    ended: bool = False
+
+    def run(self, broken: bool) -> None:
+        self._collect_formats()
+        self._check_labels()
+        for statement in self.statements:
+            behind_end = self.ended
+            try:
+                self._statement(statement)
+            except Refused as refused:
+                self.diagnostics.append(refused.diagnostic)
+            if not behind_end:
+                self._close_dos(statement)
+        for do in self.open_dos:
+            if str(do.label) in self.refused:
+                continue
+            self._error(do.place, f"the last statement of this DO, number {do.label}, does not follow")
+        if self.statements and not self.ended and not broken:
+            card = self.statements[-1].place.card
+            self.diagnostics.append(Diagnostic(card, 0, "the deck has no END card", warning=True))
+        if self.emitter.allocator.used > _LARGEST:
+            self._error(tree.Place(1, 0), f"OVERLAP: the data need {self.emitter.allocator.used * FIELD} positions")
+        if not broken:
+            for label, place in self.jumps:
+                if label not in self.targets and str(label) not in self.refused:
+                    self._error(place, self._why_no_target(label))
+        if not self.lines:
+            self.lines.append(Line(0, tree.Place(1, 1), ""))
+        if not self.ended:
+            self.emitter.count(len(self.lines) - 1, False, "end of the deck")
+            self.emitter.emit(op.STOP, second=1)
+
+    def program(self) -> Program:
+        code = self.emitter
+        return Program(
+            source=self.source,
+            code=tuple(code.code),
+            subscripts=tuple(code.subscripts),
+            branches=tuple(tuple(self.targets[label] for label in labels) for labels in self.branches),
+            loops=tuple(self.loops),
+            counters=tuple(code.counters),
+            formats=tuple(self.formats.items()),
+            storage=code.allocator.storage(),
+            statements=tuple(self.lines),
+            verbs=VERBS,
+            functions=LIBRARY,
+        )
+
+    def _error(self, place: tree.Place, message: str, number: int = 0) -> None:
+        self.diagnostics.append(Diagnostic(place.card, place.column, message, number))
+
+    def _collect_formats(self) -> None:
+        for statement in self.statements:
+            if not isinstance(statement.body, tree.Format):
+                continue
+            if not statement.label:
+                self._error(statement.place, "a FORMAT needs a statement number", 10)
+                continue
+            try:
+                spec, warnings = parse_format(statement.body)
+            except FormatError as error:
+                self.diagnostics.append(error.diagnostic)
+                spec = FormatSpec(())
+            else:
+                self.diagnostics.extend(warnings)
+            self.formats.setdefault(statement.label, spec)
+
+    def _check_labels(self) -> None:
+        seen: dict[int, tree.Place] = {}
+        for statement in self.statements:
+            if statement.label in seen and statement.label:
+                first = seen[statement.label].card
+                self._error(statement.place, f"statement number {statement.label} stands on card {first} already")
+            seen.setdefault(statement.label, statement.place)
+
+    def _why_no_target(self, label: int) -> str:
+        if label in self.formats:
+            return f"statement {label} is a FORMAT; a program cannot go there"
+        if any(s.label == label for s in self.statements):
+            return f"statement {label} cannot be executed"
+        return f"there is no statement number {label}"
+
+    def _statement(self, statement: tree.Statement) -> None:
+        body = statement.body
+        if self.ended:
+            raise Refused(statement.place, "a card behind END")
+        if statement.label:
+            self.emitter.allocator.place("statement number", str(statement.label))
+        if isinstance(body, tree.Format):
+            return
+        if isinstance(body, tree.Dimension):
+            self._dimension(body)
+            return
+        index = len(self.lines)
+        self.lines.append(Line(statement.label, statement.place, _words(statement)))
+        if statement.label:
+            self.targets.setdefault(statement.label, len(self.emitter.code))
+        self.emitter.temporaries = 0
+        self.emitter.count(index, True, "statement")
+        self._body(body, statement, index)
+        self.lines[index] = replace(self.lines[index], effect=_EFFECTS.get(self.emitter.code[-1].operation, ""))
+
+    def _body(self, body: tree.Body, statement: tree.Statement, index: int) -> None:
+        emitter = self.emitter
+        match body:
+            case tree.Assignment():
+                self._assignment(body)
+            case tree.GoTo(label):
+                emitter.emit(op.BRANCH, address=self._branch((label,), statement.place))
+            case tree.ComputedGoTo(labels, selector):
+                self._fixed_variable(selector, "the variable of a computed GO TO")
+                emitter.emit(op.SELECT, emitter.variable(selector), second=self._branch(labels, statement.place))
+            case tree.If(value, labels):
+                emitter.load(value)
+                emitter.emit(op.IFX if emitter.fixed(value) else op.IF, address=self._branch(labels, statement.place))
+            case tree.IfSwitch(switch, labels):
+                emitter.emit(op.SWITCH, address=self._branch(labels, statement.place), second=switch)
+            case tree.Do():
+                self._do(body, statement, index)
+            case tree.Continue():
+                pass
+            case tree.Pause():
+                emitter.emit(op.PAUSE)
+            case tree.Stop():
+                emitter.emit(op.STOP)
+            case tree.End():
+                self.ended = True
+                emitter.emit(op.STOP, second=1)
+            case tree.InputOutput():
+                self._input_output(body, statement, index)
+
+    def _assignment(self, body: tree.Assignment) -> None:
+        emitter, target = self.emitter, body.target
+        if target.arguments and target.name not in emitter.arrays:
+            raise Refused(target.place, f"{target.name} is not an array (no DIMENSION before this card)")
+        to_fixed, from_fixed = is_fixed_name(target.name), emitter.fixed(body.value)
+        place = emitter.variable(target)
+        source = emitter.simple(body.value)
+        if source is not None and to_fixed == from_fixed:
+            emitter.emit(op.SEND, source)
+            emitter.emit(op.TRANSMIT, place)
+            return
+        emitter.load(body.value)
+        if to_fixed != from_fixed:
+            emitter.emit(op.FIX if to_fixed else op.FLOAT)
+        emitter.emit(op.FMFIX if to_fixed else op.FMFAC, place)
+
+    def _dimension(self, body: tree.Dimension) -> None:
+        for name, shape, place in body.arrays:
+            if name in self.emitter.arrays:
+                raise Refused(place, f"{name} has its dimensions already", 9)
+            if ("variable", name) in self.emitter.allocator.entries:
+                raise Refused(place, f"{name} was used before its DIMENSION", 9)
+            if 0 in shape:
+                raise Refused(place, f"{name}: a dimension of zero", 9)
+            if math.prod(shape) > _LARGEST:
+                raise Refused(place, f"OVERLAP: {name} needs {math.prod(shape) * FIELD} positions")
+            self.emitter.arrays[name] = shape
+            self.emitter.allocator.place("array", name, shape)
+
+    def _branch(self, labels: Sequence[int], place: tree.Place) -> int:
+        self.jumps.extend((label, place) for label in labels)
+        self.branches.append(tuple(labels))
+        return len(self.branches) - 1
+
+    def _fixed_variable(self, reference: tree.Reference, what: str) -> Operand:
+        if reference.name in self.emitter.arrays or reference.arguments or not is_fixed_name(reference.name):
+            raise Refused(reference.place, f"{what} is a fixed-point variable without subscript")
+        return self.emitter.variable(reference)
+
+    def _loop(self, loop: tree.Do | tree.Loop, place: tree.Place) -> tuple[int, int, int]:
+        """Code that sets a loop's variable; the fields of variable, step and limit."""
+        variable = self._fixed_variable(loop.variable, "the variable of a DO")
+        bounds = []
+        for bound in (loop.first, loop.last, loop.step or tree.Number("1", place)):
+            if isinstance(bound, tree.Number) and not bound.floating:
+                if int(bound.text) == 0:
+                    raise Refused(bound.place, "the bounds and the step of a DO are greater than zero")
+                bounds.append(self.emitter.constant(bound))
+            elif isinstance(bound, tree.Reference):
+                bounds.append(self._fixed_variable(bound, "a bound of a DO"))
+            else:
+                raise Refused(bound.place, "a bound of a DO is a whole number or a fixed-point variable")
+        first, last, step = bounds
+        self.emitter.emit(op.TOFIX, first)
+        self.emitter.emit(op.FMFIX, variable)
+        return variable.address, step.address, last.address
+
+    def _do(self, body: tree.Do, statement: tree.Statement, index: int) -> None:
+        if any(s.label == body.label and s.place <= statement.place for s in self.statements):
+            raise Refused(statement.place, f"the last statement of this DO, number {body.label}, stands before it")
+        variable, step, limit = self._loop(body, statement.place)
+        self.emitter.allocator.place("statement number", str(body.label))
+        self.loops.append((variable, step, limit, len(self.emitter.code)))
+        self.open_dos.append(_OpenDo(body.label, len(self.loops) - 1, index, statement.place))
+
+    def _close_dos(self, statement: tree.Statement) -> None:
+        if not statement.label or all(do.label != statement.label for do in self.open_dos):
+            return
+        if isinstance(statement.body, _NO_DO_END):
+            self._error(statement.place, "a DO cannot end with this statement; use CONTINUE")
+        while any(do.label == statement.label for do in self.open_dos):
+            do = self.open_dos.pop()
+            if do.label != statement.label:
+                self._error(
+                    do.place,
+                    f"the range of this DO, to {do.label}, is not inside the one that ends with {statement.label}",
+                )
+                continue
+            self.emitter.count(do.statement, False, "closing of the DO")
+            self.emitter.emit(op.DOTEST, address=do.loop)
+
+    def _input_output(self, body: tree.InputOutput, statement: tree.Statement, index: int) -> None:
+        spec = self.formats.get(body.format)
+        if spec is None:
+            raise Refused(statement.place, f"there is no FORMAT number {body.format}", 13)
+        if body.items and not spec.has_fields and spec.specs:
+            raise Refused(statement.place, f"FORMAT {body.format} has no field for the list", 13)
+        number = list(self.formats).index(body.format)
+        self.emitter.emit(op.BEGIN, address=VERBS.index(body.verb), second=number)
+        for item in body.items:
+            self._item(item, statement, index)
+        self.emitter.emit(op.FINISH)
+
+    def _item(self, item: tree.Item, statement: tree.Statement, index: int, depth: int = 0) -> None:
+        emitter = self.emitter
+        if isinstance(item, tree.Loop):
+            if depth > 2:
+                raise Refused(statement.place, "lists are nested too deep")
+            variable, step, limit = self._loop(item, statement.place)
+            self.loops.append((variable, step, limit, len(emitter.code)))
+            number = len(self.loops) - 1
+            emitter.count(index, False, op.LIST_PASS)
+            for inner in item.items:
+                self._item(inner, statement, index, depth + 1)
+            emitter.emit(op.DOTEST, address=number)
+            emitter.count(index, False, "rest of the list")
+            return
+        fixed = int(is_fixed_name(item.name))
+        if item.name in emitter.arrays and not item.arguments:
+            entry = emitter.allocator.place("array", item.name)
+            for address in range(entry.first, entry.first + entry.size):
+                emitter.emit(op.ITEM, Operand(address), second=fixed)
+            return
+        emitter.emit(op.ITEM, emitter.variable(item), second=fixed)
+
+
+def _words(statement: tree.Statement) -> str:
+    """The statement's columns without its number and the blanks around it."""
+    text = " ".join(line[:72].strip() for line in statement.text.split("\n"))
+    return text.lstrip("0123456789 ") if statement.label else text

@@ -1,0 +1,291 @@
+"""Code for expressions: what the accumulator does, in what order, and so with which sign a zero comes out.
+
+The order was read off the object code of two compilers of the time and agrees with every zero the thesis
+prints: a term that must itself be computed is computed into FAC and the other operand subtracted from it,
+then the sign is reversed (FSBR), so that a cancellation there gives minus zero; a unary minus, of a factor
+too, is a reversal after everything else.  Left to right otherwise (C26-5619 p. 19).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from emulator.errors import Diagnostic
+from emulator.language import objectcode as op
+from emulator.language.objectcode import Counter, Instruction, Subscript
+from emulator.language.storage import Allocator
+from emulator.language.tree import Expression, Number, Place, Power, Product, Reference, Sum
+from emulator.numbers.arithmetic import TRUNCATING
+from emulator.numbers.fields import FieldError, parse_constant
+
+LIBRARY = ("SIN", "COS", "ATAN", "EXP", "LOG", "SQRT")
+"""The library functions; each is also known by its name with a final F (C26-5619 p. 63, 66)."""
+
+_FLOATING = {
+    "to": op.TOFAC,
+    "from": op.FMFAC,
+    "+": op.FAD,
+    "-": op.FSB,
+    "-r": op.FSBR,
+    "*": op.FMP,
+    "/": op.FDV,
+    "/r": op.FDVR,
+}
+_FIXED = {
+    "to": op.TOFIX,
+    "from": op.FMFIX,
+    "+": op.XAD,
+    "-": op.XSB,
+    "-r": op.XSBR,
+    "*": op.XMP,
+    "/": op.XDV,
+    "/r": op.XDVR,
+}
+_REVERSED = {"+": "+", "*": "*", "-": "-r", "/": "/r"}
+_FLIPPED = {"+": "-", "-": "+"}
+
+
+class Refused(Exception):
+    """A statement the compiler cannot translate; carries the Diagnostic."""
+
+    def __init__(self, place: Place, message: str, number: int = 0) -> None:
+        super().__init__(message)
+        self.diagnostic = Diagnostic(place.card, place.column, message, number)
+
+
+@dataclass(frozen=True, slots=True)
+class Operand:
+    """Something an instruction can address: a field, or an element by subscript."""
+
+    address: int
+    subscript: int = -1
+
+
+@dataclass
+class Emitter:
+    """Collects code, subscripts and fields while a program is translated."""
+
+    allocator: Allocator = field(default_factory=Allocator)
+    code: list[Instruction] = field(default_factory=list)
+    subscripts: list[Subscript] = field(default_factory=list)
+    arrays: dict[str, tuple[int, ...]] = field(default_factory=dict)
+    counters: list[Counter] = field(default_factory=list)
+    temporaries: int = 0
+
+    def emit(self, operation: int, operand: Operand | None = None, address: int = 0, second: int = 0) -> None:
+        if operand is None:
+            self.code.append(Instruction(operation, address, -1, second))
+        else:
+            self.code.append(Instruction(operation, operand.address, operand.subscript, second))
+
+    def count(self, statement: int, begins: bool, what: str) -> None:
+        """Begin a stretch of code that always runs from its first instruction to its last."""
+        self.counters.append(Counter(statement, begins, what))
+        self.emit(op.COUNT, address=len(self.counters) - 1)
+
+    def temporary(self) -> Operand:
+        """A field for an intermediate result; a statement uses as many as it must and the next uses them again."""
+        self.temporaries += 1
+        return Operand(self.allocator.place("temporary", f"temporary {self.temporaries}").first)
+
+    def constant(self, number: Number) -> Operand:
+        if number.floating:
+            try:
+                parse_constant(number.text, TRUNCATING.rules)
+            except FieldError as error:
+                raise Refused(number.place, f"constant {error}") from None
+        return Operand(self.allocator.place("constant", f"constant {number.text}").first)
+
+    def variable(self, reference: Reference) -> Operand:
+        """The operand of a variable or an array element.  Raises Refused."""
+        shape = self.arrays.get(reference.name)
+        if shape is None:
+            if reference.arguments:
+                raise Refused(reference.place, f"{reference.name} is neither an array nor a library function")
+            return Operand(self.allocator.place("variable", reference.name).first)
+        if not reference.arguments:
+            raise Refused(reference.place, f"the array {reference.name} needs a subscript here")
+        if len(reference.arguments) != len(shape):
+            raise Refused(
+                reference.place,
+                f"{reference.name} has {len(shape)} dimension{'s' * (len(shape) > 1)}, not {len(reference.arguments)}",
+            )
+        entry = self.allocator.place("array", reference.name, shape)
+        parts = [self.subscript(argument) for argument in reference.arguments]
+        if all(v < 0 for v, _, _ in parts) and all(1 <= o <= d for (_, _, o), d in zip(parts, shape, strict=True)):
+            offset = parts[0][2] - 1 + (shape[0] * (parts[1][2] - 1) if len(parts) > 1 else 0)
+            return Operand(entry.first + offset)
+        (v1, c1, o1), rows = parts[0], shape[0]
+        v2, c2, o2 = parts[1] if len(parts) > 1 else (-1, 0, 1)
+        columns = shape[1] if len(shape) > 1 else 0
+        description = Subscript(entry.first, v1, c1, o1, rows, v2, c2, o2, columns)
+        if description not in self.subscripts:
+            self.subscripts.append(description)
+        return Operand(entry.first, self.subscripts.index(description))
+
+    def subscript(self, argument: Expression) -> tuple[int, int, int]:
+        """(variable's field or -1, factor, addend) of a subscript c*v+k (C26-5619 p. 18).  Raises Refused."""
+        term, addend = argument, 0
+        if isinstance(argument, Sum):
+            if argument.minus or len(argument.rest) != 1:
+                raise Refused(argument.place, "a subscript is v, c, v+c, v-c, c*v, c*v+c or c*v-c")
+            (sign, constant), term = argument.rest[0], argument.first
+            addend = (1 if sign == "+" else -1) * self._whole(constant)
+        factor = 1
+        if isinstance(term, Product):
+            if len(term.rest) != 1 or term.rest[0][0] != "*":
+                raise Refused(term.place, "a subscript is v, c, v+c, v-c, c*v, c*v+c or c*v-c")
+            factor, term = self._whole(term.first), term.rest[0][1]
+        if isinstance(term, Number):
+            return -1, 0, factor * self._whole(term) + addend
+        if (
+            not isinstance(term, Reference)
+            or term.arguments
+            or term.name in self.arrays
+            or not is_fixed_name(term.name)
+        ):
+            raise Refused(term.place, "the variable of a subscript is a fixed-point variable without subscript")
+        return self.variable(term).address, factor, addend
+
+    @staticmethod
+    def _whole(expression: Expression) -> int:
+        if not isinstance(expression, Number) or expression.floating:
+            raise Refused(expression.place, "a subscript's constants are whole numbers")
+        return int(expression.text)
+
+    def fixed(self, expression: Expression) -> bool:
+        """Whether an expression is fixed point.  Raises Refused (error 5) where the modes are mixed."""
+        if isinstance(expression, Number):
+            return not expression.floating
+        if isinstance(expression, Reference):
+            if function_of(expression, self.arrays):
+                return False
+            return is_fixed_name(expression.name)
+        if isinstance(expression, Power):
+            if self.fixed(expression.base):
+                raise Refused(expression.place, "a fixed-point quantity may not be raised to a power", 5)
+            self.fixed(expression.exponent)
+            return False
+        mode = self.fixed(expression.first)
+        for _, part in expression.rest:
+            if self.fixed(part) != mode:
+                raise Refused(part.place, "fixed and floating point are mixed in one expression", 5)
+        return mode
+
+    def load(self, expression: Expression) -> None:
+        """Code that leaves the value of ``expression`` in the accumulator of its mode."""
+        table = _FIXED if self.fixed(expression) else _FLOATING
+        operand = self.simple(expression)
+        if operand is not None:
+            self.emit(table["to"], operand)
+        elif isinstance(expression, Sum):
+            self._sum(expression, table)
+        elif isinstance(expression, Product):
+            self._product(expression, table)
+        elif isinstance(expression, Power):
+            self._power(expression)
+        elif isinstance(expression, Reference):
+            self._function(expression)
+
+    def simple(self, expression: Expression) -> Operand | None:
+        """The operand of an expression that needs no computing, or None."""
+        if isinstance(expression, Number):
+            return self.constant(expression)
+        if isinstance(expression, Reference) and not function_of(expression, self.arrays):
+            return self.variable(expression)
+        return None
+
+    def _sum(self, expression: Sum, table: dict[str, int]) -> None:
+        rest = tuple((_FLIPPED[s], t) for s, t in expression.rest) if expression.minus else expression.rest
+        self._chain(expression.first, rest, table)
+        if expression.minus:
+            self.emit(op.RSGX if table is _FIXED else op.RSGN)
+
+    def _product(self, expression: Product, table: dict[str, int]) -> None:
+        first, odd = _unsigned(expression.first)
+        rest = []
+        for sign, factor in expression.rest:
+            bare, negative = _unsigned(factor)
+            odd ^= negative
+            rest.append((sign, bare))
+        self._chain(first, tuple(rest), table)
+        if odd:
+            self.emit(op.RSGX if table is _FIXED else op.RSGN)
+
+    def _chain(self, first: Expression, rest: tuple[tuple[str, Expression], ...], table: dict[str, int]) -> None:
+        """Operands from left to right; an operand to be computed takes the accumulator, the other waits."""
+        waiting = self.simple(first)
+        if waiting is None:
+            self.load(first)
+        for sign, part in rest:
+            operand = self.simple(part)
+            if operand is not None:
+                if waiting is not None:
+                    self.emit(table["to"], waiting)
+                self.emit(table[sign], operand)
+            else:
+                if waiting is None:
+                    waiting = self.temporary()
+                    self.emit(table["from"], waiting)
+                self.load(part)
+                self.emit(table[_REVERSED[sign]], waiting)
+            waiting = None
+        if waiting is not None:
+            self.emit(table["to"], waiting)
+
+    def _power(self, expression: Power) -> None:
+        base, exponent = expression.base, expression.exponent
+        operand = self.simple(base)
+        if not self.fixed(exponent):
+            if operand is None:
+                self.load(base)
+                operand = self.temporary()
+                self.emit(op.FMFAC, operand)
+            self.load(exponent)
+            self.emit(op.POWER, operand)
+            return
+        if isinstance(exponent, Number) and exponent.text in ("2", "3"):
+            self.load(base)
+            if operand is None:
+                operand = self.temporary()
+                self.emit(op.FMFAC, operand)
+            for _ in range(int(exponent.text) - 1):
+                self.emit(op.FMP, operand)
+            return
+        power = self.simple(exponent)
+        if power is None:
+            self.load(exponent)
+            power = self.temporary()
+            self.emit(op.FMFIX, power)
+        self.load(base)
+        self.emit(op.POWERX, power)
+
+    def _function(self, reference: Reference) -> None:
+        name = function_of(reference, self.arrays)
+        if len(reference.arguments) != 1:
+            raise Refused(reference.place, f"{reference.name} takes one argument")
+        if self.fixed(reference.arguments[0]):
+            raise Refused(reference.place, f"{reference.name} takes a floating-point argument", 5)
+        self.load(reference.arguments[0])
+        self.emit(op.FUNCTION, address=LIBRARY.index(name))
+
+
+def is_fixed_name(name: str) -> bool:
+    """Names beginning with I, J, K, L, M or N are fixed point (C26-5619 p. 16)."""
+    return name[0] in "IJKLMN"
+
+
+def function_of(reference: Reference, arrays: dict[str, tuple[int, ...]]) -> str:
+    """The library function a reference calls, or the empty string."""
+    if not reference.arguments or reference.name in arrays:
+        return ""
+    name = reference.name.removesuffix("F")
+    return name if name in LIBRARY else ""
+
+
+def _unsigned(expression: Expression) -> tuple[Expression, bool]:
+    """A factor without its minus sign, and whether it had one."""
+    if isinstance(expression, Sum) and not expression.rest:
+        inner, odd = _unsigned(expression.first)
+        return inner, odd ^ expression.minus
+    return expression, False

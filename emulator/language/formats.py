@@ -1,0 +1,204 @@
+"""FORMAT statements: the specification, read column by column so that Hollerith fields keep their blanks.
+
+Sources: C26-5619 p. 35 to 43 (I, F, E, X, H, slash, repeat counts; no comma needed after X; widths of X and H;
+records), p. 56 (error types 10 to 12).  Parenthesised groups: OPEN-QUESTIONS 5.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from emulator.errors import Diagnostic
+from emulator.language.tree import Format, Place
+
+MAX_LITERAL = 49
+MAX_RECORD = 87
+
+
+@dataclass(frozen=True, slots=True)
+class Literal:
+    """``wH`` text, or ``wX`` (blanks; ``skip`` set): what stands on the card without a number."""
+
+    text: str
+    skip: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Field:
+    """``Iw``, ``Fw.d`` or ``Ew.d``: one number."""
+
+    kind: str
+    width: int
+    decimals: int = 0
+
+    def __str__(self) -> str:
+        return f"{self.kind}{self.width}" + ("" if self.kind == "I" else f".{self.decimals}")
+
+
+@dataclass(frozen=True, slots=True)
+class Slash:
+    """``/``: the record ends here."""
+
+
+Spec = Literal | Field | Slash
+
+
+@dataclass(frozen=True, slots=True)
+class FormatSpec:
+    """A FORMAT as a flat sequence, repeat counts and groups written out."""
+
+    specs: tuple[Spec, ...]
+
+    @property
+    def has_fields(self) -> bool:
+        return any(isinstance(spec, Field) for spec in self.specs)
+
+    def widths(self) -> Iterator[int]:
+        """The width of each record the specification describes, in columns."""
+        width = 0
+        for spec in self.specs:
+            if isinstance(spec, Slash):
+                yield width
+                width = 0
+            else:
+                width += len(spec.text) if isinstance(spec, Literal) else spec.width
+        yield width
+
+
+class FormatError(ValueError):
+    """A specification that does not parse; carries a Diagnostic."""
+
+    def __init__(self, place: Place, message: str, number: int = 11) -> None:
+        super().__init__(message)
+        self.diagnostic = Diagnostic(place.card, place.column, message, number)
+
+
+def parse_format(statement: Format) -> tuple[FormatSpec, tuple[Diagnostic, ...]]:
+    """The specification of a FORMAT statement and the compiler's warnings.  Raises FormatError."""
+    reader = _Reader(statement)
+    specs = reader.group()
+    reader.expect_end()
+    spec = FormatSpec(tuple(specs))
+    warnings = list(reader.warnings)
+    widest = max(spec.widths())
+    if widest > MAX_RECORD:
+        place = statement.places[0]
+        message = f"a record of {widest} characters; beyond {MAX_RECORD} typed or 72 punched they are lost"
+        warnings.append(Diagnostic(place.card, place.column, message, 12, warning=True))
+    return spec, tuple(warnings)
+
+
+class _Reader:
+    """One pass over the columns; ``group`` calls itself for a parenthesised group."""
+
+    MAX_FIELDS = 2000
+
+    def __init__(self, statement: Format) -> None:
+        self.text, self.places = statement.text, statement.places
+        self.at = 0
+        self.count = 0
+        self.warnings: list[Diagnostic] = []
+
+    def place(self) -> Place:
+        return self.places[min(self.at, len(self.places) - 1)]
+
+    def peek(self) -> str:
+        while self.at < len(self.text) and self.text[self.at] == " ":
+            self.at += 1
+        return self.text[self.at] if self.at < len(self.text) else ""
+
+    def number(self) -> str:
+        digits = ""
+        while self.peek().isdigit():
+            digits += self.text[self.at]
+            self.at += 1
+        if len(digits) > 4:
+            raise FormatError(self.place(), f"the number {digits} in a FORMAT is too large")
+        return digits
+
+    def group(self, depth: int = 0) -> list[Spec]:
+        if self.peek() != "(":
+            raise FormatError(self.place(), "a FORMAT's specification begins with a parenthesis")
+        if depth > 2:
+            raise FormatError(self.place(), "groups are nested too deep in a FORMAT")
+        self.at += 1
+        specs: list[Spec] = []
+        need_comma = False
+        while True:
+            char = self.peek()
+            if char == "":
+                raise FormatError(self.place(), "the FORMAT does not end with a parenthesis")
+            if char == ")":
+                self.at += 1
+                return specs
+            if char in "/,":
+                self.at += 1
+                if char == "/":
+                    specs.append(Slash())
+                need_comma = False
+                continue
+            if need_comma:
+                raise FormatError(self.place(), f"a comma is missing before {char!r}")
+            new, need_comma = self.one(depth)
+            specs.extend(new)
+            self.count += len(new)
+            if self.count > self.MAX_FIELDS:
+                raise FormatError(self.place(), f"a FORMAT of more than {self.MAX_FIELDS} fields")
+
+    def one(self, depth: int) -> tuple[list[Spec], bool]:
+        """One specification with its repeat count; also whether a comma must follow it."""
+        start = self.place()
+        count = self.number()
+        letter = self.peek()
+        if letter == "(":
+            return self.group(depth + 1) * self.repeat(count, start), False
+        if letter in ("X", "H"):
+            if not count:
+                raise FormatError(start, f"{letter} needs its width before it")
+            return [self.literal(letter, int(count), start)], False
+        if letter not in ("I", "E", "F"):
+            raise FormatError(
+                self.place(), f"{letter or 'the end'!r} is no specification; there are I, E, F, X, H and /"
+            )
+        self.at += 1
+        width = self.number()
+        if not width or int(width) == 0:
+            raise FormatError(self.place(), f"{letter} needs a width")
+        decimals = ""
+        if letter in ("E", "F"):
+            if self.peek() != ".":
+                raise FormatError(self.place(), f"{letter}{width} lacks its point and decimals")
+            self.at += 1
+            if self.text[self.at : self.at + 1] == " ":
+                raise FormatError(self.place(), f"a blank after the point of {letter}{width}.")
+            decimals = self.number()
+            if not decimals:
+                raise FormatError(self.place(), f"{letter}{width}. lacks its decimals")
+        if int(width) > MAX_RECORD:
+            raise FormatError(start, f"a field of {width} columns")
+        return [Field(letter, int(width), int(decimals or 0))] * self.repeat(count, start), True
+
+    def repeat(self, count: str, start: Place) -> int:
+        if count and int(count) == 0:
+            raise FormatError(start, "a repeat count of zero")
+        return int(count or 1)
+
+    def literal(self, letter: str, width: int, start: Place) -> Literal:
+        self.at += 1
+        if width == 0:
+            raise FormatError(start, f"0{letter} has no width")
+        if width > MAX_LITERAL:
+            message = f"{width}{letter}: the width of X and H is at most {MAX_LITERAL}; use two in a row"
+            self.warnings.append(Diagnostic(start.card, start.column, message, 11, warning=True))
+        if letter == "X":
+            return Literal(" " * width, skip=True)
+        text = self.text[self.at : self.at + width]
+        if len(text) < width:
+            raise FormatError(start, f"{width}H runs past the end of the card")
+        self.at += width
+        return Literal(text)
+
+    def expect_end(self) -> None:
+        if self.peek():
+            raise FormatError(self.place(), f"{self.peek()!r} after the end of the FORMAT")

@@ -1,0 +1,201 @@
+"""Object code for an accumulator machine with the 1620's floating accumulator FAC.
+
+Operations bear the names of IBM's subroutine set (C26-5619 p. 60-69).  An instruction is four integers:
+operation, address or table index, subscript (index into :attr:`Program.subscripts`, or -1), second operand.
+An address is a field number of the storage map (emulator/language/storage.py), counting from 0 downward from the top
+of core.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from emulator.language.formats import FormatSpec
+from emulator.language.storage import Storage
+from emulator.language.tree import Place
+
+# Operations with an address come first: the engine resolves a subscript before it looks at them.
+(
+    TOFAC,
+    FMFAC,
+    FAD,
+    FSB,
+    FSBR,
+    FMP,
+    FDV,
+    FDVR,
+    TOFIX,
+    FMFIX,
+    XAD,
+    XSB,
+    XSBR,
+    XMP,
+    XDV,
+    XDVR,
+    SEND,
+    TRANSMIT,
+    ITEM,
+    COUNT,
+    BRANCH,
+    IF,
+    IFX,
+    RSGN,
+    RSGX,
+    DOTEST,
+    SELECT,
+    SWITCH,
+    FLOAT,
+    FIX,
+    FUNCTION,
+    POWER,
+    POWERX,
+    BEGIN,
+    FINISH,
+    PAUSE,
+    STOP,
+) = range(37)
+
+NAMES = (
+    "TOFAC FMFAC FAD FSB FSBR FMP FDV FDVR TOFIX FMFIX XAD XSB XSBR XMP XDV XDVR SEND TRANSMIT ITEM COUNT BRANCH "
+    "IF IFX RSGN RSGX DOTEST SELECT SWITCH FLOAT FIX FUNCTION POWER POWERX BEGIN FINISH PAUSE STOP"
+).split()
+
+MEANINGS: Mapping[str, str] = {
+    "TOFAC": "field to FAC",
+    "FMFAC": "FAC to field",
+    "FAD": "FAC + field",
+    "FSB": "FAC - field",
+    "FSBR": "field - FAC: subtract, then reverse the sign",
+    "FMP": "FAC * field",
+    "FDV": "FAC / field",
+    "FDVR": "field / FAC",
+    "RSGN": "reverse the sign of FAC, of a zero too",
+    "TOFIX": "field to fixed accumulator",
+    "FMFIX": "fixed accumulator to field",
+    "XAD": "fixed add",
+    "XSB": "fixed subtract",
+    "XSBR": "fixed subtract, reversed",
+    "XMP": "fixed multiply",
+    "XDV": "fixed divide",
+    "XDVR": "fixed divide, reversed",
+    "RSGX": "reverse the sign, fixed",
+    "SEND": "field to be transmitted as it stands",
+    "TRANSMIT": "transmit field",
+    "ITEM": "one number of an input or output list",
+    "COUNT": "a statement begins",
+    "BRANCH": "go to",
+    "IF": "branch on FAC negative, zero, positive",
+    "IFX": "branch on the fixed accumulator",
+    "DOTEST": "step the variable of a DO, back if not past the limit",
+    "SELECT": "computed go to",
+    "SWITCH": "branch on a sense switch",
+    "FLOAT": "fixed to floating",
+    "FIX": "floating to fixed",
+    "FUNCTION": "library function of FAC",
+    "POWER": "field ** FAC",
+    "POWERX": "FAC ** fixed field",
+    "BEGIN": "input or output begins",
+    "FINISH": "the list ends",
+    "PAUSE": "halt until START",
+    "STOP": "end of the run",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Instruction:
+    """One instruction; see the module's text."""
+
+    operation: int
+    address: int = 0
+    subscript: int = -1
+    second: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Subscript:
+    """A variable subscript: element ``(c1*v1 + o1, c2*v2 + o2)`` of an array of ``rows`` by ``columns``.
+
+    ``v1`` and ``v2`` are the addresses of fixed-point variables, or -1 for a constant; ``columns`` is 0 for
+    an array of one dimension.
+    """
+
+    array: int
+    v1: int
+    c1: int
+    o1: int
+    rows: int
+    v2: int = -1
+    c2: int = 0
+    o2: int = 1
+    columns: int = 0
+
+
+LIST_PASS = "pass of the list"
+"""What a COUNT counts in the body of an indexed list: it counts against the statement limit."""
+
+
+@dataclass(frozen=True, slots=True)
+class Counter:
+    """What a COUNT instruction counts: the beginning of a statement, or a part of one run on its own.
+
+    ``statement`` is the index into :attr:`Program.statements`; ``begins`` is set where the statement begins
+    (parts that are the closing of a DO, or the body of an indexed list, do not begin one).
+    """
+
+    statement: int
+    begins: bool
+    what: str
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A statement as messages and traces show it.
+
+    ``effect`` says what there is to show of it: ``store``, ``test``, ``test fixed``, ``list`` or nothing.
+    """
+
+    label: int
+    place: Place
+    text: str
+    effect: str = ""
+
+    @property
+    def name(self) -> str:
+        """How a message calls it: by its number if it has one, and by its card."""
+        return (
+            f"statement {self.label} (card {self.place.card})"
+            if self.label
+            else f"the statement on card {self.place.card}"
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Program:
+    """A compiled program: everything the engine needs, as plain data."""
+
+    source: str
+    code: tuple[Instruction, ...]
+    subscripts: tuple[Subscript, ...]
+    branches: tuple[tuple[int, ...], ...]
+    loops: tuple[tuple[int, int, int, int], ...]
+    counters: tuple[Counter, ...]
+    formats: tuple[tuple[int, FormatSpec], ...]
+    storage: Storage
+    statements: tuple[Line, ...]
+    verbs: tuple[str, ...]
+    functions: tuple[str, ...]
+
+    def line_at(self, pc: int) -> Line:
+        """The statement the instruction at ``pc`` belongs to."""
+        return self.statements[self.statement_numbers()[min(pc, len(self.code) - 1)]]
+
+    def statement_numbers(self) -> list[int]:
+        """For each instruction the index of the statement it belongs to."""
+        found: list[int] = []
+        statement = 0
+        for instruction in self.code:
+            if instruction.operation == COUNT:
+                statement = self.counters[instruction.address].statement
+            found.append(statement)
+        return found

@@ -1,0 +1,239 @@
+"""From statements to the syntax tree, by the LALR grammar in ``dialect.lark``."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+from lark import Lark, Token, Transformer, UnexpectedCharacters, UnexpectedInput, UnexpectedToken
+from lark.exceptions import VisitError
+
+from emulator.errors import Diagnostic
+from emulator.language import tree
+from emulator.language.cards import Deck
+from emulator.language.statements import Source, sources
+
+_STARTS = ("assignment go_to computed_go_to if if_switch do continue pause stop end dimension input_output").split()
+
+_FORMS = {
+    "assignment": "variable = expression",
+    "go_to": "GO TO n",
+    "computed_go_to": "GO TO (n1, n2, ...), i",
+    "if": "IF (expression) n1, n2, n3",
+    "if_switch": "IF (SENSE SWITCH n) n1, n2",
+    "do": "DO n i = m1, m2, m3",
+    "continue": "CONTINUE",
+    "pause": "PAUSE",
+    "stop": "STOP",
+    "end": "END",
+    "dimension": "DIMENSION v(d), v(d1, d2), ...",
+    "input_output": "READ n, list (or PUNCH, PRINT, TYPE, ACCEPT)",
+}
+
+_NUMBERS = {"if_switch": 7, "do": 8, "dimension": 9, "input_output": 13}
+"""Error types of C26-5619 p. 56 by the form they belong to."""
+
+MAX_NESTING = 60
+_FORMAT_LIKE = re.compile(r"FO[A-Z]*\(")
+
+
+@dataclass(frozen=True, slots=True)
+class Parsed:
+    """What the parser made of a deck: the statements that parse, and a message for each that does not.
+
+    ``refused`` holds the statement numbers of those that do not.
+    """
+
+    statements: tuple[tree.Statement, ...]
+    diagnostics: tuple[Diagnostic, ...]
+    refused: frozenset[str] = frozenset()
+
+
+def parse(deck: Deck) -> Parsed:
+    """Parse every statement of ``deck``; a card that does not parse gives a Diagnostic, and the rest goes on."""
+    statements: list[tree.Statement] = []
+    diagnostics: list[Diagnostic] = []
+    labels: set[str] = set()
+    for source in sources(deck):
+        try:
+            statements.append(parse_statement(source))
+        except _Refused as refused:
+            diagnostics.append(refused.diagnostic)
+            labels.add(source.label.lstrip("0"))
+    return Parsed(tuple(statements), tuple(diagnostics), frozenset(labels))
+
+
+class _Refused(Exception):
+    def __init__(self, place: tree.Place, message: str, number: int = 0) -> None:
+        super().__init__(message)
+        self.diagnostic = Diagnostic(place.card, place.column, message, number)
+
+
+def parse_statement(source: Source) -> tree.Statement:
+    """Parse one statement."""
+    if not source.text:
+        raise _Refused(source.place, f"a statement number without a statement: {source.label}")
+    label = _statement_number(source.label, source.place) if source.label else 0
+    text = "\n".join(card.text for card in source.cards)
+    if source.kind == "format":
+        return tree.Statement(label, source.place, text, tree.Format(source.text, source.places))
+    if source.kind == "unknown":
+        if _FORMAT_LIKE.match(source.text):
+            raise _Refused(source.place, "FORMAT is misspelled", 10)
+        raise _Refused(source.place, f"not a statement of this FORTRAN: {source.text[:40]}")
+    if _depth(source.text) > MAX_NESTING:
+        raise _Refused(source.place, f"parentheses are nested more than {MAX_NESTING} deep")
+    number = _NUMBERS.get(source.kind, 0)
+    try:
+        body = _Builder(source.places).transform(_grammar().parse(source.text, start=source.kind))
+    except UnexpectedCharacters as error:
+        at = source.places[error.pos_in_stream or 0]
+        raise _Refused(at, f"{error.char!r} does not fit here; the form is {_FORMS[source.kind]}", number) from None
+    except UnexpectedToken as error:
+        raise _Refused(*_token_message(error, source), number) from None
+    except UnexpectedInput:
+        raise _Refused(source.place, f"does not parse; the form is {_FORMS[source.kind]}", number) from None
+    except VisitError as error:
+        if isinstance(error.orig_exc, _Refused):
+            raise error.orig_exc from None
+        raise
+    return tree.Statement(label, source.place, text, body)
+
+
+def _statement_number(digits: str, place: tree.Place) -> int:
+    if len(digits.lstrip("0")) > 4 or not digits.strip("0"):
+        raise _Refused(place, f"statement number {digits[:12]} is not between 1 and 9999")
+    return int(digits)
+
+
+def _token_message(error: UnexpectedToken, source: Source) -> tuple[tree.Place, str]:
+    form = _FORMS[source.kind]
+    token = error.token
+    if token.type == "$END":
+        return source.places[-1], f"the statement ends too soon; the form is {form}"
+    at = source.places[token.start_pos or 0]
+    return at, f"{str(token)!r} does not fit here; the form is {form}"
+
+
+def _depth(text: str) -> int:
+    depth = deepest = 0
+    for char in text:
+        depth += (char == "(") - (char == ")")
+        deepest = max(deepest, depth)
+    return deepest
+
+
+@cache
+def _grammar() -> Lark:
+    source = files("emulator.language").joinpath("dialect.lark").read_text(encoding="utf-8")
+    return Lark(source, parser="lalr", start=_STARTS, maybe_placeholders=True)
+
+
+class _Builder(Transformer[Token, Any]):
+    """Lark's tree to ours, bottom up; one method a grammar rule."""
+
+    def __init__(self, places: tuple[tree.Place, ...]) -> None:
+        super().__init__()
+        self._places = places
+
+    def _at(self, token: Token) -> tree.Place:
+        return self._places[token.start_pos or 0]
+
+    def number(self, children: list[Token]) -> tree.Number:
+        token = children[0]
+        if "." not in token and len(token) > 4:
+            raise _Refused(self._at(token), f"fixed-point constant {token} has more than four digits")
+        return tree.Number(str(token), self._at(token))
+
+    def reference(self, children: list[Any]) -> tree.Reference:
+        return self._name(children[0], tuple(c for c in children[1:] if c is not None))
+
+    def _name(self, token: Token, arguments: tuple[tree.Expression, ...] = ()) -> tree.Reference:
+        if len(token) > 5:
+            raise _Refused(self._at(token), f"the name {token} has more than five characters", 6)
+        return tree.Reference(str(token), arguments, self._at(token))
+
+    def power(self, children: list[Any]) -> tree.Power:
+        return tree.Power(children[0], children[1], children[0].place)
+
+    def product(self, children: list[Any]) -> tree.Product:
+        rest = tuple((str(op), factor) for op, factor in zip(children[1::2], children[2::2], strict=True))
+        return tree.Product(children[0], rest, children[0].place)
+
+    def expression(self, children: list[Any]) -> tree.Expression:
+        minus = False
+        place = children[0].place if not isinstance(children[0], Token) else self._at(children[0])
+        if isinstance(children[0], Token):
+            minus = children[0] == "-"
+            children = children[1:]
+        if len(children) == 1 and not minus:
+            return children[0]  # type: ignore[no-any-return]
+        rest = tuple((str(op), term) for op, term in zip(children[1::2], children[2::2], strict=True))
+        return tree.Sum(minus, children[0], rest, place)
+
+    def assignment(self, children: list[Any]) -> tree.Assignment:
+        return tree.Assignment(children[0], children[1])
+
+    def go_to(self, children: list[Token]) -> tree.GoTo:
+        return tree.GoTo(self._label(children[0]))
+
+    def computed_go_to(self, children: list[Token]) -> tree.ComputedGoTo:
+        return tree.ComputedGoTo(tuple(map(self._label, children[:-1])), self._name(children[-1]))
+
+    def _label(self, token: Token) -> int:
+        return _statement_number(token, self._at(token))
+
+    def if_(self, children: list[Any]) -> tree.If:
+        a, b, c = map(self._label, children[1:])
+        return tree.If(children[0], (a, b, c))
+
+    def if_switch(self, children: list[Token]) -> tree.IfSwitch:
+        if children[0] not in ("1", "2", "3", "4"):
+            raise _Refused(self._at(children[0]), f"there is no sense switch {children[0]}; the console has 1 to 4", 7)
+        on, off = map(self._label, children[1:])
+        return tree.IfSwitch(int(children[0]), (on, off))
+
+    def do(self, children: list[Any]) -> tree.Do:
+        label, variable, first, last, step = children
+        return tree.Do(self._label(label), self._name(variable), first, last, step)
+
+    def continue_(self, _: list[Any]) -> tree.Continue:
+        return tree.Continue()
+
+    def pause(self, children: list[Any]) -> tree.Pause:
+        return tree.Pause(str(children[0] or ""))
+
+    def stop(self, children: list[Any]) -> tree.Stop:
+        return tree.Stop(str(children[0] or ""))
+
+    def end(self, _: list[Any]) -> tree.End:
+        return tree.End()
+
+    def array(self, children: list[Token]) -> tuple[str, tuple[int, ...], tree.Place]:
+        name = self._name(children[0])
+        if len(children) > 3:
+            raise _Refused(name.place, f"{name.name} has more than two dimensions", 9)
+        if any(len(d.lstrip("0")) > 4 for d in children[1:]):
+            raise _Refused(name.place, f"{name.name}: a dimension has more than four digits", 9)
+        return name.name, tuple(int(d) for d in children[1:]), name.place
+
+    def dimension(self, children: list[tuple[str, tuple[int, ...], tree.Place]]) -> tree.Dimension:
+        return tree.Dimension(tuple(children))
+
+    def item(self, children: list[Any]) -> tree.Item:
+        return children[0]  # type: ignore[no-any-return]
+
+    def loop(self, children: list[Any]) -> tree.Loop:
+        *items, variable, first, last, step = children
+        return tree.Loop(tuple(items), self._name(variable), first, last, step)
+
+    def input_output(self, children: list[Any]) -> tree.InputOutput:
+        return tree.InputOutput(str(children[0]), self._label(children[1]), tuple(children[2:]))
+
+
+# `if` and `continue` are words of Python; the grammar keeps their FORTRAN names.
+setattr(_Builder, "if", _Builder.if_)
+setattr(_Builder, "continue", _Builder.continue_)

@@ -1,0 +1,133 @@
+"""From cards to statements: which cards are comments, which continue, where a statement's number and text are.
+
+Sources: C26-5619 p. 12 (the columns of the form are only guides: a statement may start in any of columns
+1 to 72; a statement that begins with C and two blanks is a comment; columns 73 to 80 are identification).
+Continuation cards and blank cards: OPEN-QUESTIONS 1 and 2.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from emulator.language.cards import Card, Deck
+from emulator.language.tree import Place
+
+LAST_COLUMN = 72
+
+_VERB = re.compile(r"READ|ACCEPT|PUNCH|PRINT|TYPE")
+_FORMAT = re.compile(r"\s*F\s*O\s*R\s*M\s*A\s*T\s*\(")
+_DO = re.compile(r"DO\d+,?[A-Z][A-Z0-9]*=")
+_PREFIXES = (
+    ("GOTO(", "computed_go_to"),
+    ("GOTO", "go_to"),
+    ("IF(SENSESWITCH", "if_switch"),
+    ("IF(", "if"),
+    ("CONTINUE", "continue"),
+    ("PAUSE", "pause"),
+    ("STOP", "stop"),
+    ("DIMENSION", "dimension"),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """A statement before parsing.
+
+    ``text`` is the statement without number and without blanks, ``places`` the place of each of its
+    characters; for a FORMAT both hold every column from its parenthesis on.  ``kind`` names the grammar's
+    start rule, ``format`` for a FORMAT, ``unknown`` where no form fits.
+    """
+
+    label: str
+    kind: str
+    text: str
+    places: tuple[Place, ...]
+    place: Place
+    cards: tuple[Card, ...]
+
+
+def is_comment(card: Card) -> bool:
+    """A comment: C followed by two blanks in columns 1 to 3 (p. 12), or a card with no statement punched."""
+    return not card.columns(1, LAST_COLUMN).strip() or card.text.ljust(3).startswith("C  ")
+
+
+def sources(deck: Deck) -> Iterator[Source]:
+    """The statements of a deck in order, comments left out."""
+    group: list[Card] = []
+    for card in deck.cards:
+        if is_comment(card):
+            continue
+        if group and _continues(card):
+            group.append(card)
+            continue
+        if group:
+            yield _source(tuple(group))
+        group = [card]
+    if group:
+        yield _source(tuple(group))
+
+
+def classify(text: str) -> str:
+    """The kind of a statement from its text without number and blanks; a grammar start rule, or ``unknown``."""
+    equals = _top_level(text, "=")
+    if equals >= 0:
+        if _DO.match(text) and _top_level(text[equals:], ",") >= 0:
+            return "do"
+        return "assignment"
+    if text == "END":
+        return "end"
+    for prefix, kind in _PREFIXES:
+        if text.startswith(prefix):
+            return kind
+    return "input_output" if _VERB.match(text) else "unknown"
+
+
+def _continues(card: Card) -> bool:
+    """A punch other than 0 in column 6, columns 1 to 5 blank, and no statement if read by itself."""
+    if card.columns(1, 5).strip() or card.columns(6, 6) in (" ", "0"):
+        return False
+    source = _source((card,))
+    if source.kind == "format":
+        return False
+    if source.kind == "unknown" or source.text.count("(") != source.text.count(")"):
+        return True
+    return source.kind == "assignment" and _top_level(source.text, ",") >= 0
+
+
+def _source(cards: tuple[Card, ...]) -> Source:
+    columns: list[tuple[str, Place]] = []
+    for n, card in enumerate(cards):
+        first = 1 if n == 0 else 7
+        columns.extend((char, Place(card.number, first + i)) for i, char in enumerate(card.columns(first, LAST_COLUMN)))
+    label, start = "", len(columns)
+    for i, (char, _) in enumerate(columns):
+        if char.isdigit():
+            label += char
+        elif char != " ":
+            start = i
+            break
+    body = columns[start:]
+    place = body[0][1] if body else next(where for char, where in columns if char != " ")
+    raw = "".join(char for char, _ in body)
+    match = _FORMAT.match(raw)
+    if match:
+        rest = body[match.end() - 1 :]
+        return Source(label, "format", "".join(c for c, _ in rest), tuple(p for _, p in rest), place, cards)
+    dense = [(char, where) for char, where in body if char != " "]
+    text = "".join(char for char, _ in dense)
+    return Source(label, classify(text), text, tuple(p for _, p in dense), place, cards)
+
+
+def _top_level(text: str, wanted: str) -> int:
+    """Index of the first ``wanted`` outside parentheses, or -1."""
+    depth = 0
+    for i, char in enumerate(text):
+        if char == "(":
+            depth += 1
+        elif char == ")":
+            depth -= 1
+        elif char == wanted and depth == 0:
+            return i
+    return -1

@@ -1,0 +1,350 @@
+"""Two arithmetics in step through one program: where the first value differs, and where the first decision does.
+
+Both runs read the same deck.  While every decision (IF, computed GO TO, the end of a DO) goes the same way in
+both, statement meets statement and what they store can be compared.  Behind a decision that goes two ways the
+runs are apart until both come to the first statement that every path from either way must come to
+(emulator/machine/postdominators.py); from there they are compared again.  Where there is no such statement, or one
+run ends before it, the comparison ends.
+
+Digits lost are counted up to the first differing decision only: behind it a value may differ because another
+point was taken, which is no loss of digits.  A value that agrees with the reference to a relative difference r
+has lost ``P + log10(r)`` of the P digits the poorer of the two arithmetics carries, at least 0 and at most P.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+
+from emulator.errors import EmulatorError
+from emulator.language import objectcode as op
+from emulator.language.cards import Deck
+from emulator.language.objectcode import Line, Program
+from emulator.machine.endings import begun
+from emulator.machine.interpreter import Entry, Journal
+from emulator.machine.machine import Machine
+from emulator.machine.postdominators import meeting, post_dominators, successors
+from emulator.machine.result import Ending, Options
+from emulator.numbers import Numbers
+from emulator.numbers.base import Number
+from emulator.numbers.exact import ExactNumbers
+
+_STRIDE = 1_000
+"""Statements one run does before the other takes its turn."""
+
+_DECISIONS = (op.IF, op.IFX, op.SELECT, op.DOTEST)
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """A value that differs: the statement, which time it was run, the variable in each run, both values as text.
+
+    ``relative`` is the difference divided by the reference's value, None where that is zero or not a number.
+    """
+
+    line: Line
+    time: int
+    names: tuple[str, str]
+    values: tuple[str, str]
+    relative: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class Decision:
+    """A decision that differs: the statement, which time it was run, both values, and where each run goes."""
+
+    line: Line
+    time: int
+    values: tuple[str, str]
+    targets: tuple[Line | None, Line | None]
+
+
+@dataclass(frozen=True, slots=True)
+class Loss:
+    """What one statement stored, up to the first differing decision.
+
+    ``times`` values were compared, of which ``differing`` differ; ``worst`` and ``median`` are decimal digits lost.
+    """
+
+    line: Line
+    times: int
+    differing: int
+    worst: float
+    median: float
+
+
+@dataclass(frozen=True, slots=True)
+class Divergence:
+    """Two runs compared.  The first of each pair is the arithmetic studied, the second the reference.
+
+    ``compared`` and ``tested`` count the values and decisions compared, ``values`` and ``decisions`` those that
+    differ, ``values_in_step`` those of them before the first differing decision.  ``apart`` says why the
+    comparison ended early, and is empty where both runs were compared to their endings.  Without values asked
+    for, everything about them is empty and the runs stop at the first differing decision; ``endings`` are None
+    for a run that was not run to its end.
+    """
+
+    program: str
+    deck: str
+    arithmetics: tuple[str, str]
+    digits: float
+    first_value: Difference | None
+    first_decision: Decision | None
+    compared: int
+    tested: int
+    values: int
+    values_in_step: int
+    decisions: int
+    statements: tuple[int, int]
+    apart: str
+    endings: tuple[Ending | None, Ending | None]
+    losses: tuple[Loss, ...]
+
+
+def diverge(
+    program: Program,
+    deck: Deck,
+    studied: Numbers,
+    reference: Numbers,
+    options: Options | None = None,
+    *,
+    values: bool = True,
+) -> Divergence:
+    """Run a program over two arithmetics in step; ``options`` without their profile and numbers.
+
+    Without ``values`` only decisions are compared, and only up to the first that differs: the way for studies of
+    many decks.  Raises CardError and DeckError where both runs find the same fault in the deck, DeckError where
+    the program does not fit the machine.
+    """
+    options = options or Options()
+    runs = [_Run(program, deck, replace(options, numbers=n), values) for n in (studied, reference)]
+    comparison = _Comparison(program, studied, reference)
+    apart = ""
+    first, second = iter(runs[0].entries()), iter(runs[1].entries())
+    parents: list[int] = []
+    while True:
+        mine, other = next(first, None), next(second, None)
+        if mine is None or other is None:
+            if mine is None and other is None and not comparison.decisions:
+                _refuse(runs)
+            apart = _ended(runs, mine, other)
+            break
+        assert mine[0] == other[0], "runs in step are at the same instruction"
+        if not comparison.differs(mine, other):
+            continue
+        if not values:
+            break
+        parents = parents or post_dominators(successors(program))
+        place = meeting(parents, mine[1], other[1])
+        if place < 0 or not (_reached(first, place) and _reached(second, place)):
+            apart = "the ways do not meet again"
+            break
+    return Divergence(
+        program=program.source,
+        deck=deck.source,
+        arithmetics=(studied.name, reference.name),
+        digits=comparison.digits,
+        first_value=comparison.first_value,
+        first_decision=comparison.first_decision,
+        compared=comparison.compared,
+        tested=comparison.tested,
+        values=comparison.values,
+        values_in_step=comparison.values_in_step,
+        decisions=comparison.decisions,
+        statements=(runs[0].statements, runs[1].statements),
+        apart=apart,
+        endings=(runs[0].ending, runs[1].ending),
+        losses=comparison.losses(),
+    )
+
+
+class _Run:
+    """One of the two runs, some statements at a time."""
+
+    def __init__(self, program: Program, deck: Deck, options: Options, values: bool) -> None:
+        assert options.numbers is not None
+        self.name = options.numbers.name
+        self._journal = Journal(values)
+        self._machine = Machine(program, deck, options, journal=self._journal)
+        self._program, self._limit = program, options.limit
+        self.ending: Ending | None = None
+        self.error: EmulatorError | None = None
+
+    @property
+    def statements(self) -> int:
+        return begun(self._program, self._machine.counts)
+
+    def entries(self) -> Iterator[Entry]:
+        """The journal's entries, while the run goes on behind them."""
+        goal = 0
+        while self.ending is None:
+            goal = min(goal + _STRIDE, self._limit)
+            try:
+                self.ending = self._machine.advance(goal)
+            except EmulatorError as error:
+                self.error, self.ending = error, Ending("input", str(error))
+            if self.ending is None and goal == self._limit:
+                self.ending = Ending("limit", f"stopped after {self._limit} statements")
+            yield from self._journal.entries
+            self._journal.entries.clear()
+
+
+def _reached(entries: Iterator[Entry], place: int) -> bool:
+    """Go on to the statement at ``place``; whether the run comes there."""
+    return any(entry[0] == place for entry in entries)
+
+
+def _refuse(runs: list[_Run]) -> None:
+    """Raise what both runs, in step, have found wrong with the deck."""
+    first, second = (run.error for run in runs)
+    if first is not None and second is not None:
+        raise first
+
+
+def _ended(runs: list[_Run], mine: Entry | None, other: Entry | None) -> str:
+    """Why a comparison ended that one run or both did not go on with; empty where both ended alike."""
+    if mine is None and other is None and runs[0].ending == runs[1].ending:
+        return ""
+    stopped = [run for run, entry in zip(runs, (mine, other), strict=True) if entry is None]
+    return "; ".join(f"{run.name} ended: {run.ending.message or run.ending.kind}" for run in stopped if run.ending)
+
+
+@dataclass
+class _Tally:
+    """What one statement stored: how often, and how often with how many tenths of a digit lost."""
+
+    times: int = 0
+    differing: int = 0
+    tenths: Counter[int] = field(default_factory=Counter)
+
+
+class _Comparison:
+    """What was found so far."""
+
+    def __init__(self, program: Program, studied: Numbers, reference: Numbers) -> None:
+        self._program, self._studied, self._reference = program, studied, reference
+        self._statement_of = program.statement_numbers()
+        self._decides = [i.operation in _DECISIONS for i in program.code]
+        self._counts = [i.operation == op.COUNT for i in program.code]
+        self._times: Counter[int] = Counter()
+        self._tallies: dict[int, _Tally] = {}
+        poorer = min(studied.digits, reference.digits)
+        self.digits = poorer if math.isfinite(poorer) else 0.0
+        self._exactly = 2 * int(self.digits) + 20
+        self.first_value: Difference | None = None
+        self.first_decision: Decision | None = None
+        self.compared = self.tested = self.values = self.values_in_step = self.decisions = 0
+
+    def differs(self, mine: Entry, other: Entry) -> bool:
+        """Enter what both did; whether it is a decision that differs."""
+        pc = mine[0]
+        if self._counts[pc]:
+            return False
+        self._times[pc] += 1
+        if not self._decides[pc]:
+            self._store(mine, other)
+            return False
+        self.tested += 1
+        if mine[1] == other[1]:
+            return False
+        self.decisions += 1
+        if self.first_decision is None:
+            self.first_decision = Decision(
+                self._line(pc),
+                self._times[pc],
+                self._texts(mine[2], other[2], tested=True),
+                (self._target(mine[1]), self._target(other[1])),
+            )
+        return True
+
+    def _store(self, mine: Entry, other: Entry) -> None:
+        pc = mine[0]
+        self.compared += 1
+        lost, relative = self._lost(mine, other)
+        if lost is not None:
+            self.values += 1
+            if self.first_value is None:
+                name = self._program.storage.name_of
+                self.first_value = Difference(
+                    self._line(pc),
+                    self._times[pc],
+                    (name(mine[1]), name(other[1])),
+                    self._texts(mine[2], other[2]),
+                    relative,
+                )
+        if self.decisions:
+            return
+        tally = self._tallies.setdefault(self._statement_of[pc], _Tally())
+        tally.times += 1
+        if lost is not None:
+            self.values_in_step += 1
+            tally.differing += 1
+        tally.tenths[round(10 * (lost or 0.0))] += 1
+
+    def _lost(self, mine: Entry, other: Entry) -> tuple[float | None, float | None]:
+        """Digits lost and the relative difference of two stores; None and None where they are the same."""
+        if mine[1] == other[1]:
+            x, y = self._value(self._studied, mine[2]), self._value(self._reference, other[2])
+            if x is None and y is None:
+                # Copies of what is undefined, infinities, no numbers: the same where they are called the same.
+                if _text(self._studied, mine[2], None) == _text(self._reference, other[2], None):
+                    return None, None
+            elif x == y:
+                return None, None
+            if x is not None and y:
+                logarithm = _logarithm(abs(Fraction(x) - y)) - _logarithm(abs(Fraction(y)))
+                relative = 10**logarithm if abs(logarithm) < 300 else None
+                return min(max(self.digits + logarithm, 0.0), self.digits), relative
+        return self.digits, None
+
+    def _value(self, numbers: Numbers, value: Number) -> Fraction | int | None:
+        return value if value is None or type(value) is int else numbers.exact(value, self._exactly)
+
+    def _texts(self, mine: Number, other: Number, tested: bool = False) -> tuple[str, str]:
+        """Both values for a reader, with digits enough to tell them apart; a test does not see the sign of a zero."""
+        found = []
+        for wide in (False, True):
+            found = [
+                _text(numbers, value, self._value(numbers, value) if wide else None)
+                for numbers, value in ((self._studied, mine), (self._reference, other))
+            ]
+            if found[0] != found[1]:
+                break
+        first, second = ("0" if tested and text == "-0" else text for text in found)
+        return first, second
+
+    def _line(self, pc: int) -> Line:
+        return self._program.statements[self._statement_of[pc]]
+
+    def _target(self, pc: int) -> Line | None:
+        """The statement gone to; None for the end of the program."""
+        return self._line(pc) if pc < len(self._statement_of) else None
+
+    def losses(self) -> tuple[Loss, ...]:
+        """What each statement lost, the worst first, then in order of cards."""
+        lines = self._program.statements
+        found = [_loss(lines[statement], tally) for statement, tally in self._tallies.items()]
+        return tuple(sorted(found, key=lambda loss: (-loss.worst, -loss.median, loss.line.place.card)))
+
+
+def _loss(line: Line, tally: _Tally) -> Loss:
+    lost = sorted(tally.tenths.elements())
+    middle = (lost[(len(lost) - 1) // 2] + lost[len(lost) // 2]) / 2
+    return Loss(line, tally.times, tally.differing, lost[-1] / 10, middle / 10)
+
+
+def _logarithm(value: Fraction) -> float:
+    """To base ten, of a number that a float might not hold."""
+    return math.log10(value.numerator) - math.log10(value.denominator)
+
+
+def _text(numbers: Numbers, value: Number, exact: Fraction | int | None) -> str:
+    """A value as its arithmetic shows it, or exactly; a fixed-point value is a whole number in every arithmetic."""
+    if value is None:
+        return "undefined"
+    if type(value) is int:
+        return str(value)
+    return numbers.text(value) if exact is None else ExactNumbers().text(exact)

@@ -1,0 +1,72 @@
+"""A trace of a run: every statement with its card, its number and the value it stored or tested."""
+
+from __future__ import annotations
+
+from typing import TextIO
+
+from emulator.compiled import kernel as engine
+from emulator.language.objectcode import Line, Program
+from emulator.machine.machine import Machine
+from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED
+
+
+class Tracer:
+    """Writes one line a statement to ``file``.
+
+    The engine stops when a statement *begins*, so a line is completed when the next begins, or by ``close``.
+    """
+
+    def __init__(self, file: TextIO) -> None:
+        self._file = file
+        self._line: Line | None = None
+        self._machine: Machine | None = None
+
+    def watch(self, program: Program, machine: Machine) -> None:
+        """Trace a machine from its start; a heading names its program."""
+        self.close()
+        self._machine = machine
+        machine.tracer = self
+        self._file.write(f"* {program.source}: card, number, statement, value\n")
+
+    def __call__(self, line: Line, machine: Machine) -> None:
+        self.close()
+        self._line = line
+
+    def close(self) -> None:
+        """Complete the line of the statement last begun."""
+        if self._line is None or self._machine is None:
+            return
+        line, self._line = self._line, None
+        value = effect(self._machine, line)
+        text = f"{line.place.card:4d} {line.label or '':>5} {line.text:<40}  {value}"
+        self._file.write(text.rstrip() + "\n")
+
+
+def effect(machine: Machine, line: Line) -> str:
+    """What the statement just run did: ``X(3) = .20000000E+01``, or the value it tested."""
+    registers = machine.registers
+    if line.effect == "store":
+        address = registers[engine.STORED]
+        return f"{machine.program.storage.name_of(address)} = {contents(machine, address)}"
+    if line.effect == "test":
+        return _floating(machine, registers[engine.FAC], registers[engine.CHARACTERISTIC])
+    if line.effect == "test fixed":
+        return str(registers[engine.FIXED])
+    if line.effect == "list":
+        name = machine.program.storage.name_of
+        return ", ".join(f"{name(address)} = {contents(machine, address)}" for address in machine.listed)
+    return ""
+
+
+def contents(machine: Machine, address: int) -> str:
+    """A field's contents as text."""
+    mantissa, exponent = machine.mantissas[address], machine.exponents[address]
+    if exponent == UNDEFINED:
+        return "undefined"
+    if exponent == FIXED_POINT:
+        return str(mantissa)
+    return _floating(machine, mantissa, exponent)
+
+
+def _floating(machine: Machine, mantissa: int, exponent: int) -> str:
+    return machine.unit.text((mantissa, exponent))

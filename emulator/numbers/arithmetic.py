@@ -1,0 +1,313 @@
+"""Decimal floating point as the 1620's subroutines did it: pure functions on integers under named profiles.
+
+A number is a pair (mantissa, exponent) of value ``mantissa * 10**(exponent - P)``: P digits behind the
+point, the first not zero, exponent -99 to +99 (C26-5619 p. 13, 38).  Zero is (0, -99), as it is printed;
+minus zero, which the machine kept as a flag, is (0, MINUS_ZERO); a field nothing was stored in is
+(0, UNDEFINED).  A field that holds a fixed-point number has its value and the exponent FIXED_POINT.
+Operations return an exponent that may lie out of range: the engine decides what then.
+
+The functions use only what a compiler of integer loops accepts; ``rules`` is a plain tuple for that reason.
+Where each rule was obtained stands with :data:`PROFILES`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+ZERO = -99
+MINUS_ZERO = -100
+FIXED_POINT = 998
+UNDEFINED = 999
+MAX_EXPONENT = 99
+MIN_EXPONENT = -99
+
+MIN_DIGITS, MAX_DIGITS = 2, 28
+
+Rules = tuple[int, int, int, int, int, int, int, int]
+"""(digits, 10**digits, 10**(digits-1), guard digits, sticky, round sums, round products, round quotients)."""
+
+
+def add(ma: int, ea: int, mb: int, eb: int, rules: Rules, powers: Sequence[int]) -> tuple[int, int]:
+    """Sum of two numbers, neither zero.
+
+    The operand of smaller exponent is moved right and its digits drop off *before* the addition, all of them or, in
+    :func:`add_guarded`, those beyond some more.
+    """
+    if rules[3]:
+        return add_guarded(ma, ea, mb, eb, rules, powers)
+    if ea < eb:
+        ma, ea, mb, eb = mb, eb, ma, ea
+    shift = ea - eb
+    if shift >= rules[0]:
+        return ma, ea
+    if shift:
+        mb = mb // powers[shift] if mb > 0 else -(-mb // powers[shift])
+    total = ma + mb
+    if total == 0:
+        return 0, ZERO
+    size = total if total > 0 else -total
+    if size >= rules[1]:
+        size = size // 10
+        ea += 1
+    while size < rules[2]:
+        size *= 10
+        ea -= 1
+    return (size if total > 0 else -size), ea
+
+
+def add_guarded(ma: int, ea: int, mb: int, eb: int, rules: Rules, powers: Sequence[int]) -> tuple[int, int]:
+    """The same where of the digits beyond P ``guard`` survive the addition (rounding a sum needs one).
+
+    With ``sticky`` the lost part still counts as a fraction, so that the rounding which follows is that of the exact
+    sum.
+    """
+    digits, base, guard, sticky, rounding = rules[0], rules[1], rules[3], rules[4], rules[5]
+    if ea < eb:
+        ma, ea, mb, eb = mb, eb, ma, ea
+    shift = ea - eb
+    negative = ma < 0
+    same = (mb < 0) == negative
+    size = (-ma if negative else ma) * powers[guard]
+    other = -mb if mb < 0 else mb
+    lost = 0
+    if shift <= guard:
+        other = other * powers[guard - shift]
+    elif shift - guard > digits:
+        lost = 1
+        other = 0
+    else:
+        unit = powers[shift - guard]
+        lost = 1 if other % unit else 0
+        other = other // unit
+    if same:
+        size += other
+    else:
+        size -= other
+        if sticky and lost:
+            size -= 1
+    if size == 0:
+        return 0, ZERO
+    if size < 0:
+        size = -size
+        negative = not negative
+    wide = base * powers[guard]
+    while size < wide // 10:
+        size *= 10
+        ea -= 1
+    unit = powers[guard]
+    if size >= wide:
+        unit *= 10
+        ea += 1
+    size = (size + unit // 2) // unit if rounding else size // unit
+    if size >= base:
+        size = size // 10
+        ea += 1
+    return (-size if negative else size), ea
+
+
+def multiply(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
+    """Product of two numbers, neither zero: all 2P digits, then cut or rounded half up in magnitude."""
+    base, low = rules[1], rules[2]
+    product = ma * mb
+    size = product if product > 0 else -product
+    exponent = ea + eb
+    if size >= base * low:
+        unit = base
+    else:
+        unit = low
+        exponent -= 1
+    if rules[6]:
+        size = (size + unit // 2) // unit
+        if size >= base:
+            size = size // 10
+            exponent += 1
+    else:
+        size = size // unit
+    return (size if product > 0 else -size), exponent
+
+
+def divide(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
+    """Quotient of two numbers, neither zero, cut or rounded half up in magnitude."""
+    base, low = rules[1], rules[2]
+    size = ma if ma > 0 else -ma
+    by = mb if mb > 0 else -mb
+    exponent = ea - eb
+    if size >= by:
+        size = size * low
+        exponent += 1
+    else:
+        size = size * base
+    quotient = size // by
+    if rules[7] and 2 * (size - quotient * by) >= by:
+        quotient += 1
+        if quotient >= base:
+            quotient = quotient // 10
+            exponent += 1
+    return (quotient if (ma > 0) == (mb > 0) else -quotient), exponent
+
+
+def from_integer(value: int, rules: Rules) -> tuple[int, int]:
+    """A fixed-point number as floating point; exact when it has at most P digits, else its first P digits."""
+    if value == 0:
+        return 0, ZERO
+    size = value if value > 0 else -value
+    exponent = rules[0]
+    while size < rules[2]:
+        size *= 10
+        exponent -= 1
+    while size >= rules[1]:
+        size = size // 10
+        exponent += 1
+    return (size if value > 0 else -size), exponent
+
+
+def to_integer(mantissa: int, exponent: int, rules: Rules, powers: Sequence[int]) -> int:
+    """Floating point to fixed: the four digits just left of the point, with the sign (C26-5619 p. 21)."""
+    if exponent <= 0:
+        return 0
+    size = mantissa if mantissa > 0 else -mantissa
+    digits = rules[0]
+    if exponent <= digits:
+        size = size // powers[digits - exponent]
+    elif exponent - digits < 4:
+        size = size * powers[exponent - digits]
+    else:
+        return 0
+    size = size % 10000
+    return size if mantissa > 0 else -size
+
+
+def wrap_integer(value: int) -> int:
+    """Fixed-point results keep four digits and their sign (C26-5619 p. 14; executed on IBM's code at 02644)."""
+    return value % 10000 if value >= 0 else -(-value % 10000)
+
+
+def square_root(mantissa: int, exponent: int, rules: Rules) -> tuple[int, int]:
+    """Square root of a number not zero, its sign dropped, cut or rounded half up as products are."""
+    size = mantissa if mantissa > 0 else -mantissa
+    # As a whole number of 2P-1 or 2P digits times an even power of ten.
+    power = exponent - 2 * rules[0]
+    if power % 2:
+        power += 1
+        size *= rules[2]
+    else:
+        size *= rules[1]
+    root = rules[1]
+    better = (root + size // root) // 2
+    while better < root:
+        root = better
+        better = (root + size // root) // 2
+    exponent = power // 2 + rules[0]
+    # Above the half exactly when the rest is more than the root: (r+1/2)**2 is no whole number.
+    if rules[6] and size - root * root > root:
+        root += 1
+        if root >= rules[1]:
+            root = root // 10
+            exponent += 1
+    return root, exponent
+
+
+def whole_power(mantissa: int, exponent: int, count: int, rules: Rules) -> tuple[int, int, int]:
+    """``A ** J`` by repeated multiplication, each product cut as the profile cuts it (OPEN-QUESTIONS 8).
+
+    The third number is that of the error code E3 (overflow), E4 (underflow) or E7 (a negative power of zero),
+    or 0; the result is in range.
+    """
+    one, ones = from_integer(1, rules)
+    if count == 0:
+        return one, ones, 0
+    if mantissa == 0:
+        return (0, ZERO, 0) if count > 0 else (rules[1] - 1, MAX_EXPONENT, 7)
+    size = mantissa if mantissa > 0 else -mantissa
+    times = count if count > 0 else -count
+    m, e = size, exponent
+    for _ in range(times - 1):
+        m_before, e_before = m, e
+        m, e = multiply(m, e, size, exponent, rules)
+        if m == m_before and e == e_before:
+            break
+        if e > MAX_EXPONENT + 1 or e < MIN_EXPONENT - 1:
+            break
+    if count < 0:
+        if MIN_EXPONENT - 1 <= e <= MAX_EXPONENT + 1:
+            m, e = divide(one, ones, m, e, rules)
+        else:
+            e = -e
+    if mantissa < 0 and times % 2 == 1:
+        m = -m
+    if e > MAX_EXPONENT:
+        return (rules[1] - 1 if m > 0 else -(rules[1] - 1)), MAX_EXPONENT, 3
+    if e < MIN_EXPONENT:
+        return 0, ZERO, 4
+    return m, e, 0
+
+
+def powers_of_ten(rules: Rules) -> list[int]:
+    """The table of powers the functions above index."""
+    return [10**k for k in range(rules[0] + rules[3] + 2)]
+
+
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """An arithmetic: how many digits, what each operation does with the digits it cannot keep, what is typed.
+
+    ``announces``: every error of the arithmetic types its code (emulator.machine.result.ERRORS);
+    ``keeps_left_zero``: zero plus zero keeps the sign of the accumulator's zero; ``signed_underflow``: a
+    product or quotient that underflows becomes zero with its own sign.
+    """
+
+    name: str
+    source: str
+    rules: Rules
+    announces: bool = False
+    keeps_left_zero: bool = False
+    signed_underflow: bool = False
+
+    @property
+    def digits(self) -> int:
+        return self.rules[0]
+
+
+def _rules(digits: int, guard: int = 0, sticky: int = 0, sums: int = 0, products: int = 0, quotients: int = 0) -> Rules:
+    return digits, 10**digits, 10 ** (digits - 1), guard, sticky, sums, products, quotients
+
+
+TRUNCATING = Profile(
+    "truncating",
+    "thesis p. 116 (eight digits, no rounding occurs); IBM FORTRAN II-D executed in a simulator; "
+    "signs of zero: the thesis's prints",
+    _rules(8),
+)
+IBM1962 = Profile(
+    "ibm1962",
+    "IBM's subroutine set of 1962, executed digit by digit in a simulator: product rounded half up, the rest cut",
+    _rules(8, products=1),
+    announces=True,
+    keeps_left_zero=True,
+    signed_underflow=True,
+)
+PROFILES = {profile.name: profile for profile in (TRUNCATING, IBM1962)}
+FAMILIES = ("truncating:P", "guarded:P", "rounding:P")
+
+
+def profile(name: str) -> Profile:
+    """The profile of that name: ``truncating``, ``ibm1962``, or a family with P from 2 to 28, as ``rounding:8``.
+
+    ``guarded:P`` is ``truncating:P`` but for sums: of the smaller operand's digits that would drop off before the
+    addition, the first is kept until the sum is cut.  ``rounding:P`` gives each result of + - * / as the exact
+    result rounded half up in magnitude.  Raises ValueError for any other name.
+    """
+    if name in PROFILES:
+        return PROFILES[name]
+    family, colon, count = name.partition(":")
+    if colon and f"{family}:P" in FAMILIES and count.isdecimal() and count.isascii():
+        digits = int(count)
+        if MIN_DIGITS <= digits <= MAX_DIGITS:
+            if family == "truncating":
+                return Profile(name, TRUNCATING.source, _rules(digits))
+            if family == "guarded":
+                return Profile(name, "truncating, with a guard digit in sums", _rules(digits, guard=1))
+            return Profile(name, "exact result, rounded half up", _rules(digits, 2, 1, 1, 1, 1))
+        raise ValueError(f"{name}: the number of digits is {MIN_DIGITS} to {MAX_DIGITS}")
+    raise ValueError(f"no arithmetic is called {name!r}; there are {', '.join((*PROFILES, *FAMILIES))}")

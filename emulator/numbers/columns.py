@@ -1,0 +1,282 @@
+"""Numbers to columns and back, as integers: the rules of emulator/numbers/fields.py on character codes.
+
+Columns are a mutable sequence of ASCII codes.  The functions use only what a compiler of integer loops accepts,
+like those of emulator/numbers/arithmetic.py, so that one source serves the plain and the compiled engine; what a status
+means in words is said in emulator/numbers/fields.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import MutableSequence
+
+from emulator.numbers.arithmetic import MAX_EXPONENT, MIN_EXPONENT, MINUS_ZERO, ZERO, Rules
+
+BLANK, PLUS, MINUS, POINT, DIGIT, LETTER_E = 32, 43, 45, 46, 48, 69
+"""Codes of the characters of a number; DIGIT is that of 0."""
+
+# Statuses of a field read: errors below zero, warnings above; from CUT on, CUT + the number of digits.
+NO_NUMBER, OUT_OF_RANGE = -1, -2
+FINE, BLANK_FIELD, BLANKS_INSIDE, BLANKS_AS_ZEROS, FOUR_KEPT, CUT = range(6)
+
+E_COLUMNS, E_DECIMALS = 14, 8
+"""The field a number goes by that is too large for its own (C26-5619 p. 39-40)."""
+
+
+def squeeze(columns: MutableSequence[int], width: int) -> tuple[int, int]:
+    """Move a number to the left end of its field and fill its blanks; its length and FINE or a warning.
+
+    Leading blanks are nothing.  With a point or an E among them, trailing blanks are nothing too (behind the
+    point they would change nothing, behind an exponent they would multiply it by ten), and blanks inside are
+    zeros, or nothing where an exponent might be meant.  Else blanks are zeros (OPEN-QUESTIONS 6).
+    """
+    first = 0
+    while first < width and columns[first] == BLANK:
+        first += 1
+    end = width
+    while end > first and columns[end - 1] == BLANK:
+        end -= 1
+    if first == end:
+        return 0, BLANK_FIELD
+    point, first_e, last_e, blanks = width, width, -1, 0
+    for k in range(first, end):
+        c = columns[k]
+        if c == BLANK:
+            blanks += 1
+        elif c == POINT and point == width:
+            point = k
+        elif c == LETTER_E:
+            last_e = k
+            if first_e == width:
+                first_e = k
+    warning = FINE
+    drop = False
+    if point < width or last_e >= 0:
+        if blanks:
+            warning = BLANKS_INSIDE
+            for k in range(first, end):
+                if columns[k] == BLANK and (k > first_e or point < k < last_e):
+                    drop = True
+    elif blanks or end < width:
+        warning = BLANKS_AS_ZEROS
+        end = width
+    length = 0
+    for k in range(first, end):
+        c = columns[k]
+        if c == BLANK:
+            if drop:
+                continue
+            c = DIGIT
+        columns[length] = c
+        length += 1
+    for k in range(length, width):
+        columns[k] = BLANK
+    return length, warning
+
+
+def is_digit(code: int) -> bool:
+    return DIGIT <= code <= DIGIT + 9
+
+
+def read_floating(columns: MutableSequence[int], width: int, decimals: int, rules: Rules) -> tuple[int, int, int]:
+    """Mantissa, exponent and status of an E or F field; the columns are squeezed.
+
+    Sign, digits with a point or none, and an exponent, whose E may be missing where it has a sign.
+    """
+    length, status = squeeze(columns, width)
+    if length == 0:
+        return 0, ZERO, status
+    k = 0
+    negative = columns[0] == MINUS
+    if negative or columns[0] == PLUS:
+        k = 1
+    mantissa = 0
+    lead, significant, digits, scale = 0, 0, 0, -1
+    while k < length:
+        c = columns[k]
+        if is_digit(c):
+            digits += 1
+            if scale >= 0:
+                scale += 1
+            if lead or c != DIGIT:
+                lead += 1
+                if c != DIGIT:
+                    significant = lead
+                if lead <= rules[0]:
+                    mantissa = 10 * mantissa + c - DIGIT
+        elif c == POINT and scale < 0:
+            scale = 0
+        else:
+            break
+        k += 1
+    if scale < 0:
+        scale = decimals
+    power, power_digits = 0, 0
+    below = False
+    if k < length:
+        lettered = columns[k] == LETTER_E
+        if lettered:
+            k += 1
+        if k < length and (columns[k] == PLUS or columns[k] == MINUS):
+            below = columns[k] == MINUS
+            k += 1
+        elif not lettered:
+            return 0, ZERO, NO_NUMBER
+        if k == length:
+            return 0, ZERO, NO_NUMBER
+        while k < length:
+            c = columns[k]
+            if not is_digit(c):
+                return 0, ZERO, NO_NUMBER
+            if power or c != DIGIT:
+                power_digits += 1
+                if power_digits <= 6:
+                    power = 10 * power + c - DIGIT
+            k += 1
+    if digits == 0:
+        return 0, ZERO, NO_NUMBER
+    if power_digits > 6:
+        return 0, ZERO, OUT_OF_RANGE
+    if lead == 0:
+        return 0, (MINUS_ZERO if negative else ZERO), status
+    exponent = lead - scale + (-power if below else power)
+    if exponent < MIN_EXPONENT or exponent > MAX_EXPONENT:
+        return 0, ZERO, OUT_OF_RANGE
+    if significant > rules[0] and status == FINE:
+        status = CUT + significant
+    while lead < rules[0]:
+        mantissa *= 10
+        lead += 1
+    return (-mantissa if negative else mantissa), exponent, status
+
+
+def read_fixed(columns: MutableSequence[int], width: int) -> tuple[int, int]:
+    """Value, its last four digits with the sign, and status of an I field; the columns are squeezed."""
+    length, status = squeeze(columns, width)
+    if length == 0:
+        return 0, status
+    k = 0
+    negative = columns[0] == MINUS
+    if negative or columns[0] == PLUS:
+        k = 1
+    if k == length:
+        return 0, NO_NUMBER
+    value = 0
+    while k < length:
+        c = columns[k]
+        if not is_digit(c):
+            return 0, NO_NUMBER
+        value = 10 * value + c - DIGIT
+        if value > 9999:
+            status = FOUR_KEPT
+            value = value % 10000
+        k += 1
+    return (-value if negative else value), status
+
+
+def write_e(
+    columns: MutableSequence[int], at: int, width: int, decimals: int, mantissa: int, exponent: int, rules: Rules
+) -> int:
+    """Write an E field from column ``at`` on; the column behind it, or -1 where the field cannot hold the number.
+
+    Sign, digits, point, digits, E, sign, two digits: eight digits in fourteen columns or more, else w-6.
+    """
+    count = 8 if width >= E_COLUMNS else width - 6
+    if count < 1 or decimals > count:
+        return -1
+    left = count - decimals
+    shown = ZERO if mantissa == 0 else exponent - left
+    if shown < MIN_EXPONENT or shown > MAX_EXPONENT:
+        return -1
+    end = at + width
+    first = end - count - 5
+    for k in range(at, first):
+        columns[k] = BLANK
+    if mantissa < 0 or exponent == MINUS_ZERO:
+        columns[first - 1] = MINUS
+    size = -mantissa if mantissa < 0 else mantissa
+    have = rules[0]
+    while have > count:
+        size = size // 10
+        have -= 1
+    for digit in range(count - 1, -1, -1):
+        place = first + digit + (1 if digit >= left else 0)
+        if digit < have:
+            columns[place] = DIGIT + size % 10
+            size = size // 10
+        else:
+            columns[place] = DIGIT
+    columns[first + left] = POINT
+    columns[end - 4] = LETTER_E
+    columns[end - 3] = MINUS if shown < 0 else PLUS
+    shown = -shown if shown < 0 else shown
+    columns[end - 2] = DIGIT + shown // 10
+    columns[end - 1] = DIGIT + shown % 10
+    return end
+
+
+def write_f(
+    columns: MutableSequence[int], at: int, width: int, decimals: int, mantissa: int, exponent: int, rules: Rules
+) -> int:
+    """Write an F field from column ``at`` on; the column behind it, or -1 where the field cannot hold the number."""
+    minus = 1 if mantissa < 0 or exponent == MINUS_ZERO else 0
+    whole = exponent if mantissa != 0 and exponent > 0 else 0
+    if minus + whole + 1 + decimals > width:
+        return -1
+    end = at + width
+    point = end - decimals - 1
+    for k in range(at, end):
+        columns[k] = BLANK
+    if minus:
+        columns[point - whole - 1] = MINUS
+    for k in range(point - whole, end):
+        columns[k] = DIGIT
+    columns[point] = POINT
+    size = -mantissa if mantissa < 0 else mantissa
+    # The digit of 10**p stands p+1 columns left of the point, or -p right of it; the first one is of 10**(exponent-1).
+    for digit in range(rules[0] - 1, -1, -1):
+        p = exponent - 1 - digit
+        if -decimals <= p:
+            columns[point - p - 1 if p >= 0 else point - p] = DIGIT + size % 10
+        size = size // 10
+    return end
+
+
+def write_floating(
+    columns: MutableSequence[int],
+    at: int,
+    lettered: bool,
+    width: int,
+    decimals: int,
+    mantissa: int,
+    exponent: int,
+    rules: Rules,
+) -> tuple[int, int]:
+    """Write an E field (``lettered``) or an F field; the column behind it, and 1 where it went by E14.8 instead."""
+    if lettered:
+        end = write_e(columns, at, width, decimals, mantissa, exponent, rules)
+    else:
+        end = write_f(columns, at, width, decimals, mantissa, exponent, rules)
+    if end >= 0:
+        return end, 0
+    return write_e(columns, at, E_COLUMNS, E_DECIMALS, mantissa, exponent, rules), 1
+
+
+def write_fixed(columns: MutableSequence[int], at: int, width: int, value: int) -> int:
+    """Write an I field: as many low-order digits as it has room for, right-justified, a minus sign before them."""
+    size = -value if value < 0 else value
+    room = width - 1 if value < 0 else width
+    end = at + width
+    for k in range(at, end):
+        columns[k] = BLANK
+    lead = end if room == 0 else end - 1
+    for k in range(end - 1, end - 1 - room, -1):
+        digit = size % 10
+        size = size // 10
+        columns[k] = DIGIT + digit
+        if digit:
+            lead = k
+    for k in range(end - room, lead):
+        columns[k] = BLANK
+    if value < 0:
+        columns[lead - 1] = MINUS
+    return end

@@ -1,0 +1,109 @@
+"""Hidden lines by Nakamae and Nishita: all three steps, and how their time grows with the number of cuboids.
+
+``python -m modern.bench.hidden_line FILE.svg`` measures the growth and plots it (extra ``plot``).
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any
+
+from modern.bench.clock import Figure, timed
+from modern.papers.nakamae_nishita.hidden import Drawing, draw
+from modern.papers.nakamae_nishita.polyhedron import Polyhedron
+from modern.papers.nakamae_nishita.projection import parallel
+from modern.papers.nakamae_nishita.scenes import scene
+from modern.papers.nakamae_nishita.shapes import cuboid, moved, placed
+
+COUNTS = (10, 20, 50, 100, 200, 500, 1000)
+EYE = (30, -46, 27)
+
+
+def array(x: int, y: int, z: int, step: Fraction) -> list[Polyhedron]:
+    """Unit cuboids in a grid, so far apart."""
+    one = cuboid("cuboid", Fraction(1), Fraction(1), Fraction(1))
+    places = ((i, j, k) for i in range(x) for j in range(y) for k in range(z))
+    return [placed(one, moved((step * i, step * j, step * k)), "cuboid") for i, j, k in places]
+
+
+def field(count: int) -> list[Polyhedron]:
+    """Cuboids on a floor, so far apart that few overlap in the picture."""
+    side = math.isqrt(count - 1) + 1
+    return array(side, side, 1, Fraction(2))[:count]
+
+
+def block(count: int) -> list[Polyhedron]:
+    """Cuboids in a grid of three dimensions: the deeper, the more overlap."""
+    side = next(n for n in range(1, count + 1) if n**3 >= count)
+    return array(side, side, side, Fraction(7, 4))[:count]
+
+
+def drawn(polyhedra: list[Polyhedron]) -> Drawing:
+    """Steps II and III, with the proof that no two polyhedra intersect."""
+    return draw(polyhedra, parallel(EYE))
+
+
+def figures() -> Iterator[Figure]:
+    """Every figure, smallest first."""
+    found = scene("cuboids")
+    observer = found.sight.observer(found.make)
+    yield timed("hidden lines, 60 cuboids, all steps", lambda: draw(found.make, observer), "bar 0.3 s")
+    yield timed("hidden lines, 1,000 cuboids in a grid, all steps", lambda: drawn(block(1000)), "bar 10 s")
+    yield timed("hidden lines, 1,000 cuboids on a floor, all steps", lambda: drawn(field(1000)))
+
+
+def growth() -> dict[str, list[tuple[int, float, int]]]:
+    """Median seconds of all steps, and pairs that overlap, by arrangement and number."""
+    found: dict[str, list[tuple[int, float, int]]] = {}
+    for name, made in (("in a grid of three dimensions", block), ("on a floor, few overlap", field)):
+        found[name] = [
+            (count, timed("", lambda n=count, m=made: drawn(m(n))).median, len(drawn(made(count)).relations))  # type: ignore[misc]
+            for count in COUNTS
+        ]
+    return found
+
+
+def plot(found: dict[str, list[tuple[int, float, int]]], path: str) -> None:
+    """Log-log lines that can be told apart in grey, and a line that grows as n log n."""
+    import matplotlib
+
+    matplotlib.use("svg")
+    matplotlib.rcParams["svg.hashsalt"] = "hull1620"
+    from matplotlib import pyplot
+
+    figure, axes = pyplot.subplots(figsize=(7, 4.5))
+    styles: list[dict[str, Any]] = [
+        {"marker": "o", "linestyle": "-", "color": "0"},
+        {"marker": "s", "linestyle": "--", "color": "0.35"},
+    ]
+    for (name, rows), style in zip(found.items(), styles, strict=True):
+        axes.loglog([count for count, _, _ in rows], [seconds for _, seconds, _ in rows], label=name, **style)
+    few = found["on a floor, few overlap"]
+    scale = few[-1][1] / (few[-1][0] * math.log(few[-1][0]))
+    guide = [scale * count * math.log(count) for count in COUNTS]
+    axes.loglog(COUNTS, guide, linestyle=":", color="0.6", label="n log n")
+    axes.set_xlabel("cuboids")
+    axes.set_ylabel("seconds, median of five")
+    axes.grid(True, which="major", color="0.9")
+    axes.legend()
+    figure.tight_layout()
+    figure.savefig(path, metadata={"Date": None})
+
+
+def main() -> None:
+    """Measure, print and plot."""
+    if len(sys.argv) != 2:
+        sys.exit("usage: python -m modern.bench.hidden_line FILE.svg")
+    for figure in figures():
+        print(figure.line())
+    found = growth()
+    for name, rows in found.items():
+        print(name, ", ".join(f"{count:,}: {seconds:.4f} s, {pairs} pairs" for count, seconds, pairs in rows))
+    plot(found, sys.argv[1])
+
+
+if __name__ == "__main__":
+    main()

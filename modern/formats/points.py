@@ -1,0 +1,138 @@
+"""Points from a file of any kind the command line takes: a data deck, CSV points, or the vertices of an OFF file.
+
+The numbers are those that stand in the file, exactly.  Of a deck's field all of its digits are taken, where the
+programs on the machine would cut the ninth.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from decimal import Decimal
+from fractions import Fraction
+
+from emulator.language.cards import Card, deck_from_text
+from emulator.numbers.arithmetic import profile
+from emulator.numbers.fields import read_floating
+from modern.formats.csv import rows
+from modern.formats.off import parse_off
+from modern.formats.reading import read_source
+from modern.geometry.numbers import ExportError, Point, finite_decimal, number, shown
+from modern.thesis import deck as hulldeck
+
+DECK, CSV, OFF = "deck", "csv", "off"
+_DIGITS = 14
+_RULES = profile(f"truncating:{_DIGITS}").rules
+"""A field of 14 columns holds no more digits than these rules keep."""
+
+
+class InputError(ExportError):
+    """A file that holds no points, or one of them cannot be read; the message names file, line and column."""
+
+
+@dataclass(frozen=True, slots=True)
+class Input:
+    """The points of a file, as decimal text.
+
+    ``places`` say where each stands, ``card 3`` or ``line 3``; ``notes`` what the reader should know, a line each.
+    """
+
+    source: str
+    kind: str
+    points: tuple[Point, ...]
+    places: tuple[str, ...]
+    notes: tuple[str, ...] = ()
+
+
+def read_input(path: str) -> Input:
+    """Read a file (``-``: standard input) and recognise what it is.  Raises EmulatorError (one line)."""
+    name, text = read_source(path)
+    return parse_input(text, name)
+
+
+def parse_input(text: str, source: str) -> Input:
+    """Points from a file's text.  Raises EmulatorError (one line)."""
+    kind = recognise(text, source)
+    found = {DECK: _deck, CSV: _csv, OFF: _off}[kind](text, source)
+    if not found.points:
+        raise InputError(f"{source}: there are no points")
+    return found
+
+
+def recognise(text: str, source: str) -> str:
+    """What a file is: ``deck``, ``csv`` or ``off``, by its first line that is neither blank nor a comment of OFF.
+
+    A word that ends with OFF begins an OFF file; a comma makes it CSV; a number alone is a deck's first card.  Else
+    the ending of the file's name decides.  Raises InputError.
+    """
+    lines = ((number_, row.strip()) for number_, row in enumerate(text.splitlines(), 1))
+    line, first = next(((n, row) for n, row in lines if row and not row.startswith("#")), (0, ""))
+    if not first:
+        raise InputError(f"{source}: there are no points")
+    words = first.split()
+    if words[0].isalnum() and words[0].upper().endswith("OFF"):
+        return OFF
+    if "," in first:
+        return CSV
+    if len(words) == 1 and words[0].isdecimal() and words[0].isascii():
+        return DECK
+    ending = source.rpartition(".")[2].lower()
+    if ending in (DECK, CSV, OFF):
+        return ending
+    raise InputError(
+        f"{source}: line {line}, column 1: {shown(first)} is neither the first card of a deck (N in columns 1-2) "
+        "nor a point x,y,z nor the word OFF"
+    )
+
+
+def _deck(text: str, source: str) -> Input:
+    checked = hulldeck.check(deck_from_text(source, text), _RULES)
+    notes = []
+    if len(checked.sets) > 1:
+        notes.append(f"{source}: {len(checked.sets)} data sets; the first is taken")
+    first = hulldeck.check(checked.deck(0), _RULES)
+    cards = first.sets[0].cards[1:]
+    return Input(
+        source,
+        DECK,
+        tuple(_card_point(card) for card in cards),
+        tuple(f"card {card.number}" for card in cards),
+        (*notes, *first.warnings),
+    )
+
+
+def _card_point(card: Card) -> Point:
+    x, y, z = (_field(card.columns(first, first + 13)) for first in (1, 15, 29))
+    return x, y, z
+
+
+def _field(columns: str) -> str:
+    """The decimal a card's field stands for; the check has read it before."""
+    read = read_floating(hulldeck.COORDINATE, columns, _RULES)
+    if not read.mantissa:
+        return "0"
+    text = finite_decimal(Fraction(Decimal(read.mantissa).scaleb(read.exponent - _DIGITS)))
+    assert text is not None
+    return text
+
+
+def _csv(text: str, source: str) -> Input:
+    points: list[Point] = []
+    places: list[str] = []
+    for line, row in rows(text, source):
+        if len(row) != 3:
+            raise InputError(f"{source}: line {line}, column 1: {len(row)} fields; a point has three, x,y,z")
+        for field, word in enumerate(row, 1):
+            try:
+                if "/" in word:
+                    raise ValueError(f"{shown(word.strip())} is no decimal number")
+                number(word)
+            except ValueError as error:
+                raise InputError(f"{source}: line {line}, field {field}: {error}") from None
+        points.append((row[0].strip(), row[1].strip(), row[2].strip()))
+        places.append(f"line {line}")
+    return Input(source, CSV, tuple(points), tuple(places))
+
+
+def _off(text: str, source: str) -> Input:
+    found = parse_off(text, source)
+    return Input(source, OFF, found.points, tuple(f"line {line}" for line in found.lines))

@@ -1,0 +1,104 @@
+"""A hull from cards to cards: program 1, then program 2 or 3 as the typewriter says (thesis p. 59)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from emulator.language.cards import Deck, deck_from_lines
+from emulator.language.objectcode import Program
+from emulator.machine.machine import Machine
+from emulator.machine.result import Options, Result, Uncut
+
+COPLANAR = "POINTS ARE COPLANAR"
+NOT_COPLANAR = "POINTS ARE NOT COPLANAR"
+DETERMINED = "CONVEX HULL"
+REFUSALS = ("DATA NOT ACCEPTABLE", "ERROR IN PROGRAM")
+
+Load = Callable[[str], Program]
+"""Gives a program compiled, by name."""
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One program's run within a hull run."""
+
+    program: Program
+    name: str
+    result: Result
+
+
+@dataclass(frozen=True, slots=True)
+class HullRun:
+    """The steps of one data set, in order; the last one's punched cards are the final cards."""
+
+    steps: tuple[Step, ...]
+
+    @property
+    def final(self) -> Step:
+        return self.steps[-1]
+
+    @property
+    def refusal(self) -> str:
+        """DATA NOT ACCEPTABLE or ERROR IN PROGRAM where a program stopped at it, else empty."""
+        return next((r for r in (refusal(step.result) for step in self.steps) if r), "")
+
+    @property
+    def complete(self) -> bool:
+        return not self.refusal and all(step.result.ending.normal for step in self.steps)
+
+
+def refusal(result: Result) -> str:
+    """The refusal a run stopped at: typed, and no card punched between it and the next data set or the end."""
+    last = ""
+    for event in result.events:
+        if event.what == "type" and event.text in REFUSALS:
+            last = event.text
+        elif event.what == "punch":
+            last = ""
+        elif event.what == "begin" and last:
+            return last
+    return last
+
+
+def second_program(result: Result) -> str:
+    """The program that takes the cards of this run of program 1, by name; empty where none does."""
+    typed = result.typed
+    second = "program2" if COPLANAR in typed else "program3" if NOT_COPLANAR in typed else ""
+    return second if result.ending.normal and not refusal(result) else ""
+
+
+def run_hull(
+    deck: Deck,
+    load: Load,
+    options: Options | None = None,
+    first: str = "program1",
+    watch: Callable[[Program, Machine], None] | None = None,
+) -> HullRun:
+    """Run one data set through program 1 and the program its typewriter names.
+
+    With ``options.uncut`` numbers go from program 1 to the next whole, not as the card's digits.  ``first`` is the
+    built-in that plays program 1; ``watch`` sees each machine before it runs.  Raises what
+    :meth:`emulator.machine.machine.Machine.run` raises.
+    """
+    options = options or Options()
+    steps = [_run(load(first), first, deck, options, watch, ())]
+    second = second_program(steps[0].result)
+    if second:
+        middle = deck_from_lines(f"cards from {first}", steps[0].result.punched)
+        steps.append(_run(load(second), second, middle, options, watch, steps[0].result.uncut))
+    return HullRun(tuple(steps))
+
+
+def _run(
+    program: Program,
+    name: str,
+    deck: Deck,
+    options: Options,
+    watch: Callable[[Program, Machine], None] | None,
+    uncut: Sequence[Sequence[Uncut]],
+) -> Step:
+    machine = Machine(program, deck, options, uncut=uncut)
+    if watch is not None:
+        watch(program, machine)
+    return Step(program, name, machine.run())

@@ -1,0 +1,111 @@
+"""Object code: the patterns disassembled from a compiler of the time (evidence part two 2.3) and IBM's DO."""
+
+from __future__ import annotations
+
+import pytest
+
+from emulator.language import objectcode as op
+from tests.support.deckwork import code, program
+
+T1 = "temporary 1"
+
+
+@pytest.mark.parametrize(
+    ("statement", "expected"),
+    [
+        ("D=A-A*B", ["TOFAC A", "FMP B", "FSBR A", "FMFAC D"]),
+        ("D=A*B-A", ["TOFAC A", "FMP B", "FSB A", "FMFAC D"]),
+        ("D=A*B-A*B", ["TOFAC A", "FMP B", f"FMFAC {T1}", "TOFAC A", "FMP B", f"FSBR {T1}", "FMFAC D"]),
+        ("D=(-1.)*A", ["TOFAC constant 1.", "FMP A", "RSGN", "FMFAC D"]),
+        ("D=A*(-1.)", ["TOFAC A", "FMP constant 1.", "RSGN", "FMFAC D"]),
+        ("D=-A*B", ["TOFAC A", "FMP B", "RSGN", "FMFAC D"]),
+        ("D=A-B-B", ["TOFAC A", "FSB B", "FSB B", "FMFAC D"]),
+        ("D=A*B+C*D", ["TOFAC A", "FMP B", f"FMFAC {T1}", "TOFAC C", "FMP D", f"FAD {T1}", "FMFAC D"]),
+    ],
+)
+def test_patterns_of_part_two_2_3(statement: str, expected: list[str]) -> None:
+    assert code(statement, "END")[:-1] == expected
+
+
+@pytest.mark.parametrize(
+    ("statement", "expected"),
+    [
+        ("D=A+B*C", ["TOFAC B", "FMP C", "FAD A", "FMFAC D"]),
+        ("D=A/(B-C)", ["TOFAC B", "FSB C", "FDVR A", "FMFAC D"]),
+        ("D=A*B/C", ["TOFAC A", "FMP B", "FDV C", "FMFAC D"]),
+        ("D=-A-B", ["TOFAC A", "FAD B", "RSGN", "FMFAC D"]),
+        ("D=(-A)*(-B)", ["TOFAC A", "FMP B", "FMFAC D"]),
+        ("D=A**2", ["TOFAC A", "FMP A", "FMFAC D"]),
+        ("D=A**3", ["TOFAC A", "FMP A", "FMP A", "FMFAC D"]),
+        ("D=(A+B)**2", ["TOFAC A", "FAD B", f"FMFAC {T1}", f"FMP {T1}", "FMFAC D"]),
+        ("D=A**J", ["TOFAC A", "POWERX J", "FMFAC D"]),
+        ("D=A**B", ["TOFAC B", "POWER A", "FMFAC D"]),
+        ("D=SQRT(A)", ["TOFAC A", "FUNCTION", "FMFAC D"]),
+        ("D=A", ["SEND A", "TRANSMIT D"]),
+        ("D=-A", ["TOFAC A", "RSGN", "FMFAC D"]),
+        ("I=J-K*L", ["TOFIX K", "XMP L", "XSBR J", "FMFIX I"]),
+        ("I=J/(K+L)", ["TOFIX K", "XAD L", "XDVR J", "FMFIX I"]),
+        ("I=-J", ["TOFIX J", "RSGX", "FMFIX I"]),
+        ("I=A", ["TOFAC A", "FIX", "FMFIX I"]),
+        ("A=I", ["TOFIX I", "FLOAT", "FMFAC A"]),
+        ("A=5/3", ["TOFIX constant 5", "XDV constant 3", "FLOAT", "FMFAC A"]),
+    ],
+)
+def test_expressions(statement: str, expected: list[str]) -> None:
+    assert code(statement, "END")[:-1] == expected
+
+
+def test_temporaries_are_used_again_by_the_next_statement() -> None:
+    made = program("D=A*B+C*D", "E=A*B+C*D", "END")
+    assert [e.name for e in made.storage.entries if e.kind == "temporary"] == [T1]
+
+
+def test_two_temporaries() -> None:
+    words = code("D=(A+B)*(C+D)-(A-B)*(C-D)", "END")
+    assert words.count(f"FMFAC {T1}") == 1
+    assert "FMFAC temporary 2" in words
+    assert words[-3:-1] == [f"FSBR {words[-3].removeprefix('FSBR ')}", "FMFAC D"]
+
+
+def test_constant_subscripts_are_addresses() -> None:
+    assert code("DIMENSION X(5),A(2,3)", "X(4)=A(2,3)", "END")[:-1] == ["SEND A(2,3)", "TRANSMIT X(4)"]
+
+
+@pytest.mark.parametrize(
+    ("subscript", "factor", "addend"),
+    [("I", 1, 0), ("I+1", 1, 1), ("I-2", 1, -2), ("2*I", 2, 0), ("3*I+4", 3, 4), ("3*I-4", 3, -4)],
+)
+def test_variable_subscripts(subscript: str, factor: int, addend: int) -> None:
+    """C26-5619 p. 18."""
+    made = program("DIMENSION X(5)", f"A=X({subscript})", "END")
+    (found,) = made.subscripts
+    assert (found.c1, found.o1, found.rows, found.columns) == (factor, addend, 5, 0)
+    assert made.storage.name_of(found.v1) == "I"
+
+
+def test_do_tests_at_the_bottom() -> None:
+    """IBM's object code 10504-10912: set, body, then step and compare (part one 1)."""
+    made = program("DO 5 I=2,N,3", "5 A=B", "END")
+    names = [op.NAMES[i.operation] for i in made.code if i.operation != op.COUNT]
+    assert names == ["TOFIX", "FMFIX", "SEND", "TRANSMIT", "DOTEST", "STOP"]
+    ((variable, step, limit, back),) = made.loops
+    assert [made.storage.name_of(a) for a in (variable, step, limit)] == ["I", "constant 3", "N"]
+    assert made.code[back].operation == op.COUNT
+    assert made.code[back + 1].operation == op.SEND
+
+
+def test_two_dos_on_one_statement_close_inner_first() -> None:
+    made = program("DO 5 I=1,2", "DO 5 J=1,3", "5 A=B", "END")
+    tests = [i.address for i in made.code if i.operation == op.DOTEST]
+    assert [made.storage.name_of(made.loops[t][0]) for t in tests] == ["J", "I"]
+
+
+def test_branches_hold_instruction_numbers() -> None:
+    made = program("5 IF(A)5,6,7", "6 CONTINUE", "7 STOP", "END")
+    (targets,) = made.branches
+    assert [made.line_at(t).label for t in targets] == [5, 6, 7]
+
+
+def test_names_and_meanings_of_every_operation() -> None:
+    assert len(op.NAMES) == op.STOP + 1
+    assert set(op.MEANINGS) == set(op.NAMES)

@@ -1,0 +1,103 @@
+"""FORMAT specifications (C26-5619 p. 35-43, p. 56 for the error types)."""
+
+from __future__ import annotations
+
+import pytest
+
+from emulator.language.formats import Field, Literal, Slash, Spec
+from tests.support.deckwork import diagnostics, errors, program
+
+
+def specs(text: str) -> tuple[Spec, ...]:
+    ((number, spec),) = program(f"5 FORMAT{text}", "END").formats
+    assert number == 5
+    return spec.specs
+
+
+E, I4 = Field("E", 14, 8), Field("I", 4)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("(I4)", (I4,)),
+        ("(4E14.8,3I4)", (E, E, E, E, I4, I4, I4)),
+        ("(F7.3)", (Field("F", 7, 3),)),
+        ("(E10.0)", (Field("E", 10, 0),)),
+        ("(I4,2X,I4)", (I4, Literal("  ", True), I4)),
+        ("(I4,2XI4)", (I4, Literal("  ", True), I4)),
+        ("(3HABCI4)", (Literal("ABC"), I4)),
+        ("(5HA B C)", (Literal("A B C"),)),
+        ("(3H), )", (Literal("), "),)),
+        ("(2H//)", (Literal("//"),)),
+        ("(2HI4)", (Literal("I4"),)),
+        ("( 2 I 4 )", (I4, I4)),
+        ("( 3 H A ,I4)", (Literal(" A "), I4)),
+        ("(//I4/)", (Slash(), Slash(), I4, Slash())),
+        ("(I4/I4)", (I4, Slash(), I4)),
+        ("(2(I4,1X))", (I4, Literal(" ", True), I4, Literal(" ", True))),
+        ("()", ()),
+    ],
+)
+def test_specifications(text: str, expected: tuple[Spec, ...]) -> None:
+    assert specs(text) == expected
+
+
+def test_hollerith_ends_at_column_72() -> None:
+    assert specs("(59H" + "A" * 59 + ")") == (Literal("A" * 59),)
+    (message,) = errors("5 FORMAT(70HABC)", "END")
+    assert (message.number, "runs past the end of the card" in message.message) == (11, True)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "(A4)",
+        "(I)",
+        "(I0)",
+        "(4)",
+        "(E14)",
+        "(E14.)",
+        "(E.8)",
+        "(X)",
+        "(H)",
+        "(0X)",
+        "(0I4)",
+        "(I4 I4)",
+        "(I4",
+        "I4",
+        "(I4))",
+        "(I4)I4",
+        "(-I4)",
+        "(I4.2)",
+        "(I88)",
+        "(10000I1)",
+        "(((((I4)))))",
+        "(2000I4,I4)",
+    ],
+)
+def test_error_11(text: str) -> None:
+    """C26-5619 p. 56: a wrong letter, a missing point or d."""
+    lines = [f"5 FORMAT{text}", "END"]
+    if text == "I4":
+        assert errors(*lines)[0].message.startswith("not a statement")
+        return
+    (message,) = errors(*lines)
+    assert (message.card, message.number) == (1, 11)
+    assert message.column >= 9
+
+
+def test_blank_after_the_point_is_error_11() -> None:
+    assert [d.number for d in errors("5 FORMAT(E14. 8)", "END")] == [11]
+
+
+@pytest.mark.parametrize(("text", "warned"), [("(49X)", 0), ("(50X)", 1), ("(50H" + "A" * 50 + ")", 1)])
+def test_width_of_x_and_h(text: str, warned: int) -> None:
+    """C26-5619 p. 37, 41: at most 49."""
+    found = diagnostics(f"5 FORMAT{text}", "END")
+    assert [d.warning for d in found] == [True] * warned
+
+
+def test_a_bad_format_is_reported_once() -> None:
+    assert len(errors("PUNCH 5,A", "5 FORMAT(A4)", "END")) == 1
+    assert len(errors("PUNCH 5", "5 FORMAT(A4)", "END")) == 1

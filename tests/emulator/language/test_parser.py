@@ -1,0 +1,223 @@
+"""Each form of statement, and each refused form with its card and column."""
+
+from __future__ import annotations
+
+import pytest
+
+from emulator.language import tree
+from emulator.language.parser import MAX_NESTING, Parsed, parse
+from emulator.language.tree import Place
+from tests.support.deckwork import diagnostics, source
+
+
+def parsed(*lines: str) -> Parsed:
+    return parse(source(*lines))
+
+
+def body(line: str) -> tree.Body:
+    found = parsed(line)
+    assert not found.diagnostics
+    return found.statements[0].body
+
+
+def test_assignment_keeps_columns() -> None:
+    found = body("  X(I) = A + 2.*B")
+    assert isinstance(found, tree.Assignment)
+    assert found.target == tree.Reference("X", (tree.Reference("I", (), Place(1, 5)),), Place(1, 3))
+    assert isinstance(found.value, tree.Sum)
+    ((sign, product),) = found.value.rest
+    assert sign == "+"
+    assert isinstance(product, tree.Product)
+    assert product.first == tree.Number("2.", Place(1, 14))
+
+
+def expression(text: str) -> str:
+    """An expression with every parenthesis written."""
+    found = body(f"X={text}")
+    assert isinstance(found, tree.Assignment)
+    return shown(found.value)
+
+
+def shown(node: tree.Expression) -> str:
+    match node:
+        case tree.Number(text, _):
+            return text
+        case tree.Reference(name, arguments, _):
+            return name + (f"({','.join(map(shown, arguments))})" if arguments else "")
+        case tree.Power(base, exponent, _):
+            return f"[{shown(base)}**{shown(exponent)}]"
+        case tree.Product(first, rest, _):
+            return f"[{shown(first)}{''.join(op + shown(part) for op, part in rest)}]"
+        case tree.Sum(minus, first, rest, _):
+            return f"[{'-' * minus}{shown(first)}{''.join(op + shown(part) for op, part in rest)}]"
+
+
+@pytest.mark.parametrize(
+    ("text", "meaning"),
+    [
+        ("A", "A"),
+        ("+A", "A"),
+        ("-A", "[-A]"),
+        ("((A))", "A"),
+        ("A+B-C", "[A+B-C]"),
+        ("A*B/C*D", "[A*B/C*D]"),
+        ("A+B*C", "[A+[B*C]]"),
+        ("-A*B+C", "[-[A*B]+C]"),
+        ("-A**2", "[-[A**2]]"),
+        ("A*B**C", "[A*[B**C]]"),
+        ("(A**B)**C", "[[A**B]**C]"),
+        ("A/(-B)", "[A/[-B]]"),
+        ("A-(B-C)", "[A-[B-C]]"),
+        ("(A+B)*(C+D)", "[[A+B]*[C+D]]"),
+        ("SQRTF(A*B)", "SQRTF([A*B])"),
+        ("Y(I,J+1)", "Y(I,[J+1])"),
+        ("1.E-5+.5E2+2.E+3", "[1.E-5+.5E2+2.E+3]"),
+        ("1.E5+B", "[1.E5+B]"),
+    ],
+)
+def test_expressions(text: str, meaning: str) -> None:
+    """C26-5619 p. 14, 19: ** before * and / before + and -, left to right."""
+    assert expression(text) == meaning
+
+
+def test_control_statements() -> None:
+    assert body("GO TO 10") == tree.GoTo(10)
+    assert body("GO TO (10, 20), I") == tree.ComputedGoTo((10, 20), tree.Reference("I", (), Place(1, 17)))
+    assert body("GO TO (10, 20) I") == tree.ComputedGoTo((10, 20), tree.Reference("I", (), Place(1, 16)))
+    found = body("IF (A-B) 1, 2, 3")
+    assert isinstance(found, tree.If)
+    assert found.labels == (1, 2, 3)
+    assert body("IF (SENSE SWITCH 3) 1, 2") == tree.IfSwitch(3, (1, 2))
+    assert body("CONTINUE") == tree.Continue()
+    assert (body("PAUSE"), body("PAUSE 12")) == (tree.Pause(""), tree.Pause("12"))
+    assert (body("STOP"), body("STOP 7")) == (tree.Stop(""), tree.Stop("7"))
+    assert body("E N D") == tree.End()
+
+
+def test_do() -> None:
+    found = body("DO 10 I=1,N,2")
+    assert isinstance(found, tree.Do)
+    assert (found.label, found.variable.name) == (10, "I")
+    assert [shown(b) for b in (found.first, found.last) + ((found.step,) if found.step else ())] == ["1", "N", "2"]
+    plain = body("DO 10 I=1,N")
+    assert isinstance(plain, tree.Do)
+    assert plain.step is None
+
+
+def test_dimension() -> None:
+    found = body("DIMENSION X(51), A(4,5)")
+    assert found == tree.Dimension((("X", (51,), Place(1, 11)), ("A", (4, 5), Place(1, 18))))
+
+
+@pytest.mark.parametrize("verb", ["READ", "ACCEPT", "PUNCH", "PRINT", "TYPE"])
+def test_input_output(verb: str) -> None:
+    assert body(f"{verb} 5") == tree.InputOutput(verb, 5, ())
+    found = body(f"{verb} 5, A, X(I), (B, (Y(I,J), J=1,3), I=1,N,2)")
+    assert isinstance(found, tree.InputOutput)
+    assert [type(item) for item in found.items] == [tree.Reference, tree.Reference, tree.Loop]
+    loop = found.items[2]
+    assert isinstance(loop, tree.Loop)
+    assert loop.variable.name == "I"
+    assert isinstance(loop.items[1], tree.Loop)
+    assert shown(loop.step) == "2" if loop.step else False
+
+
+def test_format_holds_its_columns() -> None:
+    found = body("5 FORMAT(2H= ,I4)")
+    assert isinstance(found, tree.Format)
+    assert found.text.rstrip() == "(2H= ,I4)"
+
+
+REFUSED = [
+    ("X", 1, 0, "not a statement of this FORTRAN"),
+    ("CALL SUB(X)", 1, 0, "not a statement"),
+    ("SUBROUTINE X", 1, 0, "not a statement"),
+    ("X=", 2, 0, "ends too soon"),
+    ("X=A+", 4, 0, "ends too soon"),
+    ("X=A B)", 6, 0, "')' does not fit"),
+    ("X=(A", 4, 0, "ends too soon"),
+    ("X=A+*B", 5, 0, "'*' does not fit"),
+    ("X=A/-B", 5, 0, "'-' does not fit"),
+    ("X=A**B**C", 7, 0, "'**' does not fit"),
+    ("X=A$", 4, 0, "$"),
+    ("X=1E5", 4, 0, "does not fit"),
+    ("5=X", 2, 0, "does not fit"),
+    ("X+Y=Z", 2, 0, "does not fit here; the form is variable = expression"),
+    ("ABCDEF=1.", 1, 6, "ABCDEF has more than five characters"),
+    ("X=A+LENGTH", 5, 6, "LENGTH has more than five characters"),
+    ("I=12345", 3, 0, "12345 has more than four digits"),
+    ("GO TO", 5, 0, "ends too soon"),
+    ("GO TO X", 7, 0, "'X' does not fit"),
+    ("GO TO 0", 7, 0, "0 is not between 1 and 9999"),
+    ("GO TO (1,2)", 11, 0, "ends too soon"),
+    ("GO TO 10000", 7, 0, "10000 is not between 1 and 9999"),
+    ("10000 X=1.", 7, 0, "10000 is not between 1 and 9999"),
+    ("IF (A) 1,2", 10, 0, "ends too soon"),
+    ("IF (A), 1,2,3", 7, 0, "',' does not fit"),
+    ("IF A 1,2,3", 1, 0, "not a statement"),
+    ("IF (SENSE SWITCH) 1,2", 17, 7, "')' does not fit"),
+    ("IF (SENSE SWITCH 1), 1,2", 20, 7, "',' does not fit"),
+    ("IF (SENSE SWITCH 5) 1,2", 18, 7, "no sense switch 5"),
+    ("DO 10 I=1,", 10, 8, "ends too soon"),
+    ("DO 10 I=1,2,3,4", 14, 8, "',' does not fit"),
+    ("CONTINUE 5", 10, 0, "'5' does not fit"),
+    ("DIMENSION X(5),", 15, 9, "ends too soon"),
+    ("DIMENSION X", 11, 9, "ends too soon"),
+    ("DIMENSION X(I)", 13, 9, "'I' does not fit"),
+    ("DIMENSION X(2,3,4)", 11, 9, "X has more than two dimensions"),
+    ("READ", 4, 13, "ends too soon"),
+    ("PUNCH 5,", 8, 13, "ends too soon"),
+    ("PUNCH 5,3", 9, 13, "'3' does not fit"),
+    ("PUNCH 5,(A(I),I=1)", 18, 13, "')' does not fit"),
+    ("X=" + "(" * 61 + "A", 1, 0, f"nested more than {MAX_NESTING} deep"),
+]
+
+
+@pytest.mark.parametrize(("line", "column", "number", "words"), REFUSED, ids=[line[:30] for line, *_ in REFUSED])
+def test_refused(line: str, column: int, number: int, words: str) -> None:
+    """Error types by C26-5619 p. 56: 6 name, 7 sense switch, 8 DO, 9 DIMENSION, 13 input and output."""
+    found = parsed("C  FIRST CARD", line)
+    (message,) = found.diagnostics
+    assert (message.card, message.column, message.number) == (2, column, number)
+    assert words in message.message
+    assert not found.statements
+
+
+@pytest.mark.parametrize(
+    ("line", "number"),
+    [
+        ("DO 10, I=1,5", 8),
+        ("READ X", 13),
+        ("10 FORMT(I4)", 10),
+        ("READ", 13),
+        ("DIMENSION X(5),", 9),
+        ("IF (SENSE SWITCH) 1,2", 7),
+    ],
+)
+def test_error_types_of_page_56(line: str, number: int) -> None:
+    (message,) = parsed(line).diagnostics
+    assert message.number == number
+
+
+def test_a_statement_number_without_a_statement() -> None:
+    (message,) = parsed("100").diagnostics
+    assert "a statement number without a statement" in message.message
+
+
+def test_a_bad_card_does_not_stop_the_others() -> None:
+    found = parsed("X=", "Y=1.", "Z==1.", "END")
+    assert [d.card for d in found.diagnostics] == [1, 3]
+    assert len(found.statements) == 2
+
+
+def test_do_without_a_limit_is_an_assignment() -> None:
+    """``DO10I`` is a name of five characters."""
+    found = body("DO 10 I=1")
+    assert isinstance(found, tree.Assignment)
+    assert found.target.name == "DO10I"
+
+
+@pytest.mark.parametrize(("first", "last"), [("100", ""), ("DIMENSION X(", "     1)"), ("X=1.E", ""), ("GO TO ", "")])
+def test_a_number_over_seventy_cards(first: str, last: str) -> None:
+    cards = [first, *["     1" + "2" * 66] * 70, last]
+    assert diagnostics(*cards, "END")

@@ -1,0 +1,144 @@
+"""From cards to statements: columns, comments, continuation (C26-5619 p. 12; OPEN-QUESTIONS 1 and 2)."""
+
+from __future__ import annotations
+
+import pytest
+
+from emulator.language.statements import Source, classify, is_comment, sources
+from emulator.language.tree import Place
+from tests.support.deckwork import source
+
+
+def only(*lines: str) -> Source:
+    (found,) = sources(source(*lines))
+    return found
+
+
+@pytest.mark.parametrize(
+    ("card", "label", "text"),
+    [
+        ("X=1.", "", "X=1."),
+        ("100 X=1.", "100", "X=1."),
+        ("100X=1.", "100", "X=1."),
+        ("  1 0 0   X = 1 .", "100", "X=1."),
+        ("      X=1.", "", "X=1."),
+        (" " * 68 + "X=1.", "", "X=1."),
+        ("2157 CONTINUE", "2157", "CONTINUE"),
+        ("      DO 101 I = 1 , N", "", "DO101I=1,N"),
+        ("      IF (SENSE SWITCH 1) 128, 100", "", "IF(SENSESWITCH1)128,100"),
+    ],
+)
+def test_a_statement_may_start_in_any_column(card: str, label: str, text: str) -> None:
+    """C26-5619 p. 12; the thesis squeezes ``28FORMAT(`` onto its cards."""
+    found = only(card)
+    assert (found.label, found.text) == (label, text)
+
+
+def test_a_format_keeps_its_columns() -> None:
+    found = only("28FORMAT (3X,5HA B C)")
+    assert (found.label, found.kind) == ("28", "format")
+    assert found.text.rstrip() == "(3X,5HA B C)"
+    assert found.places[0] == Place(1, 10)
+    assert len(found.text) == len(found.places) == 72 - 9
+
+
+def test_places_are_card_and_column() -> None:
+    found = only("C  X", " 10  A = B")
+    assert found.place == Place(2, 6)
+    assert found.places == (Place(2, 6), Place(2, 8), Place(2, 10))
+
+
+def test_columns_73_to_80_are_identification() -> None:
+    """C26-5619 p. 12, the figure."""
+    assert only("X=1.".ljust(72) + "BUTL0010").text == "X=1."
+    assert only(" " * 70 + "X=1.5").text == "X="
+
+
+@pytest.mark.parametrize("card", ["C  A COMMENT", "C", "C  ", "", "     ", "C     X=1."])
+def test_comments(card: str) -> None:
+    """C26-5619 p. 12: C and two blanks; a blank card is passed over (OPEN-QUESTIONS 2)."""
+    (found,) = source(card, "X=1.").cards[:1]
+    assert is_comment(found)
+    assert only(card, "X=1.").text == "X=1."
+
+
+@pytest.mark.parametrize("card", ["C1=2.", "C(3)=2.", "C =2.", "CA =1.", "CONTINUE"])
+def test_not_comments(card: str) -> None:
+    assert only(card).text == card.replace(" ", "")
+
+
+def test_identification_alone_is_no_statement() -> None:
+    """Nothing in columns 1 to 72: there is no statement to read, whatever is punched behind."""
+    assert [s.text for s in sources(source(" " * 72 + "BUTL0010", "X=1."))] == ["X=1."]
+
+
+def test_continuation_by_column_6() -> None:
+    found = only("      X = A +", "     1 B +", "     2C")
+    assert found.text == "X=A+B+C"
+    assert [card.number for card in found.cards] == [1, 2, 3]
+    assert found.places[-1] == Place(3, 7)
+
+
+def test_continuation_of_hollerith_goes_on_in_column_7() -> None:
+    first = "   10 FORMAT(6HAB"
+    found = only(first.ljust(70) + "12", "     1CD)")
+    assert found.text.rstrip() == (first[12:].ljust(58) + "12CD)")
+    assert found.places[found.text.index("C")] == Place(2, 7)
+
+
+def test_a_comment_does_not_end_a_continued_statement() -> None:
+    assert only("      X = A +", "C  A COMMENT", "     1 B").text == "X=A+B"
+
+
+@pytest.mark.parametrize(
+    ("card", "texts"),
+    [
+        ("     0 B", ["X=A+", "B"]),
+        ("      Y=1.", ["X=A+", "Y=1."]),
+        ("     1Y=1.", ["X=A+", "Y=1."]),
+        ("    11 B", ["X=A+", "B"]),
+    ],
+)
+def test_what_does_not_continue(card: str, texts: list[str]) -> None:
+    """A zero in column 6, something in columns 1 to 5, or a statement of its own (OPEN-QUESTIONS 1)."""
+    assert [s.text for s in sources(source("      X = A +", card))] == texts
+
+
+def test_a_format_numbered_in_column_6() -> None:
+    """A statement may start in any column; the parentheses of a Hollerith field need not match."""
+    cards = source("1 FORMAT(I4)", "     5 FORMAT(4H(A)))", "END")
+    assert [(s.label, s.kind) for s in sources(cards)] == [("1", "format"), ("5", "format"), ("", "end")]
+
+
+def test_continuation_of_an_indexed_list() -> None:
+    assert only("      PUNCH 5,(A(I),", "     1 I=1,3)").text == "PUNCH5,(A(I),I=1,3)"
+
+
+@pytest.mark.parametrize(
+    ("text", "kind"),
+    [
+        ("X=1.", "assignment"),
+        ("DO10I=1,5", "do"),
+        ("DO10I=1.5", "assignment"),
+        ("DO10I=A(1,2)", "assignment"),
+        ("GOTO10", "go_to"),
+        ("GOTO(1,2),I", "computed_go_to"),
+        ("GOTO1=5.", "assignment"),
+        ("IF(A)1,2,3", "if"),
+        ("IF(SENSESWITCH1)2,3", "if_switch"),
+        ("CONTINUE", "continue"),
+        ("PAUSE", "pause"),
+        ("STOP7", "stop"),
+        ("END", "end"),
+        ("END=1.", "assignment"),
+        ("DIMENSIONX(5)", "dimension"),
+        ("READ1,X", "input_output"),
+        ("PUNCH1", "input_output"),
+        ("TYPE1,(X(I),I=1,5)", "input_output"),
+        ("CALLX", "unknown"),
+        ("FORMAT", "unknown"),
+        ("", "unknown"),
+    ],
+)
+def test_classify(text: str, kind: str) -> None:
+    assert classify(text) == kind

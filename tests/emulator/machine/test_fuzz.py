@@ -1,0 +1,107 @@
+"""Random decks: whatever is read, the emulator answers with a result or with an error of its own, within the limit."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from emulator.errors import EmulatorError
+from emulator.language.cards import deck_from_lines
+from emulator.language.compiler import translate
+from emulator.machine.machine import Machine
+from emulator.machine.result import Options, Result
+from emulator.machine.timing import measure
+from emulator.numbers.arithmetic import profile
+from tests.support.decks_at_random import ALL_FUNCTIONS, CARD, CARD_TEXT, DATA, programs, spoilt_programs
+from tests.support.deckwork import source, within
+
+OPTIONS = st.builds(
+    Options,
+    profile=st.sampled_from(["truncating", "ibm1962", "truncating:2", "rounding:8", "rounding:28"]).map(profile),
+    switches=st.frozensets(st.integers(1, 4)),
+    core=st.sampled_from([20_000, 40_000, 60_000]),
+    bounds=st.sampled_from(["strict", "core"]),
+    limit=st.just(200_000),
+)
+KEYS = st.lists(st.text(max_size=12), max_size=4)
+
+
+def exercise(cards: list[str], data: list[str], options: Options, keys: list[str]) -> str:
+    """Compile and run; the kind of the ending, or the name of the error."""
+    with within(30):
+        try:
+            made, messages = translate(source(*cards))
+            if made is None:
+                assert any(not m.warning for m in messages)
+                assert all(1 <= m.card <= len(cards) and 0 <= m.column <= 80 for m in messages)
+                assert all("\n" not in m.line("x") for m in messages)
+                return "refused"
+            machine = Machine(made, deck_from_lines("data", data), options, keys)
+            result = machine.run()
+        except EmulatorError as caught:
+            error = caught
+        else:
+            return judged(machine, result, options)
+        assert str(error)
+        assert "\n" not in str(error)
+        return type(error).__name__
+
+
+def judged(machine: Machine, result: Result, options: Options) -> str:
+    """What every result must keep to; the kind of its ending."""
+    assert result.statements <= options.limit
+    assert bool(result.ending.message) == (not result.ending.normal)
+    assert "\n" not in result.ending.message
+    assert len(machine.mantissas) == len(machine.exponents) == machine.program.storage.fields
+    assert measure(machine.program, result).seconds >= 0
+    return result.ending.kind
+
+
+@settings(max_examples=60)
+@given(programs(), DATA, OPTIONS, KEYS)
+def test_mostly_valid_programs(cards: list[str], data: list[str], options: Options, keys: list[str]) -> None:
+    exercise(cards, data, options, keys)
+
+
+@settings(max_examples=100)
+@given(programs(ALL_FUNCTIONS, powers=True), DATA, OPTIONS, KEYS)
+def test_with_every_function(cards: list[str], data: list[str], options: Options, keys: list[str]) -> None:
+    exercise(cards, data, replace(options, limit=1_000), keys)
+
+
+@settings(max_examples=100)
+@given(spoilt_programs(), DATA, OPTIONS, KEYS)
+def test_spoilt_programs(cards: list[str], data: list[str], options: Options, keys: list[str]) -> None:
+    exercise(cards, data, replace(options, limit=2_000), keys)
+
+
+@settings(max_examples=300)
+@given(st.lists(CARD, max_size=10), DATA, OPTIONS)
+def test_random_cards(cards: list[str], data: list[str], options: Options) -> None:
+    exercise(cards, data, replace(options, limit=2_000), [])
+
+
+@settings(max_examples=150)
+@given(st.text(min_size=1, max_size=40), CARD_TEXT)
+def test_random_formats(text: str, card: str) -> None:
+    """One FORMAT, used both ways, over random columns."""
+    spec = "".join(c for c in text.upper() if c in "0123456789IEFXH/(),. ")[:40]
+    lines = [f"READ 1,{'A' if 'E' in spec else 'I'}", f"PUNCH 1,{'A' if 'E' in spec else 'I'}", f"1 FORMAT({spec})"]
+    exercise([*lines, "END"], [card] * 5, Options(limit=1_000), [])
+
+
+def test_the_strategy_makes_programs_that_run() -> None:
+    """A fuzz of refused decks would prove little: three in four compile, they end in many ways, some normally."""
+    kinds: list[str] = []
+
+    @settings(max_examples=100, derandomize=True, database=None)
+    @given(programs(), DATA)
+    def sample(cards: list[str], data: list[str]) -> None:
+        kinds.append(exercise(cards, data, Options(limit=500), []))
+
+    sample()
+    assert kinds.count("refused") < len(kinds) / 4
+    assert len(set(kinds)) >= 7
+    assert sum(kind in ("end", "stop", "hopper") for kind in kinds) >= len(kinds) / 10

@@ -1,0 +1,230 @@
+"""The object code over numbers of Python: against the decimal engine, between systems, and as a user sets it up."""
+
+from __future__ import annotations
+
+import io
+import re
+from dataclasses import replace
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from emulator.compiled.batch import run_batch
+from emulator.errors import EmulatorError
+from emulator.language.cards import deck_from_lines
+from emulator.language.compiler import translate
+from emulator.machine.machine import Machine
+from emulator.machine.result import Options, Result
+from emulator.machine.trace import Tracer
+from emulator.numbers import DecimalNumbers, numbers
+from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, profile
+from tests.support.decks_at_random import ALL_FUNCTIONS, DATA, programs
+from tests.support.deckwork import program, source, within
+
+PROFILES = st.sampled_from(["truncating", "ibm1962", "truncating:2", "truncating:20", "rounding:3", "rounding:28"])
+OPTIONS = st.builds(
+    Options,
+    profile=PROFILES.map(profile),
+    switches=st.frozensets(st.integers(1, 4)),
+    bounds=st.sampled_from(["strict", "core"]),
+    limit=st.sampled_from([0, 1, 30, 3_000]),
+)
+
+
+def ran(lines: list[str], data: list[str], options: Options) -> tuple[Result | str, Machine | None]:
+    """A result or an error's words, and the machine."""
+    with within(30):
+        try:
+            made, _ = translate(source(*lines))
+            if made is None:
+                return "refused", None
+            machine = Machine(made, deck_from_lines("data", data), options, ["1.5", "-7", "2"])
+            return machine.run(), machine
+        except EmulatorError as error:
+            return str(error), None
+
+
+def results(name: str, *lines: str, data: tuple[str, ...] = (), limit: int = 10_000) -> Result:
+    options = Options(numbers=numbers(name), limit=limit)
+    return Machine(program(*lines), deck_from_lines("data.cards", data), options).run()
+
+
+@settings(max_examples=60)
+@given(programs(ALL_FUNCTIONS, powers=True), DATA, OPTIONS)
+def test_decimal_numbers_run_as_the_decimal_engine_does(cards: list[str], data: list[str], options: Options) -> None:
+    """Every card, typed line, error code, warning, count and message; and every field of storage at the end."""
+    plain, first = ran(cards, data, options)
+    hosted, second = ran(cards, data, replace(options, numbers=DecimalNumbers(options.profile)))
+    assert hosted == plain
+    if first is not None and second is not None:
+        assert fields(second) == list(zip(first.mantissas, first.exponents, strict=True))
+        assert first.registers[4] == second.registers[4]
+
+
+def fields(machine: Machine) -> list[tuple[int, int]]:
+    pairs = zip(machine.mantissas, machine.exponents, strict=True)
+    return [(value, kind) if kind in (FIXED_POINT, UNDEFINED) else value for value, kind in pairs]
+
+
+@settings(max_examples=60)
+@given(programs(), DATA)
+def test_double_precision_twice(cards: list[str], data: list[str]) -> None:
+    """Python's floats and mpmath at 53 bits: the same decisions and, signs of zero apart, the same cards."""
+    runs = [ran(cards, data, Options(numbers=numbers(name), limit=2_000))[0] for name in ("float64", "mp:53")]
+    one, other = runs
+    if isinstance(one, Result) and isinstance(other, Result):
+        if one.errors or other.errors:
+            return
+        assert one.counts == other.counts
+        assert one.ending.kind == other.ending.kind
+        assert [unsigned(card) for card in one.punched] == [unsigned(card) for card in other.punched]
+    else:
+        assert one == other
+
+
+def unsigned(card: str) -> str:
+    """A card without the signs of its zeros."""
+    return re.sub(r"-(?=\.0*(E-99)?(?!\d))", " ", card)
+
+
+@settings(max_examples=60)
+@given(programs(), DATA)
+def test_long_decimals_exactly(cards: list[str], data: list[str]) -> None:
+    """Where no digit is cut and no quotient is taken, 28 decimal digits and exact numbers punch the same cards."""
+    whole = [card for card in cards if "/" not in card or "FORMAT" in card]
+    runs = [
+        ran(whole, data, options)[0]
+        for options in (
+            Options(numbers=numbers("exact"), limit=200),
+            Options(profile=profile("truncating:28"), limit=200),
+        )
+    ]
+    one, other = runs
+    if isinstance(one, Result) and isinstance(other, Result) and one.ending.kind != "undecided" and not other.errors:
+        assert one.punched == other.punched
+        assert one.counts == other.counts
+
+
+@pytest.mark.parametrize("name", ["float64", "float32", "mp:24", "exact", "truncating"])
+@settings(max_examples=15)
+@given(cards=programs(ALL_FUNCTIONS, powers=True), data=DATA)
+def test_every_run_ends_with_a_result_or_one_line(name: str, cards: list[str], data: list[str]) -> None:
+    outcome, _ = ran(cards, data, Options(numbers=numbers(name), limit=1_000))
+    if isinstance(outcome, Result):
+        assert bool(outcome.ending.message) == (not outcome.ending.normal)
+        assert "\n" not in outcome.ending.message
+    else:
+        assert "\n" not in outcome
+
+
+def test_a_number_of_the_source_and_of_a_card_loses_no_digit() -> None:
+    lines = ["READ 1,A", "B=.123456789012345", "IF(A-B)2,3,2", "2 STOP", "3 PUNCH 4,A", "1 FORMAT(F20.15)"]
+    for name, kind in (("exact", "end"), ("mp:100", "end"), ("float64", "end")):
+        result = results(name, *lines, "4 FORMAT(F18.15)", "END", data=(" .123456789012345",))
+        assert result.ending.kind == kind
+        assert result.punched == ("  .123456789012345",)
+    short = Machine(program(*lines, "4 FORMAT(F18.15)", "END"), deck_from_lines("d", [" .123456789012345"])).run()
+    assert short.punched == ("  .123456780000000",)
+
+
+@pytest.mark.parametrize("name", ["exact", "float64", "float32", "mp:30", "mp:200"])
+def test_a_card_shows_the_decimal_that_was_read(name: str) -> None:
+    lines = ["READ 1,A", "PUNCH 1,A", "1 FORMAT(E14.8)", "END"]
+    for text in (" .30000000E+00", "-.12345600E-17", " .70000000E-30", " .10000000E-37", " .00000000E-99"):
+        assert results(name, *lines, data=(text,)).punched == (text.rstrip(),)
+
+
+@pytest.mark.parametrize("name", ["exact", "float64", "mp:100"])
+def test_output_cuts_and_does_not_round(name: str) -> None:
+    lines = ["A=2./3.", "B=-A", "PUNCH 1,A,B,A", "1 FORMAT(2E14.8,F7.3)", "END"]
+    assert results(name, *lines).punched == (" .66666666E+00-.66666666E+00   .666",)
+
+
+@pytest.mark.parametrize("name", ["exact", "float64", "float32", "truncating"])
+def test_the_sign_of_a_zero_follows_from_the_object_code(name: str) -> None:
+    """``A-B*C`` is B*C minus A, reversed: a cancellation gives minus zero (docs/emulator.md)."""
+    lines = ["A=6.", "B=2.", "C=3.", "D=A-B*C", "E=B*C-A", "F=-D", "PUNCH 1,D,E,F", "1 FORMAT(3E14.8)", "END"]
+    assert results(name, *lines).punched == ("-.00000000E-99 .00000000E-99 .00000000E-99",)
+
+
+def test_minus_zero_in_exact_numbers_is_zero_where_it_is_computed_with() -> None:
+    lines = ["A=-0.", "Z=A+A", "Y=A*1.", "X=A", "IF(A)5,6,5", "5 STOP", "6 PUNCH 1,Z,Y,X", "1 FORMAT(3E14.8)", "END"]
+    assert results("exact", *lines).punched == (" .00000000E-99 .00000000E-99-.00000000E-99",)
+
+
+def test_fixed_point_is_the_machines_in_every_system() -> None:
+    lines = ["K=9999", "K=K+2", "X=K", "M=12345.9", "L=-2.9", "PUNCH 1,K,X,M,L", "1 FORMAT(I5,F6.2,2I5)", "END"]
+    for name in ("exact", "float64", "float32", "mp:60"):
+        assert results(name, *lines).punched == ("    1  1.00 2345   -2",)
+
+
+def test_an_undefined_number_stops_the_run() -> None:
+    result = results("exact", "A=B+1.", "END")
+    assert (result.ending.kind, result.ending.message) == (
+        "undefined",
+        "deck.f: card 1: B is undefined where it is computed with, in A=B+1.",
+    )
+
+
+def test_bounds_and_copies_past_the_end() -> None:
+    start = ["DIMENSION X(3)", "I=3", "X(3)=1."]
+    assert results("float64", *start, "Y=X(I+1)", "END").ending.kind == "end"
+    assert results("float64", *start, "Y=X(I+1)+1.", "END").ending.kind == "bounds"
+    assert results("float64", *start, "I=5", "Y=X(I)", "END").ending.kind == "bounds"
+
+
+def test_a_trace_shows_all_digits() -> None:
+    file = io.StringIO()
+    machine = Machine(program("A=1./3.", "B=1./8.", "END"), deck_from_lines("d", []), Options(numbers=numbers("exact")))
+    tracer = Tracer(file)
+    tracer.watch(machine.program, machine)
+    machine.run()
+    tracer.close()
+    assert "A = 0.33333333333333333333..." in file.getvalue()
+    assert "B = 0.125\n" in file.getvalue()
+
+
+def test_a_batch_runs_over_numbers_too() -> None:
+    made = program("READ 1,A", "B=A/3.*3.", "PUNCH 1,B", "1 FORMAT(E14.8)", "END")
+    decks = [deck_from_lines("d", [text]) for text in ("2.", "1.")]
+    options = Options(numbers=numbers("float64"))
+    assert [r.punched for r in run_batch(made, decks, options)] == [(" .20000000E+01",), (" .10000000E+01",)]
+    assert [r.punched for r in run_batch(made, decks)] == [(" .19999999E+01",), (" .99999999E+00",)]
+
+
+@pytest.mark.parametrize("name", ["exact", "truncating", "truncating:20"])
+def test_uncut_numbers_go_with_the_cards(name: str) -> None:
+    """What one program punches uncut another reads whole; without the numbers beside it reads the columns."""
+    found = numbers(name)
+    hosting = Options(numbers=found, uncut=True)
+    writer = program("N=7", "A=1./3.", "B=2.", "PUNCH 1,N,A,B", "PUNCH 1,N,B,A", "1 FORMAT(I2,2E14.8)", "END")
+    reader = program(
+        *["READ 1,N,A,B", "READ 1,N,C,D", "IF(A-D)2,3,2", "2 PUNCH 4,N", "3 X=A*3.", "PUNCH 4,N,X"],
+        *["1 FORMAT(I2,2E14.8)", "4 FORMAT(I2,F25.20)", "END"],
+    )
+    written = Machine(writer, deck_from_lines("d", []), hosting).run()
+    assert [[(column, width) for column, width, _ in card] for card in written.uncut] == [[(3, 14), (17, 14)]] * 2
+    deck = deck_from_lines("middle", written.punched)
+    whole = Machine(reader, deck, hosting, uncut=written.uncut).run()
+    cut = Machine(reader, deck, hosting).run()
+    expected = {
+        "exact": "1.00000000000000000000",
+        "truncating": ".99999999000000000000",
+        "truncating:20": "." + "9" * 20,
+    }
+    assert whole.punched == (f" 7{expected[name].rjust(25)}",)
+    assert cut.punched == (f" 7{'.99999999000000000000'.rjust(25)}",)
+
+
+def test_the_decimal_engine_keeps_numbers_uncut_as_well() -> None:
+    options = Options(profile=profile("truncating:12"), uncut=True)
+    made = program("A=1./3.", "PUNCH 1,A", "1 FORMAT(E14.8)", "END")
+    result = Machine(made, deck_from_lines("d", []), options).run()
+    assert result.uncut == (((1, 14, (333333333333, 0)),),)
+    assert run_batch(made, [deck_from_lines("d", [])], options)[0] == result
+
+
+def test_without_uncut_nothing_is_kept() -> None:
+    result = results("exact", "A=1./3.", "PUNCH 1,A", "1 FORMAT(E14.8)", "END")
+    assert result.uncut == ()

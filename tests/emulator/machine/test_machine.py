@@ -1,0 +1,333 @@
+"""The machine: endings, limit, switches, loops and jumps, devices (part one 1 and 2, part two 5)."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from emulator.errors import CardError, DeckError
+from emulator.language.cards import deck_from_lines
+from emulator.machine.machine import Machine
+from emulator.machine.result import Ending, Options
+from tests.support.deckwork import errors, machine, number, program, punched, run, source, within
+
+OUT = "PUNCH 90,K"
+F = "90 FORMAT(I4)"
+
+
+def test_endings() -> None:
+    assert run("X=1.", "END").ending.kind == "end"
+    assert run("STOP", "END").ending.kind == "stop"
+    assert run("X=1.").ending.kind == "end"
+    assert run("5 READ 90,K", "GO TO 5", F, "END", data=["1", "2"]).ending.kind == "hopper"
+    assert [Ending(kind).normal for kind in ("end", "stop", "hopper", "limit", "mode")] == [True] * 3 + [False] * 2
+
+
+def test_stop_stops_before_what_follows() -> None:
+    result = run("K=1", OUT, "STOP", OUT, F, "END")
+    assert result.punched == ("   1",)
+    assert result.statements == 3
+
+
+def test_hopper_empty_at_the_start_of_a_data_set() -> None:
+    """The first READ executed begins a data set: a hopper empty there is the normal end of a job."""
+    lines = ["1 READ 90,N", "DO 2 I=1,N", "2 READ 90,K", OUT, "GO TO 1", F, "END"]
+    result = run(*lines, data=["   2", "   5", "   6", "   1", "   7"])
+    assert result.ending.kind == "hopper"
+    assert result.punched == ("   6", "   7")
+    assert [event.what for event in result.events].count("begin") == 3
+    assert result.cards_read == 5
+
+
+def test_hopper_empty_in_the_middle_of_a_data_set() -> None:
+    lines = ["1 READ 90,N", "DO 2 I=1,N", "2 READ 90,K", OUT, "GO TO 1", F, "END"]
+    with pytest.raises(DeckError) as caught:
+        run(*lines, data=["   2", "   5"])
+    assert str(caught.value) == (
+        "data.cards: card 2, column 1: the deck ends in the middle of a data set; "
+        "another card is read by statement 2 (card 3) of deck.f"
+    )
+
+
+def test_hopper_empty_from_the_start() -> None:
+    with pytest.raises(DeckError, match="the hopper is empty at the first READ"):
+        run("READ 90,K", F, "END")
+
+
+def test_limit_names_the_loop() -> None:
+    result = run("K=0", "10 K=K+1", "L=K", "GO TO 10", "END", limit=5_000)
+    assert result.ending.kind == "limit"
+    assert not result.ending.normal
+    assert result.ending.message == "deck.f: stopped after 5000 statements; it loops on cards 2 to 4, statement 10"
+    assert result.statements == 5_000
+
+
+def test_limit_names_only_the_loop_it_was_in_at_last() -> None:
+    lines = ["DO 5 I=1,900", "5 K=I", "6 GO TO 6", "END"]
+    assert run(*lines, limit=10_000).ending.message.endswith("it loops on card 3, statement 6")
+
+
+def test_a_loop_of_cards_without_numbers() -> None:
+    message = run("DO 5 I=1,9999", "5 CONTINUE", "END", limit=30_000).ending.message
+    assert message.endswith("it loops on card 2, statement 5")
+
+
+@pytest.mark.parametrize("limit", [2, 3, 7, 60])
+def test_a_run_of_exactly_the_limit_ends(limit: int) -> None:
+    cards = [f"{n} CONTINUE" for n in range(1, limit)]
+    assert run(*cards, "END", limit=limit).ending.kind == "end"
+    assert run(*cards, "X=1.", "END", limit=limit).ending.kind == "limit"
+
+
+@pytest.mark.parametrize("limit", [2, 1_999, 4_001, 20_000])
+def test_the_limit_is_exact(limit: int) -> None:
+    result = run("1 GO TO 1", "END", limit=limit)
+    assert (result.ending.kind, result.statements, result.counts[0]) == ("limit", limit, limit)
+
+
+@pytest.mark.parametrize("limit", [0, 1])
+def test_the_smallest_limits(limit: int) -> None:
+    assert run("1 GO TO 1", "END", limit=limit).ending.kind == "limit"
+
+
+@pytest.mark.parametrize(("first", "items"), [("N=9999", "(K,I=1,N)"), ("N=0", "(K,I=1,2,N)"), ("N=-1", "(K,I=1,2,N)")])
+def test_the_limit_holds_in_an_endless_list(first: str, items: str) -> None:
+    """The variable of a list wraps from 9999 to 0, or a step in core is zero: the machine would run for ever."""
+    with within(0.7):
+        assert run("K=1", first, f"PUNCH 90,{items}", F, "END", limit=1_000).ending.kind == "limit"
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [["1 PUNCH 5", "GO TO 1", "5 FORMAT(200(/))"], ["DIMENSION M(200)", "1 PUNCH 5,M", "GO TO 1", "5 FORMAT(I4)"]],
+    ids=["slashes", "whole array"],
+)
+def test_the_limit_bounds_what_is_punched(lines: list[str]) -> None:
+    """At the usual limit of five million these would fill the memory long before they end."""
+    start = ["DO 9 I=1,200", "9 M(I)=I"] if "M(200)" in lines[0] else []
+    result = run(*lines[: len(start) // 2], *start, *lines[len(start) // 2 :], "END", limit=1_000)
+    assert result.ending.kind == "limit"
+    assert len(result.punched) <= 1_400
+
+
+# Loops and jumps.
+
+
+def test_live_limit() -> None:
+    """Part two 5: changing N inside the loop shortens the loop at once."""
+    assert punched("N=9", "K=0", "DO 5 I=1,N", "K=K+1", "5 N=4", "PUNCH 90,K,I", "90 FORMAT(2I4)", "END") == (
+        "   4   5",
+    )
+
+
+def test_a_jump_out_keeps_the_variable() -> None:
+    lines = ["DO 5 I=1,9", "IF(I-4)5,6,5", "5 CONTINUE", "6 K=I", OUT, F, "END"]
+    assert punched(*lines) == ("   4",)
+
+
+def test_a_jump_into_a_range() -> None:
+    """Program 2 goes to 138 inside the DO of 143: the variable goes on from where it is (GOTRAN p. 16)."""
+    lines = ["I=7", "K=0", "GO TO 4", "DO 5 I=1,9", "4 K=K+1", "5 CONTINUE", "PUNCH 90,K,I", "90 FORMAT(2I4)", "END"]
+    assert punched(*lines) == ("   3  10",)
+
+
+def test_nested_dos_on_one_statement() -> None:
+    lines = ["K=0", "DO 5 I=1,3", "DO 5 J=1,4", "5 K=K+1", "PUNCH 90,K,I,J", "90 FORMAT(3I4)", "END"]
+    assert punched(*lines) == ("  12   4   5",)
+
+
+@pytest.mark.parametrize("last", ["5 READ 90,K", "5 PUNCH 90,K", "5 PAUSE"])
+def test_statements_a_do_may_end_with(last: str) -> None:
+    """The thesis ends loops on READ and PUNCH."""
+    result = run("K=8", "DO 5 I=1,3", last, "PUNCH 90,I", F, "END", data=["1", "2", "3"])
+    assert result.punched[-1] == "   4"
+
+
+def test_computed_go_to() -> None:
+    lines = ["READ 90,K", "GO TO (11,12,13),K", "11 K=100", "GO TO 20", "12 K=200", "GO TO 20", "13 K=300", f"20 {OUT}"]
+    for index in (1, 2, 3):
+        assert punched(*lines, F, "END", data=[f"   {index}"]) == (f" {index}00",)
+
+
+@pytest.mark.parametrize("index", [0, 4, -1, 9999])
+def test_computed_go_to_out_of_range(index: int) -> None:
+    """The machine would have branched anywhere (OPEN-QUESTIONS 12)."""
+    result = run("READ 90,K", "GO TO (1,1,1),K", "1 STOP", "90 FORMAT(I5)", "END", data=[f"{index:5d}"])
+    assert (result.ending.kind, result.ending.message) == (
+        "select",
+        f"deck.f: card 2: a computed GO TO with value {index}, in GO TO (1,1,1),K",
+    )
+
+
+@pytest.mark.parametrize("on", [set(), {1}, {2}, {3}, {4}, {1, 4}])
+def test_sense_switches(on: set[int]) -> None:
+    lines: list[str] = ["K=0"]
+    for switch in (1, 2, 3, 4):
+        lines += [f"IF(SENSE SWITCH {switch}){switch},1{switch}", f"{switch} K=K+{10 ** (4 - switch)}"]
+        lines += [f"1{switch} CONTINUE"]
+    result = punched(*lines, OUT, F, "END", switches=on)
+    assert result == (f"{sum(10 ** (4 - s) for s in on):4d}",)
+
+
+def test_pause_goes_on_with_a_warning() -> None:
+    """OPEN-QUESTIONS 11."""
+    result = run("7 PAUSE", "K=5", OUT, F, "END")
+    assert result.punched == ("   5",)
+    assert result.warnings == ("deck.f: PAUSE at statement 7 (card 1): the operator presses START",)
+
+
+# Lists.
+
+
+def test_whole_arrays_go_down_the_columns() -> None:
+    """Elements one field after the other: A(1,1), A(2,1), A(1,2) ... (C26-5619 p. 66-69)."""
+    lines = ["DIMENSION M(2,3)", "READ 90,M", "PUNCH 90,M(1,1),M(1,2),M(1,3)", "PUNCH 90,M", "90 FORMAT(6I3)", "END"]
+    assert punched(*lines, data=["  1  2  3  4  5  6"]) == ("  1  3  5", "  1  2  3  4  5  6")
+
+
+def test_indexed_lists() -> None:
+    lines = ["DIMENSION M(2,3)", "READ 90,((M(I,J),J=1,3),I=1,2)", "PUNCH 90,(M(I,2),I=1,2)", "PUNCH 90,M"]
+    assert punched(*lines, "90 FORMAT(6I3)", "END", data=["  1  2  3  4  5  6"]) == (
+        "  2  5",
+        "  1  4  2  5  3  6",
+    )
+
+
+def test_an_indexed_list_runs_once_at_least_and_may_step() -> None:
+    lines = ["N=0", "PUNCH 90,(I,I=1,N)", "PUNCH 90,(I,I=1,9,3)", "PUNCH 90,I", "90 FORMAT(9I3)", "END"]
+    assert punched(*lines) == ("  1", "  1  4  7", " 10")
+
+
+def test_a_list_may_read_its_own_limit_and_subscript() -> None:
+    lines = ["DIMENSION M(5)", "READ 90,N,(M(I),I=1,N),K,M(K)", "PUNCH 90,M(1),M(2),M(3)", "90 FORMAT(9I3)", "END"]
+    assert punched(*lines, data=["  2  8  9  3  7"]) == ("  8  9  7",)
+
+
+def test_a_list_nested_too_deep() -> None:
+    items = "I"
+    for _ in range(5):
+        items = f"({items},I=1,2)"
+    (message,) = errors(f"PUNCH 90,{items}", F, "END")
+    assert "nested too deep" in message.message
+
+
+# Typewriter.
+
+
+def test_accept_and_type() -> None:
+    result = run("ACCEPT 90,K", "K=K+1", "TYPE 90,K", F, "END", keyboard=["  41"])
+    assert result.typed == ("  42",)
+    assert [(e.what, e.text) for e in result.events] == [("accept", "  41"), ("type", "  42")]
+    assert result.cards_read == 0
+
+
+def test_accept_without_a_line() -> None:
+    with pytest.raises(DeckError, match=r"nothing is typed for ACCEPT in the statement on card 1"):
+        run("ACCEPT 90,K", F, "END")
+
+
+def test_a_typed_line_that_is_no_number() -> None:
+    with pytest.raises(CardError, match=r"^typewriter: .*column 1: 'X' is no whole number"):
+        run("ACCEPT 90,K", F, "END", keyboard=["X"])
+
+
+@pytest.mark.parametrize(
+    ("line", "lines"),
+    [
+        ("\u0661.5", ["ACCEPT 1,A", "1 FORMAT(E9.2)"]),
+        ("A\nB", ["ACCEPT 1", "TYPE 1", "1 FORMAT(9HSOME TEXT)"]),
+        ("abc", ["ACCEPT 1", "TYPE 1", "1 FORMAT(9HSOME TEXT)"]),
+    ],
+    ids=["arabic digit", "line end", "small letters"],
+)
+def test_a_typed_line_keeps_to_the_card_code(line: str, lines: list[str]) -> None:
+    """An Arabic digit is read as a number, a line end comes out in the middle of a typed record."""
+    with pytest.raises(CardError, match="not in the card code"):
+        run(*lines, "END", keyboard=[line])
+
+
+def test_a_typed_line_is_not_card_0() -> None:
+    with pytest.raises(CardError) as caught:
+        run("ACCEPT 90,K", F, "END", keyboard=["X"])
+    assert "card 0" not in str(caught.value)
+
+
+# Undefined storage.
+
+
+@pytest.mark.parametrize(
+    "statement",
+    ["A=B+1.", "A=1.*B", "A=-B", "J=B", "A=L", "A=SQRT(B)", "A=B**2", "A=2.**B", "A=2.**L", "J=L+1", "J=-L"],
+)
+def test_an_undefined_operand_stops_the_run(statement: str) -> None:
+    result = run("X=1.", statement, "END")
+    assert result.ending.kind == "undefined"
+    name = re.search("[BL]", statement)[0]  # type: ignore[index]
+    assert result.ending.message == (f"deck.f: card 2: {name} is undefined where it is computed with, in {statement}")
+
+
+@pytest.mark.parametrize(
+    ("lines", "words"),
+    [
+        (["IF(B)1,1,1", "1 STOP"], "B is undefined"),
+        (["IF(L)1,1,1", "1 STOP"], "L is undefined"),
+        (["GO TO(1),L", "1 STOP"], "L is undefined"),
+        (["DO 1 I=1,L", "1 CONTINUE"], "L is undefined"),
+        (["DO 1 I=L,5", "1 CONTINUE"], "L is undefined"),
+        (["DO 1 I=1,5,L", "1 CONTINUE"], "L is undefined"),
+        (["DIMENSION X(2)", "X(L)=1."], "L is undefined"),
+        (["DIMENSION X(2,2)", "X(1,L)=1."], "L is undefined"),
+        (["DIMENSION X(2)", "A=X(2)+1."], "X(2) is undefined"),
+        (["PUNCH 9,B", "9 FORMAT(E14.8)"], "B is undefined where it is put out"),
+    ],
+)
+def test_undefined_elsewhere(lines: list[str], words: str) -> None:
+    result = run(*lines, "END")
+    assert result.ending.kind == "undefined"
+    assert words in result.ending.message
+
+
+def test_an_undefined_field_may_be_copied() -> None:
+    """Part two 5: a copy is one transmit field; the thesis copies element N+1 so (OPEN-QUESTIONS 22)."""
+    made = machine("DIMENSION X(3)", "X(1)=X(2)", "A=B", "I=J", "END")
+    assert made.run().ending.kind == "end"
+    assert (number(made, "A"), number(made, "I")) == ("undefined", "undefined")
+
+
+# The machine as a whole.
+
+
+def test_machines_do_not_share_anything() -> None:
+    made = program("READ 90,K", "1 K=K+1", "IF(K-9)1,2,2", f"2 {OUT}", F, "END")
+    one = Machine(made, deck_from_lines("a", ["   1"]), Options())
+    two = Machine(made, deck_from_lines("b", ["  50"]), Options())
+    assert two.run().punched == ("  51",)
+    assert one.run().punched == ("   9",)
+
+
+def test_a_program_is_not_changed_by_its_run() -> None:
+    made = program("K=0", "1 K=K+1", "IF(K-9)1,2,2", f"2 {OUT}", F, "END")
+    results = [Machine(made, source(), Options()).run() for _ in range(2)]
+    assert results[0] == results[1]
+
+
+def test_error_codes_are_typed_by_ibm1962_only_and_counted_by_statement() -> None:
+    lines = ["DO 5 I=1,3", "5 A=1./0.", "B=1.E60*1.E60", "END"]
+    loud, silent = run(*lines, arithmetic="ibm1962"), run(*lines)
+    assert loud.typed == ("ERROR E7", "ERROR E7", "ERROR E7", "ERROR E3")
+    assert silent.typed == ()
+    assert loud.errors == silent.errors == (("E3 on card 3", 1), ("E7 on card 2", 3))
+
+
+def test_a_field_too_small_types_f8_under_ibm1962() -> None:
+    """C26-5619 p. 39: printed by E14.8, and a message is typed (OPEN-QUESTIONS 14)."""
+    lines = ["A=1234567.", "PUNCH 1,A", "1 FORMAT(F7.3)", "END"]
+    assert run(*lines, arithmetic="ibm1962").typed == ("ERROR F8",)
+    assert run(*lines).typed == ()
+
+
+def test_counts_of_statements() -> None:
+    result = run("DO 5 I=1,3", "5 K=I", "END")
+    assert result.statements == 1 + 3 + 1
+    assert result.numbers == ()

@@ -1,0 +1,111 @@
+"""The time table: counts follow from the object code, seconds from counts and measured times (part one 5)."""
+
+from __future__ import annotations
+
+import pytest
+
+from emulator.language import objectcode as op
+from emulator.language.length import code_positions
+from emulator.machine.timing import (
+    COSTS,
+    FIELD_COSTS,
+    PUNCH_SECONDS,
+    READER_SECONDS,
+    TYPEWRITER_SECONDS,
+    Timing,
+    measure,
+)
+from tests.support.deckwork import machine
+
+
+def timed(*lines: str, data: tuple[str, ...] = ()) -> Timing:
+    made = machine(*lines, data=data)
+    return measure(made.program, made.run())
+
+
+def test_measured_milliseconds() -> None:
+    """Computed from the executed trace of IBM's subroutines: FMP 18.3, FDV 54, FSB 12.4, FAD 8.9 to 10.1."""
+    assert COSTS["FMP"].milliseconds == 18.3
+    assert COSTS["FDV"].milliseconds == 54.0
+    assert COSTS["FSB"].milliseconds == 12.4
+    assert 8.9 <= COSTS["FAD"].milliseconds <= 10.1
+    assert not any(COSTS[name].estimated for name in ("FAD", "FSB", "FMP", "FDV"))
+
+
+def test_device_speeds() -> None:
+    """Reference card X26-5743-2: 250 and 125 cards a minute, 10 characters a second."""
+    assert (READER_SECONDS, PUNCH_SECONDS, TYPEWRITER_SECONDS) == (0.24, 0.48, 0.1)
+
+
+def test_every_operation_has_a_cost() -> None:
+    assert set(COSTS) == set(op.NAMES)
+    assert set(FIELD_COSTS) == {kind + way for kind in "EFI" for way in "<>"}
+
+
+def test_one_stop_ends_a_run() -> None:
+    assert dict(timed("A=2.", "END").operations)["STOP"] == 1
+    assert "STOP" not in dict(timed("5 READ 1,N", "1 FORMAT(I4)", "GO TO 5", data=("   1",)).operations)
+
+
+def test_operations_are_counted_by_their_trips() -> None:
+    found = dict(timed("A=2.", "DO 5 I=1,7", "B=A*A", "5 C=B/A+A", "END").operations)
+    del found["STOP"]
+    assert found == {
+        "SEND": 1,
+        "TRANSMIT": 1,
+        "TOFIX": 1,
+        "FMFIX": 1,
+        "TOFAC": 14,
+        "FMP": 7,
+        "FDV": 7,
+        "FAD": 7,
+        "FMFAC": 14,
+        "DOTEST": 7,
+    }
+
+
+def test_operations_of_indexed_lists() -> None:
+    found = dict(timed("A=2.", "PUNCH 1,A,(A,I=1,5),A", "1 FORMAT(7E10.3)", "END").operations)
+    assert (found["BEGIN"], found["ITEM"], found["DOTEST"], found["FINISH"]) == (1, 7, 5, 1)
+
+
+def test_statements_begun() -> None:
+    table = timed("DO 5 I=1,7", "J=I", "5 K=J", "END")
+    assert table.statements == ((0, 1), (1, 7), (2, 7), (3, 1))
+
+
+def test_processor_seconds_are_counts_times_costs() -> None:
+    table = timed("A=2.", "DO 5 I=1,7", "B=A*A", "5 C=B/A+A", "END")
+    expected = sum(COSTS[name].milliseconds * count for name, count in table.operations) / 1000
+    assert table.processor_seconds == pytest.approx(expected)
+    assert table.seconds == pytest.approx(expected)
+
+
+def test_subscripts_and_conversion_are_marked_as_estimates() -> None:
+    lines = ["DIMENSION X(3),A(2,2)", "READ 1,I,B", "X(I)=B", "A(I,I)=B", "PUNCH 1,I,B", "1 FORMAT(I4,E14.8)", "END"]
+    table = timed(*lines, data=("   2 .10000000E+01",))
+    rows = {row.cause: row for row in table.processor}
+    assert rows["subscripts"].count == 2
+    assert rows["subscripts"].seconds == pytest.approx(0.009)
+    assert rows["subscripts"].estimated
+    assert rows["number conversion"].estimated
+    assert not rows["fixed point"].estimated
+
+
+def test_device_rows() -> None:
+    lines = ["READ 1,I", "PUNCH 1,I", "PUNCH 1,I", "TYPE 2", "1 FORMAT(I4)", "2 FORMAT(9HSOME TEXT)", "END"]
+    rows = {row.cause: row for row in timed(*lines, data=("   2",)).devices}
+    assert [row.count for row in rows.values()] == [1, 2, 10]
+    assert [row.seconds for row in rows.values()] == pytest.approx([0.24, 0.96, 1.0])
+
+
+def test_longer_programs_are_longer() -> None:
+    """The estimate of the object program's length: more instructions, subscripts and text make it longer."""
+
+    def length(*lines: str) -> int:
+        return code_positions(machine(*lines, "END").program)
+
+    assert length("A=B*C") - length("A=B") == 24  # TOFAC FMP FMFAC in place of the one TF of SEND and TRANSMIT
+    assert length("1 FORMAT(6HABCDEF)") - length("1 FORMAT(3HABC)") == 6
+    plain = length("DIMENSION X(5)", "I=1", "A=X(1)")
+    assert length("DIMENSION X(5)", "I=1", "A=X(I)") - plain == 30

@@ -1,0 +1,253 @@
+"""Laws of the arithmetic for any digit count, against exact fractions and against :mod:`decimal`."""
+
+from __future__ import annotations
+
+from decimal import ROUND_DOWN, Context, Decimal
+from fractions import Fraction
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from emulator.numbers.arithmetic import (
+    IBM1962,
+    MAX_DIGITS,
+    MIN_DIGITS,
+    TRUNCATING,
+    ZERO,
+    Profile,
+    add,
+    divide,
+    from_integer,
+    multiply,
+    powers_of_ten,
+    profile,
+    to_integer,
+    wrap_integer,
+)
+
+Number = tuple[int, int]
+
+
+@st.composite
+def profiles(draw: st.DrawFn, family: str) -> Profile:
+    return profile(f"{family}:{draw(st.integers(MIN_DIGITS, MAX_DIGITS))}")
+
+
+@st.composite
+def operands(draw: st.DrawFn, family: str, spread: int = 40) -> tuple[Profile, Number, Number]:
+    """A profile and two numbers of its digits, exponents ``spread`` apart at most, close ones often."""
+    found = draw(profiles(family))
+    p = found.digits
+    mantissas = st.integers(10 ** (p - 1), 10**p - 1)
+    edges = st.sampled_from([10 ** (p - 1), 10**p - 1, 5 * 10 ** (p - 1), 10 ** (p - 1) + 1])
+    signed = st.tuples(mantissas | edges, st.booleans()).map(lambda t: -t[0] if t[1] else t[0])
+    near = draw(st.integers(-20, 20))
+    apart = draw(st.integers(-3, 3) | st.integers(-p - 3, p + 3) | st.integers(-spread, spread))
+    return found, (draw(signed), near), (draw(signed), near + apart)
+
+
+def value(number: Number, p: int) -> Fraction:
+    return Fraction(number[0]) * Fraction(10) ** (number[1] - p)
+
+
+def normalised(number: Number, p: int) -> bool:
+    return number == (0, ZERO) or 10 ** (p - 1) <= abs(number[0]) < 10**p
+
+
+def nearest(exact: Fraction, p: int, half: bool) -> Number:
+    """The exact value cut to p digits, or rounded half up in magnitude: an independent way to the same end."""
+    if exact == 0:
+        return 0, ZERO
+    size, exponent = abs(exact), 0
+    while size >= 10**p:
+        size, exponent = size / 10, exponent + 1
+    while size < 10 ** (p - 1):
+        size, exponent = size * 10, exponent - 1
+    whole = int(size + Fraction(1, 2)) if half else int(size)
+    if whole == 10**p:
+        whole, exponent = 10 ** (p - 1), exponent + 1
+    return (whole if exact > 0 else -whole), exponent + p
+
+
+def plus(a: Number, b: Number, found: Profile) -> Number:
+    return add(*a, *b, found.rules, powers_of_ten(found.rules))
+
+
+@given(operands("truncating"))
+def test_products_and_quotients_are_the_exact_ones_cut(case: tuple[Profile, Number, Number]) -> None:
+    found, a, b = case
+    p = found.digits
+    assert multiply(*a, *b, found.rules) == nearest(value(a, p) * value(b, p), p, half=False)
+    assert divide(*a, *b, found.rules) == nearest(value(a, p) / value(b, p), p, half=False)
+
+
+@given(operands("truncating"))
+def test_sums_are_those_of_the_operand_cut_first(case: tuple[Profile, Number, Number]) -> None:
+    """Part two 2.1: the operand of smaller exponent loses its digits before the addition, the sum is then cut."""
+    found, a, b = case
+    p = found.digits
+    if a[1] < b[1]:
+        a, b = b, a
+    shift = a[1] - b[1]
+    kept = abs(b[0]) // 10**shift * (1 if b[0] > 0 else -1)
+    exact = (Fraction(a[0]) + kept) * Fraction(10) ** (a[1] - p)
+    assert plus(a, b, found) == nearest(exact, p, half=False)
+
+
+@given(operands("guarded"))
+def test_a_guard_digit_keeps_the_first_of_the_digits_that_drop_off(case: tuple[Profile, Number, Number]) -> None:
+    found, a, b = case
+    p = found.digits
+    if a[1] < b[1]:
+        a, b = b, a
+    kept = Fraction(abs(b[0]) * 10 // 10 ** (a[1] - b[1]), 10) * (1 if b[0] > 0 else -1)
+    exact = (Fraction(a[0]) + kept) * Fraction(10) ** (a[1] - p)
+    assert plus(a, b, found) == nearest(exact, p, half=False)
+    assert multiply(*a, *b, found.rules) == nearest(value(a, p) * value(b, p), p, half=False)
+    assert divide(*a, *b, found.rules) == nearest(value(a, p) / value(b, p), p, half=False)
+
+
+@given(operands("rounding"))
+def test_rounding_gives_the_exact_result_rounded(case: tuple[Profile, Number, Number]) -> None:
+    found, a, b = case
+    p = found.digits
+    assert plus(a, b, found) == nearest(value(a, p) + value(b, p), p, half=True)
+    assert multiply(*a, *b, found.rules) == nearest(value(a, p) * value(b, p), p, half=True)
+    assert divide(*a, *b, found.rules) == nearest(value(a, p) / value(b, p), p, half=True)
+
+
+@given(operands("truncating", 12))
+def test_ibm1962_rounds_products_only(case: tuple[Profile, Number, Number]) -> None:
+    found, a, b = case
+    p = found.digits
+    rules = (*found.rules[:6], 1, 0)
+    assert IBM1962.rules == (*TRUNCATING.rules[:6], 1, 0)
+    assert multiply(*a, *b, rules) == nearest(value(a, p) * value(b, p), p, half=True)
+
+
+families = st.sampled_from(["truncating", "guarded", "rounding"])
+
+
+@given(families.flatmap(operands))
+def test_commutative(case: tuple[Profile, Number, Number]) -> None:
+    found, a, b = case
+    assert plus(a, b, found) == plus(b, a, found)
+    assert multiply(*a, *b, found.rules) == multiply(*b, *a, found.rules)
+
+
+@given(families.flatmap(operands))
+def test_symmetric_in_sign(case: tuple[Profile, Number, Number]) -> None:
+    """Truncation is of the magnitude: toward zero for both signs."""
+    found, a, b = case
+    minus_a, minus_b = (-a[0], a[1]), (-b[0], b[1])
+    size, exponent = plus(a, b, found)
+    assert plus(minus_a, minus_b, found) == (-size, exponent)
+    size, exponent = multiply(*a, *b, found.rules)
+    assert multiply(*minus_a, *b, found.rules) == multiply(*a, *minus_b, found.rules) == (-size, exponent)
+    size, exponent = divide(*a, *b, found.rules)
+    assert divide(*minus_a, *b, found.rules) == divide(*a, *minus_b, found.rules) == (-size, exponent)
+
+
+@given(families.flatmap(operands))
+def test_results_are_normalised(case: tuple[Profile, Number, Number]) -> None:
+    found, a, b = case
+    for result in (plus(a, b, found), multiply(*a, *b, found.rules), divide(*a, *b, found.rules)):
+        assert normalised(result, found.digits)
+
+
+@given(families.flatmap(operands))
+def test_a_number_less_itself_is_zero_and_one_changes_nothing(case: tuple[Profile, Number, Number]) -> None:
+    found, a, _ = case
+    one = from_integer(1, found.rules)
+    assert plus(a, (-a[0], a[1]), found) == (0, ZERO)
+    assert multiply(*a, *one, found.rules) == divide(*a, *one, found.rules) == a
+    assert divide(*a, *a, found.rules) == one
+
+
+# Against the standard library's decimal arithmetic.
+
+DOWN = Context(prec=8, rounding=ROUND_DOWN)
+
+
+def decimal(number: Number) -> Decimal:
+    return Decimal(number[0]).scaleb(number[1] - 8)
+
+
+eights = st.tuples(st.integers(10**7, 10**8 - 1), st.booleans(), st.integers(-30, 30)).map(
+    lambda t: (-t[0] if t[1] else t[0], t[2])
+)
+
+
+@given(eights, eights)
+def test_multiply_and_divide_agree_with_decimal_rounding_down(a: Number, b: Number) -> None:
+    assert decimal(multiply(*a, *b, TRUNCATING.rules)) == DOWN.multiply(decimal(a), decimal(b))
+    assert decimal(divide(*a, *b, TRUNCATING.rules)) == DOWN.divide(decimal(a), decimal(b))
+
+
+def test_decimal_is_not_this_addition() -> None:
+    """1.0-.99999999 is .1E-06 on the machine: .99999999 becomes .9999999 before the subtraction."""
+    one, nines = (10**7, 1), (99999999, 0)
+    assert DOWN.subtract(decimal(one), decimal(nines)) == Decimal("1E-8")
+    assert plus(one, (-nines[0], nines[1]), TRUNCATING) == (10**7, -6)
+    assert decimal((10**7, -6)) == Decimal(".1E-06")
+
+
+# Conversion and whole numbers.
+
+
+@given(st.integers(-9999, 9999), families.flatmap(profiles))
+def test_whole_numbers_go_to_floating_point_and_back(whole: int, found: Profile) -> None:
+    mantissa, exponent = from_integer(whole, found.rules)
+    assert normalised((mantissa, exponent), found.digits)
+    back = to_integer(mantissa, exponent, found.rules, powers_of_ten(found.rules))
+    unit = 10 ** max(0, len(str(abs(whole))) - found.digits)
+    assert back == (abs(whole) // unit * unit) * (1 if whole > 0 else -1)
+
+
+@given(families.flatmap(operands))
+def test_to_integer_keeps_four_digits_left_of_the_point(case: tuple[Profile, Number, Number]) -> None:
+    """C26-5619 p. 21."""
+    found, a, _ = case
+    exact = value(a, found.digits)
+    expected = int(abs(exact)) % 10_000 * (1 if exact > 0 else -1)
+    assert to_integer(*a, found.rules, powers_of_ten(found.rules)) == expected
+
+
+@given(st.integers(-(10**9), 10**9))
+def test_wrap(whole: int) -> None:
+    """Modulo 10,000 with the sign kept (executed on IBM's code at 02644)."""
+    assert abs(wrap_integer(whole)) == abs(whole) % 10_000
+    assert wrap_integer(-whole) == -wrap_integer(whole)
+
+
+# Names.
+
+
+@pytest.mark.parametrize("name", ["truncating", "ibm1962", "truncating:2", "guarded:5", "rounding:28", "truncating:08"])
+def test_profiles_by_name(name: str) -> None:
+    assert profile(name).name == name
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "",
+        "float",
+        "truncating:",
+        "truncating:1",
+        "rounding:29",
+        "rounding",
+        "rounding:-5",
+        "ibm1962:8",
+        "rounding:8.",
+        "x:8",
+    ],
+)
+def test_no_such_profile(name: str) -> None:
+    with pytest.raises(ValueError, match=r"no arithmetic is called|the number of digits is"):
+        profile(name)
+
+
+def test_truncating_8_is_truncating() -> None:
+    assert profile("truncating:8").rules == profile("truncating").rules

@@ -1,0 +1,167 @@
+"""One field at a time: numbers to columns and back (C26-5619 p. 14, 35-40; blanks: OPEN-QUESTIONS 6)."""
+
+from __future__ import annotations
+
+from decimal import Decimal
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from emulator.language.formats import Field
+from emulator.numbers.arithmetic import MINUS_ZERO, TRUNCATING, UNDEFINED, ZERO, profile
+from emulator.numbers.fields import FieldError, parse_constant, read_fixed, read_floating, write_fixed, write_floating
+
+RULES = TRUNCATING.rules
+E14 = Field("E", 14, 8)
+
+mantissas = st.integers(10**7, 10**8 - 1).flatmap(lambda m: st.sampled_from((m, -m)))
+exponents = st.integers(-99, 99)
+numbers = st.tuples(mantissas, exponents) | st.sampled_from(((0, ZERO), (0, MINUS_ZERO)))
+
+
+@given(numbers)
+def test_e14_8_round_trip_of_eight_digits(number: tuple[int, int]) -> None:
+    columns, overflowed = write_floating(E14, *number, RULES)
+    assert len(columns) == 14
+    assert not overflowed
+    read = read_floating(E14, columns, RULES)
+    assert (read.mantissa, read.exponent, read.warning) == (*number, "")
+
+
+@given(numbers, st.integers(14, 30), st.integers(0, 8))
+def test_wide_e_fields_round_trip(number: tuple[int, int], width: int, decimals: int) -> None:
+    """Eight digits whatever d; where the adjusted exponent has no room, E14.8 is used (p. 39-40)."""
+    field = Field("E", width, decimals)
+    columns, overflowed = write_floating(field, *number, RULES)
+    read = read_floating(field, columns, RULES)
+    assert (read.mantissa, read.exponent) == number
+    fits = number[0] == 0 or number[1] - (8 - decimals) >= -99
+    assert overflowed == (not fits or (width == 14 and len(columns.strip()) > 14))
+    assert len(columns) == (14 if overflowed else width)
+
+
+@given(mantissas, st.integers(-9, 12), st.integers(2, 20), st.integers(0, 8))
+def test_f_fields_cut(mantissa: int, exponent: int, width: int, decimals: int) -> None:
+    """p. 39: the value cut behind d decimals; too big a number goes by E14.8."""
+    columns, overflowed = write_floating(Field("F", width, decimals), mantissa, exponent, RULES)
+    value = Decimal(mantissa).scaleb(exponent - 8)
+    cut = Decimal(int(value.scaleb(decimals)))
+    if overflowed:
+        assert columns == write_floating(E14, mantissa, exponent, RULES)[0]
+        whole = str(abs(int(value))).lstrip("0")
+        assert len(whole) + 1 + decimals + (mantissa < 0) > width
+    else:
+        assert len(columns) == width
+        assert Decimal(columns.strip().replace("-.", "-0.") + "0") == cut.scaleb(-decimals)
+        assert columns.strip().startswith("-") == (mantissa < 0)
+
+
+@given(st.integers(-9999, 9999), st.integers(5, 20))
+def test_i_fields_round_trip(value: int, width: int) -> None:
+    columns = write_fixed(Field("I", width), value)
+    assert len(columns) == width
+    assert columns.strip() == str(value)
+    assert read_fixed(columns).mantissa == value
+
+
+@given(st.integers(-9999, 9999), st.integers(1, 4))
+def test_small_i_fields_lose_high_digits(value: int, width: int) -> None:
+    """p. 38: lost without notice; a minus sign keeps its position (OPEN-QUESTIONS 7)."""
+    columns = write_fixed(Field("I", width), value)
+    assert len(columns) == width
+    room = width - (value < 0)
+    if room:
+        assert abs(int(columns)) == abs(value) % 10**room
+    assert ("-" in columns) == (value < 0)
+
+
+@pytest.mark.parametrize(
+    "columns", ["ABC", "1.2.3", "1E", "E5", "--1", "1-", ".", "+", "1E+", "1.E5.", "1,5", "1/2", "1E+5+3"]
+)
+def test_no_number(columns: str) -> None:
+    with pytest.raises(FieldError, match="is no number"):
+        read_floating(E14, columns, RULES)
+
+
+@pytest.mark.parametrize("columns", ["1.5", "1E2", "A", "+-1", "-", "1 -"])
+def test_no_whole_number(columns: str) -> None:
+    with pytest.raises(FieldError, match="is no whole number"):
+        read_fixed(columns)
+
+
+@pytest.mark.parametrize("columns", ["1.E99", "1.E100", ".1E-100", "-1.E+99", "1.E" + "9" * 40])
+def test_out_of_range(columns: str) -> None:
+    with pytest.raises(FieldError, match="the exponent is -99 to 99"):
+        read_floating(E14, columns, RULES)
+
+
+def test_the_largest_and_smallest() -> None:
+    assert parse_constant(".99999999E99", RULES) == (99999999, 99)
+    assert parse_constant(".1E-99", RULES) == (10000000, -99)
+    assert parse_constant("0.E50", RULES) == (0, ZERO)
+
+
+@pytest.mark.parametrize(
+    ("columns", "value"),
+    [
+        ("2 ", 20),
+        (" 2 ", 20),
+        ("1 2", 102),
+        ("  12", 12),
+        ("- 5", -5),
+        ("    ", 0),
+    ],
+)
+def test_blanks_in_an_i_field(columns: str, value: int) -> None:
+    """OPEN-QUESTIONS 6: leading blanks nothing, others zeros, with a warning; a blank field warns too."""
+    found = read_fixed(columns)
+    assert found.mantissa == value
+    assert bool(found.warning) == (not columns.strip() or " " in columns.lstrip())
+
+
+@pytest.mark.parametrize(
+    ("columns", "expected", "warned"),
+    [
+        (" .2E1   ", (20000000, 1), False),
+        (" .20000000E 01", (20000000, 1), True),
+        ("2.   ", (20000000, 1), False),
+        ("2 .5", (20500000, 2), True),
+        ("12   ", (12000000, -3), True),
+        ("     ", (0, ZERO), True),
+    ],
+)
+def test_blanks_in_an_e_field(columns: str, expected: tuple[int, int], warned: bool) -> None:
+    """OPEN-QUESTIONS 6."""
+    found = read_floating(E14, columns, RULES)
+    assert (found.mantissa, found.exponent) == expected
+    assert bool(found.warning) == warned
+
+
+def test_lost_digits_warn() -> None:
+    assert read_floating(E14, ".123456789", RULES).warning == "9 digits; those beyond 8 are cut"
+    assert read_floating(E14, ".1234567800", RULES).warning == ""
+    assert "more than four digits" in read_fixed("12345").warning
+    assert read_fixed("12345").mantissa == 2345
+    assert read_fixed("-12345").mantissa == -2345
+
+
+def test_undefined_cannot_be_written() -> None:
+    with pytest.raises(FieldError, match="undefined"):
+        write_floating(E14, 0, UNDEFINED, RULES)
+
+
+@pytest.mark.parametrize(("name", "text"), [("truncating:2", " .12000000E+01"), ("truncating:20", " .12345678E+01")])
+def test_other_digit_counts_show_eight_columns(name: str, text: str) -> None:
+    rules = profile(name).rules
+    number = parse_constant("1.2345678901234567890", rules)
+    assert write_floating(E14, *number, rules) == (text, False)
+
+
+@given(st.text("0123456789+-.E ", min_size=1, max_size=20))
+def test_any_columns_are_a_number_or_an_error(columns: str) -> None:
+    try:
+        found = read_floating(E14, columns, RULES)
+    except FieldError:
+        return
+    assert found.exponent in (ZERO, MINUS_ZERO) if found.mantissa == 0 else 10**7 <= abs(found.mantissa) < 10**8

@@ -1,0 +1,161 @@
+"""Library functions and powers against exact integers and a second computation of many digits."""
+
+from __future__ import annotations
+
+from decimal import ROUND_DOWN, Context, Decimal
+from math import isqrt
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from emulator.numbers.arithmetic import IBM1962, TRUNCATING, ZERO, multiply, profile
+from emulator.numbers.functions import Value, function, integer_power, power
+from tests.support.deckwork import machine, number
+
+RULES = TRUNCATING.rules
+mantissas = st.integers(10**7, 10**8 - 1)
+
+
+@given(mantissas, st.integers(-99, 99))
+def test_sqrt_is_the_exact_root_cut(mantissa: int, exponent: int) -> None:
+    """Executed on FORTRAN II-D: the exactly truncated square root (part two 2.1)."""
+    found = function("SQRT", mantissa, exponent, RULES)
+    assert 10**7 <= found.mantissa < 10**8
+    # root = found.mantissa * 10**(found.exponent - 8); compare squares as integers of a common scale.
+    scale = 2 * (found.exponent - 8)
+    value = mantissa * 10 ** (exponent - 8 - scale) if exponent - 8 >= scale else None
+    if value is None:
+        low, high = (found.mantissa**2, (found.mantissa + 1) ** 2)
+        shift = 10 ** (scale - exponent + 8)
+        assert low * shift <= mantissa < high * shift
+    else:
+        assert isqrt(value) == found.mantissa
+    assert function("SQRT", -mantissa, exponent, RULES) == found
+
+
+def cut(value: Decimal) -> tuple[int, int]:
+    digits = Context(prec=8, rounding=ROUND_DOWN).plus(value).as_tuple()
+    size = int("".join(map(str, digits.digits)).ljust(8, "0"))
+    assert isinstance(digits.exponent, int)
+    return (-size if digits.sign else size), len(digits.digits) + digits.exponent
+
+
+@given(mantissas, st.integers(-7, 2))
+def test_exp_is_the_exact_value_cut(mantissa: int, exponent: int) -> None:
+    """:mod:`decimal` computes exp and ln correctly rounded, by other means than mpmath."""
+    exact = Context(prec=60).exp(Decimal(mantissa).scaleb(exponent - 8))
+    assert function("EXP", mantissa, exponent, RULES) == Value(*cut(exact))
+
+
+@given(mantissas, st.integers(-20, 20))
+def test_log_is_the_exact_value_cut(mantissa: int, exponent: int) -> None:
+    if (mantissa, exponent) == (10**7, 1):
+        return
+    exact = Context(prec=60).ln(Decimal(mantissa).scaleb(exponent - 8))
+    assert function("LOG", mantissa, exponent, RULES) == Value(*cut(exact))
+
+
+@pytest.mark.parametrize(
+    ("statement", "expected"),
+    [
+        ("SIN(0.)", "0"),
+        ("COS(0.)", ".10000000E+01"),
+        ("EXP(0.)", ".10000000E+01"),
+        ("LOG(1.)", "0"),
+        ("ATAN(0.)", "0"),
+        ("EXP(1.)", ".27182818E+01"),
+        ("LOG(10.)", ".23025850E+01"),
+        ("LOGF(2.)", ".69314718E+00"),
+        ("SIN(1.)", ".84147098E+00"),
+        ("COSF(1.)", ".54030230E+00"),
+        ("4.*ATAN(1.)", ".31415926E+01"),
+        ("SIN(-1.)", "-.84147098E+00"),
+        ("SIN(.00001)", ".99999999E-05"),
+    ],
+)
+def test_known_values_cut_to_eight_digits(statement: str, expected: str) -> None:
+    """Tables of mathematical constants; 4 * .78539816 = 3.14159264, cut."""
+    made = machine(f"D={statement}", "END")
+    assert made.run().errors == ()
+    assert number(made, "D") == expected
+
+
+@pytest.mark.parametrize(
+    ("name", "argument", "mantissa", "exponent", "code"),
+    [
+        ("SIN", (10**7, 9), 99999999, 99, "F1"),
+        ("COS", (10**7, 50), 99999999, 99, "F1"),
+        ("LOG", (0, ZERO), -99999999, 99, "F2"),
+        ("LOG", (-27182818, 1), 99999998, 0, "F3"),
+        ("EXP", (24000000, 3), 99999999, 99, "F4"),
+        ("EXP", (-24000000, 3), 0, ZERO, "F5"),
+        ("EXP", (10**7, 99), 99999999, 99, "F4"),
+        ("EXP", (-(10**7), 99), 0, ZERO, "F5"),
+    ],
+)
+def test_impossible_arguments(name: str, argument: tuple[int, int], mantissa: int, exponent: int, code: str) -> None:
+    """GOTRAN's table F1 to F5 (C26-5594 p. 28); ln 2.7182818 = .99999998..."""
+    assert function(name, *argument, RULES) == Value(mantissa, exponent, code)
+
+
+@given(mantissas, st.integers(-3, 3), st.integers(1, 6), st.sampled_from([TRUNCATING, IBM1962]))
+def test_whole_powers_are_repeated_products(mantissa: int, exponent: int, count: int, arithmetic: object) -> None:
+    """OPEN-QUESTIONS 8."""
+    rules = arithmetic.rules  # type: ignore[attr-defined]
+    m, e = mantissa, exponent
+    for _ in range(count - 1):
+        m, e = multiply(m, e, mantissa, exponent, rules)
+    assert integer_power(mantissa, exponent, count, rules) == Value(m, e)
+
+
+@pytest.mark.parametrize(
+    ("base", "count", "expected"),
+    [
+        ((20000000, 1), 0, Value(10000000, 1)),
+        ((0, ZERO), 3, Value(0, ZERO)),
+        ((0, ZERO), -1, Value(99999999, 99, "E7")),
+        ((20000000, 1), -2, Value(25000000, 0)),
+        ((10000000, 61), 2, Value(99999999, 99, "E3")),
+        ((10000000, -59), 2, Value(0, ZERO, "E4")),
+        ((-10000000, 61), 2, Value(99999999, 99, "E3")),
+        ((10000000, 61), -2, Value(0, ZERO, "E4")),
+    ],
+)
+def test_whole_powers_at_the_edges(base: tuple[int, int], count: int, expected: Value) -> None:
+    assert integer_power(*base, count, RULES) == expected
+
+
+@pytest.mark.parametrize(
+    ("base", "exponent", "expected"),
+    [
+        ((20000000, 1), (50000000, 0), Value(14142135, 1)),
+        ((40000000, 1), (50000000, 0), Value(20000000, 1)),
+        ((20000000, 1), (0, ZERO), Value(10000000, 1)),
+        ((0, ZERO), (20000000, 1), Value(0, ZERO)),
+        ((-40000000, 1), (50000000, 0), Value(20000000, 1, "F6")),
+        ((10000000, 2), (10000000, 4), Value(99999999, 99, "F4")),
+        ((10000000, 2), (-10000000, 4), Value(0, ZERO, "F5")),
+    ],
+)
+def test_floating_powers(base: tuple[int, int], exponent: tuple[int, int], expected: Value) -> None:
+    """The exact power, cut; F6 takes |A| (C26-5594 p. 28)."""
+    assert power(base, exponent, RULES) == expected
+
+
+def test_sqrt_is_rounded_where_products_are() -> None:
+    """Module text: cut to the profile's digits, rounded where products are rounded."""
+    made = machine("A=SQRT(10.)", "B=EXP(1.)", "END", arithmetic="rounding:8")
+    made.run()
+    assert number(made, "B") == ".27182818E+01"
+    assert number(made, "A") == ".31622777E+01"
+
+
+@pytest.mark.parametrize("digits", [2, 5, 12, 20, 28])
+def test_other_digit_counts(digits: int) -> None:
+    text = "2.718281828459045235360287471352662497757"
+    for family in ("truncating", "rounding"):
+        found = function("EXP", *(10 ** (digits - 1), 1), profile(f"{family}:{digits}").rules)
+        expected = int(text.replace(".", "")[: digits + 1])
+        expected = (expected + 5) // 10 if family == "rounding" else expected // 10
+        assert (found.mantissa, found.exponent) == (expected, 1)

@@ -1,0 +1,385 @@
+"""The number systems one by one: single precision, exact sums of roots, and where each says that it cannot."""
+
+from __future__ import annotations
+
+import math
+import random
+from fractions import Fraction
+from math import isqrt
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mpmath import MPContext
+
+from emulator.language.cards import deck_from_lines
+from emulator.language.formats import Field
+from emulator.machine.machine import Machine
+from emulator.machine.result import Options, Result
+from emulator.numbers import Trap, Undecided, numbers
+from emulator.numbers.fields import FALLBACK
+from emulator.numbers.roots import MAX_ROOTS, RootSum, square_root
+from tests.support.deckwork import program
+
+EXACT, DOUBLE, SINGLE = numbers("exact"), numbers("float64"), numbers("float32")
+CONTEXT = MPContext()
+CONTEXT.dps = 120
+
+
+def root(value: int | Fraction) -> object:
+    return EXACT.function("SQRT", value)[0]
+
+
+def run(name: str, *lines: str, data: tuple[str, ...] = ()) -> Result:
+    options = Options(numbers=numbers(name), limit=2_000)
+    return Machine(program(*lines, "END"), deck_from_lines("d", data), options).run()
+
+
+def test_names() -> None:
+    for name in ("float64", "float32", "mp:2", "mp:100000", "exact", "truncating", "ibm1962", "rounding:12"):
+        assert numbers(name).name == name
+    assert numbers("mp:53") == numbers("mp:53")
+    assert numbers("mp:53") != numbers("mp:54")
+
+
+@pytest.mark.parametrize("name", ["mp", "mp:", "mp:1", "mp:100001", "mp:x", "mp:-5", "float", "Exact", "truncating:1"])
+def test_names_there_are_not(name: str) -> None:
+    with pytest.raises(ValueError, match=r"no arithmetic is called|the number of (bits|digits) is"):
+        numbers(name)
+
+
+# Single precision, against numpy's.
+
+SINGLES = st.floats(width=32, allow_nan=False, allow_infinity=False)
+
+
+@settings(max_examples=150)
+@given(SINGLES, SINGLES)
+def test_single_precision_is_numpys(x: float, y: float) -> None:
+    """Double precision rounded after each operation is the correctly rounded single result."""
+    a, b = np.float32(x), np.float32(y)
+    with np.errstate(all="ignore"):
+        expected = {"add": a + b, "subtract": a - b, "multiply": a * b, "divide": a / b if y else None}
+        square = np.sqrt(np.abs(a))
+    for name, value in expected.items():
+        if value is not None:
+            try:
+                found = getattr(SINGLE, name)(x, y)
+            except Trap as trap:
+                found = trap.value
+            assert found == float(value)
+            assert math.copysign(1, found) == math.copysign(1, float(value))
+    assert SINGLE.function("SQRT", x)[0] == float(square)
+
+
+@settings(max_examples=100)
+@given(SINGLES)
+def test_the_shortest_decimal_of_a_single(x: float) -> None:
+    """As numpy prints it, read back as the same number."""
+    assert float(np.float32(SINGLE.text(x))) == x
+    if x and abs(x) > 1e-90:
+        digits = str(np.format_float_scientific(np.float32(abs(x)), unique=True, trim="-")).partition("e")[0]
+        columns = SINGLE.write(Field("E", 14, 8), x)[0]
+        assert columns.strip().lstrip("-").startswith("." + digits.replace(".", "").ljust(8, "0")[:8])
+
+
+@settings(max_examples=100)
+@given(st.floats(allow_nan=False, allow_infinity=False, min_value=-1e80, max_value=1e80), st.integers(20, 120))
+def test_a_number_of_many_bits_is_written_as_it_was_read(x: float, bits: int) -> None:
+    system = numbers(f"mp:{bits}")
+    whole, power = int(x * 2**40) % 10**6, random.Random(x).randint(-40, 40)
+    if bits >= 24:
+        value = system.decimal(whole, power)
+        mantissa, exponent = system.cut(value, 6)
+        assert Fraction(mantissa) * Fraction(10) ** (exponent - 6) == whole * Fraction(10) ** power
+
+
+# IEEE 754 through the object code.
+
+
+def test_overflow_is_an_infinity_noted_with_the_machines_code() -> None:
+    result = run("float64", "A=1.E90", "B=A*A*A*A", "K=1", "IF(B)1,1,2", "1 STOP", "2 PUNCH 3,K", "3 FORMAT(I2)")
+    assert result.punched == (" 1",)
+    assert result.errors == (("E3 on card 2", 1),)
+
+
+@pytest.mark.parametrize(
+    ("statement", "code"),
+    [
+        ("B=A*A*A*A", "E3"),
+        ("B=1./A/A/A/A", "E6"),
+        ("B=(1./A)*(1./A)*(1./A)*(1./A)", "E4"),
+        ("B=A*A*A/(1./A)", "E5"),
+        ("C=A*A*A*8.E37 $B=C+C+C", "E1"),
+        ("B=1./(A-A)", "E7"),
+        ("B=EXP(A)", "F4"),
+        ("B=EXP(-A)", "F5"),
+        ("B=LOG(A-A)", "F2"),
+        ("B=LOG(-A)", "F3"),
+        ("B=(-A)**.5", "F6"),
+        ("B=A**5", "E3"),
+        ("B=A**(-5)", "E4"),
+        ("B=(A-A)**(-1)", "E7"),
+        ("B=A**A", "F4"),
+        ("B=A**(-A)", "F5"),
+    ],
+)
+@pytest.mark.parametrize("name", ["float64", "float32"])
+def test_codes_of_binary_numbers(name: str, statement: str, code: str) -> None:
+    start = "A=1.E37" if name == "float32" else "A=1.E90"
+    if name == "float32":
+        statement = statement.replace("A*A*A*8.E37", "A*30.").replace("A*A*A/", "A/")
+    result = run(name, start, *statement.split(" $"))
+    assert [error.split()[0] for error, _ in result.errors][-1:] == [code]
+    assert result.ending.kind == "end"
+
+
+def test_what_is_no_number_has_no_sign() -> None:
+    for name in ("float64", "mp:40"):
+        result = run(name, "Z=0.", "A=Z/Z", "7 IF(A)1,1,1", "1 STOP")
+        assert (result.ending.kind, result.ending.message) == (
+            "undecided",
+            f"deck.f: card 3: {name} has no sign for what is no number (NaN), in 7 IF(A)1,1,1",
+        )
+
+
+# Square roots, exactly.
+
+
+def triples(count: int) -> list[tuple[int, int, int]]:
+    """Radicands of lengths: general, collinear points, and sums that nearly vanish."""
+    r = random.Random(1963)
+    found = []
+    for k in range(count):
+        a, b = r.randint(1, 10 ** r.randint(1, 18)), r.randint(1, 10 ** r.randint(1, 18))
+        if k % 3 == 0:
+            n = r.choice((1, 2, 3, 5, 6, 7, 10**9 + 7))
+            p, q = r.randint(1, 10**6), r.randint(1, 10**6)
+            a, b, c = n * p * p, n * q * q, n * (p + q) ** 2
+        elif k % 3 == 1:
+            c = a + b + isqrt(4 * a * b) + r.randint(0, 1)
+        else:
+            c = r.randint(1, 10 ** r.randint(1, 18))
+        found.append((a, b, c))
+    return found
+
+
+def test_the_sign_of_al_plus_bl_minus_cl() -> None:
+    """Card 169 of program 2, on 6,000 triples, against (sqrt a + sqrt b)**2 - c compared in whole numbers."""
+    zero = 0
+    for a, b, c in triples(6_000):
+        rest = c - a - b
+        expected = 1 if rest < 0 else (4 * a * b > rest * rest) - (4 * a * b < rest * rest)
+        assert EXACT.sign(EXACT.subtract(EXACT.add(root(a), root(b)), root(c))) == expected
+        zero += expected == 0
+    assert zero >= 2_000
+
+
+def test_double_precision_gets_some_of_them_wrong() -> None:
+    wrong = 0
+    for a, b, c in triples(600):
+        exact = EXACT.sign(EXACT.subtract(EXACT.add(root(a), root(b)), root(c)))
+        wrong += exact != DOUBLE.sign(math.sqrt(a) + math.sqrt(b) - math.sqrt(c))
+    assert wrong > 20
+
+
+FRACTIONS = st.fractions(max_denominator=999).filter(lambda f: abs(f) < 10**6)
+SUMS = st.lists(st.tuples(FRACTIONS, st.integers(0, 60)), min_size=1, max_size=5)
+
+
+def summed(terms: list[tuple[Fraction, int]]) -> tuple[object, object]:
+    """The sum of c*sqrt(n), exactly and to 120 digits."""
+    exact: object = 0
+    near = CONTEXT.mpf(0)
+    for c, n in terms:
+        exact = EXACT.add(exact, EXACT.multiply(c, root(n)))
+        near += CONTEXT.mpf(c.numerator) / c.denominator * CONTEXT.sqrt(n)
+    return exact, near
+
+
+def close(exact: object, near: object) -> None:
+    mantissa, exponent = EXACT.cut(exact, 40)
+    if mantissa == 0:
+        assert abs(near) < CONTEXT.mpf(10) ** -90
+        return
+    value = CONTEXT.mpf(mantissa) * CONTEXT.mpf(10) ** (exponent - 40)
+    unit = CONTEXT.mpf(10) ** (exponent - 40)
+    # The value to compare with is itself only good to some hundred digits.
+    assert -unit / 10**40 < (near - value) * (1 if mantissa > 0 else -1) < unit * 1.0001
+    assert EXACT.sign(exact) == (1 if near > 0 else -1)
+
+
+@settings(max_examples=150)
+@given(SUMS, SUMS)
+def test_sums_and_products_of_roots(one: list[tuple[Fraction, int]], other: list[tuple[Fraction, int]]) -> None:
+    (a, x), (b, y) = summed(one), summed(other)
+    close(a, x)
+    close(EXACT.add(a, b), x + y)
+    close(EXACT.subtract(a, b), x - y)
+    close(EXACT.multiply(a, b), x * y)
+    close(EXACT.negate(a), -x)
+
+
+@settings(max_examples=100)
+@given(SUMS, st.lists(st.tuples(FRACTIONS, st.integers(0, 60)), min_size=1, max_size=2))
+def test_quotients_by_a_sum_of_two_roots(one: list[tuple[Fraction, int]], two: list[tuple[Fraction, int]]) -> None:
+    (a, x), (b, y) = summed(one), summed(two)
+    if EXACT.sign(b):
+        close(EXACT.divide(a, b), x / y)
+        assert EXACT.sign(EXACT.subtract(EXACT.multiply(EXACT.divide(a, b), b), a)) == 0
+
+
+@settings(max_examples=100)
+@given(SUMS)
+def test_the_whole_part_of_a_sum(terms: list[tuple[Fraction, int]]) -> None:
+    exact, near = summed(terms)
+    whole = int(CONTEXT.floor(abs(near) + CONTEXT.mpf(10) ** -60)) % 10000
+    assert EXACT.to_integer(exact) == (-whole if EXACT.sign(exact) < 0 else whole)
+
+
+@settings(max_examples=100)
+@given(st.fractions(), st.integers(1, 30))
+def test_the_digits_of_a_fraction_are_cut(value: Fraction, digits: int) -> None:
+    mantissa, exponent = EXACT.cut(value, digits)
+    shown = Fraction(mantissa) * Fraction(10) ** (exponent - digits)
+    assert abs(shown) <= abs(value) < abs(shown) + Fraction(10) ** (exponent - digits)
+    assert not mantissa or len(str(abs(mantissa))) == digits
+
+
+def test_a_power_and_a_negative_power() -> None:
+    assert EXACT.integer_power(Fraction(2, 3), 5) == (Fraction(32, 243), "")
+    assert EXACT.integer_power(Fraction(2, 3), -2) == (Fraction(9, 4), "")
+    assert EXACT.integer_power(root(2), 4) == (4, "")
+    assert EXACT.integer_power(0, 3) == (0, "")
+    assert EXACT.integer_power(0, 0) == (1, "")
+    assert EXACT.integer_power(-1, 9999) == (-1, "")
+    assert EXACT.power(-3, 3) == (27, "F6")
+    assert EXACT.function("COS", 0) == (1, "")
+
+
+# What exact numbers cannot say, each with the statement.
+
+UNDECIDED = [
+    ("A=1./(B-B)", "exact arithmetic cannot divide by zero"),
+    ("A=SIN(B)", "exact arithmetic cannot hold SIN of 2"),
+    ("A=EXP(1.)", "exact arithmetic cannot hold EXP of 1"),
+    ("A=LOG(-B)", "exact arithmetic cannot hold LOG of 2"),
+    ("A=LOG(B-B)", "exact arithmetic cannot hold LOG of 0"),
+    ("A=ATAN(B/3.)", "exact arithmetic cannot hold ATAN of 0.66666666666666666666..."),
+    ("A=SQRT(SQRT(B)+1.)", "exact arithmetic cannot hold SQRT of 2.4142135623730950488..."),
+    ("A=B**.5", "exact arithmetic cannot hold a power of exponent 0.5"),
+    ("A=B**SQRT(B)", "exact arithmetic cannot hold a power of exponent 1.4142135623730950488..."),
+    ("A=(B-B)**(-2)", "exact arithmetic cannot divide by zero"),
+    ("A=1./(SQRT(B)+SQRT(3.)+SQRT(5.))", "exact arithmetic cannot divide by a sum of 3 square roots"),
+    ("A=B**9999**9999", "exact arithmetic does not hold a number of more than 100000 bits"),
+    ("A=(B/3.)**9999**9", "exact arithmetic does not hold a number of more than 100000 bits"),
+]
+
+
+@pytest.mark.parametrize(("statement", "words"), UNDECIDED)
+def test_exact_numbers_say_what_they_cannot(statement: str, words: str) -> None:
+    if statement.count("**") > 1:
+        first, last = statement[2:].rsplit("**", 1)
+        result = run("exact", "B=2.", f"C={first}", f"A=C**{last}")
+        statement = f"A=C**{last}"
+        card = 3
+    else:
+        result, card = run("exact", "B=2.", statement), 2
+    assert (result.ending.kind, result.ending.message) == ("undecided", f"deck.f: card {card}: {words}, in {statement}")
+
+
+def test_a_number_that_grows_in_a_loop_ends_the_run() -> None:
+    result = run("exact", "A=3.", "5 A=A*A", "GO TO 5")
+    assert result.ending.kind == "undecided"
+    assert "more than 100000 bits, in 5 A=A*A" in result.ending.message
+
+
+def test_too_many_roots_end_the_run() -> None:
+    lines = ["A=0.", "P=1.", "5 P=P+1.", "A=A+SQRT(P)", "GO TO 5"]
+    result = run("exact", *lines)
+    assert result.ending.kind == "undecided"
+    assert f"a sum of more than {MAX_ROOTS} square roots, in A=A+SQRT(P)" in result.ending.message
+
+
+@pytest.mark.parametrize("whole", range(10**9, 10**9 + 30))
+def test_the_sign_of_a_sum_that_nearly_vanishes(whole: int) -> None:
+    """The root's third derivative is positive, so that is the sign of the third difference, some 1E-23 here."""
+    terms = [((whole + k), (-1) ** (3 - k) * math.comb(3, k)) for k in range(4)]
+    total = sum((square_root(n) * c for n, c in terms), start=RootSum(()))
+    assert isinstance(total, RootSum)
+    assert (total.sign(), (-total).sign()) == (1, -1)
+    assert (total.floor(), (-total).floor()) == (0, -1)
+
+
+def test_roots_of_one_kind_are_one_root() -> None:
+    """1 + 2 + ... + 200 times the root of 2, and nothing left of it."""
+    total: object = 0
+    for k in range(1, 201):
+        total = EXACT.add(total, root(2 * k * k))
+    assert isinstance(total, RootSum)
+    assert len(total.terms) == 1
+    assert EXACT.subtract(total, root(2 * 20100**2)) == 0
+
+
+def test_what_a_card_cannot_hold_ends_the_run() -> None:
+    for name in ("float64", "exact", "mp:100"):
+        result = run(name, "A=1.E60", "B=A*A", "8 PUNCH 1,B", "1 FORMAT(E14.8)")
+        assert result.ending.kind == "undecided"
+        assert "is out of a card's range, E-99 to E+99, in 8 PUNCH 1,B" in result.ending.message
+        small = run(name, "A=1.E-60", "B=A*A", "8 PUNCH 1,B", "1 FORMAT(E14.8)")
+        assert small.ending.kind == "undecided"
+    result = run("float64", "A=1.E90", "B=A*A*A*A", "PUNCH 1,B", "1 FORMAT(E14.8)")
+    assert result.ending.message.endswith("inf cannot be put on a card, in PUNCH 1,B")
+    assert run("mp:9", "A=0.", "B=1./A", "PUNCH 1,B", "1 FORMAT(E14.8)").ending.kind == "undecided"
+
+
+@pytest.mark.parametrize("name", ["float64", "mp:60"])
+def test_an_infinity_is_no_whole_number(name: str) -> None:
+    result = run(name, "A=0.", "B=1./A", "K=B")
+    assert result.ending.kind == "undecided"
+    assert "has no whole number for" in result.ending.message
+
+
+@pytest.mark.parametrize(
+    ("statement", "code"),
+    [
+        ("B=1./Z", "E7"),
+        ("B=EXP(1.E9)", "F4"),
+        ("B=EXP(-1.E9)", "F5"),
+        ("B=LOG(Z)", "F2"),
+        ("B=LOG(-2.)", "F3"),
+        ("B=(-4.)**.5", "F6"),
+        ("B=2.**(1.E9)", "F4"),
+        ("B=Z**(-1)", "E7"),
+        ("B=SIN(1./Z)", "F1"),
+    ],
+)
+def test_codes_of_many_bits(statement: str, code: str) -> None:
+    result = run("mp:70", "Z=0.", statement)
+    assert [error.split()[0] for error, _ in result.errors][-1:] == [code]
+
+
+def test_many_bits_have_a_range_too() -> None:
+    result = run("mp:20", "A=3.", "DO 5 I=1,40", "5 A=A*A", "B=1.", "C=B/3.", "DO 6 I=1,40", "6 C=C*C")
+    assert {error.split()[0] for error, _ in result.errors} == {"E3", "E4"}
+
+
+def test_a_root_of_a_negative_number_is_that_of_its_size() -> None:
+    for name in ("exact", "float64", "float32", "mp:50", "truncating"):
+        assert run(name, "A=SQRT(-16.)", "PUNCH 1,A", "1 FORMAT(F5.2)").punched == (" 4.00",)
+
+
+def test_a_blank_field_and_blanks_warn_as_in_the_decimal_engine() -> None:
+    result = run("exact", "READ 1,A,B", "PUNCH 1,A,B", "1 FORMAT(2E14.8)", data=("",))
+    assert result.punched == (" .00000000E-99 .00000000E-99",)
+    assert any("a blank field is read as zero" in warning for warning in result.warnings)
+
+
+def test_an_undecided_sum_is_not_written_wrong() -> None:
+    """The digits of an irrational number are cut where they stand, however long its zeros or nines are."""
+    tiny = EXACT.subtract(root(10**60 + 1), 10**30)
+    assert EXACT.write(FALLBACK, tiny)[0] == " .49999999E-30"
+    assert EXACT.cut(EXACT.multiply(tiny, -1), 40)[0] < 0
+    with pytest.raises(Undecided, match="divide by zero"):
+        EXACT.divide(1, EXACT.subtract(root(8), EXACT.multiply(2, root(2))))

@@ -1,0 +1,271 @@
+"""The bench: translation to Fortran of today, agreement of cards, and the table; a compiler where there is one."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+
+from emulator.compiled import engine as compiled
+from emulator.errors import DeckError
+from emulator.language.cards import deck_from_lines
+from emulator.language.compiler import compile_deck
+from emulator.machine.machine import Machine
+from modern.bench import native
+from modern.bench.agreement import compared, data_sets, plain
+from modern.bench.decks import LAYERS, OPTIONS, PROGRAM, data_deck, middle_texts, random_points
+from modern.bench.measure import COLD, COMPILED, NATIVE, PLAIN, PORT, WARM, Bench, Row, document, lines, measure
+from modern.bench.timing import Figure, side_by_side
+from modern.bench.translate import LINE, translated
+from modern.cli.main import main
+from modern.edition import decks
+
+GFORTRAN = shutil.which("gfortran")
+needs_compiler = pytest.mark.skipif(GFORTRAN is None, reason="no gfortran")
+
+
+def fortran(*cards: str) -> list[str]:
+    """The statements of a translation, without its first and last lines."""
+    text = translated(deck_from_lines("deck.f", cards))
+    found = text.splitlines()
+    return [line for line in found if not line.startswith(("program", "implicit", "logical", "open", "90000", "end"))]
+
+
+def test_statements() -> None:
+    assert fortran("DIMENSION X(3),L(2,2)", "  10 X (I) = -1.5E-3*SQRTF(A)/(-2.)", "GO TO(10,10),M", "END") == [
+        "dimension X(3),L(2,2)",
+        "10 X(I) = -(1.5d-3*SQRT(A)/(-2.d0))",
+        "go to (10,10), M",
+    ]
+
+
+def test_a_do_is_written_out() -> None:
+    """One trip at least, and the limit looked up at each pass; two that end together end inner first."""
+    assert fortran("DO 5 I=1,N", "DO 5 J=I,9,2", "5 K=K+1", "END") == [
+        "I = 1",
+        "90002 continue",
+        "J = I",
+        "90003 continue",
+        "5 K = K+1",
+        "J = J + 2",
+        "if (J <= 9) go to 90003",
+        "I = I + 1",
+        "if (I <= N) go to 90002",
+    ]
+
+
+def test_input_and_output() -> None:
+    formats = "1 FORMAT(2HAB,F5.1)", "2 FORMAT(2X,3HA'B/)"
+    assert fortran("READ 1,A,(X(I),I=1,N)", "PUNCH 2", "TYPE 1,A", *formats, "END") == [
+        "read (*,1,end=90000) A,(X(I),I=1,max(1,N))",
+        "write (*,2)",
+        "write (8,1) A",
+        "1 format (2x,F5.1)",
+        "2 format (2x,'A''B',/)",
+    ]
+
+
+def test_switches_and_endings() -> None:
+    assert fortran("5 IF (SENSE SWITCH 2) 5,6", "6 PAUSE", "IF(A-B)5,6,6", "STOP", "END") == [
+        "5 go to (5,6), merge(1, 2, switch_2)",
+        "6 continue",
+        "if (A-B) 5,6,6",
+        "go to 90000",
+    ]
+    text = translated(deck_from_lines("deck.f", ["STOP", "END"]), {3})
+    assert "switch_3 = .true." in text
+    assert "switch_2 = .false." in text
+
+
+def test_what_has_no_counterpart() -> None:
+    with pytest.raises(DeckError, match=r"deck\.f: card 1: ACCEPT has no counterpart"):
+        fortran("ACCEPT 1,A", "1 FORMAT(F5.1)", "END")
+    with pytest.raises(DeckError, match=r"deck\.f: card 1"):
+        fortran("A=+*B", "END")
+
+
+@pytest.mark.parametrize("name", decks.NAMES)
+def test_no_line_is_too_long(name: str) -> None:
+    assert max(map(len, translated(decks.deck(name)).splitlines())) <= LINE + 2
+
+
+LOOPS = ["K=0", "DO 5 I=8,5", "5 K=K+1", "DO 6 I=1,10,4", "6 K=K+1", "PUNCH 9,K,I", "9 FORMAT(2I4)", "END"]
+COPY = ["1 READ 9,A,I", "B=A**2/4.-SQRT(A)", "PUNCH 9,B,I", "GO TO 1", "9 FORMAT(E14.8,I4)", "END"]
+TEXTS = ["READ 8,A", "PUNCH 7", "IF(SENSE SWITCH 1)4,5", "4 STOP", "5 PUNCH 6,A,A", "6 FORMAT(2HA=,F7.2/)"]
+TEXTS += ["7 FORMAT(/5HNO. 1/)", "8 FORMAT(3HABC,F4.1)", "END"]
+
+
+@needs_compiler
+@pytest.mark.parametrize(
+    ("cards", "data"),
+    [(LOOPS, []), (COPY, ["4.               3", "9.              12"]), (TEXTS, ["XYZ12.5"])],
+)
+def test_programs_do_natively_what_they_do_here(cards: list[str], data: list[str], tmp_path: Path) -> None:
+    deck = deck_from_lines("deck.f", cards)
+    given, taken = tmp_path / "cards", tmp_path / "punched"
+    given.write_text("".join(f"{card:80}\n" for card in data))
+    native.run(native.built(deck, native.compiler(), tmp_path), given, taken)
+    expected = Machine(compile_deck(deck), deck_from_lines("data", data)).run().punched
+    assert [plain(line) for line in taken.read_text().splitlines()] == [plain(card) for card in expected]
+
+
+@needs_compiler
+def test_program_3_natively(tmp_path: Path) -> None:
+    """Thirty sets in one process: the same cards, but for the printing of zeros."""
+    texts = middle_texts([random_points(4 + n, n) for n in range(30)])
+    given, taken = tmp_path / "cards", tmp_path / "punched"
+    given.write_text("".join(texts))
+    native.run(native.built(decks.deck(PROGRAM, LAYERS), native.compiler(), tmp_path), given, taken)
+    program = decks.program(PROGRAM, LAYERS)
+    ours = [Machine(program, deck_from_lines("d", text.splitlines()), OPTIONS).run().punched for text in texts]
+    found = compared(ours, data_sets(taken.read_text().splitlines()))
+    assert (found.same, found.digits, found.other) == (30, 0, 0)
+
+
+def test_no_compiler(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", os.devnull)
+    monkeypatch.delenv("FC", raising=False)
+    with pytest.raises(native.NoCompiler, match="no Fortran compiler is found"):
+        native.compiler()
+    monkeypatch.setenv("FC", "nothere -O")
+    with pytest.raises(native.NoCompiler, match="named by FC, nothere, is not found"):
+        native.compiler()
+
+
+def test_a_compiler_that_does_not_compile(tmp_path: Path) -> None:
+    broken = tmp_path / "broken"
+    broken.write_text('#!/bin/sh\n[ "$1" = --version ] && echo Broken 1.0 && exit\necho "Error: no" >&2\nexit 1\n')
+    broken.chmod(0o755)
+    found = native.Compiler((str(broken),), "Broken 1.0")
+    with pytest.raises(native.NoCompiler, match=r"Broken 1\.0 does not compile the translated program: Error: no"):
+        native.built(deck_from_lines("deck.f", ["STOP", "END"]), found, tmp_path)
+
+
+ONE = ["", "CONVEX HULL", "N=   4", "  1    .20000000E+01  -.30000000E+00"]
+
+
+def test_cards_that_agree() -> None:
+    """A zero before the point, and a zero's sign and exponent, are printing; nothing else is."""
+    theirs = ["", "CONVEX HULL", "N=   4", "  1   0.20000000E+01  -.30000000E+00"]
+    assert compared([ONE], [theirs]).line() == "1 decks the same, 0 with other last digits, 0 another hull"
+    for ours, other in ((" .00000000E-99", "0.00000000E+00"), ("-.00000000E-99", "0.00000000E+00")):
+        assert plain(ours) == plain(other)
+    assert plain("-.10000000E-99") != plain("0.10000000E-99")
+
+
+@pytest.mark.parametrize(
+    ("card", "kind"),
+    [
+        ("  1   0.20000001E+01  -.30000000E+00", "digits"),
+        ("  1   0.20000100E+01  -.30000000E+00", "other"),
+        ("  1   0.20000000E+02  -.30000000E+00", "other"),
+        ("  1   0.20000000E+01  0.30000000E+00", "other"),
+        ("  2   0.20000000E+01  -.30000000E+00", "other"),
+        ("  1   0.20000000E+01", "other"),
+    ],
+)
+def test_cards_that_differ(card: str, kind: str) -> None:
+    found = compared([ONE, ONE], [ONE, [*ONE[:3], card]])
+    assert (found.same, found.digits, found.other) == (1, int(kind == "digits"), int(kind == "other"))
+    assert found.first.startswith("deck 2 has '1 ")
+
+
+def test_decks_and_cards_that_are_missing() -> None:
+    assert compared([ONE, ONE], [ONE]).other == 1
+    assert compared([ONE], [ONE[:3]]).other == 1
+    assert data_sets([*ONE, *ONE]) == [ONE, ONE]
+    assert data_sets([]) == []
+
+
+def test_the_decks_are_the_same_each_time() -> None:
+    points = random_points(51, 7)
+    assert points == random_points(51, 7)
+    assert points != random_points(51, 8)
+    assert len(set(points)) == 51
+    assert len(data_deck(points).cards) == 52
+
+
+def test_works_are_timed_in_turn() -> None:
+    order: list[str] = []
+    figures = side_by_side({name: lambda name=name: order.append(name) for name in "ab"}, runs=2)  # type: ignore[misc]
+    assert order == ["a", "b"] * 3
+    assert [(figure.what, len(figure.seconds)) for figure in figures] == [("a", 2), ("b", 2)]
+
+
+def made(what: str, seconds: float, count: int) -> Row:
+    return Row(Figure(what, (seconds,) * 5), count)
+
+
+def test_the_table() -> None:
+    rows = (made(COMPILED, 2.0, 1000), made(NATIVE, 0.25, 1000), made(PLAIN, 2.0, 20))
+    bench = Bench(rows, (Figure(COLD, (9.0,)), Figure(WARM, (0.5,))), None, "GNU Fortran 12", ("a remark",))
+    table = lines(bench)
+    assert table[1].split() == ["compiled", "engine", "1000", "2.000", "500", "1.00", "8.00"]
+    assert table[3].split() == ["plain", "engine", "20", "100.000", "10", "50.00", "400.00"]
+    assert table[-1] == "a remark"
+    assert max(map(len, table[:4])) <= 78
+    assert json.loads(json.dumps(document(bench)))["engines"][1]["seconds_a_deck"] == 0.00025
+
+
+def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without a compiler and without numba: what is left is measured, and a line each says what is missing."""
+    monkeypatch.setenv("PATH", os.devnull)
+    monkeypatch.delenv("FC", raising=False)
+    monkeypatch.setitem(sys.modules, "numba", None)
+    monkeypatch.setattr(compiled, "run_decks", compiled.run_decks.__wrapped__)
+    monkeypatch.setattr("modern.bench.timing.RUNS", 1)
+    place = tmp_path / "bench.json"
+    assert main(["bench", "--decks", "1", "--json", str(place)]) == 0
+    out, err = capsys.readouterr()
+    assert "no Fortran compiler is found" in out
+    assert "needs numba (extra fast)" in out
+    assert err.startswith("making 1 decks")
+    found = json.loads(place.read_text())
+    assert [engine["what"] for engine in found["engines"]] == [PLAIN, PORT]
+    assert found["compiler"] is None
+    assert found["agreement"] is None
+
+
+@pytest.mark.parametrize(
+    ("named", "words"),
+    [
+        ('gfortran "', "FC names no Fortran compiler"),
+        ("true", "true is no Fortran compiler: it makes no program"),
+        ("false", "^false.* does not compile the translated program: no reason given"),
+    ],
+)
+def test_what_is_no_compiler(named: str, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("FC", named)
+    with pytest.raises(native.NoCompiler, match=words) as caught:
+        native.built(decks.deck(PROGRAM, LAYERS), native.compiler(), tmp_path)
+    assert "\n" not in str(caught.value)
+
+
+@needs_compiler
+def test_everything_together(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("numba")
+    monkeypatch.setattr("modern.bench.measure._starts", lambda text, folder, say: ())
+    bench = measure(3)
+    assert [row.figure.what for row in bench.rows] == [COMPILED, NATIVE, PLAIN, PORT]
+    assert bench.agreement is not None
+    assert bench.agreement.same == 3
+    assert bench.remarks == ()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--decks", "0"], "--decks: 0 is no number of decks"),
+        (["--json", "/nothere/x.json"], "no such file or directory"),
+        (["--json", "."], "is a directory"),
+    ],
+)
+def test_bad_arguments(arguments: list[str], words: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["bench", *arguments]) == 2
+    err = capsys.readouterr().err
+    assert words in err
+    assert err.count("\n") == 1

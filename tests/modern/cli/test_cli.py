@@ -1,0 +1,436 @@
+"""The command line as a user meets it: exit codes, one-line messages, pipes, files written whole."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.support.commands import call
+from tests.support.paths import MACHINE_RUNS
+
+DECK = " 4\n" + "".join(
+    f"{x}{y}{z}\n"
+    for x, y, z in (
+        ("+.00000000E+00", "+.00000000E+00", "+.00000000E+00"),
+        ("+.10000000E+01", "+.00000000E+00", "+.00000000E+00"),
+        ("+.00000000E+00", "+.10000000E+01", "+.00000000E+00"),
+        ("+.00000000E+00", "+.00000000E+00", "+.10000000E+01"),
+    )
+)
+PROGRAM = "    1 READ 2,X\n      PUNCH 2,X\n      GO TO 1\n    2 FORMAT (E14.8)\n      END\n"
+
+
+@pytest.fixture
+def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An empty folder to be in, with one good deck and one good program."""
+    monkeypatch.chdir(tmp_path)
+    Path("good.deck").write_text(DECK)
+    Path("good.f").write_text(PROGRAM)
+    Path("x.deck").write_text("2.\n3.\n")
+    return tmp_path
+
+
+def points(n: str, *cards: str) -> str:
+    return "\n".join((n, *cards)) + "\n"
+
+
+GOOD_POINT = "+.10000000E+01+.20000000E+01+.30000000E+01"
+
+# name, file's contents, arguments, words of the message
+BAD_DECKS = [
+    ("empty", "", "the deck is empty"),
+    ("blank", "\n\n", "only blank cards"),
+    ("no-number", points("XX", GOOD_POINT), "card 1, column 1: N, in columns 1-2, is 'XX': no number"),
+    ("zero", points(" 0", GOOD_POINT), "card 1, column 1: N is 0"),
+    ("negative", points("-3", GOOD_POINT), "card 1, column 1: N is -3"),
+    ("too-many", points("52", GOOD_POINT), "card 1, column 1: N is 52; the programs take 1 to 51"),
+    ("blank-n", points("  .", GOOD_POINT).replace(".", ""), "N, in columns 1-2, is blank"),
+    ("too-few", points(" 3", GOOD_POINT, GOOD_POINT), "card 3, column 1: the deck ends after 2 of 3 points"),
+    (
+        "no-coordinate",
+        points(" 1", "+.10000000E+01  1.2.3       +.30000000E+01"),
+        "card 2, column 15: y: '1.2.3' is no",
+    ),
+    ("lower-case", points(" 1", GOOD_POINT.replace("E", "e")), "card 2, column 11: 'e' is not in the card code"),
+    ("strange", points(" 1", GOOD_POINT + " %"), "card 2, column 44: '%' is the commercial graphic"),
+    ("tab", points(" 1", "\t1."), "card 2, column 1: character 0x09"),
+    ("utf-8", points(" 1", "é"), "card 2, column 1: 'é' is not in the card code"),
+    ("too-wide", points(" 1", GOOD_POINT + " " * 40 + "X"), "card 2, column 81: a card has 80 columns"),
+    ("range", points(" 1", "9.E+99        0.            0."), "card 2, column 1: x: '9.E+99' is out of range"),
+    ("second-set", points(" 1", GOOD_POINT, " 2", GOOD_POINT), "card 4, column 1: the deck ends after 1 of 2 points"),
+]
+
+
+@pytest.mark.parametrize(("text", "words"), [b[1:] for b in BAD_DECKS], ids=[b[0] for b in BAD_DECKS])
+def test_bad_hull_deck(room: Path, capsys: pytest.CaptureFixture[str], text: str, words: str) -> None:
+    Path("bad.deck").write_text(text, encoding="utf-8")
+    code, out, err = call(capsys, "hull", "bad.deck")
+    assert code == 2
+    assert out == ""
+    assert err.count("\n") == 1
+    assert err.startswith("hull1620: bad.deck")
+    assert words in err
+
+
+BAD_SOURCES = [
+    ("empty", "", "the deck is empty"),
+    ("comment-only", "C  NOTHING\n", "the source deck has no statement"),
+    ("no-statement", "      HELLO\n      END\n", "card 1, column 7: error: not a statement"),
+    ("undefined-number", "      GO TO 7\n      END\n", "card 1, column 7: error: there is no statement number 7"),
+    ("missing-format", "      READ 5,X\n      END\n", "card 1, column 7: error 13: there is no FORMAT number 5"),
+    ("mixed", "      X=A*I\n      END\n", "card 1, column 11: error 5: fixed and floating point are mixed"),
+    ("to-format", "      GO TO 1\n    1 FORMAT (I2)\n      END\n", "error: statement 1 is a FORMAT"),
+    ("long-name", "      VERTEX=1.\n      END\n", "error 6: the name VERTEX"),
+    ("hash", "      I1#1\n      END\n", "card 1, column 9: '#' is the commercial graphic"),
+    ("wide", " " * 85 + "X\n", "card 1, column 81"),
+]
+
+
+@pytest.mark.parametrize(("text", "words"), [b[1:] for b in BAD_SOURCES], ids=[b[0] for b in BAD_SOURCES])
+@pytest.mark.parametrize("command", ["run", "compile", "map"])
+def test_bad_source(room: Path, capsys: pytest.CaptureFixture[str], command: str, text: str, words: str) -> None:
+    Path("bad.f").write_text(text)
+    code, out, err = call(capsys, command, "bad.f")
+    assert (code, out) == (2, "")
+    assert err.count("\n") == 1
+    assert words in err
+
+
+MISUSE = [
+    (["run", "nosuch.f"], "nosuch.f: no such file or directory"),
+    (["run", "."], ".: is a directory"),
+    (["hull", "."], ".: is a directory"),
+    (["hull", "nosuch"], "nosuch: no such file"),
+    (["run", "good.f", "x.deck", "--arithmetic", "decimal"], "no arithmetic is called 'decimal'"),
+    (["run", "good.f", "x.deck", "--arithmetic", "truncating:1"], "the number of digits is 2 to 28"),
+    (["run", "good.f", "x.deck", "--limit", "0"], "0 is no number of statements"),
+    (["run", "good.f", "x.deck", "--limit", "many"], "argument --limit: invalid int value"),
+    (["run", "good.f", "x.deck", "--switch", "5"], "argument --switch: invalid choice: 5"),
+    (["run", "good.f", "x.deck", "--punch", "nosuch/file"], "nosuch/file: no such file or directory"),
+    (["run", "good.f", "x.deck", "--trace", "."], ".: is a directory"),
+    (["run", "good.f", "x.deck", "--layers", "lacuna"], "--layers is for the built-in programs"),
+    (["run", "program1", "good.deck", "--layers", "nosuch"], "no rows of a layer 'nosuch'"),
+    (["hull", "good.deck", "--layers", "nosuch"], "no program has rows of a layer 'nosuch'"),
+    (["hull", "good.deck", "--core", "20000"], "OVERLAP"),
+    (["run", "-", "-"], "cannot both come from standard input"),
+    (["run", "program1"], "the hopper is empty at the first READ"),
+    (["reproduce", "7"], "there is no example '7'"),
+    (["apparatus", "--layer", "nosuch"], "there is no layer 'nosuch'"),
+    (["apparatus", "--program", "4"], "'4' is not 1, 2 or 3"),
+    (["cards", "nosuch.csv"], "nosuch.csv: no such file"),
+    (["nosuch"], "invalid choice: 'nosuch'"),
+    ([], "the following arguments are required: COMMAND"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "words"), MISUSE, ids=[" ".join(m[0]) or "nothing" for m in MISUSE])
+def test_misuse(room: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], words: str) -> None:
+    before = sorted(os.listdir())
+    code, out, err = call(capsys, *arguments)
+    assert code == 2
+    assert out == ""
+    assert err.count("\n") == 1
+    assert words in err
+    assert sorted(os.listdir()) == before
+
+
+def test_hull_puts_cards_out_and_types_on_stderr(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, err = call(capsys, "hull", "good.deck")
+    assert code == 0
+    assert "CONVEX HULL HAS BEEN DETERMINED" in out
+    assert err == "POINTS ARE NOT COPLANAR\n"
+
+
+def test_files_instead(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, err = call(capsys, "hull", "good.deck", "--punch", "c", "--typewriter", "t", "--trace", "l")
+    assert (code, out, err) == (0, "", "")
+    assert Path("t").read_text() == "POINTS ARE NOT COPLANAR\n"
+    assert Path("c").read_text().endswith("DETERMINED\n\n\n\n")
+    trace = Path("l").read_text()
+    assert "* program1.f" in trace
+    assert "* program3.f" in trace
+    assert "X(2) = .10000000E+01" in trace
+
+
+def test_profile_in_a_narrow_terminal(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, _, err = call(capsys, "hull", "good.deck", "--profile")
+    assert code == 0
+    assert "time on a 1620 Model 1" in err
+    assert all(len(line) <= 80 for line in err.splitlines())
+
+
+def test_accepted_line_ends_and_blank_fields(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("crlf.deck").write_bytes(DECK.replace("\n", "\r\n").rstrip().encode())
+    assert call(capsys, "hull", "crlf.deck")[0] == 0
+    Path("blank.deck").write_text(DECK.replace("+.00000000E+00", " " * 14))
+    code, _, err = call(capsys, "hull", "blank.deck")
+    assert code == 0
+    assert "warning: blank.deck: card 2, column 1: x: a blank field is read as zero" in err
+
+
+def test_a_point_that_stands_twice_is_mentioned(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("twice.deck").write_text(DECK.replace(" 4", " 5") + "1.0           -.0           .0\n")
+    _, _, err = call(capsys, "hull", "twice.deck")
+    assert "warning: twice.deck: card 6, column 1: the point of card 3 again" in err
+
+
+def test_run_ends_normally_at_the_empty_hopper(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert call(capsys, "run", "good.f", "x.deck") == (0, " .20000000E+01\n .30000000E+01\n", "")
+
+
+def test_hopper_empty_in_the_middle_of_a_data_set(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("short.deck").write_text(" 3\n" + GOOD_POINT + "\n")
+    code, out, err = call(capsys, "run", "program1", "short.deck")
+    assert (code, out) == (2, "")
+    assert "short.deck: card 2, column 1: the deck ends in the middle of a data set" in err
+
+
+def test_bad_field_in_run(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("bad.deck").write_text("2.\nABC\n")
+    assert call(capsys, "run", "good.f", "bad.deck")[::2] == (
+        2,
+        "hull1620: bad.deck: card 2, column 1: 'ABC' is no number\n",
+    )
+
+
+@pytest.mark.parametrize(("run", "typed"), [("04_cube8", "ERROR IN PROGRAM"), ("18_dec3_n6", "DATA NOT ACCEPTABLE")])
+def test_a_refusal_exits_1(capsys: pytest.CaptureFixture[str], run: str, typed: str) -> None:
+    deck = MACHINE_RUNS / run / "deck.cards"
+    code, _, err = call(capsys, "hull", str(deck))
+    assert code == 1
+    assert typed in err
+
+
+def test_switch_1_goes_on_after_data_not_acceptable(capsys: pytest.CaptureFixture[str]) -> None:
+    """KNOWN-FAULTS 10."""
+    deck = MACHINE_RUNS / "18_dec3_n6" / "deck.cards"
+    off = call(capsys, "hull", str(deck))
+    on = call(capsys, "hull", str(deck), "--switch", "1", "--limit", "100000")
+    assert off[2].count("DATA NOT ACCEPTABLE") == 1
+    assert on[2].count("DATA NOT ACCEPTABLE") > 1
+
+
+def test_statement_limit_keeps_the_cards_punched_so_far(capsys: pytest.CaptureFixture[str]) -> None:
+    deck = MACHINE_RUNS / "39_prism_n10" / "deck.cards"
+    code, out, err = call(capsys, "hull", str(deck), "--limit", "100000")
+    assert code == 1
+    assert "program3.f: stopped after 100000 statements; it loops on cards" in err
+    assert "CONVEX HULL" in out
+
+
+def test_reproduce_as_json(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, _, _ = call(capsys, "reproduce", "3", "--json", "v.json")
+    document = json.loads(Path("v.json").read_text())
+    assert code == 0
+    assert document["reproduced"] is True
+    assert {r["verdict"] for r in document["results"]} == {"exact"}
+    code, out, _ = call(capsys, "reproduce", "3", "--json", "-")
+    assert json.loads(out) == document
+
+
+def test_reproduce_without_a_terminal_has_no_colour(capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = call(capsys, "reproduce", "5")
+    assert code == 0
+    assert "\x1b" not in out
+    assert "exact in another order" in out
+    assert "Every printed result comes out." in out
+
+
+def test_reproduce_shows_the_cards_that_differ(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from modern.edition import decks, reproduce
+
+    other = decks.deck("program1_examples").text().replace("E(LL)=2.", "E(LL)=5.")
+    from emulator.language.cards import deck_from_text
+    from emulator.language.compiler import compile_deck
+
+    changed = compile_deck(deck_from_text("p", other))
+    kept = decks.program
+    monkeypatch.setattr(
+        "modern.cli.reproduce.reproduce",
+        lambda examples: reproduce.reproduce(examples, lambda n: changed if n == "program1_examples" else kept(n)),
+    )
+    code, out, _ = call(capsys, "reproduce", "5")
+    assert code == 1
+    assert "printed" in out
+    assert "NOT every printed result comes out." in out
+
+
+def test_check_marks_card_and_column(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("bad.f").write_text("      A=B+\n      GO TO 3\n      END\n")
+    code, out, err = call(capsys, "check", "bad.f")
+    assert (code, err) == (2, "")
+    lines = out.splitlines()
+    assert lines[0].startswith("bad.f: card 1, column 10: error:")
+    assert lines[2].index("^") - 4 == 9
+    assert call(capsys, "check", "program3")[0] == 0
+
+
+def test_map_and_compile(capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = call(capsys, "map", "program3")
+    assert code == 0
+    assert "X(51)" in out
+    assert "39879" in out
+    code, out, _ = call(capsys, "compile", "program2")
+    assert code == 0
+    assert "RSGN" in out
+
+
+def test_apparatus_lists_rows(capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = call(capsys, "apparatus", "--program", "1", "--layer", "lacuna")
+    assert code == 0
+    assert out.splitlines()[-1] == "2 rows"
+    assert "INN=0" in out
+
+
+def test_cards_and_back(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("p.csv").write_text("x,y,z\n1,-2.5,3e-2\n\n0,.125,-0\n")
+    code, out, err = call(capsys, "cards", "p.csv")
+    assert (code, err) == (0, "")
+    assert out == (" 2\n+.10000000E+01-.25000000E+01+.30000000E-01\n+.00000000E+00+.12500000E+00-.00000000E+00\n")
+    assert call(capsys, "cards", "p.csv", "-o", "p.deck")[:2] == (0, "")
+    assert Path("p.deck").read_text() == out
+
+
+CSV_FAULTS = [
+    ("1,2\n", "line 1, column 1: 2 fields"),
+    ("1,2,x\n", "line 1, field 3: 'x' is no decimal number"),
+    ("1,2,123456789\n", "line 1, field 3: 9 significant digits"),
+    ("1,2,1e100\n", "line 1, field 3: out of range"),
+    ("", "there are no points"),
+    ("1,2,3\n" * 100, "100 points"),
+    ("nan,inf,3\n", "line 1, field 1: 'nan' is no decimal number"),
+]
+
+
+@pytest.mark.parametrize(("text", "words"), CSV_FAULTS)
+def test_cards_refuses(room: Path, capsys: pytest.CaptureFixture[str], text: str, words: str) -> None:
+    Path("p.csv").write_text(text)
+    code, out, err = call(capsys, "cards", "p.csv", "-o", "p.deck")
+    assert (code, out) == (2, "")
+    assert words in err
+    assert not Path("p.deck").exists()
+
+
+def test_cards_truncates_when_told(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("p.csv").write_text("1,2,-1234.56789\n")
+    assert "-.12345678E+04" in call(capsys, "cards", "p.csv", "--truncate")[1]
+
+
+def test_a_deck_from_standard_input(
+    room: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(DECK.encode())))
+    assert call(capsys, "hull", "-")[0] == 0
+
+
+def test_help_imports_nothing_heavy() -> None:
+    code = "import sys; sys.argv = ['hull1620', '--help']\n" + (
+        "from modern.cli.main import main\n"
+        "try:\n    main()\nexcept SystemExit:\n    pass\n"
+        "assert not {'numpy', 'lark', 'mpmath'} & set(sys.modules)\n"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True, stdout=subprocess.DEVNULL)
+
+
+def test_a_closed_pipe_is_no_error() -> None:
+    command = f"{sys.executable} -m modern.cli.main compile program3 | head -n 1"
+    done = subprocess.run(["bash", "-c", f"set -o pipefail; {command}"], capture_output=True, text=True, check=False)
+    assert done.stderr == ""
+    assert done.stdout.count("\n") == 1
+
+
+# What is written, and where.
+
+
+def test_a_device_is_written_not_replaced(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    os.mkfifo("pipe")
+    reader = subprocess.Popen(["cat", "pipe"], stdout=subprocess.PIPE, text=True)
+    assert call(capsys, "hull", "good.deck", "--trace", "pipe")[0] == 0
+    assert "* program3.f" in reader.communicate(timeout=10)[0]
+    assert Path("pipe").is_fifo()
+
+
+def test_neighbouring_files_are_left_alone(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("log.part").write_text("mine")
+    assert call(capsys, "hull", "good.deck", "--trace", "log")[0] == 0
+    assert Path("log.part").read_text() == "mine"
+
+
+def test_an_existing_file_keeps_its_mode_and_a_link_is_followed(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("cards").write_text("old")
+    Path("cards").chmod(0o600)
+    Path("link").symlink_to("cards")
+    assert call(capsys, "hull", "good.deck", "--punch", "link")[0] == 0
+    assert Path("link").is_symlink()
+    assert Path("cards").stat().st_mode & 0o777 == 0o600
+    assert "CONVEX HULL" in Path("cards").read_text()
+
+
+def test_work_done_before_a_bad_card_is_put_out(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("bad.deck").write_text("2.\nABC\n")
+    code, out, err = call(capsys, "run", "good.f", "bad.deck", "--trace", "log")
+    assert (code, out) == (2, " .20000000E+01\n")
+    assert err.count("\n") == 1
+    assert "READ 2,X" in Path("log").read_text()
+
+
+def test_blank_cards_behind_the_deck(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("b.deck").write_text(DECK + "\n\n")
+    code, _, err = call(capsys, "hull", "b.deck")
+    assert code == 0
+    assert "warning: b.deck: card 6, column 1: blank cards behind" in err
+
+
+def test_errors_of_the_arithmetic_are_always_mentioned(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    cards = "9.E+98        1.E+98        0.\n-9.E+98       2.E+98        0.            JUNK\n"
+    Path("big.deck").write_text(" 2\n" + cards)
+    code, _, err = call(capsys, "hull", "big.deck")
+    assert code == 0
+    assert "what stands behind z is not read" in err
+    assert "note: program1.f: E3 on card 40: a product overflows" in err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["hull", "good.deck", "--punch", ""], "a file without a name"),
+        (["hull", "good.deck", "--punch", "a", "--typewriter", "a"], "two outputs are to go to one file"),
+        (["reproduce", "3", "--json", "nosuch/file"], "nosuch/file: no such file or directory"),
+        (["run", "a\nb.f"], "a\\nb.f: no such file"),
+    ],
+)
+def test_outputs_are_checked_first(
+    room: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], words: str
+) -> None:
+    code, out, err = call(capsys, *arguments)
+    assert (code, out) == (2, "")
+    assert words in err
+    assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize("redirection", ["<&-", ">&-", "> /dev/full"])
+def test_closed_and_full_streams(room: Path, redirection: str) -> None:
+    if redirection.endswith("full") and not os.path.exists("/dev/full"):
+        pytest.skip("no /dev/full here")
+    command = f"{sys.executable} -m modern.cli.main hull {'-' if '<' in redirection else 'good.deck'} {redirection}"
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert "Traceback" not in done.stderr
+    assert done.stderr.splitlines()[-1].startswith("hull1620: ")
+
+
+def test_one_example_named_twice_runs_once(capsys: pytest.CaptureFixture[str]) -> None:
+    assert call(capsys, "reproduce", "3", "3")[1] == call(capsys, "reproduce", "3")[1]
+
+
+def test_cards_takes_plain_digits_only(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("wide.csv").write_text("\uff11,2,3\n", encoding="utf-8")
+    assert call(capsys, "cards", "wide.csv")[0] == 2

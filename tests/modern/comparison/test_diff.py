@@ -1,0 +1,120 @@
+"""``hull1620 diff``: routes held against the judge, and disagreements that are seen."""
+
+from __future__ import annotations
+
+import json
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from modern.cli.main import main
+from modern.comparison.difference import against
+from modern.comparison.outcome import Outcome, Vector, from_judge
+from modern.exact_hull import exact_hull
+from tests.support.paths import MACHINE_RUNS
+
+RUNS = MACHINE_RUNS
+TETRAHEDRON = [(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4), (1, 1, 1), (2, 2, 0)]
+
+
+def vectors(points: list[tuple[int, int, int]]) -> list[Vector]:
+    return [tuple(Fraction(x) for x in point) for point in points]
+
+
+def judge_of(points: list[tuple[int, int, int]]) -> Outcome:
+    return from_judge(exact_hull(points), vectors(points))
+
+
+def changed(outcome: Outcome, **changes: object) -> Outcome:
+    fields = {name: getattr(outcome, name) for name in Outcome.__dataclass_fields__}
+    return Outcome(**{**fields, **changes})  # type: ignore[arg-type]
+
+
+def test_the_judge_agrees_with_itself() -> None:
+    judge = judge_of(TETRAHEDRON)
+    found = against(judge, judge, vectors(TETRAHEDRON))
+    assert found.agrees
+    assert (found.error, found.excluded, found.points) == (0, 0, ())
+
+
+def test_every_kind_of_disagreement_is_seen() -> None:
+    judge, points = judge_of(TETRAHEDRON), vectors(TETRAHEDRON)
+    missed = against(changed(judge, vertices=judge.vertices - {3}), judge, points)
+    assert (missed.missed, missed.agrees) == (frozenset({3}), False)
+    added = against(changed(judge, vertices=judge.vertices | {4}), judge, points)
+    assert (added.added, added.agrees) == (frozenset({4}), False)
+    misfiled = against(changed(judge, boundary=frozenset(), inside=frozenset({4, 5})), judge, points)
+    assert (misfiled.misfiled, misfiled.agrees) == (frozenset({5}), False)
+    fewer = against(changed(judge, equations=judge.equations[1:]), judge, points)
+    assert (fewer.planes_missing, fewer.agrees) == (1, False)
+    doubled = against(changed(judge, equations=(*judge.equations, judge.equations[0])), judge, points)
+    assert (doubled.planes_doubled, doubled.agrees) == (1, False)
+    extra_plane = (Fraction(1), Fraction(2), Fraction(7), Fraction(-100))
+    extra = against(changed(judge, equations=(*judge.equations, extra_plane)), judge, points)
+    assert (extra.planes_extra, extra.agrees) == (1, False)
+
+
+def test_a_small_error_of_a_coefficient_is_measured_not_counted() -> None:
+    judge, points = judge_of(TETRAHEDRON), vectors(TETRAHEDRON)
+    a, b, c, d = judge.equations[0]
+    off = (a, b, c, d + max(abs(a), abs(b), abs(c)) / 10**6)
+    found = against(changed(judge, equations=(off, *judge.equations[1:])), judge, points)
+    assert found.agrees
+    assert 0 < found.error <= Fraction(1, 10**6)
+    assert found.excluded > 0
+    assert found.excluded_point is not None
+
+
+@pytest.mark.parametrize(
+    ("run", "code", "words"),
+    [
+        ("01_tetra", 0, "all agree with the judge"),
+        ("29_collinear_n10", 0, "a segment of 2 vertices"),
+        ("35_coplanar_tilt_n14", 0, "a polygon of 6 vertices"),
+        ("04_cube8", 1, "differs from the judge: listing\n"),
+        ("18_dec3_n6", 1, "DATA NOT ACCEPTABLE"),
+        ("39_prism_n10", 1, "endless"),
+    ],
+)
+def test_the_machine_runs(capsys: pytest.CaptureFixture[str], run: str, code: int, words: str) -> None:
+    assert main(["diff", str(RUNS / run / "deck.cards")]) == code
+    assert words in capsys.readouterr().out
+
+
+def test_json_and_points_beyond_the_cards(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "p.csv"
+    path.write_text("0,0,0\n1,0,0\n0,1,0\n0,0,1.0000000001\n")
+    assert main(["diff", str(path), "--json", str(tmp_path / "d.json")]) == 0
+    document = json.loads((tmp_path / "d.json").read_text())
+    statuses = {route["route"]: route["status"] for route in document["routes"]}
+    assert statuses["listing"].startswith("not run: line 4: 11 significant digits")
+    assert statuses["port exact"] == "determined"
+    assert document["judge"]["vertices"] == [0, 1, 2, 3]
+    capsys.readouterr()
+
+
+def test_an_epsilon_lets_three_decimals_through(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Refused with DATA NOT ACCEPTABLE as listed; with e the programs and the port agree with the judge."""
+    deck, out = str(RUNS / "18_dec3_n6" / "deck.cards"), str(tmp_path / "d.json")
+
+    def statuses(epsilon: str) -> dict[str, tuple[str, bool]]:
+        assert main(["diff", deck, "--epsilon", epsilon, "--json", out]) == 1
+        return {r["route"]: (r["status"], r["agrees"]) for r in json.loads(Path(out).read_text())["routes"]}
+
+    absolute, scaled = statuses(".01"), statuses("rel:1e-9")
+    assert absolute.pop("listing") == scaled.pop("listing") == ("DATA NOT ACCEPTABLE", False)
+    assert set(absolute.values()) == {("determined", True)}
+    assert scaled.pop("listing + epsilon + corrected")[0] == "not run: the cards take an absolute e"
+    assert set(scaled.values()) == {("determined", True)}
+    capsys.readouterr()
+
+
+def test_bad_input(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "p.csv"
+    path.write_text("0,0,x\n")
+    assert main(["diff", str(path)]) == 2
+    assert main(["diff", str(tmp_path / "nosuch")]) == 2
+    path.write_text("0,0,0\n1,0,0\n")
+    assert main(["diff", str(path), "--epsilon", "much"]) == 2
+    assert capsys.readouterr().err.count("\n") == 3

@@ -1,0 +1,229 @@
+"""The filled digital hull: against the exact judge, between its own ways, and where others give no answer."""
+
+from __future__ import annotations
+
+import itertools
+import random
+import subprocess
+import sys
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as arrays
+
+import modern
+from emulator.compiled.jit import NotInstalled
+from modern.digital import columns, intervals
+from modern.digital.hull import KINDS, WORTH_COMPILING, digital_hull
+from modern.digital.polytope import polyhedron
+from modern.digital.solids import VERTEX, Volume, VolumeError, ball
+from tests.support.digital_judge import judged, random_solid, solid_of
+
+VOLUMES = st.one_of(
+    arrays.arrays(np.bool_, arrays.array_shapes(min_dims=2, max_dims=3, max_side=8)),
+    arrays.arrays(
+        np.bool_,
+        arrays.array_shapes(min_dims=2, max_dims=3, max_side=12),
+        elements=st.just(True),
+        fill=st.just(False),
+    ),
+)
+
+
+def agrees(array: Any, fast: bool = False) -> bool:
+    hull = digital_hull(array, fast)
+    dimension, filled = judged(array)
+    return hull.dimension == dimension and np.array_equal(hull.filled, filled)
+
+
+@given(VOLUMES)
+def test_any_volume_has_the_grid_points_of_the_judge(array: np.ndarray) -> None:
+    if array.any():
+        assert agrees(array)
+    else:
+        assert digital_hull(array).kind == "empty"
+
+
+@given(st.integers(0, 10**9))
+def test_random_solids_have_the_grid_points_of_the_judge(seed: int) -> None:
+    assert agrees(random_solid(random.Random(seed), side=9))
+
+
+@given(st.integers(0, 10**9), st.tuples(*[st.integers(-3, 3)] * 3), st.integers(-4, 9))
+def test_voxels_of_one_plane(seed: int, normal: tuple[int, int, int], offset: int) -> None:
+    source = np.random.default_rng(seed)
+    array = source.random((7, 6, 8)) < 0.4
+    places = np.indices(array.shape).reshape(3, -1).T
+    array &= (places @ np.array(normal) == offset).reshape(array.shape)
+    assert not array.any() or agrees(array)
+
+
+def test_the_comparison_with_the_judge_can_fail(monkeypatch: pytest.MonkeyPatch) -> None:
+    array = solid_of([(0, 0, 0), (2, 0, 0), (0, 2, 1), (0, 0, 3)])
+    assert agrees(array)
+    monkeypatch.setattr(columns, "_along", lambda line, t, z: (line[:1], t[:1], z[:1]))
+    assert not agrees(array)
+
+
+@pytest.mark.parametrize(
+    ("voxels", "kind"),
+    [
+        ([(2, 1, 0)], "point"),
+        ([(0, 0, 0), (6, 3, 9)], "segment"),
+        ([(0, 0, 3), (3, 0, 0), (0, 3, 0)], "polygon"),
+        ([(0, 0, 0), (0, 0, 5), (4, 2, 0)], "polygon"),  # an upright plane
+        ([(0, 0, 0), (3, 0, 0), (0, 3, 0), (0, 0, 3)], "polyhedron"),
+    ],
+)
+def test_kinds(voxels: list[tuple[int, int, int]], kind: str) -> None:
+    array = solid_of(voxels)
+    for hull in (digital_hull(array), digital_hull(np.asfortranarray(array)), digital_hull(array.astype(float))):
+        assert hull.kind == kind == KINDS[hull.dimension + 1]
+        assert hull.given == len(voxels)
+        assert hull.voxels == np.count_nonzero(hull.filled)
+        assert np.array_equal(hull.filled, judged(array)[1])
+
+
+@pytest.mark.parametrize("shape", [(3, 4), (3, 4, 5), (0, 4), (3, 0, 5)])
+def test_an_empty_volume_is_no_error(shape: tuple[int, ...]) -> None:
+    hull = digital_hull(np.zeros(shape, dtype=np.uint8))
+    assert (hull.kind, hull.dimension, hull.given, hull.voxels, hull.filled.shape) == ("empty", -1, 0, 0, shape)
+
+
+def test_a_picture_has_a_polygon_at_most() -> None:
+    picture = np.zeros((5, 6), dtype=np.bool_)
+    picture[0, 0] = picture[4, 1] = picture[2, 5] = True
+    hull = digital_hull(picture)
+    assert hull.kind == "polygon"
+    assert np.array_equal(hull.filled, judged(picture)[1])
+
+
+@given(VOLUMES, st.permutations(range(3)))
+def test_axes_and_memory_do_not_matter(array: np.ndarray, order: list[int]) -> None:
+    axes = order if array.ndim == 3 else [axis for axis in order if axis < 2]
+    turned = digital_hull(array.transpose(axes)[..., ::-1])
+    assert np.array_equal(turned.filled[..., ::-1].transpose(np.argsort(axes)), digital_hull(array).filled)
+
+
+@pytest.mark.parametrize("axes", list(itertools.permutations(range(3))))
+def test_the_axes_stay_in_their_order_whatever_that_of_memory(axes: tuple[int, int, int]) -> None:
+    array = np.zeros((3, 5, 7), dtype=np.bool_)
+    array[0, 0, 0] = array[2, 1, 3] = array[1, 4, 2] = array[0, 2, 6] = True
+    assert agrees(array.transpose(axes))
+
+
+@given(VOLUMES)
+def test_the_hull_holds_its_volume_and_is_its_own_hull(array: np.ndarray) -> None:
+    hull = digital_hull(array)
+    again = digital_hull(hull.filled)
+    assert not (array & ~hull.filled).any()
+    assert np.array_equal(again.filled, hull.filled)
+    assert again.dimension == hull.dimension
+
+
+@pytest.mark.parametrize("diameter", [12, 33])
+def test_a_ball_is_convex(diameter: int) -> None:
+    volume = ball(diameter, VERTEX)
+    assert np.array_equal(digital_hull(volume).filled, volume.array)
+
+
+def test_planes_of_a_ball_against_the_judge() -> None:
+    array = ball(18).array
+    surface = array.copy()
+    surface[1:-1, 1:-1, 1:-1] &= ~(array[:-2, 1:-1, 1:-1] & array[2:, 1:-1, 1:-1])
+    assert agrees(surface)
+
+
+def test_small_batches_give_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    array = ball(15).array & (np.indices((15, 15, 15)).sum(axis=0) % 5 == 0)
+    whole = digital_hull(array)
+    monkeypatch.setattr(columns, "SLAB", 1)
+    monkeypatch.setattr(intervals, "BATCH", 7)
+    assert np.array_equal(digital_hull(array).filled, whole.filled)
+    assert agrees(array)
+
+
+def test_compiled_code_gives_the_same_facets() -> None:
+    pytest.importorskip("numba")
+    points = np.argwhere(ball(24).array)
+    simplex = (0, len(points) - 1, len(points) // 2, len(points) // 3)
+    for plain, compiled in zip(polyhedron(points, simplex, False), polyhedron(points, simplex, True), strict=True):
+        assert np.array_equal(plain, compiled)
+    source = random.Random(3)
+    for _ in range(30):
+        assert agrees(random_solid(source, side=8), fast=True)
+
+
+def no_numba() -> None:
+    raise NotInstalled("compiled code needs numba")
+
+
+def test_compiled_code_is_taken_where_it_pays(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = []
+
+    def noted(points: Any, simplex: Any, fast: bool) -> Any:
+        asked.append((len(points) >= WORTH_COMPILING, fast))
+        return polyhedron(points, simplex, False)
+
+    monkeypatch.setattr("modern.digital.hull.polyhedron", noted)
+    monkeypatch.setattr("modern.digital.hull.compiled_hull", lambda: None)
+    digital_hull(ball(10))
+    digital_hull(ball(64))
+    monkeypatch.setattr("modern.digital.hull.compiled_hull", no_numba)
+    digital_hull(ball(64))
+    assert asked == [(False, False), (True, True), (True, False)]
+
+
+def test_compiled_code_without_numba_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("modern.digital.hull.compiled_hull", no_numba)
+    with pytest.raises(VolumeError, match="needs numba"):
+        digital_hull(ball(6), fast=True)
+
+
+@pytest.mark.parametrize(
+    ("array", "message"),
+    [
+        (np.ones(5), "two or three axes"),
+        (np.ones((2, 2, 2, 2)), "two or three axes"),
+        (np.array([["a", "b"]]), "numbers or truth values"),
+        (np.array([[0.0, np.nan]]), "no number"),
+        (np.broadcast_to(np.True_, (1 << 30, 1 << 30)), "no exact hull"),
+    ],
+)
+def test_what_is_no_volume_is_refused(array: np.ndarray, message: str) -> None:
+    with pytest.raises(VolumeError, match=message):
+        digital_hull(array)
+
+
+def test_the_public_name() -> None:
+    assert modern.digital_hull is digital_hull
+    assert modern.digital_hull(Volume(np.ones((2, 2), dtype=np.bool_), (5, 5))).voxels == 4
+
+
+@given(VOLUMES)
+def test_scikit_image_by_centres_agrees_where_it_answers(array: np.ndarray) -> None:
+    """``offset_coordinates=False``: its hull is of centres too; of flat volumes it returns nothing."""
+    morphology = pytest.importorskip("skimage.morphology")
+    hull = digital_hull(array)
+    if hull.dimension == array.ndim:
+        theirs = morphology.convex_hull_image(array, offset_coordinates=False)
+        assert np.array_equal(theirs, hull.filled)
+
+
+@pytest.mark.filterwarnings("ignore:Failed to get convex hull image")
+def test_scikit_image_has_no_hull_of_a_flat_volume() -> None:
+    morphology = pytest.importorskip("skimage.morphology")
+    flat = np.zeros((4, 4, 4), dtype=np.bool_)
+    flat[:, :, 1] = True
+    assert not morphology.convex_hull_image(flat, offset_coordinates=False).any()
+    assert digital_hull(flat).voxels == 16
+
+
+def test_numba_is_not_imported_for_a_small_volume() -> None:
+    code = (
+        "import sys, numpy, modern; modern.digital_hull(numpy.ones((3, 3, 3), bool)); sys.exit('numba' in sys.modules)"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -1,0 +1,487 @@
+"""Drawings of hulls: what is hidden is judged by rays through the solid, found without the program's faces."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+from xml.etree import ElementTree
+
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from modern.drawing import view
+from modern.drawing.draw import MOST_NUMBERS, draw_svg
+from modern.drawing.labels import HEIGHT, Label, crosses, place_labels
+from modern.drawing.scene import eye_of
+from modern.drawing.svg import escape, number
+from modern.formats import ExportError
+from modern.geometry.hull import Hull
+from modern.port import convex_hull
+from tests.support.paths import ROOT
+
+Whole = tuple[int, int, int]
+Plane = tuple[int, int, int, int]
+Place = tuple[float, float]
+
+CUBE: list[Whole] = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+OCTAHEDRON: list[Whole] = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+BOX: list[Whole] = [(4 * x, 4 * y, 4 * z) for x, y, z in CUBE] + [(2, 2, 2), (2, 0, 2), (2, 4, 2), (3, 4, 4), (0, 0, 3)]
+SQUARE: list[Whole] = [(0, 0, 1), (2, 0, 1), (2, 2, 1), (0, 2, 1), (1, 1, 1), (1, 0, 1)]
+EXAMPLE_6: list[Whole] = [
+    *((3, 4, 8), (6, -3, 7), (1, 2, -5), (4, 2, -3), (4, 2, 4), (4, 2, 0), (4, 2, -1)),
+    *((1, 2, 7), (0, 2, 0), (-2, 2, 0)),
+]
+
+
+# --- reading a picture
+
+
+class Picture:
+    """An SVG file, parsed: lines by the vertices they join, circles and crosses by class, numbers with places."""
+
+    def __init__(self, text: str) -> None:
+        self.root = ElementTree.fromstring(text)
+        self.groups = {group.get("class"): list(group) for group in self.root if group.get("class")}
+
+    def edges(self, key: str) -> dict[tuple[int, int], tuple[Place, Place]]:
+        found = {}
+        for line in self.groups.get(key, []):
+            a, b = map(int, line.attrib["data-vertices"].split())
+            x1, y1, x2, y2 = (float(line.attrib[name]) for name in ("x1", "y1", "x2", "y2"))
+            found[a - 1, b - 1] = ((x1, y1), (x2, y2))
+        return found
+
+    def vertices(self) -> dict[int, Place]:
+        """Places by number from 0, read from the title of every dot."""
+        found = {}
+        for dot in (*self.groups.get("vertices", []), *self.groups.get("vertices-hidden", [])):
+            named = re.match(r"vertex (\d+): ", dot[0].text or "")
+            assert named
+            found[int(named[1]) - 1] = (float(dot.attrib["cx"]), float(dot.attrib["cy"]))
+        return found
+
+    def titles(self, key: str) -> list[str]:
+        return [mark[0].text or "" for mark in self.groups.get(key, [])]
+
+    def numbers(self) -> dict[str, Place]:
+        return {
+            text.text or "": (float(text.attrib["x"]), float(text.attrib["y"]))
+            for text in self.groups.get("numbers", [])
+        }
+
+    def legend(self) -> list[str]:
+        return [item.text or "" for item in self.groups["legend"] if item.tag.endswith("text")]
+
+
+def draw(points: Sequence[Sequence[object]], eye: Sequence[int] | None = None) -> tuple[Hull, Picture]:
+    hull = convex_hull(points)  # type: ignore[arg-type]
+    return hull, Picture(draw_svg(hull, eye))
+
+
+def seen_from(picture: Picture) -> Whole:
+    """The direction the legend names."""
+    x, y, z = map(int, picture.legend()[0].rpartition(" ")[2].split(","))
+    return x, y, z
+
+
+# --- the judge: supporting planes from all triples of points
+
+
+def supporting(points: Sequence[Whole]) -> set[Plane]:
+    """Every plane through three points with none outside of it, in lowest terms, outward."""
+    found = set()
+    for p, q, r in itertools.combinations(points, 3):
+        u, v = ([b - a for a, b in zip(p, other, strict=True)] for other in (q, r))
+        normal = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+        if not any(normal):
+            continue
+        divisor = math.gcd(*normal)
+        a, b, c = (n // divisor for n in normal)
+        d = -(a * p[0] + b * p[1] + c * p[2])
+        values = [a * x + b * y + c * z + d for x, y, z in points]
+        if max(values) <= 0:
+            found.add((a, b, c, d))
+        elif min(values) >= 0:
+            found.add((-a, -b, -c, -d))
+    return found
+
+
+def at(plane: Plane, point: Sequence[Fraction | int]) -> Fraction:
+    return Fraction(plane[0] * point[0] + plane[1] * point[1] + plane[2] * point[2] + plane[3])
+
+
+def covered(point: Sequence[Fraction | int], eye: Whole, planes: set[Plane]) -> bool:
+    """Whether the ray from a point of the solid to the eye runs through its inside."""
+    low, high = Fraction(0), None
+    for plane in planes:
+        here, slope = at(plane, point), plane[0] * eye[0] + plane[1] * eye[1] + plane[2] * eye[2]
+        if slope == 0:
+            if here >= 0:
+                return False
+        elif slope > 0:
+            end = -here / slope
+            high = end if high is None else min(high, end)
+        else:
+            low = max(low, -here / slope)
+    return high is not None and low < high
+
+
+def on_planes(points: Sequence[Sequence[int]], planes: set[Plane]) -> int:
+    return sum(all(at(plane, point) == 0 for point in points) for plane in planes)
+
+
+_SMALL = st.integers(-4, 4)
+_CLOUDS = st.lists(st.tuples(_SMALL, _SMALL, _SMALL), min_size=5, max_size=12, unique=True)
+_EYES = st.tuples(st.integers(-5, 5), st.integers(-5, 5), st.integers(-5, 5)).filter(any)
+
+
+@given(_CLOUDS, st.none() | _EYES)
+def test_an_edge_is_dashed_where_the_ray_to_the_eye_meets_the_solid(points: list[Whole], eye: Whole | None) -> None:
+    hull = convex_hull(points)
+    assume(hull.dimension == 3)
+    picture = Picture(draw_svg(hull, eye))
+    direction = eye or seen_from(picture)
+    planes = supporting(points)
+    corners = [points[index] for index in hull.vertices]
+    want = {}
+    for a, b in itertools.combinations(range(len(corners)), 2):
+        if on_planes((corners[a], corners[b]), planes) >= 2:
+            middle = [Fraction(p + q, 2) for p, q in zip(corners[a], corners[b], strict=True)]
+            want[a, b] = covered(middle, direction, planes)
+    drawn = {**dict.fromkeys(picture.edges("seen"), False), **dict.fromkeys(picture.edges("hidden"), True)}
+    assert drawn == want
+    assert len(picture.edges("seen")) + len(picture.edges("hidden")) == len(want)
+    hidden = sorted(f"vertex {k + 1}" for k, p in enumerate(corners) if covered(p, direction, planes))
+    assert sorted(title.split(":")[0] for title in picture.titles("vertices-hidden")) == hidden
+    behind = sorted(f"point {k + 1}" for k in hull.boundary if covered(points[k], direction, planes))
+    assert sorted(title.split(": ")[1].split(" (")[0] for title in picture.titles("boundary-hidden")) == behind
+    assert len(picture.titles("boundary")) == len(hull.boundary) - len(behind)
+    assert len(picture.titles("inside")) == len(hull.inside)
+    faces = {plane for plane in planes if sum(n * e for n, e in zip(plane[:3], direction, strict=True)) > 0}
+    assert len(picture.groups.get("faces", [])) == len(faces)
+
+
+@given(_CLOUDS)
+def test_the_chosen_direction_shows_no_face_edge_on_and_no_two_vertices_together(points: list[Whole]) -> None:
+    hull = convex_hull(points)
+    assume(hull.dimension == 3)
+    eye = seen_from(Picture(draw_svg(hull)))
+    assert all(sum(n * e for n, e in zip(plane[:3], eye, strict=True)) for plane in supporting(points))
+    for i, j in itertools.combinations(hull.vertices, 2):
+        d = [q - p for p, q in zip(points[i], points[j], strict=True)]
+        assert any(d[k - 1] * eye[k] != d[k] * eye[k - 1] for k in range(3))
+
+
+@given(_CLOUDS, _EYES)
+def test_the_image_is_the_parallel_projection_true_to_scale(points: list[Whole], eye: Whole) -> None:
+    hull = convex_hull(points)
+    assume(hull.dimension == 3)
+    places = Picture(draw_svg(hull, eye)).vertices()
+    size = math.sqrt(sum(e * e for e in eye))
+    ratios = []
+    for a, b in itertools.combinations(range(len(hull.vertices)), 2):
+        d = [q - p for p, q in zip(points[hull.vertices[a]], points[hull.vertices[b]], strict=True)]
+        along = sum(x * e for x, e in zip(d, eye, strict=True)) / size
+        flat = math.sqrt(max(0.0, sum(x * x for x in d) - along * along))
+        ratios.append((flat, math.dist(places[a], places[b])))
+    scale = max(ratios)[1] / max(ratios)[0]
+    assert all(abs(drawn - scale * flat) < 0.05 for flat, drawn in ratios)
+
+
+@pytest.mark.parametrize(
+    ("eye", "right", "up"),
+    [
+        ((0, -1, 0), (1, 0, 0), (0, 0, 1)),
+        ((1, 0, 0), (0, 1, 0), (0, 0, 1)),
+        ((0, 1, 0), (-1, 0, 0), (0, 0, 1)),
+        ((0, 0, 1), (1, 0, 0), (0, 1, 0)),
+        ((0, 0, -2), (1, 0, 0), (0, -1, 0)),
+    ],
+)
+def test_which_way_is_right_and_up(eye: Whole, right: Whole, up: Whole) -> None:
+    hull, picture = draw(CUBE, eye)
+    places = {hull.vertices[k]: place for k, place in picture.vertices().items()}
+    middle = tuple(sum(place[k] for place in places.values()) / 8 for k in range(2))
+    for index, (x, y) in places.items():
+        centred = [2 * c - 1 for c in CUBE[index]]
+        assert (x > middle[0]) == (sum(a * b for a, b in zip(centred, right, strict=True)) > 0)
+        assert (y < middle[1]) == (sum(a * b for a, b in zip(centred, up, strict=True)) > 0)
+
+
+def test_a_direction_is_found_where_the_list_has_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(view, "EYES", ())
+    # At t = 2 the curve gives (2, -5, 8): the face x + 2 y + z is edge-on there.
+    points = [(Fraction(0), Fraction(0), Fraction(0)), (Fraction(1), Fraction(1), Fraction(1))]
+    assert view.choose(points, [(Fraction(1), Fraction(2), Fraction(1))]) == (3, -10, 27)
+    assert view.choose(points, [(Fraction(1), Fraction(2), Fraction(2))]) == (2, -5, 8)
+    beyond = [points[0], (Fraction(-2), Fraction(5), Fraction(-8))]
+    assert view.choose(beyond, []) == (3, -10, 27)
+
+
+# --- what is drawn
+
+
+def test_a_cube() -> None:
+    hull, picture = draw(CUBE)
+    assert (len(picture.edges("seen")), len(picture.edges("hidden"))) == (9, 3)
+    assert len(picture.titles("vertices-hidden")) == 1
+    assert len(picture.groups["faces"]) == 3
+    assert picture.legend() == [
+        "Polyhedron: 8 vertices, 12 edges, 6 faces; seen from 24,-55,29",
+        *("edge", "hidden edge", "hidden vertex", "x", "y", "z"),
+    ]
+    assert set(picture.numbers()) == {str(k) for k in range(1, 9)}
+    dot = next(title for title in picture.titles("vertices") if title.startswith("vertex 1:"))
+    first = hull.vertices[0]
+    assert dot == f"vertex 1: point {first + 1} ({', '.join(map(str, CUBE[first]))})"
+
+
+def test_marks_and_legend_of_a_box_with_points_on_it() -> None:
+    hull, picture = draw(BOX)
+    assert (len(hull.boundary), len(hull.inside)) == (4, 1)
+    assert {"boundary point", "hidden boundary point", "inside point"} <= set(picture.legend())
+    assert len(picture.titles("boundary")) + len(picture.titles("boundary-hidden")) == 4
+    assert "inside point" not in draw(CUBE)[1].legend()
+
+
+def test_faces_in_one_plane_have_no_edge_between_them() -> None:
+    hull = convex_hull(CUBE)
+    faces = []
+    for face in hull.faces:
+        a, b, c, d = face.polygon
+        faces += [replace(face, polygon=(a, b, c)), replace(face, polygon=(a, c, d))]
+    whole, cut = (Picture(draw_svg(h, (24, -55, 29))) for h in (hull, replace(hull, faces=tuple(faces))))
+    assert whole.edges("seen") == cut.edges("seen")
+    assert whole.edges("hidden") == cut.edges("hidden")
+
+
+def test_the_two_sides_of_a_sheet_have_edges_between_them() -> None:
+    """As rounded arithmetic may leave a thin solid."""
+    hull = convex_hull(CUBE)
+    face = hull.faces[0]
+    sheet = replace(
+        hull, vertices=face.polygon, boundary=(), inside=(), faces=(face, replace(face, polygon=face.polygon[::-1]))
+    )
+    assert len(Picture(draw_svg(sheet)).edges("seen")) == 4
+
+
+def test_a_boundary_point_that_rounding_took_off_its_face_is_still_of_that_face() -> None:
+    points = [*CUBE, (Fraction(1, 2), 1, Fraction(1, 2))]
+    hull = convex_hull(points)
+    assert hull.boundary == (8,)
+    moved = replace(hull, points=(*hull.points[:8], ("0.5", "1.0001", "0.5")))
+    for drawn in (hull, moved):
+        assert len(Picture(draw_svg(drawn, (24, -55, 29))).titles("boundary-hidden")) == 1
+        assert len(Picture(draw_svg(drawn, (24, 55, 29))).titles("boundary")) == 1
+
+
+def test_vertices_closer_than_the_eye_can_tell_share_a_number() -> None:
+    # 300 units take 552 pixels, so the three points at one end lie within two pixels.
+    hull, picture = draw([(0, 0, 0), (300, 0, 0), (0, 1, 0), (0, 0, 1)], (1, -9, 2))
+    assert len(set(picture.vertices().values())) == 4
+    alone = str(hull.vertices.index(1) + 1)
+    together = ",".join(str(k) for k, index in enumerate(hull.vertices, 1) if index != 1)
+    assert set(picture.numbers()) == {alone, together}
+
+
+def test_edges_along_the_line_of_sight_share_a_number() -> None:
+    hull, picture = draw(CUBE, (1, 0, 0))
+    place = {index: str(k) for k, index in enumerate(hull.vertices, 1)}
+    together = {frozenset((place[k], place[k + 4])) for k in range(4)}
+    assert {frozenset(text.split(",")) for text in picture.numbers()} == together
+    assert picture.edges("hidden") == {}
+
+
+def test_a_polygon_is_seen_at_right_angles() -> None:
+    hull, picture = draw(SQUARE)
+    places = picture.vertices()
+    assert len(picture.edges("seen")) == 4
+    sides = [math.dist(places[a], places[b]) for a, b in picture.edges("seen")]
+    assert max(sides) - min(sides) < 0.05
+    assert picture.legend() == ["Polygon: 4 vertices; seen at right angles", "boundary point", "inside point", "x", "y"]
+    by_index = {hull.vertices[k]: place for k, place in places.items()}
+    assert by_index[0][0] < by_index[1][0]
+    assert by_index[0][1] > by_index[3][1]
+    assert "seen from 1,1,1" in draw(SQUARE, (2, 2, 2))[1].legend()[0]
+    from_below = draw(SQUARE, (1, 1, -1))[1]
+    assert from_below.titles("vertices-hidden") == []
+    with pytest.raises(ExportError, match="in the plane of the polygon"):
+        draw(SQUARE, (1, 1, 0))
+
+
+def test_example_1_a_triangle() -> None:
+    hull, picture = draw([(2, -5, 20), (200, -4, -50), (-30, 80, 4)])
+    assert set(picture.edges("seen")) == {(0, 1), (0, 2), (1, 2)}
+    assert draw_svg(replace(hull, faces=())) == draw_svg(hull)
+
+
+@pytest.mark.parametrize("end", [(3, 4, 12), (0, 0, 7), (0, -2, 0), (5, 0, 0)])
+def test_a_segment_is_seen_at_its_length(end: Whole) -> None:
+    hull, picture = draw([(0, 0, 0), end, tuple(Fraction(c, 2) for c in end)])
+    ((a, b),) = picture.edges("seen").values()
+    assert hull.inside == (2,)
+    assert len(picture.titles("inside")) == 1
+    level, tall = b[0] - a[0], a[1] - b[1]
+    length, upright = math.hypot(*end), end[2] * (1 if hull.vertices[0] == 0 else -1)
+    assert tall / math.hypot(level, tall) == pytest.approx(upright / length, abs=1e-4)
+    if end == (5, 0, 0):
+        assert (level > 0) == (hull.vertices[0] == 0), "seen from the front, x is to the right"
+    with pytest.raises(ExportError, match="along the segment"):
+        draw([(0, 0, 0), end], [-2 * c for c in end])
+
+
+def test_a_point() -> None:
+    _, picture = draw([(1, 2, 3), (1, 2, 3)])
+    assert picture.titles("vertices") == ["vertex 1: point 1 (1, 2, 3)"]
+    assert list(picture.numbers()) == ["1"]
+    assert picture.legend() == ["Point"]
+
+
+@pytest.mark.parametrize("unit", ["E90", "E-90", "E900", "E-2000"])
+def test_size_and_place_do_not_change_the_picture(unit: str) -> None:
+    points = [[f"{c}{unit}" for c in p] for p in EXAMPLE_6]
+    for key in ("seen", "hidden"):
+        assert draw(points)[1].edges(key) == draw(EXAMPLE_6)[1].edges(key)
+    far = [[str(c + 10**40) for c in p] for p in EXAMPLE_6]
+    assert draw(far)[1].edges("seen") == draw(EXAMPLE_6)[1].edges("seen")
+
+
+def test_a_sliver_is_still_a_solid() -> None:
+    sliver = [("0", "0", "0"), ("1", "0", "0"), ("0.3", "1", "0"), ("0.4", "0.3", "1E-40")]
+    from_above, from_below = draw(sliver, (1, -2, 5))[1], draw(sliver, (1, -2, -5))[1]
+    assert (len(from_above.edges("seen")), len(from_above.edges("hidden"))) == (6, 0)
+    assert (len(from_below.edges("seen")), len(from_below.edges("hidden"))) == (3, 3)
+
+
+# --- labels
+
+
+def boxes(picture: Picture) -> dict[str, tuple[float, float, float, float]]:
+    """The room a number takes, somewhat less than the font's."""
+    return {text: (x - 3.5 * len(text), y - 9.0, x + 3.5 * len(text), y) for text, (x, y) in picture.numbers().items()}
+
+
+@pytest.mark.parametrize("points", [CUBE, OCTAHEDRON, EXAMPLE_6, SQUARE, BOX])
+def test_numbers_stand_beside_their_vertex_and_off_lines_and_each_other(points: list[Whole]) -> None:
+    _, picture = draw(points)
+    places, found = picture.vertices(), boxes(picture)
+    lines = [*picture.edges("seen").values()]
+    for text, box in found.items():
+        x, y = places[int(text) - 1]
+        centre = ((box[0] + box[2]) / 2, (box[1] + box[3]) / 2)
+        assert math.dist(centre, (x, y)) < 24
+        assert min(places, key=lambda k, c=centre: math.dist(places[k], c)) == int(text) - 1
+        assert not any(crosses(line, box) for line in lines)
+    for a, b in itertools.combinations(found.values(), 2):
+        assert a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] or b[3] <= a[1]
+
+
+@pytest.mark.parametrize("apart", [8.0, 12.0, 20.0, 30.0])
+def test_labels_of_points_in_a_row_keep_off_each_other(apart: float) -> None:
+    labels = [Label(20.0 + apart * k, 50.0, str(100 + k)) for k in range(4)]
+    places = place_labels(labels, [], [], (150.0, 100.0))
+    for (x, y), (u, v) in itertools.combinations(places, 2):
+        assert abs(x - u) >= 2 * labels[0].half[0] or abs(y - v) >= HEIGHT
+
+
+def test_labels_stay_within_the_picture() -> None:
+    labels = [Label(2.0, 2.0, "1"), Label(98.0, 2.0, "100"), Label(50.0, 99.0, "12")]
+    for (x, y), label in zip(place_labels(labels, [], [], (100.0, 100.0)), labels, strict=True):
+        assert label.half[0] <= x <= 100 - label.half[0]
+        assert HEIGHT / 2 <= y <= 100 - HEIGHT / 2
+
+
+@given(*[st.tuples(st.integers(-9, 9), st.integers(-9, 9))] * 2)
+def test_crossing_a_box(a: tuple[int, int], b: tuple[int, int]) -> None:
+    """A line that meets a box has an end in it, or meets the line of a side within it."""
+    low, high = (-3, -2), (4, 5)
+    times = [Fraction(0), Fraction(1)]
+    for axis in (0, 1):
+        step = b[axis] - a[axis]
+        times += [Fraction(end - a[axis], step) for end in (low[axis], high[axis]) if step]
+    meets = any(0 <= t <= 1 and all(low[k] <= a[k] + t * (b[k] - a[k]) <= high[k] for k in (0, 1)) for t in times)
+    # Touching a corner is left to rounding.
+    corner = any((b[0] - a[0]) * (y - a[1]) == (b[1] - a[1]) * (x - a[0]) for x in (-3, 4) for y in (-2, 5))
+    if not corner:
+        assert crosses((a, b), (*low, *high)) == meets
+
+
+def test_many_vertices_are_not_numbered() -> None:
+    curve = [(k, k * k, 0) for k in range(MOST_NUMBERS + 1)]
+    _, picture = draw(curve)
+    assert picture.numbers() == {}
+    assert "vertices not numbered" in picture.legend()[0]
+    assert draw(curve[1:])[1].numbers()
+
+
+# --- the file
+
+
+def test_text_is_escaped_and_ascii() -> None:
+    text = draw_svg(convex_hull(CUBE), title='<a> & "b" \x00 \ud800 é 立')
+    assert text.isascii()
+    root = ElementTree.fromstring(text)
+    assert root[0].text == '<a> & "b" ? ? é 立'
+    assert escape("a<b>&c") == "a&lt;b&gt;&amp;c"
+
+
+def test_the_file_says_its_size_and_everything_is_within() -> None:
+    for points in (CUBE, EXAMPLE_6, SQUARE, [(0, 0, 0), (0, 0, 1)], [(0, 0, 0), (1, 0, 0)], [(0, 0, 0)]):
+        for width in (320, 640, 1000):
+            root = ElementTree.fromstring(draw_svg(convex_hull(points), width=width, title="a"))
+            wide, tall = int(root.attrib["width"]), int(root.attrib["height"])
+            assert root.attrib["viewBox"] == f"0 0 {wide} {tall}"
+            assert wide == width
+            for item in root.iter():
+                for names, limit in ((("x", "x1", "x2", "cx"), wide), (("y", "y1", "y2", "cy"), tall)):
+                    assert all(0 <= float(item.attrib[name]) <= limit for name in names if name in item.attrib)
+
+
+def test_numbers_in_the_file() -> None:
+    assert [number(n) for n in (1250, 100, -5, 0, -100, 7)] == ["12.5", "1", "-0.05", "0", "-1", "0.07"]
+
+
+def test_the_same_hull_gives_the_same_text_in_every_process() -> None:
+    program = (
+        "from modern.drawing.draw import draw_svg; from modern.port import convex_hull; import sys;"
+        f"sys.stdout.write(draw_svg(convex_hull({EXAMPLE_6!r})))"
+    )
+    root = str(ROOT)
+    texts = {
+        subprocess.run(
+            [sys.executable, "-c", program],
+            env={**os.environ, "PYTHONHASHSEED": seed, "PYTHONPATH": root},
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout
+        for seed in ("1", "2")
+    }
+    assert texts == {draw_svg(convex_hull(EXAMPLE_6))}
+
+
+def test_refusals() -> None:
+    hull = convex_hull(CUBE)
+    with pytest.raises(ExportError, match=r"^the direction of view is 0,0,0$"):
+        draw_svg(hull, (0, 0, 0))
+    with pytest.raises(ExportError, match=r"^there is no hull: DATA NOT ACCEPTABLE$"):
+        draw_svg(replace(hull, status="DATA NOT ACCEPTABLE"))
+    for width in (319, 4001):
+        with pytest.raises(ExportError, match=f"a picture {width} pixels wide is not drawn"):
+            draw_svg(hull, width=width)
+
+
+def test_directions_as_text() -> None:
+    assert eye_of(["1", "-2.5", " 1e-3"]) == (1, Fraction(-5, 2), Fraction(1, 1000))
+    with pytest.raises(ExportError, match="is 2 numbers; it has three"):
+        eye_of(["1", "2"])
+    with pytest.raises(ExportError, match="'x' is no number"):
+        eye_of(["1", "2", "x"])

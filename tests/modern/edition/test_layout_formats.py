@@ -1,0 +1,22 @@
+"""The FORMATs the transcripts' layout rests on are those of the restored decks."""
+
+from __future__ import annotations
+
+import tomllib
+from importlib.resources import files
+from typing import Any
+
+import pytest
+
+from emulator.language.formats import parse_format
+from emulator.language.tree import Format, Place
+from modern.edition import decks
+
+LAYOUT = tomllib.loads(files("transcripts").joinpath("chapter6", "layout.toml").read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("entry", LAYOUT["format"], ids=lambda entry: f"program{entry['program']}-{entry['number']}")
+def test_layout_format_is_the_decks(entry: dict[str, Any]) -> None:
+    text = entry["text"]
+    spec, _ = parse_format(Format(text, tuple(Place(1, column) for column in range(1, len(text) + 1))))
+    assert dict(decks.program(f"program{entry['program']}").formats)[entry["number"]] == spec

@@ -1,0 +1,255 @@
+"""Points from decks, CSV and OFF files, and the subcommands that take them: what is read, what is refused, how."""
+
+from __future__ import annotations
+
+import io
+import json
+from fractions import Fraction
+from importlib import resources
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from emulator.errors import EmulatorError
+from modern.cli import export as export_command
+from modern.formats import parse_off
+from modern.formats.points import Input, parse_input, read_input, recognise
+from modern.geometry.hull import ERROR, Hull
+from tests.support.commands import call
+
+CARD = "+.10000000E+01-.25000000E+01+.30000000E-05\n"
+DECK = " 2\n" + CARD + "+.12345678E+02+.00000000E+00+.90000000E+91\n"
+CSV = "x,y,z\n1,-2.50,3e-6\n\n 12.345678 ,0,.9E91\n"
+OFF = "OFF\n2 0 0\n1 -2.50 3e-6\n12.345678 0 .9E91\n"
+TETRA = "0,0,0\n1,0,0\n0,1,0\n0,0,1\n0.25,0.25,0.25\n0,0,0\n"
+
+
+def numbers(found: Input) -> list[tuple[Fraction, ...]]:
+    return [tuple(Fraction(text) for text in point) for point in found.points]
+
+
+# --- reading
+
+
+@pytest.mark.parametrize(
+    ("text", "kind", "places"),
+    [
+        (DECK, "deck", ("card 2", "card 3")),
+        (CSV, "csv", ("line 2", "line 4")),
+        (OFF, "off", ("line 3", "line 4")),
+    ],
+)
+def test_three_kinds_of_file_with_the_same_points(text: str, kind: str, places: tuple[str, ...]) -> None:
+    found = parse_input(text, "points")
+    assert numbers(found) == [
+        (1, Fraction(-5, 2), Fraction(3, 10**6)),
+        (Fraction("12.345678"), 0, 9 * 10**90),
+    ]
+    assert (found.kind, found.places, found.notes) == (kind, places, ())
+
+
+def test_text_is_kept_where_it_is_decimal_already() -> None:
+    assert parse_input(CSV, "points").points == (("1", "-2.50", "3e-6"), ("12.345678", "0", ".9E91"))
+    assert parse_input(OFF, "points").points == (("1", "-2.50", "3e-6"), ("12.345678", "0", ".9E91"))
+    assert parse_input(DECK, "points").points == (("1", "-2.5", "0.000003"), ("12.345678", "0", "9E+90"))
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("123456789.1234", "123456789.1234"),
+        ("    1.23456789", "1.23456789"),
+        ("        -1.5  ", "-1.5"),
+        ("-.00000000E+00", "0"),
+        ("12345678901234", "123456.78901234"),
+        (".99999999E+99 ", "9.9999999E+98"),
+    ],
+)
+def test_all_digits_of_a_card_are_taken(field: str, value: str) -> None:
+    """Without a point E14.8 sets it before the eighth digit from the right."""
+    found = parse_input(f" 1\n{field}{'0.':<14}{'0.':<14}\n", "a.deck")
+    assert found.points == ((value, "0", "0"),)
+
+
+def test_the_first_of_several_data_sets_is_taken_with_a_note() -> None:
+    found = parse_input(DECK + " 1\n" + CARD + " 1\n 2.\n", "a.deck")
+    assert len(found.points) == 2
+    assert found.notes == ("a.deck: 3 data sets; the first is taken",)
+
+
+def test_what_a_deck_warns_of_is_noted() -> None:
+    found = parse_input(" 1\n 2.\n", "a.deck")
+    assert found.points == (("2", "0", "0"),)
+    assert found.notes == (
+        "a.deck: card 2, column 15: y: a blank field is read as zero",
+        "a.deck: card 2, column 29: z: a blank field is read as zero",
+    )
+
+
+@pytest.mark.parametrize("example", [1, 2, 3, 4, 5, 6])
+def test_every_deck_of_chapter_6(example: int) -> None:
+    deck = resources.files("transcripts") / "chapter6" / f"example{example}" / "program1.deck"
+    text = deck.read_text("ascii")
+    found = parse_input(text, deck.name)
+    cards = text.splitlines()[1 : len(found.points) + 1]
+    assert int(text[:2]) == len(found.points)
+    assert numbers(found) == [tuple(Fraction(card[k : k + 14].strip()) for k in (0, 14, 28)) for card in cards]
+
+
+@pytest.mark.parametrize(
+    ("text", "source", "kind"),
+    [
+        ("10\n", "a", "deck"),
+        (" 3 \n", "a", "deck"),
+        ("1,2,3\n", "a.deck", "csv"),
+        ("x,y,z\n", "a", "csv"),
+        ("# made by hand\n\nOFF\n", "a", "off"),
+        ("OFF 3 1 0\n", "a.csv", "off"),
+        ("COFF\n", "a", "off"),
+        ("3 1 0\n", "a.off", "off"),
+        ("3 1 0\n", "a.deck", "deck"),
+        (" 3 points\n", "a.deck", "deck"),
+    ],
+)
+def test_recognising(text: str, source: str, kind: str) -> None:
+    assert recognise(text, source) == kind
+
+
+def test_standard_input(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(b"\xef\xbb\xbf" + CSV.encode())))
+    found = read_input("-")
+    assert (found.source, found.kind, len(found.points)) == ("standard input", "csv", 2)
+
+
+# name, the file's bytes, its name, the message
+BAD = [
+    ("empty", "", "a.csv", "a.csv: there are no points"),
+    ("blank", "\n \n", "a.csv", "a.csv: there are no points"),
+    ("heading-only", "x,y,z\n", "a.csv", "a.csv: there are no points"),
+    ("no-vertices", "OFF\n0 0 0\n", "a.off", "a.off: there are no points"),
+    ("unknown", "\n1 2 3\n", "a.xyz", "a.xyz: line 2, column 1: '1 2 3' is neither the first card of a deck"),
+    ("unknown-long", "y" * 9999, "a", f"a: line 1, column 1: '{'y' * 40}...' is neither"),
+    ("two-fields", "1,2,3\n4,5\n", "a.csv", "a.csv: line 2, column 1: 2 fields; a point has three, x,y,z"),
+    ("four-fields", "1,2,3,4\n", "a.csv", "a.csv: line 1, column 1: 4 fields"),
+    ("no-number", "1,2,3\n4,five,6\n", "a.csv", "a.csv: line 2, field 2: 'five' is no decimal number"),
+    ("no-field", "1,2,\n", "a.csv", "a.csv: line 1, field 3: '' is no decimal number"),
+    ("quotient", "1,2,1/3\n", "a.csv", "a.csv: line 1, field 3: '1/3' is no decimal number"),
+    ("infinite", "1,2,3\n4,5,inf\n", "a.csv", "a.csv: line 2, field 3: 'inf' is no decimal number"),
+    ("digits", "1,2,\u0663\n", "a.csv", "a.csv: line 1, field 3: '\u0663' is no decimal number"),
+    ("long", "1,2," + "9" * 5000 + "\n", "a.csv", "a.csv: line 1, field 3: 5000 digits; at most 4000 are read"),
+    ("exponent", "1,2,1e99999\n", "a.csv", "a.csv: line 1, field 3: the exponent of '1e99999' is not within"),
+    ("wide-field", "1,2," + "a" * 200000 + "\n", "a.csv", "a.csv: line 1, column 1: field larger than field limit"),
+    ("deck-n", "XX\n" + CARD, "a.deck", "a.deck: card 1, column 1: N, in columns 1-2, is 'XX': no number"),
+    ("deck-short", " 3\n" + CARD, "a", "a: card 2, column 1: the deck ends after 1 of 3 points"),
+    ("deck-number", " 1\n+.10000000E+01  1.2.3\n", "a", "a: card 2, column 15: y: '1.2.3' is no number"),
+    ("deck-range", " 1\n.10000000E+100\n", "a", "a: card 2, column 1: x: "),
+    ("deck-strange", " 1\n1.e0\n", "a", "a: card 2, column 3: 'e' is not in the card code"),
+    ("deck-52", "52\n" + 52 * CARD, "a", "a: card 1, column 1: N is 52; the programs take 1 to 51 points"),
+    ("off-vertex", "OFF\n2 0 0\n1 2 3\n4 5\n", "a.off", "a.off: line 4, column 3: a vertex is three numbers"),
+    ("coff", "COFF\n1 0 0\n1 2 3 0 0 0 1\n", "a.off", "a.off: line 1, column 1: 'COFF' is not read"),
+    ("latin-1", b"1,2,3\n1,\xe9,3\n", "a.csv", "a.csv: line 2, column 3: not a text file in UTF-8"),
+    ("nul", "\0\0\0", "a", "a: line 1, column 1: '\\x00\\x00\\x00' is neither"),
+]
+
+
+@pytest.mark.parametrize("command", ["export", "draw"])
+@pytest.mark.parametrize(("data", "name", "words"), [b[1:] for b in BAD], ids=[b[0] for b in BAD])
+def test_bad_points(
+    command: str,
+    data: str | bytes,
+    name: str,
+    words: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path(name).write_bytes(data if isinstance(data, bytes) else data.encode())
+    code, out, err = call(capsys, command, name, "-o", "out.off")
+    assert (code, out) == (2, "")
+    assert err.startswith(f"hull1620: {words}")
+    assert err.count("\n") == 1
+    assert len(err) < 260
+    assert [path.name for path in Path().iterdir()] == [name]
+
+
+# --- the subcommands
+
+
+@pytest.fixture
+def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An empty folder to be in, with one tetrahedron."""
+    monkeypatch.chdir(tmp_path)
+    Path("t.csv").write_text(TETRA)
+    return tmp_path
+
+
+def test_export_to_every_format(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for form in ("off", "obj", "ply", "stl", "json"):
+        code, out, err = call(capsys, "export", "t.csv", "-o", f"t.{form}")
+        assert (code, out, err) == (0, "", "note: t.csv: line 6: the point of line 1 again\n")
+        text = Path(f"t.{form}").read_text()
+        assert call(capsys, "export", "t.csv", "--format", form)[:2] == (0, text)
+    read = parse_off(Path("t.off").read_text(), "t.off")
+    assert sorted(read.points) == [("0", "0", "0"), ("0", "0", "1"), ("0", "1", "0"), ("1", "0", "0")]
+    assert len(read.faces) == 4
+    document = json.loads(Path("t.json").read_text())
+    assert (document["inside"], document["duplicates"]) == ([4], [{"point": 5, "first": 0}])
+    # What was written is an input again.
+    assert call(capsys, "export", "t.off", "-o", "again.off") == (0, "", "")
+    assert set(parse_off(Path("again.off").read_text(), "").points) == set(read.points)
+
+
+def test_draw(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, err = call(capsys, "draw", "t.csv", "-o", "t.svg", "--eye=-1,2,-3.5")
+    assert (code, out, err) == (0, "", "note: t.csv: line 6: the point of line 1 again\n")
+    root = ElementTree.parse("t.svg").getroot()
+    assert root.tag == "{http://www.w3.org/2000/svg}svg"
+    assert "seen from -2,4,-7" in "".join(root.itertext())
+    assert root[0].text == "t.csv"
+    assert ElementTree.fromstring(call(capsys, "draw", "t.csv", "--title", "<&>")[1])[0].text == "<&>"
+
+
+# arguments, words of the message
+BAD_ARGUMENTS = [
+    (("export", "t.csv"), "export: give a file with -o, or a --format for standard output"),
+    (("export", "t.csv", "-o", "t.dxf"), "t.dxf: the name must end with one of .off, .obj, .ply, .stl, .json"),
+    (("export", "t.csv", "-o", "none/t.off"), "none/t.off: no such file or directory"),
+    (("export", "none.csv", "-o", "t.off"), "none.csv: no such file or directory"),
+    (("export", "s.csv", "-o", "s.stl"), "STL holds triangles; the hull is a segment and has no area"),
+    (("draw", "none.csv", "-o", "t.svg"), "none.csv: no such file or directory"),
+    (("draw", "t.csv", "--eye", "0,0,0"), "the direction of view is 0,0,0"),
+    (("draw", "t.csv", "--eye", "1,2"), "the direction of view is 2 numbers; it has three, X,Y,Z"),
+    (("draw", "t.csv", "--eye", "1,2,z"), "the direction of view: 'z' is no number"),
+    (("draw", "s.csv", "--eye", "1,1,1"), "the direction of view is along the segment, which would be a point"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "words"), BAD_ARGUMENTS, ids=[" ".join(b[0]) for b in BAD_ARGUMENTS])
+def test_bad_arguments(room: Path, capsys: pytest.CaptureFixture[str], arguments: tuple[str, ...], words: str) -> None:
+    Path("s.csv").write_text("0,0,0\n1,1,1\n")
+    before = sorted(path.name for path in room.iterdir())
+    code, out, err = call(capsys, *arguments)
+    assert (code, out) == (2, "")
+    assert err.splitlines()[-1] == f"hull1620: {words}"
+    assert sorted(path.name for path in room.iterdir()) == before
+
+
+def test_a_hull_that_was_not_determined(
+    room: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Exact arithmetic gives none by itself, so the hull is made here."""
+    broken = Hull("exact", ERROR, 3, (("0", "0", "0"),), (), (), ())
+    monkeypatch.setattr(export_command, "exact_hull_of", lambda path: broken)
+    monkeypatch.setattr("modern.cli.draw.exact_hull_of", lambda path: broken)
+    assert call(capsys, "export", "t.csv", "-o", "t.off") == (1, "", "hull1620: t.csv: ERROR IN PROGRAM\n")
+    assert call(capsys, "draw", "t.csv", "-o", "t.svg") == (1, "", "hull1620: t.csv: ERROR IN PROGRAM\n")
+    assert [path.name for path in room.iterdir()] == ["t.csv"]
+    code, out, _ = call(capsys, "export", "t.csv", "--format", "json")
+    assert (code, json.loads(out)["status"]) == (1, ERROR)
+
+
+def test_every_error_is_the_emulators() -> None:
+    with pytest.raises(EmulatorError):
+        parse_input("1 2 3", "a")

@@ -1,0 +1,209 @@
+"""The port under the 1620's arithmetics beside the cards the emulated programs punch, zeros' signs included.
+
+HULL1620_SETS sets the number of random decks a test runs.
+"""
+
+from __future__ import annotations
+
+import os
+import random
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+import pytest
+
+from emulator.language.cards import Deck, deck_from_lines
+from emulator.language.objectcode import Program
+from emulator.machine.result import Options
+from emulator.numbers.arithmetic import profile
+from modern.edition import decks
+from modern.formats.csv import e_field, parse_decimal
+from modern.geometry.hull import DETERMINED, ERROR, NOT_ACCEPTABLE, TABLE_FULL
+from modern.port import convex_hull
+from modern.port.compare import differences, from_cards, from_run
+from modern.thesis.job import HullRun, run_hull
+from tests.support.paths import MACHINE_RUNS
+
+SETS = int(os.environ.get("HULL1620_SETS", "250"))
+RUNS = MACHINE_RUNS
+CORE = 60_000
+"""The layer ``corrected`` has larger tables than 40,000 positions hold."""
+
+Point = tuple[str, str, str]
+SPANS = (1, 2, 3, 5, 9, 20, 99, 999)
+COUNTS = (1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 15, 20, 25, 30, 40, 51)
+
+
+def anywhere(r: random.Random, n: int) -> list[Point]:
+    a = r.choice(SPANS)
+    return [point(r.randint(-a, a) for _ in range(3)) for _ in range(n)]
+
+
+def grid(r: random.Random, n: int) -> list[Point]:
+    a = r.choice((1, 2, 3))
+    return [point(r.randint(0, a) for _ in range(3)) for _ in range(n)]
+
+
+def in_line(r: random.Random, n: int) -> list[Point]:
+    origin, step = (tuple(r.randint(-9, 9) for _ in range(3)) for _ in range(2))
+    return [point(o + t * s for o, s in zip(origin, step, strict=True)) for t in (r.randint(-6, 6) for _ in range(n))]
+
+
+def in_plane(r: random.Random, n: int) -> list[Point]:
+    a = r.choice((1, 5, 20))
+    u, v, o = (tuple(r.randint(-a, a) for _ in range(3)) for _ in range(3))
+    m = r.choice((1, 2, 3, 8))
+    steps = [(r.randint(-m, m), r.randint(-m, m)) for _ in range(n)]
+    return [point(o[i] + s * u[i] + t * v[i] for i in range(3)) for s, t in steps]
+
+
+def on_sphere(r: random.Random, n: int) -> list[Point]:
+    radius = r.choice((5, 30, 90, 900))
+    found = []
+    for _ in range(n):
+        x = [r.gauss(0, 1) for _ in range(3)]
+        size = sum(c * c for c in x) ** 0.5
+        found.append(point(round(c / size * radius) for c in x))
+    return found
+
+
+def digits(r: random.Random, n: int) -> list[Point]:
+    d = r.randint(1, 8)
+    exponents = (0, 0, -d, r.randint(-3, 3))
+    return [point(f"{r.randint(1 - 10**d, 10**d - 1)}e{r.choice(exponents)}" for _ in range(3)) for _ in range(n)]
+
+
+def wild(r: random.Random, n: int) -> list[Point]:
+    """Exponents at which products overflow or vanish."""
+    e = r.choice((0, 30, 33, 45, 90, -30, -33, -49, -90))
+    return [point(f"{r.randint(-99, 99)}e{e + r.randint(-4, 4)}" for _ in range(3)) for _ in range(n)]
+
+
+def minus_zeros(r: random.Random, n: int) -> list[Point]:
+    return [point(r.choice(("-0", "0", "1", "-1", "2")) for _ in range(3)) for _ in range(n)]
+
+
+INTEGERS = (anywhere, anywhere, grid, in_line, in_plane, in_plane, on_sphere)
+KINDS = (*INTEGERS, digits, digits, wild, minus_zeros)
+Kind = Callable[[random.Random, int], list[Point]]
+
+
+def point(coordinates: Iterable[object]) -> Point:
+    x, y, z = (str(c) for c in coordinates)
+    return x, y, z
+
+
+def points_of(seed: int, arithmetic: str, kinds: tuple[Kind, ...] = ()) -> list[Point]:
+    """A deck's points, distinct in that arithmetic."""
+    r = random.Random(seed)
+    n = r.choice(COUNTS) if r.random() < 0.4 else r.randint(3, 14)
+    found = r.choice(kinds or KINDS)(r, n)
+    again = {later for later, _ in convex_hull(found, arithmetic).duplicates}
+    return [p for k, p in enumerate(found) if k not in again]
+
+
+def deck(points: list[Point], epsilon: str = "") -> Deck:
+    cards = ["".join(e_field(parse_decimal(x), True) for x in p) for p in points]
+    return deck_from_lines("deck", [f"{len(points):2d}{epsilon}", *cards])
+
+
+def run(cards: Deck, arithmetic: str, *layers: str) -> HullRun:
+    def load(name: str) -> Program:
+        present = {row.layer for row in decks.text(decks.built_in(name).text).rows}
+        return decks.program(name, tuple(layer for layer in layers if layer in present))
+
+    return run_hull(cards, load, Options(profile=profile(arithmetic), core=CORE, limit=3_000_000))
+
+
+@pytest.mark.parametrize("arithmetic", ["truncating", "truncating:4", "ibm1962", "guarded:5", "rounding:5"])
+def test_the_cards_of_layer_corrected(arithmetic: str) -> None:
+    statuses = set()
+    for seed in range(SETS):
+        points = points_of(seed, arithmetic)
+        hull = convex_hull(points, arithmetic)
+        assert differences(hull, from_run(run(deck(points), arithmetic, "corrected"))) == [], (seed, points)
+        statuses.add(hull.status)
+    assert {DETERMINED, NOT_ACCEPTABLE, ERROR} <= statuses
+
+
+def test_the_cards_of_the_listing_where_no_mend_mattered() -> None:
+    plain = mended = 0
+    for seed in range(SETS):
+        points = points_of(seed, "truncating")
+        hull = convex_hull(points, "truncating")
+        if hull.mended:
+            mended += 1
+        elif hull.status != TABLE_FULL:
+            plain += 1
+            assert differences(hull, from_run(run(deck(points), "truncating"))) == [], (seed, points)
+    assert plain > mended > 0
+
+
+def test_the_cards_of_layer_epsilon() -> None:
+    """Chapter 7, thesis p. 117-118: e behind N on the first card."""
+    for seed in range(SETS):
+        epsilon = random.Random(seed).choice(("0", "1e-3", "5e-1", "1", "25e-1", "1e2", "1e4"))
+        points = points_of(seed, "truncating")
+        hull = convex_hull(points, "truncating", epsilon=epsilon)
+        cards = deck(points, e_field(parse_decimal(epsilon), False))
+        assert differences(hull, from_run(run(cards, "truncating", "corrected", "epsilon"))) == [], (seed, points)
+
+
+def test_the_cards_of_layer_translation() -> None:
+    """Chapter 7, thesis p. 118-119; integers: longer numbers lose digits on the way to C and back."""
+    for seed in range(SETS):
+        points = points_of(seed, "truncating", INTEGERS)
+        hull = convex_hull(points, "truncating", translate=True)
+        cards = from_run(run(deck(points), "truncating", "corrected", "translation"))
+        assert differences(hull, cards) == [], (seed, points)
+
+
+def test_every_mend_is_met() -> None:
+    """Each row that can change a result, on the deck the apparatus names for it."""
+    met = {}
+    for row in (row for name in decks.TEXTS for row in decks.text(name).rows if row.layer == "corrected"):
+        cards = read_ground(row.ground["deck"])
+        met[row.id] = set(convex_hull(cards, "truncating").mended)
+    for name in ("P2-023", "P2-024", "P2-025", "P3-025", "P3-026", "P3-027", "P3-028"):
+        assert name in met[name], met
+
+
+def read_ground(name: str) -> list[Point]:
+    lines = decks.sources().joinpath("grounds", f"{name}.deck").read_text().splitlines()
+    return card_points(lines)
+
+
+def card_points(lines: list[str]) -> list[Point]:
+    count = int(lines[0][:2])
+    return [(c[:14].strip(), c[14:28].strip(), c[28:42].strip()) for c in lines[1 : count + 1]]
+
+
+FOLDERS = sorted(path for path in RUNS.iterdir() if path.is_dir())
+
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
+def test_the_cards_of_the_compilers_of_the_time(folder: Path) -> None:
+    """tests/data/machine_runs: punched by IBM's and another compiler's object programs, without any mend."""
+    hull = convex_hull(card_points((folder / "deck.cards").read_text().splitlines()), "truncating")
+    typed = "".join(path.read_text() for path in sorted(folder.glob("program[123].typewriter")))
+    if hull.mended:
+        assert ERROR in typed or list(folder.glob("*.endless"))
+        return
+    last = max(folder.glob("program[123].cards"))
+    status = next((message for message in (NOT_ACCEPTABLE, ERROR) if message in typed), DETERMINED)
+    punched = from_cards(last.read_text().splitlines(), status)
+    assert differences(hull, punched) == []
+
+
+def test_a_difference_is_told() -> None:
+    """The comparison sees a sign of zero, an order, a status."""
+    hull = convex_hull([(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4), (1, 1, 1)], "truncating")
+    cards = list(run(deck(list(hull.points)), "truncating").final.result.punched)
+    assert differences(hull, from_cards(cards)) == []
+    assert [d.split(":")[0] for d in differences(hull, from_cards(cards, ERROR))] == ["status"]
+    equation = next(k for k, card in enumerate(cards) if "-.00000000E-99" in card)
+    changed = [*cards[:equation], cards[equation].replace("-.00", " .00"), *cards[equation + 1 :]]
+    assert [d.split(":")[0] for d in differences(hull, from_cards(changed))] == ["equations"]
+    first = next(k for k, card in enumerate(cards) if card.startswith("  1 "))
+    cards[first], cards[first + 1] = cards[first + 1], cards[first]
+    assert [d.split(":")[0] for d in differences(hull, from_cards(cards))] == ["vertices"]

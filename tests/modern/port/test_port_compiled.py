@@ -1,0 +1,206 @@
+"""The compiled kernels (extra ``fast``) beside numpy: the same to the last bit, and numpy where numba is missing."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from emulator.compiled.jit import compiled
+from modern.geometry.hull import DETERMINED, ERROR, NOT_ACCEPTABLE, TABLE_FULL, Hull
+from modern.port import convex_hull, kernels, stages, steps, workspace
+from modern.port.binary import FloatArithmetic
+from modern.port.equations import Slack
+from modern.port.places import Places
+from modern.port.progress import LAST_PAIR, TABLE_OF_PLANES, THROUGH_CENTRE
+
+Points = NDArray[np.float64]
+Source = np.random.Generator
+
+
+def ball(source: Source, count: int) -> Points:
+    points = source.normal(size=(count, 3))
+    return points * (source.random(count) ** (1 / 3) / np.linalg.norm(points, axis=1))[:, None]
+
+
+def sphere(source: Source, count: int) -> Points:
+    points = source.normal(size=(count, 3))
+    return points / np.linalg.norm(points, axis=1)[:, None]
+
+
+def whole_ball(source: Source, count: int) -> Points:
+    return np.rint(ball(source, count) * 80_000)
+
+
+def small_sphere(source: Source, count: int) -> Points:
+    return np.rint(sphere(source, count) * 30)
+
+
+def cube_surface(source: Source, count: int) -> Points:
+    points = source.integers(-20, 21, size=(count, 3)).astype(np.float64)
+    points[np.arange(count), source.integers(0, 3, count)] = source.choice([-20.0, 20.0], count)
+    return points
+
+
+def grid(source: Source, count: int) -> Points:
+    return source.integers(-2, 3, size=(count, 3)).astype(np.float64)
+
+
+def near_coplanar(source: Source, count: int) -> Points:
+    points = source.integers(-9, 10, size=(count, 3)).astype(np.float64)
+    points[:, 2] = points[:, 0] + points[:, 1] + source.choice([0.0, 2.0**-40], count)
+    return points
+
+
+def lens(source: Source, count: int) -> Points:
+    points = sphere(source, count)
+    points[:, 2] *= 1e-9
+    return points
+
+
+def cone(source: Source, count: int) -> Points:
+    """A fan of planes about one point."""
+    angle = np.arange(count) * (2 * np.pi / count)
+    points = np.rint(np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1) * 1000)
+    points[source.integers(0, count)] = (0, 0, 2000)
+    return points
+
+
+def tiny(source: Source, count: int) -> Points:
+    """Products of these underflow."""
+    return ball(source, count) * 1e-108
+
+
+FAMILIES = (whole_ball, small_sphere, cube_surface, grid, near_coplanar, lens, cone, tiny, ball, sphere)
+EPSILONS = (None, "0", "rel:1e-12", "rel:1e-6", "1e-7", "5")
+
+
+def both(points: Any, arithmetic: str, **options: Any) -> tuple[Hull, Hull]:
+    """By numpy and by the kernels; everything told."""
+    return (
+        convex_hull(points, arithmetic, history=True, fast=False, **options),
+        convex_hull(points, arithmetic, history=True, fast=True, **options),
+    )
+
+
+def same(points: Any, arithmetic: str, **options: Any) -> Hull:
+    """The hull of both ways; a watched run takes a stage at a time, another all it can, so both are compared."""
+    one, other = both(points, arithmetic, **options)
+    assert other == one
+    unwatched = convex_hull(points, arithmetic, fast=True, **options)
+    assert unwatched == convex_hull(points, arithmetic, fast=False, **options)
+    return one
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.parametrize("arithmetic", ["float64", "float32"])
+def test_compiled_is_numpy_to_the_last_bit(family: Callable[[Source, int], Points], arithmetic: str) -> None:
+    pytest.importorskip("numba")
+    for seed in range(18):
+        source = np.random.default_rng(seed)
+        points = family(source, int(source.integers(4, 60))).astype(arithmetic)
+        same(points, arithmetic, epsilon=EPSILONS[seed % len(EPSILONS)], translate=seed % 4 == 3)
+
+
+def test_the_sets_end_in_every_way() -> None:
+    """The comparison above would say little if no set were refused, or none of the mends noted."""
+    pytest.importorskip("numba")
+    found = [
+        same(family(np.random.default_rng(seed), 40).astype(arithmetic), arithmetic, epsilon=epsilon)
+        for family in (grid, cone, near_coplanar, lens)
+        for seed in (2, 3, 5)
+        for arithmetic in ("float64", "float32")
+        for epsilon in (None, "rel:1e-6", "0.5")
+    ]
+    assert {hull.status for hull in found} == {DETERMINED, NOT_ACCEPTABLE, ERROR, TABLE_FULL}
+    assert {name for hull in found for name in hull.mended} >= {LAST_PAIR, THROUGH_CENTRE}
+
+
+def test_many_points_and_many_stages() -> None:
+    """Slots are closed up, run out and are asked for again."""
+    pytest.importorskip("numba")
+    hull = same(whole_ball(np.random.default_rng(1), 4000), "float64")
+    assert hull.status == DETERMINED
+    assert TABLE_OF_PLANES in hull.mended
+    assert same(sphere(np.random.default_rng(3), 500), "float64", epsilon="rel:1e-11").status == DETERMINED
+
+
+small = st.integers(-3, 3).map(float)
+
+
+@given(st.lists(st.tuples(small, small, small), min_size=4, max_size=20), st.sampled_from(EPSILONS), st.booleans())
+def test_the_kernels_as_plain_python_decide_as_numpy(
+    points: list[tuple[float, float, float]], epsilon: str | None, translate: bool
+) -> None:
+    """The text the kernels are compiled from, without numba."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(stages, "load", lambda: stages.with_kernels(kernels.grow, kernels.satisfied))
+        same(np.array(points), "float64", epsilon=epsilon, translate=translate)
+
+
+@given(st.lists(st.tuples(st.integers(0, 3), st.integers(0, 3)), min_size=1, max_size=30))
+def test_doubles_pair_as_a_table_of_points_does(edges: list[tuple[int, int]]) -> None:
+    """Equal ones pair in order of appearance: first with second, third with fourth."""
+    defining = np.array([(low, low + high + 1, 99) for low, high in edges], np.int64).T
+    waiting: dict[tuple[int, ...], int] = {}
+    partner = [-1] * len(edges)
+    for k, key in enumerate(map(tuple, defining.T.tolist())):
+        if key in waiting:
+            other = waiting.pop(key)
+            partner[k], partner[other] = other, k
+        else:
+            waiting[key] = k
+    assert kernels.doubles(defining, 0, len(edges)).tolist() == partner
+    shuffled = np.array([np.roll(column, k) for k, column in enumerate(defining.T)]).T
+    assert kernels.doubles(shuffled, 0, len(edges)).tolist() == partner
+
+
+def test_no_product_is_fused_with_a_sum() -> None:
+    """(1+e)(1-e) - 1 is 0 when the product is rounded first, and -e**2 when it is not."""
+    pytest.importorskip("numba")
+    (find,) = compiled([kernels.satisfied], kernels.HELPERS)
+    e = 2.0**-30
+    slots = workspace.Slots(
+        np.array([[1 + e], [0.0], [0.0], [-1.0]]), np.zeros((3, 1), np.int64), np.array([-1.0]), np.array([True])
+    )
+    counts, places = find(slots, np.array([[1 - e, 1.0], [0.0, 0.0], [0.0, 0.0]]))
+    assert (counts.tolist(), places.tolist()) == ([1], [0])
+
+
+def test_numbers_that_may_overflow_are_left_to_numpy() -> None:
+    numbers = FloatArithmetic(np.float64)
+    for size, slack, kernel in ((1e75, None, True), (1e78, None, False), (1.0, "1e300", True), (1e75, "1e300", False)):
+        places = Places(np.array([[size], [0.0], [0.0]]), np.arange(1))
+        e = None if slack is None else Slack(numbers, Fraction(slack), True)
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(stages, "load", lambda: (len, len))
+            assert (steps.choose(numbers, places, e, True) is not steps.PLAIN) == kernel
+
+
+def test_without_numba_numpy_does_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "numba", None)
+    stages.load.cache_clear()
+    points = whole_ball(np.random.default_rng(1), 6000)
+    try:
+        places = Places(points.T.copy(), np.arange(len(points)))
+        assert steps.choose(FloatArithmetic(np.float64), places, None, None) is steps.PLAIN
+        assert convex_hull(points, "float64").status == DETERMINED
+        with pytest.raises(ValueError, match=r"^compiled code needs numba \(extra fast\): [^\n]*numba[^\n]*$"):
+            convex_hull(points, "float64", fast=True)
+    finally:
+        stages.load.cache_clear()
+
+
+def test_few_points_do_not_load_numba() -> None:
+    script = "import sys; from modern.port import convex_hull; import numpy as np;"
+    script += "points = np.random.default_rng(1).integers(-99, 100, size=(60, 3)).astype(float);"
+    script += "convex_hull(points, 'float64'); sys.exit('numba' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", script], check=False).returncode == 0

@@ -1,0 +1,123 @@
+"""What the port takes and gives: points, names of arithmetics, exact text."""
+
+from __future__ import annotations
+
+from decimal import Decimal
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import modern
+from emulator.numbers.arithmetic import TRUNCATING
+from emulator.numbers.fields import FALLBACK, read_floating, write_floating
+from modern.port import PointsError, convex_hull
+from modern.port.arithmetic import exact_text
+from modern.port.choice import fixed_arithmetic
+from modern.port.compare import e_field
+
+GOOD = (0, 0, 0)
+BAD = (
+    ((1, 2), "point 1: 2 coordinates; a point has three"),
+    ((1, 2, "three"), "point 1, coordinate z: 'three' is no decimal number"),
+    ((1, "", 3), "point 1, coordinate y: '' is no decimal number"),
+    ((float("nan"), 2, 3), "point 1, coordinate x: nan is not finite"),
+    ((1, 2, None), "point 1, coordinate z: NoneType: give an int, a Fraction, a decimal string or a float"),
+    ((True, 2, 3), "point 1, coordinate x: a truth value is no coordinate"),
+    ("123", "point 1: a str is no point; a point has three coordinates"),
+    (7, "point 1: a int is no point; a point has three coordinates"),
+    ((1, 2, "1e99999"), "point 1, coordinate z: more than 4000 digits or an exponent beyond 9999"),
+)
+
+
+@pytest.mark.parametrize(("bad", "message"), BAD)
+def test_a_bad_point_is_named(bad: object, message: str) -> None:
+    with pytest.raises(PointsError) as caught:
+        convex_hull([GOOD, bad])  # type: ignore[list-item]
+    assert str(caught.value) == message
+
+
+@pytest.mark.parametrize(
+    ("arithmetic", "number", "message"),
+    [
+        ("truncating", "1e99", "point 1, coordinate y: the exponent of a number of this arithmetic is -99 to 99"),
+        ("truncating", "1e-101", "point 1, coordinate y: the exponent of a number of this arithmetic is -99 to 99"),
+        ("float64", "1e400", "point 1, coordinate y: too large for float64"),
+        ("float32", "1e39", "point 1, coordinate y: too large for float32"),
+    ],
+)
+def test_a_point_out_of_range_is_named(arithmetic: str, number: str, message: str) -> None:
+    with pytest.raises(PointsError) as caught:
+        convex_hull([GOOD, (0, number, 0)], arithmetic)
+    assert str(caught.value) == message
+
+
+def test_arrays() -> None:
+    integers = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
+    assert convex_hull(integers).vertices == convex_hull(integers.tolist()).vertices
+    assert convex_hull(integers.astype(float), "float64").dimension == 3
+    with pytest.raises(PointsError, match=r"shape \(n, 3\), not \(4, 2\)"):
+        convex_hull(integers[:, :2].astype(float), "float64")
+    with pytest.raises(PointsError, match="point 2: a coordinate is not finite"):
+        convex_hull(np.array([(0.0, 0, 0), (1, 0, 0), (0, float("inf"), 0)]), "float64")
+
+
+@pytest.mark.parametrize("points", [[], np.empty((0, 3))])
+@pytest.mark.parametrize("arithmetic", ["exact", "float64"])
+def test_no_points(points: object, arithmetic: str) -> None:
+    with pytest.raises(PointsError):
+        convex_hull(points, arithmetic)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    "name", ["", "float", "mp", "mp:1", "mp:x", "truncating:1", "truncating:x", "rounding", "exact:3"]
+)
+def test_an_arithmetic_that_is_none(name: str) -> None:
+    with pytest.raises(ValueError, match=r"."):
+        convex_hull([GOOD], name)
+
+
+def test_the_public_name() -> None:
+    assert modern.convex_hull is convex_hull
+    assert modern.PointsError is PointsError
+    assert not hasattr(modern, "hull_of_nothing")
+
+
+numbers = st.one_of(st.integers(), st.fractions(), st.decimals(allow_nan=False, allow_infinity=False).map(Fraction))
+
+
+@given(numbers)
+def test_text_is_exact(number: int | Fraction) -> None:
+    text = exact_text(number)
+    assert Fraction(text) == number
+    if "/" in text:
+        denominator = Fraction(number).denominator
+        assert any(denominator % p == 0 for p in range(3, 2000, 2) if p % 5) or denominator > 2000
+
+
+@pytest.mark.parametrize(
+    ("number", "text"),
+    [(0, "0"), (-12, "-12"), (Fraction(1, 8), "0.125"), (Fraction(-1, 3), "-1/3"), (Fraction(7, 20), "0.35")],
+)
+def test_text_is_plain(number: int | Fraction, text: str) -> None:
+    assert exact_text(number) == text
+
+
+def test_text_of_many_digits() -> None:
+    assert Decimal(exact_text(10**9000 + 1)) == Decimal(10**9000 + 1)
+    assert exact_text(10**5000) == "1E+5000"
+
+
+@given(st.integers(-(10**12), 10**12), st.integers(-90, 80))
+def test_a_number_is_cut_as_a_card_reader_cuts_it(digits: int, exponent: int) -> None:
+    """The emulator's READ of the same decimal (C26-5619 p. 35-38)."""
+    value = Fraction(digits) * Fraction(10) ** exponent
+    arithmetic = fixed_arithmetic("truncating")
+    assert arithmetic is not None
+    number = arithmetic.number(value)
+    read = read_floating(FALLBACK, f"{digits}.E{exponent:+03d}", TRUNCATING.rules)
+    assert (number.m, number.e) == (read.mantissa, read.exponent)
+    card = write_floating(FALLBACK, read.mantissa, read.exponent, TRUNCATING.rules)[0].strip()
+    assert e_field(arithmetic.text(number, 1)) == card

@@ -1,0 +1,108 @@
+"""A study on a dask.distributed cluster: the same files, also when a worker is killed in mid-run."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+import time
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from modern.study import Plan, PlanError, run_study
+from modern.study import dasked as study_dask
+from tests.modern.study.test_study_runs import contents
+from tests.support.studied import PLAN
+
+distributed = pytest.importorskip("distributed")
+pytestmark = [pytest.mark.filterwarnings("ignore")]
+
+
+@pytest.fixture(scope="module")
+def cluster() -> Iterator[Any]:
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=50
+    ) as found:
+        yield found
+
+
+def killing(plan: Plan, folder: Path, cluster: Any) -> list[int]:
+    """Kill a worker as soon as the first rows are there; the numbers of those killed."""
+    killed: list[int] = []
+
+    def kill() -> None:
+        while not list(folder.glob("rows/*.jsonl")) and not over.is_set():
+            time.sleep(0.01)
+        kept = len(list(folder.glob("rows/*.jsonl")))
+        if kept < len(list(plan.chunks())):
+            worker = next(iter(cluster.workers.values()))
+            killed.append(worker.pid)
+            os.kill(worker.pid, signal.SIGKILL)
+
+    over = threading.Event()
+    thread = threading.Thread(target=kill)
+    thread.start()
+    try:
+        run_study(plan, folder, dask=cluster.scheduler_address, quiet=True)
+    finally:
+        over.set()
+        thread.join()
+    return killed
+
+
+def test_a_worker_killed_in_mid_run_changes_nothing(cluster: Any, tmp_path: Path) -> None:
+    run_study(PLAN, tmp_path / "here", workers=1, quiet=True)
+    assert killing(PLAN, tmp_path / "dask", cluster)
+    assert contents(tmp_path / "dask") == contents(tmp_path / "here")
+
+
+def test_a_worker_of_another_version_is_refused(cluster: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    own = study_dask.versions()
+    monkeypatch.setattr(study_dask, "versions", lambda: {**own, "numpy": "0.1"})
+    with pytest.raises(PlanError, match=rf"a worker has numpy {own['numpy']}, this process 0.1"):
+        run_study(PLAN, tmp_path / "old", dask=cluster.scheduler_address, quiet=True)
+
+
+def test_a_worker_without_hull1620_is_refused(cluster: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def missing() -> None:
+        raise ModuleNotFoundError("No module named 'modern'")
+
+    monkeypatch.setattr(study_dask, "_loaded", missing)
+    with pytest.raises(PlanError, match=r"a worker cannot load hull1620: .*No module named 'modern'") as refused:
+        run_study(PLAN, tmp_path / "none", dask=cluster.scheduler_address, quiet=True)
+    assert "\n" not in str(refused.value)
+
+
+def test_a_cluster_that_goes_away_is_said_in_a_line(tmp_path: Path) -> None:
+    """Its rows are kept; the study ends elsewhere."""
+    folder = tmp_path / "gone"
+    with distributed.LocalCluster(
+        n_workers=1, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=50
+    ) as short:
+
+        def close() -> None:
+            while not list(folder.glob("rows/*.jsonl")):
+                time.sleep(0.01)
+            short.close()
+
+        thread = threading.Thread(target=close)
+        thread.start()
+        plan = replace(PLAN, cells=tuple(replace(cell, samples=4_000) for cell in PLAN.cells))
+        with pytest.raises(PlanError, match=r"--dask: .*--resume goes on") as lost:
+            run_study(plan, folder, dask=short.scheduler_address, quiet=True)
+        thread.join()
+    assert "\n" not in str(lost.value)
+
+
+@pytest.mark.parametrize("address", ["nonsense", "tcp://", "tcp://127.0.0.1:1"])
+def test_no_cluster_there(address: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(study_dask, "TIMEOUT", 1)
+    with pytest.raises(PlanError) as refused:
+        run_study(PLAN, tmp_path / "no", dask=address, quiet=True)
+    assert str(refused.value).startswith(f"--dask {address}: ")
+    assert "\n" not in str(refused.value)
+    assert not (tmp_path / "no").exists()

@@ -1,0 +1,240 @@
+"""The studies digits, capacity, machine-time and divergence: what they measure; reports follow the rows."""
+
+from __future__ import annotations
+
+import random
+import re
+from contextlib import closing
+from pathlib import Path
+
+import pytest
+
+from emulator.language.objectcode import Program
+from emulator.machine.machine import Machine
+from emulator.numbers.arithmetic import UNDEFINED
+from modern.edition import decks
+from modern.exact_hull import exact_hull
+from modern.port import convex_hull
+from modern.study.builtin import capacity, digits, divergence, machine_time
+from modern.study.charts import Lines
+from modern.study.families import draw_sample
+from modern.study.judged import Judged, judge
+from modern.study.measures import divergence as divergence_of
+from modern.study.measures import plane_table
+from modern.study.plan import Cell, Plan
+from modern.study.report import Report
+from modern.study.run import run_study
+from modern.study.statistics import exact
+from modern.study.store import Store
+from modern.study.summary import cells, summary, values
+from modern.thesis.job import HullRun, run_hull
+from tests.support.judged import OPTIONS
+
+
+def _sample(family: str, index: int, **parameters: int) -> Judged:
+    return judge(draw_sample(Cell({"sets": family}, family, parameters, (), 9), 1963, index), "sample")
+
+
+def _finished(plan: Plan, folder: Path, module: object) -> Report:
+    return run_study(plan, folder, module.report, workers=1, quiet=True)  # type: ignore[attr-defined]
+
+
+def _table_places(machine: Machine) -> int:
+    """The greatest index of program 3's array A that anything was stored in."""
+    storage = machine.program.storage
+    names = [storage.name_of(a) for a in range(storage.fields) if machine.exponents[a] != UNDEFINED]
+    return max(int(name[2:-1]) for name in names if re.fullmatch(r"A\(\d+\)", name))
+
+
+@pytest.mark.parametrize("family", ["ball", "sphere", "cube", "prism"])
+def test_places_of_the_port_are_those_the_corrected_program_uses(family: str) -> None:
+    for index in range(3):
+        sample = _sample(family, index, digits=2, n=14)
+        machines: list[Machine] = []
+
+        def watch(_: Program, machine: Machine, seen: list[Machine] = machines) -> None:
+            seen.append(machine)
+
+        run = run_hull(sample.deck, lambda name: decks.with_layers(name, ("corrected",)), OPTIONS, watch=watch)
+        assert run.final.name == "program3"
+        hull = convex_hull(sample.drawn.points, "exact", history=True)
+        assert plane_table(sample, hull) == {"planes_at_once": _table_places(machines[-1])}
+
+
+def test_no_places_without_a_history_or_in_the_plane() -> None:
+    sample = _sample("ball", 0, digits=2, n=8)
+    assert plane_table(sample, convex_hull(sample.drawn.points)) == {}
+    flat = [["0", "0", "0"], ["5", "0", "0"], ["0", "5", "0"], ["5", "5", "0"]]
+    assert plane_table(sample, convex_hull(flat, history=True)) == {}
+
+
+def _run(sample: Judged) -> HullRun:
+    return run_hull(sample.deck, decks.program)
+
+
+def test_two_digit_sets_decide_as_exact_numbers_and_three_digit_sets_do_not() -> None:
+    for index in range(3):
+        small = _sample("integers", index, digits=2, n=10)
+        assert divergence_of(small, _run(small)) == {"diverges": ""}
+        large = _sample("integers", index, digits=3, n=10)
+        assert divergence_of(large, _run(large))["diverges"] != ""
+
+
+def test_cards_whose_planes_miss_their_points_are_named() -> None:
+    """D of a plane of three-digit points may have nine digits; program 1 punches eight."""
+    samples = [_sample("integers", index, digits=3, n=10) for index in range(8)]
+    places = {str(divergence_of(sample, _run(sample))["diverges"]) for sample in samples}
+    assert "cards to program3" in places
+
+
+def test_the_greatest_intermediate_of_the_formulas_is_within_the_digits_derived() -> None:
+    """docs/studies.md: with 3d + 1 digits every test for zero at whole points of d digits is exact."""
+    size = 10**3 - 1
+    assert 8 * size**3 < 10 ** digits.exact_zeros(3)
+    assert 4 * (16 * size**3) < 10 ** digits.enough(3)
+
+
+@pytest.fixture(scope="module")
+def digits_study(tmp_path_factory: pytest.TempPathFactory) -> tuple[Plan, Path, Report]:
+    whole = digits.plan(2, 7)
+    plan = Plan(whole.name, whole.title, whole.question, whole.cells[:3], whole.seed, whole.notes)
+    folder = tmp_path_factory.mktemp("digits") / "out"
+    return plan, folder, _finished(plan, folder, digits)
+
+
+def test_digits_needs_3d_plus_1_for_plain_sets(digits_study: tuple[Plan, Path, Report]) -> None:
+    _, _, report = digits_study
+    assert [row[4] for row in report.tables[0].rows] == ["4", "7", "10"]
+    assert report.tables[0].rows[0][5] == "4"
+
+
+def test_digits_counts_every_set_once(digits_study: tuple[Plan, Path, Report]) -> None:
+    plan, _, report = digits_study
+    for row in report.tables[2].rows:
+        assert sum(map(int, row[2:])) == plan.cells[0].samples
+
+
+def test_digits_follows_the_rows(digits_study: tuple[Plan, Path, Report]) -> None:
+    plan, folder, before = digits_study
+    with closing(Store.open(folder, plan)) as store:
+        store.query("UPDATE runs SET outcome = 'wrong hull' WHERE cell = 1 AND route = 'P=20'")
+        after = digits.report(plan, store)
+        assert digits.least(summary(store), 1) == 21
+    assert after.tables[0].rows[1][4] == "21"
+    assert after.words[2] != before.words[2]
+
+
+def test_capacity_reports_the_most_places_of_its_rows(tmp_path: Path) -> None:
+    whole = capacity.plan(2, 3)
+    wanted = [cell for cell in whole.cells if cell.key["sets"] in ("ball", "sphere") and cell.key["n"] in (8, 51)]
+    plan = Plan(whole.name, whole.title, whole.question, tuple(wanted), whole.seed)
+    report = _finished(plan, tmp_path / "out", capacity)
+    with closing(Store.open(tmp_path / "out", plan)) as store:
+        figures = [run.figures["planes_at_once"] for run in store.runs(route=capacity.EXACT) if run.n == 51]
+        again = capacity.report(plan, store)
+    assert again == report
+    assert max(int(row[4]) for row in report.tables[0].rows) == max(figures) > capacity.PLACES
+    assert "sphere: some set needs more than 98 places from N = 51 on" in report.words[0]
+    assert report.words[1].startswith("Of the sizes tried, N = 8 is the largest at which")
+    assert report.tables[2].rows[0][1:] == ("98", str(capacity.positions(98)), "40000")
+
+
+def test_98_places_are_what_the_program_holds() -> None:
+    """Ten positions a place in each of the eight arrays that hold a number a plane (thesis p. 88)."""
+    assert capacity.positions(99) - capacity.positions(98) == 8 * 10
+
+
+def test_machine_time_adds_up(tmp_path: Path) -> None:
+    whole = machine_time.plan(2, 3)
+    wanted = [cell for cell in whole.cells if cell.key["n"] in (4, 12)]
+    plan = Plan(whole.name, whole.title, whole.question, tuple(wanted), whole.seed)
+    report = _finished(plan, tmp_path / "out", machine_time)
+    with closing(Store.open(tmp_path / "out", plan)) as store:
+        longest = {
+            k: max(sum(float(run.figures[f"seconds_{part}"]) for part in machine_time.PARTS) for run in store.runs(k))
+            for k in range(len(plan.cells))
+        }
+    assert [row[4] for row in report.tables[1].rows] == [f"{seconds / 60:.2f}" for seconds in longest.values()]
+    for row in report.tables[1].rows:
+        total = float(row[3].split()[0])
+        assert total == pytest.approx(sum(map(float, row[5:9])), abs=0.021)
+    chart = report.charts[0]
+    assert isinstance(chart, Lines)
+    assert [place for place, _ in chart.series[0].points] == [4.0, 12.0]
+
+
+def test_machine_time_counts_only_sets_whose_hull_was_found(tmp_path: Path) -> None:
+    whole = machine_time.plan(2, 3)
+    plan = Plan(whole.name, whole.title, whole.question, whole.cells[:1], whole.seed)
+    _finished(plan, tmp_path / "out", machine_time)
+    with closing(Store.open(tmp_path / "out", plan)) as store:
+        store.query("UPDATE runs SET outcome = 'wrong hull' WHERE place = 0")
+        assert machine_time.report(plan, store).tables[1].rows[0][2] == "1"
+        store.query("UPDATE runs SET outcome = 'wrong hull'")
+        assert machine_time.report(plan, store).words == ("No set was determined, so nothing was timed.",)
+
+
+def test_durations_in_words() -> None:
+    assert machine_time.spoken_time(18.2) == "18 s"
+    assert machine_time.spoken_time(450) == "7.5 min"
+    assert machine_time.spoken_time(5070) == "1 h 24 min"
+
+
+def test_divergence_names_where_and_follows_the_rows(tmp_path: Path) -> None:
+    whole = divergence.plan(3, 3)
+    wanted = [cell for cell in whole.cells if cell.key["sets"] in ("whole, 2 digits", "whole, 6 digits")]
+    plan = Plan(whole.name, whole.title, whole.question, tuple(wanted), whole.seed)
+    report = _finished(plan, tmp_path / "out", divergence)
+    assert sum(int(row[1]) for row in report.tables[0].rows) == 6
+    assert "all of the families whole, 2 digits" in report.words[0]
+    with closing(Store.open(tmp_path / "out", plan)) as store:
+        store.query("UPDATE runs SET outcome = 'right'")
+        assert "Of the 3 that follow exact numbers throughout 0 fail" in divergence.report(plan, store).words[1]
+        store.query("UPDATE runs SET outcome = 'endless' WHERE place = 0")
+        once = divergence.report(plan, store).words[1]
+        assert once.startswith("Of the 3 other sets 2 still end in the right hull")
+        assert "Of the 3 that follow exact numbers throughout 1 fail" in once
+        store.query("UPDATE runs SET figures = json_set(figures, '$.diverges', 'program3 116')")
+        after = divergence.report(plan, store)
+    assert after.tables[0].rows[0][:2] == ("program3 116", "6")
+    assert "all of the families" not in after.words[0]
+
+
+@pytest.mark.parametrize("module", [digits, capacity, machine_time, divergence])
+def test_plans_have_distinct_cells_and_repeat(module: object) -> None:
+    plan = module.plan(module.SAMPLES, 1963)  # type: ignore[attr-defined]
+    assert len({cell.name for cell in plan.cells}) == len(plan.cells)
+    assert plan.document() == module.plan(module.SAMPLES, 1963).document()  # type: ignore[attr-defined]
+    assert plan.document() != module.plan(module.SAMPLES, 1964).document()  # type: ignore[attr-defined]
+
+
+def test_cells_by_their_keys() -> None:
+    plan = capacity.plan(1, 1)
+    assert values(plan, "sets") == ("ball", "cube, solid", "cube, surface", "prism", "sphere")
+    assert [cell.key["n"] for _, cell in cells(plan, sets="prism")] == [n for n in capacity.POINTS if n % 2 == 0]
+    assert cells(plan, sets="nothing") == ()
+
+
+def test_no_failure_among_so_many_bounds_the_share() -> None:
+    """The rule of three: none of n leaves about 3.7/n at 95 % with two tails (Clopper and Pearson 1934)."""
+    assert exact(0, 300).high == pytest.approx(1 - 0.025 ** (1 / 300), rel=1e-9)
+
+
+@pytest.mark.parametrize("d", [1, 2, 3])
+def test_3d_plus_4_digits_are_enough_for_nearly_flat_sets_too(d: int) -> None:
+    """docs/studies.md, digits: sets a unit off a plane have the least values at C that whole numbers can have."""
+    source = random.Random(d)
+    size = 10**d - 1
+    for _ in range(60):
+        a, b = source.choice((-1, 0, 1)), source.choice((-1, 0, 1))
+        found: set[tuple[int, int, int]] = set()
+        while len(found) < 8:
+            x, y = source.randint(-size, size), source.randint(-size, size)
+            z = a * x + b * y + source.randint(-1, 1)
+            if abs(z) <= size:
+                found.add((x, y, z))
+        points = [[str(c) for c in point] for point in sorted(found)]
+        judged, hull = exact_hull(points), convex_hull(points, f"truncating:{digits.enough(d)}")
+        assert hull.determined
+        assert set(hull.vertices) == set(judged.vertices)
+        assert len(hull.faces) == len(judged.facets) or judged.dimension < 3

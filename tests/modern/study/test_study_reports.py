@@ -1,0 +1,278 @@
+"""Tables, charts, the study seventy, plan files and the command line."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import subprocess
+import sys
+from collections import Counter
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from emulator.errors import EmulatorError
+from modern.cli.main import main
+from modern.study import Plan, PlanError, Port, Programs, run_study
+from modern.study.builtin import seventy
+from modern.study.charts import Bars, Lines, Mark, Series
+from modern.study.filing import DETERMINED, OUTCOMES
+from modern.study.plots import can_plot, draw
+from modern.study.registry import entries, names, study
+from modern.study.statistics import Interval, exact, mean, wilson
+from modern.study.tables import Table, percent, with_interval
+from modern.study.tomlplan import read_plan
+from tests.support.paths import ROOT
+
+PLAN_FILE = """
+name = "three"
+title = "Three digits"
+question = "How often?"
+samples = 6
+
+[[route]]
+name = "listed"
+limit = 20000
+
+[[route]]
+name = "float64"
+kind = "port"
+arithmetic = "float64"
+
+[[cell]]
+key = { n = 5 }
+family = "integers"
+parameters = { digits = 2, n = 5 }
+
+[[cell]]
+family = "file"
+samples = 2
+routes = ["float64"]
+parameters = { path = "mine.csv", shuffle = true }
+"""
+
+
+@pytest.fixture
+def plan_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    (tmp_path / "mine.csv").write_text("0,0,0\n1,0,0\n0,1,0\n0,0,1\n1,1,.5\n")
+    path = tmp_path / "three.toml"
+    path.write_text(PLAN_FILE)
+    monkeypatch.chdir(tmp_path)
+    return path
+
+
+def read(path: Path) -> list[dict[str, str]]:
+    """The rows of a CSV table."""
+    return list(csv.DictReader(path.read_text().splitlines()))
+
+
+def test_tables_say_the_same_three_times() -> None:
+    table = Table("table", "T", ("what", "n|m"), (("a, b", "1"), ("c|d", "23")), ("note",))
+    assert table.text() == "T\nwhat  n|m\na, b    1\nc|d    23\nnote\n"
+    assert list(csv.reader(table.csv().splitlines())) == [["what", "n|m"], ["a, b", "1"], ["c|d", "23"]]
+    markdown = table.markdown().splitlines()
+    assert markdown[2:6] == ["| what | n\\|m |", "| :-- | --: |", "| a, b | 1 |", "| c\\|d | 23 |"]
+    assert percent(Interval(0.5, 0.25, 0.75)) == "50.0 (25.0 to 75.0) %"
+    assert percent(Interval(0, 0, 0.0049)) == "0.000 (0.000 to 0.490) %"
+    assert with_interval(Interval(1.5, 1, 2)) == "1.50 (1.00 to 2.00)"
+    assert with_interval(mean([3.0])) == "3.00"
+
+
+@pytest.mark.skipif(bool(can_plot()), reason="needs matplotlib")
+def test_charts_are_drawn_the_same_twice(tmp_path: Path) -> None:
+    shares = tuple((str(k), wilson(k, 9)) for k in range(4))
+    series = tuple(Series(name, shares) for name in ("one", "other", "third"))
+    values = tuple((float(k + 1), Interval(k + 1, k + 0.5, k + 2)) for k in range(4))
+    charts = (
+        Bars("bars", "Bars", "k", "share", series, percent=True, marks=(Mark(2, "here", upright=True),), note="n"),
+        Lines("lines", "Lines", "n", "seconds", (Series("a", values),), log_x=True, log_y=True, marks=(Mark(2, "at"),)),
+    )
+    for chart in charts:
+        for folder in ("a", "b"):
+            (tmp_path / folder).mkdir(exist_ok=True)
+            draw(chart, tmp_path / folder)
+        for kind in ("svg", "png"):
+            one, other = (tmp_path / folder / f"{chart.name}.{kind}" for folder in ("a", "b"))
+            assert one.read_bytes() == other.read_bytes()
+        assert ElementTree.parse(tmp_path / "a" / f"{chart.name}.svg").getroot().tag.endswith("svg")
+
+
+def test_without_matplotlib_a_study_ends_all_the_same(
+    plan_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    run_study(read_plan(str(plan_file)), tmp_path / "out", workers=1)
+    assert "hull1620[plot]" in capsys.readouterr().err
+    assert not list((tmp_path / "out").glob("*.svg"))
+    assert "](outcomes.svg)" not in (tmp_path / "out/report.md").read_text()
+
+
+def test_seventy_counts_what_its_rows_say(tmp_path: Path) -> None:
+    folder = tmp_path / "seventy"
+    report = run_study(seventy.plan(280, 11), folder, seventy.report, workers=1, quiet=True)
+    rows = [json.loads(line) for path in sorted(folder.glob("rows/*")) for line in path.read_text().splitlines()]
+    assert len(rows) == 280
+    table = {row["program"]: row for row in read(folder / "table.csv")}
+    for route in ("as listed", "last pair mended"):
+        groups = [0] * 4
+        for row in rows:
+            groups[row["index"] // 70] += row["runs"][route]["outcome"] not in DETERMINED
+        assert table[route]["failed"] == str(sum(groups))
+        assert table[route]["failures in 70"].startswith(f"{sum(groups) / 4:.2f} ")
+        assert table[route]["of all sets"] == percent(exact(sum(groups), 280))
+        spread = read(folder / "distribution.csv")
+        assert {int(r["failures"]): int(r[f"70s, {route}"]) for r in spread if r[f"70s, {route}"] != "0"} == Counter(
+            groups
+        )
+    kinds = Counter(row["tags"]["kind"] for row in rows)
+    assert {r["kind"]: int(r["sets"]) for r in read(folder / "kinds.csv")} == kinds
+    causes = read(folder / "causes.csv")
+    assert sum(int(r["as listed"]) for r in causes) == int(table["as listed"]["failed"])
+    words = " ".join(report.words)
+    assert words in (folder / "report.md").read_text().replace("\n\n", " ")
+    manifest = json.loads((folder / "manifest.json").read_text())
+    assert "Chapter 6 prints six" in manifest["plan"]["notes"][0]
+    assert len(manifest["decks_sha256"]) == 64
+
+
+def test_one_seventy_tells_little(tmp_path: Path) -> None:
+    report = run_study(seventy.plan(70, 1963), tmp_path / "one", seventy.report, workers=1, quiet=True)
+    words = " ".join(report.words)
+    assert "inf" not in words + " ".join(report.tables[0].rows[0])
+    assert "so few seventies do not tell" in words
+
+
+@pytest.mark.parametrize("samples", [0, 69, 71])
+def test_seventy_takes_seventies(samples: int) -> None:
+    with pytest.raises(PlanError, match="no multiple of 70"):
+        seventy.plan(samples, 1)
+
+
+def test_every_study_built_in_has_a_plan_that_can_be_read() -> None:
+    assert "seventy" in names()
+    for entry in entries():
+        found = study(entry.name)
+        plan = found.plan(found.SAMPLES, 1)
+        assert plan.name == entry.name
+        assert plan.seed == 1
+        assert plan.document() == json.loads(json.dumps(plan.document()))
+    with pytest.raises(KeyError):
+        study("nothing")
+
+
+def test_a_plan_file_is_what_it_says(plan_file: Path) -> None:
+    plan = read_plan(str(plan_file))
+    assert isinstance(plan, Plan)
+    assert [route.name for route in plan.cells[0].routes] == ["listed", "float64"]
+    assert plan.cells[0].routes == (Programs("listed", limit=20000), Port("float64", "float64"))
+    assert plan.cells[1].family == "points"
+    assert plan.cells[1].parameters["points"][4] == ["1", "1", ".5"]
+    assert [cell.samples for cell in plan.cells] == [6, 2]
+    assert [cell.samples for cell in read_plan(str(plan_file), 9, 4).cells] == [9, 9]
+    assert read_plan(str(plan_file), 9, 4).seed == 4
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("name = ", "Invalid value"),
+        ("a = 1", "there is no 'a'"),
+        ("name = 'x'", "there is no [[route]]"),
+        ("[[route]]\nlimit = 3", "route 1: it has no name"),
+        ("[[route]]\nname = 'a'\nlimit = '3'", "limit = '3' is of a wrong kind"),
+        ("[[route]]\nname = 'a'\nlimit = true", "limit = True is of a wrong kind"),
+        ("[[route]]\nname = 'a'\nkind = 'train'", "kind is programs or port"),
+        ("[[route]]\nname = 'a'\n[[route]]\nname = 'a'", "two routes"),
+        ("[[route]]\nname = 'a'\n[[cell]]\nroutes = ['b']\nfamily = 'thesis'", "no route 'b'"),
+        ("[[route]]\nname = 'a'\n[[cell]]\nn = 3", "cell 1: there is no 'n'"),
+        ("[[route]]\nname = 'a'\n[[cell]]\nsamples = 3", "cell 1: it has no family"),
+        ("[[route]]\nname = 'a'\n[[cell]]\nfamily = 'file'", "needs a path"),
+        ("[[route]]\nname = 'a'\n[[cell]]\nfamily = 'file'\nparameters = {path = 'no'}", "no such file"),
+        ("[[route]]\nname = 'a'\n[[cell]]\nfamily = 'thesis'\nsamples = '3'", "whole numbers"),
+        ("seed = 1.5\n[[route]]\nname = 'a'", "the seed is a whole number"),
+        ("seed = true\n[[route]]\nname = 'a'", "the seed is a whole number"),
+        ("route = 3", "route is [[route]], not 3"),
+        ("route = [3]", "of a wrong kind"),
+        ("[[route]]\nname = 'a'\n[[cell]]\nfamily = 3", "cell 1: family is text, not 3"),
+        ("[[route]]\nname = 'a'\n[[cell]]\nfamily = 'thesis'\nroutes = 3", "routes is a list of names, not 3"),
+        ("[[route]]\nname = 'a'\n[[cell]]\nfamily = 'thesis'\nparameters = 3", "parameters is { name = value }"),
+        ("[[route]]\nname = 'a'\n[[cell]]\nfamily = 'thesis'\nkey = {a = [1]}", "values of its key"),
+        ("[[route]]\nname = 'a'\n[[cell]]\nfamily = 'thesis'\nchunk = true", "whole numbers"),
+    ],
+)
+def test_a_plan_file_that_is_none_is_refused_in_a_line(tmp_path: Path, text: str, words: str) -> None:
+    path = tmp_path / "bad.toml"
+    path.write_text(text)
+    with pytest.raises(EmulatorError) as refused:
+        read_plan(str(path))
+    assert words in str(refused.value)
+    assert "\n" not in str(refused.value)
+
+
+def test_the_command_line(plan_file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["study", "--list"]) == 0
+    assert "seventy" in capsys.readouterr().out
+    assert main(["study", "three.toml", "--workers", "1", "--quiet"]) == 0
+    out, err = capsys.readouterr()
+    assert out.startswith("Three digits\n")
+    assert err == ""
+    folder = Path("three")
+    assert {path.name for path in folder.iterdir()} >= {
+        "manifest.json",
+        "index.sqlite",
+        "rows",
+        "table.md",
+        "table.csv",
+        "report.md",
+    }
+    head = (folder / "table.csv").read_text().splitlines()[0].split(",")
+    assert set(head) - {"cell", "route", "sets", "hull found"} <= set(OUTCOMES)
+    assert main(["study", "three.toml", "--workers", "1"]) == 2
+    assert "--resume" in capsys.readouterr().err
+    assert main(["study", "three.toml", "--workers", "1", "--resume"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ([], "which study?"),
+        (["nothing"], "no study is called 'nothing'"),
+        (["no.toml"], "no.toml: no such file"),
+        (["seventy", "--samples", "0"], "--samples: 0"),
+        (["seventy", "--samples", "71"], "no multiple of 70"),
+        (["seventy", "--workers", "-1"], "--workers: -1"),
+        (["seventy", "--out", ""], "--out is empty"),
+        (["seventy", "--dask", ""], "--dask is empty"),
+        (["seventy", "--samples", "70000000000"], "333,333,334 files of rows"),
+        (["seventy", "--workers", "1", "--dask", "tcp://h:1"], "one or the other"),
+        (["seventy", "--samples", "70", "--out", "three.toml"], "three.toml: is there"),
+        (["seventy", "--samples", "70", "--out", "three.toml/in"], "not a directory"),
+    ],
+)
+def test_bad_input_is_said_in_a_line(
+    arguments: list[str], words: str, plan_file: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["study", *arguments]) == 2
+    out, err = capsys.readouterr()
+    assert words in err
+    assert (out, err.count("\n")) == ("", 1)
+
+
+def test_parquet_rows_are_the_rows(plan_file: Path, tmp_path: Path) -> None:
+    parquet = pytest.importorskip("pyarrow.parquet")
+    run_study(read_plan(str(plan_file)), tmp_path / "out", workers=1, quiet=True)
+    found = parquet.read_table(tmp_path / "out/rows.parquet").to_pylist()
+    assert len(found) == 6 * 2 + 2
+    assert {row["route"] for row in found} == {"listed", "float64"}
+
+
+def test_the_list_into_a_closed_pipe() -> None:
+    command = [sys.executable, "-m", "modern.cli.main", "study", "--list"]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment)
+    assert process.stdout is not None
+    process.stdout.close()
+    _, errors = process.communicate()
+    assert errors == b""

@@ -1,0 +1,56 @@
+"""Random decks through ``hull1620 hull``: an exit code and at most warnings, never a traceback."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import tempfile
+from pathlib import Path
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from emulator.language.cards import CHARACTERS
+from modern.cli.main import main
+from modern.formats.csv import e_field, parse_decimal
+
+coordinate = st.one_of(
+    st.integers(-9, 9).map(str),
+    st.integers(-9999, 9999).map(str),
+    st.tuples(st.integers(-(10**8) + 1, 10**8 - 1), st.integers(-90, 80)).map(lambda t: f"{t[0]}e{t[1]}"),
+)
+point = st.tuples(coordinate, coordinate, coordinate)
+card_text = st.text(st.sampled_from(sorted(CHARACTERS)), max_size=80)
+
+
+def run(text: str, *options: str) -> tuple[int, str]:
+    """Exit code and standard error of ``hull`` on a deck."""
+    with tempfile.TemporaryDirectory() as room:
+        path = Path(room) / "d"
+        path.write_text(text)
+        out, err = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            code = main(["hull", str(path), "--limit", "200000", *options])
+        return code, err.getvalue()
+
+
+@settings(deadline=None, max_examples=40)
+@given(
+    st.lists(point, min_size=1, max_size=14),
+    st.sampled_from(["strict", "core"]),
+    st.sampled_from(["listing", "examples"]),
+)
+def test_any_points(points: list[tuple[str, str, str]], bounds: str, programs: str) -> None:
+    cards = ["".join(e_field(parse_decimal(x), False) for x in p) for p in points]
+    code, err = run("\n".join([f"{len(points):2d}", *cards]), "--bounds", bounds, "--programs", programs)
+    assert code in (0, 1), err
+
+
+@settings(deadline=None, max_examples=40)
+@given(st.lists(card_text, max_size=6))
+def test_any_cards(cards: list[str]) -> None:
+    code, err = run("\n".join(cards))
+    assert code in (0, 1, 2)
+    if code == 2:
+        assert err.count("\n") == 1
+        assert err.startswith("hull1620: ")

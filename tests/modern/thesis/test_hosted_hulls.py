@@ -1,0 +1,158 @@
+"""The hull programs over other numbers: the decks run in 1963's way, the examples, and the judge."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from emulator.language.cards import Deck, deck_from_lines, read_deck
+from emulator.machine.divergence import diverge
+from emulator.machine.result import Options
+from emulator.numbers import DecimalNumbers, numbers
+from modern.comparison.difference import against
+from modern.comparison.outcome import Vector, from_cards, from_judge
+from modern.edition import decks, printed
+from modern.exact_hull import exact_hull
+from modern.thesis.job import HullRun, run_hull
+from tests.support.judged import OPTIONS, deck_of, differences, sets
+from tests.support.paths import MACHINE_RUNS
+
+RUNS = MACHINE_RUNS
+FOLDERS = sorted(path for path in RUNS.iterdir() if path.is_dir())
+DECIMAL = {"18_dec3_n6", "23_dec2_n15"}
+"""Decks whose points are not whole."""
+
+
+def hull(deck: Deck, name: str = "", layers: tuple[str, ...] = (), uncut: bool = False) -> HullRun:
+    options = replace(OPTIONS, limit=60_000, uncut=uncut, numbers=numbers(name) if name else None)
+    return run_hull(deck, lambda program: decks.with_layers(program, layers), options)
+
+
+def deck_of_folder(folder: Path) -> Deck:
+    return read_deck(str(folder / "deck.cards"))
+
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
+@pytest.mark.parametrize("profile", ["truncating", "ibm1962"])
+def test_decimal_numbers_give_every_result_of_the_engine(folder: Path, profile: str) -> None:
+    found = numbers(profile)
+    assert isinstance(found, DecimalNumbers)
+    options = Options(profile=found.profile, limit=20_000)
+    plain = run_hull(deck_of_folder(folder), decks.program, options)
+    hosted = run_hull(deck_of_folder(folder), decks.program, replace(options, numbers=found))
+    assert hosted.steps == plain.steps
+
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
+@pytest.mark.parametrize("name", ["exact", "float64", "mp:120"])
+def test_the_decks_of_whole_numbers(folder: Path, name: str) -> None:
+    """On whole coordinates of two digits eight decimal digits decide as exact numbers do: same points, planes, end."""
+    if folder.name in DECIMAL:
+        pytest.skip("not whole")
+    plain, other = hull(deck_of_folder(folder)), hull(deck_of_folder(folder), name)
+    assert [step.result.counts for step in other.steps] == [step.result.counts for step in plain.steps]
+    assert [step.result.ending for step in other.steps] == [step.result.ending for step in plain.steps]
+    if name == "exact":
+        assert [step.result.punched for step in other.steps] == [step.result.punched for step in plain.steps]
+
+
+@pytest.mark.parametrize("example", printed.EXAMPLES)
+def test_the_examples_exactly(example: int) -> None:
+    """Exact numbers give the thesis's six examples as the exact judge has them."""
+    deck = printed.input_deck(example)
+    points = [
+        (Fraction(card.columns(1, 14)), Fraction(card.columns(15, 28)), Fraction(card.columns(29, 42)))
+        for card in deck.cards[1:]
+    ]
+    run = hull(deck, "exact")
+    assert run.complete
+    given: list[Vector] = [tuple(point) for point in points]
+    judge = from_judge(exact_hull(points), given)
+    found = against(from_cards("exact", run, given), judge, given)
+    assert found.agrees or judge.dimension < 2
+    assert not found.missed
+    assert not found.added
+
+
+def test_whole_points_exactly_and_mended() -> None:
+    """Exact numbers and the layer ``corrected``: what the judge says, on sets of every family."""
+    for name, points in sets(60, 7):
+        if len(points) > 17:
+            continue
+        run = run_hull(
+            deck_of(points),
+            lambda program: decks.with_layers(program, ("corrected",)),
+            replace(OPTIONS, numbers=numbers("exact"), limit=1_000_000),
+        )
+        assert differences(points, run) == [], name
+
+
+def decimals(seed: int) -> list[tuple[str, ...]]:
+    """Points with up to seven decimals: coefficients have more digits than a card holds."""
+    r = random.Random(seed)
+    places = r.choice((1, 3, 5, 7))
+    return [
+        tuple(f"{r.randint(-(10**places), 10**places) / 10**places:.{places}f}" for _ in range(3))
+        for _ in range(r.choice((4, 6, 9)))
+    ]
+
+
+def test_decimals_exactly_and_uncut() -> None:
+    """With numbers uncut between the programs exact runs are right; through the cards most are refused."""
+    refused = 0
+    for seed in range(40):
+        points = decimals(seed)
+        deck, given = deck_of(points), [tuple(Fraction(x) for x in p) for p in points]
+        run = hull(deck, "exact", ("corrected",), uncut=True)
+        assert run.complete, seed
+        judge = from_judge(exact_hull(points), given)
+        outcome = from_cards("exact", run, given)
+        assert (outcome.vertices, outcome.inside) == (judge.vertices, judge.inside), seed
+        refused += not hull(deck, "exact", ("corrected",)).complete
+    assert refused > 10
+
+
+def test_where_eight_digits_decide_otherwise() -> None:
+    """Program 3 on the cards of a deck of decimals: a plane's own point is not on it, and exactly it is."""
+    points = [("0", "0", "0"), ("1", "0", "0"), ("0", "1", "0"), ("0.1234567", "0.7654321", "1.3333333")]
+    points += [("0.1010101", "0.3333333", "-1.7777777"), ("0.9999999", "0.8888888", "0.0123456")]
+    deck = deck_of(points)
+    middle = deck_from_lines("middle", hull(deck).steps[0].result.punched)
+    found = diverge(decks.program("program3"), middle, numbers("truncating"), numbers("exact"))
+    assert found.first_value is not None
+    assert found.first_value.line.place.card < 60
+    assert found.digits == 8
+    assert any(loss.worst > 3 for loss in found.losses)
+
+
+def test_program_2_decides_its_roots_exactly() -> None:
+    """AL+CL-BL of points in line is zero exactly, whatever the lengths, and eight digits miss some of the zeros.
+
+    The last of the points with the least x is taken for a vertex first, though it lies between two others.
+    """
+    r = random.Random(5)
+    missed = 0
+    for _ in range(80):
+        x, low, high, t = r.randint(-9, 0), r.randint(-20, 0), r.randint(1, 20), r.randint(1, 7)
+        between = Fraction(low * (8 - t) + high * t, 8)
+        corners = [(x, low), (x + r.randint(1, 9), r.randint(-9, 9)), (x, high), (x, float(between))]
+        points = [(str(u), str(v), "1") for u, v in corners]
+        run = hull(deck_of(points), "exact")
+        assert run.final.name == "program2"
+        given = [tuple(Fraction(x) for x in p) for p in points]
+        judge = from_judge(exact_hull(points), given)
+        outcome = from_cards("exact", run, given)
+        assert (outcome.vertices, outcome.boundary) == (judge.vertices, judge.boundary), points
+        middle = deck_from_lines("middle", run.steps[0].result.punched)
+        for name in ("truncating", "float64"):
+            found = diverge(decks.program("program2"), middle, numbers(name), numbers("exact"), values=False)
+            assert found.apart == ""
+            if name == "truncating" and found.first_decision is not None:
+                missed += 1
+                assert "AL" in found.first_decision.line.text
+                assert found.first_decision.values[1] == "0"
+    assert missed

@@ -1,0 +1,63 @@
+"""The fourteen decks run by two compilers of the time (tests/data/machine_runs/README.md), card for card."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from emulator.language.cards import read_deck
+from emulator.machine.result import Options
+from modern.edition import decks
+from modern.thesis.job import HullRun, run_hull
+from tests.support.paths import MACHINE_RUNS
+
+RUNS = MACHINE_RUNS
+FOLDERS = sorted(path for path in RUNS.iterdir() if path.is_dir())
+
+
+def lines(path: Path) -> list[str]:
+    """A file's lines without the blank ones at its end, which the record of the runs dropped."""
+    found = [line.rstrip() for line in path.read_text().split("\n")]
+    return trimmed(found)
+
+
+def trimmed(found: list[str]) -> list[str]:
+    while found and not found[-1]:
+        found = found[:-1]
+    return found
+
+
+def run(folder: Path) -> HullRun:
+    return run_hull(read_deck(str(folder / "deck.cards")), decks.program, Options(limit=200_000))
+
+
+def test_there_are_fourteen() -> None:
+    assert len(FOLDERS) == 14
+
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
+def test_every_card_and_typed_line(folder: Path) -> None:
+    steps = {step.name: step.result for step in run(folder).steps}
+    expected = {path.name for path in folder.iterdir()} - {"deck.cards"}
+    assert {name.partition(".")[0] for name in expected} == set(steps)
+    for name in expected:
+        program, _, device = name.partition(".")
+        if device == "cards":
+            assert trimmed(list(steps[program].punched)) == lines(folder / name)
+        elif device == "typewriter":
+            assert list(steps[program].typed) == lines(folder / name)
+        else:
+            assert device == "endless"
+            assert steps[program].ending.kind == "limit"
+            assert "it loops on" in steps[program].ending.message
+
+
+def test_the_cube_ends_in_error_in_program() -> None:
+    """KNOWN-FAULTS 3."""
+    assert run(RUNS / "04_cube8").refusal == "ERROR IN PROGRAM"
+
+
+def test_three_decimals_end_in_data_not_acceptable() -> None:
+    """KNOWN-FAULTS 6."""
+    assert run(RUNS / "18_dec3_n6").refusal == "DATA NOT ACCEPTABLE"

@@ -1,0 +1,179 @@
+"""What the tests of the emulator share: decks from lines, compiling and running them, reading a field of core."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+
+import pytest
+
+from emulator.compiled.batch import run_batch
+from emulator.compiled.engine import why_plain
+from emulator.compiled.runner import BLOCK, Runner, packed
+from emulator.errors import Diagnostic, EmulatorError
+from emulator.language import objectcode as op
+from emulator.language.cards import Deck, deck_from_lines
+from emulator.language.compiler import compile_deck, translate
+from emulator.language.objectcode import Program
+from emulator.machine.machine import Machine
+from emulator.machine.result import Options, Result
+from emulator.numbers import DecimalNumbers
+from emulator.numbers.arithmetic import FIXED_POINT, MINUS_ZERO, UNDEFINED, ZERO, profile
+
+MakeMachine = Callable[[Program, Deck, Options], Machine]
+
+
+def hosted(made: Program, data: Deck, options: Options) -> Machine:
+    """A machine over the same decimal numbers as numbers of Python (emulator/machine/interpreter.py)."""
+    return Machine(made, data, replace(options, numbers=DecimalNumbers(options.profile)))
+
+
+class ComparedMachine(Machine):
+    """A machine whose run must be that of the compiled engine too: result, and every field of core afterwards."""
+
+    def run(self) -> Result:
+        pytest.importorskip("numba")
+        result = super().run()
+        runner = compiled_in_core(self.program, self.options)
+        if runner is not None:
+            (run,) = runner.runs([packed(self.deck)])
+            if run is not None:
+                assert runner.core.mantissas.tolist() == self.mantissas  # type: ignore[attr-defined]
+                assert runner.core.exponents.tolist() == self.exponents  # type: ignore[attr-defined]
+        assert run_batch(self.program, [self.deck], self.options) == (result,)
+        return result
+
+
+ENGINES: dict[str, MakeMachine] = {"plain": Machine, "hosted": hosted, "compiled": ComparedMachine}
+"""The engines every vector runs on: a name, and what makes a machine with that engine."""
+
+
+def compiled_in_core(program: Program, options: Options) -> Runner | None:
+    """The compiled engine with a program in core; None where the plain one is to run it."""
+    return None if why_plain(options) else Runner(program, options)
+
+
+def agreed(program: Program, decks: Sequence[Deck], options: Options) -> int:
+    """Run decks on both engines, which must agree in everything; how many the compiled one ran by itself.
+
+    A deck that raises an error must raise the same from both.
+    """
+    runner = compiled_in_core(program, options)
+    alone = 0
+    for start in range(0, len(decks), BLOCK):
+        block = decks[start : start + BLOCK]
+        runs = runner.runs([packed(deck) for deck in block]) if runner else iter([None] * len(block))
+        alone += sum(run is not None for run in runs)
+    good = []
+    for deck in decks:
+        try:
+            good.append((deck, Machine(program, deck, options).run()))
+        except EmulatorError as error:
+            kind, words = type(error), str(error)
+        else:
+            continue
+        with pytest.raises(kind) as caught:
+            run_batch(program, [deck], options)
+        assert str(caught.value) == words
+    found = run_batch(program, [deck for deck, _ in good], options)
+    for (deck, expected), result in zip(good, found, strict=True):
+        assert result == expected, deck.text()
+    return alone
+
+
+def source(*lines: str) -> Deck:
+    return deck_from_lines("deck.f", lines)
+
+
+def program(*lines: str) -> Program:
+    return compile_deck(source(*lines))
+
+
+def diagnostics(*lines: str) -> tuple[Diagnostic, ...]:
+    """All messages of the compiler, warnings too."""
+    return translate(source(*lines))[1]
+
+
+def errors(*lines: str) -> tuple[Diagnostic, ...]:
+    """The messages of the compiler that are not warnings."""
+    return tuple(d for d in diagnostics(*lines) if not d.warning)
+
+
+def machine(
+    *lines: str,
+    data: Iterable[str] = (),
+    keyboard: Iterable[str] = (),
+    arithmetic: str = "truncating",
+    limit: int = 100_000,
+    bounds: str = "strict",
+    switches: Iterable[int] = (),
+    core: int = 40_000,
+) -> Machine:
+    """A machine with the program of ``lines`` in core and ``data`` in its hopper, not yet started."""
+    options = Options(profile=profile(arithmetic), limit=limit, bounds=bounds, switches=frozenset(switches), core=core)
+    return Machine(program(*lines), deck_from_lines("data.cards", data), options, tuple(keyboard))
+
+
+def run(*lines: str, **setting: object) -> Result:
+    """Compile ``lines``, run them, and give back the result; settings as for :func:`machine`."""
+    return machine(*lines, **setting).run()  # type: ignore[arg-type]
+
+
+def punched(*lines: str, **setting: object) -> tuple[str, ...]:
+    """The cards a program punched; fails where the run did not end normally."""
+    result = run(*lines, **setting)
+    assert result.ending.normal, result.ending.message
+    return result.punched
+
+
+def code(*lines: str) -> list[str]:
+    """The object code of a deck of one statement as ``TOFAC A``, ``RSGN``, without COUNT."""
+    made = program(*lines)
+    words = []
+    for instruction in made.code:
+        if instruction.operation == op.COUNT:
+            continue
+        word = op.NAMES[instruction.operation]
+        if instruction.operation < op.COUNT or instruction.operation in (op.POWER, op.POWERX):
+            word += " " + made.storage.name_of(instruction.address)
+        words.append(word)
+    return words
+
+
+def number(of: Machine, name: str) -> str:
+    """A field of core by its name: all digits of a floating number, ``-0``, ``undefined``, or a whole number."""
+    entry = next(e for e in of.program.storage.entries if e.kind == "variable" and e.name == name)
+    mantissa, exponent = of.mantissas[entry.first], of.exponents[entry.first]
+    if isinstance(mantissa, tuple):
+        mantissa, exponent = mantissa
+    if exponent == UNDEFINED:
+        return "undefined"
+    if exponent == FIXED_POINT:
+        return str(mantissa)
+    if mantissa == 0:
+        return {ZERO: "0", MINUS_ZERO: "-0"}[exponent]
+    digits = of.options.profile.digits
+    assert 10 ** (digits - 1) <= abs(mantissa) < 10**digits, "a number in core is normalised"
+    return f"{'-' if mantissa < 0 else ''}.{abs(mantissa)}E{exponent:+03d}"
+
+
+class Hung(Exception):
+    """A call did not come back in time."""
+
+
+@contextmanager
+def within(seconds: float) -> Iterator[None]:
+    """Raise Hung inside the block when it takes longer than ``seconds``."""
+
+    def ring(*_: object) -> None:
+        raise Hung(f"not done after {seconds} s")
+
+    before = signal.signal(signal.SIGALRM, ring)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)

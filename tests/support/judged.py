@@ -1,0 +1,243 @@
+"""What tests of the later layers share: sets of points, a run through the programs, and the exact hull as judge."""
+
+from __future__ import annotations
+
+import math
+import random
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
+
+from emulator.errors import EmulatorError
+from emulator.language.cards import Deck, deck_from_lines
+from emulator.machine.result import Options
+from modern.edition import decks
+from modern.exact_hull import ExactHull, exact_hull
+from modern.formats.csv import e_field, parse_decimal
+from modern.thesis.cards import CardHull, read_hull
+from modern.thesis.job import HullRun, run_hull
+
+Point = tuple[int, int, int]
+OPTIONS = Options(core=60_000, limit=5_000_000)
+
+
+def deck_of(points: Sequence[Sequence[int | str]], e: str = "") -> Deck:
+    """A data deck: the card with N (and e), and a card a point."""
+    first = f"{len(points):2d}" + (e_field(parse_decimal(e), False) if e else "")
+    cards = ["".join(e_field(parse_decimal(str(x)), False) for x in p) for p in points]
+    return deck_from_lines("points", [first, *cards])
+
+
+def run(points: Sequence[Sequence[int | str]], *layers: str, e: str = "", options: Options = OPTIONS) -> HullRun:
+    return run_hull(deck_of(points, e), lambda name: decks.with_layers(name, layers), options)
+
+
+def lowest(coefficients: Sequence[Fraction | int]) -> tuple[int, ...]:
+    """An equation in integers without common divisor; the sense stays."""
+    numbers = [Fraction(c) for c in coefficients]
+    scale = math.lcm(*(c.denominator for c in numbers))
+    whole = [int(c * scale) for c in numbers]
+    return tuple(c // (math.gcd(*whole) or 1) for c in whole)
+
+
+def either(coefficients: Sequence[int]) -> tuple[int, ...]:
+    """An equation without sense: the first coefficient that is not zero positive."""
+    lead = next((c for c in coefficients if c), 1)
+    return tuple(c if lead > 0 else -c for c in coefficients)
+
+
+def faults(points: Sequence[Point], *layers: str) -> list[str]:
+    """In what a run differs from the exact hull; empty where it is right."""
+    try:
+        done = run(points, *layers)
+    except EmulatorError as error:
+        return [str(error)]
+    return differences(points, done)
+
+
+def differences(points: Sequence[Point], done: HullRun) -> list[str]:
+    if not done.complete:
+        return [done.refusal or done.final.result.ending.message]
+    judge, seen = exact_hull(points), read_hull(done.final.result.punched)
+
+    def named(indices: Sequence[int]) -> Counter[tuple[Fraction, ...]]:
+        return Counter(tuple(Fraction(c) for c in points[i]) for i in indices)
+
+    found = []
+    if Counter(seen.vertices) != named(judge.vertices):
+        found.append(f"vertices: {len(seen.vertices)}, not {len(judge.vertices)}")
+    if judge.dimension > 1 and Counter(seen.boundary) != named(judge.boundary):
+        found.append(f"boundary points: {len(seen.boundary)}, not {len(judge.boundary)}")
+    if judge.dimension > 1 and Counter(seen.inside) != named(judge.inside):
+        found.append(f"inside points: {len(seen.inside)}, not {len(judge.inside)}")
+    want = Counter(list(equations(points, judge)))
+    have = Counter(
+        lowest(c) if judge.dimension > 1 else either(lowest(c)) for c in (equation for equation in seen.equations)
+    )
+    if judge.dimension > 1 and have != want:
+        found.append(f"equations: {sum(have.values())}, not {sum(want.values())}, or others")
+    if judge.dimension > 1 and not found and satisfied(seen) != dict(equations(points, judge)):
+        found.append("which vertices satisfy which equation")
+    if judge.dimension == 2 and [either(lowest(p)) for p in seen.plane] != [judge.plane]:
+        found.append("the plane")
+    if judge.dimension == 1 and any(
+        sum(a * b for a, b in zip(q, (*p, 1), strict=True)) for q in seen.equations for p in seen.vertices
+    ):
+        found.append("the equations of the line")
+    return found
+
+
+def satisfied(seen: CardHull) -> dict[tuple[int, ...], frozenset[tuple[Fraction, ...]]]:
+    found: dict[tuple[int, ...], set[tuple[Fraction, ...]]] = {}
+    for numbers, equation in seen.satisfied:
+        key = lowest(seen.equations[equation - 1])
+        found.setdefault(key, set()).update(seen.vertices[v - 1] for v in numbers)
+    return {key: frozenset(value) for key, value in found.items()}
+
+
+def equations(points: Sequence[Point], judge: ExactHull) -> dict[tuple[int, ...], frozenset[tuple[Fraction, ...]]]:
+    """The planes with their vertices; of a polygon the lines as program 2 has them, a coordinate projected away."""
+    if judge.dimension == 3:
+        return {
+            judge.plane_of(f): frozenset(tuple(Fraction(c) for c in points[i]) for i in f.polygon) for f in judge.facets
+        }
+    if judge.dimension != 2 or judge.plane is None:
+        return {}
+    away = next(k for k in range(3) if judge.plane[k])
+    u, v = [k for k in range(3) if k != away]
+    lines = {}
+    for i, j in judge.edges():
+        p, q = points[i], points[j]
+        a, b = p[v] - q[v], q[u] - p[u]
+        c = -a * p[u] - b * p[v]
+        values = [a * points[k][u] + b * points[k][v] + c for k in judge.vertices]
+        sign = -1 if max(values) > 0 else 1
+        line = [0, 0, 0, sign * c]
+        line[u], line[v] = sign * a, sign * b
+        lines[lowest(line)] = frozenset(tuple(Fraction(c) for c in points[k]) for k in (i, j))
+    return lines
+
+
+# --- families of point sets, distinct points with coordinates of at most two digits
+
+
+def distinct(draw: Callable[[], Point], n: int) -> list[Point]:
+    """Up to n distinct points of two digits, in the order drawn."""
+    found: dict[Point, None] = {}
+    for _ in range(40 * n):
+        point = draw()
+        if max(map(abs, point)) <= 99:
+            found[point] = None
+        if len(found) == n:
+            break
+    return list(found)
+
+
+def integers(r: random.Random, n: int) -> list[Point]:
+    a = r.choice((2, 3, 5, 9, 20, 50, 99))
+    return distinct(lambda: (r.randint(-a, a), r.randint(-a, a), r.randint(-a, a)), n)
+
+
+def grid(r: random.Random, n: int) -> list[Point]:
+    sides = [r.randint(1, 3) for _ in range(3)]
+    return distinct(lambda: (r.randint(0, sides[0]), r.randint(0, sides[1]), r.randint(0, sides[2])), n)
+
+
+def sphere(r: random.Random, n: int) -> list[Point]:
+    radius = r.choice((5, 20, 60, 99))
+
+    def draw() -> Point:
+        v = [r.gauss(0, 1) for _ in range(3)]
+        length = math.hypot(*v) or 1.0
+        x, y, z = (round(radius * c / length) for c in v)
+        return x, y, z
+
+    return distinct(draw, n)
+
+
+def coplanar(r: random.Random, n: int) -> list[Point]:
+    a = r.choice((1, 2, 4, 9))
+    o, u, v = ([r.randint(-5, 5) for _ in range(3)] for _ in range(3))
+
+    def draw() -> Point:
+        s, t = r.randint(-a, a), r.randint(-a, a)
+        x, y, z = (o[k] + s * u[k] + t * v[k] for k in range(3))
+        return x, y, z
+
+    return distinct(draw, n)
+
+
+def collinear(r: random.Random, n: int) -> list[Point]:
+    u = [r.randint(-3, 3) for _ in range(3)]
+
+    def draw() -> Point:
+        t = r.randint(-30, 30)
+        return t * u[0], t * u[1], t * u[2]
+
+    return distinct(draw, n)
+
+
+def on_edges(r: random.Random, n: int) -> list[Point]:
+    """Corners and points in line with pairs of them: midpoints and points beyond."""
+    corners = [(r.randint(-8, 8) * 2, r.randint(-8, 8) * 2, r.randint(-8, 8) * 2) for _ in range(max(4, n // 3))]
+
+    def draw() -> Point:
+        (p, q), t = r.sample(corners, 2), r.choice((0, 1, 2, 3, 4, 6, -2))
+        x, y, z = (p[k] + (q[k] - p[k]) * t // 2 for k in range(3))
+        return x, y, z
+
+    return distinct(draw, n)
+
+
+def prism(r: random.Random, n: int) -> list[Point]:
+    base = coplanar(r, max(3, n // 2))
+    u = [r.randint(-9, 9) for _ in range(3)]
+    points = [*base, *((p[0] + u[0], p[1] + u[1], p[2] + u[2]) for p in base)]
+    return list(dict.fromkeys(p for p in points if max(map(abs, p)) <= 99))[:n]
+
+
+def symmetric(r: random.Random, n: int) -> list[Point]:
+    """Points with all their changes of sign and of axes: cubes, octahedra, and the like."""
+    points: dict[Point, None] = {}
+    while len(points) < n:
+        a, b, c = (r.choice((0, 0, 1, 2, 3, 7, 40)) for _ in range(3))
+        for p in ((a, b, c), (b, c, a), (c, a, b)):
+            for k in range(8):
+                x, y, z = ((-1) ** (k >> i & 1) * p[i] for i in range(3))
+                points[x, y, z] = None
+    found = list(points)[:51]
+    r.shuffle(found)
+    return found
+
+
+def flat(r: random.Random, n: int) -> list[Point]:
+    """Two or three layers, nearly coplanar."""
+    return distinct(lambda: (r.randint(-99, 99), r.randint(-99, 99), r.randint(-1, 1)), n)
+
+
+def sheared(r: random.Random, n: int) -> list[Point]:
+    """Points close to a slanting plane: planes close to C."""
+    a, b = r.uniform(-1, 1), r.uniform(-1, 1)
+
+    def draw() -> Point:
+        x, y = r.randint(-99, 99), r.randint(-99, 99)
+        return x, y, round(a * x + b * y) + r.choice((0, 0, 0, 1, -1))
+
+    return distinct(draw, n)
+
+
+FAMILIES = (integers, grid, sphere, coplanar, collinear, on_edges, prism, symmetric, flat, sheared)
+
+
+def sets(count: int, seed: int) -> Iterator[tuple[str, list[Point]]]:
+    """``count`` sets of 4 to 51 distinct points, the families in turn; the same for the same seed."""
+    made = 0
+    for k in range(20 * count):
+        if made == count:
+            return
+        r = random.Random(seed * 1_000_003 + k)
+        family = FAMILIES[k % len(FAMILIES)]
+        points = family(r, r.choice((4, 5, 6, 7, 8, 10, 13, 17, 22, 30, 40, 51)))
+        if 4 <= len(points) <= 51:
+            made += 1
+            yield f"{family.__name__} {seed}/{k}", points

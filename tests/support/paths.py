@@ -1,0 +1,9 @@
+"""Where the tests' data lie."""
+
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+DATA = ROOT / "tests" / "data"
+MACHINE_RUNS = DATA / "machine_runs"
+PROGRAMS = DATA / "programs"
+VECTORS = DATA / "vectors"
