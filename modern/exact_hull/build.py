@@ -10,12 +10,9 @@ import numpy as np
 
 from modern.exact_hull.certificate import certify
 from modern.exact_hull.coordinates import IntPoint, Points, common_scale, read_points, to_integers
-from modern.exact_hull.faces import faces
-from modern.exact_hull.filter import BOUND, frame, plane_image
-from modern.exact_hull.flat import polygon, segment
-from modern.exact_hull.incremental import convex_surface
-from modern.exact_hull.planes import independent, lowest_terms, plane_at, value
+from modern.exact_hull.facets import faces, independent, lowest_terms, plane_at, polygon, segment, value
 from modern.exact_hull.result import ExactHull, Facet, Plane
+from modern.exact_hull.surface import BOUND, convex_surface, frame, plane_image
 
 SEED = 1963
 _BLOCK = 1 << 16

@@ -14,7 +14,7 @@ import pytest
 from modern.exact_hull import CertificateError, ExactHull, Facet, certify, exact_hull
 from modern.exact_hull import build as build_module
 from modern.exact_hull import certificate as checks
-from modern.exact_hull import incremental as incremental_module
+from modern.exact_hull import surface as surface_module
 
 GRID = [(x, y, z) for x in range(3) for y in range(3) for z in range(3)] + [(1, 1, 1), (0, 0, 0)]
 OCTAHEDRON = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
@@ -406,14 +406,14 @@ def test_a_construction_in_rounded_numbers_is_caught(monkeypatch: pytest.MonkeyP
 def test_a_construction_that_sees_too_little_is_caught(monkeypatch: pytest.MonkeyPatch) -> None:
     """A point that keeps no triangle although it sees one is left outside."""
     points = ball(60, 3)
-    distribute = incremental_module.Surface._distribute
+    distribute = surface_module.Surface._distribute
 
     def forgetful(surface, waiting, triangles) -> None:
         for p in waiting[:1]:
             surface.home[p] = -1
         distribute(surface, waiting[1:], triangles)
 
-    monkeypatch.setattr(incremental_module.Surface, "_distribute", forgetful)
+    monkeypatch.setattr(surface_module.Surface, "_distribute", forgetful)
     with pytest.raises(CertificateError, match="is outside of facet"):
         exact_hull(points)
 

@@ -11,10 +11,8 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from modern.exact_hull import exact_hull
-from modern.exact_hull.faces import faces
-from modern.exact_hull.filter import frame
-from modern.exact_hull.incremental import convex_surface
-from modern.exact_hull.planes import independent
+from modern.exact_hull.facets import faces, independent
+from modern.exact_hull.surface import convex_surface, frame
 
 LAW = settings(deadline=None, max_examples=120)
 tiny = st.integers(-2, 2)

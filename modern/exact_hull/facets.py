@@ -1,0 +1,163 @@
+"""Planes of integers and the facets in them, for the construction only; the certificate has its own.
+
+Of a polyhedron the facets are faces: the triangles of one plane become one polygon.  Points in one line or one plane
+need no surface: their facets, the ends of a segment or the edges of a polygon, are found by sorting.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+
+from modern.exact_hull.coordinates import IntPoint
+from modern.exact_hull.result import Facet, Plane
+
+Triangle = tuple[int, int, int]
+
+
+def minus(p: IntPoint, q: IntPoint) -> IntPoint:
+    """p - q."""
+    return p[0] - q[0], p[1] - q[1], p[2] - q[2]
+
+
+def cross(u: IntPoint, v: IntPoint) -> IntPoint:
+    """The vector product."""
+    return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
+
+
+def value(plane: Plane, p: IntPoint) -> int:
+    """A x + B y + C z + D."""
+    return plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2] + plane[3]
+
+
+def plane_at(normal: IntPoint, p: IntPoint) -> Plane:
+    """The plane through ``p`` with the given normal, not reduced."""
+    return (*normal, -(normal[0] * p[0] + normal[1] * p[1] + normal[2] * p[2]))
+
+
+def plane_through(p: IntPoint, q: IntPoint, r: IntPoint) -> Plane:
+    """The plane of three points, positive on the side from which they run counterclockwise; not reduced."""
+    return plane_at(cross(minus(q, p), minus(r, p)), p)
+
+
+def lowest_terms(plane: Plane) -> Plane:
+    """The plane without common divisor, its sense kept.  The normal is not zero."""
+    divisor = math.gcd(*plane)
+    a, b, c, d = plane
+    return a // divisor, b // divisor, c // divisor, d // divisor
+
+
+def independent(points: Sequence[IntPoint]) -> tuple[int, ...]:
+    """The first affinely independent points, at most four: their number less one is the dimension.
+
+    The points are distinct.
+    """
+    if len(points) == 1:
+        return (0,)
+    origin = points[0]
+    along = minus(points[1], origin)
+    for third in range(2, len(points)):
+        normal = cross(along, minus(points[third], origin))
+        if any(normal):
+            break
+    else:
+        return (0, 1)
+    plane = plane_at(normal, origin)
+    for fourth in range(third + 1, len(points)):
+        if value(plane, points[fourth]):
+            return (0, 1, third, fourth)
+    return (0, 1, third)
+
+
+def rotated(polygon: Sequence[int]) -> tuple[int, ...]:
+    """The same cycle, from its smallest member on."""
+    start = polygon.index(min(polygon))
+    return (*polygon[start:], *polygon[:start])
+
+
+def corners_only(cycle: Sequence[int], points: Sequence[IntPoint]) -> list[int]:
+    """A convex cycle of points without those that lie straight between their neighbours."""
+    kept = []
+    for before, here, after in zip((cycle[-1], *cycle[:-1]), cycle, (*cycle[1:], cycle[0]), strict=True):
+        if any(cross(minus(points[here], points[before]), minus(points[after], points[here]))):
+            kept.append(here)
+    return kept
+
+
+def _outline(triangles: Iterable[Triangle]) -> list[int]:
+    """The border of triangles that fill a polygon, in their own sense."""
+    edges = {edge for a, b, c in triangles for edge in ((a, b), (b, c), (c, a))}
+    following = {a: b for a, b in edges if (b, a) not in edges}
+    start = here = min(following)
+    cycle = []
+    while True:
+        cycle.append(here)
+        here = following[here]
+        if here == start or len(cycle) > len(following):
+            break
+    if len(cycle) != len(following):
+        raise RuntimeError("the triangles of one plane do not fill one polygon: the surface was not convex")
+    return cycle
+
+
+def faces(triangles: Iterable[tuple[Triangle, Plane]], points: Sequence[IntPoint]) -> list[Facet]:
+    """The faces of a convex surface of triangles, by plane in lowest terms; polygons index ``points``."""
+    groups: dict[Plane, list[Triangle]] = {}
+    for corners, plane in triangles:
+        groups.setdefault(lowest_terms(plane), []).append(corners)
+    return [
+        Facet(plane, rotated(group[0] if len(group) == 1 else corners_only(_outline(group), points)))
+        for plane, group in groups.items()
+    ]
+
+
+def segment(points: Sequence[IntPoint]) -> list[Facet]:
+    """The two ends of distinct points in a line: on a line the order of coordinates is the order of points."""
+    places = range(len(points))
+    low, high = min(places, key=points.__getitem__), max(places, key=points.__getitem__)
+    along = minus(points[high], points[low])
+    against = minus(points[low], points[high])
+    return [
+        Facet(lowest_terms(plane_at(along, points[high])), (high,)),
+        Facet(lowest_terms(plane_at(against, points[low])), (low,)),
+    ]
+
+
+def positive(plane: Plane) -> Plane:
+    """The plane in lowest terms with the first nonzero of A, B, C positive."""
+    a, b, c, d = lowest_terms(plane)
+    return (a, b, c, d) if (a, b, c) > (0, 0, 0) else (-a, -b, -c, -d)
+
+
+def polygon(points: Sequence[IntPoint], three: Sequence[int]) -> tuple[Plane, tuple[int, ...], list[Facet]]:
+    """The plane, the vertices in cyclic order and the edges of distinct points in a plane.
+
+    ``three`` names three points not in a line.  Monotone chains (Andrew, Information Processing Letters 9 (1979))
+    over two of the coordinates, chosen so that the normal does not vanish between them.
+    """
+    plane = positive(plane_through(points[three[0]], points[three[1]], points[three[2]]))
+    normal = plane[:3]
+    dropped = max(range(3), key=lambda axis: abs(normal[axis]))
+    u, v = (dropped + 1) % 3, (dropped + 2) % 3
+    if normal[dropped] < 0:
+        u, v = v, u
+
+    def left_turn(i: int, j: int, k: int) -> bool:
+        p, q, r = points[i], points[j], points[k]
+        return (q[u] - p[u]) * (r[v] - p[v]) > (q[v] - p[v]) * (r[u] - p[u])
+
+    def chain(order: Sequence[int]) -> list[int]:
+        kept: list[int] = []
+        for index in order:
+            while len(kept) >= 2 and not left_turn(kept[-2], kept[-1], index):
+                kept.pop()
+            kept.append(index)
+        return kept[:-1]
+
+    order = sorted(range(len(points)), key=lambda index: (points[index][u], points[index][v]))
+    cycle = rotated(chain(order) + chain(order[::-1]))
+    edges = []
+    for start, end in zip(cycle, cycle[1:] + cycle[:1], strict=True):
+        outward = cross(minus(points[end], points[start]), normal)
+        edges.append(Facet(lowest_terms(plane_at(outward, points[start])), (min(start, end), max(start, end))))
+    return plane, cycle, edges
