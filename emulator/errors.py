@@ -10,6 +10,10 @@ class EmulatorError(Exception):
     """Base of all errors raised for bad input; ``str`` is one line fit to be shown to a user."""
 
 
+class FileError(EmulatorError):
+    """A file, or standard input or output, that cannot be read or written, or whose text is not of its format."""
+
+
 class CardError(EmulatorError):
     """A card that cannot be read: a character outside the code, too many columns, a field that is no number.
 
@@ -23,7 +27,7 @@ class CardError(EmulatorError):
 
 
 class DeckError(EmulatorError):
-    """A deck that cannot be used as a whole: missing, unreadable, empty, or too short."""
+    """A deck that cannot be used as a whole: empty, too long or too short."""
 
 
 @dataclass(frozen=True, slots=True)

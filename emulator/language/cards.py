@@ -1,4 +1,4 @@
-"""Punched cards: 80 columns, the character set of the IBM 026 punch, decks read from and written to files.
+"""Punched cards: 80 columns, the character set of the IBM 026 punch, decks read from files.
 
 Card code: 1620 reference card X26-5743-2, page 4.  A deck file holds one card a line; a line's trailing
 blanks are the card's blank columns.
@@ -6,16 +6,11 @@ blanks are the card's blank columns.
 
 from __future__ import annotations
 
-import os
-import sys
-import tempfile
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any, BinaryIO, TextIO
 
 from emulator.errors import CardError, DeckError
+from emulator.files import read_bytes, source_name
 
 COLUMNS = 80
 MAX_CARDS = 100_000
@@ -85,94 +80,17 @@ def deck_from_text(source: str, text: str) -> Deck:
 def read_deck(path: str) -> Deck:
     """Read a deck file, or standard input for ``-``.
 
-    Raises DeckError when it is missing, unreadable, a directory or empty, CardError for a bad card.
+    Raises FileError when it cannot be read, DeckError when it is empty, CardError for a bad card.
     """
-    name = "standard input" if path == "-" else path
-    try:
-        data = standard_input() if path == "-" else Path(path).read_bytes()
-    except OSError as error:
-        raise DeckError(f"{path}: {_reason(error)}") from None
-    except ValueError:
-        raise DeckError(f"{path!r}: not a file name") from None
+    name, data = source_name(path), read_bytes(path)
     try:
         text = data.decode("utf-8")
     except UnicodeDecodeError:
-        text = data.decode("latin-1")
+        text = data.decode("latin-1")  # a card names the column of a strange character, whatever its code
     deck = deck_from_text(name, text)
     if not any(card.text for card in deck.cards):
         raise DeckError(f"{name}: the deck is empty" if not deck.cards else f"{name}: the deck has only blank cards")
     return deck
-
-
-def standard_input() -> bytes:
-    """All of standard input.  Raises DeckError when there is none."""
-    if sys.stdin is None or getattr(sys.stdin, "closed", False):
-        raise DeckError("standard input is closed")
-    return sys.stdin.buffer.read()
-
-
-def write_text(path: str, text: str) -> None:
-    """Write a file whole or not at all.  ``-`` is standard output.  Raises DeckError when it cannot be written."""
-    with writing(path) as file:
-        file.write(text)
-
-
-@contextmanager
-def writing(path: str) -> Iterator[TextIO]:
-    """A text file to write: beside its place first, then renamed, so that it appears whole or not at all.
-
-    ``-`` is standard output.  A link is followed, an existing file keeps its mode, and what is no plain file (a
-    device, a pipe) is written directly.  Raises DeckError when it cannot be written.
-    """
-    with _writing(
-        path, sys.stdout, {"mode": "w", "encoding": "ascii", "errors": "backslashreplace", "newline": ""}
-    ) as f:
-        yield f
-
-
-@contextmanager
-def writing_bytes(path: str) -> Iterator[BinaryIO]:
-    """As ``writing``, for a file of bytes."""
-    with _writing(path, getattr(sys.stdout, "buffer", None), {"mode": "wb"}) as file:
-        yield file
-
-
-@contextmanager
-def _writing(path: str, standard: Any, how: dict[str, str]) -> Iterator[Any]:
-    """``standard`` is standard output in the form wanted, ``how`` the arguments of ``open``."""
-    if path == "-":
-        yield standard
-        standard.flush()
-        return
-    beside = ""
-    try:
-        target = Path(path).resolve()
-        if target.exists() and not target.is_file():
-            with target.open(**how) as file:  # type: ignore[call-overload]
-                yield file
-            return
-        mode = target.stat().st_mode & 0o777 if target.exists() else 0o666 & ~_umask()
-        handle, beside = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
-        with os.fdopen(handle, **how) as file:  # type: ignore[call-overload]
-            yield file
-        os.chmod(beside, mode)
-        os.replace(beside, target)
-        beside = ""
-    except OSError as error:
-        raise DeckError(f"{path}: {_reason(error)}") from None
-    finally:
-        if beside and os.path.exists(beside):
-            os.unlink(beside)
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
-
-
-def _reason(error: OSError) -> str:
-    return (error.strerror or str(error)).lower()
 
 
 def read_line(source: str, number: int, line: str, unit: str = "card") -> Card:

@@ -8,13 +8,12 @@ import sys
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
-from emulator.language.cards import write_text
+from emulator.files import read_text, source_name, write_text
 from modern.cli.common import check_places, counted, say
 from modern.cli.exits import DIFFERS, OK
 from modern.formats import off
 from modern.formats.off import parse_off
 from modern.formats.points import OFF, Input, parse_input
-from modern.formats.reading import read_source
 from modern.geometry.mesh import Mesh
 from modern.papers.appel_will import LITERAL, MENDED, Assembled, MapError, appel_will
 from modern.papers.appel_will.corners import Preprocessing
@@ -28,7 +27,7 @@ KINDS = ("a point", "a segment", "a polygon", "a polyhedron")
 def main(args: argparse.Namespace) -> int:
     """Read points and map, find the hull, print the tables."""
     check_places(args.output)
-    name, text = read_source(args.points)
+    name, text = source_name(args.points), read_text(args.points)
     found = parse_input(text, name)
     given = parse_off(text, name).faces if found.kind == OFF else ()
     if args.inside_corners and not given:

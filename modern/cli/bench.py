@@ -7,7 +7,7 @@ import json
 import sys
 
 from emulator.errors import DeckError
-from emulator.language.cards import write_text
+from emulator.files import write_text
 from modern.bench.measure import document, lines, measure
 from modern.cli.common import check_places, say
 from modern.cli.exits import OK

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from emulator.language.cards import write_text
+from emulator.files import write_text
 from modern.cli.common import say
 from modern.cli.exits import OK
 from modern.formats.csv import deck_lines, read_rows

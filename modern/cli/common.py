@@ -10,7 +10,8 @@ from contextlib import contextmanager
 from dataclasses import replace
 
 from emulator.errors import DeckError
-from emulator.language.cards import Deck, read_deck, write_text, writing
+from emulator.files import write_text, writing
+from emulator.language.cards import Deck, read_deck
 from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import Program
 from emulator.machine.result import ERRORS, Options, Result

@@ -8,7 +8,8 @@ from collections.abc import Iterator
 from fractions import Fraction
 
 from emulator.errors import DeckError
-from emulator.language.cards import Deck, deck_from_lines, write_text
+from emulator.files import write_text
+from emulator.language.cards import Deck, deck_from_lines
 from emulator.machine.result import Options
 from modern.cli.common import layers_of, say
 from modern.cli.exits import DIFFERS, OK

@@ -9,7 +9,8 @@ import textwrap
 from collections.abc import Iterator
 
 from emulator.errors import DeckError
-from emulator.language.cards import read_deck, write_text
+from emulator.files import write_text
+from emulator.language.cards import read_deck
 from emulator.language.objectcode import Line
 from emulator.machine.divergence import Divergence, Loss, diverge
 from modern.cli.common import check_places, layers_of, load_program, machine_options, number_system

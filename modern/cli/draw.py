@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import PurePath
 
-from emulator.language.cards import write_text
+from emulator.files import write_text
 from modern.cli.common import say
 from modern.cli.exits import DIFFERS, OK
 from modern.cli.export import exact_hull_of

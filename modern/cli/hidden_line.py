@@ -7,12 +7,12 @@ import sys
 from dataclasses import replace
 from pathlib import PurePath
 
-from emulator.language.cards import write_text
+from emulator.files import write_text
 from modern.cli.common import check_places, say
 from modern.cli.exits import OK
 from modern.cli.export import exact_hull_of
 from modern.drawing.scene import eye_of
-from modern.formats.reading import read_off
+from modern.formats.off import read_off
 from modern.geometry.mesh import Vector
 from modern.papers.nakamae_nishita import picture, report
 from modern.papers.nakamae_nishita.hidden import draw

@@ -13,7 +13,7 @@ from functools import partial
 from typing import TYPE_CHECKING, TextIO
 
 from emulator.errors import DeckError
-from emulator.language.cards import write_text
+from emulator.files import write_text
 from modern.cli.common import check_places
 from modern.cli.exits import DIFFERS, OK
 from modern.edition.printed import EXAMPLES, THEOREMS

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator
 
-from emulator.language.cards import write_text
+from emulator.files import write_text
 from modern.cli.common import check_places, counted
 from modern.cli.exits import OK
 from modern.cli.volumes import volume_of

@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from emulator.files import read_bytes
 from modern.digital.solids import MAX_CELLS, VolumeError
 
 MAGIC = b"NRRD000"
@@ -44,7 +45,7 @@ def parse_nrrd(data: bytes, source: str) -> NDArray[Any]:
 
     source: the name messages use; a detached header's data file is looked for beside it.  Raises VolumeError with the
     header's line for a field that is missing, unknown here or no number, and for data that are too short, too long or
-    damaged.
+    damaged, FileError for a data file that cannot be read.
     """
     head, body = _cut(data)
     fields = _fields(head, source)
@@ -137,11 +138,7 @@ def _type(fields: Mapping[str, tuple[int, str]], source: str) -> np.dtype[Any]:
 def _beside(source: str, line: int, name: str) -> bytes:
     if name.upper().startswith("LIST") or "%" in name:
         raise VolumeError(f"{source}: line {line}: data in several files are not read")
-    try:
-        return (Path(source).parent / name).read_bytes()
-    except (OSError, ValueError) as error:
-        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise VolumeError(f"{source}: line {line}: {name}: {why.lower()}") from None
+    return read_bytes(str(Path(source).parent / name), f"{source}: line {line}: {name}")
 
 
 def _unpacked(body: bytes, wanted: int, source: str) -> bytes:

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from emulator.language.cards import standard_input, writing_bytes
+from emulator.files import read_bytes, source_name, writing_bytes
 from modern.digital.nrrd import MAGIC, parse_nrrd
 from modern.digital.solids import DIGITS, VERTEX, VOXEL, Volume, VolumeError, ball, half_ball, listed
 from modern.formats.csv import rows
@@ -44,7 +44,7 @@ def read_volume(path: str, shape: Sequence[int] | None = None, dtype: str | None
     """A volume by the name of a file (``-``: standard input) or of a ball: ``ball:32``, ``half-ball:18:vertex``.
 
     shape, dtype: of a file of bare numbers, x fastest (``uint8`` where only the shape is given).  Other files say
-    themselves what they are.  Raises VolumeError, or PointError for CSV that cannot be read, one line each.
+    themselves what they are.  Raises FileError for a file that cannot be read, VolumeError for what is no volume.
     """
     named = _BALL.fullmatch(path)
     if named:
@@ -54,14 +54,7 @@ def read_volume(path: str, shape: Sequence[int] | None = None, dtype: str | None
         return make(int(named[2]), named[3] or default)
     if re.match(r"(half-)?ball:", path) and not Path(path).exists():
         raise VolumeError(f"{path}: a ball is ball:DIAMETER, half-ball:DIAMETER, with :voxel or :vertex for its centre")
-    name = "standard input" if path == "-" else path
-    try:
-        data = standard_input() if path == "-" else Path(path).read_bytes()
-    except OSError as error:
-        raise VolumeError(f"{path}: {(error.strerror or str(error)).lower()}") from None
-    except ValueError:
-        raise VolumeError(f"{path!r}: not a file name") from None
-    return parse_volume(data, name, shape, dtype)
+    return parse_volume(read_bytes(path), source_name(path), shape, dtype)
 
 
 def parse_volume(data: bytes, source: str, shape: Sequence[int] | None = None, dtype: str | None = None) -> Volume:
@@ -82,7 +75,7 @@ def parse_volume(data: bytes, source: str, shape: Sequence[int] | None = None, d
 
 
 def write_npy(path: str, array: NDArray[Any]) -> None:
-    """Write an array as NPY (``-``: standard output), whole or not at all.  Raises DeckError."""
+    """Write an array as NPY (``-``: standard output), whole or not at all.  Raises FileError."""
     with writing_bytes(path) as file:
         np.save(file, array, allow_pickle=False)
 

@@ -6,11 +6,10 @@ mesh are those of ``Hull.vertices``, in that order; boundary and inside points a
 
 from __future__ import annotations
 
-from emulator.language.cards import write_text
+from emulator.files import write_text
 from modern.formats import json as document
 from modern.formats import obj, off, ply, stl
-from modern.formats.off import OffMesh, parse_off
-from modern.formats.reading import read_off, read_source
+from modern.formats.off import OffMesh, parse_off, read_off
 from modern.formats.trimesh import to_trimesh
 from modern.geometry.hull import Hull
 from modern.geometry.mesh import Mesh, mesh
@@ -27,7 +26,6 @@ __all__ = [
     "mesh_text",
     "parse_off",
     "read_off",
-    "read_source",
     "to_trimesh",
     "write_hull",
 ]
@@ -66,7 +64,7 @@ def format_of(path: str) -> str:
 def write_hull(hull: Hull, path: str, form: str | None = None, digits: int | None = None) -> None:
     """Write a hull to a file (``-``: standard output), whole or not at all.
 
-    form: one of ``FORMATS``; None takes it from the file's name.  Raises ExportError, and DeckError where the file
+    form: one of ``FORMATS``; None takes it from the file's name.  Raises ExportError, and FileError where the file
     cannot be written.
     """
     write_text(path, export_text(hull, form or format_of(path), digits))

@@ -9,10 +9,9 @@ import csv
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from pathlib import Path
 
 from emulator.errors import DeckError
-from emulator.language.cards import standard_input
+from emulator.files import read_text, source_name
 
 MAX_N = 99
 _NUMBER = re.compile(r"([+-]?)(\d*)(?:\.(\d*))?(?:[eE]([+-]?\d{1,6}))?", re.ASCII)
@@ -76,15 +75,8 @@ def deck_lines(rows: Iterable[tuple[int, list[str]]], source: str, truncate: boo
 
 
 def read_rows(path: str) -> Iterator[tuple[int, list[str]]]:
-    """The rows of a CSV file (``-``: standard input), as :func:`rows` gives them.  Raises DeckError."""
-    source = "standard input" if path == "-" else path
-    try:
-        text = (standard_input() if path == "-" else Path(path).read_bytes()).decode("utf-8-sig")
-    except OSError as error:
-        raise DeckError(f"{path}: {(error.strerror or str(error)).lower()}") from None
-    except ValueError:
-        raise DeckError(f"{source}: not a text file in UTF-8") from None
-    yield from rows(text, source)
+    """The rows of a CSV file (``-``: standard input), as :func:`rows` gives them.  Raises FileError."""
+    yield from rows(read_text(path), source_name(path))
 
 
 def rows(text: str, source: str) -> Iterator[tuple[int, list[str]]]:

@@ -10,8 +10,10 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from emulator.errors import FileError
+from emulator.files import read_text, source_name
 from modern.geometry.mesh import Mesh
-from modern.geometry.numbers import ExportError, Point, number, shown
+from modern.geometry.numbers import Point, number, shown
 
 _Word = tuple[str, int]
 _Line = tuple[int, list[_Word]]
@@ -34,10 +36,15 @@ def write(mesh: Mesh, digits: int | None = None) -> str:
     return "".join(line + "\n" for line in lines)
 
 
+def read_off(path: str) -> OffMesh:
+    """The points and faces of an OFF file; see ``parse_off``.  Raises FileError with file, line and column."""
+    return parse_off(read_text(path), source_name(path))
+
+
 def parse_off(text: str, source: str) -> OffMesh:
     """An OFF file from its text.  The heading OFF may be missing, and so may the count of edges.
 
-    Colours behind a face are passed over.  Raises ExportError with line and column for every other departure: other
+    Colours behind a face are passed over.  Raises FileError with line and column for every other departure: other
     kinds of OFF (``COFF``, ``OFF BINARY``), a vertex that is not three decimals, a face of vertices that are not
     there, too few lines or too many.
     """
@@ -50,7 +57,7 @@ def parse_off(text: str, source: str) -> OffMesh:
             raise _error(source, line, words[0], f"{shown(words[0][0])} is not read, only plain OFF")
         head = (line, words[1:]) if len(words) > 1 else next(lines, None)
     if head is None:
-        raise ExportError(f"{source}: line {last}, column 1: there are no counts of vertices and faces")
+        raise FileError(f"{source}: line {last}, column 1: there are no counts of vertices and faces")
     line, words = head
     if not 2 <= len(words) <= 3:
         raise _error(source, line, words[0], "the counts of vertices, faces and edges are due here")
@@ -83,7 +90,7 @@ def _take(lines: Iterator[_Line], count: int, source: str, last: int, what: str)
     for done in range(count):
         line = next(lines, None)
         if line is None:
-            raise ExportError(f"{source}: line {last}, column 1: the file ends after {done} of {count} {what}")
+            raise FileError(f"{source}: line {last}, column 1: the file ends after {done} of {count} {what}")
         yield line
 
 
@@ -118,5 +125,5 @@ def _decimal(source: str, line: int, word: _Word) -> str:
     return word[0]
 
 
-def _error(source: str, line: int, word: _Word, message: str) -> ExportError:
-    return ExportError(f"{source}: line {line}, column {word[1]}: {message}")
+def _error(source: str, line: int, word: _Word, message: str) -> FileError:
+    return FileError(f"{source}: line {line}, column {word[1]}: {message}")

@@ -10,23 +10,20 @@ from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 
+from emulator.errors import FileError
+from emulator.files import read_text, source_name
 from emulator.language.cards import Card, deck_from_text
 from emulator.numbers.arithmetic import profile
 from emulator.numbers.fields import read_floating
 from modern.formats.csv import rows
 from modern.formats.off import parse_off
-from modern.formats.reading import read_source
-from modern.geometry.numbers import ExportError, Point, finite_decimal, number, shown
+from modern.geometry.numbers import Point, finite_decimal, number, shown
 from modern.thesis import deck as hulldeck
 
 DECK, CSV, OFF = "deck", "csv", "off"
 _DIGITS = 14
 _RULES = profile(f"truncating:{_DIGITS}").rules
 """A field of 14 columns holds no more digits than these rules keep."""
-
-
-class InputError(ExportError):
-    """A file that holds no points, or one of them cannot be read; the message names file, line and column."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,8 +42,7 @@ class Input:
 
 def read_input(path: str) -> Input:
     """Read a file (``-``: standard input) and recognise what it is.  Raises EmulatorError (one line)."""
-    name, text = read_source(path)
-    return parse_input(text, name)
+    return parse_input(read_text(path), source_name(path))
 
 
 def parse_input(text: str, source: str) -> Input:
@@ -54,7 +50,7 @@ def parse_input(text: str, source: str) -> Input:
     kind = recognise(text, source)
     found = {DECK: _deck, CSV: _csv, OFF: _off}[kind](text, source)
     if not found.points:
-        raise InputError(f"{source}: there are no points")
+        raise FileError(f"{source}: there are no points")
     return found
 
 
@@ -62,12 +58,12 @@ def recognise(text: str, source: str) -> str:
     """What a file is: ``deck``, ``csv`` or ``off``, by its first line that is neither blank nor a comment of OFF.
 
     A word that ends with OFF begins an OFF file; a comma makes it CSV; a number alone is a deck's first card.  Else
-    the ending of the file's name decides.  Raises InputError.
+    the ending of the file's name decides.  Raises FileError.
     """
     lines = ((number_, row.strip()) for number_, row in enumerate(text.splitlines(), 1))
     line, first = next(((n, row) for n, row in lines if row and not row.startswith("#")), (0, ""))
     if not first:
-        raise InputError(f"{source}: there are no points")
+        raise FileError(f"{source}: there are no points")
     words = first.split()
     if words[0].isalnum() and words[0].upper().endswith("OFF"):
         return OFF
@@ -78,7 +74,7 @@ def recognise(text: str, source: str) -> str:
     ending = source.rpartition(".")[2].lower()
     if ending in (DECK, CSV, OFF):
         return ending
-    raise InputError(
+    raise FileError(
         f"{source}: line {line}, column 1: {shown(first)} is neither the first card of a deck (N in columns 1-2) "
         "nor a point x,y,z nor the word OFF"
     )
@@ -120,14 +116,14 @@ def _csv(text: str, source: str) -> Input:
     places: list[str] = []
     for line, row in rows(text, source):
         if len(row) != 3:
-            raise InputError(f"{source}: line {line}, column 1: {len(row)} fields; a point has three, x,y,z")
+            raise FileError(f"{source}: line {line}, column 1: {len(row)} fields; a point has three, x,y,z")
         for field, word in enumerate(row, 1):
             try:
                 if "/" in word:
                     raise ValueError(f"{shown(word.strip())} is no decimal number")
                 number(word)
             except ValueError as error:
-                raise InputError(f"{source}: line {line}, field {field}: {error}") from None
+                raise FileError(f"{source}: line {line}, field {field}: {error}") from None
         points.append((row[0].strip(), row[1].strip(), row[2].strip()))
         places.append(f"line {line}")
     return Input(source, CSV, tuple(points), tuple(places))

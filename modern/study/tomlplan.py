@@ -35,6 +35,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
+from emulator.files import read_text
 from modern.study.families.given import file_points
 from modern.study.plan import SEED, Cell, Plan, PlanError, Port, Programs, Route
 
@@ -56,12 +57,11 @@ def is_plan_file(name: str) -> bool:
 
 
 def read_plan(path: str, samples: int | None = None, seed: int | None = None) -> Plan:
-    """The plan of a file; ``samples`` and ``seed`` go before the file's own.  Raises PlanError, EmulatorError."""
+    """The plan of a file; ``samples`` and ``seed`` go before the file's own.  Raises FileError, PlanError."""
+    text = read_text(path)
     try:
-        data = tomllib.loads(Path(path).read_text(encoding="utf-8"))
-    except OSError as error:
-        raise PlanError(f"{path}: {(error.strerror or str(error)).lower()}") from None
-    except (tomllib.TOMLDecodeError, ValueError) as error:
+        data = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
         raise PlanError(f"{path}: {str(error).splitlines()[0]}") from None
     try:
         return _plan(data, Path(path), samples, seed)

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from importlib.resources import files
 
+from emulator.files import read_text, source_name
 from modern.drawing.view import EYES, choose
-from modern.formats.reading import read_source
 from modern.geometry.mesh import Vector
 from modern.geometry.numbers import number, shown
 from modern.papers.nakamae_nishita.fields import Fields
@@ -77,9 +77,8 @@ def scene(name: str) -> SceneFile:
 
 
 def read(path: str) -> SceneFile:
-    """A scene from a file.  Raises ExportError, and SceneError naming line and column, or the part."""
-    name, text = read_source(path)
-    return parse(text, name)
+    """A scene from a file.  Raises FileError, and SceneError naming line and column, or the part."""
+    return parse(read_text(path), source_name(path))
 
 
 def of_polyhedron(polyhedron: Polyhedron) -> SceneFile:

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import io
-import os
 from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from emulator.errors import CardError, DeckError
+from emulator.errors import CardError, DeckError, FileError
 from emulator.language import cards
-from emulator.language.cards import CHARACTERS, PUNCHES, Card, deck_from_lines, deck_from_text, read_deck, write_text
+from emulator.language.cards import CHARACTERS, PUNCHES, Card, deck_from_lines, deck_from_text, read_deck
 
 texts = st.text(st.sampled_from(sorted(CHARACTERS)), max_size=80)
 
@@ -155,33 +154,11 @@ def test_read_deck_refuses(tmp_path: Path, content: bytes, words: str) -> None:
 @pytest.mark.parametrize("name", ["missing.deck", ".", "a\0b", "x" * 5000])
 def test_read_deck_without_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
     monkeypatch.chdir(tmp_path)
-    with pytest.raises(DeckError) as caught:
+    with pytest.raises(FileError) as caught:
         read_deck(name)
     assert "\n" not in str(caught.value)
 
 
 def test_read_deck_from_standard_input(monkeypatch: pytest.MonkeyPatch) -> None:
-    class Stdin:
-        buffer = io.BytesIO(b"A\n")
-
-    monkeypatch.setattr("sys.stdin", Stdin)
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(b"A\n")))
     assert read_deck("-") == deck_from_lines("standard input", ["A"])
-
-
-def test_write_text(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    path = tmp_path / "out.cards"
-    write_text(str(path), "A\n")
-    write_text(str(path), "B\n")
-    assert path.read_bytes() == b"B\n"
-    assert os.listdir(tmp_path) == ["out.cards"]
-    assert path.stat().st_mode & 0o111 == 0
-    write_text("-", "C\n")
-    assert capsys.readouterr().out == "C\n"
-    write_text(os.devnull, "D\n")
-
-
-def test_write_text_where_it_cannot(tmp_path: Path) -> None:
-    for name in (tmp_path / "no" / "out", tmp_path):
-        with pytest.raises(DeckError, match=str(name)):
-            write_text(str(name), "A\n")
-    assert os.listdir(tmp_path) == []

@@ -14,7 +14,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from emulator.errors import EmulatorError
+from emulator.errors import EmulatorError, FileError
 from modern.digital.volumes import Volume, VolumeError, ball, half_ball, listed, parse_volume, read_volume, write_npy
 
 STEPS = np.arange(24).reshape(2, 3, 4) % 5
@@ -126,7 +126,7 @@ def test_nrrd_with_its_data_in_another_file(tmp_path: Path) -> None:
     header.write_bytes(nrrd(array, "uchar", "data file: a.raw", data=b""))
     assert same(read_volume(str(header)), array)
     (tmp_path / "a.raw").unlink()
-    with pytest.raises(VolumeError, match=r"line 8: a\.raw: no such file"):
+    with pytest.raises(FileError, match=r"line 8: a\.raw: no such file"):
         read_volume(str(header))
 
 
@@ -261,7 +261,7 @@ def test_bad_shapes(shape: tuple[int, ...] | None, dtype: str | None, message: s
     ],
 )
 def test_bad_names(name: str, message: str) -> None:
-    with pytest.raises(VolumeError) as caught:
+    with pytest.raises((FileError, VolumeError)) as caught:
         read_volume(name)
     assert str(caught.value).startswith(message)
 

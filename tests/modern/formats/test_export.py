@@ -13,9 +13,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from emulator.errors import FileError
 from modern.formats import ExportError, export_text, format_of, parse_off, read_off, to_trimesh, write_hull
-from modern.geometry import mesh
 from modern.geometry.hull import Face, Hull, Stage
+from modern.geometry.mesh import mesh
 from modern.geometry.numbers import decimal_text, finite_decimal, integer_text, number
 from modern.port import convex_hull
 
@@ -403,7 +404,7 @@ BAD_OFF = [
 
 @pytest.mark.parametrize(("text", "words"), [b[1:] for b in BAD_OFF], ids=[b[0] for b in BAD_OFF])
 def test_bad_off(text: str, words: str) -> None:
-    with pytest.raises(ExportError) as refused:
+    with pytest.raises(FileError) as refused:
         parse_off(text, "a.off")
     message = str(refused.value)
     assert message.startswith(f"a.off: {words}")
@@ -412,10 +413,10 @@ def test_bad_off(text: str, words: str) -> None:
 
 
 def test_off_files_that_cannot_be_read(tmp_path: Path) -> None:
-    with pytest.raises(ExportError, match="no such file"):
+    with pytest.raises(FileError, match="no such file"):
         read_off(str(tmp_path / "none.off"))
     (tmp_path / "bytes.off").write_bytes(b"OFF\n3 1\n0 0 \xff\n")
-    with pytest.raises(ExportError, match=r"line 3, column 5: not a text file in UTF-8$"):
+    with pytest.raises(FileError, match=r"line 3, column 5: not a text file in UTF-8$"):
         read_off(str(tmp_path / "bytes.off"))
 
 

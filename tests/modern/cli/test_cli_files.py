@@ -1,0 +1,121 @@
+"""Every command that reads a file says in one line, with exit 2, that it cannot."""
+
+from __future__ import annotations
+
+import io
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.support.commands import call
+
+READERS = {
+    "appel-will": (),
+    "cards": (),
+    "check": (),
+    "compile": (),
+    "diff": (),
+    "diverge": ("good.deck",),
+    "draw": (),
+    "export": ("--format", "off"),
+    "hidden-line": (),
+    "hull": (),
+    "map": (),
+    "octree-hull": (),
+    "run": ("good.deck",),
+    "voxel-hull": (),
+}
+"""The commands whose first argument is a file, with the rest of a call."""
+SOURCE_DECKS = {"check", "compile", "diverge", "hull", "map", "run"}
+
+
+@pytest.fixture(autouse=True)
+def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("good.deck").write_text(" 1\n")
+    Path("folder").mkdir()
+
+
+@pytest.fixture(params=READERS)
+def reader(request: pytest.FixtureRequest) -> str:
+    return str(request.param)
+
+
+def refused(capsys: pytest.CaptureFixture[str], command: str, path: str) -> str:
+    """What the command says of a file, its one line."""
+    code, out, err = call(capsys, command, path, *READERS[command])
+    assert (code, out, err.count("\n")) == (2, "", 1), err
+    assert err.startswith("hull1620: ")
+    return err.removeprefix("hull1620: ").removesuffix("\n")
+
+
+class Folder(io.RawIOBase):
+    """Standard input as ``< folder`` gives it."""
+
+    def readable(self) -> bool:
+        return True
+
+    def readall(self) -> bytes:
+        raise IsADirectoryError(21, "Is a directory")
+
+
+def test_standard_input_closed(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, reader: str
+) -> None:
+    monkeypatch.setattr("sys.stdin", None)
+    assert refused(capsys, reader, "-") == "standard input is closed"
+
+
+def test_standard_input_that_cannot_be_read(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, reader: str
+) -> None:
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BufferedReader(Folder())))
+    assert refused(capsys, reader, "-") == "standard input: is a directory"
+
+
+@pytest.mark.parametrize(
+    ("path", "message"),
+    [
+        ("missing", "missing: no such file or directory"),
+        ("folder", "folder: is a directory"),
+        ("", "a file without a name cannot be read"),
+        ("a\0b", "'a\\x00b': not a file name"),
+    ],
+)
+def test_files_that_cannot_be_read(capsys: pytest.CaptureFixture[str], reader: str, path: str, message: str) -> None:
+    assert refused(capsys, reader, path) == message
+
+
+def test_bytes_that_are_no_text(capsys: pytest.CaptureFixture[str], reader: str) -> None:
+    Path("bytes").write_bytes(b"1,2,3\n4,\xff\n")
+    message = refused(capsys, reader, "bytes")
+    if reader in SOURCE_DECKS:
+        assert message == "bytes: card 2, column 3: '\u00ff' is not in the card code"
+    elif reader in ("octree-hull", "voxel-hull"):
+        assert message == "bytes: neither NPY nor NRRD nor text in UTF-8; bare numbers need --shape NX,NY,NZ"
+    else:
+        assert message == "bytes: line 2, column 3: not a text file in UTF-8"
+
+
+@pytest.mark.parametrize("path", ["missing.toml", "folder.toml", "bytes.toml"])
+@pytest.mark.parametrize("command", ["study", "hidden-line"])
+def test_plans_and_scenes(capsys: pytest.CaptureFixture[str], command: str, path: str) -> None:
+    Path("folder.toml").mkdir()
+    Path("bytes.toml").write_bytes(b"a\n\xff")
+    code, out, err = call(capsys, command, path)
+    assert (code, out) == (2, "")
+    reasons = {
+        "missing": "no such file or directory",
+        "folder": "is a directory",
+        "bytes": "line 2, column 1: not a text file in UTF-8",
+    }
+    assert err == f"hull1620: {path}: {reasons[path.removesuffix('.toml')]}\n"
+
+
+def test_the_shell_closes_standard_input() -> None:
+    command = f"{sys.executable} -m modern.cli.main diff - <&-"
+    folder = Path(__file__).parents[3]
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False, cwd=folder)
+    assert (done.returncode, done.stdout, done.stderr) == (2, "", "hull1620: standard input is closed\n")
