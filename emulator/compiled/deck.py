@@ -70,8 +70,8 @@ class Start(NamedTuple):
     exponents: Row
 
 
-Setting = tuple[int, int, int, int, int]
-"""(statement limit, strict bounds, left zero kept, signed underflow, errors typed)."""
+Setting = tuple[int, int, int]
+"""(statement limit, strict bounds, errors typed)."""
 
 
 def run_decks(
@@ -129,7 +129,7 @@ def run_deck(
     code: Code, forms: Forms, cards: Cards, core: Core, report: Report, d: int, rules: Rules, setting: Setting
 ) -> int:
     """Run the deck the devices are set to; how it ended."""
-    limit, strict, keep_left, signed_underflow, announces = setting
+    limit, strict, announces = setting
     registers, counts = report.registers[d], report.counts[d]
     now = limit - min(LOOP_WINDOW, limit // 2)
     last = False
@@ -150,7 +150,7 @@ def run_deck(
             core.switches,
             rules,
             core.powers,
-            (now, strict, 0, keep_left, signed_underflow),
+            (now, strict, 0),
         )
         pc = registers[AT]
         address = registers[ADDRESS]

@@ -16,13 +16,22 @@ from emulator.compiled.jit import NotInstalled, compiled
 from emulator.language import cards, objectcode
 from emulator.machine import result
 from emulator.machine.result import Options
-from emulator.numbers import arithmetic
+from emulator.numbers import accumulator, arithmetic
 from emulator.numbers import columns as conversion
 
 MAX_DIGITS = 9
 INSTEAD = "the plain engine runs instead"
 
 _HELPERS = (
+    accumulator.add,
+    accumulator.subtract,
+    accumulator.subtract_reversed,
+    accumulator.multiply,
+    accumulator.divide,
+    accumulator.negate,
+    accumulator.largest,
+    accumulator.vanished,
+    accumulator.divide_fixed,
     arithmetic.add,
     arithmetic.add_guarded,
     arithmetic.multiply,
@@ -77,7 +86,7 @@ def why_plain(options: Options) -> str:
 @cache
 def run_decks() -> Callable[..., Any]:
     """:func:`emulator.compiled.deck.run_decks` compiled.  Raises emulator.compiled.jit.NotInstalled."""
-    modules = (arithmetic, cards, conversion, devices, engine, objectcode, result, unattended)
+    modules = (accumulator, arithmetic, cards, conversion, devices, engine, objectcode, result, unattended)
     # Nothing is divided by zero and no array is made, so that numba need not look for the one nor count the other's
     # users, which takes half the time.
     return compiled([unattended.run_decks], _HELPERS, modules, error_model="numpy", _nrt=False)[0]

@@ -17,6 +17,7 @@ from emulator.language.objectcode import (
     COUNT,
     DOTEST,
     FAD,
+    FDV,
     FDVR,
     FINISH,
     FIX,
@@ -24,6 +25,7 @@ from emulator.language.objectcode import (
     FMFAC,
     FMFIX,
     FMP,
+    FSB,
     FSBR,
     FUNCTION,
     IF,
@@ -46,21 +48,8 @@ from emulator.language.objectcode import (
     XSB,
     XSBR,
 )
-from emulator.numbers.arithmetic import (
-    FIXED_POINT,
-    MAX_EXPONENT,
-    MIN_EXPONENT,
-    MINUS_ZERO,
-    UNDEFINED,
-    ZERO,
-    Rules,
-    add,
-    divide,
-    from_integer,
-    multiply,
-    to_integer,
-    wrap_integer,
-)
+from emulator.numbers.accumulator import add, divide, divide_fixed, multiply, negate, subtract, subtract_reversed
+from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, Rules, from_integer, to_integer, wrap_integer
 
 # Reasons to return.
 (
@@ -85,18 +74,6 @@ from emulator.numbers.arithmetic import (
 PC, FAC, CHARACTERISTIC, FIXED, STATEMENTS, STORED, SENT, SENT_EXPONENT, EVENT, ADDRESS, INDEX, INDEX2, AT = range(13)
 REGISTERS = 13
 
-# Events: the error codes ERROR E1 to E8 (C26-5619 p. 60, executed on IBM's code).
-(
-    SUM_OVER,
-    SUM_UNDER,
-    PRODUCT_OVER,
-    PRODUCT_UNDER,
-    QUOTIENT_OVER,
-    QUOTIENT_UNDER,
-    ZERO_DIVISOR,
-    FIXED_ZERO_DIVISOR,
-) = range(1, 9)
-
 
 def run(
     operations: Sequence[int],
@@ -114,7 +91,7 @@ def run(
     switches: Sequence[int],
     rules: Rules,
     powers: Sequence[int],
-    options: tuple[int, int, int, int, int],
+    options: tuple[int, int, int],
 ) -> int:
     """Run until a reason to return; registers and storage are changed in place.
 
@@ -122,11 +99,10 @@ def run(
     where an instruction has none; ``targets`` the branch tables, each behind its length; ``loops`` four numbers a
     loop: variable, step, limit, first instruction; ``begins`` is 1 where a statement begins, 2 at a pass of an
     indexed list, which counts against the limit like a statement.  ``options`` is (statement limit, strict bounds,
-    stop at each statement, left zero kept, signed underflow).
+    stop at each statement).
     """
-    limit, strict, tracing, keep_left, signed_underflow = options
+    limit, strict, tracing = options
     size = len(mantissas)
-    biggest = rules[1] - 1
     pc = registers[PC]
     fm, fe, fixed = registers[FAC], registers[CHARACTERISTIC], registers[FIXED]
     done, stored = registers[STATEMENTS], registers[STORED]
@@ -196,59 +172,18 @@ def run(
                 fe = e
                 continue
             if o == FMP:
-                if fm == 0 or m == 0:
-                    fm = 0
-                    fe = ZERO
-                    continue
-                fm, fe = multiply(fm, fe, m, e, rules)
-                if fe > MAX_EXPONENT:
-                    event = PRODUCT_OVER
-                elif fe < MIN_EXPONENT:
-                    event = PRODUCT_UNDER
-            elif o <= FSBR:
-                if m == 0:
-                    if fm == 0 and not keep_left:
-                        fe = ZERO
-                elif fm == 0:
-                    fm = m if o == FAD else -m
-                    fe = e
-                else:
-                    fm, fe = add(fm, fe, m if o == FAD else -m, e, rules, powers)
-                    if fe > MAX_EXPONENT:
-                        event = SUM_OVER
-                    elif fe < MIN_EXPONENT and fm != 0:
-                        event = SUM_UNDER
-                if o == FSBR:
-                    if fm == 0:
-                        fe = MINUS_ZERO if fe == ZERO else ZERO
-                    else:
-                        fm = -fm
+                fm, fe, event = multiply(fm, fe, m, e, rules)
+            elif o == FAD:
+                fm, fe, event = add(fm, fe, m, e, rules, powers)
+            elif o == FSB:
+                fm, fe, event = subtract(fm, fe, m, e, rules, powers)
+            elif o == FSBR:
+                fm, fe, event = subtract_reversed(fm, fe, m, e, rules, powers)
+            elif o == FDV:
+                fm, fe, event = divide(fm, fe, m, e, rules)
             else:
-                if o == FDVR:
-                    fm, fe, m, e = m, e, fm, fe
-                if m == 0:
-                    event = ZERO_DIVISOR
-                elif fm == 0:
-                    fm = 0
-                    fe = ZERO
-                else:
-                    fm, fe = divide(fm, fe, m, e, rules)
-                    if fe > MAX_EXPONENT:
-                        event = QUOTIENT_OVER
-                    elif fe < MIN_EXPONENT:
-                        event = QUOTIENT_UNDER
+                fm, fe, event = divide(m, e, fm, fe, rules)
             if event:
-                if event == ZERO_DIVISOR:
-                    fm = biggest
-                    fe = MAX_EXPONENT
-                elif event % 2 == 1:
-                    fm = biggest if fm > 0 else -biggest
-                    fe = MAX_EXPONENT
-                else:
-                    fe = MINUS_ZERO if signed_underflow and event != SUM_UNDER and fm < 0 else ZERO
-                    if o == FSBR:
-                        fe = MINUS_ZERO
-                    fm = 0
                 reason = AT_EVENT
                 break
         elif o == COUNT:
@@ -316,20 +251,14 @@ def run(
             else:
                 if o == XDVR:
                     fixed, m = m, fixed
-                if m == 0:
-                    fixed = 9999
-                    event = FIXED_ZERO_DIVISOR
+                fixed, event = divide_fixed(fixed, m)
+                if event:
                     reason = AT_EVENT
                     break
-                quotient = abs(fixed) // abs(m)
-                fixed = quotient if (fixed < 0) == (m < 0) else -quotient
         elif o == IFX:
             pc = targets[a] if fixed < 0 else targets[a + 1] if fixed == 0 else targets[a + 2]
         elif o == RSGN:
-            if fm == 0:
-                fe = MINUS_ZERO if fe == ZERO else ZERO
-            else:
-                fm = -fm
+            fm, fe = negate(fm, fe)
             pc += 1
         elif o == RSGX:
             fixed = -fixed

@@ -115,7 +115,7 @@ class Runner:
         rows: dict[str, Any] = {name: np.zeros((BLOCK, width), np.int64) for name, width in widths.items()}
         self.report = devices.Report(**rows, log=_codes(bytes(LOG_ROOM)))
         self.rules = profile.rules
-        flags = options.bounds == "strict", profile.keeps_left_zero, profile.signed_underflow, profile.announces
+        flags = options.bounds == "strict", profile.announces
         self.setting = (options.limit, *map(int, flags))
         try:
             self._some([])

@@ -32,7 +32,6 @@ from emulator.compiled.kernel import (
     EVENT,
     FAC,
     FIXED,
-    FIXED_ZERO_DIVISOR,
     INDEX,
     INDEX2,
     PC,
@@ -44,6 +43,7 @@ from emulator.compiled.kernel import (
 from emulator.language import objectcode as op
 from emulator.language.loader import SUBSCRIPT, Flat
 from emulator.language.objectcode import Program
+from emulator.numbers.accumulator import divide_fixed
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, ZERO, wrap_integer
 from emulator.numbers.base import Number, Numbers, Trap
 
@@ -276,13 +276,10 @@ def run(
                 else:
                     if o == op.XDVR:
                         fixed, value = value, fixed
-                    if value == 0:
-                        fixed = 9999
-                        event = FIXED_ZERO_DIVISOR
+                    fixed, event = divide_fixed(fixed, value)
+                    if event:
                         reason = AT_EVENT
                         break
-                    quotient = abs(fixed) // abs(value)
-                    fixed = quotient if (fixed < 0) == (value < 0) else -quotient
             elif o == op.IFX:
                 target = targets[a + 1 + (fixed > 0) - (fixed < 0)]
                 if decide:

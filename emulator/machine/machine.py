@@ -159,13 +159,7 @@ class Machine:
                 self.journal,
                 self._enters,
             )
-        flags = (
-            limit,
-            strict,
-            int(self.tracer is not None),
-            int(profile.keeps_left_zero),
-            int(profile.signed_underflow),
-        )
+        flags = (limit, strict, int(self.tracer is not None))
         return engine.run(
             operations,
             addresses,

@@ -24,8 +24,12 @@ MIN_EXPONENT = -99
 
 MIN_DIGITS, MAX_DIGITS = 2, 28
 
-Rules = tuple[int, int, int, int, int, int, int, int]
-"""(digits, 10**digits, 10**(digits-1), guard digits, sticky, round sums, round products, round quotients)."""
+Rules = tuple[int, int, int, int, int, int, int, int, int, int]
+"""(digits, 10**digits, 10**(digits-1), guard digits, sticky, round sums, round products, round quotients, then two of
+emulator/numbers/accumulator.py: zero plus zero keeps the sign of FAC's zero; a product or quotient that underflows
+keeps its sign)."""
+KEEPS_LEFT_ZERO, SIGNED_UNDERFLOW = 8, 9
+"""Where the last two stand."""
 
 
 def add(ma: int, ea: int, mb: int, eb: int, rules: Rules, powers: Sequence[int]) -> tuple[int, int]:
@@ -252,40 +256,53 @@ def powers_of_ten(rules: Rules) -> list[int]:
 class Profile:
     """An arithmetic: how many digits, what each operation does with the digits it cannot keep, what is typed.
 
-    ``announces``: every error of the arithmetic types its code (emulator.machine.result.ERRORS);
-    ``keeps_left_zero``: zero plus zero keeps the sign of the accumulator's zero; ``signed_underflow``: a
-    product or quotient that underflows becomes zero with its own sign.
+    ``announces``: every error of the arithmetic types its code (emulator.machine.result.ERRORS).
     """
 
     name: str
     source: str
     rules: Rules
     announces: bool = False
-    keeps_left_zero: bool = False
-    signed_underflow: bool = False
 
     @property
     def digits(self) -> int:
         return self.rules[0]
 
+    @property
+    def keeps_left_zero(self) -> bool:
+        return bool(self.rules[KEEPS_LEFT_ZERO])
 
-def _rules(digits: int, guard: int = 0, sticky: int = 0, sums: int = 0, products: int = 0, quotients: int = 0) -> Rules:
-    return digits, 10**digits, 10 ** (digits - 1), guard, sticky, sums, products, quotients
+    @property
+    def signed_underflow(self) -> bool:
+        return bool(self.rules[SIGNED_UNDERFLOW])
+
+
+def rules_of(
+    digits: int,
+    guard: int = 0,
+    sticky: int = 0,
+    sums: int = 0,
+    products: int = 0,
+    quotients: int = 0,
+    left_zero: int = 0,
+    signed_underflow: int = 0,
+) -> Rules:
+    """Rules of that many digits; what is not said is cut, and zeros are plus zeros."""
+    low = 10 ** (digits - 1)
+    return digits, 10 * low, low, guard, sticky, sums, products, quotients, left_zero, signed_underflow
 
 
 TRUNCATING = Profile(
     "truncating",
     "thesis p. 116 (eight digits, no rounding occurs); IBM FORTRAN II-D executed in a simulator; "
     "signs of zero: the thesis's prints",
-    _rules(8),
+    rules_of(8),
 )
 IBM1962 = Profile(
     "ibm1962",
     "IBM's subroutine set of 1962, executed digit by digit in a simulator: product rounded half up, the rest cut",
-    _rules(8, products=1),
+    rules_of(8, products=1, left_zero=1, signed_underflow=1),
     announces=True,
-    keeps_left_zero=True,
-    signed_underflow=True,
 )
 PROFILES = {profile.name: profile for profile in (TRUNCATING, IBM1962)}
 FAMILIES = ("truncating:P", "guarded:P", "rounding:P")
@@ -305,9 +322,9 @@ def profile(name: str) -> Profile:
         digits = int(count)
         if MIN_DIGITS <= digits <= MAX_DIGITS:
             if family == "truncating":
-                return Profile(name, TRUNCATING.source, _rules(digits))
+                return Profile(name, TRUNCATING.source, rules_of(digits))
             if family == "guarded":
-                return Profile(name, "truncating, with a guard digit in sums", _rules(digits, guard=1))
-            return Profile(name, "exact result, rounded half up", _rules(digits, 2, 1, 1, 1, 1))
+                return Profile(name, "truncating, with a guard digit in sums", rules_of(digits, guard=1))
+            return Profile(name, "exact result, rounded half up", rules_of(digits, 2, 1, 1, 1, 1))
         raise ValueError(f"{name}: the number of digits is {MIN_DIGITS} to {MAX_DIGITS}")
     raise ValueError(f"no arithmetic is called {name!r}; there are {', '.join((*PROFILES, *FAMILIES))}")

@@ -16,7 +16,7 @@ from functools import lru_cache
 from typing import Any
 
 from emulator.language.formats import Field
-from emulator.numbers.arithmetic import MAX_EXPONENT, MIN_EXPONENT, MINUS_ZERO, ZERO, Rules
+from emulator.numbers.arithmetic import MAX_EXPONENT, MIN_EXPONENT, MINUS_ZERO, ZERO, Rules, rules_of
 from emulator.numbers.fields import FALLBACK, read_floating, write_floating
 
 Number = Any
@@ -42,7 +42,7 @@ class Undecided(Exception):
 @lru_cache(maxsize=128)
 def cutting_rules(digits: int) -> Rules:
     """Rules of that many digits, for reading or writing columns without losing one."""
-    return digits, 10**digits, 10 ** (digits - 1), 0, 0, 0, 0, 0
+    return rules_of(digits)
 
 
 class Numbers(ABC):

@@ -17,7 +17,7 @@ from decimal import Decimal
 from fractions import Fraction
 from functools import cached_property
 
-from emulator.compiled import kernel as engine
+from emulator.numbers import accumulator
 from emulator.numbers.arithmetic import MINUS_ZERO, ZERO
 from emulator.numbers.base import Numbers, Trap, Undecided, cut_decimal
 
@@ -64,7 +64,7 @@ class FloatNumbers(Numbers):
         if self._single:
             total = _single(total)
         if total - total != 0 and first - first == second - second == 0:
-            raise Trap(engine.SUM_OVER, total)
+            raise Trap(accumulator.SUM_OVER, total)
         return total
 
     def subtract(self, first: float, second: float) -> float:
@@ -76,22 +76,22 @@ class FloatNumbers(Numbers):
             product = _single(product)
         if product - product != 0:
             if first - first == second - second == 0:
-                raise Trap(engine.PRODUCT_OVER, product)
+                raise Trap(accumulator.PRODUCT_OVER, product)
         elif product == 0 and first != 0 and second != 0:
-            raise Trap(engine.PRODUCT_UNDER, product)
+            raise Trap(accumulator.PRODUCT_UNDER, product)
         return product
 
     def divide(self, dividend: float, divisor: float) -> float:
         if divisor == 0:
             negative = math.copysign(1, dividend) != math.copysign(1, divisor)
             quotient = math.nan if dividend == 0 or dividend != dividend else -_INFINITE if negative else _INFINITE
-            raise Trap(engine.ZERO_DIVISOR, quotient)
+            raise Trap(accumulator.ZERO_DIVISOR, quotient)
         quotient = self._rounded(dividend / divisor)
         if quotient - quotient != 0:
             if dividend - dividend == divisor - divisor == 0:
-                raise Trap(engine.QUOTIENT_OVER, quotient)
+                raise Trap(accumulator.QUOTIENT_OVER, quotient)
         elif quotient == 0 and dividend != 0 and divisor - divisor == 0:
-            raise Trap(engine.QUOTIENT_UNDER, quotient)
+            raise Trap(accumulator.QUOTIENT_UNDER, quotient)
         return quotient
 
     def negate(self, value: float) -> float:

@@ -1,8 +1,6 @@
-"""The 1620's decimal numbers as a number system: a profile of emulator/numbers/arithmetic.py, operation by operation.
+"""The 1620's decimal numbers as a number system: a profile, whose rules are those of emulator/numbers/accumulator.py.
 
-A number is the pair (mantissa, exponent) of that module.  What the engine does around the operations (zeros,
-their signs, overflow) is here once more, in the form the hosted interpreter asks for; the tests hold the two
-together, run by run.
+A number is the pair (mantissa, exponent) of emulator/numbers/arithmetic.py.
 """
 
 from __future__ import annotations
@@ -11,10 +9,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
-from emulator.compiled import kernel as engine
 from emulator.language.formats import Field
-from emulator.numbers import arithmetic, functions
-from emulator.numbers.arithmetic import MAX_EXPONENT, MIN_EXPONENT, MINUS_ZERO, ZERO, Profile, Rules, powers_of_ten
+from emulator.numbers import accumulator, arithmetic, functions
+from emulator.numbers.arithmetic import MINUS_ZERO, ZERO, Profile, Rules, powers_of_ten
 from emulator.numbers.base import Numbers, Trap, cut_decimal
 from emulator.numbers.fields import read_floating, write_floating
 
@@ -49,62 +46,22 @@ class DecimalNumbers(Numbers):
         return cut_decimal(whole, power, self._rules[0])
 
     def add(self, first: Pair, second: Pair) -> Pair:
-        if second[0] == 0:
-            return self._plus_zero(first)
-        if first[0] == 0:
-            return second
-        return self._sum(first, second)
+        return _checked(accumulator.add(*first, *second, self._rules, self._powers))
 
     def subtract(self, first: Pair, second: Pair) -> Pair:
-        if second[0] == 0:
-            return self._plus_zero(first)
-        opposite = -second[0], second[1]
-        return opposite if first[0] == 0 else self._sum(first, opposite)
+        return _checked(accumulator.subtract(*first, *second, self._rules, self._powers))
 
-    def _plus_zero(self, value: Pair) -> Pair:
-        return (0, ZERO) if value[0] == 0 and not self.profile.keeps_left_zero else value
-
-    def _sum(self, first: Pair, second: Pair) -> Pair:
-        mantissa, exponent = arithmetic.add(*first, *second, self._rules, self._powers)
-        if exponent > MAX_EXPONENT:
-            raise Trap(engine.SUM_OVER, self._largest(mantissa))
-        if exponent < MIN_EXPONENT and mantissa:
-            raise Trap(engine.SUM_UNDER, (0, ZERO))
-        return mantissa, exponent
+    def subtract_reversed(self, first: Pair, second: Pair) -> Pair:
+        return _checked(accumulator.subtract_reversed(*first, *second, self._rules, self._powers))
 
     def multiply(self, first: Pair, second: Pair) -> Pair:
-        if first[0] == 0 or second[0] == 0:
-            return 0, ZERO
-        return self._in_range(
-            *arithmetic.multiply(*first, *second, self._rules), engine.PRODUCT_OVER, engine.PRODUCT_UNDER
-        )
+        return _checked(accumulator.multiply(*first, *second, self._rules))
 
     def divide(self, dividend: Pair, divisor: Pair) -> Pair:
-        if divisor[0] == 0:
-            raise Trap(engine.ZERO_DIVISOR, self._largest(1))
-        if dividend[0] == 0:
-            return 0, ZERO
-        return self._in_range(
-            *arithmetic.divide(*dividend, *divisor, self._rules), engine.QUOTIENT_OVER, engine.QUOTIENT_UNDER
-        )
-
-    def _in_range(self, mantissa: int, exponent: int, over: int, under: int) -> Pair:
-        if exponent > MAX_EXPONENT:
-            raise Trap(over, self._largest(mantissa))
-        if exponent < MIN_EXPONENT:
-            negative = self.profile.signed_underflow and mantissa < 0
-            raise Trap(under, (0, MINUS_ZERO if negative else ZERO))
-        return mantissa, exponent
-
-    def _largest(self, sign: int) -> Pair:
-        biggest = self._rules[1] - 1
-        return (biggest if sign > 0 else -biggest), MAX_EXPONENT
+        return _checked(accumulator.divide(*dividend, *divisor, self._rules))
 
     def negate(self, value: Pair) -> Pair:
-        mantissa, exponent = value
-        if mantissa == 0:
-            return 0, MINUS_ZERO if exponent == ZERO else ZERO
-        return -mantissa, exponent
+        return accumulator.negate(*value)
 
     def sign(self, value: Pair) -> int:
         return (value[0] > 0) - (value[0] < 0)
@@ -140,6 +97,13 @@ class DecimalNumbers(Numbers):
 
     def write(self, field: Field, value: Pair) -> tuple[str, bool]:
         return write_floating(field, *value, self._rules)
+
+
+def _checked(result: tuple[int, int, int]) -> Pair:
+    mantissa, exponent, event = result
+    if event:
+        raise Trap(event, (mantissa, exponent))
+    return mantissa, exponent
 
 
 def _given(value: functions.Value) -> tuple[Pair, str]:

@@ -15,7 +15,7 @@ from typing import Any
 from mpmath import MPContext
 from mpmath.libmp import from_rational, round_nearest
 
-from emulator.compiled import kernel as engine
+from emulator.numbers import accumulator
 from emulator.numbers.arithmetic import ZERO
 from emulator.numbers.base import SHOWN, Numbers, Trap, Undecided, cut_decimal, decimal_length, decimal_text
 
@@ -52,19 +52,19 @@ class MultiprecisionNumbers(Numbers):
         return self._context.make_mpf(from_rational(over, under, self.bits, round_nearest))
 
     def add(self, first: Any, second: Any) -> Any:
-        return self._in_range(first + second, engine.SUM_OVER, engine.SUM_UNDER)
+        return self._in_range(first + second, accumulator.SUM_OVER, accumulator.SUM_UNDER)
 
     def subtract(self, first: Any, second: Any) -> Any:
-        return self._in_range(first - second, engine.SUM_OVER, engine.SUM_UNDER)
+        return self._in_range(first - second, accumulator.SUM_OVER, accumulator.SUM_UNDER)
 
     def multiply(self, first: Any, second: Any) -> Any:
-        return self._in_range(first * second, engine.PRODUCT_OVER, engine.PRODUCT_UNDER)
+        return self._in_range(first * second, accumulator.PRODUCT_OVER, accumulator.PRODUCT_UNDER)
 
     def divide(self, dividend: Any, divisor: Any) -> Any:
         if divisor == 0:
             sign = 0 if dividend == 0 else 1 if dividend > 0 else -1
-            raise Trap(engine.ZERO_DIVISOR, self._context.nan if sign == 0 else sign * self._infinity)
-        return self._in_range(dividend / divisor, engine.QUOTIENT_OVER, engine.QUOTIENT_UNDER)
+            raise Trap(accumulator.ZERO_DIVISOR, self._context.nan if sign == 0 else sign * self._infinity)
+        return self._in_range(dividend / divisor, accumulator.QUOTIENT_OVER, accumulator.QUOTIENT_UNDER)
 
     def _in_range(self, value: Any, over: int, under: int) -> Any:
         _, mantissa, exponent, bits = value._mpf_
