@@ -16,7 +16,7 @@ from modern.formats.off import read_off
 from modern.geometry.mesh import Vector
 from modern.papers.nakamae_nishita import picture, report
 from modern.papers.nakamae_nishita.hidden import draw
-from modern.papers.nakamae_nishita.polyhedron import SceneError
+from modern.papers.nakamae_nishita.polyhedron import SceneError, polyhedron_of_hull, polyhedron_of_off
 from modern.papers.nakamae_nishita.scenes import (
     PERSPECTIVE,
     SceneFile,
@@ -26,7 +26,6 @@ from modern.papers.nakamae_nishita.scenes import (
     read,
     scene,
 )
-from modern.papers.nakamae_nishita.sources import polyhedron_of_hull, polyhedron_of_off
 
 _PLOTS = (".hpgl", ".plt")
 

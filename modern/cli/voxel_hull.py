@@ -13,8 +13,7 @@ from modern.digital.volumes import Volume, VolumeError, write_npy
 from modern.formats import FORMATS, mesh_text
 from modern.geometry.mesh import Mesh
 from modern.papers.kovalevsky_schulz import CENTRES, VERTICES, VISIBLE, CellList, Flat, Surface, VoxelHull, voxel_hull
-from modern.papers.kovalevsky_schulz.sizes import cell_list_size, economical_size, triangulation_size
-from modern.papers.kovalevsky_schulz.tables import all_rows
+from modern.papers.kovalevsky_schulz.tables import all_rows, cell_list_size, economical_size, triangulation_size
 
 
 def main(args: argparse.Namespace) -> int:

@@ -1,7 +1,7 @@
 """Line drawings of hulls: parallel projection, hidden edges dashed, vertices numbered as the programs number them.
 
 A convex solid hides an edge exactly when both of the edge's faces turn away from the eye.  That is the sign of
-formula (1) of Nakamae and Nishita (``modern.papers.nakamae_nishita.faces``), in fractions of the exact coordinates;
+formula (1) of Nakamae and Nishita (``modern.drawing.visible``), in fractions of the exact coordinates;
 floating point only chooses where numbers are put.
 """
 
@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from modern.drawing import marks, svg
+from modern.drawing import svg
 from modern.drawing.labels import HEIGHT, Label, place_labels
 from modern.drawing.layout import Layout, Pixel, lay_out
 from modern.drawing.legend import band, band_height, caption
@@ -48,11 +48,11 @@ def draw_svg(hull: Hull, eye: Sequence[Fraction | int] | None = None, title: str
     items = [
         *_faces(picture, layout),
         *_edges(picture, layout, hidden=True),
-        *_points(hull, picture.inside, layout.inside, marks.INSIDE, "inside point"),
-        *_points(hull, picture.boundary, layout.boundary, marks.BOUNDARY_HIDDEN, "boundary point", hidden=True),
+        *_points(hull, picture.inside, layout.inside, svg.INSIDE, "inside point"),
+        *_points(hull, picture.boundary, layout.boundary, svg.BOUNDARY_HIDDEN, "boundary point", hidden=True),
         *_vertices(hull, picture, layout, hidden=True),
         *_edges(picture, layout, hidden=False),
-        *_points(hull, picture.boundary, layout.boundary, marks.BOUNDARY, "boundary point"),
+        *_points(hull, picture.boundary, layout.boundary, svg.BOUNDARY, "boundary point"),
         *_vertices(hull, picture, layout, hidden=False),
         *(_numbers(picture, layout) if numbered else ()),
         *svg.group("legend", _FONT, band(picture, width, layout.height, title, numbered)),
@@ -70,7 +70,7 @@ def _faces(picture: Scene, layout: Layout) -> list[str]:
 
 
 def _edges(picture: Scene, layout: Layout, hidden: bool) -> list[str]:
-    style = marks.HIDDEN if hidden else marks.VISIBLE
+    style = svg.HIDDEN if hidden else svg.VISIBLE
     return svg.group(
         style.key,
         style.attributes,
@@ -87,12 +87,12 @@ def _edges(picture: Scene, layout: Layout, hidden: bool) -> list[str]:
 
 
 def _vertices(hull: Hull, picture: Scene, layout: Layout, hidden: bool) -> list[str]:
-    style = marks.VERTEX_HIDDEN if hidden else marks.VERTEX
+    style = svg.VERTEX_HIDDEN if hidden else svg.VERTEX
     return svg.group(
         style.key,
         style.attributes,
         (
-            marks.point_mark(style, layout.vertices[place], _title(hull, index, f"vertex {place + 1}"))
+            svg.point_mark(style, layout.vertices[place], _title(hull, index, f"vertex {place + 1}"))
             for place, index in enumerate(hull.vertices)
             if picture.hidden[place] == hidden
         ),
@@ -100,13 +100,13 @@ def _vertices(hull: Hull, picture: Scene, layout: Layout, hidden: bool) -> list[
 
 
 def _points(
-    hull: Hull, points: Sequence[Mark], places: Sequence[Pixel], style: marks.Style, name: str, hidden: bool = False
+    hull: Hull, points: Sequence[Mark], places: Sequence[Pixel], style: svg.Style, name: str, hidden: bool = False
 ) -> list[str]:
     return svg.group(
         style.key,
         style.attributes,
         (
-            marks.point_mark(style, place, _title(hull, mark.index, name))
+            svg.point_mark(style, place, _title(hull, mark.index, name))
             for mark, place in zip(points, places, strict=True)
             if mark.hidden == hidden
         ),

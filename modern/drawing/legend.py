@@ -7,8 +7,8 @@ from fractions import Fraction
 
 from modern.drawing import svg
 from modern.drawing.layout import MARGIN, Pixel
-from modern.drawing.marks import BOUNDARY, BOUNDARY_HIDDEN, HIDDEN, INSIDE, VERTEX_HIDDEN, VISIBLE, Style, sample
 from modern.drawing.scene import Scene
+from modern.drawing.svg import BOUNDARY, BOUNDARY_HIDDEN, HIDDEN, INSIDE, VERTEX_HIDDEN, VISIBLE, Style, sample
 from modern.drawing.view import root
 from modern.geometry.mesh import dot
 

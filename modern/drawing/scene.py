@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from modern.drawing.view import Eye, Flat, View, across, along, choose, lowest, root, towards, view
+from modern.drawing.visible import BACK, FLAT, classify, facing
 from modern.geometry.hull import Hull
 from modern.geometry.mesh import Mesh, Vector, area_vector, cross, dot, mesh, minus
 from modern.geometry.numbers import ExportError, coordinates, number, shown
-from modern.papers.nakamae_nishita.faces import BACK, FLAT, classify, facing
 
 _ONE = Fraction(1)
 

@@ -9,7 +9,7 @@ word; spacing is no evidence.
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from importlib.resources import files
@@ -17,20 +17,18 @@ from importlib.resources.abc import Traversable
 
 from modern.edition.apparatus import ApparatusError, Line, Row, Text, build, load
 from modern.edition.verdicts import DIFFERENT, EXACT
+from modern.papers import Lines
 
 CORRECTED = "as corrected"
 EXPLAINED = "differs, explained"
 CANNOT = "not reproducible"
-
-Producer = Mapping[str, Sequence[str]]
-"""Lines produced, by the id of the result; words separated by blanks, one line for each line of the print."""
 
 
 @dataclass(frozen=True, slots=True)
 class Paper:
     """A paper with published results: its name on the command line, its folder, the module that produces them.
 
-    The module has a function ``produced()`` that returns a :data:`Producer`.
+    The module has a function ``produced``; see :data:`modern.papers.Lines`.
     """
 
     name: str
@@ -160,9 +158,20 @@ def judge(paper: Paper, result: Published, produced: Sequence[str]) -> Finding:
     return Finding(paper.name, result, kind, tuple(produced))
 
 
+def printed_lines(paper: Paper) -> Lines:
+    """The corrected print, by result."""
+    return {result.id: result.corrected for result in results_of(paper)}
+
+
+def produced_by(paper: Paper) -> Lines:
+    """What the paper's module computes, given the corrected print."""
+    produced: Lines = import_module(paper.module).produced(printed_lines(paper))
+    return produced
+
+
 def findings(paper: Paper, folder: Traversable | None = None) -> Iterator[Finding]:
     """The verdict on every published result of a paper."""
-    produced: Producer = import_module(paper.module).produced()
+    produced = produced_by(paper)
     for result in results_of(paper, folder):
         yield judge(paper, result, produced.get(result.id, ()))
 

@@ -8,21 +8,22 @@ from __future__ import annotations
 
 import math
 import tomllib
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from importlib.resources import files
 from itertools import combinations
 
-from modern.edition.published import PAPERS, Producer, results_of
 from modern.geometry.mesh import cross, dot, minus
+from modern.papers import Lines
 from modern.papers.appel_will.corners import corners, triple_product, vectors
 from modern.papers.appel_will.edges import IntPoint, Pair, project
 from modern.papers.appel_will.hull import Assembled, Method, appel_will
 from modern.papers.appel_will.star import as_mended
 from modern.papers.appel_will.surfaces import Line, Surface, area_normal, oriented
 
-PAPER = next(paper for paper in PAPERS if paper.module == __name__)
+FOLDER = "appel_will_1976"
+"""Of the print under ``transcripts``."""
 BY_STAR = Method(star=as_mended)
 """With the star polygon itself, as the paper has it, not its short form."""
 ROMAN = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII")
@@ -40,25 +41,24 @@ class Solid:
 
 def found_solid(name: str) -> Solid:
     """An object whose coordinates are ours, by its figure (``fig14``).  Raises KeyError."""
-    text = files("transcripts").joinpath(PAPER.folder, "coordinates.toml").read_text(encoding="utf-8")
+    text = files("transcripts").joinpath(FOLDER, "coordinates.toml").read_text(encoding="utf-8")
     entries = {entry["id"]: entry for entry in tomllib.loads(text)["solid"]}
     entry = entries[name]
     points = tuple((int(x), int(y), int(z)) for x, y, z in entry["points"])
     return Solid(points, tuple(tuple(number - 1 for number in row) for row in entry.get("surfaces", ())))
 
 
-def printed_solid() -> Solid:
+def printed_solid(printed: Lines) -> Solid:
     """The object of Fig. 4 as the corrected print has it."""
-    lines = {result.id: result.corrected for result in results_of(PAPER)}
-    rows = [[int(word) for word in line.split()] for line in lines["fig4-vertex-list"]]
+    rows = [[int(word) for word in line.split()] for line in printed["fig4-vertex-list"]]
     points = tuple((x, y, z) for _, x, y, z in rows)
-    maps = [line.split()[1] for line in lines["fig4-topological-map"]]
+    maps = [line.split()[1] for line in printed["fig4-topological-map"]]
     return Solid(points, tuple(tuple(int(number) - 1 for number in text.split(",")) for text in maps))
 
 
-def produced() -> Producer:
+def produced(printed: Lines) -> Lines:
     """The lines of every published result that can be computed, by its id in ``results.toml``."""
-    given = printed_solid()
+    given = printed_solid(printed)
     hull = appel_will(given.points, given.surfaces, BY_STAR)
     fig14 = appel_will(found_solid("fig14").points, method=BY_STAR)
     fig23 = appel_will(found_solid("fig23").points, method=BY_STAR)
@@ -70,7 +70,7 @@ def produced() -> Producer:
         "combinations": [_combinations(fig14)],
         "fig13": [f"interior points {_listed(_named(_deleted(found_solid('fig13'))))}"],
         "fig14": list(_edge_list(fig14)),
-        "figure-number": [_figure_with("vertex-list", "topological-map")],
+        "figure-number": [_figure_with(printed, "vertex-list", "topological-map")],
         "fig18": list(_determinants(found_solid("fig18"))),
         "fig21": [f"object shown in Fig. 14 would be type {fig14.table.loops[0].kind}"],
         "fig22-loops-1-3": list(_first_three(fig14)),
@@ -149,9 +149,8 @@ def _edge_list(hull: Assembled) -> Iterator[str]:
         yield f"{label} {i + 1} {j + 1}"
 
 
-def _figure_with(*parts: str) -> str:
+def _figure_with(names: Collection[str], *parts: str) -> str:
     """The figure that the data of this project take all of ``parts`` from."""
-    names = {result.id for result in results_of(PAPER)}
     (figure,) = {name.split("-")[0] for name in names if all(f"{name.split('-')[0]}-{part}" in names for part in parts)}
     return f"As illustrated in Fig. {figure.removeprefix('fig')}"
 

@@ -6,8 +6,7 @@
 
 from modern.papers.kovalevsky_schulz.cells import CellList, CellListError, Economical, decoded, expanded
 from modern.papers.kovalevsky_schulz.corners import CENTRES, VERTICES, local_corners
-from modern.papers.kovalevsky_schulz.hull import Surface, VoxelHull, voxel_hull
-from modern.papers.kovalevsky_schulz.merging import merged, straightened
+from modern.papers.kovalevsky_schulz.hull import Surface, VoxelHull, merged, straightened, voxel_hull
 from modern.papers.kovalevsky_schulz.polyhedron import INVISIBLE, VISIBLE, Flat, convex_polyhedron
 from modern.papers.kovalevsky_schulz.reconstruction import reconstructed
 

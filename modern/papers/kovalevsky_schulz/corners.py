@@ -58,18 +58,6 @@ def corner_mask(array: Voxels, neighbours: int = 26) -> Voxels:
     return mask
 
 
-def single_voxel_corners(volume: Volume) -> Voxels:
-    """Which corners of voxels bound one voxel only: the paper's other form of the test of 6 neighbours (Fig. 2).
-
-    Every local corner by 6 neighbours is one; the paper holds the converse for true too, but such a corner is no local
-    one where an opposite neighbour belongs to a voxel that does not touch it: (1, 1, 1) of voxels (0, 0, 0) and
-    (1, 1, 2).  The vertices of the hull are among both.
-    """
-    wide = np.pad(volume.array, 1).astype(np.uint8)
-    count = sum(wide[tuple((_FIRST, _REST)[k] for k in corner)] for corner in product((0, 1), repeat=3))
-    return np.asarray(count == 1)
-
-
 def points_of(mask: Voxels, origin: tuple[int, ...]) -> Points:
     """The coordinates of the places of a set, shape (n, 3), in raster order: x fastest, then y, then z."""
     return Volume(mask, origin).coordinates()

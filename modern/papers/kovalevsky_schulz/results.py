@@ -1,4 +1,4 @@
-"""The paper's published results, computed: what ``transcripts/kovalevsky_schulz`` is held against.
+"""The paper's published results, computed: what ``transcripts/kovalevsky_schulz`` is compared with.
 
 The bodies are not defined in the paper; these definitions are the ones that give its numbers.  The ball of diameter 32
 is centred on a voxel, Table 5's half-balls on a corner of voxels; hulls are of voxels' corners; the tables and the 1404
@@ -12,24 +12,28 @@ from decimal import ROUND_HALF_UP, Decimal
 from fractions import Fraction
 
 from modern.digital.solids import ball, half_ball
-from modern.edition.published import PAPERS, Producer, results_of
+from modern.papers import Lines
 from modern.papers.kovalevsky_schulz.cells import CellList
 from modern.papers.kovalevsky_schulz.hull import voxel_hull
 from modern.papers.kovalevsky_schulz.polyhedron import INVISIBLE, convex_polyhedron
-from modern.papers.kovalevsky_schulz.sizes import cell_list_size, cube_triangles, triangulation_size
-from modern.papers.kovalevsky_schulz.tables import edge_rows, face_rows, vertex_rows
+from modern.papers.kovalevsky_schulz.tables import (
+    cell_list_size,
+    cube_triangles,
+    edge_rows,
+    face_rows,
+    triangulation_size,
+    vertex_rows,
+)
 
-PAPER = next(paper for paper in PAPERS if paper.module == __name__)
 TETRAHEDRON = ((0, 0, 0), (0, 1, 0), (1, 0, 0), (0, 0, 1))
 """Four points that stand to each other as those of Fig. 4: point 4 lies behind 1, 2, 3 counterclockwise."""
 
 
-def produced() -> Producer:
+def produced(printed: Lines) -> Lines:
     """The lines of every result that can be computed, by its id."""
     found: dict[str, Sequence[str]] = {}
     found.update(_ball(32))
     found.update(_tetrahedron())
-    printed = {result.id: result.corrected for result in results_of(PAPER)}
     found["formula-5"] = [f"{_decimal(triangulation_size(1), 1)} integers for each triangle"]
     found.update(_future_car(printed["future-car"][0], printed["table4-hull"][0]))
     found.update((name, [_table_5_row(rows[0])]) for name, rows in printed.items() if name.startswith("table5-"))

@@ -10,9 +10,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from modern.papers.nakamae_nishita.faces import line_through, sign
+from modern.drawing.visible import line_through, sign
+from modern.papers.nakamae_nishita.contours import CROSSING, Values
 from modern.papers.nakamae_nishita.projection import Homogeneous
-from modern.papers.nakamae_nishita.tables import CROSSING, Values
 
 Mark = tuple[Fraction, int]
 

@@ -11,7 +11,7 @@ from collections import Counter, defaultdict
 from collections.abc import Sequence
 from fractions import Fraction
 
-from modern.papers.nakamae_nishita.faces import FLAT, line_through
+from modern.drawing.visible import FLAT, line_through
 from modern.papers.nakamae_nishita.projection import Homogeneous
 from modern.papers.nakamae_nishita.solids import Solid
 

@@ -8,16 +8,15 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+from modern.drawing.visible import BACK
 from modern.geometry.mesh import Vector
-from modern.papers.nakamae_nishita.boxes import boxes, overlapping
+from modern.papers.nakamae_nishita.contours import Tables, Values, boxes, overlapping, tables, values
 from modern.papers.nakamae_nishita.crossings import Passage, as_printed, clipped
-from modern.papers.nakamae_nishita.faces import BACK
 from modern.papers.nakamae_nishita.ghosts import Name, Span, ghosts
 from modern.papers.nakamae_nishita.nearness import BY_PLANE, UNDECIDED, by_formulas, by_plane
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron, SceneError
 from modern.papers.nakamae_nishita.projection import Observer
 from modern.papers.nakamae_nishita.solids import Solid, solid
-from modern.papers.nakamae_nishita.tables import Tables, Values, tables, values
 
 ENCLOSED, TOUCHING, ENDS, GHOSTS = "enclosed", "touching", "ends", "ghosts"
 MENDS = (ENCLOSED, TOUCHING, ENDS, GHOSTS)

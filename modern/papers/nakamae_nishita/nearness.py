@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from modern.papers.nakamae_nishita.faces import FLAT, line_through, sign, value
+from modern.drawing.visible import FLAT, line_through, sign, value
+from modern.papers.nakamae_nishita.contours import Tables, Values
 from modern.papers.nakamae_nishita.projection import Homogeneous
 from modern.papers.nakamae_nishita.solids import Plane, Solid, height, plane_through
-from modern.papers.nakamae_nishita.tables import Tables, Values
 
 BY_CROSSING, BY_FACE, BY_PLANE, UNDECIDED = "(4)", "(5)", "plane", "undecided"
 

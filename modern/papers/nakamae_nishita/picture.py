@@ -1,21 +1,52 @@
 """A drawing on paper: SVG of nothing but lines, or HPGL for a plotter.
 
+HPGL is the language of Hewlett-Packard's plotters: pen up, pen down, absolute moves (instructions IN SP LT PU PD).
 What is drawn is straight strokes, each from one end of a visible piece to the other; where parts of objects touch, a
 line that belongs to both may be drawn twice.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 
-from modern.drawing import hpgl, svg
+from modern.drawing import svg
 from modern.drawing.layout import MARGIN, Pixel, fit
-from modern.drawing.marks import HIDDEN, VISIBLE
+from modern.drawing.svg import HIDDEN, VISIBLE
 from modern.drawing.view import Flat
 from modern.papers.nakamae_nishita.hidden import Drawing, Piece
 from modern.papers.nakamae_nishita.polyhedron import SceneError
 from modern.papers.nakamae_nishita.projection import Homogeneous, image
+
+Point = tuple[int, int]
+Stroke = tuple[Point, Point]
+
+PLOT_WIDTH, PLOT_HEIGHT = 10_000, 7_200
+"""Plotter units, of 0.025 mm, that lie within a sheet of A4 on every such plotter."""
+
+SOLID, DASHED = "LT;", "LT2,2;"
+
+
+def plot(groups: Iterable[tuple[str, Iterable[Stroke]]]) -> str:
+    """The text of a plot: each group has a type of line and straight strokes, drawn in the order given.
+
+    The pen stays down where a stroke begins at the end of the one before.
+    """
+    lines = ["IN;", "SP1;"]
+    for kind, strokes in groups:
+        drawn = list(_moves(strokes))
+        lines += [kind, *drawn] if drawn else []
+    return "\n".join((*lines, "PU;", "SP0;")) + "\n"
+
+
+def _moves(strokes: Iterable[Stroke]) -> Iterator[str]:
+    at: Point | None = None
+    for start, end in strokes:
+        if start != at:
+            yield f"PU{start[0]},{start[1]};"
+        yield f"PD{end[0]},{end[1]};"
+        at = end
+
 
 _HIGHEST_SHAPE = Fraction(3, 4)
 _NARROWEST, _WIDEST = 320, 4000
@@ -59,9 +90,9 @@ def as_svg(drawing: Drawing, title: str = "", width: int = 640) -> str:
 
 def as_hpgl(drawing: Drawing) -> str:
     """The text of a plot on a sheet of A4, hidden pieces dashed."""
-    pixel, height = fit(_extent(drawing), hpgl.WIDTH // 10, hpgl.HEIGHT // 10 - 2 * MARGIN)
+    pixel, height = fit(_extent(drawing), PLOT_WIDTH // 10, PLOT_HEIGHT // 10 - 2 * MARGIN)
 
-    def strokes(seen: bool) -> Iterator[hpgl.Stroke]:
+    def strokes(seen: bool) -> Iterator[Stroke]:
         for piece in drawing.pieces:
             if piece.seen == seen:
                 # Hundredths of a pixel are tenths of a plotter unit; a plotter's y axis points upward.
@@ -70,7 +101,7 @@ def as_hpgl(drawing: Drawing) -> str:
                 if start != end:
                     yield start, end
 
-    return hpgl.plot(((hpgl.SOLID, strokes(True)), (hpgl.DASHED, strokes(False))))
+    return plot(((SOLID, strokes(True)), (DASHED, strokes(False))))
 
 
 def _extent(drawing: Drawing) -> list[Flat]:

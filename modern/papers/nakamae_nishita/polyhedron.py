@@ -1,6 +1,7 @@
 """A convex polyhedron as the paper has it (section 2): vertices, and faces by vertex numbers, clockwise from outside.
 
-A plate is a polyhedron without thickness: one polygon as two faces, one for each side.
+A plate is a polyhedron without thickness: one polygon as two faces, one for each side.  Polyhedra come from a
+scene, from an OFF file and from every hull of this project.
 """
 
 from __future__ import annotations
@@ -10,10 +11,14 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from pathlib import PurePath
 
 from emulator.errors import EmulatorError
 from modern.drawing.view import lowest, tuple3
-from modern.geometry.mesh import Vector, area_vector, cross, dot, minus, sides
+from modern.formats.off import OffMesh
+from modern.geometry.hull import Hull
+from modern.geometry.mesh import Vector, area_vector, cross, dot, mesh, minus, sides
+from modern.geometry.numbers import coordinates
 
 
 class SceneError(EmulatorError):
@@ -149,3 +154,29 @@ def denominator(points: Sequence[Vector]) -> int:
 def integers(points: Sequence[Vector], scale: int) -> list[tuple[int, int, int]]:
     """The points times a multiple of their denominator."""
     return [tuple3(number.numerator * (scale // number.denominator) for number in point) for point in points]
+
+
+def polyhedron_of_off(found: OffMesh) -> Polyhedron:
+    """The convex polyhedron of an OFF file, its faces all clockwise or all counterclockwise from outside.
+
+    Raises SceneError where it is not closed or not convex.
+    """
+    if not found.faces:
+        raise SceneError(f"{found.source}: there are no faces, only points")
+    points = tuple(coordinates(point) for point in found.points)
+    return checked(Polyhedron(found.source, points, found.faces))
+
+
+def polyhedron_of_hull(hull: Hull, name: str = "hull") -> Polyhedron:
+    """The polyhedron of a hull; of a polygon a plate.
+
+    Raises ExportError where there is no hull, SceneError for one of less than two dimensions and for one whose faces,
+    in rounded arithmetic, are not plane or not convex.
+    """
+    surface = mesh(hull)
+    if surface.dimension < 2:
+        raise SceneError(f"{name}: a {('point', 'segment')[surface.dimension]} is no polyhedron")
+    faces = tuple(face[::-1] for face in surface.faces)
+    if surface.dimension == 2:
+        faces = (faces[0], surface.faces[0])
+    return checked(Polyhedron(PurePath(name).name, surface.numbers(), faces))

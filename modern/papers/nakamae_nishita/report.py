@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 
-from modern.papers.nakamae_nishita.faces import BACK, CONTOUR, FLAT, INNER, OUTLINE
+from modern.drawing.visible import BACK, CONTOUR, FLAT, INNER, OUTLINE
 from modern.papers.nakamae_nishita.hidden import Drawing, Passages, Relation
 
 _KINDS = (INNER, CONTOUR, OUTLINE, BACK, FLAT)

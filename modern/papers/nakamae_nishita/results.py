@@ -1,19 +1,17 @@
-"""The paper's published results, computed: what ``transcripts/nakamae_nishita_1972`` is held against."""
+"""The paper's published results, computed: what ``transcripts/nakamae_nishita_1972`` is compared with."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from modern.edition.published import PAPERS, Producer
+from modern.drawing.visible import line_through, sign
+from modern.papers import Lines
+from modern.papers.nakamae_nishita.contours import Tables, tables, values
 from modern.papers.nakamae_nishita.crossings import clipped
-from modern.papers.nakamae_nishita.faces import line_through, sign
 from modern.papers.nakamae_nishita.hidden import Drawing, draw
 from modern.papers.nakamae_nishita.projection import Homogeneous, parallel
 from modern.papers.nakamae_nishita.scenes import names, scene
-from modern.papers.nakamae_nishita.tables import Tables, tables, values
-
-PAPER = next(paper for paper in PAPERS if paper.module == __name__)
 
 Place = tuple[int, int]
 _SQUARE: tuple[Place, ...] = ((0, 0), (0, 4), (4, 4), (4, 0))
@@ -21,8 +19,8 @@ _NUMBERS = ("none", "one", "two", "three", "four")
 _OTHER_SIDE = (-34, 37, 41)
 
 
-def produced() -> Producer:
-    """The lines of every result that can be computed, by its id."""
+def produced(_: Lines) -> Lines:
+    """The lines of every result that can be computed, by its id; nothing of the print is needed."""
     found: dict[str, Sequence[str]] = {}
     found.update(_crossing_numbers())
     drawings = {name: drawing(name) for name in names()}

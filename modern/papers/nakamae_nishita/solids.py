@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from modern.drawing import visible
+from modern.drawing.visible import Edge, line_through
 from modern.geometry.mesh import Vector
-from modern.papers.nakamae_nishita import faces
-from modern.papers.nakamae_nishita.faces import Edge, line_through
+from modern.papers.nakamae_nishita.contours import Line
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron
 from modern.papers.nakamae_nishita.projection import Homogeneous, Observer, project
-from modern.papers.nakamae_nishita.tables import Line
 
 Plane = tuple[int, int, int, int]
 Flat = tuple[int, int, int]
@@ -60,17 +60,17 @@ class Solid:
 
 
 FIGURE = "figure"
-_DRAWN = (faces.INNER, faces.CONTOUR)
+_DRAWN = (visible.INNER, visible.CONTOUR)
 
 
 def solid(number: int, polyhedron: Polyhedron, observer: Observer, origin: Vector) -> Solid:
     """Project a polyhedron and search its faces, edges and contour.  Raises SceneError; see ``project``."""
     points = project(polyhedron, observer, origin)
     flat: list[Flat] = [(x, y, w) for x, y, _, w in points]
-    signs = [faces.facing([flat[place] for place in face]) for face in polyhedron.faces]
+    signs = [visible.facing([flat[place] for place in face]) for face in polyhedron.faces]
     planes = [_face_plane([points[place] for place in face]) for face in polyhedron.faces]
-    edges = faces.classify(polyhedron.faces, signs, lambda a, b: same_plane(planes[a], planes[b]))
-    chain = faces.contour(polyhedron.faces, signs)
+    edges = visible.classify(polyhedron.faces, signs, lambda a, b: same_plane(planes[a], planes[b]))
+    chain = visible.contour(polyhedron.faces, signs)
     found = [(edge.start, edge.end, edge.kind, _seen(edge.faces, signs)) for edge in edges if edge.kind in _DRAWN]
     corner = len(polyhedron.vertices)
     for figure in polyhedron.figures:

@@ -14,6 +14,7 @@ from typing import TypeAlias
 from modern.papers.yau_srihari.octree import QUADRANTS, Octree, joined
 
 Place = tuple[int, int]
+Point = tuple[int, int, int]
 
 
 @dataclass(frozen=True, slots=True)

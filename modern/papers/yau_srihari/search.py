@@ -10,10 +10,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from modern.papers.yau_srihari.chains import Point
 from modern.papers.yau_srihari.octree import QUADRANTS
 from modern.papers.yau_srihari.printed import Printed
-from modern.papers.yau_srihari.quadtree import Quadtree, sons_of
+from modern.papers.yau_srihari.quadtree import Point, Quadtree, sons_of
 
 Normal = tuple[int, int, int]
 Bounds = tuple[Fraction | None, Fraction | None]

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import pytest
 
+from modern.edition.published import PAPERS, printed_lines
 from modern.exact_hull import exact_hull
 from modern.papers.appel_will import RULES, MapError, Method, appel_will
 from modern.papers.appel_will.corners import corners, preprocess
@@ -63,7 +64,7 @@ def test_fig_18_signs_hold_for_every_line_of_the_step() -> None:
 
 
 def test_fig_4_has_one_inside_corner_and_loses_its_two_points() -> None:
-    given = printed_solid()
+    given = printed_solid(printed_lines(PAPERS[0]))
     plain = appel_will(given.points, given.surfaces)
     for rule, deleted in (("any", (2, 3)), ("two", ()), ("concave", (2, 3))):
         hull = appel_will(given.points, given.surfaces, Method(inside_corners=rule))
@@ -183,7 +184,7 @@ def test_unknown_rule() -> None:
 
 
 def test_fates_of_the_surfaces_of_fig_4() -> None:
-    given = printed_solid()
+    given = printed_solid(printed_lines(PAPERS[0]))
     hull = appel_will(given.points, given.surfaces)
     found = fates(given.points, given.surfaces, hull.surfaces)
     assert [k for k, other in enumerate(found.of) if other is None] == [0, 1]

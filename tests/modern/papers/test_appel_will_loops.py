@@ -6,11 +6,12 @@ from itertools import product
 
 import pytest
 
-from modern.edition.published import results_of
+from modern.edition.published import PAPERS, results_of
 from modern.papers.appel_will import LITERAL, Method, appel_will
 from modern.papers.appel_will.loops import Rules, find_loops, intersect, surface
-from modern.papers.appel_will.results import PAPER, found_solid
+from modern.papers.appel_will.results import found_solid
 
+PAPER = next(paper for paper in PAPERS if paper.name == "appel-will")
 CUBE = list(product((0, 1), repeat=3))
 FIG_14, FIG_23 = found_solid("fig14").points, found_solid("fig23").points
 

@@ -11,12 +11,23 @@ from pathlib import Path
 import pytest
 
 from modern.edition.apparatus import ApparatusError
-from modern.edition.published import CANNOT, CORRECTED, findings, judge, results_of, text_of
+from modern.edition.published import (
+    CANNOT,
+    CORRECTED,
+    PAPERS,
+    findings,
+    judge,
+    printed_lines,
+    produced_by,
+    results_of,
+    text_of,
+)
 from modern.edition.verdicts import DIFFERENT, EXACT
-from modern.papers.appel_will.results import PAPER, found_solid, printed_solid, produced
+from modern.papers.appel_will.results import found_solid, printed_solid
 
+PAPER = next(paper for paper in PAPERS if paper.name == "appel-will")
 RESULTS = {result.id: result for result in results_of(PAPER)}
-PRODUCED = produced()
+PRODUCED = produced_by(PAPER)
 TEXT = text_of(PAPER)
 FOLDER: Traversable = files("transcripts").joinpath(PAPER.folder)
 
@@ -69,7 +80,7 @@ def test_found_coordinates_are_marked_as_such_and_no_result_uses_others() -> Non
 
 
 def test_fig_4_is_read_from_the_print() -> None:
-    solid = printed_solid()
+    solid = printed_solid(printed_lines(PAPER))
     assert (len(solid.points), len(solid.surfaces)) == (10, 7)
 
 

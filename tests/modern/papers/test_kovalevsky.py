@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
+from numpy.typing import NDArray
 
 from modern.digital.hull import digital_hull
 from modern.digital.volumes import Volume, VolumeError, ball, half_ball
@@ -28,7 +29,7 @@ from modern.papers.kovalevsky_schulz import (
     straightened,
     voxel_hull,
 )
-from modern.papers.kovalevsky_schulz.corners import corner_mask, places, single_voxel_corners
+from modern.papers.kovalevsky_schulz.corners import corner_mask, places
 from modern.papers.kovalevsky_schulz.polyhedron import Planes
 
 PLACES = (CENTRES, VERTICES)
@@ -132,6 +133,19 @@ def test_local_corners_place_by_place(array: np.ndarray, neighbours: int) -> Non
     assert mask.dtype == np.bool_
     for at in np.ndindex(array.shape):
         assert mask[at] == is_corner(array, at, neighbours)
+
+
+def single_voxel_corners(volume: Volume) -> NDArray[np.bool_]:
+    """Which corners of voxels bound one voxel only: the paper's other form of the test of 6 neighbours (Fig. 2).
+
+    Every local corner by 6 neighbours is one; the paper holds the converse for true too, but such a corner is no local
+    one where an opposite neighbour belongs to a voxel that does not touch it: (1, 1, 1) of voxels (0, 0, 0) and
+    (1, 1, 2).  The vertices of the hull are among both.
+    """
+    first, rest = slice(None, -1), slice(1, None)
+    wide = np.pad(volume.array, 1).astype(np.uint8)
+    count = sum(wide[tuple((first, rest)[k] for k in corner)] for corner in product((0, 1), repeat=3))
+    return np.asarray(count == 1)
 
 
 @given(VOLUMES)

@@ -11,11 +11,21 @@ import pytest
 from modern.cli.main import main
 from modern.digital.volumes import half_ball
 from modern.edition.apparatus import build
-from modern.edition.published import CANNOT, CORRECTED, EXPLAINED, findings, judge, results_of, text_of
+from modern.edition.published import (
+    CANNOT,
+    CORRECTED,
+    EXPLAINED,
+    PAPERS,
+    findings,
+    judge,
+    produced_by,
+    results_of,
+    text_of,
+)
 from modern.edition.verdicts import DIFFERENT, EXACT
 from modern.formats import parse_off
-from modern.papers.kovalevsky_schulz.results import PAPER, produced
 
+PAPER = next(paper for paper in PAPERS if paper.name == "kovalevsky-schulz")
 KINDS = {
     **dict.fromkeys(("ball-voxels", "ball-corners-6", "ball-corners-26", "ball-triangles", "ball-faces"), EXACT),
     **dict.fromkeys(("table1", "table2", "table3", "formula-5", "table4-triangulation", "table4-hull"), EXACT),
@@ -34,7 +44,7 @@ def test_every_verdict() -> None:
 @pytest.mark.parametrize("row", [row.id for row in text_of(PAPER).rows])
 def test_without_a_row_of_the_apparatus_a_result_differs(row: str) -> None:
     corrected = {line.id: line.text for line in build(text_of(PAPER), without=(row,))}
-    lines = produced()
+    lines = produced_by(PAPER)
     changed = [
         result.id
         for result in results_of(PAPER)
@@ -46,7 +56,7 @@ def test_without_a_row_of_the_apparatus_a_result_differs(row: str) -> None:
 
 
 def test_a_number_changed_is_found() -> None:
-    lines = produced()
+    lines = produced_by(PAPER)
     for result in results_of(PAPER):
         if KINDS[result.id] in (EXACT, CORRECTED):
             words = lines[result.id][-1].split()
@@ -64,7 +74,7 @@ def test_the_printed_values_are_in_the_print() -> None:
 
 def test_table_5_the_vertices_each_row_implies() -> None:
     """By formula (6) every row but the first has our vertices, that for diameter 12 too."""
-    lines = produced()
+    lines = produced_by(PAPER)
     for result in results_of(PAPER):
         if not result.id.startswith("table5-"):
             continue

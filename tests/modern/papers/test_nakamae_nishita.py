@@ -11,9 +11,9 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from modern.papers.nakamae_nishita.boxes import boxes, overlapping
+from modern.drawing.visible import BACK, CONTOUR, FLAT, INNER, line_through, sign, value
+from modern.papers.nakamae_nishita.contours import boxes, overlapping, values
 from modern.papers.nakamae_nishita.crossings import as_printed, clipped
-from modern.papers.nakamae_nishita.faces import BACK, CONTOUR, FLAT, INNER, line_through, sign, value
 from modern.papers.nakamae_nishita.hidden import ENCLOSED, ENDS, GHOSTS, TOUCHING, Drawing, draw
 from modern.papers.nakamae_nishita.nearness import BY_CROSSING, BY_FACE, BY_PLANE, by_plane
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron, SceneError
@@ -21,7 +21,6 @@ from modern.papers.nakamae_nishita.projection import parallel, perspective
 from modern.papers.nakamae_nishita.scenes import scene
 from modern.papers.nakamae_nishita.shapes import column, cuboid, moved, placed, plate
 from modern.papers.nakamae_nishita.solids import height, solid
-from modern.papers.nakamae_nishita.tables import values
 from tests.support.scenes_at_random import apart, blocks, direction, hull_of, shards, vector
 from tests.support.visibility import Judge, wrong
 
@@ -162,7 +161,8 @@ def test_d_is_minus_4_exactly_where_segments_cross(seed: int) -> None:
     for relation in drawing.relations:
         v, w = drawing.solids[relation.v], drawing.solids[relation.w]
         crossing = set(relation.tables.crossings())
-        assert not relation.tables.separate
+        # Property 1: contours that overlap have a 1 in every column of PL and in every row of LP.
+        assert all(1 in side for side in (*zip(*relation.tables.pl, strict=True), *relation.tables.lp))
         for i, j in itertools.product(range(len(v.contour)), range(len(w.contour))):
             d = relation.tables.crossing_number(i, j)
             assert d in (0, -1, -2, -4)

@@ -7,13 +7,13 @@ from fractions import Fraction
 import pytest
 
 from modern.edition.apparatus import build
-from modern.edition.published import CANNOT, CORRECTED, findings, judge, results_of, text_of
+from modern.edition.published import CANNOT, CORRECTED, PAPERS, findings, judge, produced_by, results_of, text_of
 from modern.edition.verdicts import DIFFERENT, EXACT
 from modern.papers.nakamae_nishita.hidden import draw
 from modern.papers.nakamae_nishita.projection import parallel
-from modern.papers.nakamae_nishita.results import PAPER, produced
 from modern.papers.nakamae_nishita.shapes import column, moved, placed, plate, round_base
 
+PAPER = next(paper for paper in PAPERS if paper.name == "nakamae-nishita")
 KINDS = {
     **dict.fromkeys(("d-crossing", "d-on-segment", "d-on-vertex", "d-apart", "intersections"), EXACT),
     "sense": CORRECTED,
@@ -31,12 +31,12 @@ def test_without_a_row_of_the_apparatus_a_result_differs(row: str) -> None:
     without = {line.id: line.text.split() for line in build(text_of(PAPER), without=(row,))}
     touched = next(found for found in text_of(PAPER).rows if found.id == row)
     printed = [without[change.line] for change in touched.changes]
-    lines = [line.split() for result in produced().values() for line in result]
+    lines = [line.split() for result in produced_by(PAPER).values() for line in result]
     assert not any(line in lines for line in printed)
 
 
 def test_another_number_would_be_found() -> None:
-    lines = produced()
+    lines = produced_by(PAPER)
     for result in results_of(PAPER):
         if KINDS[result.id] in (EXACT, CORRECTED):
             assert judge(PAPER, result, [lines[result.id][0] + "1"]).kind == DIFFERENT

@@ -15,16 +15,20 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from modern.cli.main import main
-from modern.drawing import hpgl
 from modern.formats.off import parse_off
 from modern.geometry.mesh import Vector
 from modern.papers.nakamae_nishita.hidden import draw
-from modern.papers.nakamae_nishita.picture import as_hpgl, as_svg, ends
-from modern.papers.nakamae_nishita.polyhedron import Polyhedron, SceneError, checked
+from modern.papers.nakamae_nishita.picture import DASHED, PLOT_HEIGHT, PLOT_WIDTH, SOLID, as_hpgl, as_svg, ends, plot
+from modern.papers.nakamae_nishita.polyhedron import (
+    Polyhedron,
+    SceneError,
+    checked,
+    polyhedron_of_hull,
+    polyhedron_of_off,
+)
 from modern.papers.nakamae_nishita.projection import image, parallel
 from modern.papers.nakamae_nishita.scenes import names, parse, scene
 from modern.papers.nakamae_nishita.shapes import column, cuboid, parallelepiped, plate, rotation, round_base
-from modern.papers.nakamae_nishita.sources import polyhedron_of_hull, polyhedron_of_off
 from modern.port import convex_hull
 from tests.support.paths import ROOT
 
@@ -332,10 +336,10 @@ def test_the_plot_is_on_the_sheet_and_ends_with_the_pen_up() -> None:
     text = as_hpgl(drawing)
     assert text.startswith("IN;\nSP1;\nLT;\n")
     assert text.endswith("PU;\nSP0;\n")
-    assert text.count(hpgl.DASHED) == 1
+    assert text.count(DASHED) == 1
     places = [place for stroke in strokes(text) for place in stroke]
-    assert all(0 <= x <= hpgl.WIDTH and 0 <= y <= hpgl.HEIGHT for x, y in places)
-    assert hpgl.plot([(hpgl.SOLID, [((0, 0), (1, 0)), ((1, 0), (1, 1))])]).count("PU") == 2
+    assert all(0 <= x <= PLOT_WIDTH and 0 <= y <= PLOT_HEIGHT for x, y in places)
+    assert plot([(SOLID, [((0, 0), (1, 0)), ((1, 0), (1, 1))])]).count("PU") == 2
 
 
 # --- the command

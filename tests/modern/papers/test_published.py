@@ -12,7 +12,18 @@ import pytest
 
 from modern.cli.main import main
 from modern.edition.apparatus import ApparatusError
-from modern.edition.published import CANNOT, CORRECTED, EXPLAINED, PAPERS, Paper, Published, findings, judge, results_of
+from modern.edition.published import (
+    CANNOT,
+    CORRECTED,
+    EXPLAINED,
+    PAPERS,
+    Paper,
+    Published,
+    findings,
+    judge,
+    produced_by,
+    results_of,
+)
 from modern.edition.verdicts import DIFFERENT, EXACT
 
 PAPER = PAPERS[0]
@@ -82,9 +93,9 @@ def test_a_result_that_does_not_come_out_is_an_exit_code(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     module = import_module(PAPER.module)
-    lines = dict(module.produced())
+    lines = dict(produced_by(PAPER))
     lines["fig14"] = ["1 1 3", *lines["fig14"][1:]]
-    monkeypatch.setattr(module, "produced", lambda: lines)
+    monkeypatch.setattr(module, "produced", lambda printed: lines)
     assert main(["reproduce", PAPER.name]) == 1
     out = capsys.readouterr().out
     assert "Fig. 14: different" in out

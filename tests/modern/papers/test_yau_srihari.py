@@ -12,14 +12,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from modern.digital.chain import lower_chain
 from modern.digital.hull import digital_hull
+from modern.digital.intervals import lower_chain
 from modern.digital.volumes import Volume, VolumeError, ball
 from modern.exact_hull import exact_hull
 from modern.papers.kovalevsky_schulz import CENTRES, Flat, convex_polyhedron, local_corners, reconstructed
 from modern.papers.yau_srihari import OctreeHull, Printed, octree_hull
-from modern.papers.yau_srihari.connectivity import components
 from modern.papers.yau_srihari.envelope import Envelope
+from modern.papers.yau_srihari.hull import components
 from modern.papers.yau_srihari.printed import LITERAL, NAMES
 from tests.support.digital_judge import judged, random_solid, solid_of
 

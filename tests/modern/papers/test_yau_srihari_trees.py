@@ -13,9 +13,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from modern.digital.chain import lower_chain
+from modern.digital.intervals import lower_chain
 from modern.papers.yau_srihari import Printed, octree_hull
-from modern.papers.yau_srihari.chains import outline, reduced
+from modern.papers.yau_srihari.envelope import outline, reduced_tree
 from modern.papers.yau_srihari.octree import QUADRANTS, count, intersection, nodes, octree, side_for, voxels_of
 from modern.papers.yau_srihari.quadtree import (
     Leaf,
@@ -181,7 +181,7 @@ def broken(array: Any, printed: Printed) -> tuple[int, int, int]:
     hull = octree_hull(array)
     cube = np.zeros((hull.side,) * 3, dtype=np.bool_)
     cube[tuple(slice(length) for length in array.shape)] = array
-    tree = reduced(floor(octree(cube), hull.side), hull.side)
+    tree = reduced_tree(floor(octree(cube), hull.side), hull.side)
     seen = least_broken = most_broken = 0
     for step in hull.lower.steps:
         search = Search(*step.edge, step.normal, printed)
@@ -233,6 +233,6 @@ def test_the_search_does_not_look_everywhere() -> None:
     source = np.random.default_rng(5)
     array = source.random((32, 32, 32)) < 0.02
     hull = octree_hull(array)
-    whole = sum(1 for _ in squares(reduced(floor(octree(array), 32), 32), 32))
+    whole = sum(1 for _ in squares(reduced_tree(floor(octree(array), 32), 32), 32))
     visited = [step.visited for step in hull.lower.steps]
     assert sum(visited) < len(visited) * whole / 2
