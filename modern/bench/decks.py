@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from emulator.compiled.batch import run_batch
 from emulator.language.cards import Deck, deck_from_lines
 from emulator.machine.result import Options
-from modern.edition import decks
+from modern.edition import programs
 from modern.formats.csv import e_field, parse_decimal
 
 PROGRAM, LAYERS = "program3", ("corrected",)
@@ -38,5 +38,5 @@ def data_deck(points: Sequence[Point]) -> Deck:
 
 def middle_texts(sets: Sequence[Sequence[Point]]) -> list[str]:
     """The decks program 1 punches of the sets, as texts."""
-    results = run_batch(decks.program("program1"), [data_deck(points) for points in sets])
+    results = run_batch(programs.program("program1"), [data_deck(points) for points in sets])
     return ["".join(card + "\n" for card in result.punched) for result in results]

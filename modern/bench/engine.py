@@ -9,7 +9,7 @@ from emulator.machine.machine import Machine
 from modern.bench.clock import timed
 from modern.bench.decks import POINTS, data_deck, random_points
 from modern.bench.measure import lines, measure
-from modern.edition import decks
+from modern.edition import programs
 
 DECKS = 1_000
 
@@ -17,8 +17,8 @@ DECKS = 1_000
 def figures(count: int = DECKS) -> Iterator[str]:
     """Every figure, as lines of text."""
     deck = data_deck(random_points(POINTS, 1))
-    middle = deck_from_lines("middle", Machine(decks.program("program1"), deck).run().punched)
-    program = decks.program("program3")
+    middle = deck_from_lines("middle", Machine(programs.program("program1"), deck).run().punched)
+    program = programs.program("program3")
     result = Machine(program, middle).run()
     name = f"program 3, {POINTS} points, {result.statements} statements, plain engine"
     figure = timed(name, lambda: Machine(program, middle).run(), "bar 1.5 s")

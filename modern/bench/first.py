@@ -6,12 +6,12 @@ import sys
 
 from emulator.compiled.batch import punched
 from modern.bench.decks import LAYERS, OPTIONS, PROGRAM
-from modern.edition import decks
+from modern.edition import programs
 
 
 def main() -> None:
     """Put out what program 3 punches."""
-    sys.stdout.writelines(punched(decks.program(PROGRAM, LAYERS), [sys.stdin.read()], OPTIONS))
+    sys.stdout.writelines(punched(programs.program(PROGRAM, LAYERS), [sys.stdin.read()], OPTIONS))
 
 
 if __name__ == "__main__":

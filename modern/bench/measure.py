@@ -21,7 +21,7 @@ from modern.bench import native
 from modern.bench.agreement import Agreement, compared, data_sets
 from modern.bench.decks import LAYERS, OPTIONS, POINTS, PROGRAM, SEED, middle_texts, random_points
 from modern.bench.timing import Figure, side_by_side, timed, timed_once
-from modern.edition import decks
+from modern.edition import programs
 from modern.port import convex_hull
 
 PLAIN_SHARE, PORT_SHARE = 50, 5
@@ -63,7 +63,7 @@ class Bench:
 
 def measure(count: int, say: Say = lambda line: None) -> Bench:
     """Measure with ``count`` decks; ``say`` is told what is going on."""
-    program = decks.program(PROGRAM, LAYERS)
+    program = programs.program(PROGRAM, LAYERS)
     say(f"making {count} decks of {POINTS} points")
     sets = [random_points(POINTS, SEED + n) for n in range(count)]
     texts = middle_texts(sets)
@@ -80,7 +80,7 @@ def measure(count: int, say: Say = lambda line: None) -> Bench:
         version = ""
         try:
             found = native.compiler()
-            made = native.built(decks.deck(PROGRAM, LAYERS), found, folder)
+            made = native.built(programs.deck(PROGRAM, LAYERS), found, folder)
             cards, taken = folder / "cards", folder / "punched"
             cards.write_text("".join(texts), encoding="ascii")
             native.run(made, cards, taken)

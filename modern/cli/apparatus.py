@@ -10,11 +10,11 @@ from collections.abc import Iterator
 
 from emulator.errors import DeckError
 from modern.cli.exits import DIFFERS, OK
-from modern.edition import decks
+from modern.edition import programs
 from modern.edition.apparatus import Row
+from modern.edition.chapter6_cards import device_files, load_chapter
 from modern.edition.chapter6_checks import check_chapter
-from modern.edition.grounds import Finding, check_decks, check_row
-from modern.edition.transcripts import device_files, load_chapter
+from modern.edition.grounds import Proof, check_decks, check_row
 
 
 def main(args: argparse.Namespace) -> int:
@@ -26,31 +26,35 @@ def main(args: argparse.Namespace) -> int:
             print("\n".join(show(row, width)))
         print(f"{len(rows)} rows")
         return OK
-    findings = list(check_decks())
-    for finding in findings:
-        print(finding.line())
+    proofs = list(check_decks())
+    for proof in proofs:
+        print(_line(proof))
     for number, row in enumerate(rows, 1):
         if sys.stderr.isatty():
             print(f"\r{number} of {len(rows)}", end="", file=sys.stderr, flush=True)
-        findings.append(check_row(row))
-        print(findings[-1].line())
+        proofs.append(check_row(row))
+        print(_line(proofs[-1]))
     if sys.stderr.isatty():
         print("\r", end="", file=sys.stderr)
     if args.program is None and args.layer is None:
-        findings.append(check_transcripts())
-        print(findings[-1].line())
-    failed = sum(not finding.holds for finding in findings)
-    print(f"{len(findings) - failed} of {len(findings)} hold" + (f"; {failed} FAIL" if failed else ""))
+        proofs.append(check_transcripts())
+        print(_line(proofs[-1]))
+    failed = sum(not proof.holds for proof in proofs)
+    print(f"{len(proofs) - failed} of {len(proofs)} hold" + (f"; {failed} FAIL" if failed else ""))
     return DIFFERS if failed else OK
 
 
-def check_transcripts() -> Finding:
+def check_transcripts() -> Proof:
     """Whether chapter 6's cards are its witness, rows and layout, and each of its rows is needed."""
     chapter = load_chapter()
     faults = check_chapter(chapter)
     files, rows = len(device_files(chapter)), len(chapter.text.rows)
     words = f"{files} device files are witness, {rows} rows and layout, each row needed"
-    return Finding("chapter6", not faults, words if not faults else faults[0])
+    return Proof("chapter6", not faults, words if not faults else faults[0])
+
+
+def _line(proof: Proof) -> str:
+    return f"{'holds' if proof.holds else 'FAILS'}  {proof.subject:<18} {proof.words}"
 
 
 def show(row: Row, width: int) -> Iterator[str]:
@@ -72,15 +76,15 @@ def _folded(name: str, text: str, width: int) -> list[str]:
 
 
 def _rows(args: argparse.Namespace) -> list[Row]:
-    names: tuple[str, ...] = decks.TEXTS
+    names: tuple[str, ...] = programs.TEXTS
     if args.program is not None:
         number = args.program.removeprefix("program")
         if number not in ("1", "2", "3"):
             raise DeckError(f"--program: {args.program!r} is not 1, 2 or 3")
         names = (f"program{number}",)
-    rows = [row for name in names for row in decks.text(name).rows]
+    rows = [row for name in names for row in programs.text(name).rows]
     if args.layer is not None:
-        known = decks.text("program1").layers
+        known = programs.text("program1").layers
         if args.layer not in known:
             raise DeckError(f"--layer: there is no layer {args.layer!r}; there are {', '.join(known)}")
         rows = [row for row in rows if row.layer == args.layer]

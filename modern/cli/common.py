@@ -20,7 +20,7 @@ from emulator.numbers import DecimalNumbers, Numbers, numbers
 from emulator.numbers.arithmetic import TRUNCATING, Rules
 from emulator.numbers.base import cutting_rules
 from emulator.numbers.fields import FALLBACK
-from modern.edition import decks
+from modern.edition import programs
 
 
 def layers_of(args: argparse.Namespace) -> tuple[str, ...]:
@@ -33,17 +33,17 @@ def source_deck(name: str, layers: tuple[str, ...]) -> Deck:
 
     Raises DeckError for layers with a file: only the built-in programs have an apparatus.
     """
-    if name in decks.NAMES:
-        return decks.deck(name, layers)
+    if name in programs.NAMES:
+        return programs.deck(name, layers)
     if layers:
-        raise DeckError(f"{name}: --layers is for the built-in programs: {', '.join(decks.NAMES)}")
+        raise DeckError(f"{name}: --layers is for the built-in programs: {', '.join(programs.NAMES)}")
     return read_deck(name)
 
 
 def load_program(name: str, layers: tuple[str, ...]) -> Program:
     """A program compiled: a built-in by name, else a file."""
-    if name in decks.NAMES:
-        return decks.program(name, layers)
+    if name in programs.NAMES:
+        return programs.program(name, layers)
     return compile_deck(source_deck(name, layers))
 
 

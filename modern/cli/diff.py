@@ -15,7 +15,7 @@ from modern.cli.common import layers_of, say
 from modern.cli.exits import DIFFERS, OK
 from modern.comparison.difference import Disagreement, against
 from modern.comparison.outcome import Outcome, Vector, from_cards, from_hull, from_judge
-from modern.edition import decks
+from modern.edition import programs
 from modern.exact_hull import exact_hull
 from modern.formats.csv import e_field, parse_decimal
 from modern.formats.points import Input, read_input
@@ -55,7 +55,7 @@ def _routes(args: argparse.Namespace, found: Input, points: list[Vector]) -> Ite
             yield Outcome(name, "not run: the cards take an absolute e", -1)
             continue
         data = _with_epsilon(deck, args.epsilon) if "epsilon" in chosen else deck
-        run = run_hull(data, decks.loader(chosen), Options(limit=_LIMIT, core=60000 if chosen else 40000))
+        run = run_hull(data, programs.loader(chosen), Options(limit=_LIMIT, core=60000 if chosen else 40000))
         yield from_cards(name, run, points)
     for arithmetic in ("float64", "exact"):
         hull = convex_hull(found.points, arithmetic, epsilon=args.epsilon)

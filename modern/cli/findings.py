@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from modern.edition.published import CANNOT, CORRECTED, EXPLAINED, Finding, Paper
-from modern.edition.verdicts import DIFFERENT, EXACT, ORDER
+from modern.edition.reproduce import DIFFERENT, EXACT, ORDER
 
 _PAINTED_AS = {EXACT: EXACT, CORRECTED: EXACT, EXPLAINED: ORDER, CANNOT: "", DIFFERENT: DIFFERENT}
 _MOST_DIFFERENCES = 4

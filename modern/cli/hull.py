@@ -11,7 +11,7 @@ from emulator.machine.machine import Machine
 from modern.cli.common import card_rules, check_places, layers_of, machine_options, put_out, say, say_warnings, tracing
 from modern.cli.exits import DIFFERS, OK
 from modern.cli.profile import profile_lines
-from modern.edition import decks
+from modern.edition import programs
 from modern.thesis import deck as hulldeck
 from modern.thesis.job import HullRun, run_hull
 
@@ -23,7 +23,7 @@ def main(args: argparse.Namespace) -> int:
     layers = layers_of(args)
     first = "program1_examples" if args.programs == "examples" else "program1"
     checked = hulldeck.check(read_deck(args.deck), card_rules(options), epsilon="epsilon" in layers)
-    load = decks.loader(layers)
+    load = programs.loader(layers)
     load(first)
     runs: list[HullRun] = []
     with tracing(args.trace) as tracer:

@@ -16,13 +16,13 @@ from emulator.errors import DeckError
 from emulator.files import write_text
 from modern.cli.common import check_places
 from modern.cli.exits import DIFFERS, OK
-from modern.edition.printed import EXAMPLES, THEOREMS
+from modern.edition.chapter4 import THEOREMS
+from modern.edition.chapter6 import EXAMPLES
 from modern.edition.published import PAPERS, Finding, findings
-from modern.edition.reproduce import Report, reproduce, summary
-from modern.edition.verdicts import DIFFERENT, EXACT, ORDER, SPACING
+from modern.edition.reproduce import DIFFERENT, EXACT, ORDER, SPACING, Report, reproduce, summary
 
 if TYPE_CHECKING:
-    from modern.edition.theorem_claims import Claim
+    from modern.edition.chapter4_claims import Claim
 
 
 _STATES = {"examples": "as the examples were run (program1_examples.f)", "listing": "as listed (program1.f)"}
@@ -88,7 +88,7 @@ def _papers(names: Sequence[str], colour: bool, width: int, out: TextIO) -> Iter
 def _claims(names: Sequence[str]) -> list[Claim]:
     if not names:
         return []
-    from modern.edition.theorem_claims import all_claims  # imported late: it brings the exact hull along
+    from modern.edition.chapter4_claims import all_claims  # imported late: it brings the exact hull along
 
     return list(all_claims(names))
 

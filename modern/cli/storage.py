@@ -10,7 +10,7 @@ from emulator.language.objectcode import Program
 from emulator.language.storage import FIELD, core_address
 from modern.cli.common import layers_of, load_program
 from modern.cli.exits import OK
-from modern.edition import decks
+from modern.edition import programs
 from modern.thesis.capacity import capacity_lines
 
 _PLURALS = {"constant": "constants", "temporary": "temporaries", "statement number": "statement numbers"}
@@ -21,7 +21,7 @@ def main(args: argparse.Namespace) -> int:
     program = load_program(args.program, layers_of(args))
     for line in map_lines(program, args.core):
         print(line)
-    if args.program in decks.NAMES:
+    if args.program in programs.NAMES:
         for line in capacity_lines(program, args.core):
             print(line)
     return OK

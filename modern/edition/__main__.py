@@ -9,10 +9,9 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from modern.edition.chapter6 import LayoutError, chapter6_folder
+from modern.edition.chapter6_cards import load_chapter, write_files
 from modern.edition.chapter6_checks import check_chapter
-from modern.edition.chapter6_layout import LayoutError
-from modern.edition.printed import chapter6_folder
-from modern.edition.transcripts import load_chapter, write_files
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

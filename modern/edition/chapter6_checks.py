@@ -11,13 +11,23 @@
 from __future__ import annotations
 
 import hashlib
+import re
 import tomllib
 from collections.abc import Sequence
 from decimal import Decimal
 from importlib.resources.abc import Traversable
 
+from emulator.language.formats import FormatError, Literal, Slash, parse_format
+from emulator.language.tree import Format, Place
 from modern.edition.apparatus import PAGE_MARK
-from modern.edition.chapter6_formats import FormatTextError, records
+from modern.edition.chapter6 import CardShape, DeviceLayout, Field, Role, chapter6_folder
+from modern.edition.chapter6_cards import (
+    Chapter,
+    built_files,
+    cards,
+    device_files,
+    printed_lines,
+)
 from modern.edition.chapter6_grounds import (
     incidences,
     numbers,
@@ -27,15 +37,6 @@ from modern.edition.chapter6_grounds import (
     row_faults,
     solid,
     vertices,
-)
-from modern.edition.chapter6_layout import CardShape, DeviceLayout
-from modern.edition.printed import chapter6_folder
-from modern.edition.transcripts import (
-    Chapter,
-    built_files,
-    cards,
-    device_files,
-    printed_lines,
 )
 
 Point = tuple[Decimal, ...]
@@ -98,17 +99,18 @@ def check_layout(chapter: Chapter) -> tuple[str, ...]:
     for shape in chapter.layout.cards:
         try:
             given = records(texts[shape.program, shape.format], shape.values)
-        except (KeyError, FormatTextError) as error:
+        except KeyError:
+            faults.append(f"card {shape.id}: the layout has no FORMAT {shape.format} of program {shape.program}")
+            continue
+        except FormatError as error:
             faults.append(f"card {shape.id}: {error}")
             continue
         sizes[shape.program, shape.format, shape.values] = len(given)
         wanted = given[shape.record - 1] if 0 < shape.record <= len(given) else None
-        if wanted is None or [(f.first, f.last, bool(f.words)) for f in wanted] != [
-            (f.first, f.last, f.word) for f in shape.fields
-        ]:
+        if wanted is None or tuple(field for field, _ in wanted) != shape.fields:
             faults.append(f"card {shape.id}: its columns are not those of FORMAT {shape.format}")
             continue
-        words[shape.id] = [f.words for f in wanted]
+        words[shape.id] = [text for _, text in wanted]
     for entry in chapter.layout.devices:
         faults += _whole_formats(entry, sizes)
         for card in cards(chapter, entry.example, entry.program, entry.device):
@@ -116,6 +118,33 @@ def check_layout(chapter: Chapter) -> tuple[str, ...]:
                 if word and token.text != word:
                     faults.append(f"{entry.file}: line {token.line} prints {token.text}, the FORMAT {word}")
     return tuple(faults)
+
+
+def records(text: str, values: int) -> tuple[tuple[tuple[Field, str], ...], ...]:
+    """The cards that ``values`` numbers give under FORMAT ``text``, in one scan: its fields, a literal's word by word.
+
+    A field's text is empty for a number; a card without fields is blank.  Raises FormatError for a FORMAT that does
+    not parse or leaves numbers over.
+    """
+    spec, _ = parse_format(Format(text, tuple(Place(1, column) for column in range(1, len(text) + 1))))
+    given: list[list[tuple[Field, str]]] = [[]]
+    column, left = 1, values
+    for item in spec.specs:
+        if isinstance(item, Slash):
+            given.append([])
+            column = 1
+        elif isinstance(item, Literal):
+            found = re.finditer(r"\S+", item.text)
+            given[-1] += [(Field(column + w.start(), column + w.end() - 1, True), w[0]) for w in found]
+            column += len(item.text)
+        elif left:
+            given[-1].append((Field(column, column + item.width - 1, False), ""))
+            column, left = column + item.width, left - 1
+        else:  # unused numeric groups at the end are dropped, a literal before them is punched
+            break
+    if left:
+        raise FormatError(Place(1, len(text)), f"{left} of {values} numbers are left over")
+    return tuple(map(tuple, given))
 
 
 def _whole_formats(entry: DeviceLayout, sizes: dict[tuple[int, int, int], int]) -> list[str]:
@@ -158,7 +187,7 @@ def check_arithmetic(chapter: Chapter) -> tuple[str, ...]:
 
 
 def _points(chapter: Chapter, example: int, program: int) -> list[Point]:
-    roles = ("point", "inside", "boundary", "vertex", "endpoint")
+    roles: tuple[Role, ...] = ("point", "inside", "boundary", "vertex", "endpoint")
     found = [numbers(card) for role in roles for card in of_role(chapter, example, program, role)]
     if program == 1 and of_role(chapter, example, 1, "carrier"):
         return [(x, y, z) for x, z, y in found]  # KPROJ = 2: the deck for program 2 has y last (listing 1, label 213)

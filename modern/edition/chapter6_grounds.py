@@ -24,8 +24,8 @@ from decimal import Decimal
 from typing import Any
 
 from modern.edition.apparatus import ApparatusError, Line, Row, build, rows_needing
-from modern.edition.chapter6_layout import Layout
-from modern.edition.transcripts import E14, Card, Chapter, TranscriptError, cards, printed_lines, rebuilt
+from modern.edition.chapter6 import Device, Layout, Role
+from modern.edition.chapter6_cards import E14, Card, Chapter, TranscriptError, cards, printed_lines, rebuilt
 
 _SIGNED = re.compile(r"[+-]\.\d{8}E[+-]\d\d")
 _STRAY = re.compile(r"\d{4}|\.\d|\d\.|(?<!\S)[.,]|[+-]\s*\d|[^A-Z0-9+\-=.,\s]")
@@ -101,7 +101,7 @@ def integers(card: Card) -> tuple[int, ...]:
     return tuple(int(t.text) for t in card.tokens if t.text.isdigit())
 
 
-def of_role(chapter: Chapter, example: int, program: int, role: str, device: str = "punch") -> tuple[Card, ...]:
+def of_role(chapter: Chapter, example: int, program: int, role: Role, device: Device = "punch") -> tuple[Card, ...]:
     """The cards of one role, in their order on the device file."""
     return tuple(card for card in cards(chapter, example, program, device) if card.role == role)
 
@@ -128,7 +128,8 @@ def _count(chapter: Chapter, row: Row, value: Decimal) -> int:
 
 def vertices(chapter: Chapter, example: int, program: int) -> tuple[tuple[Decimal, ...], ...]:
     """The points that the planes of a program's output are numbered by: vertices, endpoints, or first four points."""
-    for role in ("vertex", "endpoint", "point"):
+    roles: tuple[Role, ...] = ("vertex", "endpoint", "point")
+    for role in roles:
         if found := of_role(chapter, example, program, role):
             return tuple(numbers(card) for card in found[: 4 if role == "point" else None])
     raise TranscriptError(f"example {example}, program {program} prints no points")

@@ -21,10 +21,9 @@ from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import Program
 from emulator.language.statements import sources
 from emulator.machine.result import Options
-from modern.edition import decks, printed
+from modern.edition import chapter6, programs
 from modern.edition.apparatus import ApparatusError, Row, rows_needing
-from modern.edition.reproduce import reproduce
-from modern.edition.verdicts import EXACT
+from modern.edition.reproduce import EXACT, State, reproduce
 from modern.thesis.job import run_hull
 
 LISTED = Options(limit=200_000)
@@ -33,43 +32,40 @@ LAYERED = Options(limit=1_000_000, core=60_000)
 
 
 @dataclass(frozen=True, slots=True)
-class Finding:
-    """What a check found: the row or deck, whether it holds, and in words what was seen."""
+class Proof:
+    """What a check gave: the row or deck, whether it holds, and in words what was seen."""
 
     subject: str
     holds: bool
     words: str
 
-    def line(self) -> str:
-        return f"{'holds' if self.holds else 'FAILS'}  {self.subject:<18} {self.words}"
 
-
-def check_decks() -> Iterator[Finding]:
+def check_decks() -> Iterator[Proof]:
     """Whether witness and rows build each committed deck, character by character."""
-    for entry in decks.BUILT_INS:
-        built, committed = decks.built(entry.name), decks.committed(entry.name)
+    for entry in programs.BUILT_INS:
+        built, committed = programs.built(entry.name), programs.committed(entry.name)
         same = built.text() == committed.text()
-        rows = sum(row.layer in entry.layers for row in decks.text(entry.text).rows)
-        yield Finding(
+        rows = sum(row.layer in entry.layers for row in programs.text(entry.text).rows)
+        yield Proof(
             f"{entry.name}.f",
             same,
             f"{len(built.cards)} cards {'are' if same else 'ARE NOT'} witness and {rows} rows",
         )
 
 
-def check_row(row: Row) -> Finding:
+def check_row(row: Row) -> Proof:
     """Whether a row's ground holds."""
     kind = str(row.ground.get("kind", ""))
     test = {"parse": _parse, "print": _print, "deck": _deck, "forced": _forced, "cosmetic": _cosmetic}.get(kind)
     if test is None:
-        return Finding(row.id, False, f"names no ground (it says {kind!r})")
+        return Proof(row.id, False, f"names no ground (it says {kind!r})")
     holds, words = test(row)
-    return Finding(row.id, holds, f"{kind}: {words}")
+    return Proof(row.id, holds, f"{kind}: {words}")
 
 
 def without(row: Row) -> frozenset[str]:
     """The row and those that cannot stand without it."""
-    return frozenset({row.id, *rows_needing(decks.text(row.text), row.id)})
+    return frozenset({row.id, *rows_needing(programs.text(row.text), row.id)})
 
 
 def _name(row: Row) -> str:
@@ -79,13 +75,13 @@ def _name(row: Row) -> str:
 
 def layers_for(row: Row) -> tuple[str, ...]:
     """The layers switched on to judge a row: none for one of the committed decks, else its own and those it names."""
-    if row.layer in decks.built_in(_name(row)).layers:
+    if row.layer in programs.built_in(_name(row)).layers:
         return ()
     return (row.layer, *(str(layer) for layer in row.ground.get("layers", ())))
 
 
 def _built(row: Row, left_out: Collection[str] = ()) -> Deck:
-    return decks.built(_name(row), layers_for(row), left_out)
+    return programs.built(_name(row), layers_for(row), left_out)
 
 
 def _compiled(row: Row, left_out: Collection[str]) -> tuple[Program | None, str]:
@@ -117,10 +113,10 @@ def _cosmetic(row: Row) -> tuple[bool, str]:
 
 def _print(row: Row) -> tuple[bool, str]:
     name = _name(row)
+    number = programs.built_in(name).number
+    state: State = "listing" if name == "program1" else "examples"
     seen = []
     for example in row.ground.get("examples", ()):
-        state = ("examples", "program1_examples") if name != "program1" else ("listing", "program1")
-        number = int(name[7])
         with_row = _exact(example, state, number, {})
         program, message = _compiled(row, without(row))
         if program is None:
@@ -135,9 +131,9 @@ def _print(row: Row) -> tuple[bool, str]:
     return True, f"example {', '.join(seen)} is exact with it, not without"
 
 
-def _exact(example: int, state: tuple[str, str], number: int, instead: dict[str, Program]) -> bool:
+def _exact(example: int, state: State, number: int, instead: dict[str, Program]) -> bool:
     def load(name: str) -> Program:
-        return instead.get(name) or decks.program(name)
+        return instead.get(name) or programs.program(name)
 
     reports = [r for r in reproduce((example,), load, states=(state,)) if r.program == number and r.device == "punch"]
     return bool(reports) and all(report.verdict.kind == EXACT for report in reports)
@@ -165,8 +161,8 @@ def ground_deck(name: str) -> Deck | None:
     """A deck a row names: an example's input data, or one of those made for the purpose."""
     match = re.fullmatch(r"example([1-6])", name)
     if match:
-        return printed.input_deck(int(match[1]))
-    entry = decks.sources().joinpath("grounds", f"{name}.deck")
+        return chapter6.input_deck(int(match[1]))
+    entry = programs.sources().joinpath("grounds", f"{name}.deck")
     return deck_from_text(entry.name, entry.read_text(encoding="ascii")) if entry.is_file() else None
 
 
@@ -176,7 +172,7 @@ def _outcome(row: Row, program: Program, deck: Deck) -> tuple[tuple[str, ...], s
     first = "program1_examples" if name == "program1_examples" else "program1"
 
     def load(wanted: str) -> Program:
-        return program if wanted == name else decks.with_layers(wanted, layers)
+        return program if wanted == name else programs.with_layers(wanted, layers)
 
     try:
         steps = run_hull(deck, load, LAYERED if layers else LISTED, first).steps

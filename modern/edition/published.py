@@ -14,14 +14,16 @@ from dataclasses import dataclass
 from importlib import import_module
 from importlib.resources import files
 from importlib.resources.abc import Traversable
+from typing import Final, Literal
 
 from modern.edition.apparatus import ApparatusError, Line, Row, Text, build, load
-from modern.edition.verdicts import DIFFERENT, EXACT
+from modern.edition.reproduce import DIFFERENT, EXACT
 from modern.papers import Lines
 
-CORRECTED = "as corrected"
-EXPLAINED = "differs, explained"
-CANNOT = "not reproducible"
+CORRECTED: Final = "as corrected"
+EXPLAINED: Final = "differs, explained"
+CANNOT: Final = "not reproducible"
+Kind = Literal["exact", "as corrected", "differs, explained", "not reproducible", "different"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +86,7 @@ class Finding:
 
     paper: str
     result: Published
-    kind: str
+    kind: Kind
     produced: tuple[str, ...] = ()
 
     @property
@@ -147,6 +149,7 @@ def judge(paper: Paper, result: Published, produced: Sequence[str]) -> Finding:
     the data say.
     """
     same = [line.split() for line in produced] == [line.split() for line in result.corrected]
+    kind: Kind
     if result.cannot:
         kind = DIFFERENT if produced else CANNOT
     elif result.differs:

@@ -3,53 +3,94 @@
 Each example runs twice: through program 1 in the state that produced the examples, and through program 1 as
 listed, which chapter 5 prints and which chooses its first points in another way.  Programs 2 and 3 follow on
 the cards just punched.
+
+What the print proves - numbers, signs, order, words - is kept apart from what it cannot: blank cards and
+columns, which the OCR lost and the FORMATs supply.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from importlib.resources.abc import Traversable
+from typing import Final, Literal
 
 from emulator.errors import EmulatorError
 from emulator.machine.result import Options
-from modern.edition import decks
-from modern.edition.printed import EXAMPLES, Print, input_deck, prints
-from modern.edition.verdicts import DIFFERENT, EXACT, ORDER, Verdict, compare
-from modern.thesis.job import Load, run_hull
+from modern.edition import programs
+from modern.edition.chapter6 import EXAMPLES, Output, Print, input_deck, prints
+from modern.thesis.cards import planes_hold, read_hull, read_intermediate, same_hull
+from modern.thesis.job import Load, Step, run_hull
 
-STATES = (("examples", "program1_examples"), ("listing", "program1"))
+State = Literal["examples", "listing"]
+STATES: dict[State, str] = {"examples": "program1_examples", "listing": "program1"}
+"""The built-in that plays program 1 in each of its two states."""
+
+EXACT: Final = "exact"
+SPACING: Final = "exact but for spacing"
+ORDER: Final = "exact in another order"
+DIFFERENT: Final = "different"
+Kind = Literal["exact", "exact but for spacing", "exact in another order", "different"]
 
 WHY_ORDER = (
     "the listing swaps the extreme points into places 1 and 2 and looks for the farthest third; the examples were "
     "printed by an earlier state of program 1, which put the six extremes in front"
 )
 
+_NUMBER = re.compile(r"[+-]?\.\d+E[+-]\d\d|(?<![A-Z0-9.])\d+")
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """A verdict on one device.
+
+    ``numbers`` and ``words`` are how many of each the print shows, ``cards`` how many cards carry print,
+    ``blank`` how many are blank; ``differences`` are (card, printed, produced), with an empty string where one side
+    has no such card; ``same`` says what agrees where the order differs, ``reason`` why it does.
+    """
+
+    kind: Kind
+    numbers: int
+    words: int
+    cards: int
+    blank: int
+    same: str = ""
+    reason: str = ""
+    differences: tuple[tuple[int, str, str], ...] = ()
+
+    @property
+    def holds(self) -> bool:
+        """Whether what the print proves came out, in whatever order."""
+        return self.kind != DIFFERENT
+
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """The verdict on one device of one example, for one state of program 1.
-
-    ``stated`` marks typewriter lines, which chapter 6 does not print: chapter 5 states them.
-    """
+    """The verdict on one device of one example, for one state of program 1."""
 
     example: int
-    state: str
+    state: State
     deck: str
     program: int
-    device: str
-    stated: bool
+    device: Output
     printed: tuple[str, ...]
     produced: tuple[str, ...]
     verdict: Verdict
     ending: str
 
+    @property
+    def stated(self) -> bool:
+        """Whether these are typewriter lines, which chapter 6 does not print: chapter 5 states them."""
+        return self.device == "typewriter"
+
 
 def reproduce(
     examples: Iterable[int] = EXAMPLES,
-    load: Load = decks.program,
+    load: Load = programs.program,
     folder: Traversable | None = None,
-    states: Iterable[tuple[str, str]] = STATES,
+    states: Iterable[State] = STATES,
 ) -> Iterator[Report]:
     """Run examples and judge them, one report a device.
 
@@ -58,8 +99,8 @@ def reproduce(
     states = tuple(states)
     for example in examples:
         expected = tuple(prints(example, folder))
-        for state, first in states:
-            yield from _one(example, state, first, expected, load, folder)
+        for state in states:
+            yield from _one(example, state, expected, load, folder)
 
 
 def summary(reports: Iterable[Report]) -> tuple[bool, int, int, int]:
@@ -75,15 +116,16 @@ def summary(reports: Iterable[Report]) -> tuple[bool, int, int, int]:
 
 
 def _one(
-    example: int, state: str, first: str, expected: tuple[Print, ...], load: Load, folder: Traversable | None
+    example: int, state: State, expected: tuple[Print, ...], load: Load, folder: Traversable | None
 ) -> Iterator[Report]:
     trouble = ""
+    steps: tuple[Step, ...] = ()
     try:
-        steps = run_hull(input_deck(example, folder), load, Options(limit=200_000), first).steps
+        steps = run_hull(input_deck(example, folder), load, Options(limit=200_000), STATES[state]).steps
     except EmulatorError as error:
-        steps, trouble = (), str(error)
+        trouble = str(error)
     last = max(p.program for p in expected)
-    produced = {int(step.name[7]): step for step in steps}
+    produced = {step.number: step for step in steps}
     for printed in expected:
         step = produced.get(printed.program)
         lines = () if step is None else step.result.punched if printed.device == "punch" else step.result.typed
@@ -91,17 +133,76 @@ def _one(
         verdict = compare(printed.lines, lines, final, oriented=printed.program > 1, reason=WHY_ORDER)
         ending = trouble or ("the program was not reached" if step is None else step.result.ending.message)
         if ending and verdict.kind != DIFFERENT:
-            verdict = Verdict(DIFFERENT, verdict.numbers, verdict.words, verdict.cards, verdict.blank)
-        name = f"{first if printed.program == 1 else f'program{printed.program}'}.f"
+            verdict = replace(verdict, kind=DIFFERENT, same="", reason="", differences=())
+        name = STATES[state] if printed.program == 1 else f"program{printed.program}"
         yield Report(
-            example,
-            state,
-            name,
-            printed.program,
-            printed.device,
-            printed.device == "typewriter",
-            printed.lines,
-            lines,
-            verdict,
-            ending,
+            example, state, f"{name}.f", printed.program, printed.device, printed.lines, lines, verdict, ending
         )
+
+
+def compare(printed: Sequence[str], produced: Sequence[str], final: bool, oriented: bool, reason: str) -> Verdict:
+    """The verdict on a device's lines.
+
+    ``final`` cards are a hull's, others an intermediate deck; ``oriented``: see
+    :func:`modern.thesis.cards.same_hull`; ``reason`` is given where the order differs.
+    """
+    tokens = [token for line in printed for token in line.split()]
+    numbers = sum(len(_NUMBER.findall(line)) for line in printed)
+    words = sum(any(c.isalpha() for c in token) and not _NUMBER.search(token) for token in tokens)
+    blank = sum(not line.strip() for line in printed)
+    base = (numbers, words, len(printed) - blank, blank)
+    if list(printed) == list(produced):
+        return Verdict(EXACT, *base)
+    differences = _differences(printed, produced)
+    if _dense(printed) == _dense(produced):
+        return Verdict(SPACING, *base, differences=differences)
+    same = _same_results(printed, produced, oriented) if final else _same_deck(printed, produced)
+    if same:
+        return Verdict(ORDER, *base, same=_agreement(printed, final), reason=reason, differences=differences)
+    return Verdict(DIFFERENT, *base, differences=differences)
+
+
+def _agreement(printed: Sequence[str], final: bool) -> str:
+    """What two results in different order have in common, counted."""
+    if not final:
+        middle = read_intermediate(printed)
+        return f"the same {len(middle.points)} points" if middle else ""
+    hull = read_hull(printed)
+    counts = (
+        (len(hull.inside), "inside points"),
+        (len(hull.boundary), "boundary points"),
+        (len(hull.vertices), "vertices"),
+        (len(hull.equations), "equations, up to a factor"),
+    )
+    return "the same " + ", ".join(f"{n} {what}" for n, what in counts if n)
+
+
+def _dense(lines: Sequence[str]) -> list[str]:
+    return [dense for line in lines if (dense := "".join(line.split()))]
+
+
+def _words(lines: Sequence[str]) -> Counter[str]:
+    """The lines without numbers: headings."""
+    return Counter(text for line in lines if (text := " ".join(_NUMBER.sub("", line).replace(",", " ").split())))
+
+
+def _same_results(printed: Sequence[str], produced: Sequence[str], oriented: bool) -> bool:
+    """The same hull under the same headings, and an order that does differ: a lost sign of a zero is no order."""
+    one, other = read_hull(printed), read_hull(produced)
+    return _words(printed) == _words(produced) and one != other and same_hull(one, other, oriented)
+
+
+def _same_deck(printed: Sequence[str], produced: Sequence[str]) -> bool:
+    """The same points under the same N in another order, with planes that fit that order."""
+    one, other = read_intermediate(printed), read_intermediate(produced)
+    if one is None or other is None or one.points == other.points:
+        return False
+    return one.count == other.count and Counter(one.points) == Counter(other.points) and planes_hold(other)
+
+
+def _differences(printed: Sequence[str], produced: Sequence[str]) -> tuple[tuple[int, str, str], ...]:
+    longest = max(len(printed), len(produced))
+    pairs = (
+        (i, printed[i] if i < len(printed) else "", produced[i] if i < len(produced) else "") for i in range(longest)
+    )
+    return tuple((i + 1, a, b) for i, a, b in pairs if a != b)

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 from emulator.language.cards import deck_from_lines
 from emulator.machine.machine import Machine
-from modern.edition import decks
+from modern.edition import programs
 from modern.formats.csv import e_field, parse_decimal
 from modern.port import convex_hull
 from modern.study.families import draw_sample
@@ -70,7 +70,7 @@ def _check_route(route: Route) -> None:
         raise PlanError(f"route {route.name}: epsilon: {error}") from None
     options = options_of(route)
     first, load = programs_of(route)
-    for name in (first, *(text for text in decks.TEXTS if text != "program1")):
+    for name in (first, *(text for text in programs.TEXTS if text != "program1")):
         Machine(load(name), deck_from_lines(route.name, ["1"]), options)
 
 

@@ -18,12 +18,12 @@ from emulator.machine.divergence import diverge
 from emulator.machine.result import Options
 from emulator.machine.timing import measure
 from emulator.numbers import numbers
-from modern.edition.verdicts import planes_hold
 from modern.geometry.hull import Hull
 from modern.study.causes import place
 from modern.study.filing import Figures
 from modern.study.judged import Judged
 from modern.study.plan import PlanError
+from modern.thesis.cards import planes_hold, read_intermediate
 from modern.thesis.job import HullRun
 
 Run = HullRun | Hull
@@ -82,7 +82,8 @@ def divergence(judged: Judged, run: Run) -> Figures:
     studied, exact = numbers("truncating"), numbers("exact")
     for step in run.steps:
         cards = [event.text for event in step.result.events if event.what == "read"]
-        if step is not run.steps[0] and not planes_hold(cards):
+        middle = read_intermediate(cards) if step is not run.steps[0] else None
+        if middle is not None and not planes_hold(middle):
             return {"diverges": f"cards to {step.name}"}
         deck = deck_from_lines(step.name, cards)
         options = Options(core=60_000, limit=step.result.statements + 1)

@@ -11,7 +11,7 @@ from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import Program
 from emulator.machine.result import Options
 from emulator.numbers import DecimalNumbers, numbers
-from modern.edition import decks
+from modern.edition import programs
 from modern.edition.apparatus import ApparatusError
 from modern.geometry.hull import Hull
 from modern.port import RangeError, convex_hull
@@ -43,11 +43,11 @@ def options_of(route: Programs) -> Options:
 def programs_of(route: Programs) -> tuple[str, Load]:
     """The built-in that plays program 1, and the programs by name.  Raises PlanError."""
     first = "program1_examples" if route.state == "examples" else "program1"
-    present = {row.layer for name in decks.TEXTS for row in decks.text(name).rows}
+    present = {row.layer for name in programs.TEXTS for row in programs.text(name).rows}
     missing = [layer for layer in route.layers if layer not in present]
     if missing:
         raise PlanError(f"route {route.name}: no program has rows of a layer {missing[0]!r}")
-    known = {row.id for name in decks.TEXTS for row in decks.text(name).rows}
+    known = {row.id for name in programs.TEXTS for row in programs.text(name).rows}
     missing = [row for row in route.rows if row not in known]
     if missing:
         raise PlanError(f"route {route.name}: the apparatus has no row {missing[0]!r}")
@@ -57,16 +57,18 @@ def programs_of(route: Programs) -> tuple[str, Load]:
 @cache
 def _program(name: str, layers: tuple[str, ...], rows: tuple[str, ...]) -> Program:
     """A built-in with layers added, and single rows: those rows' layers without their other rows."""
-    chosen = [row for row in decks.text(decks.built_in(name).text).rows if row.id in rows and row.layer not in layers]
+    chosen = [
+        row for row in programs.text(programs.built_in(name).text).rows if row.id in rows and row.layer not in layers
+    ]
     if not chosen:
-        return decks.with_layers(name, layers)
+        return programs.with_layers(name, layers)
     single = {row.layer for row in chosen}
-    text = decks.text(decks.built_in(name).text)
+    text = programs.text(programs.built_in(name).text)
     others = {row.id for row in text.rows if row.layer in single and row.id not in rows}
     present = {row.layer for row in text.rows}
     wanted = (*(layer for layer in layers if layer in present), *sorted(single))
     try:
-        return compile_deck(decks.built(name, wanted, others))
+        return compile_deck(programs.built(name, wanted, others))
     except (ApparatusError, EmulatorError) as error:
         raise PlanError(f"rows {', '.join(rows)} of {name} do not stand without others: {error}") from None
 

@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 
 from emulator.compiled.batch import run_batch
 from emulator.errors import EmulatorError
-from emulator.language.cards import Deck, deck_from_lines
+from emulator.language.cards import Deck
 from emulator.language.objectcode import Program
 from emulator.machine.result import Options, Result
-from modern.thesis.job import HullRun, Load, Step, second_program
+from modern.thesis.job import HullRun, Load, Step, punched_deck, second_program
 
 
 @dataclass
@@ -57,23 +57,24 @@ def run_hulls(
     options, runs = options or Options(), runs or Runs()
     program = load(first)
     found: list[HullRun | EmulatorError] = []
-    waiting: dict[str, list[tuple[int, Deck]]] = {}
-    for place, result in enumerate(runs.results(program, decks, options)):
+    waiting: dict[int, list[tuple[int, Step]]] = {}
+    for place, (deck, result) in enumerate(zip(decks, runs.results(program, decks, options), strict=True)):
         if isinstance(result, EmulatorError):
             found.append(result)
             continue
-        found.append(HullRun((Step(program, first, result),)))
+        step = Step(first, 1, program, deck, result)
+        found.append(HullRun((step,)))
         second = second_program(result)
-        if second:
-            middle = deck_from_lines(f"cards from {first}", result.punched)
-            waiting.setdefault(second, []).append((place, middle))
-    for name, ready in waiting.items():
+        if second is not None:
+            waiting.setdefault(second, []).append((place, step))
+    for number, ready in waiting.items():
+        name = f"program{number}"
         following = load(name)
-        results = runs.results(following, [deck for _, deck in ready], options)
-        for (place, _), result in zip(ready, results, strict=True):
-            begun = found[place]
-            assert isinstance(begun, HullRun)
-            found[place] = (
-                result if isinstance(result, EmulatorError) else HullRun((*begun.steps, Step(following, name, result)))
-            )
+        middle = [punched_deck(step) for _, step in ready]
+        results = runs.results(following, middle, options)
+        for (place, step), deck, result in zip(ready, middle, results, strict=True):
+            if isinstance(result, EmulatorError):
+                found[place] = result
+            else:
+                found[place] = HullRun((step, Step(name, number, following, deck, result)))
     return found

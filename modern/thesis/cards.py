@@ -1,6 +1,7 @@
-"""Punched results read back as hulls, so that two of them can be compared whatever order they are in.
+"""Punched results read back, so that two of them can be compared whatever order they are in.
 
-The cards are those of the FORMATs of the three programs (thesis p. 73-74, 87, 102).  Numbers are exact.
+A last program punches a hull; program 1 before it the intermediate deck, which the next one reads.  The cards are
+those of the FORMATs of the three programs (thesis p. 73-74, 87, 102).  Numbers are exact.
 """
 
 from __future__ import annotations
@@ -118,3 +119,42 @@ def scaled(equation: Point, oriented: bool) -> Point:
     """An equation divided by its first coefficient that is not zero, or by that coefficient's size."""
     lead = next((c for c in equation if c), Fraction(1))
     return tuple(c / (abs(lead) if oriented else lead) for c in equation)
+
+
+@dataclass(frozen=True, slots=True)
+class IntermediateDeck:
+    """What program 1 punches for the next: planes, N's card, and the points after it.
+
+    ``planes`` pairs A, B, C, D with the numbers of the points the card names; ``count`` holds N and, of coplanar
+    points, KPROJ.
+    """
+
+    planes: tuple[tuple[Point, tuple[int, ...]], ...]
+    count: tuple[str, ...]
+    points: tuple[Point, ...]
+
+
+def read_intermediate(cards: Sequence[str]) -> IntermediateDeck | None:
+    """The cards program 1 punched for the next; None where no card holds N."""
+    for i, card in enumerate(cards):
+        if card.strip() and not floats(card):
+            planes = tuple((floats(c), tuple(map(int, c[56:].split()))) for c in cards[:i] if len(floats(c)) == 4)
+            return IntermediateDeck(planes, tuple(card.split()), tuple(floats(c) for c in cards[i + 1 :]))
+    return None
+
+
+def planes_hold(deck: IntermediateDeck) -> bool:
+    """Whether every plane vanishes exactly at the points it names, or at all points where it names none."""
+    unprojected = _unprojected(deck)
+    for plane, named in deck.planes:
+        points = [unprojected[k - 1] for k in named if 1 <= k <= len(unprojected)] if named else unprojected
+        if any(sum(c * x for c, x in zip(plane, (*point, Fraction(1)), strict=True)) for point in points):
+            return False
+    return True
+
+
+def _unprojected(deck: IntermediateDeck) -> list[Point]:
+    """The points as x, y, z: program 1 punches coplanar points with the coordinate KPROJ drops at the end."""
+    orders = {"1": (2, 0, 1), "2": (0, 2, 1), "3": (0, 1, 2)}
+    order = orders.get(deck.count[1], (0, 1, 2)) if len(deck.count) > 1 else (0, 1, 2)
+    return [tuple(point[k] for k in order) for point in deck.points if len(point) == 3]

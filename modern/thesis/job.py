@@ -21,10 +21,12 @@ Load = Callable[[str], Program]
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One program's run within a hull run."""
+    """One program's run within a hull run: its built-in's name, its number in the thesis, and the deck it read."""
 
-    program: Program
     name: str
+    number: int
+    program: Program
+    deck: Deck
     result: Result
 
 
@@ -61,11 +63,15 @@ def refusal(result: Result) -> str:
     return last
 
 
-def second_program(result: Result) -> str:
-    """The program that takes the cards of this run of program 1, by name; empty where none does."""
-    typed = result.typed
-    second = "program2" if COPLANAR in typed else "program3" if NOT_COPLANAR in typed else ""
-    return second if result.ending.normal and not refusal(result) else ""
+def second_program(result: Result) -> int | None:
+    """The program that takes the cards of this run of program 1, 2 or 3; None where none does."""
+    second = 2 if COPLANAR in result.typed else 3 if NOT_COPLANAR in result.typed else None
+    return second if result.ending.normal and not refusal(result) else None
+
+
+def punched_deck(step: Step) -> Deck:
+    """The cards a step punched, as the next program reads them."""
+    return deck_from_lines(f"cards from {step.name}", step.result.punched)
 
 
 def run_hull(
@@ -82,23 +88,16 @@ def run_hull(
     :meth:`emulator.machine.machine.Machine.run` raises.
     """
     options = options or Options()
-    steps = [_run(load(first), first, deck, options, watch, ())]
+
+    def ran(name: str, number: int, deck: Deck, uncut: Sequence[Sequence[Uncut]] = ()) -> Step:
+        program = load(name)
+        machine = Machine(program, deck, options, uncut=uncut)
+        if watch is not None:
+            watch(program, machine)
+        return Step(name, number, program, deck, machine.run())
+
+    steps = [ran(first, 1, deck)]
     second = second_program(steps[0].result)
-    if second:
-        middle = deck_from_lines(f"cards from {first}", steps[0].result.punched)
-        steps.append(_run(load(second), second, middle, options, watch, steps[0].result.uncut))
+    if second is not None:
+        steps.append(ran(f"program{second}", second, punched_deck(steps[0]), steps[0].result.uncut))
     return HullRun(tuple(steps))
-
-
-def _run(
-    program: Program,
-    name: str,
-    deck: Deck,
-    options: Options,
-    watch: Callable[[Program, Machine], None] | None,
-    uncut: Sequence[Sequence[Uncut]],
-) -> Step:
-    machine = Machine(program, deck, options, uncut=uncut)
-    if watch is not None:
-        watch(program, machine)
-    return Step(program, name, machine.run())

@@ -11,7 +11,7 @@ from fractions import Fraction
 from emulator.errors import EmulatorError
 from emulator.language.cards import Deck, deck_from_lines
 from emulator.machine.result import Options
-from modern.edition import decks
+from modern.edition import programs
 from modern.exact_hull import ExactHull, exact_hull
 from modern.formats.csv import e_field, parse_decimal
 from modern.thesis.cards import CardHull, read_hull
@@ -29,7 +29,7 @@ def deck_of(points: Sequence[Sequence[int | str]], e: str = "") -> Deck:
 
 
 def run(points: Sequence[Sequence[int | str]], *layers: str, e: str = "", options: Options = OPTIONS) -> HullRun:
-    return run_hull(deck_of(points, e), lambda name: decks.with_layers(name, layers), options)
+    return run_hull(deck_of(points, e), lambda name: programs.with_layers(name, layers), options)
 
 
 def lowest(coefficients: Sequence[Fraction | int]) -> tuple[int, ...]:

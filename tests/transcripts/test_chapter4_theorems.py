@@ -10,7 +10,7 @@ from fractions import Fraction
 import pytest
 
 from modern.edition.apparatus import Row, build
-from modern.edition.chapter4_theorems import (
+from modern.edition.chapter4 import (
     Theorem,
     chapter4_folder,
     load_text,

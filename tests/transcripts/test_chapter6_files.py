@@ -11,15 +11,8 @@ import pytest
 
 from modern.edition.__main__ import main
 from modern.edition.apparatus import Line
-from modern.edition.chapter6_checks import (
-    check_arithmetic,
-    check_chapter,
-    check_files,
-    check_tie,
-    check_witness,
-)
-from modern.edition.printed import chapter6_folder
-from modern.edition.transcripts import (
+from modern.edition.chapter6 import chapter6_folder
+from modern.edition.chapter6_cards import (
     Chapter,
     TranscriptError,
     built_files,
@@ -30,6 +23,13 @@ from modern.edition.transcripts import (
     printed_lines,
     rebuilt,
     write_files,
+)
+from modern.edition.chapter6_checks import (
+    check_arithmetic,
+    check_chapter,
+    check_files,
+    check_tie,
+    check_witness,
 )
 
 CHAPTER = load_chapter()
@@ -79,14 +79,15 @@ def test_characters_of_the_cards_are_those_of_the_print(entry) -> None:  # type:
     assert "".join(committed.split()) == "".join(printed.split())
 
 
-def test_proved_columns_are_the_columns_that_are_not_blank() -> None:
+def test_printed_columns_are_the_columns_that_are_not_blank() -> None:
     for example, program, device, _ in device_files(CHAPTER):
         for card in cards(CHAPTER, example, program, device):
             if device == "typewriter":
                 assert card.line is None
-                assert not card.proved_columns
+                assert not card.tokens
                 continue
-            assert card.proved_columns == {i for i, c in enumerate(card.image, start=1) if c != " "}
+            printed = {column for token in card.tokens for column in range(token.first, token.last + 1)}
+            assert printed == {i for i, c in enumerate(card.image, start=1) if c != " "}
             assert (card.line is None) == (card.image == "")
 
 

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 from importlib.resources import files
 
 import pytest
 
-from modern.edition.chapter6_checks import check_layout
-from modern.edition.chapter6_formats import FormatTextError, records
-from modern.edition.chapter6_layout import CardShape, Format
-from modern.edition.transcripts import Chapter, TranscriptError, load_chapter, rebuilt
+from emulator.language.formats import FormatError
+from modern.edition.chapter6 import CardShape, Format
+from modern.edition.chapter6_cards import Chapter, TranscriptError, load_chapter, rebuilt
+from modern.edition.chapter6_checks import check_layout, records
 
 CHAPTER = load_chapter()
 
 
 def columns(text: str, values: int) -> list[list[tuple[int, int]]]:
-    return [[(f.first, f.last) for f in card] for card in records(text, values)]
+    return [[(field.first, field.last) for field, _ in card] for card in records(text, values)]
 
 
 @pytest.mark.parametrize(
@@ -40,12 +41,55 @@ def test_format_columns(text: str, values: int, expected: list[list[tuple[int, i
     assert columns(text, values) == expected
 
 
-@pytest.mark.parametrize(("text", "values"), [("(F8.3)", 1), ("(I2)", 2), ("I2", 1), ("(5HABC)", 0), ("(I2,Q)", 1)])
-def test_format_text_errors_are_one_line(text: str, values: int) -> None:
-    with pytest.raises(FormatTextError) as caught:
+@pytest.mark.parametrize(
+    ("text", "values", "words"),
+    [("(I2)", 2, "1 of 2 numbers"), ("I2", 1, "parenthesis"), ("(5HABC)", 0, "5H"), ("(I2,Q)", 1, "'Q'")],
+)
+def test_a_format_that_cannot_be_read_is_one_line(text: str, values: int, words: str) -> None:
+    with pytest.raises(FormatError, match=words) as caught:
         records(text, values)
     assert "\n" not in str(caught.value)
-    assert text in str(caught.value)
+
+
+_ITEM = re.compile(r"(\d+)X|(\d+)H|(/)|(\d*)(?:E(\d+)\.\d+|I(\d+))|,| ")
+
+
+def on_paper(text: str, values: int) -> list[str]:
+    """The cards as a picture, by a reader of its own: # a number's column, a literal's characters, blanks."""
+    picture, at, left = [""], 1, values
+    while text[at] != ")" or at < len(text) - 1:
+        found = _ITEM.match(text, at)
+        assert found is not None
+        at = found.end()
+        blanks, letters, slash, repeat, *widths = found.groups()
+        if slash:
+            picture.append("")
+        elif blanks:
+            picture[-1] += " " * int(blanks)
+        elif letters:
+            picture[-1] += text[at : at + int(letters)]
+            at += int(letters)
+        elif any(widths):
+            taken = min(left, int(repeat or 1))
+            picture[-1] += "".join("#" * int(next(filter(None, widths))) for _ in range(taken))
+            left -= taken
+            if taken < int(repeat or 1):
+                break
+    return [card.rstrip() for card in picture]
+
+
+@pytest.mark.parametrize("entry", CHAPTER.layout.formats, ids=lambda f: f"p{f.program}-{f.number}")
+def test_columns_are_those_of_a_second_reader(entry: Format) -> None:
+    """A FORMAT's columns by the compiler's reader and by one of the test's own, for every list it can serve."""
+    most = sum(int(found[4] or 1) for found in _ITEM.finditer(entry.text) if found[5] or found[6])
+    for values in range(most + 1):
+        drawn = []
+        for card in records(entry.text, values):
+            line = ""
+            for field, words in card:
+                line = line.ljust(field.first - 1) + (words or "#" * (field.last - field.first + 1))
+            drawn.append(line)
+        assert drawn == on_paper(entry.text, values)
 
 
 def test_layout_agrees_with_its_formats() -> None:

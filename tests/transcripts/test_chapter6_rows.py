@@ -10,8 +10,8 @@ from importlib.resources import files
 import pytest
 
 from modern.edition.apparatus import Change, Row, Text, load
+from modern.edition.chapter6_cards import E14, Card, Chapter, cards, device_files, load_chapter, rebuilt
 from modern.edition.chapter6_grounds import numbers, of_role, row_faults, well_formed
-from modern.edition.transcripts import E14, Card, Chapter, cards, device_files, load_chapter, rebuilt
 
 CHAPTER = load_chapter()
 KINDS = {"dropped-zero", "lost-sign", "lost-point", "lost", "fused", "displaced", "noise", "misread", "slip"}

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from emulator.language.length import code_positions
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
-from modern.edition import decks
+from modern.edition import programs
 from modern.study.charts import Lines, Mark, Series
 from modern.study.filing import TABLE
 from modern.study.plan import Cell, Plan, Port, Programs, Value
@@ -78,7 +78,7 @@ def _peaks(plan: Plan, store: Store) -> dict[int, _Peak]:
 
 def positions(places: int) -> int:
     """Positions of core program 3 needs with so many places for planes, the machine's own part included."""
-    program = decks.program("program3")
+    program = programs.program("program3")
     longer = sum(places - PLACES for entry in program.storage.arrays() if entry.size == PLACES)
     return OBJECT_PROGRAM + FUNCTION_NAMES + code_positions(program) + (program.storage.fields + longer) * FIELD
 

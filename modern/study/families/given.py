@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cache
 
-from modern.edition import printed
-from modern.edition.chapter4_theorems import load_theorems
+from modern.edition import chapter6
+from modern.edition.chapter4 import load_theorems
 from modern.formats.points import parse_input, read_input
 from modern.geometry.numbers import finite_decimal
 from modern.study.families.drawing import MOST, Count, Draw, Drawn, FamilyError, Point
@@ -16,8 +16,8 @@ from modern.study.families.drawing import MOST, Count, Draw, Drawn, FamilyError,
 def published_sets() -> dict[str, tuple[Point, ...]]:
     """The sets of chapter 6 and of chapter 4's theorems, by name (thesis p. 37-57, 103-115)."""
     found = {}
-    for number in printed.EXAMPLES:
-        found[f"example {number}"] = parse_input(printed.input_deck(number).text(), f"example {number}").points
+    for number in chapter6.EXAMPLES:
+        found[f"example {number}"] = parse_input(chapter6.input_deck(number).text(), f"example {number}").points
     for theorem in load_theorems():
         texts = [
             (finite_decimal(x), finite_decimal(y), finite_decimal(z)) for x, y, z in (p.at for p in theorem.points)

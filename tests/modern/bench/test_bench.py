@@ -22,7 +22,7 @@ from modern.bench.measure import COLD, COMPILED, NATIVE, PLAIN, PORT, WARM, Benc
 from modern.bench.timing import Figure, side_by_side
 from modern.bench.translate import LINE, translated
 from modern.cli.main import main
-from modern.edition import decks
+from modern.edition import programs
 
 GFORTRAN = shutil.which("gfortran")
 needs_compiler = pytest.mark.skipif(GFORTRAN is None, reason="no gfortran")
@@ -88,9 +88,9 @@ def test_what_has_no_counterpart() -> None:
         fortran("A=+*B", "END")
 
 
-@pytest.mark.parametrize("name", decks.NAMES)
+@pytest.mark.parametrize("name", programs.NAMES)
 def test_no_line_is_too_long(name: str) -> None:
-    assert max(map(len, translated(decks.deck(name)).splitlines())) <= LINE + 2
+    assert max(map(len, translated(programs.deck(name)).splitlines())) <= LINE + 2
 
 
 LOOPS = ["K=0", "DO 5 I=8,5", "5 K=K+1", "DO 6 I=1,10,4", "6 K=K+1", "PUNCH 9,K,I", "9 FORMAT(2I4)", "END"]
@@ -119,8 +119,8 @@ def test_program_3_natively(tmp_path: Path) -> None:
     texts = middle_texts([random_points(4 + n, n) for n in range(30)])
     given, taken = tmp_path / "cards", tmp_path / "punched"
     given.write_text("".join(texts))
-    native.run(native.built(decks.deck(PROGRAM, LAYERS), native.compiler(), tmp_path), given, taken)
-    program = decks.program(PROGRAM, LAYERS)
+    native.run(native.built(programs.deck(PROGRAM, LAYERS), native.compiler(), tmp_path), given, taken)
+    program = programs.program(PROGRAM, LAYERS)
     ours = [Machine(program, deck_from_lines("d", text.splitlines()), OPTIONS).run().punched for text in texts]
     found = compared(ours, data_sets(taken.read_text().splitlines()))
     assert (found.same, found.digits, found.other) == (30, 0, 0)
@@ -241,7 +241,7 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeyp
 def test_what_is_no_compiler(named: str, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("FC", named)
     with pytest.raises(native.NoCompiler, match=words) as caught:
-        native.built(decks.deck(PROGRAM, LAYERS), native.compiler(), tmp_path)
+        native.built(programs.deck(PROGRAM, LAYERS), native.compiler(), tmp_path)
     assert "\n" not in str(caught.value)
 
 

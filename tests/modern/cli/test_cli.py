@@ -245,14 +245,14 @@ def test_reproduce_without_a_terminal_has_no_colour(capsys: pytest.CaptureFixtur
 def test_reproduce_shows_the_cards_that_differ(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    from modern.edition import decks, reproduce
+    from modern.edition import programs, reproduce
 
-    other = decks.deck("program1_examples").text().replace("E(LL)=2.", "E(LL)=5.")
+    other = programs.deck("program1_examples").text().replace("E(LL)=2.", "E(LL)=5.")
     from emulator.language.cards import deck_from_text
     from emulator.language.compiler import compile_deck
 
     changed = compile_deck(deck_from_text("p", other))
-    kept = decks.program
+    kept = programs.program
     monkeypatch.setattr(
         "modern.cli.reproduce.reproduce",
         lambda examples: reproduce.reproduce(examples, lambda n: changed if n == "program1_examples" else kept(n)),

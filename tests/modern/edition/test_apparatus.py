@@ -10,20 +10,20 @@ from pathlib import Path
 
 import pytest
 
-from modern.edition import decks
+from modern.edition import programs
 from modern.edition.apparatus import ApparatusError, Row, build, load
 from modern.edition.grounds import check_decks, check_row
 
-ROWS = [row for name in decks.TEXTS for row in decks.text(name).rows]
-SOURCES = decks.sources()
+ROWS = [row for name in programs.TEXTS for row in programs.text(name).rows]
+SOURCES = programs.sources()
 
 
-@pytest.mark.parametrize("name", decks.NAMES)
+@pytest.mark.parametrize("name", programs.NAMES)
 def test_committed_deck_is_witness_and_rows(name: str) -> None:
-    assert decks.committed(name).text() == decks.built(name).text()
+    assert programs.committed(name).text() == programs.built(name).text()
 
 
-@pytest.mark.parametrize("name", decks.TEXTS)
+@pytest.mark.parametrize("name", programs.TEXTS)
 def test_witness_is_untouched(name: str) -> None:
     """The witness without our page marks has the hash taken of the OCR text."""
     head = tomllib.loads(SOURCES.joinpath("apparatus", f"{name}.toml").read_text(encoding="utf-8"))["text"]
@@ -45,7 +45,7 @@ def test_row_is_needed(row: Row) -> None:
 
 
 def test_rows_name_their_page_as_the_witness_has_it() -> None:
-    pages = {name: {line.id: line.page for line in decks.text(name).witness} for name in decks.TEXTS}
+    pages = {name: {line.id: line.page for line in programs.text(name).witness} for name in programs.TEXTS}
     for row in ROWS:
         first = row.changes[0].line
         if first in pages[row.text] and "-" not in row.page:
@@ -70,7 +70,7 @@ def test_the_counts_in_the_readme_are_those_of_the_rows() -> None:
 
 
 def superfluous(ground: dict[str, object], row_id: str = "P1-038") -> Row:
-    return replace(decks.text("program1").row(row_id), ground=ground)
+    return replace(programs.text("program1").row(row_id), ground=ground)
 
 
 FALSE_CLAIMS = [
@@ -95,7 +95,7 @@ def test_a_false_ground_fails(row_id: str, ground: dict[str, object]) -> None:
 
 def test_check_of_decks_covers_all_four() -> None:
     findings = list(check_decks())
-    assert [f.subject for f in findings] == [f"{name}.f" for name in decks.NAMES]
+    assert [f.subject for f in findings] == [f"{name}.f" for name in programs.NAMES]
     assert all(f.holds for f in findings)
 
 

@@ -7,9 +7,8 @@ from fractions import Fraction
 
 import pytest
 
-from modern.edition.chapter4_theorems import Theorem, load_theorems
-from modern.edition.printed import THEOREMS
-from modern.edition.theorem_claims import all_claims, claims, lost_candidates
+from modern.edition.chapter4 import THEOREMS, Theorem, load_theorems
+from modern.edition.chapter4_claims import all_claims, claims, lost_candidates
 
 BY_ID = {theorem.id: theorem for theorem in load_theorems()}
 

@@ -12,10 +12,9 @@ import pytest
 from emulator.language.cards import deck_from_text
 from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import Program
-from modern.edition import decks
-from modern.edition.printed import prints
-from modern.edition.reproduce import Report, reproduce, summary
-from modern.edition.verdicts import DIFFERENT, EXACT, ORDER, SPACING, compare
+from modern.edition import programs
+from modern.edition.chapter6 import prints
+from modern.edition.reproduce import DIFFERENT, EXACT, ORDER, SPACING, Report, compare, reproduce, summary
 
 
 @pytest.fixture(scope="module")
@@ -121,10 +120,10 @@ CARDS = [
 
 @pytest.mark.parametrize(("name", "card", "changed", "example"), CARDS)
 def test_one_changed_card_of_a_program_changes_a_verdict(name: str, card: str, changed: str, example: int) -> None:
-    text = decks.committed(name).text()
+    text = programs.committed(name).text()
     assert text.count(card) == 1
     program = compile_deck(deck_from_text(f"{name}.f", text.replace(card, changed.replace(";", "."))))
-    load: Callable[[str], Program] = lambda wanted: program if wanted == name else decks.program(wanted)  # noqa: E731
+    load: Callable[[str], Program] = lambda wanted: program if wanted == name else programs.program(wanted)  # noqa: E731
     good, _, _, _ = summary(r for r in reproduce((example,), load) if r.state == "examples")
     assert not good
 

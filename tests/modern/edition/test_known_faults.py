@@ -7,7 +7,7 @@ from fractions import Fraction
 import pytest
 
 from emulator.language.cards import Deck, deck_from_lines
-from modern.edition import decks
+from modern.edition import programs
 from modern.formats.csv import e_field, parse_decimal
 from modern.thesis.cards import read_hull
 from modern.thesis.job import run_hull
@@ -22,7 +22,7 @@ def deck(points: list[Triple]) -> Deck:
 
 def ends(first: str, points: list[Triple]) -> set[tuple[Fraction, ...]]:
     """The endpoints (or vertices) the last program punches."""
-    run = run_hull(deck(points), decks.program, first=first)
+    run = run_hull(deck(points), programs.program, first=first)
     return set(read_hull(run.final.result.punched).vertices)
 
 

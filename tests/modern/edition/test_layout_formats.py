@@ -10,7 +10,7 @@ import pytest
 
 from emulator.language.formats import parse_format
 from emulator.language.tree import Format, Place
-from modern.edition import decks
+from modern.edition import programs
 
 LAYOUT = tomllib.loads(files("transcripts").joinpath("chapter6", "layout.toml").read_text(encoding="utf-8"))
 
@@ -19,4 +19,4 @@ LAYOUT = tomllib.loads(files("transcripts").joinpath("chapter6", "layout.toml").
 def test_layout_format_is_the_decks(entry: dict[str, Any]) -> None:
     text = entry["text"]
     spec, _ = parse_format(Format(text, tuple(Place(1, column) for column in range(1, len(text) + 1))))
-    assert dict(decks.program(f"program{entry['program']}").formats)[entry["number"]] == spec
+    assert dict(programs.program(f"program{entry['program']}").formats)[entry["number"]] == spec

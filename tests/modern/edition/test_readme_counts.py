@@ -7,36 +7,36 @@ import pytest
 from emulator.language.cards import read_deck
 from emulator.language.objectcode import Program
 from emulator.machine.result import Options
-from modern.edition import decks, printed
+from modern.edition import chapter6, programs
 from modern.thesis.job import run_hull
 from tests.support.paths import MACHINE_RUNS
 
 RUNS = MACHINE_RUNS
-README = decks.sources().joinpath("README.md").read_text(encoding="utf-8")
+README = programs.sources().joinpath("README.md").read_text(encoding="utf-8")
 
 
 @pytest.fixture(scope="module")
 def never_run() -> dict[str, list[tuple[int, str]]]:
     """The statements of the three listings that no checked deck runs, END left out."""
-    ran: dict[str, set[int]] = {name: set() for name in decks.TEXTS}
-    data = [printed.input_deck(example) for example in printed.EXAMPLES]
+    ran: dict[str, set[int]] = {name: set() for name in programs.TEXTS}
+    data = [chapter6.input_deck(example) for example in chapter6.EXAMPLES]
     data += [read_deck(str(folder / "deck.cards")) for folder in sorted(RUNS.iterdir()) if folder.is_dir()]
     for deck in data:
         for first in ("program1", "program1_examples"):
-            for step in run_hull(deck, decks.program, Options(limit=200_000), first).steps:
+            for step in run_hull(deck, programs.program, Options(limit=200_000), first).steps:
                 if step.name in ran:
                     counted = zip(step.program.counters, step.result.counts, strict=True)
                     ran[step.name] |= {counter.statement for counter, n in counted if n}
-    programs: dict[str, Program] = {name: decks.program(name) for name in decks.TEXTS}
+    listed: dict[str, Program] = {name: programs.program(name) for name in programs.TEXTS}
     return {
         name: [(s.label, s.text) for i, s in enumerate(p.statements) if i not in ran[name] and s.text != "END"]
-        for name, p in programs.items()
+        for name, p in listed.items()
     }
 
 
 def test_statements_never_run(never_run: dict[str, list[tuple[int, str]]]) -> None:
     missed = [text for found in never_run.values() for _, text in found]
-    total = sum(len(decks.program(name).statements) for name in decks.TEXTS)
+    total = sum(len(programs.program(name).statements) for name in programs.TEXTS)
     characters = sum(len("".join(text.split())) for text in missed)
     assert f"Of the {total} statements {len(missed)} ({characters} characters)" in README
 
@@ -48,5 +48,5 @@ def test_their_numbers_are_named(never_run: dict[str, list[tuple[int, str]]]) ->
 
 
 def test_characters_of_the_witness() -> None:
-    count = sum(len("".join(line.text.split())) for name in decks.TEXTS for line in decks.text(name).witness)
+    count = sum(len("".join(line.text.split())) for name in programs.TEXTS for line in programs.text(name).witness)
     assert f"The witness has {count:,} characters that are not blank" in README

@@ -22,7 +22,7 @@ from modern.edition.published import (
     results_of,
     text_of,
 )
-from modern.edition.verdicts import DIFFERENT, EXACT
+from modern.edition.reproduce import DIFFERENT, EXACT
 from modern.formats import parse_off
 
 PAPER = next(paper for paper in PAPERS if paper.name == "kovalevsky-schulz")

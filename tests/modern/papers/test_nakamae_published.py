@@ -8,7 +8,7 @@ import pytest
 
 from modern.edition.apparatus import build
 from modern.edition.published import CANNOT, CORRECTED, PAPERS, findings, judge, produced_by, results_of, text_of
-from modern.edition.verdicts import DIFFERENT, EXACT
+from modern.edition.reproduce import DIFFERENT, EXACT
 from modern.papers.nakamae_nishita.hidden import draw
 from modern.papers.nakamae_nishita.projection import parallel
 from modern.papers.nakamae_nishita.shapes import column, moved, placed, plate, round_base

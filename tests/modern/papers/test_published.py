@@ -24,7 +24,7 @@ from modern.edition.published import (
     produced_by,
     results_of,
 )
-from modern.edition.verdicts import DIFFERENT, EXACT
+from modern.edition.reproduce import DIFFERENT, EXACT
 
 PAPER = PAPERS[0]
 PLAIN = Published("one", "Fig. 1", "two numbers", ("1 2",), ("1 2",), ())

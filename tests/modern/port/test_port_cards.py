@@ -16,7 +16,7 @@ from emulator.language.cards import Deck, deck_from_lines
 from emulator.language.objectcode import Program
 from emulator.machine.result import Options
 from emulator.numbers.arithmetic import profile
-from modern.edition import decks
+from modern.edition import programs
 from modern.formats.csv import e_field, parse_decimal
 from modern.geometry.hull import DETERMINED, ERROR, NOT_ACCEPTABLE, TABLE_FULL
 from modern.port import convex_hull
@@ -109,8 +109,8 @@ def deck(points: list[Point], epsilon: str = "") -> Deck:
 
 def run(cards: Deck, arithmetic: str, *layers: str) -> HullRun:
     def load(name: str) -> Program:
-        present = {row.layer for row in decks.text(decks.built_in(name).text).rows}
-        return decks.program(name, tuple(layer for layer in layers if layer in present))
+        present = {row.layer for row in programs.text(programs.built_in(name).text).rows}
+        return programs.program(name, tuple(layer for layer in layers if layer in present))
 
     return run_hull(cards, load, Options(profile=profile(arithmetic), core=CORE, limit=3_000_000))
 
@@ -161,7 +161,7 @@ def test_the_cards_of_layer_translation() -> None:
 def test_every_mend_is_met() -> None:
     """Each row that can change a result, on the deck the apparatus names for it."""
     met = {}
-    for row in (row for name in decks.TEXTS for row in decks.text(name).rows if row.layer == "corrected"):
+    for row in (row for name in programs.TEXTS for row in programs.text(name).rows if row.layer == "corrected"):
         cards = read_ground(row.ground["deck"])
         met[row.id] = set(convex_hull(cards, "truncating").mended)
     for name in ("P2-023", "P2-024", "P2-025", "P3-025", "P3-026", "P3-027", "P3-028"):
@@ -169,7 +169,7 @@ def test_every_mend_is_met() -> None:
 
 
 def read_ground(name: str) -> list[Point]:
-    lines = decks.sources().joinpath("grounds", f"{name}.deck").read_text().splitlines()
+    lines = programs.sources().joinpath("grounds", f"{name}.deck").read_text().splitlines()
     return card_points(lines)
 
 

@@ -7,7 +7,7 @@ import pytest
 from emulator.language.cards import deck_from_lines
 from emulator.machine.machine import Machine
 from emulator.machine.timing import measure
-from modern.edition import decks, printed
+from modern.edition import chapter6, programs
 
 # example, program, processor seconds of PDQ FORTRAN's code on a Model 1, cards read.
 # Example 3 is not among them: its 2.4 s are mostly the setting of arrays to zero, which that deck added.
@@ -26,11 +26,11 @@ MEASURED = [
 @pytest.mark.parametrize(("example", "number", "seconds", "cards"), MEASURED)
 def test_processor_time(example: int, number: int, seconds: float, cards: int) -> None:
     if number == 1:
-        deck = printed.input_deck(example)
+        deck = chapter6.input_deck(example)
     else:
-        (middle,) = (p.lines for p in printed.prints(example) if p.program == 1 and p.device == "punch")
+        (middle,) = (p.lines for p in chapter6.prints(example) if p.program == 1 and p.device == "punch")
         deck = deck_from_lines("middle", middle)
-    program = decks.program(f"program{number}")
+    program = programs.program(f"program{number}")
     result = Machine(program, deck).run()
     timing = measure(program, result)
     assert seconds / 2 <= timing.processor_seconds <= seconds * 2

@@ -12,7 +12,7 @@ import pytest
 from emulator.language.objectcode import Program
 from emulator.machine.machine import Machine
 from emulator.numbers.arithmetic import UNDEFINED
-from modern.edition import decks
+from modern.edition import programs
 from modern.exact_hull import exact_hull
 from modern.port import convex_hull
 from modern.study.builtin import capacity, digits, divergence, machine_time
@@ -55,7 +55,7 @@ def test_places_of_the_port_are_those_the_corrected_program_uses(family: str) ->
         def watch(_: Program, machine: Machine, seen: list[Machine] = machines) -> None:
             seen.append(machine)
 
-        run = run_hull(sample.deck, lambda name: decks.with_layers(name, ("corrected",)), OPTIONS, watch=watch)
+        run = run_hull(sample.deck, lambda name: programs.with_layers(name, ("corrected",)), OPTIONS, watch=watch)
         assert run.final.name == "program3"
         hull = convex_hull(sample.drawn.points, "exact", history=True)
         assert plane_table(sample, hull) == {"planes_at_once": _table_places(machines[-1])}
@@ -69,7 +69,7 @@ def test_no_places_without_a_history_or_in_the_plane() -> None:
 
 
 def _run(sample: Judged) -> HullRun:
-    return run_hull(sample.deck, decks.program)
+    return run_hull(sample.deck, programs.program)
 
 
 def test_two_digit_sets_decide_as_exact_numbers_and_three_digit_sets_do_not() -> None:

@@ -15,7 +15,7 @@ from emulator.language.objectcode import Line
 from emulator.machine.machine import Machine
 from emulator.machine.result import Ending, Options
 from modern.comparison.difference import NEAR, against
-from modern.edition import decks
+from modern.edition import programs
 from modern.edition.grounds import ground_deck
 from modern.formats.points import parse_input
 from modern.study import Cell, Port, Programs, Route
@@ -215,16 +215,16 @@ def test_a_batch_gives_the_runs_of_single_decks() -> None:
     data = [shared.deck_of(points) for points in sets]
     options = Options(limit=20_000)
     for first in ("program1", "program1_examples"):
-        batch = run_hulls(data, decks.loader(()), options, first)
-        assert batch == [run_hull(deck, decks.loader(()), options, first) for deck in data]
+        batch = run_hulls(data, programs.loader(()), options, first)
+        assert batch == [run_hull(deck, programs.loader(()), options, first) for deck in data]
 
 
 def test_a_deck_that_cannot_be_read_stops_no_other() -> None:
     good, bad = shared.deck_of([(0, 0, 0)]), shared.deck_of([(0, 0, 0), (1, 0, 0)])
     bad = replace(bad, cards=bad.cards[:2])
-    batch = run_hulls([good, bad, good], decks.loader(()))
+    batch = run_hulls([good, bad, good], programs.loader(()))
     assert isinstance(batch[1], EmulatorError)
-    assert batch[0] == batch[2] == run_hull(good, decks.loader(()))
+    assert batch[0] == batch[2] == run_hull(good, programs.loader(()))
 
 
 def test_the_statement_that_decided_is_the_one_a_trace_shows() -> None:
@@ -252,11 +252,11 @@ def test_the_statement_that_decided_is_the_one_a_trace_shows() -> None:
 
 def test_single_rows_are_added_without_the_rest_of_their_layer() -> None:
     _, load = programs_of(Programs("one", rows=("P3-025",)))
-    others = {row.id for row in decks.text("program3").rows if row.layer == "corrected"} - {"P3-025"}
-    built = decks.built("program3", ("corrected",), others)
-    assert len(load("program3").statements) == len(decks.program("program3").statements) + 1
-    assert [card.text for card in built.cards if card not in decks.committed("program3").cards]
-    assert load("program1") == decks.program("program1")
+    others = {row.id for row in programs.text("program3").rows if row.layer == "corrected"} - {"P3-025"}
+    built = programs.built("program3", ("corrected",), others)
+    assert len(load("program3").statements) == len(programs.program("program3").statements) + 1
+    assert [card.text for card in built.cards if card not in programs.committed("program3").cards]
+    assert load("program1") == programs.program("program1")
     slabs = Cell({}, "thesis", {"kinds": {"slab": 1}, "n": [12, 17]}, (), 1)
     ones = [judge(draw_sample(slabs, 2, k), "slab") for k in range(120)]
     before = carry_out(LISTED, ones, Runs())

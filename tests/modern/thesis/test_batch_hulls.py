@@ -21,7 +21,7 @@ from emulator.language.objectcode import Program
 from emulator.machine.machine import Machine
 from emulator.machine.result import Options, Result
 from emulator.numbers.arithmetic import profile
-from modern.edition import decks, printed
+from modern.edition import chapter6, programs
 from modern.edition.grounds import ground_deck
 from modern.thesis.job import COPLANAR, NOT_COPLANAR
 from tests.support.judged import deck_of, sets
@@ -64,18 +64,18 @@ def both(program: Program, data: Sequence[Deck], options: Options) -> list[Resul
 
 def chain(data: Sequence[Deck], layers: tuple[str, ...], options: Options, first: str = "program1") -> Counter[str]:
     """Decks through program 1, and what it punched through the program it names; how the runs ended."""
-    results = both(decks.with_layers(first, layers), data, options)
+    results = both(programs.with_layers(first, layers), data, options)
     endings = Counter(r.ending.kind if isinstance(r, Result) else "error" for r in results)
     for name, words in (("program2", COPLANAR), ("program3", NOT_COPLANAR)):
         middle = [deck_from_lines("middle", r.punched) for r in results if isinstance(r, Result) and words in r.typed]
-        after = both(decks.with_layers(name, layers), middle, options)
+        after = both(programs.with_layers(name, layers), middle, options)
         endings.update(r.ending.kind if isinstance(r, Result) else "error" for r in after)
     return endings
 
 
 def test_the_six_examples() -> None:
     for first in ("program1", "program1_examples"):
-        chain([printed.input_deck(n) for n in range(1, 7)], (), Options(), first)
+        chain([chapter6.input_deck(n) for n in range(1, 7)], (), Options(), first)
 
 
 def test_the_decks_of_the_machine_runs() -> None:
@@ -109,8 +109,8 @@ def test_the_plane_table_overflows() -> None:
     """KNOWN-FAULTS 5: the message names the array, from both engines; the compiled one does not give up."""
     table = ground_deck("table")
     assert table is not None
-    middle = deck_from_lines("middle", Machine(decks.program("program1"), table).run().punched)
-    program = compile_deck(decks.built("program3", ("corrected",), {"P3-028"}))
+    middle = deck_from_lines("middle", Machine(programs.program("program1"), table).run().punched)
+    program = compile_deck(programs.built("program3", ("corrected",), {"P3-028"}))
     options = Options(limit=800_000)
     (result,) = both(program, [middle], options)
     assert isinstance(result, Result)
@@ -125,7 +125,7 @@ def test_bad_cards_in_the_middle_of_a_batch() -> None:
     good = [" 3", *(f"{x:>14}{y:>14}{z:>14}" for x, y, z in corners)]
     bad = [good[:3], [], ["X", *good[1:]], [good[0], good[1], "1..2", good[3]], [good[0], "", "5.", good[3]], good[:1]]
     data = [deck_from_lines(f"deck {n}", lines) for n, lines in enumerate([good, *bad, good])]
-    results = both(decks.program("program1"), data, Options())
+    results = both(programs.program("program1"), data, Options())
     assert sum(isinstance(r, str) for r in results) == 5
     assert any(isinstance(r, Result) and r.warnings for r in results)
 
@@ -134,11 +134,11 @@ def test_the_compiled_engine_runs_ordinary_decks_by_itself() -> None:
     """None of sixty ordinary decks is left to the plain engine, in any of the three programs."""
     data = [deck_of(points) for _, points in sets(60, 3)]
     assert len(data) <= BLOCK
-    results = run_batch(decks.program("program1"), data)
-    runner = Runner(decks.program("program1"), Options())
+    results = run_batch(programs.program("program1"), data)
+    runner = Runner(programs.program("program1"), Options())
     assert None not in list(runner.runs([packed(deck) for deck in data]))
     for name, words in (("program2", COPLANAR), ("program3", NOT_COPLANAR)):
         middle = [packed(deck_from_lines("middle", r.punched)) for r in results if words in r.typed]
         assert len(middle) > 5
-        runner = Runner(decks.program(name), Options(limit=100_000))
+        runner = Runner(programs.program(name), Options(limit=100_000))
         assert None not in list(runner.runs(middle))

@@ -4,25 +4,25 @@ from __future__ import annotations
 
 import pytest
 
-from modern.edition import decks
+from modern.edition import programs
 from modern.thesis.capacity import capacity_lines, data_positions, largest
 
 
 def test_51_points_fit_40000_positions_and_not_many_more() -> None:
     """Thesis p. 3: for the 1620 with 40,000 digits the maximum value for N is 51."""
-    points = min(largest(decks.program(name), 40_000) for name in decks.TEXTS)
+    points = min(largest(programs.program(name), 40_000) for name in programs.TEXTS)
     assert 51 <= points <= 56
 
 
 def test_the_mended_tables_need_60000() -> None:
-    program = decks.with_layers("program3", ("corrected",))
+    program = programs.with_layers("program3", ("corrected",))
     assert largest(program, 40_000) < 51 <= largest(program, 60_000)
     (line,) = capacity_lines(program, 60_000)
     assert "and 4N-11 fields" in line
 
 
 @pytest.mark.parametrize("layers", [(), ("corrected",)])
-@pytest.mark.parametrize("name", decks.TEXTS)
+@pytest.mark.parametrize("name", programs.TEXTS)
 def test_at_51_points_the_data_are_as_listed(name: str, layers: tuple[str, ...]) -> None:
-    program = decks.with_layers(name, layers)
+    program = programs.with_layers(name, layers)
     assert data_positions(program, 51) == program.storage.fields * 10

@@ -17,7 +17,7 @@ from emulator.errors import DeckError
 from emulator.language.cards import Deck, read_deck
 from emulator.language.compiler import compile_deck
 from emulator.machine.result import Options
-from modern.edition import decks
+from modern.edition import programs
 from modern.edition.grounds import ground_deck
 from modern.thesis.cards import number
 from modern.thesis.job import HullRun, run_hull
@@ -50,7 +50,7 @@ def ground(name: str) -> Deck:
 
 
 def through(deck: Deck, *layers: str) -> HullRun:
-    return run_hull(deck, lambda name: decks.with_layers(name, layers), LARGE)
+    return run_hull(deck, lambda name: programs.with_layers(name, layers), LARGE)
 
 
 def test_the_cube_first() -> None:
@@ -117,14 +117,14 @@ def test_every_combination_of_layers_is_a_deck_of_72_columns() -> None:
     for name in ("program1", "program2", "program3"):
         for chosen in product((False, True), repeat=3):
             layers = [layer for layer, on in zip(("epsilon", "translation", "corrected"), chosen, strict=True) if on]
-            deck = decks.built(name, layers)
+            deck = programs.built(name, layers)
             compile_deck(deck)
             assert max(len(card.text.rstrip()) for card in deck.cards) <= 72
 
 
 def test_the_readme_counts_the_rows() -> None:
-    rows = [row for name in decks.TEXTS for row in decks.text(name).rows]
-    table = decks.sources().joinpath("README.md").read_text(encoding="utf-8")
+    rows = [row for name in programs.TEXTS for row in programs.text(name).rows]
+    table = programs.sources().joinpath("README.md").read_text(encoding="utf-8")
     for layer in ("epsilon", "translation", "corrected"):
         (line,) = (line for line in table.splitlines() if line.startswith(f"| `{layer}` |"))
         assert line.endswith(f"; {sum(row.layer == layer for row in rows)} rows |")

@@ -10,7 +10,7 @@ import pytest
 from emulator.errors import CardError
 from emulator.language.cards import Deck, deck_from_lines, read_deck
 from emulator.machine.result import Options
-from modern.edition import decks, printed
+from modern.edition import chapter6, programs
 from modern.edition.grounds import ground_deck
 from modern.exact_hull import exact_hull
 from modern.thesis import deck as hulldeck
@@ -26,12 +26,12 @@ DECKS = [*FOLDERS, *(f"example{n}" for n in range(1, 7))]
 
 def deck_named(name: str) -> Deck:
     return (
-        printed.input_deck(int(name[7:])) if name.startswith("example") else read_deck(str(RUNS / name / "deck.cards"))
+        chapter6.input_deck(int(name[7:])) if name.startswith("example") else read_deck(str(RUNS / name / "deck.cards"))
     )
 
 
 def through(deck: Deck, *layers: str, first: str = "program1", options: Options = OPTIONS) -> HullRun:
-    return run_hull(deck, lambda name: decks.with_layers(name, layers), options, first)
+    return run_hull(deck, lambda name: programs.with_layers(name, layers), options, first)
 
 
 @pytest.mark.parametrize("name", DECKS)

@@ -15,7 +15,7 @@ from emulator.machine.result import Options
 from emulator.numbers import DecimalNumbers, numbers
 from modern.comparison.difference import against
 from modern.comparison.outcome import Vector, from_cards, from_judge
-from modern.edition import decks, printed
+from modern.edition import chapter6, programs
 from modern.exact_hull import exact_hull
 from modern.thesis.job import HullRun, run_hull
 from tests.support.judged import OPTIONS, deck_of, differences, sets
@@ -29,7 +29,7 @@ DECIMAL = {"18_dec3_n6", "23_dec2_n15"}
 
 def hull(deck: Deck, name: str = "", layers: tuple[str, ...] = (), uncut: bool = False) -> HullRun:
     options = replace(OPTIONS, limit=60_000, uncut=uncut, numbers=numbers(name) if name else None)
-    return run_hull(deck, lambda program: decks.with_layers(program, layers), options)
+    return run_hull(deck, lambda program: programs.with_layers(program, layers), options)
 
 
 def deck_of_folder(folder: Path) -> Deck:
@@ -42,8 +42,8 @@ def test_decimal_numbers_give_every_result_of_the_engine(folder: Path, profile: 
     found = numbers(profile)
     assert isinstance(found, DecimalNumbers)
     options = Options(profile=found.profile, limit=20_000)
-    plain = run_hull(deck_of_folder(folder), decks.program, options)
-    hosted = run_hull(deck_of_folder(folder), decks.program, replace(options, numbers=found))
+    plain = run_hull(deck_of_folder(folder), programs.program, options)
+    hosted = run_hull(deck_of_folder(folder), programs.program, replace(options, numbers=found))
     assert hosted.steps == plain.steps
 
 
@@ -60,10 +60,10 @@ def test_the_decks_of_whole_numbers(folder: Path, name: str) -> None:
         assert [step.result.punched for step in other.steps] == [step.result.punched for step in plain.steps]
 
 
-@pytest.mark.parametrize("example", printed.EXAMPLES)
+@pytest.mark.parametrize("example", chapter6.EXAMPLES)
 def test_the_examples_exactly(example: int) -> None:
     """Exact numbers give the thesis's six examples as the exact judge has them."""
-    deck = printed.input_deck(example)
+    deck = chapter6.input_deck(example)
     points = [
         (Fraction(card.columns(1, 14)), Fraction(card.columns(15, 28)), Fraction(card.columns(29, 42)))
         for card in deck.cards[1:]
@@ -85,7 +85,7 @@ def test_whole_points_exactly_and_mended() -> None:
             continue
         run = run_hull(
             deck_of(points),
-            lambda program: decks.with_layers(program, ("corrected",)),
+            lambda program: programs.with_layers(program, ("corrected",)),
             replace(OPTIONS, numbers=numbers("exact"), limit=1_000_000),
         )
         assert differences(points, run) == [], name
@@ -122,7 +122,7 @@ def test_where_eight_digits_decide_otherwise() -> None:
     points += [("0.1010101", "0.3333333", "-1.7777777"), ("0.9999999", "0.8888888", "0.0123456")]
     deck = deck_of(points)
     middle = deck_from_lines("middle", hull(deck).steps[0].result.punched)
-    found = diverge(decks.program("program3"), middle, numbers("truncating"), numbers("exact"))
+    found = diverge(programs.program("program3"), middle, numbers("truncating"), numbers("exact"))
     assert found.first_value is not None
     assert found.first_value.line.place.card < 60
     assert found.digits == 8
@@ -149,7 +149,7 @@ def test_program_2_decides_its_roots_exactly() -> None:
         assert (outcome.vertices, outcome.boundary) == (judge.vertices, judge.boundary), points
         middle = deck_from_lines("middle", run.steps[0].result.punched)
         for name in ("truncating", "float64"):
-            found = diverge(decks.program("program2"), middle, numbers(name), numbers("exact"), values=False)
+            found = diverge(programs.program("program2"), middle, numbers(name), numbers("exact"), values=False)
             assert found.apart == ""
             if name == "truncating" and found.first_decision is not None:
                 missed += 1

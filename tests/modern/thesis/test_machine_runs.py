@@ -8,7 +8,7 @@ import pytest
 
 from emulator.language.cards import read_deck
 from emulator.machine.result import Options
-from modern.edition import decks
+from modern.edition import programs
 from modern.thesis.job import HullRun, run_hull
 from tests.support.paths import MACHINE_RUNS
 
@@ -29,7 +29,7 @@ def trimmed(found: list[str]) -> list[str]:
 
 
 def run(folder: Path) -> HullRun:
-    return run_hull(read_deck(str(folder / "deck.cards")), decks.program, Options(limit=200_000))
+    return run_hull(read_deck(str(folder / "deck.cards")), programs.program, Options(limit=200_000))
 
 
 def test_there_are_fourteen() -> None:

@@ -17,6 +17,8 @@ from typing import Any
 
 from modern.edition.apparatus import Line, Text, build, load
 
+THEOREMS = ("4.1", "4.2", "4.8")
+
 Vector = tuple[Fraction, ...]
 _TERM = re.compile(r"([+-]?)(\d*)([xyz]?)")
 

@@ -17,9 +17,10 @@ from modern.edition.apparatus import Text, build, load
 
 @dataclass(frozen=True, slots=True)
 class BuiltIn:
-    """A built-in program: its name, the text it comes from, and the layers its committed deck is built with."""
+    """A built-in program: its name, its number in the thesis, the text it comes from, and the layers of its deck."""
 
     name: str
+    number: int
     text: str
     layers: tuple[str, ...]
     title: str
@@ -28,11 +29,12 @@ class BuiltIn:
 _BASE = ("ocr", "print", "lacuna")
 
 BUILT_INS = (
-    BuiltIn("program1", "program1", _BASE, "program 1 as listed"),
-    BuiltIn("program2", "program2", _BASE, "program 2 as listed: coplanar points"),
-    BuiltIn("program3", "program3", _BASE, "program 3 as listed: points not coplanar"),
+    BuiltIn("program1", 1, "program1", _BASE, "program 1 as listed"),
+    BuiltIn("program2", 2, "program2", _BASE, "program 2 as listed: coplanar points"),
+    BuiltIn("program3", 3, "program3", _BASE, "program 3 as listed: points not coplanar"),
     BuiltIn(
         "program1_examples",
+        1,
         "program1",
         (*_BASE, "examples"),
         "program 1 in the state that produced the examples",

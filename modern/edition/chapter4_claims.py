@@ -15,9 +15,8 @@ from emulator.language.cards import Deck, deck_from_lines
 from emulator.machine.result import Options
 from modern.comparison.difference import against
 from modern.comparison.outcome import Outcome, Vector, from_cards, from_judge
-from modern.edition import decks
-from modern.edition.chapter4_theorems import Point, Theorem, load_text, load_theorems, theorem_faults
-from modern.edition.printed import THEOREMS
+from modern.edition import programs
+from modern.edition.chapter4 import THEOREMS, Point, Theorem, load_text, load_theorems, theorem_faults
 from modern.exact_hull import exact_hull
 from modern.formats.csv import e_field, parse_decimal
 from modern.thesis.cards import scaled
@@ -38,7 +37,7 @@ class Claim:
     seen: str
 
 
-def claims(theorem: Theorem, load: Load = decks.program) -> Iterator[Claim]:
+def claims(theorem: Theorem, load: Load = programs.program) -> Iterator[Claim]:
     """Every claim of a worked example.  ``load`` gives the programs."""
     faults = theorem_faults(theorem, load_text())
     count = len(theorem.planes)
@@ -52,7 +51,7 @@ def claims(theorem: Theorem, load: Load = decks.program) -> Iterator[Claim]:
     yield _through_the_programs(theorem, load)
 
 
-def all_claims(names: Sequence[str] = THEOREMS, load: Load = decks.program) -> Iterator[Claim]:
+def all_claims(names: Sequence[str] = THEOREMS, load: Load = programs.program) -> Iterator[Claim]:
     """The claims of the theorems named, in the order of the chapter."""
     for theorem in load_theorems():
         if theorem.id in names:

@@ -17,8 +17,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from modern.edition.apparatus import Line, Text, build, load
-from modern.edition.chapter6_layout import CardShape, DeviceLayout, Field, Layout, load_layout
-from modern.edition.printed import chapter6_folder
+from modern.edition.chapter6 import CardShape, Device, DeviceLayout, Field, Layout, Role, chapter6_folder, load_layout
 
 E14 = re.compile(r"[+-]?\.\d{8}E[+-]\d\d")
 _INTEGER = re.compile(r"\d+")
@@ -43,16 +42,15 @@ class Token:
 class Card:
     """A card of a device file; ``number`` counts from 1 with blank cards, ``image`` has no trailing blanks.
 
-    ``role`` says what the card holds (n, point, centre, plane, carrier, inside, boundary, vertex, endpoint,
-    equation, incidence; empty for headings and blank cards).  A typed line has no tokens: nothing of it is printed.
+    A typed line has no tokens: nothing of it is printed.
     """
 
     example: int
     program: int
-    device: str
+    device: Device
     number: int
     shape: str
-    role: str
+    role: Role
     image: str
     tokens: tuple[Token, ...]
 
@@ -60,11 +58,6 @@ class Card:
     def line(self) -> str | None:
         """The printed line the card begins on; None for a blank card and for a typed line."""
         return self.tokens[0].line if self.tokens else None
-
-    @property
-    def proved_columns(self) -> frozenset[int]:
-        """The columns whose character the print proves; every other blank of the card is the layout's."""
-        return frozenset(c for t in self.tokens for c in range(t.first, t.last + 1))
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,13 +86,13 @@ def rebuilt(text: Text, layout: Layout, layers: Iterable[str] | None = None, wit
     return Chapter(text, build(text, wanted, without), layout, wanted, frozenset(without))
 
 
-def device_files(chapter: Chapter | None = None) -> tuple[tuple[int, int, str, str], ...]:
+def device_files(chapter: Chapter | None = None) -> tuple[tuple[int, int, Device, str], ...]:
     """(example, program, device, file name) of every device file, in the order of the chapter."""
     layout = chapter.layout if chapter else load_layout(chapter6_folder())
     return tuple((d.example, d.program, d.device, d.file) for d in layout.devices)
 
 
-def device_layout(chapter: Chapter, example: int, program: int, device: str) -> DeviceLayout:
+def device_layout(chapter: Chapter, example: int, program: int, device: Device) -> DeviceLayout:
     for entry in chapter.layout.devices:
         if (entry.example, entry.program, entry.device) == (example, program, device):
             return entry
@@ -117,7 +110,7 @@ def printed_lines(chapter: Chapter, entry: DeviceLayout) -> tuple[Line, ...]:
     return chapter.print[places[entry.span[0]] : places[entry.span[1]] + 1]
 
 
-def cards(chapter: Chapter, example: int, program: int, device: str) -> tuple[Card, ...]:
+def cards(chapter: Chapter, example: int, program: int, device: Device) -> tuple[Card, ...]:
     """The cards (or typed lines) of one device file, in order.
 
     Raises TranscriptError when the printed numbers and words do not fill the fields of the cards exactly.
@@ -134,7 +127,7 @@ def cards(chapter: Chapter, example: int, program: int, device: str) -> tuple[Ca
     return tuple(result)
 
 
-def card_images(chapter: Chapter, example: int, program: int, device: str) -> tuple[str, ...]:
+def card_images(chapter: Chapter, example: int, program: int, device: Device) -> tuple[str, ...]:
     """The card images of one device file, without trailing blanks; a blank card is an empty string."""
     return tuple(card.image for card in cards(chapter, example, program, device))
 

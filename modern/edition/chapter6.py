@@ -1,17 +1,35 @@
-"""``transcripts/chapter6/layout.toml`` as typed data: FORMATs, cards and device files.
+"""Chapter 6 as it is printed: its layout, ``transcripts/chapter6/layout.toml``, and its committed device files.
 
 The print of chapter 6 gives words, numbers and their order.  The layout gives what the OCR lost and the
 FORMAT statements still say: columns and blank cards (layer ``layout``), and the typewriter lines that the
-thesis states but does not print (layer ``stated``).
+thesis states but does not print (layer ``stated``).  A device file is what :mod:`modern.edition.chapter6_cards`
+makes of both: an input deck, the cards a program punches, the lines it types.
 """
 
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from importlib.resources import files
 from importlib.resources.abc import Traversable
-from typing import Any
+from typing import Any, Literal, get_args
+
+from emulator.language.cards import Deck, deck_from_text
+
+EXAMPLES = (1, 2, 3, 4, 5, 6)
+
+Output = Literal["punch", "typewriter"]
+Device = Literal["deck", "punch", "typewriter"]
+"""What a device file is of: the input deck, the cards punched, the lines typed."""
+
+Origin = Literal["layout", "stated"]
+"""The layer of a device file: its blanks are the layout's, or all of it is stated in the text and printed nowhere."""
+
+Role = Literal[
+    "", "n", "point", "centre", "plane", "carrier", "inside", "boundary", "vertex", "endpoint", "equation", "incidence"
+]
+"""What a card holds; empty for headings and blank cards."""
 
 
 class LayoutError(ValueError):
@@ -62,11 +80,11 @@ class DeviceLayout:
 
     example: int
     program: int
-    device: str
+    device: Device
     file: str
-    layer: str
+    layer: Origin
     span: tuple[str, str] | None
-    cards: tuple[tuple[CardShape, str], ...]
+    cards: tuple[tuple[CardShape, Role], ...]
     typed: tuple[str, ...]
     source: str
 
@@ -80,7 +98,7 @@ class Layout:
 
 
 def load_layout(folder: Traversable) -> Layout:
-    """Read ``layout.toml`` of a transcript folder.  Raises LayoutError for a card or layer it does not know."""
+    """Read ``layout.toml`` of a transcript folder.  Raises LayoutError for a card, role, device or layer it has not."""
     data = tomllib.loads(folder.joinpath("layout.toml").read_text(encoding="utf-8"))
     formats = tuple(
         Format(f["program"], f["number"], f["page"], f["text"], f.get("listed", f["text"]), f.get("note", ""))
@@ -103,13 +121,18 @@ def load_layout(folder: Traversable) -> Layout:
 
 
 def _device(raw: Mapping[str, Any], shapes: Mapping[str, CardShape]) -> DeviceLayout:
-    cards: list[tuple[CardShape, str]] = []
+    cards: list[tuple[CardShape, Role]] = []
     for item in raw.get("cards", ()):
         entry: Mapping[str, Any] = {"id": item} if isinstance(item, str) else item
         if entry["id"] not in shapes:
             raise LayoutError(f"layout.toml: {raw['file']}: there is no card {entry['id']}")
-        cards += [(shapes[entry["id"]], entry.get("role", ""))] * entry.get("times", 1)
-    if raw["layer"] not in ("layout", "stated") or (raw["layer"] == "layout") != ("lines" in raw):
+        role: Role = entry.get("role", "")
+        if role not in get_args(Role):
+            raise LayoutError(f"layout.toml: {raw['file']}: there is no role {role!r}")
+        cards += [(shapes[entry["id"]], role)] * entry.get("times", 1)
+    if raw["device"] not in get_args(Device):
+        raise LayoutError(f"layout.toml: {raw['file']}: there is no device {raw['device']!r}")
+    if raw["layer"] not in get_args(Origin) or (raw["layer"] == "layout") != ("lines" in raw):
         raise LayoutError(f"layout.toml: {raw['file']}: layer `layout` names printed lines, layer `stated` none")
     return DeviceLayout(
         example=raw["example"],
@@ -122,3 +145,36 @@ def _device(raw: Mapping[str, Any], shapes: Mapping[str, CardShape]) -> DeviceLa
         typed=tuple(raw.get("typed", ())),
         source=raw.get("source", ""),
     )
+
+
+@dataclass(frozen=True, slots=True)
+class Print:
+    """What the thesis prints (or, for a typewriter, states) of one device in one example, a card or line each."""
+
+    example: int
+    program: int
+    device: Output
+    lines: tuple[str, ...]
+
+
+def chapter6_folder() -> Traversable:
+    """The data folder of chapter 6, in a checkout or an installed wheel."""
+    return files("transcripts").joinpath("chapter6")
+
+
+def input_deck(example: int, folder: Traversable | None = None) -> Deck:
+    """The example's input data for program 1."""
+    name = f"example{example}/program1.deck"
+    text = (folder or chapter6_folder()).joinpath(*name.split("/")).read_text(encoding="ascii")
+    return deck_from_text(name, text)
+
+
+def prints(example: int, folder: Traversable | None = None) -> Iterator[Print]:
+    """Every output device of every program the example prints, program by program."""
+    outputs: tuple[Output, ...] = ("punch", "typewriter")
+    place = (folder or chapter6_folder()).joinpath(f"example{example}")
+    for program in (1, 2, 3):
+        for device in outputs:
+            entry = place.joinpath(f"program{program}.{device}")
+            if entry.is_file():
+                yield Print(example, program, device, tuple(entry.read_text(encoding="ascii").splitlines()))
