@@ -10,9 +10,23 @@ from dataclasses import replace
 
 from modern.bench.clock import Figure, timed
 from modern.digital.volumes import Volume, ball
-from modern.papers.kovalevsky_schulz import CENTRES, INVISIBLE, VERTICES, VISIBLE, local_corners, voxel_hull
+from modern.papers.kovalevsky_schulz import (
+    CENTRES,
+    INVISIBLE,
+    VERTICES,
+    VISIBLE,
+    Coplanar,
+    Of,
+    local_corners,
+    voxel_hull,
+)
 
 LARGEST = 128
+WAYS: tuple[tuple[Of, int, Coplanar], ...] = (
+    (VERTICES, 26, VISIBLE),
+    (VERTICES, 6, INVISIBLE),
+    (CENTRES, 26, VISIBLE),
+)
 BAR = 32
 """The diameter of the paper's ball, for which the bar of 2 s is set."""
 
@@ -22,17 +36,13 @@ def figures(largest: int = LARGEST) -> Iterator[Figure]:
     diameter = BAR
     while diameter <= largest:
         volume = ball(diameter)
-        for of, neighbours, coplanar in (
-            (VERTICES, 26, VISIBLE),
-            (VERTICES, 6, INVISIBLE),
-            (CENTRES, 26, VISIBLE),
-        ):
+        for of, neighbours, coplanar in WAYS:
             yield cell_list(volume, of, neighbours, coplanar, "bar 2 s" if diameter == BAR else "")
         yield timed(f"  its local corners alone, {volume.source}", lambda v=volume: local_corners(v))  # type: ignore[misc]
         diameter *= 2
 
 
-def cell_list(volume: Volume, of: str, neighbours: int, coplanar: str, bar: str) -> Figure:
+def cell_list(volume: Volume, of: Of, neighbours: int, coplanar: Coplanar, bar: str) -> Figure:
     """The cell list of a solid's hull, with the time a corner in the note."""
     corners = len(local_corners(volume, of, neighbours))
     found = timed(

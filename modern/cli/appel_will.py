@@ -16,12 +16,18 @@ from modern.formats.off import parse_off
 from modern.formats.points import OFF, Input, parse_input
 from modern.geometry.mesh import Mesh
 from modern.papers.appel_will import LITERAL, MENDED, Assembled, MapError, appel_will
-from modern.papers.appel_will.corners import Preprocessing
+from modern.papers.appel_will.corners import Preprocessing, Rule
 from modern.papers.appel_will.loops import Loop
 from modern.papers.appel_will.star import as_printed, in_one_pass
 from modern.papers.appel_will.surfaces import Surface
 
 KINDS = ("a point", "a segment", "a polygon", "a polyhedron")
+RELIED_ON: dict[Rule, str] = {
+    "any": "no point is on more than three planes (well behaved)",
+    "two": "a vertex of the hull is on three outside corners at least",
+    "concave": "the angle of a surface at a vertex of the hull is below 180 degrees",
+}
+"""What each rule for inside corners relies on."""
 
 
 def main(args: argparse.Namespace) -> int:
@@ -36,7 +42,7 @@ def main(args: argparse.Namespace) -> int:
     if args.star is not None:
         method = replace(method, star=as_printed if args.star == "printed" else in_one_pass)
     try:
-        hull = appel_will(found.points, given, replace(method, inside_corners=args.inside_corners or ""))
+        hull = appel_will(found.points, given, replace(method, inside_corners=args.inside_corners))
     except MapError as error:
         raise MapError(f"{found.source}: {error}") from None
     say(f"note: {note}" for note in found.notes)
@@ -94,7 +100,7 @@ def _preprocessing(done: Preprocessing) -> Iterator[str]:
     lines = (f"{_line(c.line.ends)} (surfaces {c.line.on + 1}, {c.line.beyond + 1})" for c in done.inside)
     yield f"inside corners: {', '.join(lines) or 'none'}"
     yield f"deleted by rule {done.rule} before any projection: {_points(done.deleted) or 'none'}"
-    yield f"  relied on: {done.relied_on}"
+    yield f"  relied on: {RELIED_ON[done.rule]}"
     if done.rule == "any":
         if done.crowded:
             yield f"  this is NOT so at {_points(done.crowded)}: the hull may be wrong; rules two and concave are safe"

@@ -12,7 +12,17 @@ from modern.cli.volumes import volume_of
 from modern.digital.volumes import Volume, VolumeError, write_npy
 from modern.formats import FORMATS, mesh_text
 from modern.geometry.mesh import Mesh
-from modern.papers.kovalevsky_schulz import CENTRES, VERTICES, VISIBLE, CellList, Flat, Surface, VoxelHull, voxel_hull
+from modern.papers.kovalevsky_schulz import (
+    CENTRES,
+    VERTICES,
+    VISIBLE,
+    CellList,
+    Flat,
+    Of,
+    Surface,
+    VoxelHull,
+    voxel_hull,
+)
 from modern.papers.kovalevsky_schulz.tables import all_rows, cell_list_size, economical_size, triangulation_size
 
 
@@ -26,7 +36,7 @@ def main(args: argparse.Namespace) -> int:
     if args.fill:
         _fill(volume, args.output)
         return OK
-    of = CENTRES if args.centres else VERTICES
+    of: Of = CENTRES if args.centres else VERTICES
     hull = voxel_hull(volume, of, args.corners or 26, args.coplanar or VISIBLE)
     if args.output is not None and form is not None:
         write_text(args.output, mesh_text(_mesh(hull.surface, args.straight), form))

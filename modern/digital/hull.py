@@ -9,7 +9,7 @@ voxel centres contains.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +24,8 @@ MAX_VOXELS = 1 << 56
 """Beyond this a product of three lengths would leave 64 bits; no memory holds so much."""
 WORTH_COMPILING = 1000
 """From so many candidates on compiled code is used where numba is installed."""
-KINDS = ("empty", "point", "segment", "polygon", "polyhedron")
+Kind = Literal["empty", "point", "segment", "polygon", "polyhedron"]
+KINDS: tuple[Kind, ...] = get_args(Kind)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,7 +41,7 @@ class DigitalHull:
     given: int
 
     @property
-    def kind(self) -> str:
+    def kind(self) -> Kind:
         """``empty``, ``point``, ``segment``, ``polygon`` or ``polyhedron``."""
         return KINDS[self.dimension + 1]
 

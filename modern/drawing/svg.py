@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Literal
 from xml.sax.saxutils import escape as _escape
 
 from modern.drawing.layout import Pixel
@@ -84,7 +85,6 @@ def _lead(more: str) -> str:
 
 RADIUS = "3.2"
 _ARM = 320
-_LINE, _DOT, _CROSS = "line", "dot", "cross"
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,30 +93,30 @@ class Style:
 
     key: str
     name: str
-    shape: str
+    shape: Literal["line", "dot", "cross"]
     attributes: str
 
 
-VISIBLE = Style("seen", "edge", _LINE, 'stroke="#000" stroke-width="1.5" stroke-linecap="round"')
-HIDDEN = Style("hidden", "hidden edge", _LINE, 'stroke="#555" stroke-dasharray="5 4"')
-VERTEX = Style("vertices", "vertex", _DOT, 'fill="#000"')
-VERTEX_HIDDEN = Style("vertices-hidden", "hidden vertex", _DOT, 'fill="#888"')
-BOUNDARY = Style("boundary", "boundary point", _DOT, 'fill="#fff" stroke="#000" stroke-width="1.3"')
+VISIBLE = Style("seen", "edge", "line", 'stroke="#000" stroke-width="1.5" stroke-linecap="round"')
+HIDDEN = Style("hidden", "hidden edge", "line", 'stroke="#555" stroke-dasharray="5 4"')
+VERTEX = Style("vertices", "vertex", "dot", 'fill="#000"')
+VERTEX_HIDDEN = Style("vertices-hidden", "hidden vertex", "dot", 'fill="#888"')
+BOUNDARY = Style("boundary", "boundary point", "dot", 'fill="#fff" stroke="#000" stroke-width="1.3"')
 BOUNDARY_HIDDEN = Style(
-    "boundary-hidden", "hidden boundary point", _DOT, 'fill="#fff" stroke="#888" stroke-width="1.3"'
+    "boundary-hidden", "hidden boundary point", "dot", 'fill="#fff" stroke="#888" stroke-width="1.3"'
 )
-INSIDE = Style("inside", "inside point", _CROSS, 'fill="none" stroke="#333" stroke-width="1.2"')
+INSIDE = Style("inside", "inside point", "cross", 'fill="none" stroke="#333" stroke-width="1.2"')
 
 
 def point_mark(style: Style, at: Pixel, title: str = "", more: str = "") -> str:
     """A dot or a cross."""
-    if style.shape == _CROSS:
+    if style.shape == "cross":
         return saltire(at, _ARM, title, more)
     return circle(at, RADIUS, title, more)
 
 
 def sample(style: Style, at: Pixel) -> str:
     """The mark in a legend, with its own attributes."""
-    if style.shape == _LINE:
+    if style.shape == "line":
         return line(Pixel(at.x - 900, at.y), Pixel(at.x + 900, at.y), style.attributes)
     return point_mark(style, at, more=style.attributes)

@@ -1,7 +1,7 @@
-"""Faces seen and turned away, inner and contour edges, and the contour line (section 3.1 of the paper).
+"""Faces seen and turned away, inner and contour edges, and the contour line (Nakamae and Nishita 1972, section 3.1).
 
 Images are homogeneous, (x, y, w) for the point (x/w, y/w) with w > 0, y upward.  Faces are named by the places of
-their vertices, clockwise seen from outside (section 2); all numbers are integers or fractions.
+their vertices, clockwise seen from outside, as the paper has them (section 2); all numbers are integers or fractions.
 """
 
 from __future__ import annotations
@@ -10,13 +10,18 @@ from collections import defaultdict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TypeVar
+from typing import Final, Literal, TypeVar
 
 N = TypeVar("N", int, Fraction)
 
-INNER, CONTOUR, OUTLINE, BACK, FLAT = "inner", "contour", "outline", "back", "flat"
+Kind = Literal["inner", "contour", "outline", "back", "flat"]
 """What an edge is: of two faces seen; of one seen; of none seen but one edge-on, behind the contour in the image; of
 two turned away; of two in one plane, which is no edge of the solid."""
+INNER: Final = "inner"
+CONTOUR: Final = "contour"
+OUTLINE: Final = "outline"
+BACK: Final = "back"
+FLAT: Final = "flat"
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +30,7 @@ class Edge:
 
     start: int
     end: int
-    kind: str
+    kind: Kind
     faces: tuple[int, ...]
 
 
@@ -89,7 +94,7 @@ def contour(faces: Sequence[tuple[int, ...]], signs: Sequence[int]) -> tuple[int
     return tuple(chain)
 
 
-def _kind(orders: Sequence[int], signs: Sequence[int], flat: Callable[[int, int], bool]) -> str:
+def _kind(orders: Sequence[int], signs: Sequence[int], flat: Callable[[int, int], bool]) -> Kind:
     if len(orders) == 2 and flat(orders[0], orders[1]):
         return FLAT
     seen = sum(signs[order] > 0 for order in orders)

@@ -6,12 +6,14 @@ import math
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal, get_args
 
 from modern.geometry.mesh import cross, dot, minus
 from modern.papers.appel_will.edges import IntPoint
 from modern.papers.appel_will.surfaces import Line, Surface, area_normal, lines, oriented
 
-RULES = ("any", "two", "concave")
+Rule = Literal["any", "two", "concave"]
+RULES: tuple[Rule, ...] = get_args(Rule)
 PLANES = 3
 """A well behaved object has points with no more than three intersecting planes."""
 
@@ -30,12 +32,11 @@ class Corner:
 
 @dataclass(frozen=True, slots=True)
 class Preprocessing:
-    """What was deleted before the projections, by which rule, and what that relied on, in words."""
+    """What was deleted before the projections, and by which rule."""
 
-    rule: str
+    rule: Rule
     inside: tuple[Corner, ...]
     deleted: tuple[int, ...]
-    relied_on: str
     crowded: tuple[int, ...]
     """Points on more than three planes: if there are any, the object is not well behaved."""
 
@@ -56,7 +57,7 @@ def vectors(points: Sequence[IntPoint], surfaces: Sequence[Surface], line: Line)
     return direction, _inward(points, surfaces[line.on]), _inward(points, surfaces[line.beyond])
 
 
-def preprocess(points: Sequence[IntPoint], surfaces: Sequence[Surface], rule: str) -> Preprocessing:
+def preprocess(points: Sequence[IntPoint], surfaces: Sequence[Surface], rule: Rule) -> Preprocessing:
     """Choose the points to delete.
 
     ``rule`` is one of RULES.  ``any``: every point on an inside corner, which is right for well behaved objects only
@@ -72,16 +73,13 @@ def preprocess(points: Sequence[IntPoint], surfaces: Sequence[Surface], rule: st
     at_outside = Counter(end for corner in found if corner.product > 0 for end in corner.line.ends)
     if rule == "any":
         deleted = set(at_inside)
-        relied_on = "no point is on more than three planes (well behaved)"
     elif rule == "two":
         deleted = {point for point, count in at_inside.items() if count >= 2 and at_outside[point] <= 1}
-        relied_on = "a vertex of the hull is on three outside corners at least"
     elif rule == "concave":
         deleted = set(at_inside).intersection(_concave(points, turned))
-        relied_on = "the angle of a surface at a vertex of the hull is below 180 degrees"
     else:
         raise ValueError(f"{rule!r} is no rule; they are {', '.join(RULES)}")
-    return Preprocessing(rule, inside, tuple(sorted(deleted)), relied_on, _crowded(points, turned))
+    return Preprocessing(rule, inside, tuple(sorted(deleted)), _crowded(points, turned))
 
 
 def _crowded(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> tuple[int, ...]:

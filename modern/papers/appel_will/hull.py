@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from modern.exact_hull.coordinates import Points, common_scale, read_points, to_integers
 from modern.geometry.mesh import cross, dot, minus
-from modern.papers.appel_will.corners import Preprocessing, preprocess
+from modern.papers.appel_will.corners import Preprocessing, Rule, preprocess
 from modern.papers.appel_will.edges import Deleted, IntPoint, Pair, convex_edges
 from modern.papers.appel_will.loops import PREFERRED, LoopTable, Rules, find_loops, surface
 from modern.papers.appel_will.star import StarTest, as_printed, in_one_pass
@@ -20,7 +20,7 @@ class Method:
 
     star: StarTest = in_one_pass
     rules: Rules = PREFERRED
-    inside_corners: str = ""
+    inside_corners: Rule | None = None
 
 
 MENDED = Method()
@@ -100,7 +100,7 @@ def appel_will(points: Points, surfaces: Sequence[Surface] = (), method: Method 
     duplicates = tuple((index, first[point]) for index, point in enumerate(scaled) if first[point] != index)
     live = set(first.values())
     preprocessing = None
-    if method.inside_corners:
+    if method.inside_corners is not None:
         same = tuple(tuple(first[scaled[index]] for index in surface) for surface in surfaces)
         preprocessing = preprocess(scaled, same, method.inside_corners)
         live.difference_update(preprocessing.deleted)

@@ -5,9 +5,9 @@
 """
 
 from modern.papers.kovalevsky_schulz.cells import CellList, CellListError, Economical, decoded, expanded
-from modern.papers.kovalevsky_schulz.corners import CENTRES, VERTICES, local_corners
+from modern.papers.kovalevsky_schulz.corners import CENTRES, VERTICES, Of, local_corners
 from modern.papers.kovalevsky_schulz.hull import Surface, VoxelHull, merged, straightened, voxel_hull
-from modern.papers.kovalevsky_schulz.polyhedron import INVISIBLE, VISIBLE, Flat, convex_polyhedron
+from modern.papers.kovalevsky_schulz.polyhedron import INVISIBLE, VISIBLE, Coplanar, Flat, convex_polyhedron
 from modern.papers.kovalevsky_schulz.reconstruction import reconstructed
 
 __all__ = [
@@ -17,8 +17,10 @@ __all__ = [
     "VISIBLE",
     "CellList",
     "CellListError",
+    "Coplanar",
     "Economical",
     "Flat",
+    "Of",
     "Surface",
     "VoxelHull",
     "convex_polyhedron",

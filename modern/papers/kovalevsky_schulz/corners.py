@@ -8,19 +8,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import product
+from typing import Final, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from modern.digital.solids import Volume, VolumeError, Voxels
 
-CENTRES, VERTICES = "centres", "vertices"
+Of = Literal["centres", "vertices"]
+"""What the hull is of: the centres of voxels, or their corners."""
+CENTRES: Final = "centres"
+VERTICES: Final = "vertices"
 NEIGHBOURS = (6, 26)
 
 Points = NDArray[np.int64]
 
 
-def places(volume: Volume, of: str = VERTICES) -> Voxels:
+def places(volume: Volume, of: Of = VERTICES) -> Voxels:
     """The places whose hull is wanted, as an array of truth values with the volume's origin.
 
     of: ``centres``: the voxels themselves (the paper's Int(M)); ``vertices``: their corners (Cl(M)), where voxel
@@ -63,7 +67,7 @@ def points_of(mask: Voxels, origin: tuple[int, ...]) -> Points:
     return Volume(mask, origin).coordinates()
 
 
-def local_corners(volume: Volume, of: str = VERTICES, neighbours: int = 26) -> Points:
+def local_corners(volume: Volume, of: Of = VERTICES, neighbours: int = 26) -> Points:
     """The list L of the paper: coordinates of the local corners, shape (n, 3), in raster order.
 
     Raises VolumeError for a picture of two dimensions.

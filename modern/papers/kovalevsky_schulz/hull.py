@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 from modern.digital.solids import Volume, VolumeError, Voxels, as_volume
 from modern.papers.kovalevsky_schulz.cells import CellList, Economical, Plane, expanded
-from modern.papers.kovalevsky_schulz.corners import VERTICES, Points, corner_mask, places, points_of
-from modern.papers.kovalevsky_schulz.polyhedron import VISIBLE, Flat, convex_polyhedron
+from modern.papers.kovalevsky_schulz.corners import VERTICES, Of, Points, corner_mask, places, points_of
+from modern.papers.kovalevsky_schulz.polyhedron import VISIBLE, Coplanar, Flat, convex_polyhedron
 
 
 def merged(cells: CellList) -> CellList:
@@ -89,7 +89,9 @@ class VoxelHull:
         return self.surface
 
 
-def voxel_hull(volume: Volume | Voxels, of: str = VERTICES, neighbours: int = 26, coplanar: str = VISIBLE) -> VoxelHull:
+def voxel_hull(
+    volume: Volume | Voxels, of: Of = VERTICES, neighbours: int = 26, coplanar: Coplanar = VISIBLE
+) -> VoxelHull:
     """The hull of a solid's voxels (``of="centres"``) or of their corners (``of="vertices"``).
 
     volume: a volume, or an array of truth values indexed [x, y, z].

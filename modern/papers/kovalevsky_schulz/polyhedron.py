@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Final, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,10 @@ from modern.exact_hull import exact_hull
 from modern.geometry.mesh import cross, dot, minus
 from modern.papers.kovalevsky_schulz.cells import CellList, IntPoint, assembled
 
-VISIBLE, INVISIBLE = "visible", "invisible"
+Coplanar = Literal["visible", "invisible"]
+"""What a face in one plane with a new point counts as."""
+VISIBLE: Final = "visible"
+INVISIBLE: Final = "invisible"
 _KINDS = ("point", "segment", "polygon")
 _HIDDEN = (0, 0, 0, -1)
 """A plane that no point sees, in the places of removed faces."""
@@ -75,7 +78,7 @@ class Planes:
         self.rows[row] = _HIDDEN
         self.free.append(row)
 
-    def seen(self, p: IntPoint, coplanar: str) -> list[int]:
+    def seen(self, p: IntPoint, coplanar: Coplanar) -> list[int]:
         """The numbers of the faces visible from ``p`` (Definition VI), in order; coplanar ones as one is told."""
         values = self.rows @ np.array((*self._moved(p), 1), dtype=self.dtype)
         visible = values > 0 if coplanar == INVISIBLE else values >= 0
@@ -111,7 +114,7 @@ class CurrentPolyhedron:
         self._face(a, (first, second, third))
         self._cone(d, (-first, -second, -third))
 
-    def extend(self, number: int, coplanar: str) -> bool:
+    def extend(self, number: int, coplanar: Coplanar) -> bool:
         """Take a further point in, if it sees a face; returns whether it became a vertex.
 
         The visible faces go, with the edges between two of them and the vertices that have no other face; every edge
@@ -176,7 +179,7 @@ class CurrentPolyhedron:
         self.row[self._faces] = self.planes.add(self._faces, *corners)
 
 
-def convex_polyhedron(points: Iterable[Sequence[int]], coplanar: str = VISIBLE) -> CellList | Flat:
+def convex_polyhedron(points: Iterable[Sequence[int]], coplanar: Coplanar = VISIBLE) -> CellList | Flat:
     """The convex hull of points with whole coordinates, as triangles, inserting the points in the order given.
 
     coplanar: whether a face whose plane holds a point counts as ``visible`` from it, as the paper decides, or

@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 
 from modern.digital.solids import MAX_CELLS, Volume, VolumeError
 from modern.papers.kovalevsky_schulz.cells import Economical, Plane, expanded
-from modern.papers.kovalevsky_schulz.corners import CENTRES, VERTICES
+from modern.papers.kovalevsky_schulz.corners import CENTRES, VERTICES, Of
 
 Places = NDArray[np.int64]
 
 
-def reconstructed(encoding: Economical, of: str = VERTICES, source: str = "reconstruction") -> Volume:
+def reconstructed(encoding: Economical, of: Of = VERTICES, source: str = "reconstruction") -> Volume:
     """The digital object whose hull is encoded.
 
     of: what the hull is of, ``centres`` or ``vertices``.  Raises CellListError for an encoding that is no convex

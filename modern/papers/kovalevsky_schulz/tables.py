@@ -15,7 +15,7 @@ EDGE_HEADING = "Edge\tStartP\tEndP\tLeftF\tRightF"
 FACE_HEADING = "Face\tn\tPairs (P, L)"
 
 
-def coordinates(number: int, point: IntPoint) -> str:
+def coordinates(_: int, point: IntPoint) -> str:
     """The coordinates of a vertex as they are; Table 1 has symbols in their place."""
     return str(point)
 

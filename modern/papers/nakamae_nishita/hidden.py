@@ -13,7 +13,7 @@ from modern.geometry.mesh import Vector
 from modern.papers.nakamae_nishita.contours import Tables, Values, boxes, overlapping, tables, values
 from modern.papers.nakamae_nishita.crossings import Passage, as_printed, clipped
 from modern.papers.nakamae_nishita.ghosts import Name, Span, ghosts
-from modern.papers.nakamae_nishita.nearness import BY_PLANE, UNDECIDED, by_formulas, by_plane
+from modern.papers.nakamae_nishita.nearness import BY_PLANE, UNDECIDED, By, by_formulas, by_plane
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron, SceneError
 from modern.papers.nakamae_nishita.projection import Observer
 from modern.papers.nakamae_nishita.solids import Solid, solid
@@ -37,7 +37,7 @@ class Relation:
     w: int
     tables: Tables
     nearer: int
-    by: str
+    by: By
 
 
 @dataclass(frozen=True, slots=True)

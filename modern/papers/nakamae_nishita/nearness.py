@@ -7,16 +7,22 @@ nearer one is on the eye's side of it.  That plane also proves that they do not 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Final, Literal
 
 from modern.drawing.visible import FLAT, line_through, sign, value
 from modern.papers.nakamae_nishita.contours import Tables, Values
 from modern.papers.nakamae_nishita.projection import Homogeneous
 from modern.papers.nakamae_nishita.solids import Plane, Solid, height, plane_through
 
-BY_CROSSING, BY_FACE, BY_PLANE, UNDECIDED = "(4)", "(5)", "plane", "undecided"
+By = Literal["(4)", "(5)", "plane", "undecided"]
+"""What decides: formula (4) at a crossing, formula (5) at a face, a separating plane, or nothing."""
+BY_CROSSING: Final = "(4)"
+BY_FACE: Final = "(5)"
+BY_PLANE: Final = "plane"
+UNDECIDED: Final = "undecided"
 
 
-def by_formulas(v: Solid, w: Solid, found: Tables, of_v: Values, of_w: Values) -> tuple[int, str]:
+def by_formulas(v: Solid, w: Solid, found: Tables, of_v: Values, of_w: Values) -> tuple[int, By]:
     """1 where V is the nearer, -1 where V' is, 0 where the formulas do not say; and the formula that decided.
 
     v, w: V and V'.  of_v, of_w: formula (1) of V's segments at the points of V', and the other way round.

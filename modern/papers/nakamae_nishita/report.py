@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
+from typing import get_args
 
-from modern.drawing.visible import BACK, CONTOUR, FLAT, INNER, OUTLINE
+from modern.drawing.visible import Kind
 from modern.papers.nakamae_nishita.hidden import Drawing, Passages, Relation
 
-_KINDS = (INNER, CONTOUR, OUTLINE, BACK, FLAT)
+_KINDS: tuple[Kind, ...] = get_args(Kind)
 
 
 def table1(drawing: Drawing) -> Iterator[str]:

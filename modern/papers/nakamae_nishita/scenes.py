@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from importlib.resources import files
+from typing import Final, Literal
 
 from emulator.files import read_text, source_name
 from modern.drawing.view import EYES, choose
@@ -22,7 +23,9 @@ from modern.papers.nakamae_nishita.parts import Part, make, part
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron, SceneError, outward
 from modern.papers.nakamae_nishita.projection import Observer, parallel, perspective
 
-PARALLEL, PERSPECTIVE = "parallel", "perspective"
+Projection = Literal["parallel", "perspective"]
+PARALLEL: Final = "parallel"
+PERSPECTIVE: Final = "perspective"
 _AT = re.compile(r"(.*) \(at (?:line (\d+), column (\d+)|end of document)\)", re.DOTALL)
 
 
@@ -32,7 +35,7 @@ class Sight:
     point looked at, in perspective; None is the middle of all."""
 
     eye: Vector
-    projection: str = PARALLEL
+    projection: Projection = PARALLEL
     towards: Vector | None = None
 
     def observer(self, make: Callable[[], Sequence[Polyhedron]]) -> Observer:
@@ -110,9 +113,10 @@ def parse(text: str, source: str) -> SceneFile:
 
 def _sight(fields: Fields) -> Sight:
     eye = fields.vector("eye") or DEFAULT_EYE
-    projection = fields.text("projection", PARALLEL)
-    if projection not in (PARALLEL, PERSPECTIVE):
-        raise fields.wrong("projection", f"{shown(projection)} is neither {PARALLEL} nor {PERSPECTIVE}")
+    named = fields.text("projection", PARALLEL)
+    if named not in (PARALLEL, PERSPECTIVE):
+        raise fields.wrong("projection", f"{shown(named)} is neither {PARALLEL} nor {PERSPECTIVE}")
+    projection: Projection = PERSPECTIVE if named == PERSPECTIVE else PARALLEL
     towards = fields.vector("towards")
     if towards and projection == PARALLEL:
         raise fields.wrong("towards", "a parallel projection has a direction only, eye")

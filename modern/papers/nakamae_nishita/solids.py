@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Final, Literal
 
 from modern.drawing import visible
 from modern.drawing.visible import Edge, line_through
@@ -14,6 +15,7 @@ from modern.papers.nakamae_nishita.projection import Homogeneous, Observer, proj
 
 Plane = tuple[int, int, int, int]
 Flat = tuple[int, int, int]
+Kind = visible.Kind | Literal["figure"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +29,7 @@ class Segment:
     end: int
     first: int
     last: int
-    kind: str
+    kind: Kind
     faces: tuple[int, ...]
 
 
@@ -59,7 +61,7 @@ class Solid:
         return self.points[: len(self.polyhedron.vertices)]
 
 
-FIGURE = "figure"
+FIGURE: Final = "figure"
 _DRAWN = (visible.INNER, visible.CONTOUR)
 
 
@@ -71,7 +73,9 @@ def solid(number: int, polyhedron: Polyhedron, observer: Observer, origin: Vecto
     planes = [_face_plane([points[place] for place in face]) for face in polyhedron.faces]
     edges = visible.classify(polyhedron.faces, signs, lambda a, b: same_plane(planes[a], planes[b]))
     chain = visible.contour(polyhedron.faces, signs)
-    found = [(edge.start, edge.end, edge.kind, _seen(edge.faces, signs)) for edge in edges if edge.kind in _DRAWN]
+    found: list[tuple[int, int, Kind, tuple[int, ...]]] = [
+        (edge.start, edge.end, edge.kind, _seen(edge.faces, signs)) for edge in edges if edge.kind in _DRAWN
+    ]
     corner = len(polyhedron.vertices)
     for figure in polyhedron.figures:
         places = range(corner, corner + len(figure.corners))
