@@ -9,11 +9,15 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
-from modern.bench import appel_will as papers_appel
-from modern.bench import digital, engine, hulls
-from modern.bench import hidden_line as papers_hidden_line
-from modern.bench import voxels as papers_voxels
-from modern.bench.clock import RUNS, timed
+from emulator.language.cards import deck_from_lines
+from emulator.machine.machine import Machine
+from modern.bench import digital, hulls, papers
+from modern.bench.decks import POINTS, data_deck, random_points
+from modern.bench.measure import lines, measure
+from modern.bench.timing import RUNS, timed
+from modern.edition import programs
+
+DECKS = 1_000
 
 
 def process(*arguments: str) -> Callable[[], object]:
@@ -30,17 +34,24 @@ def command_lines() -> Iterator[str]:
     yield timed("hull1620 reproduce, everything", process("reproduce")).line()
 
 
-def paper_lines() -> Iterator[str]:
-    """The later papers."""
-    for module in (papers_appel, papers_hidden_line, papers_voxels):
-        yield from (figure.line() for figure in module.figures())
+def engine_lines() -> Iterator[str]:
+    """The engines: one run over one deck, and ``hull1620 bench`` over a thousand."""
+    deck = data_deck(random_points(POINTS, 1))
+    middle = deck_from_lines("middle", Machine(programs.program("program1"), deck).run().punched)
+    program = programs.program("program3")
+    result = Machine(program, middle).run()
+    name = f"program 3, {POINTS} points, {result.statements} statements, plain engine"
+    figure = timed(name, lambda: Machine(program, middle).run(), "bar 1.5 s")
+    yield figure.line()
+    yield f"  {result.statements / figure.median:,.0f} statements a second"
+    yield from lines(measure(DECKS))
 
 
 GROUPS: Mapping[str, Callable[[], Iterator[str]]] = {
     "commands": command_lines,
-    "engine": engine.figures,
+    "engine": engine_lines,
     "hulls": lambda: (figure.line() for figure in hulls.figures()),
-    "papers": paper_lines,
+    "papers": lambda: (figure.line() for figure in papers.figures()),
     "digital": lambda: (figure.line() for figure in digital.figures()),
 }
 

@@ -1,11 +1,15 @@
-"""What is run: program 3 with the layer ``corrected`` over decks of 51 points, as program 1 punches them."""
+"""What is run: program 3 with the layer ``corrected`` over decks of 51 points, as program 1 punches them.
+
+``python -m modern.bench.decks`` is the process that runs one deck, its input, on the compiled engine.
+"""
 
 from __future__ import annotations
 
 import random
+import sys
 from collections.abc import Sequence
 
-from emulator.compiled.batch import run_batch
+from emulator.compiled.batch import punched, run_batch
 from emulator.language.cards import Deck, deck_from_lines
 from emulator.machine.result import Options
 from modern.edition import programs
@@ -40,3 +44,12 @@ def middle_texts(sets: Sequence[Sequence[Point]]) -> list[str]:
     """The decks program 1 punches of the sets, as texts."""
     results = run_batch(programs.program("program1"), [data_deck(points) for points in sets])
     return ["".join(card + "\n" for card in result.punched) for result in results]
+
+
+def main() -> None:
+    """Put out what program 3 punches."""
+    sys.stdout.writelines(punched(programs.program(PROGRAM, LAYERS), [sys.stdin.read()], OPTIONS))
+
+
+if __name__ == "__main__":
+    main()

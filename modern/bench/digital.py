@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from modern.bench.clock import Figure, timed
+from modern.bench.timing import Figure, timed
 from modern.digital.hull import digital_hull
 from modern.digital.solids import VERTEX, ball
 from modern.papers.yau_srihari import octree_hull

@@ -9,9 +9,8 @@ import math
 import sys
 from collections.abc import Iterator
 from fractions import Fraction
-from typing import Any
 
-from modern.bench.clock import Figure, timed
+from modern.bench.timing import Curve, Figure, plot, timed
 from modern.papers.nakamae_nishita.hidden import Drawing, draw
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron
 from modern.papers.nakamae_nishita.projection import parallel
@@ -20,6 +19,7 @@ from modern.papers.nakamae_nishita.shapes import cuboid, moved, placed
 
 COUNTS = (10, 20, 50, 100, 200, 500, 1000)
 EYE = (30, -46, 27)
+STYLES = ({"marker": "o", "linestyle": "-", "color": "0"}, {"marker": "s", "linestyle": "--", "color": "0.35"})
 
 
 def array(x: int, y: int, z: int, step: Fraction) -> list[Polyhedron]:
@@ -66,31 +66,15 @@ def growth() -> dict[str, list[tuple[int, float, int]]]:
     return found
 
 
-def plot(found: dict[str, list[tuple[int, float, int]]], path: str) -> None:
-    """Log-log lines that can be told apart in grey, and a line that grows as n log n."""
-    import matplotlib
-
-    matplotlib.use("svg")
-    matplotlib.rcParams["svg.hashsalt"] = "hull1620"
-    from matplotlib import pyplot
-
-    figure, axes = pyplot.subplots(figsize=(7, 4.5))
-    styles: list[dict[str, Any]] = [
-        {"marker": "o", "linestyle": "-", "color": "0"},
-        {"marker": "s", "linestyle": "--", "color": "0.35"},
+def curves(found: dict[str, list[tuple[int, float, int]]]) -> list[Curve]:
+    """The growth, and a line that grows as n log n."""
+    *_, (count, seconds, _) = found["on a floor, few overlap"]
+    scale = seconds / (count * math.log(count))
+    guide = Curve("n log n", [(n, scale * n * math.log(n)) for n in COUNTS], {"linestyle": ":", "color": "0.6"})
+    rows = [
+        Curve(name, [row[:2] for row in rows], style) for (name, rows), style in zip(found.items(), STYLES, strict=True)
     ]
-    for (name, rows), style in zip(found.items(), styles, strict=True):
-        axes.loglog([count for count, _, _ in rows], [seconds for _, seconds, _ in rows], label=name, **style)
-    few = found["on a floor, few overlap"]
-    scale = few[-1][1] / (few[-1][0] * math.log(few[-1][0]))
-    guide = [scale * count * math.log(count) for count in COUNTS]
-    axes.loglog(COUNTS, guide, linestyle=":", color="0.6", label="n log n")
-    axes.set_xlabel("cuboids")
-    axes.set_ylabel("seconds, median of five")
-    axes.grid(True, which="major", color="0.9")
-    axes.legend()
-    figure.tight_layout()
-    figure.savefig(path, metadata={"Date": None})
+    return [*rows, guide]
 
 
 def main() -> None:
@@ -102,7 +86,7 @@ def main() -> None:
     found = growth()
     for name, rows in found.items():
         print(name, ", ".join(f"{count:,}: {seconds:.4f} s, {pairs} pairs" for count, seconds, pairs in rows))
-    plot(found, sys.argv[1])
+    plot(curves(found), sys.argv[1], "cuboids")
 
 
 if __name__ == "__main__":

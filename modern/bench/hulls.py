@@ -1,4 +1,8 @@
-"""Hulls: the exact judge and the port in float64, beside Qhull (through scipy) where it is installed."""
+"""Hulls: the exact judge and the port in float64, beside Qhull (through scipy) where it is installed.
+
+``python -m modern.bench.hulls FILE.svg`` measures how their time grows with the number of points and plots it (extra
+``plot``).
+"""
 
 from __future__ import annotations
 
@@ -12,9 +16,19 @@ from typing import Any
 
 import numpy as np
 
-from modern.bench.clock import Figure, timed, timed_once
+from modern.bench.timing import Curve, Figure, plot, timed, timed_once
 from modern.exact_hull import exact_hull
 from modern.port import convex_hull
+
+COUNTS = (100, 1_000, 10_000, 100_000, 1_000_000)
+LARGEST_FOR_JUDGE = 100_000
+PORT = ("port, float64, numpy", "port, float64, fast")
+STYLES = (
+    {"marker": "o", "linestyle": "-", "color": "0"},
+    {"marker": "D", "linestyle": "-.", "color": "0"},
+    {"marker": "s", "linestyle": "--", "color": "0.35"},
+    {"marker": "^", "linestyle": ":", "color": "0.5"},
+)
 
 
 def ball(count: int, seed: int = 1) -> Any:
@@ -96,3 +110,34 @@ def qhull(points: Any, count: int) -> Figure | None:
     except ImportError:
         return None
     return timed(f"Qhull (scipy), {count:,} points uniform in a ball", lambda: ConvexHull(points))
+
+
+def growth() -> dict[str, list[tuple[int, float]]]:
+    """Median seconds by route and number of points, uniform in a ball."""
+    found: dict[str, list[tuple[int, float]]] = {name: [] for name in (*PORT, "judge, exact", "Qhull (scipy)")}
+    for count in COUNTS:
+        points = exact_in_doubles(ball(count))
+        for name, figure in zip(PORT, port(points), strict=False):
+            found[name].append((count, figure.median))
+        other = qhull(points, count)
+        if other is not None:
+            found["Qhull (scipy)"].append((count, other.median))
+        if count <= LARGEST_FOR_JUDGE:
+            whole = eight_digits(points / 80_000)
+            found["judge, exact"].append((count, timed("", lambda p=whole: exact_hull(p)).median))  # type: ignore[misc]
+    return found
+
+
+def main() -> None:
+    """Measure the growth, print and plot it."""
+    if len(sys.argv) != 2:
+        sys.exit("usage: python -m modern.bench.hulls FILE.svg")
+    found = growth()
+    for name, points in found.items():
+        print(name, ", ".join(f"{count:,}: {seconds:.4f} s" for count, seconds in points))
+    curves = [Curve(name, points, style) for (name, points), style in zip(found.items(), STYLES, strict=True)]
+    plot(curves, sys.argv[1], "points, uniform in a ball")
+
+
+if __name__ == "__main__":
+    main()

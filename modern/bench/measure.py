@@ -105,7 +105,7 @@ def _starts(text: str, folder: Path, say: Say) -> tuple[Figure, ...]:
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(folder / "cache")}
 
     def process() -> None:
-        command = [sys.executable, "-m", "modern.bench.first"]
+        command = [sys.executable, "-m", "modern.bench.decks"]
         subprocess.run(command, input=text, text=True, check=True, stdout=subprocess.DEVNULL, env=environment)
 
     say("starting processes")

@@ -1,11 +1,12 @@
-"""Timing: medians of five runs behind one that fills caches."""
+"""Timing: medians of five runs after one that fills caches; and plots of how times grow."""
 
 from __future__ import annotations
 
 import statistics
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 RUNS = 5
 
@@ -32,16 +33,16 @@ def timed_once(what: str, work: Callable[[], object], note: str = "") -> Figure:
     return Figure(what, (_seconds(work),), note)
 
 
-def timed(what: str, work: Callable[[], object], note: str = "", runs: int = RUNS) -> Figure:
+def timed(what: str, work: Callable[[], object], note: str = "") -> Figure:
     """Time ``work`` five times; the first, untimed, fills caches."""
-    return side_by_side({what: work}, note, runs)[0]
+    return side_by_side({what: work}, note)[0]
 
 
-def side_by_side(works: Mapping[str, Callable[[], object]], note: str = "", runs: int = RUNS) -> list[Figure]:
+def side_by_side(works: Mapping[str, Callable[[], object]], note: str = "") -> list[Figure]:
     """Time several works in turn, five rounds of them, so that what else the machine does falls on all of them."""
     for work in works.values():
         work()
-    rounds = [[_seconds(work) for work in works.values()] for _ in range(runs)]
+    rounds = [[_seconds(work) for work in works.values()] for _ in range(RUNS)]
     return [Figure(what, tuple(seconds), note) for what, seconds in zip(works, zip(*rounds, strict=True), strict=True)]
 
 
@@ -49,3 +50,32 @@ def _seconds(work: Callable[[], object]) -> float:
     start = time.perf_counter()
     work()
     return time.perf_counter() - start
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """Seconds by number, and how matplotlib draws them; lines are told apart in grey."""
+
+    name: str
+    points: Sequence[tuple[int, float]]
+    style: Mapping[str, Any]
+
+
+def plot(curves: Sequence[Curve], path: str, what: str) -> None:
+    """Write curves on logarithmic axes as SVG; ``what`` is numbered along the first (extra ``plot``)."""
+    import matplotlib
+
+    matplotlib.use("svg")
+    matplotlib.rcParams["svg.hashsalt"] = "hull1620"
+    from matplotlib import pyplot
+
+    figure, axes = pyplot.subplots(figsize=(7, 4.5))
+    for curve in curves:
+        if curve.points:
+            axes.loglog(*zip(*curve.points, strict=True), label=curve.name, **curve.style)
+    axes.set_xlabel(what)
+    axes.set_ylabel("seconds, median of five")
+    axes.grid(True, which="major", color="0.9")
+    axes.legend()
+    figure.tight_layout()
+    figure.savefig(path, metadata={"Date": None})

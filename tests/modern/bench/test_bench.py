@@ -189,9 +189,10 @@ def test_the_decks_are_the_same_each_time() -> None:
     assert len(data_deck(points).cards) == 52
 
 
-def test_works_are_timed_in_turn() -> None:
+def test_works_are_timed_in_turn(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("modern.bench.timing.RUNS", 2)
     order: list[str] = []
-    figures = side_by_side({name: lambda name=name: order.append(name) for name in "ab"}, runs=2)  # type: ignore[misc]
+    figures = side_by_side({name: lambda name=name: order.append(name) for name in "ab"})  # type: ignore[misc]
     assert order == ["a", "b"] * 3
     assert [(figure.what, len(figure.seconds)) for figure in figures] == [("a", 2), ("b", 2)]
 
