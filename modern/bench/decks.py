@@ -10,10 +10,10 @@ import sys
 from collections.abc import Sequence
 
 from emulator.compiled.batch import punched, run_batch
-from emulator.language.cards import Deck, deck_from_lines
+from emulator.language.cards import Deck
 from emulator.machine.result import Options
 from modern.edition import programs
-from modern.formats.csv import e_field, parse_decimal
+from modern.formats import deck
 
 PROGRAM, LAYERS = "program3", ("corrected",)
 OPTIONS = Options(core=60_000)
@@ -36,8 +36,7 @@ def random_points(count: int, seed: int) -> list[Point]:
 
 def data_deck(points: Sequence[Point]) -> Deck:
     """The deck for program 1: N, and a card a point."""
-    cards = ["".join(e_field(parse_decimal(str(x)), False) for x in point) for point in points]
-    return deck_from_lines("random deck", [f"{len(points):2d}", *cards])
+    return deck.data_deck([list(map(str, point)) for point in points], "random deck")
 
 
 def middle_texts(sets: Sequence[Sequence[Point]]) -> list[str]:

@@ -4,18 +4,27 @@ from __future__ import annotations
 
 import argparse
 
-from emulator.files import write_text
+from emulator.errors import FileError
+from emulator.files import read_text, source_name, write_text
 from modern.cli.common import say
 from modern.cli.exits import OK
-from modern.formats.csv import deck_lines, read_rows
-from modern.thesis.deck import MAX_POINTS
+from modern.formats import csv
+from modern.formats.deck import MAX_POINTS, UnfitPoint, data_deck
 
 
 def main(args: argparse.Namespace) -> int:
     """Read the points, write the deck."""
-    source = "standard input" if args.points == "-" else args.points
-    lines = deck_lines(read_rows(args.points), source, args.truncate)
-    write_text(args.output, "".join(line + "\n" for line in lines))
-    if len(lines) - 1 > MAX_POINTS:
-        say([f"warning: {source}: {len(lines) - 1} points; the programs as listed take at most {MAX_POINTS}"])
+    source = source_name(args.points)
+    points, lines = csv.points(read_text(args.points), source)
+    if not points:
+        raise FileError(f"{source}: there are no points")
+    try:
+        deck = data_deck(points, source, args.truncate)
+    except UnfitPoint as error:
+        raise FileError(f"{source}: line {lines[error.point - 1]}, field {error.field}: {error.why}") from None
+    except ValueError as error:
+        raise FileError(f"{source}: {error}") from None
+    write_text(args.output, deck.text())
+    if len(points) > MAX_POINTS:
+        say([f"warning: {source}: {len(points)} points; the programs as listed take at most {MAX_POINTS}"])
     return OK

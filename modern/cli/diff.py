@@ -9,7 +9,7 @@ from fractions import Fraction
 
 from emulator.errors import DeckError
 from emulator.files import write_text
-from emulator.language.cards import Deck, deck_from_lines
+from emulator.language.cards import Deck
 from emulator.machine.result import Options
 from modern.cli.common import layers_of, say
 from modern.cli.exits import DIFFERS, OK
@@ -17,10 +17,9 @@ from modern.comparison.difference import Disagreement, against
 from modern.comparison.outcome import Outcome, Vector, from_cards, from_hull, from_judge
 from modern.edition import programs
 from modern.exact_hull import exact_hull
-from modern.formats.csv import e_field, parse_decimal
+from modern.formats.deck import MAX_POINTS, UnfitPoint, data_deck, with_epsilon
 from modern.formats.points import Input, read_input
 from modern.port import convex_hull
-from modern.thesis.deck import MAX_POINTS
 from modern.thesis.job import run_hull
 
 _LIMIT = 1_000_000
@@ -54,7 +53,10 @@ def _routes(args: argparse.Namespace, found: Input, points: list[Vector]) -> Ite
         if "epsilon" in chosen and (args.epsilon or "").startswith("rel:"):
             yield Outcome(name, "not run: the cards take an absolute e", -1)
             continue
-        data = _with_epsilon(deck, args.epsilon) if "epsilon" in chosen else deck
+        try:
+            data = with_epsilon(deck, args.epsilon or "0") if "epsilon" in chosen else deck
+        except ValueError as error:
+            raise DeckError(f"--epsilon: {error}") from None
         run = run_hull(data, programs.loader(chosen), Options(limit=_LIMIT, core=60000 if chosen else 40000))
         yield from_cards(name, run, points)
     for arithmetic in ("float64", "exact"):
@@ -66,23 +68,10 @@ def _deck(found: Input) -> Deck | str:
     """The points as a data deck, or why they are none."""
     if len(found.points) > MAX_POINTS:
         return f"{len(found.points)} points; the programs take {MAX_POINTS}"
-    cards = []
-    for place, point in zip(found.places, found.points, strict=True):
-        try:
-            cards.append("".join(e_field(parse_decimal(x), False) for x in point))
-        except ValueError as error:
-            return f"{place}: {error}"
-    return deck_from_lines(found.source, [f"{len(cards):2d}", *cards])
-
-
-def _with_epsilon(deck: Deck, epsilon: str | None) -> Deck:
-    """The deck with e punched behind N, as the layer epsilon reads it."""
     try:
-        field = e_field(parse_decimal(epsilon or "0"), False)
-    except ValueError as error:
-        raise DeckError(f"--epsilon: {error}") from None
-    first, *rest = (card.text for card in deck.cards)
-    return deck_from_lines(deck.source, [first.ljust(2) + field, *rest])
+        return data_deck(found.points, found.source)
+    except UnfitPoint as error:
+        return f"{found.places[error.point - 1]}: {error.why}"
 
 
 def _table(rows: list[tuple[Outcome, Disagreement | None]], judge: Outcome, found: Input) -> Iterator[str]:

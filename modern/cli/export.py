@@ -9,7 +9,7 @@ from modern.cli.exits import DIFFERS, OK
 from modern.formats import format_of, write_hull
 from modern.formats.points import read_input
 from modern.geometry.hull import Hull
-from modern.geometry.numbers import ExportError
+from modern.geometry.mesh import ExportError
 
 
 def main(args: argparse.Namespace) -> int:

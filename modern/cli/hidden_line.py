@@ -13,7 +13,7 @@ from modern.cli.exits import OK
 from modern.cli.export import exact_hull_of
 from modern.drawing.scene import eye_of
 from modern.formats.off import read_off
-from modern.geometry.mesh import Vector
+from modern.geometry.vectors import Vector
 from modern.papers.nakamae_nishita import picture, report
 from modern.papers.nakamae_nishita.hidden import draw
 from modern.papers.nakamae_nishita.polyhedron import SceneError, polyhedron_of_hull, polyhedron_of_off

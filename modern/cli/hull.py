@@ -12,7 +12,7 @@ from modern.cli.common import card_rules, check_places, layers_of, machine_optio
 from modern.cli.exits import DIFFERS, OK
 from modern.cli.profile import profile_lines
 from modern.edition import programs
-from modern.thesis import deck as hulldeck
+from modern.formats.deck import check
 from modern.thesis.job import HullRun, run_hull
 
 
@@ -22,7 +22,7 @@ def main(args: argparse.Namespace) -> int:
     check_places(args.punch, args.typewriter, args.trace)
     layers = layers_of(args)
     first = "program1_examples" if args.programs == "examples" else "program1"
-    checked = hulldeck.check(read_deck(args.deck), card_rules(options), epsilon="epsilon" in layers)
+    checked = check(read_deck(args.deck), card_rules(options), epsilon="epsilon" in layers)
     load = programs.loader(layers)
     load(first)
     runs: list[HullRun] = []

@@ -16,7 +16,7 @@ from modern.drawing.layout import Layout, Pixel, lay_out
 from modern.drawing.legend import band, band_height, caption
 from modern.drawing.scene import Mark, Scene, scene
 from modern.geometry.hull import Hull
-from modern.geometry.numbers import ExportError
+from modern.geometry.mesh import ExportError
 
 MOST_NUMBERS = 200
 """Beyond this many vertices they are not numbered; nobody could read it."""

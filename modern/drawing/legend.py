@@ -10,7 +10,7 @@ from modern.drawing.layout import MARGIN, Pixel
 from modern.drawing.scene import Scene
 from modern.drawing.svg import BOUNDARY, BOUNDARY_HIDDEN, HIDDEN, INSIDE, VERTEX_HIDDEN, VISIBLE, Style, sample
 from modern.drawing.view import root
-from modern.geometry.mesh import dot
+from modern.geometry.vectors import dot
 
 _KINDS = ("Point", "Segment", "Polygon", "Polyhedron")
 _STEP, _LETTER, _AXES = 19, 8, 60

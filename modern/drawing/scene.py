@@ -10,11 +10,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from modern.drawing.view import Eye, Flat, View, across, along, choose, lowest, root, towards, view
+from modern.drawing.view import Eye, Flat, View, across, along, choose, root, towards, view
 from modern.drawing.visible import BACK, FLAT, classify, facing
 from modern.geometry.hull import Hull
-from modern.geometry.mesh import Mesh, Vector, area_vector, cross, dot, mesh, minus
-from modern.geometry.numbers import ExportError, coordinates, number, shown
+from modern.geometry.mesh import ExportError, Mesh, mesh
+from modern.geometry.numbers import coordinates, number, shown
+from modern.geometry.vectors import Vector, area_vector, cross, dot, lowest, minus
 
 _ONE = Fraction(1)
 

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from modern.geometry.mesh import Vector, cross, dot, minus
+from modern.geometry.vectors import Vector, cross, dot, lowest, minus
 
 Eye = tuple[int, int, int]
 Flat = tuple[Fraction, Fraction]
@@ -74,14 +74,6 @@ def view(eye: Eye) -> View:
 def root(square: Fraction) -> Fraction:
     """The square root to 15 decimals beyond the first digit, from below; of integers of at least 1."""
     return Fraction(math.isqrt(square.numerator * _ROOT * _ROOT // square.denominator), _ROOT)
-
-
-def lowest(vector: Sequence[Fraction]) -> Eye:
-    """The direction of a vector as integers without common divisor."""
-    scale = math.lcm(*(number.denominator for number in vector))
-    whole = [number.numerator * (scale // number.denominator) for number in vector]
-    divisor = math.gcd(*whole) or 1
-    return whole[0] // divisor, whole[1] // divisor, whole[2] // divisor
 
 
 def along(direction: Eye, point: Vector) -> Fraction:

@@ -11,14 +11,14 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
 
-from emulator.language.cards import Deck, deck_from_lines
+from emulator.language.cards import Deck
 from emulator.machine.result import Options
 from modern.comparison.difference import against
 from modern.comparison.outcome import Outcome, Vector, from_cards, from_judge
 from modern.edition import programs
 from modern.edition.chapter4 import THEOREMS, Point, Theorem, load_text, load_theorems, theorem_faults
 from modern.exact_hull import exact_hull
-from modern.formats.csv import e_field, parse_decimal
+from modern.formats.deck import data_deck
 from modern.thesis.cards import scaled
 from modern.thesis.job import Load, run_hull
 
@@ -185,8 +185,7 @@ def _cut(value: Fraction) -> Fraction:
 
 
 def _deck(points: Sequence[Vector]) -> Deck:
-    cards = ["".join(e_field(parse_decimal(_decimal(x)), False) for x in point) for point in points]
-    return deck_from_lines("theorem", [f"{len(cards):2d}", *cards])
+    return data_deck([list(map(_decimal, point)) for point in points], "theorem")
 
 
 def _decimal(value: Fraction) -> str:

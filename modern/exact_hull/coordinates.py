@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterable
 from fractions import Fraction
 from typing import Any
@@ -11,40 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from modern.geometry.numbers import Exact, PointsError, decimal
+
 Coordinate = int | Fraction | str | float
-Exact = int | Fraction
 ExactPoint = tuple[Exact, Exact, Exact]
 IntPoint = tuple[int, int, int]
 Points = Iterable[Iterable[Coordinate]] | NDArray[Any]
-
-MAX_DIGITS = 4000
-MAX_EXPONENT = 9999
-_DECIMAL = re.compile(r"([+-]?)([0-9]*)(?:\.([0-9]*))?(?:[eE]([+-]?[0-9]{1,6}))?")
-
-
-class PointsError(ValueError):
-    """The points are not points with three exact coordinates; the message names point and coordinate, from 0."""
-
-
-def decimal(text: str) -> Exact:
-    """The number a decimal string stands for: ``12``, ``-1.5``, ``-.25E-3``; blanks around it are allowed.
-
-    Raises ValueError.  At most 4000 digits and exponents to 9999, so that a slip cannot ask for all of the memory.
-    """
-    match = _DECIMAL.fullmatch(text.strip())
-    if not match or not (match[2] or match[3]):
-        raise ValueError(f"{text!r} is no decimal number")
-    whole, fraction = match[2], match[3] or ""
-    exponent = int(match[4] or 0)
-    if len(whole) + len(fraction) > MAX_DIGITS:
-        raise ValueError(f"{len(whole) + len(fraction)} digits; at most {MAX_DIGITS} are read")
-    if abs(exponent) > MAX_EXPONENT:
-        raise ValueError(f"the exponent of {text!r} is not within -{MAX_EXPONENT} to {MAX_EXPONENT}")
-    number = int(whole + fraction)
-    if match[1] == "-":
-        number = -number
-    exponent -= len(fraction)
-    return number * 10**exponent if exponent >= 0 else Fraction(number, 10**-exponent)
 
 
 def exact(value: object) -> Exact:

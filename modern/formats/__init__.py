@@ -12,8 +12,7 @@ from modern.formats import obj, off, ply, stl
 from modern.formats.off import OffMesh, parse_off, read_off
 from modern.formats.trimesh import to_trimesh
 from modern.geometry.hull import Hull
-from modern.geometry.mesh import Mesh, mesh
-from modern.geometry.numbers import ExportError
+from modern.geometry.mesh import ExportError, Mesh, mesh
 
 __all__ = [
     "FORMATS",

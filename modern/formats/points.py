@@ -7,23 +7,16 @@ programs on the machine would cut the ninth.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from decimal import Decimal
-from fractions import Fraction
 
 from emulator.errors import FileError
 from emulator.files import read_text, source_name
-from emulator.language.cards import Card, deck_from_text
-from emulator.numbers.arithmetic import profile
-from emulator.numbers.fields import read_floating
-from modern.formats.csv import rows
+from emulator.language.cards import deck_from_text
+from modern.formats import csv
+from modern.formats.deck import exact_points
 from modern.formats.off import parse_off
-from modern.geometry.numbers import Point, finite_decimal, number, shown
-from modern.thesis import deck as hulldeck
+from modern.geometry.numbers import Point, shown
 
 DECK, CSV, OFF = "deck", "csv", "off"
-_DIGITS = 14
-_RULES = profile(f"truncating:{_DIGITS}").rules
-"""A field of 14 columns holds no more digits than these rules keep."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,52 +74,13 @@ def recognise(text: str, source: str) -> str:
 
 
 def _deck(text: str, source: str) -> Input:
-    checked = hulldeck.check(deck_from_text(source, text), _RULES)
-    notes = []
-    if len(checked.sets) > 1:
-        notes.append(f"{source}: {len(checked.sets)} data sets; the first is taken")
-    first = hulldeck.check(checked.deck(0), _RULES)
-    cards = first.sets[0].cards[1:]
-    return Input(
-        source,
-        DECK,
-        tuple(_card_point(card) for card in cards),
-        tuple(f"card {card.number}" for card in cards),
-        (*notes, *first.warnings),
-    )
-
-
-def _card_point(card: Card) -> Point:
-    x, y, z = (_field(card.columns(first, first + 13)) for first in (1, 15, 29))
-    return x, y, z
-
-
-def _field(columns: str) -> str:
-    """The decimal a card's field stands for; the check has read it before."""
-    read = read_floating(hulldeck.COORDINATE, columns, _RULES)
-    if not read.mantissa:
-        return "0"
-    text = finite_decimal(Fraction(Decimal(read.mantissa).scaleb(read.exponent - _DIGITS)))
-    assert text is not None
-    return text
+    points, notes = exact_points(deck_from_text(source, text))
+    return Input(source, DECK, tuple(points.values()), tuple(f"card {number}" for number in points), notes)
 
 
 def _csv(text: str, source: str) -> Input:
-    points: list[Point] = []
-    places: list[str] = []
-    for line, row in rows(text, source):
-        if len(row) != 3:
-            raise FileError(f"{source}: line {line}, column 1: {len(row)} fields; a point has three, x,y,z")
-        for field, word in enumerate(row, 1):
-            try:
-                if "/" in word:
-                    raise ValueError(f"{shown(word.strip())} is no decimal number")
-                number(word)
-            except ValueError as error:
-                raise FileError(f"{source}: line {line}, field {field}: {error}") from None
-        points.append((row[0].strip(), row[1].strip(), row[2].strip()))
-        places.append(f"line {line}")
-    return Input(source, CSV, tuple(points), tuple(places))
+    points, lines = csv.points(text, source)
+    return Input(source, CSV, points, tuple(f"line {line}" for line in lines))
 
 
 def _off(text: str, source: str) -> Input:

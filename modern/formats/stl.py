@@ -10,8 +10,8 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
-from modern.geometry.mesh import Mesh, Vector, cross, dot, minus
-from modern.geometry.numbers import ExportError
+from modern.geometry.mesh import ExportError, Mesh
+from modern.geometry.vectors import Vector, cross, dot, minus
 
 _PLACES = 9
 

@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 
 from modern.geometry.hull import Hull
-from modern.geometry.mesh import mesh
-from modern.geometry.numbers import ExportError
+from modern.geometry.mesh import ExportError, mesh
 
 
 def to_trimesh(hull: Hull) -> Any:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
 DETERMINED = "determined"
 NOT_ACCEPTABLE = "DATA NOT ACCEPTABLE"
@@ -90,9 +89,3 @@ class Hull:
     @property
     def determined(self) -> bool:
         return self.status == DETERMINED
-
-    def to_trimesh(self) -> Any:
-        """The hull as a ``trimesh.Trimesh``: :func:`modern.formats.to_trimesh`."""
-        from modern.formats import to_trimesh  # imported late: most uses of a hull write no mesh
-
-        return to_trimesh(self)

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from fractions import Fraction
-from typing import TypeVar
 
+from emulator.errors import EmulatorError
 from modern.geometry.hull import Hull
-from modern.geometry.numbers import ExportError, Point, coordinates, decimal_text, number
+from modern.geometry.numbers import Point, coordinates, decimal_text, number
+from modern.geometry.vectors import Vector, area_vector, dot
 
-Vector = tuple[Fraction, Fraction, Fraction]
 Triangle = tuple[int, int, int]
-N = TypeVar("N", int, Fraction)
+
+
+class ExportError(EmulatorError):
+    """A hull that cannot be written in the format asked for, or not drawn as asked; one line."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,31 +87,6 @@ def mesh(hull: Hull) -> Mesh:
 def sides(face: tuple[int, ...]) -> Iterator[tuple[int, int]]:
     """The directed edges of a face."""
     return zip(face, face[1:] + face[:1], strict=True)
-
-
-def area_vector(points: tuple[Vector, ...], face: tuple[int, ...]) -> Vector:
-    """Twice the area of a face, along its outward normal."""
-    total = (Fraction(0), Fraction(0), Fraction(0))
-    origin = points[face[0]]
-    for k in range(1, len(face) - 1):
-        part = cross(minus(points[face[k]], origin), minus(points[face[k + 1]], origin))
-        total = (total[0] + part[0], total[1] + part[1], total[2] + part[2])
-    return total
-
-
-def minus(p: tuple[N, N, N], q: tuple[N, N, N]) -> tuple[N, N, N]:
-    """p - q."""
-    return p[0] - q[0], p[1] - q[1], p[2] - q[2]
-
-
-def cross(u: tuple[N, N, N], v: tuple[N, N, N]) -> tuple[N, N, N]:
-    """The vector product."""
-    return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
-
-
-def dot(u: tuple[N, N, N], v: tuple[N, N, N]) -> N:
-    """The scalar product."""
-    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 
 
 def _cycle(lines: list[tuple[int, ...]], count: int) -> tuple[int, ...]:

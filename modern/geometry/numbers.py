@@ -8,20 +8,49 @@ from decimal import MAX_EMAX, MIN_EMIN, ROUND_HALF_EVEN, Context, Decimal
 from fractions import Fraction
 
 from emulator.errors import EmulatorError
-from modern.exact_hull.coordinates import decimal
 
+Exact = int | Fraction
 Point = tuple[str, str, str]
+
+MAX_DIGITS, MAX_EXPONENT = 4000, 9999
+_DECIMAL = re.compile(r"([+-]?)([0-9]*)(?:\.([0-9]*))?(?:[eE]([+-]?[0-9]{1,6}))?")
 _QUOTIENT = re.compile(r"([+-]?[0-9]+)/([0-9]+)")
 _SHOWN = 40
 
 
-class ExportError(EmulatorError):
-    """A hull that cannot be written in the format asked for, or a file that cannot be read; one line."""
+class PointsError(EmulatorError, ValueError):
+    """Points that are not three exact coordinates each; the message names point and coordinate, from 0."""
 
 
 def shown(text: str) -> str:
     """A text quoted for a message, cut to 40 characters."""
     return repr(text if len(text) <= _SHOWN else text[:_SHOWN] + "...")
+
+
+def split_decimal(text: str) -> tuple[bool, str, str, int]:
+    """Of ``-12.50E-3``: whether it has a minus sign, the digits before and after the point, the exponent as written.
+
+    Raises ValueError.
+    """
+    match = _DECIMAL.fullmatch(text.strip())
+    if not match or not (match[2] or match[3]):
+        raise ValueError(f"{text!r} is no decimal number")
+    return match[1] == "-", match[2], match[3] or "", int(match[4] or 0)
+
+
+def decimal(text: str) -> Exact:
+    """The number a decimal string stands for: ``12``, ``-1.5``, ``-.25E-3``; blanks around it are allowed.
+
+    Raises ValueError.  At most 4000 digits and exponents to 9999, so that a slip cannot ask for all of the memory.
+    """
+    minus, whole, fraction, exponent = split_decimal(text)
+    if len(whole) + len(fraction) > MAX_DIGITS:
+        raise ValueError(f"{len(whole) + len(fraction)} digits; at most {MAX_DIGITS} are read")
+    if abs(exponent) > MAX_EXPONENT:
+        raise ValueError(f"the exponent of {text!r} is not within -{MAX_EXPONENT} to {MAX_EXPONENT}")
+    size = int(whole + fraction)
+    value, exponent = -size if minus else size, exponent - len(fraction)
+    return value * 10**exponent if exponent >= 0 else Fraction(value, 10**-exponent)
 
 
 def number(text: str) -> Fraction:

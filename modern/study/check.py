@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from emulator.language.cards import deck_from_lines
 from emulator.machine.machine import Machine
 from modern.edition import programs
-from modern.formats.csv import e_field, parse_decimal
+from modern.formats.deck import coordinate_field
 from modern.port import convex_hull
 from modern.study.families import draw_sample
 from modern.study.measures import measure_of
@@ -65,7 +65,7 @@ def _check_route(route: Route) -> None:
     if bool(route.epsilon) != ("epsilon" in route.layers):
         raise PlanError(f"route {route.name}: an epsilon needs the layer 'epsilon', and that layer an epsilon")
     try:
-        e_field(parse_decimal(route.epsilon or "0"), False)
+        coordinate_field(route.epsilon or "0")
     except ValueError as error:
         raise PlanError(f"route {route.name}: epsilon: {error}") from None
     options = options_of(route)

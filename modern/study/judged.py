@@ -6,14 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from emulator.language.cards import Deck, deck_from_lines
+from emulator.language.cards import Deck
 from emulator.numbers.arithmetic import Rules
-from emulator.numbers.fields import read_floating
 from modern.comparison.outcome import Outcome, Vector, from_judge
 from modern.exact_hull import ExactHull, exact_hull
-from modern.formats.csv import deck_lines, e_field, parse_decimal
+from modern.formats.deck import data_deck, read_coordinates
 from modern.study.families.drawing import Drawn
-from modern.thesis.deck import COORDINATE
 
 _CARD_DIGITS = 8
 
@@ -47,18 +45,12 @@ class Judged:
 
 
 def judge(drawn: Drawn, name: str) -> Judged:
-    """The deck of a sample, and its exact hull.  Raises DeckError where the points do not fit a deck."""
-    deck = deck_from_lines(name, deck_lines(((i, list(p)) for i, p in enumerate(drawn.points, 1)), name))
+    """The deck of a sample, and its exact hull.  Raises ValueError where the points do not fit a deck."""
+    deck = data_deck(drawn.points, name)
     points = tuple(tuple(map(Fraction, point)) for point in drawn.points)
     hull = exact_hull(drawn.points)
     outcome = from_judge(hull, points)
     return Judged(drawn, deck, points, hull, outcome, _on(hull))
-
-
-def with_epsilon(deck: Deck, epsilon: str) -> Deck:
-    """The deck with e punched behind N, as the layer ``epsilon`` reads it.  Raises ValueError."""
-    first, *rest = (card.text for card in deck.cards)
-    return deck_from_lines(deck.source, [first.ljust(2) + e_field(parse_decimal(epsilon), False), *rest])
 
 
 def held(judged: Judged, rules: Rules) -> Sequence[Vector]:
@@ -67,7 +59,7 @@ def held(judged: Judged, rules: Rules) -> Sequence[Vector]:
         return judged.points
     points = []
     for card in judged.deck.cards[1:]:
-        reads = (read_floating(COORDINATE, card.columns(first, first + 13), rules) for first in (1, 15, 29))
+        reads = read_coordinates(card, rules)
         points.append(tuple(read.mantissa * Fraction(10) ** (read.exponent - rules[0]) for read in reads))
     return points
 

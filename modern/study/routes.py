@@ -13,10 +13,11 @@ from emulator.machine.result import Options
 from emulator.numbers import DecimalNumbers, numbers
 from modern.edition import programs
 from modern.edition.apparatus import ApparatusError
+from modern.formats.deck import with_epsilon
 from modern.geometry.hull import Hull
 from modern.port import RangeError, convex_hull
 from modern.study.filing import OTHERWISE, Figures, Filed, file_hull, file_run
-from modern.study.judged import Judged, with_epsilon
+from modern.study.judged import Judged
 from modern.study.measures import measure_of
 from modern.study.plan import PlanError, Port, Programs, Route
 from modern.thesis.batch import Runs, run_hulls

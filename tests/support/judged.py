@@ -9,11 +9,11 @@ from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 
 from emulator.errors import EmulatorError
-from emulator.language.cards import Deck, deck_from_lines
+from emulator.language.cards import Deck
 from emulator.machine.result import Options
 from modern.edition import programs
 from modern.exact_hull import ExactHull, exact_hull
-from modern.formats.csv import e_field, parse_decimal
+from modern.formats.deck import data_deck, with_epsilon
 from modern.thesis.cards import CardHull, read_hull
 from modern.thesis.job import HullRun, run_hull
 
@@ -23,9 +23,8 @@ OPTIONS = Options(core=60_000, limit=5_000_000)
 
 def deck_of(points: Sequence[Sequence[int | str]], e: str = "") -> Deck:
     """A data deck: the card with N (and e), and a card a point."""
-    first = f"{len(points):2d}" + (e_field(parse_decimal(e), False) if e else "")
-    cards = ["".join(e_field(parse_decimal(str(x)), False) for x in p) for p in points]
-    return deck_from_lines("points", [first, *cards])
+    deck = data_deck([list(map(str, point)) for point in points], "points")
+    return with_epsilon(deck, e) if e else deck
 
 
 def run(points: Sequence[Sequence[int | str]], *layers: str, e: str = "", options: Options = OPTIONS) -> HullRun:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from modern.geometry.mesh import cross, dot, minus
+from modern.geometry.vectors import cross, dot, lowest, minus
 from modern.papers.appel_will.edges import IntPoint
 from modern.papers.appel_will.surfaces import Line, Surface, area_normal, lines, oriented
 
@@ -53,7 +52,7 @@ def corners(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> tuple[Co
 
 def vectors(points: Sequence[IntPoint], surfaces: Sequence[Surface], line: Line) -> tuple[IntPoint, IntPoint, IntPoint]:
     """I, K and L of a line: its direction and the inward normals of its surfaces, each in lowest terms."""
-    direction = _lowest(minus(points[line.ends[1]], points[line.ends[0]]))
+    direction = lowest(minus(points[line.ends[1]], points[line.ends[0]]))
     return direction, _inward(points, surfaces[line.on]), _inward(points, surfaces[line.beyond])
 
 
@@ -86,7 +85,7 @@ def _crowded(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> tuple[i
     """The points on surfaces of more than three planes."""
     planes: dict[int, set[tuple[int, ...]]] = {}
     for surface in surfaces:
-        normal = _lowest(area_normal(points, surface))
+        normal = lowest(area_normal(points, surface))
         plane = max(normal, (-normal[0], -normal[1], -normal[2]))
         for index in surface:
             planes.setdefault(index, set()).add((*plane, dot(plane, points[surface[0]])))
@@ -106,10 +105,5 @@ def _concave(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> set[int
 
 
 def _inward(points: Sequence[IntPoint], surface: Surface) -> IntPoint:
-    x, y, z = _lowest(area_normal(points, surface))
+    x, y, z = lowest(area_normal(points, surface))
     return -x, -y, -z
-
-
-def _lowest(vector: IntPoint) -> IntPoint:
-    divisor = math.gcd(*vector)
-    return vector[0] // divisor, vector[1] // divisor, vector[2] // divisor

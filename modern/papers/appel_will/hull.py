@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from modern.exact_hull.coordinates import Points, common_scale, read_points, to_integers
-from modern.geometry.mesh import cross, dot, minus
+from modern.geometry.vectors import cross, dot, minus
 from modern.papers.appel_will.corners import Preprocessing, Rule, preprocess
 from modern.papers.appel_will.edges import Deleted, IntPoint, Pair, convex_edges
 from modern.papers.appel_will.loops import PREFERRED, LoopTable, Rules, find_loops, surface

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from modern.geometry.mesh import cross, dot, minus
+from modern.geometry.vectors import cross, dot, minus
 from modern.papers.appel_will.edges import IntPoint, Pair
 
 TIMES = 2

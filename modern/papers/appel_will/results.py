@@ -14,7 +14,7 @@ from fractions import Fraction
 from importlib.resources import files
 from itertools import combinations
 
-from modern.geometry.mesh import cross, dot, minus
+from modern.geometry.vectors import cross, dot, minus
 from modern.papers import Lines
 from modern.papers.appel_will.corners import corners, triple_product, vectors
 from modern.papers.appel_will.edges import IntPoint, Pair, project

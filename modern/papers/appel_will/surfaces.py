@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from emulator.errors import EmulatorError
-from modern.geometry.mesh import cross, dot, minus
+from modern.geometry.vectors import area_vector, cross, dot, minus
 from modern.papers.appel_will.edges import IntPoint, Pair
 
 Surface = tuple[int, ...]
@@ -54,11 +54,7 @@ def area_normal(points: Sequence[IntPoint], surface: Surface) -> IntPoint:
 
     The paper takes the cross product of two of its lines, which has the wrong sense at a concave point.
     """
-    x = y = z = 0
-    for before, after in zip(surface, (*surface[1:], surface[0]), strict=True):
-        part = cross(points[before], points[after])
-        x, y, z = x + part[0], y + part[1], z + part[2]
-    return x, y, z
+    return area_vector(points, surface)
 
 
 def check_surfaces(count: int, surfaces: Sequence[Surface]) -> None:

@@ -15,7 +15,7 @@ from itertools import pairwise
 import numpy as np
 
 from emulator.errors import EmulatorError
-from modern.geometry.mesh import cross, minus
+from modern.geometry.vectors import cross, minus
 
 IntPoint = tuple[int, int, int]
 Plane = tuple[int, int, int, int]

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from modern.exact_hull import exact_hull
-from modern.geometry.mesh import cross, dot, minus
+from modern.geometry.vectors import cross, dot, minus
 from modern.papers.kovalevsky_schulz.cells import CellList, IntPoint, assembled
 
 Coplanar = Literal["visible", "invisible"]

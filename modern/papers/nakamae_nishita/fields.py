@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
-from modern.geometry.mesh import Vector
 from modern.geometry.numbers import number, shown
+from modern.geometry.vectors import Vector
 from modern.papers.nakamae_nishita.polyhedron import SceneError
 
 

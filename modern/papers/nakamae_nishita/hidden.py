@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from modern.drawing.visible import BACK
-from modern.geometry.mesh import Vector
+from modern.geometry.vectors import Vector
 from modern.papers.nakamae_nishita.contours import Tables, Values, boxes, overlapping, tables, values
 from modern.papers.nakamae_nishita.crossings import Passage, as_printed, clipped
 from modern.papers.nakamae_nishita.ghosts import Name, Span, ghosts

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 
-from modern.geometry.mesh import Vector, cross, dot, minus
 from modern.geometry.numbers import shown
+from modern.geometry.vectors import Vector, cross, dot, minus
 from modern.papers.nakamae_nishita.fields import Fields
 from modern.papers.nakamae_nishita.polyhedron import Figure, Polyhedron, SceneError, checked, outward
 from modern.papers.nakamae_nishita.shapes import (

@@ -14,11 +14,12 @@ from fractions import Fraction
 from pathlib import PurePath
 
 from emulator.errors import EmulatorError
-from modern.drawing.view import lowest, tuple3
+from modern.drawing.view import tuple3
 from modern.formats.off import OffMesh
 from modern.geometry.hull import Hull
-from modern.geometry.mesh import Vector, area_vector, cross, dot, mesh, minus, sides
+from modern.geometry.mesh import mesh, sides
 from modern.geometry.numbers import coordinates
+from modern.geometry.vectors import Vector, area_vector, cross, dot, lowest, minus
 
 
 class SceneError(EmulatorError):

@@ -13,8 +13,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from modern.drawing.view import Eye, lowest, view
-from modern.geometry.mesh import Vector, dot, minus
+from modern.drawing.view import Eye, view
+from modern.geometry.vectors import Vector, dot, lowest, minus
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron, SceneError, denominator, integers
 
 Homogeneous = tuple[int, int, int, int]

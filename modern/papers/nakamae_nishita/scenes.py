@@ -16,8 +16,8 @@ from typing import Final, Literal
 
 from emulator.files import read_text, source_name
 from modern.drawing.view import EYES, choose
-from modern.geometry.mesh import Vector
 from modern.geometry.numbers import number, shown
+from modern.geometry.vectors import Vector
 from modern.papers.nakamae_nishita.fields import Fields
 from modern.papers.nakamae_nishita.parts import Part, make, part
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron, SceneError, outward

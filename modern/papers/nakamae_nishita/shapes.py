@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from fractions import Fraction
 
-from modern.geometry.mesh import Vector, cross, dot, minus
+from modern.geometry.vectors import Vector, cross, dot, minus, plus
 from modern.papers.nakamae_nishita.polyhedron import Figure, Polyhedron, SceneError, turns_once
 
 Move = Callable[[Vector], Vector]
@@ -97,11 +97,6 @@ def placed(polyhedron: Polyhedron, move: Move, name: str) -> Polyhedron:
     """The polyhedron and its figures, moved and named."""
     figures = tuple(Figure(f.face, tuple(map(move, f.corners))) for f in polyhedron.figures)
     return replace(polyhedron, name=name, vertices=tuple(map(move, polyhedron.vertices)), figures=figures)
-
-
-def plus(p: Vector, q: Vector) -> Vector:
-    """p + q."""
-    return p[0] + q[0], p[1] + q[1], p[2] + q[2]
 
 
 def _normal(name: str, corners: Sequence[Vector]) -> Vector:

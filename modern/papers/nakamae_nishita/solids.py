@@ -8,7 +8,7 @@ from typing import Final, Literal
 
 from modern.drawing import visible
 from modern.drawing.visible import Edge, line_through
-from modern.geometry.mesh import Vector
+from modern.geometry.vectors import Vector
 from modern.papers.nakamae_nishita.contours import Line
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron
 from modern.papers.nakamae_nishita.projection import Homogeneous, Observer, project

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any
 
-from modern.formats.csv import e_field, parse_decimal
+from modern.formats.deck import coordinate_field
 from modern.study.families import given, grids, rounds, solids, thesis
 from modern.study.families.drawing import Draw, Drawn, FamilyError
 from modern.study.plan import Cell, PlanError, random_of
@@ -69,7 +69,7 @@ def check_points(drawn: Drawn, where: str) -> None:
     cards = set()
     for number, point in enumerate(drawn.points, 1):
         try:
-            cards.add(tuple(e_field(parse_decimal(x), False).replace("-.00000000", "+.00000000") for x in point))
+            cards.add(tuple(coordinate_field(x).replace("-.00000000", "+.00000000") for x in point))
         except ValueError as error:
             raise FamilyError(f"{where}: point {number}: {error}") from None
     if not cards:

@@ -6,9 +6,9 @@ from fractions import Fraction
 
 import pytest
 
-from emulator.language.cards import Deck, deck_from_lines
+from emulator.language.cards import Deck
 from modern.edition import programs
-from modern.formats.csv import e_field, parse_decimal
+from modern.formats.deck import data_deck
 from modern.thesis.cards import read_hull
 from modern.thesis.job import run_hull
 
@@ -16,8 +16,7 @@ Triple = tuple[int, int, int]
 
 
 def deck(points: list[Triple]) -> Deck:
-    cards = ["".join(e_field(parse_decimal(str(x)), False) for x in point) for point in points]
-    return deck_from_lines("points", [f"{len(points):2d}", *cards])
+    return data_deck([list(map(str, point)) for point in points], "points")
 
 
 def ends(first: str, points: list[Triple]) -> set[tuple[Fraction, ...]]:

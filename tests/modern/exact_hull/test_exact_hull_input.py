@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from modern.exact_hull import PointsError, certify, exact_hull
 from modern.exact_hull import certificate as checks
 from modern.exact_hull.certificate import incidences
-from modern.exact_hull.coordinates import decimal
 from modern.exact_hull.facets import lowest_terms, plane_at, plane_through, value
 from modern.exact_hull.surface import BOUND, frame, plane_image
+from modern.geometry.numbers import decimal
 
 LAW = settings(deadline=None, max_examples=300)
 

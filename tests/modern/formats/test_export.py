@@ -446,12 +446,10 @@ def test_what_trimesh_cannot_hold(monkeypatch: pytest.MonkeyPatch) -> None:
         to_trimesh(convex_hull([(f"{x}E400", y, z) for x, y, z in CUBE]))
 
 
-def test_a_hull_hands_itself_to_trimesh() -> None:
+def test_a_solid_for_trimesh() -> None:
     trimesh = pytest.importorskip("trimesh")
-    from modern import convex_hull
-
     hull = convex_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
-    solid = hull.to_trimesh()
+    solid = to_trimesh(hull)
     assert isinstance(solid, trimesh.Trimesh)
     assert solid.is_watertight
     assert abs(solid.volume - 1 / 6) < 1e-12

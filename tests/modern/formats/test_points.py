@@ -14,6 +14,7 @@ import pytest
 from emulator.errors import EmulatorError
 from modern.cli import export as export_command
 from modern.formats import parse_off
+from modern.formats.deck import coordinate_field, data_deck, exact_points, with_epsilon
 from modern.formats.points import Input, parse_input, read_input, recognise
 from modern.geometry.hull import ERROR, Hull
 from tests.support.commands import call
@@ -253,3 +254,45 @@ def test_a_hull_that_was_not_determined(
 def test_every_error_is_the_emulators() -> None:
     with pytest.raises(EmulatorError):
         parse_input("1 2 3", "a")
+
+
+@pytest.mark.parametrize(
+    ("text", "field"),
+    [
+        ("12", "+.12000000E+02"),
+        (" -1.5 ", "-.15000000E+01"),
+        (".25e-3", "+.25000000E-03"),
+        ("-0.0", "-.00000000E+00"),
+        ("000123.45600", "+.12345600E+03"),
+        ("0.00012345678", "+.12345678E-03"),
+        ("1e98", "+.10000000E+99"),
+        ("1e-100", "+.10000000E-99"),
+        ("0e12345", "+.00000000E+00"),
+    ],
+)
+def test_a_coordinate_on_a_card(text: str, field: str) -> None:
+    assert coordinate_field(text) == field
+
+
+def test_what_no_card_holds() -> None:
+    assert coordinate_field("1.23456789", truncate=True) == "+.12345678E+01"
+    for text, words in (
+        ("1.23456789", "9 significant digits; a card holds 8"),
+        ("1e99", "out of range"),
+        ("1e-101", "out of range"),
+        ("1/2", "'1/2' is no decimal number"),
+        (".", "'.' is no decimal number"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            coordinate_field(text)
+    with pytest.raises(ValueError, match=r"^point 2, field 3: 9 significant digits"):
+        data_deck([("1", "2", "3"), ("1", "2", "1.23456789")], "d")
+    with pytest.raises(ValueError, match=r"^100 points; N has two columns"):
+        data_deck([("1", "2", "3")] * 100, "d")
+
+
+def test_a_deck_made_and_read_again() -> None:
+    points = (("1", "-2.5", "0.000003"), ("12.345678", "0", "9E+90"))
+    deck = with_epsilon(data_deck(points, "d"), ".5")
+    assert deck.cards[0].text == " 2+.50000000E+00"
+    assert tuple(exact_points(deck)[0].values()) == points

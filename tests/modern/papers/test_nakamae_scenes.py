@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 from modern.cli.main import main
 from modern.formats.off import parse_off
-from modern.geometry.mesh import Vector
+from modern.geometry.vectors import Vector
 from modern.papers.nakamae_nishita.hidden import draw
 from modern.papers.nakamae_nishita.picture import DASHED, PLOT_HEIGHT, PLOT_WIDTH, SOLID, as_hpgl, as_svg, ends, plot
 from modern.papers.nakamae_nishita.polyhedron import (

@@ -17,7 +17,7 @@ from emulator.language.objectcode import Program
 from emulator.machine.result import Options
 from emulator.numbers.arithmetic import profile
 from modern.edition import programs
-from modern.formats.csv import e_field, parse_decimal
+from modern.formats.deck import coordinate_field
 from modern.geometry.hull import DETERMINED, ERROR, NOT_ACCEPTABLE, TABLE_FULL
 from modern.port import convex_hull
 from modern.port.compare import differences, from_cards, from_run
@@ -103,7 +103,7 @@ def points_of(seed: int, arithmetic: str, kinds: tuple[Kind, ...] = ()) -> list[
 
 
 def deck(points: list[Point], epsilon: str = "") -> Deck:
-    cards = ["".join(e_field(parse_decimal(x), True) for x in p) for p in points]
+    cards = ["".join(coordinate_field(x, True) for x in p) for p in points]
     return deck_from_lines("deck", [f"{len(points):2d}{epsilon}", *cards])
 
 
@@ -145,7 +145,7 @@ def test_the_cards_of_layer_epsilon() -> None:
         epsilon = random.Random(seed).choice(("0", "1e-3", "5e-1", "1", "25e-1", "1e2", "1e4"))
         points = points_of(seed, "truncating")
         hull = convex_hull(points, "truncating", epsilon=epsilon)
-        cards = deck(points, e_field(parse_decimal(epsilon), False))
+        cards = deck(points, coordinate_field(epsilon))
         assert differences(hull, from_run(run(cards, "truncating", "corrected", "epsilon"))) == [], (seed, points)
 
 

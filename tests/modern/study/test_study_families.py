@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from emulator.errors import EmulatorError
 from modern.exact_hull import exact_hull
-from modern.formats.csv import e_field, parse_decimal
+from modern.formats.deck import coordinate_field
 from modern.study import Cell, PlanError
 from modern.study.families import FAMILIES, draw_sample
 from modern.study.families.drawing import Draw, Drawn, FamilyError
@@ -56,7 +56,7 @@ def test_points_are_distinct_fit_a_card_and_come_again(family: str, seed: int, i
     assert 1 <= len(points) == len(set(points)) <= 51
     for point in drawn.points:
         for text in point:
-            assert Fraction(e_field(parse_decimal(text), False)) == Fraction(text)
+            assert Fraction(coordinate_field(text)) == Fraction(text)
 
 
 @given(seeds, st.integers(1, 8))
@@ -80,7 +80,7 @@ def test_a_box_that_no_card_holds(parameters: dict[str, int]) -> None:
 @given(seeds, st.integers(1, 8))
 def test_decimals_have_exactly_their_digits(seed: int, digits: int) -> None:
     for point in draw("decimals", seed, digits=digits, n=8).points:
-        assert all(len(parse_decimal(text).digits) == digits for text in point)
+        assert all(len(coordinate_field(text)[2:10].rstrip("0")) == digits for text in point)
 
 
 @given(seeds)

@@ -17,13 +17,14 @@ from emulator.machine.result import Ending, Options
 from modern.comparison.difference import NEAR, against
 from modern.edition import programs
 from modern.edition.grounds import ground_deck
+from modern.formats.deck import with_epsilon
 from modern.formats.points import parse_input
 from modern.study import Cell, Port, Programs, Route
 from modern.study.causes import place, refused_at
 from modern.study.families import draw_sample
 from modern.study.families.drawing import Drawn
 from modern.study.filing import OUTCOMES, Filed, file_run, number_text, reordered
-from modern.study.judged import Judged, judge, with_epsilon
+from modern.study.judged import Judged, judge
 from modern.study.routes import carry_out, options_of, programs_of
 from modern.thesis.batch import Runs, run_hulls
 from modern.thesis.job import HullRun, run_hull

@@ -13,7 +13,7 @@ from emulator.machine.result import Options
 from modern.edition import chapter6, programs
 from modern.edition.grounds import ground_deck
 from modern.exact_hull import exact_hull
-from modern.thesis import deck as hulldeck
+from modern.formats import deck as hulldeck
 from modern.thesis.cards import read_hull
 from modern.thesis.job import HullRun, run_hull
 from tests.support.judged import OPTIONS, deck_of, differences, run, sets

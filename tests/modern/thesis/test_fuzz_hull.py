@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from emulator.language.cards import CHARACTERS
 from modern.cli.main import main
-from modern.formats.csv import e_field, parse_decimal
+from modern.formats.deck import coordinate_field
 
 coordinate = st.one_of(
     st.integers(-9, 9).map(str),
@@ -41,7 +41,7 @@ def run(text: str, *options: str) -> tuple[int, str]:
     st.sampled_from(["listing", "examples"]),
 )
 def test_any_points(points: list[tuple[str, str, str]], bounds: str, programs: str) -> None:
-    cards = ["".join(e_field(parse_decimal(x), False) for x in p) for p in points]
+    cards = ["".join(coordinate_field(x) for x in p) for p in points]
     code, err = run("\n".join([f"{len(points):2d}", *cards]), "--bounds", bounds, "--programs", programs)
     assert code in (0, 1), err
 

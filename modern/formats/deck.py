@@ -1,4 +1,4 @@
-"""Data decks of the hull programs: what a card must hold, checked before the machine sees it.
+"""Data decks of the hull programs: made from points, checked before the machine sees them, read as exact points.
 
 A data set is a card with N in columns 1-2, then N cards with x, y, z in columns 1-14, 15-28, 29-42 (thesis
 p. 58-59; its data sheet gives z the columns 29 to 52, the FORMAT takes 29 to 42).  A deck may hold several.
@@ -7,18 +7,28 @@ With the layer ``epsilon`` the card with N holds e in columns 3-16 (OPEN-QUESTIO
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from decimal import Decimal
+from fractions import Fraction
 
 from emulator.errors import CardError, DeckError
-from emulator.language.cards import Card, Deck
+from emulator.language.cards import Card, Deck, deck_from_lines
 from emulator.language.formats import Field
-from emulator.numbers.arithmetic import TRUNCATING, Rules
+from emulator.numbers.arithmetic import TRUNCATING, Rules, profile
 from emulator.numbers.fields import FieldError, Read, read_fixed, read_floating
+from modern.geometry.numbers import Point, finite_decimal, split_decimal
 
 MAX_POINTS = 51
+"""As many points as the programs' arrays take."""
+MAX_N = 99
+"""As many as the two columns of N can say."""
 COORDINATE = Field("E", 14, 8)
 _LAST_COLUMN = 42
 _E_FIRST, _E_LAST = 3, 16
+_DIGITS = 14
+_RULES = profile(f"truncating:{_DIGITS}").rules
+"""A field of 14 columns holds no more digits than these rules keep."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +50,89 @@ class CheckedDeck:
     def deck(self, index: int) -> Deck:
         """One data set as a deck of its own; the cards keep their numbers."""
         return Deck(self.source, self.sets[index].cards)
+
+
+def coordinate_field(text: str, truncate: bool = False) -> str:
+    """A decimal number in the 14 columns of E14.8, as the thesis's data sheet punches it: ``+.20000000E+01``.
+
+    truncate: cut the digits beyond the eighth.  Raises ValueError for a ninth significant digit otherwise, for an
+    exponent that is not within -99 to 99 and for what is no decimal number.
+    """
+    minus, whole, fraction, exponent = split_decimal(text.strip())
+    digits = (whole + fraction).lstrip("0")
+    exponent = exponent + len(digits) - len(fraction) if digits else 0
+    digits = digits.rstrip("0")
+    if len(digits) > COORDINATE.decimals and not truncate:
+        raise ValueError(f"{len(digits)} significant digits; a card holds 8 (--truncate cuts them)")
+    if not -99 <= exponent <= 99:
+        raise ValueError("out of range: the exponent of a card is -99 to 99")
+    power = f"{'-' if exponent < 0 else '+'}{abs(exponent):02d}"
+    return f"{'-' if minus else '+'}.{digits[:8].ljust(8, '0')}E{power}"
+
+
+class UnfitPoint(ValueError):
+    """A coordinate that no card holds: point and field counted from 1, and why."""
+
+    def __init__(self, point: int, field: int, why: str) -> None:
+        super().__init__(f"point {point}, field {field}: {why}")
+        self.point, self.field, self.why = point, field, why
+
+
+def data_deck(points: Sequence[Sequence[str]], source: str, truncate: bool = False) -> Deck:
+    """One data set: a card with N, then a card a point.  ``source``: the name of the deck.
+
+    There is one point at least.  truncate: as of ``coordinate_field``.  Raises UnfitPoint, and ValueError for more
+    points than N can say.
+    """
+    if len(points) > MAX_N:
+        raise ValueError(f"{len(points)} points; N has two columns, so a deck holds at most {MAX_N}")
+    cards = [f"{len(points):2d}"]
+    for order, point in enumerate(points, 1):
+        fields = []
+        for k, text in enumerate(point, 1):
+            try:
+                fields.append(coordinate_field(text, truncate))
+            except ValueError as error:
+                raise UnfitPoint(order, k, str(error)) from None
+        cards.append("".join(fields))
+    return deck_from_lines(source, cards)
+
+
+def with_epsilon(deck: Deck, epsilon: str) -> Deck:
+    """The deck of one data set with e punched after N, as the layer ``epsilon`` reads it.  Raises ValueError."""
+    first, *rest = (card.text for card in deck.cards)
+    return deck_from_lines(deck.source, [first.ljust(_E_FIRST - 1) + coordinate_field(epsilon), *rest])
+
+
+def read_coordinates(card: Card, rules: Rules) -> tuple[Read, Read, Read]:
+    """x, y and z of a card that was checked, as a machine of these rules reads them."""
+    x, y, z = (read_floating(COORDINATE, columns, rules) for _, columns in _fields(card))
+    return x, y, z
+
+
+def exact_points(deck: Deck) -> tuple[dict[int, Point], tuple[str, ...]]:
+    """The points of a deck's first data set by the numbers of their cards, and what there is to warn about.
+
+    All digits of a field are taken, where the programs on the machine would cut the ninth.  Raises as ``check``.
+    """
+    every = check(deck, _RULES)
+    notes = []
+    if len(every.sets) > 1:
+        notes.append(f"{deck.source}: {len(every.sets)} data sets; the first is taken")
+    first = check(every.deck(0), _RULES)
+    points: dict[int, Point] = {}
+    for card in first.sets[0].cards[1:]:
+        x, y, z = (_decimal(read) for read in read_coordinates(card, _RULES))
+        points[card.number] = (x, y, z)
+    return points, (*notes, *first.warnings)
+
+
+def _decimal(read: Read) -> str:
+    if not read.mantissa:
+        return "0"
+    text = finite_decimal(Fraction(Decimal(read.mantissa).scaleb(read.exponent - _DIGITS)))
+    assert text is not None
+    return text
 
 
 def check(deck: Deck, rules: Rules = TRUNCATING.rules, epsilon: bool = False) -> CheckedDeck:
@@ -120,10 +213,9 @@ def _interval(deck: Deck, card: Card, rules: Rules, warnings: list[str]) -> None
 def _point(deck: Deck, card: Card, rules: Rules, warnings: list[str]) -> tuple[tuple[int, int], ...]:
     """The three numbers of a card, minus zero as zero."""
     numbers = []
-    for k, axis in enumerate("xyz"):
-        first = 1 + 14 * k
+    for axis, (first, columns) in zip("xyz", _fields(card), strict=True):
         try:
-            number: Read = read_floating(COORDINATE, card.columns(first, first + 13), rules)
+            number: Read = read_floating(COORDINATE, columns, rules)
         except FieldError as error:
             raise CardError(deck.source, card.number, first, f"{axis}: {error}") from None
         numbers.append((number.mantissa, number.exponent if number.mantissa else 0))
@@ -133,3 +225,8 @@ def _point(deck: Deck, card: Card, rules: Rules, warnings: list[str]) -> tuple[t
         column = _LAST_COLUMN + 1
         warnings.append(f"{deck.source}: card {card.number}, column {column}: what stands behind z is not read")
     return tuple(numbers)
+
+
+def _fields(card: Card) -> Iterable[tuple[int, str]]:
+    """First column and columns of x, y and z."""
+    return ((first, card.columns(first, first + 13)) for first in (1, 15, 29))

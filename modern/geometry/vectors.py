@@ -1,0 +1,52 @@
+"""Vectors of three exact numbers: of integers the results are integers, of fractions they are fractions.
+
+The judge (:mod:`modern.exact_hull`) and the port have their own, since one is to judge the other.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from fractions import Fraction
+from itertools import pairwise
+from typing import TypeVar
+
+Vector = tuple[Fraction, Fraction, Fraction]
+N = TypeVar("N", int, Fraction)
+
+
+def plus(p: tuple[N, N, N], q: tuple[N, N, N]) -> tuple[N, N, N]:
+    """p + q."""
+    return p[0] + q[0], p[1] + q[1], p[2] + q[2]
+
+
+def minus(p: tuple[N, N, N], q: tuple[N, N, N]) -> tuple[N, N, N]:
+    """p - q."""
+    return p[0] - q[0], p[1] - q[1], p[2] - q[2]
+
+
+def cross(u: tuple[N, N, N], v: tuple[N, N, N]) -> tuple[N, N, N]:
+    """The vector product."""
+    return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
+
+
+def dot(u: tuple[N, N, N], v: tuple[N, N, N]) -> N:
+    """The scalar product."""
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+
+
+def lowest(vector: Sequence[int | Fraction]) -> tuple[int, int, int]:
+    """The direction of a vector as integers without common divisor; 0, 0, 0 stays."""
+    scale = math.lcm(*(number.denominator for number in vector))
+    x, y, z = (number.numerator * (scale // number.denominator) for number in vector)
+    divisor = math.gcd(x, y, z) or 1
+    return x // divisor, y // divisor, z // divisor
+
+
+def area_vector(points: Sequence[tuple[N, N, N]], face: Sequence[int]) -> tuple[N, N, N]:
+    """Twice the area of a plane polygon, along the normal from whose end its corners run counterclockwise."""
+    origin = points[face[0]]
+    total = minus(origin, origin)
+    for here, ahead in pairwise(face[1:]):
+        total = plus(total, cross(minus(points[here], origin), minus(points[ahead], origin)))
+    return total
