@@ -59,6 +59,27 @@ def write_text(path: str, text: str) -> None:
         file.write(text)
 
 
+def check_writable(*paths: str | None) -> None:
+    """Refuse a file that cannot be written before the run, not after it, and two outputs to one file.
+
+    Raises FileError.
+    """
+    named = [path for path in paths if path is not None and path != "-"]
+    for path in named:
+        if not path:
+            raise FileError("a file without a name cannot be written")
+        folder = os.path.dirname(os.path.realpath(path))
+        if os.path.isdir(path):
+            raise FileError(f"{path}: is a directory")
+        if not os.path.isdir(folder):
+            raise FileError(f"{path}: no such file or directory")
+        if not os.access(path if os.path.exists(path) else folder, os.W_OK):
+            raise FileError(f"{path}: permission denied")
+    real = [os.path.realpath(path) for path in named if os.path.isfile(path) or not os.path.exists(path)]
+    if len(set(real)) < len(real):
+        raise FileError("two outputs are to go to one file")
+
+
 @contextmanager
 def writing(path: str) -> Iterator[TextIO]:
     """A text file to write: beside its place first, then renamed, so that it appears whole or not at all.

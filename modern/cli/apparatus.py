@@ -8,13 +8,23 @@ import sys
 import textwrap
 from collections.abc import Iterator
 
-from emulator.errors import DeckError
-from modern.cli.exits import DIFFERS, OK
+from modern.cli.shared.console import DIFFERS, OK, UsageError
 from modern.edition import programs
 from modern.edition.apparatus import Row
 from modern.edition.chapter6_cards import device_files, load_chapter
 from modern.edition.chapter6_checks import check_chapter
 from modern.edition.grounds import Proof, check_decks, check_row
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument("--program", metavar="N", help="1, 2 or 3")
+    parser.add_argument("--layer", metavar="L")
+    parser.add_argument(
+        "--check",
+        action="store_true",
+        help="prove that witness and rows build the decks, and that each row is needed",
+    )
 
 
 def main(args: argparse.Namespace) -> int:
@@ -80,12 +90,12 @@ def _rows(args: argparse.Namespace) -> list[Row]:
     if args.program is not None:
         number = args.program.removeprefix("program")
         if number not in ("1", "2", "3"):
-            raise DeckError(f"--program: {args.program!r} is not 1, 2 or 3")
+            raise UsageError(f"--program: {args.program!r} is not 1, 2 or 3")
         names = (f"program{number}",)
     rows = [row for name in names for row in programs.text(name).rows]
     if args.layer is not None:
         known = programs.text("program1").layers
         if args.layer not in known:
-            raise DeckError(f"--layer: there is no layer {args.layer!r}; there are {', '.join(known)}")
+            raise UsageError(f"--layer: there is no layer {args.layer!r}; there are {', '.join(known)}")
         rows = [row for row in rows if row.layer == args.layer]
     return rows

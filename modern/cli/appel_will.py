@@ -8,9 +8,8 @@ import sys
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
-from emulator.files import read_text, source_name, write_text
-from modern.cli.common import check_places, counted, say
-from modern.cli.exits import DIFFERS, OK
+from emulator.files import check_writable, read_text, source_name, write_text
+from modern.cli.shared.console import DIFFERS, OK, UsageError, counted, say
 from modern.formats import off
 from modern.formats.off import parse_off
 from modern.formats.points import OFF, Input, parse_input
@@ -30,14 +29,34 @@ RELIED_ON: dict[Rule, str] = {
 """What each rule for inside corners relies on."""
 
 
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument("points", metavar="FILE", help="an OFF file (points and surfaces), a data deck or CSV")
+    parser.add_argument("--literal", action="store_true", help="star polygon test and loops by the paper's letter")
+    parser.add_argument(
+        "--star",
+        choices=("printed", "mended"),
+        help="the star polygon test (default: mended; with --literal: printed)",
+    )
+    parser.add_argument(
+        "--inside-corners",
+        metavar="RULE",
+        choices=("any", "two", "concave"),
+        help="delete points on inside corners first: any (right if no point is on more than three planes), "
+        "two or concave (right always)",
+    )
+    parser.add_argument("--trace", action="store_true", help="the use of every edge after each loop")
+    parser.add_argument("-o", "--output", metavar="FILE.off", help="write the hull as an OFF file too")
+
+
 def main(args: argparse.Namespace) -> int:
     """Read points and map, find the hull, print the tables."""
-    check_places(args.output)
+    check_writable(args.output)
     name, text = source_name(args.points), read_text(args.points)
     found = parse_input(text, name)
     given = parse_off(text, name).faces if found.kind == OFF else ()
     if args.inside_corners and not given:
-        raise MapError(f"{found.source}: --inside-corners needs the surfaces of the polyhedron, in an OFF file")
+        raise UsageError(f"{found.source}: --inside-corners needs the surfaces of the polyhedron, in an OFF file")
     method = LITERAL if args.literal else MENDED
     if args.star is not None:
         method = replace(method, star=as_printed if args.star == "printed" else in_one_pass)

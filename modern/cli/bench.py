@@ -6,18 +6,22 @@ import argparse
 import json
 import sys
 
-from emulator.errors import DeckError
-from emulator.files import write_text
+from emulator.files import check_writable, write_text
 from modern.bench.measure import document, lines, measure
-from modern.cli.common import check_places, say
-from modern.cli.exits import OK
+from modern.cli.shared.console import OK, UsageError, say
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument("--decks", metavar="N", type=int, default=1000, help="decks of 51 points (default: 1000)")
+    parser.add_argument("--json", metavar="FILE", help="write the figures as JSON")
 
 
 def main(args: argparse.Namespace) -> int:
     """Measure, print the table, write the figures."""
     if args.decks < 1:
-        raise DeckError(f"--decks: {args.decks} is no number of decks")
-    check_places(args.json)
+        raise UsageError(f"--decks: {args.decks} is no number of decks")
+    check_writable(args.json)
     bench = measure(args.decks, lambda line: say([f"{line} ..."]))
     sys.stdout.write("".join(line + "\n" for line in lines(bench)))
     if args.json is not None:

@@ -5,8 +5,14 @@ from __future__ import annotations
 import argparse
 
 from emulator.language.compiler import translate
-from modern.cli.common import layers_of, source_deck
-from modern.cli.exits import BAD_INPUT, OK
+from modern.cli.shared.console import BAD_INPUT, OK
+from modern.cli.shared.machine import layers_argument, layers_of, source_deck
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument("program", metavar="PROGRAM.f")
+    layers_argument(parser)
 
 
 def main(args: argparse.Namespace) -> int:

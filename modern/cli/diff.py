@@ -7,12 +7,11 @@ import json
 from collections.abc import Iterator
 from fractions import Fraction
 
-from emulator.errors import DeckError
 from emulator.files import write_text
 from emulator.language.cards import Deck
 from emulator.machine.result import Options
-from modern.cli.common import layers_of, say
-from modern.cli.exits import DIFFERS, OK
+from modern.cli.shared.console import DIFFERS, OK, UsageError, say
+from modern.cli.shared.machine import layers_argument, layers_of
 from modern.comparison.difference import Disagreement, against
 from modern.comparison.outcome import Outcome, Vector, from_cards, from_hull, from_judge
 from modern.edition import programs
@@ -24,6 +23,16 @@ from modern.thesis.job import run_hull
 
 _LIMIT = 1_000_000
 _HEAD = ("route", "status", "vertices", "misfiled", "planes", "error", "excluded")
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument("points", metavar="POINTS", help="a data deck, CSV points x,y,z or an OFF file")
+    parser.add_argument(
+        "--epsilon", metavar="E", help="chapter 7's e for layer epsilon and the port; rel:E, for the port only"
+    )
+    parser.add_argument("--json", metavar="FILE", help="write the comparison as JSON")
+    layers_argument(parser)
 
 
 def main(args: argparse.Namespace) -> int:
@@ -56,7 +65,7 @@ def _routes(args: argparse.Namespace, found: Input, points: list[Vector]) -> Ite
         try:
             data = with_epsilon(deck, args.epsilon or "0") if "epsilon" in chosen else deck
         except ValueError as error:
-            raise DeckError(f"--epsilon: {error}") from None
+            raise UsageError(f"--epsilon: {error}") from None
         run = run_hull(data, programs.loader(chosen), Options(limit=_LIMIT, core=60000 if chosen else 40000))
         yield from_cards(name, run, points)
     for arithmetic in ("float64", "exact"):

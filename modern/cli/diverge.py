@@ -8,22 +8,32 @@ import shutil
 import textwrap
 from collections.abc import Iterator
 
-from emulator.errors import DeckError
-from emulator.files import write_text
+from emulator.files import check_writable, write_text
 from emulator.language.cards import read_deck
 from emulator.language.objectcode import Line
 from emulator.machine.divergence import Divergence, Loss, diverge
-from modern.cli.common import check_places, layers_of, load_program, machine_options, number_system
-from modern.cli.exits import DIFFERS, OK
+from modern.cli.shared.console import DIFFERS, OK, UsageError
+from modern.cli.shared.machine import layers_of, load_program, machine_arguments, machine_options, number_system
 
 _NARROWEST, _WIDEST = 40, 120
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument("program", metavar="PROGRAM.f")
+    parser.add_argument("deck", metavar="DECK", help="data cards: for program2 and program3 those program 1 punches")
+    parser.add_argument("--against", metavar="NAME", default="exact", help="the reference (default: exact)")
+    parser.add_argument("--first", action="store_true", help="stop at the first decision that differs; no values")
+    parser.add_argument("--json", metavar="FILE", help="write the comparison as JSON")
+    machine_arguments(parser)
+    parser.set_defaults(limit=1_000_000)
 
 
 def main(args: argparse.Namespace) -> int:
     """Run both, say where they differ; exit 0 where every decision was compared and none differs."""
     if args.program == "-" and args.deck == "-":
-        raise DeckError("program and deck cannot both come from standard input")
-    check_places(args.json)
+        raise UsageError("program and deck cannot both come from standard input")
+    check_writable(args.json)
     studied = number_system(args.arithmetic, "--arithmetic")
     reference = number_system(args.against, "--against")
     options = machine_options(args)

@@ -6,11 +6,18 @@ import argparse
 from pathlib import PurePath
 
 from emulator.files import write_text
-from modern.cli.common import say
-from modern.cli.exits import DIFFERS, OK
 from modern.cli.export import exact_hull_of
+from modern.cli.shared.console import DIFFERS, OK, say
 from modern.drawing.draw import draw_svg
 from modern.drawing.scene import eye_of
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument("points", metavar="POINTS", help="a data deck, CSV points x,y,z or an OFF file")
+    parser.add_argument("-o", "--output", metavar="FILE.svg", default="-")
+    parser.add_argument("--eye", metavar="X,Y,Z", help="the direction to the eye; write --eye=-1,2,3 before a minus")
+    parser.add_argument("--title", metavar="TEXT", help="the line below the picture (default: the name of the file)")
 
 
 def main(args: argparse.Namespace) -> int:

@@ -4,12 +4,21 @@ from __future__ import annotations
 
 import argparse
 
-from modern.cli.common import say
-from modern.cli.exits import DIFFERS, OK
+from modern.cli.shared.console import DIFFERS, OK, UsageError, say
 from modern.formats import format_of, write_hull
 from modern.formats.points import read_input
 from modern.geometry.hull import Hull
-from modern.geometry.mesh import ExportError
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument("points", metavar="POINTS", help="a data deck, CSV points x,y,z or an OFF file")
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", default="-", help="a name ending .off, .obj, .ply, .stl or .json"
+    )
+    parser.add_argument(
+        "--format", choices=("off", "obj", "ply", "stl", "json"), help="the format, where the name does not say it"
+    )
 
 
 def main(args: argparse.Namespace) -> int:
@@ -38,5 +47,5 @@ def exact_hull_of(path: str) -> Hull:
 
 def _form(path: str) -> str:
     if path == "-":
-        raise ExportError("export: give a file with -o, or a --format for standard output")
+        raise UsageError("export: give a file with -o, or a --format for standard output")
     return format_of(path)

@@ -5,21 +5,47 @@ from __future__ import annotations
 import argparse
 from dataclasses import replace
 
+from emulator.files import check_writable
 from emulator.language.cards import read_deck
 from emulator.language.objectcode import Program
 from emulator.machine.machine import Machine
-from modern.cli.common import card_rules, check_places, layers_of, machine_options, put_out, say, say_warnings, tracing
-from modern.cli.exits import DIFFERS, OK
-from modern.cli.profile import profile_lines
+from modern.cli.shared.console import DIFFERS, OK, say
+from modern.cli.shared.machine import (
+    card_rules,
+    layers_of,
+    machine_options,
+    profile_lines,
+    put_out,
+    run_arguments,
+    say_warnings,
+    tracing,
+)
 from modern.edition import programs
 from modern.formats.deck import check
 from modern.thesis.job import HullRun, run_hull
 
 
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument("deck", metavar="DECK")
+    parser.add_argument(
+        "--programs",
+        choices=("listing", "examples"),
+        default="listing",
+        help="which state of program 1 (default: listing)",
+    )
+    parser.add_argument(
+        "--uncut",
+        action="store_true",
+        help="numbers go from program 1 to the next with all their digits, not with the eight a card holds",
+    )
+    run_arguments(parser)
+
+
 def main(args: argparse.Namespace) -> int:
     """Check the deck, run every data set, put out the final cards."""
     options = replace(machine_options(args), uncut=args.uncut)
-    check_places(args.punch, args.typewriter, args.trace)
+    check_writable(args.punch, args.typewriter, args.trace)
     layers = layers_of(args)
     first = "program1_examples" if args.programs == "examples" else "program1"
     checked = check(read_deck(args.deck), card_rules(options), epsilon="epsilon" in layers)

@@ -1,26 +1,50 @@
-"""The one place where a command is called and where errors become an exit code (modern/cli/exits.py)."""
+"""The commands, and the one place where one is called and errors become an exit code."""
 
 from __future__ import annotations
 
-import contextlib
 import importlib
 import os
 import sys
 from collections.abc import Sequence
 
-from modern.cli.arguments import build_parser
-from modern.cli.exits import BAD_INPUT, OK
+from modern.cli.shared.console import BAD_INPUT, OK, Parser, complain
+
+COMMANDS = {
+    "reproduce": "what the thesis and the later papers print, computed, with a verdict on every result",
+    "run": "run a FORTRAN program on the emulated 1620",
+    "hull": "the hull of a data deck: program 1, then 2 or 3 as the typewriter says",
+    "cards": "points to a data deck",
+    "diff": "one point set by the 1963 programs, the port and the exact hull",
+    "diverge": "run a program over two arithmetics and name the first value and the first decision that differ",
+    "study": "many samples, each judged: a table, a plot and plain words",
+    "export": "the exact hull of points as a mesh or as JSON",
+    "draw": "a line drawing of the exact hull of points, as SVG",
+    "appel-will": "the hull of a polyhedron from its convex edges, by Appel & Will",
+    "hidden-line": "convex polyhedra without their hidden lines, by Nakamae & Nishita",
+    "voxel-hull": "the hull of a voxel solid by Kovalevsky and Schulz, or its filled digital hull",
+    "octree-hull": "the digital hull of a voxel solid from its octree, by Yau and Srihari",
+    "apparatus": "the emendations of the listings, row by row",
+    "check": "the compiler's messages for a program",
+    "map": "the storage map of a program",
+    "compile": "the object code of a program",
+    "bench": "the speed of the engines side by side",
+}
+"""Every command, named as its module but for - instead of _, and what ``--help`` says of it.
+
+A command's module defines ``arguments(parser)`` and ``main(args)``, which returns the exit code; it is imported when
+the command is called, so that ``--help`` is quick.
+"""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns the exit code."""
-    args = build_parser().parse_args(arguments)
-    if sys.stdout is None:
-        _complain("standard output is closed")
-        return BAD_INPUT
+    words = sys.argv[1:] if arguments is None else list(arguments)
     try:
-        command = importlib.import_module(args.module)
-        code: int = command.main(args)
+        args = build_parser(words).parse_args(words)
+        if sys.stdout is None:
+            complain("standard output is closed")
+            return BAD_INPUT
+        code: int = args.main(args)
         sys.stdout.flush()
         return code
     except BrokenPipeError:
@@ -28,31 +52,53 @@ def main(arguments: Sequence[str] | None = None) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return OK
     except KeyboardInterrupt:
-        _complain("interrupted")
+        complain("interrupted")
         return 130
     except MemoryError:
-        _complain("there is not enough memory for this")
+        complain("there is not enough memory for this")
         return BAD_INPUT
     except OSError as error:
         # What cannot be opened is said where it is known by name; this is an output that fails in mid-writing.
-        _complain(f"cannot write: {(error.strerror or str(error)).lower()}")
+        complain(f"cannot write: {(error.strerror or str(error)).lower()}")
         return BAD_INPUT
     except Exception as error:
         from emulator.errors import EmulatorError
         from modern.edition.apparatus import ApparatusError
 
         if isinstance(error, EmulatorError | ApparatusError):
-            _complain(str(error))
+            complain(str(error))
             return BAD_INPUT
         raise
 
 
-def _complain(message: str) -> None:
-    """One line on standard error, whatever a file's name holds; nothing where there is no standard error."""
-    if sys.stderr is not None:
-        shown = "".join(c if c.isprintable() else repr(c)[1:-1] for c in message)
-        with contextlib.suppress(OSError, ValueError):
-            print(f"hull1620: {shown}", file=sys.stderr)
+def build_parser(words: Sequence[str]) -> Parser:
+    """The parser of these words: of all commands, with the arguments of the one that is called."""
+    parser = Parser(
+        prog="hull1620",
+        description="Karen Jensen Butler's convex hull programs of 1963, restored and run on an emulated IBM 1620; "
+        "exact hulls, studies of numerical error, and four later papers.",
+        epilog="PROGRAM.f is a file or one of program1, program2, program3, program1_examples. "
+        "'-' is standard input or output.",
+    )
+    parser.add_argument("--version", action="version", version=f"hull1620 {_version()}" if "--version" in words else "")
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True, parser_class=Parser)
+    called = next((word for word in words if not word.startswith("-")), "")
+    for name, words_of in COMMANDS.items():
+        command = commands.add_parser(name, help=words_of, description=words_of[0].upper() + words_of[1:] + ".")
+        if name == called:
+            module = importlib.import_module(f"modern.cli.{name.replace('-', '_')}")
+            module.arguments(command)
+            command.set_defaults(main=module.main)
+    return parser
+
+
+def _version() -> str:
+    from importlib.metadata import PackageNotFoundError, version
+
+    try:
+        return version("hull1620")
+    except PackageNotFoundError:
+        return "(not installed)"
 
 
 if __name__ == "__main__":

@@ -9,10 +9,10 @@ from collections.abc import Callable, Iterable, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.cli.common import check_places, counted, say
-from modern.cli.exits import DIFFERS, OK
-from modern.cli.volumes import volume_of
-from modern.digital.volumes import VolumeError, write_npy
+from emulator.files import check_writable
+from modern.cli.shared.console import DIFFERS, OK, UsageError, counted, say
+from modern.cli.shared.volumes import volume_arguments, volume_of
+from modern.digital.volumes import write_npy
 from modern.papers.yau_srihari import OctreeHull, Printed, octree_hull
 from modern.papers.yau_srihari.envelope import Edge, Envelope, Step
 from modern.papers.yau_srihari.octree import nodes
@@ -22,12 +22,26 @@ from modern.papers.yau_srihari.quadtree import Place
 Point = tuple[int, int, int]
 
 
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of the command."""
+    volume_arguments(parser)
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument("--literal", action="store_true", help="every statement of the paper as printed")
+    which.add_argument(
+        "--printed",
+        metavar="NAME,...",
+        help="only these as printed: angle, start, triangles, truncation, bound, corners, marks",
+    )
+    parser.add_argument("--trace", action="store_true", help="every edge taken from the queue, and what became of it")
+    parser.add_argument("-o", "--output", metavar="FILE.npy", help="write the filled hull as an array")
+
+
 def main(args: argparse.Namespace) -> int:
     """Read the volume, find its hull, print every stage, write the filled hull."""
     printed = _printed(args)
     if args.output is not None and not args.output.lower().endswith(".npy"):
-        raise VolumeError(f"{args.output}: a filled hull is written as an array; the name must end with .npy")
-    check_places(args.output)
+        raise UsageError(f"{args.output}: a filled hull is written as an array; the name must end with .npy")
+    check_writable(args.output)
     volume = volume_of(args)
     hull = octree_hull(volume, printed)
     if args.output is not None:
@@ -44,13 +58,13 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _printed(args: argparse.Namespace) -> Printed:
-    """The statements to take as printed.  Raises VolumeError for an unknown name."""
+    """The statements to take as printed.  Raises UsageError for an unknown name."""
     if args.literal:
         return LITERAL
     try:
         return Printed() if args.printed is None else Printed.only(*(name.strip() for name in args.printed.split(",")))
     except ValueError as error:
-        raise VolumeError(f"--printed: {error}") from None
+        raise UsageError(f"--printed: {error}") from None
 
 
 def _compared(literal: NDArray[np.bool_], corrected: NDArray[np.bool_]) -> int:

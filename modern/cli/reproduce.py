@@ -8,17 +8,15 @@ import os
 import shutil
 import sys
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, TextIO
 
-from emulator.errors import DeckError
-from emulator.files import write_text
-from modern.cli.common import check_places
-from modern.cli.exits import DIFFERS, OK
+from emulator.files import check_writable, write_text
+from modern.cli.shared.console import DIFFERS, OK, UsageError
 from modern.edition.chapter4 import THEOREMS
 from modern.edition.chapter6 import EXAMPLES
-from modern.edition.published import PAPERS, Finding, findings
+from modern.edition.published import CANNOT, CORRECTED, EXPLAINED, PAPERS, Finding, Paper, findings
 from modern.edition.reproduce import DIFFERENT, EXACT, ORDER, SPACING, Report, reproduce, summary
 
 if TYPE_CHECKING:
@@ -30,11 +28,29 @@ _COLOURS = {EXACT: "32", SPACING: "33", ORDER: "33", DIFFERENT: "31"}
 _MOST_DIFFERENCES = 8
 
 
+_PAINTED_AS = {EXACT: EXACT, CORRECTED: EXACT, EXPLAINED: ORDER, CANNOT: "", DIFFERENT: DIFFERENT}
+_MOST_LINES = 4
+
+Paint = Callable[[str, str], str]
+"""Colours words as a verdict of the given kind."""
+
+Indented = Callable[[str], Iterable[str]]
+"""Wraps and indents a line of explanation."""
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument(
+        "examples", metavar="EXAMPLE", nargs="*", help="1 to 6, a theorem (4.1, 4.2, 4.8) or a paper (default: all)"
+    )
+    parser.add_argument("--json", metavar="FILE", help="write the verdicts as JSON")
+
+
 def main(args: argparse.Namespace) -> int:
     """Run the examples, print the verdicts, write them as JSON if asked."""
     named = list(dict.fromkeys(map(_named, args.examples))) or _names()
     examples = [int(name) for name in named if name in map(str, EXAMPLES)]
-    check_places(args.json)
+    check_writable(args.json)
     colour = sys.stdout.isatty() and "NO_COLOR" not in os.environ
     # A JSON document on standard output must be alone there.
     out = sys.stderr if args.json == "-" else sys.stdout
@@ -65,7 +81,7 @@ def _names() -> list[str]:
 
 def _named(text: str) -> str:
     if text not in _names():
-        raise DeckError(
+        raise UsageError(
             f"reproduce: there is no example {text!r}; chapter 6 has 1 to {EXAMPLES[-1]}, "
             f"chapter 4 {', '.join(THEOREMS)}, the papers are {', '.join(paper.name for paper in PAPERS)}"
         )
@@ -76,11 +92,9 @@ def _papers(names: Sequence[str], colour: bool, width: int, out: TextIO) -> Iter
     """The verdicts on the papers named, each paper printed when it is judged."""
     for paper in PAPERS:
         if paper.name in names:
-            from modern.cli.findings import finding_lines
-
             found = list(findings(paper))
             paint = partial(_paint, colour=colour)
-            for line in finding_lines(paper, found, paint, partial(_indented, width=width)):
+            for line in _finding_lines(paper, found, paint, partial(_indented, width=width)):
                 print(line, file=out)
             yield from found
 
@@ -176,9 +190,7 @@ def _summary_lines(
         judged = [claim.holds for claim in claims if claim.holds is not None]
         yield f"Chapter 4: {sum(judged)} of {len(judged)} claims hold."
     if found:
-        from modern.cli.findings import finding_summary
-
-        yield finding_summary(found)
+        yield _finding_summary(found)
     words = "Every printed result comes out" if good else "NOT every printed result comes out"
     words += ", or it is said why it does not." if good and any(finding.excused for finding in found) else "."
     yield _paint(words, EXACT if good else DIFFERENT, colour)
@@ -195,11 +207,9 @@ def _indented(text: str, width: int) -> list[str]:
 
 
 def _document(reports: list[Report], claims: list[Claim], found: list[Finding], good: bool) -> dict[str, object]:
-    from modern.cli.findings import finding_document
-
     return {
         "reproduced": good,
-        "papers": finding_document(found),
+        "papers": _finding_document(found),
         "theorems": [
             {"theorem": c.theorem, "pages": c.pages, "claim": c.says, "holds": c.holds, "seen": c.seen} for c in claims
         ],
@@ -228,3 +238,61 @@ def _document(reports: list[Report], claims: list[Claim], found: list[Finding], 
             for report in reports
         ],
     }
+
+
+def _finding_lines(paper: Paper, found: Sequence[Finding], paint: Paint, indented: Indented) -> Iterator[str]:
+    """A paper's verdicts: a line a result, with what was printed where they differ."""
+    yield paper.title
+    for finding in found:
+        result = finding.result
+        word = paint(finding.kind, _PAINTED_AS[finding.kind])
+        yield f"  {result.place}: {word}"
+        yield from indented(result.says)
+        if finding.excused:
+            yield from indented(result.cannot or result.differs)
+        if finding.kind == CORRECTED:
+            rows = ", ".join(f"{row.id} ({row.kind})" for row in result.rows)
+            yield from indented(f"the print corrected by {rows}")
+        if finding.kind in (EXPLAINED, DIFFERENT):
+            yield from _finding_differences(finding, indented)
+    yield ""
+
+
+def _finding_summary(found: Iterable[Finding]) -> str:
+    """How many results of the papers have which verdict."""
+    kinds = Counter(finding.kind for finding in found)
+    parts = [f"{kinds[kind]} {kind}" for kind in (EXACT, CORRECTED, EXPLAINED, CANNOT, DIFFERENT) if kinds[kind]]
+    return f"Later papers: {', '.join(parts)}."
+
+
+def _finding_document(found: Iterable[Finding]) -> list[dict[str, object]]:
+    """The verdicts as plain data."""
+    return [
+        {
+            "paper": finding.paper,
+            "result": finding.result.id,
+            "place": finding.result.place,
+            "says": finding.result.says,
+            "verdict": finding.kind,
+            "reason": finding.result.cannot or finding.result.differs,
+            "rows": [row.id for row in finding.result.rows],
+            "printed": list(finding.result.printed),
+            "corrected": list(finding.result.corrected),
+            "produced": list(finding.produced),
+        }
+        for finding in found
+    ]
+
+
+def _finding_differences(finding: Finding, indented: Indented) -> Iterator[str]:
+    printed, produced = finding.result.corrected, finding.produced
+    longest = max(len(printed), len(produced))
+    pairs = [
+        (printed[i] if i < len(printed) else "(nothing)", produced[i] if i < len(produced) else "(nothing)")
+        for i in range(longest)
+    ]
+    different = [pair for pair in pairs if pair[0].split() != pair[1].split()]
+    for one, other in different[:_MOST_LINES]:
+        yield from indented(f"printed {one.strip()}; computed {other.strip()}")
+    if len(different) > _MOST_LINES:
+        yield from indented(f"and {len(different) - _MOST_LINES} more lines")

@@ -5,30 +5,37 @@ from __future__ import annotations
 import argparse
 import sys
 
-from emulator.errors import DeckError, EmulatorError
+from emulator.errors import EmulatorError
+from emulator.files import check_writable
 from emulator.language.cards import Deck, read_deck
 from emulator.machine.machine import Machine
-from modern.cli.common import (
-    check_places,
+from modern.cli.shared.console import DIFFERS, OK, UsageError, say
+from modern.cli.shared.machine import (
     layers_of,
     load_program,
     machine_options,
+    profile_lines,
     put_out,
-    say,
+    run_arguments,
     say_warnings,
     tracing,
 )
-from modern.cli.exits import DIFFERS, OK
-from modern.cli.profile import profile_lines
 from modern.thesis.job import refusal
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument("program", metavar="PROGRAM.f")
+    parser.add_argument("deck", metavar="DECK", nargs="?", help="data cards, one a line")
+    run_arguments(parser)
 
 
 def main(args: argparse.Namespace) -> int:
     """Run, put out cards and typed lines, say how it ended."""
     if args.program == "-" and args.deck == "-":
-        raise DeckError("program and deck cannot both come from standard input")
+        raise UsageError("program and deck cannot both come from standard input")
     options = machine_options(args)
-    check_places(args.punch, args.typewriter, args.trace)
+    check_writable(args.punch, args.typewriter, args.trace)
     program = load_program(args.program, layers_of(args))
     deck = read_deck(args.deck) if args.deck else Deck("no deck", ())
     keyboard = () if "-" in (args.program, args.deck) or sys.stdin is None or sys.stdin.isatty() else sys.stdin

@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from modern.cli.arguments import build_parser
-from modern.cli.main import main
+from modern.cli.main import build_parser, main
 from modern.formats import read_off
 from modern.papers.appel_will import RULES
 
@@ -192,4 +191,5 @@ def test_misuse_is_one_line(room: Path, capsys: pytest.CaptureFixture[str], argu
 
 def test_choices_of_the_command_are_the_rules(capsys: pytest.CaptureFixture[str]) -> None:
     for rule in RULES:
-        assert build_parser().parse_args(["appel-will", "x", "--inside-corners", rule]).inside_corners == rule
+        words = ["appel-will", "x", "--inside-corners", rule]
+        assert build_parser(words).parse_args(words).inside_corners == rule

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modern.cli.arguments import build_parser
+from modern.cli.main import build_parser
 from modern.papers.yau_srihari.printed import NAMES
 from tests.support.commands import call
 from tests.support.digital_judge import judged, solid_of
@@ -102,7 +102,7 @@ def test_a_statement_that_does_no_harm_here(stair: str, capsys: pytest.CaptureFi
 
 def test_help_names_every_statement(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
-        build_parser().parse_args(["octree-hull", "--help"])
+        build_parser(["octree-hull"]).parse_args(["octree-hull", "--help"])
     assert ", ".join(NAMES) in " ".join(capsys.readouterr().out.split())
 
 

@@ -8,12 +8,19 @@ from collections.abc import Iterator
 from emulator.language.length import code_positions
 from emulator.language.objectcode import Program
 from emulator.language.storage import FIELD, core_address
-from modern.cli.common import layers_of, load_program
-from modern.cli.exits import OK
+from modern.cli.shared.console import OK
+from modern.cli.shared.machine import layers_argument, layers_of, load_program
 from modern.edition import programs
 from modern.thesis.capacity import capacity_lines
 
 _PLURALS = {"constant": "constants", "temporary": "temporaries", "statement number": "statement numbers"}
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument("program", metavar="PROGRAM.f")
+    parser.add_argument("--core", type=int, choices=(20000, 40000, 60000), default=40000)
+    layers_argument(parser)
 
 
 def main(args: argparse.Namespace) -> int:

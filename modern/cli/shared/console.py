@@ -1,0 +1,47 @@
+"""How every command speaks: its exit code, its one line for an error, its notes on standard error.
+
+OK: the run ended normally.  DIFFERS: a program typed DATA NOT ACCEPTABLE or ERROR IN PROGRAM and stopped there, ran
+into the statement limit or out of bounds, or a result differs.  BAD_INPUT: said in one line.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import sys
+from collections.abc import Iterable
+
+from emulator.errors import EmulatorError
+
+OK, DIFFERS, BAD_INPUT = 0, 1, 2
+
+
+class UsageError(EmulatorError):
+    """Options or arguments that cannot be carried out; the message names the option."""
+
+
+class Parser(argparse.ArgumentParser):
+    """Arguments of which an error is said in one line."""
+
+    def error(self, message: str) -> None:  # type: ignore[override]
+        """One line and exit 2, without the usage lines argparse would print first."""
+        self.exit(BAD_INPUT, f"{self.prog}: {message} (try {self.prog} --help)\n")
+
+
+def complain(message: str) -> None:
+    """One line on standard error, whatever a file's name holds; nothing where there is no standard error."""
+    if sys.stderr is not None:
+        shown = "".join(c if c.isprintable() else repr(c)[1:-1] for c in message)
+        with contextlib.suppress(OSError, ValueError):
+            print(f"hull1620: {shown}", file=sys.stderr)
+
+
+def say(lines: Iterable[str]) -> None:
+    """Lines for the user, on standard error."""
+    for line in lines:
+        print(line, file=sys.stderr)
+
+
+def counted(count: int, what: str) -> str:
+    """``1 voxel``, ``2 voxels``."""
+    return f"{count} {what}{'s' * (count != 1)}"

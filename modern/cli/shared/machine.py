@@ -1,0 +1,190 @@
+"""A program and a machine to run it: their arguments, what they put out, and the profile of a run."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import textwrap
+from collections.abc import Collection, Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+
+from emulator.files import write_text, writing
+from emulator.language.cards import Deck, read_deck
+from emulator.language.compiler import compile_deck
+from emulator.language.objectcode import Program
+from emulator.machine.result import ERRORS, Options, Result
+from emulator.machine.timing import Row, measure
+from emulator.machine.trace import Tracer
+from emulator.numbers import DecimalNumbers, Numbers, numbers
+from emulator.numbers.arithmetic import TRUNCATING, Rules
+from emulator.numbers.base import cutting_rules
+from emulator.numbers.fields import FALLBACK
+from modern.cli.shared.console import UsageError, say
+from modern.edition import programs
+
+_MOST_RUN = 10
+
+
+def layers_argument(parser: argparse.ArgumentParser) -> None:
+    """``--layers``."""
+    parser.add_argument(
+        "--layers",
+        metavar="LAYER,...",
+        default="",
+        help="layers of the apparatus added to a built-in program",
+    )
+
+
+def run_arguments(parser: argparse.ArgumentParser) -> None:
+    """Where the results of a run go, and those of ``machine_arguments``."""
+    parser.add_argument(
+        "--punch", metavar="FILE", default="-", help="where punched cards go (default: standard output)"
+    )
+    parser.add_argument("--typewriter", metavar="FILE", help="where typed lines go (default: standard error)")
+    parser.add_argument(
+        "--profile",
+        action="store_true",
+        help="count statements and operations, and give the time on the 1620",
+    )
+    parser.add_argument("--trace", metavar="FILE", help="write every statement with its card and values")
+    machine_arguments(parser)
+
+
+def machine_arguments(parser: argparse.ArgumentParser) -> None:
+    """The machine a program runs on, and ``--layers``."""
+    parser.add_argument(
+        "--switch",
+        metavar="N",
+        type=int,
+        action="append",
+        choices=(1, 2, 3, 4),
+        default=[],
+        help="sense switch N on",
+    )
+    parser.add_argument(
+        "--arithmetic",
+        metavar="NAME",
+        default="truncating",
+        help="truncating, ibm1962, truncating:P, guarded:P, rounding:P, float64, float32, mp:BITS or exact",
+    )
+    parser.add_argument(
+        "--core", type=int, choices=(20000, 40000, 60000), default=40000, help="positions of core storage"
+    )
+    parser.add_argument(
+        "--bounds",
+        choices=("strict", "core"),
+        default="strict",
+        help="a subscript out of bounds: stop, or use the neighbour's place as the machine did",
+    )
+    parser.add_argument(
+        "--limit", metavar="N", type=int, default=5_000_000, help="stop after N statements (default: %(default)s)"
+    )
+    layers_argument(parser)
+
+
+def layers_of(args: argparse.Namespace) -> tuple[str, ...]:
+    """The layers asked for by ``--layers``."""
+    return tuple(layer.strip() for layer in args.layers.split(",") if layer.strip())
+
+
+def source_deck(name: str, layers: tuple[str, ...]) -> Deck:
+    """A source deck: a built-in program by name, else a file.
+
+    Raises UsageError for layers with a file: only the built-in programs have an apparatus.
+    """
+    if name in programs.NAMES:
+        return programs.deck(name, layers)
+    if layers:
+        raise UsageError(f"{name}: --layers is for the built-in programs: {', '.join(programs.NAMES)}")
+    return read_deck(name)
+
+
+def load_program(name: str, layers: tuple[str, ...]) -> Program:
+    """A program compiled: a built-in by name, else a file."""
+    if name in programs.NAMES:
+        return programs.program(name, layers)
+    return compile_deck(source_deck(name, layers))
+
+
+def machine_options(args: argparse.Namespace) -> Options:
+    """The machine the options describe.  Raises UsageError for an unknown arithmetic or a limit below 1."""
+    found = number_system(args.arithmetic, "--arithmetic")
+    if args.limit < 1:
+        raise UsageError(f"--limit: {args.limit} is no number of statements")
+    options = Options(TRUNCATING, frozenset(args.switch), args.core, args.bounds, args.limit)
+    if isinstance(found, DecimalNumbers):
+        return replace(options, profile=found.profile)
+    return replace(options, numbers=found)
+
+
+def number_system(name: str, option: str) -> Numbers:
+    """An arithmetic by name.  Raises UsageError, which names the option."""
+    try:
+        return numbers(name)
+    except ValueError as error:
+        raise UsageError(f"{option}: {error}") from None
+
+
+def card_rules(options: Options) -> Rules:
+    """How many digits of a card's field the machine takes: all of them where its numbers are not decimal."""
+    return options.profile.rules if options.numbers is None else cutting_rules(FALLBACK.width)
+
+
+def put_out(args: argparse.Namespace, punched: Iterable[str], typed: Iterable[str]) -> None:
+    """Cards to ``--punch`` or standard output, typed lines to ``--typewriter`` or standard error."""
+    typed_text = "".join(line + "\n" for line in typed)
+    if args.typewriter is not None:
+        write_text(args.typewriter, typed_text)
+    else:
+        sys.stderr.write(typed_text)
+        sys.stderr.flush()
+    write_text(args.punch, "".join(card + "\n" for card in punched))
+
+
+def say_warnings(program: Program, result: Result, said: Collection[str] = ()) -> None:
+    """A run's warnings, but for those said before, and its arithmetic's error codes."""
+    say(f"warning: {warning}" for warning in result.warnings if warning not in said)
+    for error, n in result.errors:
+        code = error.split()[0]
+        say([f"note: {program.source}: {error}: {ERRORS[code]}{f', {n} times' if n > 1 else ''}"])
+
+
+@contextmanager
+def tracing(path: str | None) -> Iterator[Tracer | None]:
+    """A tracer that writes to ``path``, or None; the file appears, whole, when the run is over."""
+    if not path:
+        yield None
+        return
+    with writing(path) as file:
+        tracer = Tracer(file)
+        try:
+            yield tracer
+        finally:
+            tracer.close()
+
+
+def profile_lines(program: Program, result: Result) -> Iterator[str]:
+    """Lines no wider than 80 columns."""
+    timing = measure(program, result)
+    yield f"{program.source}: {result.statements} statements; time on a 1620 Model 1:"
+    yield f"  {'cause':<20}{'count':>9}{'seconds':>11}"
+    for row in timing.processor:
+        yield _timed(row)
+    yield f"  {'processor':<20}{'':>9}{timing.processor_seconds:>11.1f}"
+    for row in timing.devices:
+        yield _timed(row)
+    yield f"  {'all, one by one':<20}{'':>9}{timing.seconds:>11.1f}  (reader and punch may run beside)"
+    if any(row.estimated for row in timing.processor):
+        yield "  ~ contains times that are estimates (no source gives them)"
+    operations = "operations: " + ", ".join(f"{name} {count}" for name, count in timing.operations)
+    yield from textwrap.wrap(operations, 80, initial_indent="  ", subsequent_indent="    ")
+    most = sorted(timing.statements, key=lambda pair: -pair[1])[:_MOST_RUN]
+    yield f"  statements run most (of {len(timing.statements)} that ran):"
+    for index, count in most:
+        line = program.statements[index]
+        yield f"  {count:>9}  card {line.place.card:>3} {line.label or '':>5} {line.text[:50]}"
+
+
+def _timed(row: Row) -> str:
+    return f"  {row.cause:<20}{row.count:>9}{row.seconds:>11.1f}{'  ~' if row.estimated else ''}"
