@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from emulator.files import write_text
@@ -12,7 +13,7 @@ from emulator.language.cards import Deck
 from emulator.machine.result import Options
 from modern.cli.shared.console import DIFFERS, OK, UsageError, say
 from modern.cli.shared.machine import layers_argument, layers_of
-from modern.comparison.difference import Disagreement, against
+from modern.comparison.difference import Disagreement, disagreement
 from modern.comparison.outcome import Outcome, Vector, from_cards, from_hull, from_judge
 from modern.edition import programs
 from modern.exact_hull import exact_hull
@@ -22,7 +23,26 @@ from modern.port import convex_hull
 from modern.thesis.job import run_hull
 
 _LIMIT = 1_000_000
+_NOT_RUN = "not run"
 _HEAD = ("route", "status", "vertices", "misfiled", "planes", "error", "excluded")
+
+
+@dataclass(frozen=True, slots=True)
+class Route:
+    """A route's outcome and how it differs from the judge's; ``obstacle`` is why it could not be run."""
+
+    outcome: Outcome
+    found: Disagreement | None = None
+    obstacle: str = ""
+
+    @property
+    def status(self) -> str:
+        return f"not run: {self.obstacle}" if self.obstacle else self.outcome.status
+
+    @property
+    def fine(self) -> bool:
+        """Whether the route agrees; one that could not be run says nothing against the others."""
+        return bool(self.obstacle) or (self.found is not None and self.found.agrees)
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
@@ -40,37 +60,37 @@ def main(args: argparse.Namespace) -> int:
     found = read_input(args.points)
     points: list[Vector] = [tuple(Fraction(x) for x in point) for point in found.points]
     judge = from_judge(exact_hull(found.points), points)
-    rows = [
-        (outcome, against(outcome, judge, points) if outcome.determined else None)
-        for outcome in _routes(args, found, points)
+    routes = [
+        replace(route, found=disagreement(route.outcome, judge, points)) if route.outcome.determined else route
+        for route in _routes(args, found, points)
     ]
-    for line in _table(rows, judge, found):
+    for line in _table(routes, judge, found):
         print(line)
     say(found.notes)
     if args.json:
-        write_text(args.json, json.dumps(_document(rows, judge, found), indent=1) + "\n")
-    return OK if all(_fine(outcome, row) for outcome, row in rows) else DIFFERS
+        write_text(args.json, json.dumps(_document(routes, judge, found), indent=1) + "\n")
+    return OK if all(route.fine for route in routes) else DIFFERS
 
 
-def _routes(args: argparse.Namespace, found: Input, points: list[Vector]) -> Iterator[Outcome]:
+def _routes(args: argparse.Namespace, found: Input, points: list[Vector]) -> Iterator[Route]:
     layers = layers_of(args) or (("epsilon", "corrected") if args.epsilon else ("corrected",))
     deck = _deck(found)
     for name, chosen in (("listing", ()), ("listing + " + " + ".join(layers), layers)):
         if isinstance(deck, str):
-            yield Outcome(name, f"not run: {deck}", -1)
+            yield Route(Outcome(name, _NOT_RUN, -1), obstacle=deck)
             continue
         if "epsilon" in chosen and (args.epsilon or "").startswith("rel:"):
-            yield Outcome(name, "not run: the cards take an absolute e", -1)
+            yield Route(Outcome(name, _NOT_RUN, -1), obstacle="the cards take an absolute e")
             continue
         try:
             data = with_epsilon(deck, args.epsilon or "0") if "epsilon" in chosen else deck
         except ValueError as error:
             raise UsageError(f"--epsilon: {error}") from None
         run = run_hull(data, programs.loader(chosen), Options(limit=_LIMIT, core=60000 if chosen else 40000))
-        yield from_cards(name, run, points)
+        yield Route(from_cards(name, run, points))
     for arithmetic in ("float64", "exact"):
         hull = convex_hull(found.points, arithmetic, epsilon=args.epsilon)
-        yield from_hull(f"port {arithmetic}", hull)
+        yield Route(from_hull(f"port {arithmetic}", hull))
 
 
 def _deck(found: Input) -> Deck | str:
@@ -83,7 +103,7 @@ def _deck(found: Input) -> Deck | str:
         return f"{found.places[error.point - 1]}: {error.why}"
 
 
-def _table(rows: list[tuple[Outcome, Disagreement | None]], judge: Outcome, found: Input) -> Iterator[str]:
+def _table(routes: list[Route], judge: Outcome, found: Input) -> Iterator[str]:
     kinds = ("point", "segment", "polygon", "polyhedron")
     faces = {2: "lines", 3: "planes"}.get(judge.dimension, "equations")
     yield f"{found.source}: {len(found.points)} points"
@@ -91,34 +111,39 @@ def _table(rows: list[tuple[Outcome, Disagreement | None]], judge: Outcome, foun
         f"the judge: a {kinds[judge.dimension]} of {len(judge.vertices)} vertices, {len(judge.equations)} {faces}, "
         f"{len(judge.boundary)} boundary and {len(judge.inside)} inside points"
     )
-    cells = [_HEAD, *(_cells(outcome, row) for outcome, row in rows)]
+    cells = [_HEAD, *map(_cells, routes)]
     widths = [max(len(cell[k]) for cell in cells) for k in range(len(_HEAD))]
     for cell in cells:
         yield "  ".join(text.ljust(width) for text, width in zip(cell, widths, strict=True)).rstrip()
-    for outcome, row in rows:
-        for note in outcome.notes:
-            yield f"{outcome.name}: {note}"
+    for route in routes:
+        for note in _notes(route.outcome):
+            yield f"{route.outcome.name}: {note}"
+        row = route.found
         if row is not None and row.points:
-            yield f"{outcome.name}:"
+            yield f"{route.outcome.name}:"
             for index in row.points:
                 yield f"  {found.places[index]} ({', '.join(found.points[index])}): {_fault(row, index)}"
-    wrong = [outcome.name for outcome, row in rows if not _fine(outcome, row)]
+    wrong = [route.outcome.name for route in routes if not route.fine]
     yield f"differs from the judge: {', '.join(wrong)}" if wrong else "all agree with the judge"
 
 
-def _fine(outcome: Outcome, row: Disagreement | None) -> bool:
-    """A route that could not be run says nothing against the others."""
-    return outcome.status.startswith("not run") or (row is not None and row.agrees)
+def _notes(outcome: Outcome) -> list[str]:
+    """What there is to say of an outcome beside the table."""
+    notes = [] if outcome.ending is None else [outcome.ending.message]
+    if outcome.faulty:
+        notes.append(f"equations {', '.join(map(str, outcome.faulty))} do not hold at their points")
+    return notes
 
 
-def _cells(outcome: Outcome, row: Disagreement | None) -> tuple[str, ...]:
+def _cells(route: Route) -> tuple[str, ...]:
+    row = route.found
     if row is None:
-        return outcome.name, outcome.status, "", "", "", "", ""
+        return route.outcome.name, route.status, "", "", "", "", ""
     vertices = _counted((len(row.missed), "missed"), (len(row.added), "added"))
     planes = _counted((row.planes_missing, "missing"), (row.planes_extra, "extra"), (row.planes_doubled, "doubled"))
     return (
-        outcome.name,
-        outcome.status,
+        route.outcome.name,
+        route.status,
         vertices,
         str(len(row.misfiled)) if row.misfiled else "-",
         planes,
@@ -148,7 +173,7 @@ def _fault(row: Disagreement, index: int) -> str:
     return ", ".join(faults)
 
 
-def _document(rows: list[tuple[Outcome, Disagreement | None]], judge: Outcome, found: Input) -> dict[str, object]:
+def _document(routes: list[Route], judge: Outcome, found: Input) -> dict[str, object]:
     return {
         "source": found.source,
         "points": [
@@ -163,13 +188,13 @@ def _document(rows: list[tuple[Outcome, Disagreement | None]], judge: Outcome, f
         },
         "routes": [
             {
-                "route": outcome.name,
-                "status": outcome.status,
-                "agrees": _fine(outcome, row),
-                "notes": list(outcome.notes),
-                **({} if row is None else _details(row)),
+                "route": route.outcome.name,
+                "status": route.status,
+                "agrees": route.fine,
+                "notes": _notes(route.outcome),
+                **({} if route.found is None else _details(route.found)),
             }
-            for outcome, row in rows
+            for route in routes
         ],
     }
 

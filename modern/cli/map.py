@@ -11,7 +11,8 @@ from emulator.language.storage import FIELD, core_address
 from modern.cli.shared.console import OK
 from modern.cli.shared.machine import layers_argument, layers_of, load_program
 from modern.edition import programs
-from modern.thesis.capacity import capacity_lines
+from modern.formats.deck import MAX_POINTS
+from modern.thesis.capacity import array_lengths, largest
 
 _PLURALS = {"constant": "constants", "temporary": "temporaries", "statement number": "statement numbers"}
 
@@ -29,8 +30,7 @@ def main(args: argparse.Namespace) -> int:
     for line in map_lines(program, args.core):
         print(line)
     if args.program in programs.NAMES:
-        for line in capacity_lines(program, args.core):
-            print(line)
+        print(capacity_line(program, args.core))
     return OK
 
 
@@ -53,6 +53,15 @@ def map_lines(program: Program, core: int) -> Iterator[str]:
     code = code_positions(program)
     yield f"  data: {need} positions, from {core_address(0, core)} down to {lowest}"
     yield f"  program: ~{code} positions from 08300; free between: ~{lowest - 8300 - code}"
+
+
+def capacity_line(program: Program, core: int) -> str:
+    """How many points fit the machine."""
+    points = largest(program, core)
+    arrays = f"  with arrays of {' and '.join(array_lengths(program))} fields"
+    if points:
+        return f"{arrays} about {points} points would fit; the thesis's N is {MAX_POINTS}"
+    return f"{arrays} the program does not fit"
 
 
 def _line(name: str, kind: str, size: int, first: int, core: int) -> str:

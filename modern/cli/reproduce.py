@@ -13,6 +13,7 @@ from functools import partial
 from typing import TYPE_CHECKING, TextIO
 
 from emulator.files import check_writable, write_text
+from emulator.machine.result import Ending
 from modern.cli.shared.console import DIFFERS, OK, UsageError
 from modern.edition.chapter4 import THEOREMS
 from modern.edition.chapter6 import EXAMPLES
@@ -138,11 +139,19 @@ def _example_lines(example: int, reports: Iterable[Report], colour: bool, width:
         if verdict.kind == ORDER:
             yield from _indented(f"{verdict.same}; {'order: as above' if explained else verdict.reason}", width)
             explained = True
-        if report.ending:
-            yield from _indented(report.ending, width)
+        ending = _ending(report)
+        if ending:
+            yield from _indented(ending, width)
         if verdict.kind in (DIFFERENT, SPACING):
             yield from _differences(report, width)
     yield ""
+
+
+def _ending(report: Report) -> str:
+    """Why the program did not end as it should; empty where it did."""
+    if report.ending is None:
+        return "the program was not reached"
+    return report.ending.message if isinstance(report.ending, Ending) else str(report.ending)
 
 
 def _evidence(report: Report) -> str:
@@ -224,7 +233,7 @@ def _document(reports: list[Report], claims: list[Claim], found: list[Finding], 
                 "verdict": report.verdict.kind,
                 "same": report.verdict.same,
                 "reason": report.verdict.reason,
-                "ending": report.ending,
+                "ending": _ending(report),
                 "proved_by_print": {
                     "numbers": report.verdict.numbers,
                     "words": report.verdict.words,

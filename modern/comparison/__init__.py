@@ -1,1 +1,1 @@
-"""Hulls of one point set by different routes, held against the exact judge."""
+"""Hulls of one point set by different routes, compared with the exact judge's."""

@@ -1,4 +1,4 @@
-"""An outcome held against the judge's: what is missing, what is too much, and by how much it is off."""
+"""An outcome compared with the judge's: what is missing, what is too much, and by how much it is off."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Disagreement:
     ``error`` is the largest relative error of a coefficient among the equations found, relative to the
     equation's largest coefficient of x, y and z (of D: to the largest of all); ``excluded`` the greatest
     distance, to six digits, of a point outside an equation of the outcome, and which point.  ``places``: for each
-    equation of the outcome the judge's it was taken for, -1 where it is none of them.
+    equation of the outcome the judge's it was taken for, -1 where it is like none of them.
     """
 
     missed: frozenset[int]
@@ -49,7 +49,7 @@ class Disagreement:
         return tuple(sorted(found if self.excluded_point is None else found | {self.excluded_point}))
 
 
-def against(outcome: Outcome, judge: Outcome, points: Sequence[Vector]) -> Disagreement:
+def disagreement(outcome: Outcome, judge: Outcome, points: Sequence[Vector]) -> Disagreement:
     """Compare a determined outcome with the judge's."""
     missed, added = judge.vertices - outcome.vertices, outcome.vertices - judge.vertices
     filed = dict.fromkeys(outcome.boundary, "boundary") | dict.fromkeys(outcome.inside, "inside")

@@ -8,9 +8,10 @@ nonzero coefficient in the polygon's plane, its own coefficient in the line 0). 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
 
+from emulator.machine.result import Ending
 from modern.exact_hull import ExactHull
 from modern.geometry.hull import DETERMINED, Hull
 from modern.thesis.cards import CardHull, read_hull
@@ -19,13 +20,17 @@ from modern.thesis.job import HullRun
 Vector = tuple[Fraction, ...]
 Equation = tuple[Fraction, Fraction, Fraction, Fraction]
 
+_STATUS = {"limit": "endless", "bounds": "out of bounds", "outside": "out of bounds", "undefined": "undefined value"}
+"""The status a run's ending is; any other kind is its own name."""
+
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
     """What one route made of a point set.
 
     ``status`` is ``determined`` or why there is no hull; ``dimension`` -1 where the route does not say.
-    ``strange`` counts points it names that are not in the input.
+    ``strange`` counts points it names that are not in the input; ``faulty`` are equations of program 1, by number,
+    that do not vanish at the points they are said to contain.  ``ending`` is that of a run which ended badly.
     """
 
     name: str
@@ -36,7 +41,8 @@ class Outcome:
     inside: frozenset[int] = frozenset()
     equations: tuple[Equation, ...] = ()
     strange: int = 0
-    notes: tuple[str, ...] = field(default=())
+    faulty: tuple[int, ...] = ()
+    ending: Ending | None = None
 
     @property
     def determined(self) -> bool:
@@ -57,7 +63,8 @@ def from_cards(name: str, run: HullRun, points: Sequence[Vector]) -> Outcome:
         return Outcome(name, run.refusal, -1)
     broken = next((step for step in run.steps if not step.result.ending.normal), None)
     if broken is not None:
-        return Outcome(name, _ending(broken.result.ending.kind), -1, notes=(broken.result.ending.message,))
+        ending = broken.result.ending
+        return Outcome(name, _STATUS.get(ending.kind, ending.kind), -1, ending=ending)
     return from_card_hull(name, run.final.name, read_hull(run.final.result.punched), points)
 
 
@@ -74,8 +81,8 @@ def from_card_hull(name: str, program: str, hull: CardHull, points: Sequence[Vec
     equations: list[Equation] = []
     if not first:
         equations = [_four(equation) for equation in hull.equations]
-    notes = _line_faults(hull.equations, hull.satisfied, hull.vertices) if first else ()
-    return Outcome(name, DETERMINED, dimension, sets[0], sets[1], sets[2], tuple(equations), strange, notes)
+    faulty = _faulty(hull) if first else ()
+    return Outcome(name, DETERMINED, dimension, sets[0], sets[1], sets[2], tuple(equations), strange, faulty)
 
 
 def from_hull(name: str, hull: Hull) -> Outcome:
@@ -111,11 +118,6 @@ def from_judge(hull: ExactHull, points: Sequence[Vector]) -> Outcome:
     )
 
 
-def _ending(kind: str) -> str:
-    words = {"limit": "endless", "bounds": "out of bounds", "outside": "out of bounds", "undefined": "undefined value"}
-    return words.get(kind, kind)
-
-
 def _four(equation: Sequence[Fraction]) -> Equation:
     a, b, c, d = equation
     return a, b, c, d
@@ -138,17 +140,15 @@ def _lines(hull: ExactHull, points: Sequence[Vector]) -> list[Equation]:
     return lines
 
 
-def _line_faults(
-    equations: Sequence[Vector], satisfied: Sequence[tuple[tuple[int, ...], int]], vertices: Sequence[Vector]
-) -> tuple[str, ...]:
-    """Equations of program 1 that do not vanish at the points they are said to contain."""
-    pairs = satisfied or [((1, 2), number) for number in range(1, len(equations) + 1)]
-    wrong = [
+def _faulty(hull: CardHull) -> tuple[int, ...]:
+    """The equations of program 1 that do not vanish at the points they are said to contain."""
+    equations = hull.equations
+    pairs = hull.satisfied or [((1, 2), number) for number in range(1, len(equations) + 1)]
+    return tuple(
         number
         for named, number in pairs
-        if number <= len(equations) and any(_value(equations[number - 1], vertices[k - 1]) for k in named)
-    ]
-    return (f"equations {', '.join(map(str, wrong))} do not hold at their points",) if wrong else ()
+        if number <= len(equations) and any(_value(equations[number - 1], hull.vertices[k - 1]) for k in named)
+    )
 
 
 def _value(equation: Sequence[Fraction], point: Vector) -> Fraction:

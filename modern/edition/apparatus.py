@@ -15,11 +15,11 @@ import tomllib
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib.resources.abc import Traversable
-from typing import Any
+from typing import Any, Literal, get_args
 
 PAGE_MARK = "## page "
 LAST_COLUMN = 72
-CERTAINTIES = ("certain", "probable", "conjecture")
+Certainty = Literal["certain", "probable", "conjecture"]
 
 
 class ApparatusError(ValueError):
@@ -33,7 +33,7 @@ class Change:
     ``line`` is a line's id: a witness line number ("17") or an inserted card ("P1-031.2").  ``witness`` is
     the fragment found there exactly once, ``lemma`` what replaces it; a lemma with line ends makes several
     lines.  A line emptied by a change is no line of the text.  With ``after`` the lemma's lines are inserted
-    behind the line instead; with ``through`` every line from ``line`` to ``through`` is dropped; with
+    after the line instead; with ``through`` every line from ``line`` to ``through`` is dropped; with
     ``form`` they are set out as on the coding form: number in columns 1 to 5, statement from column 7, or from
     column 1 where that passes column 72.  With ``dense`` the line loses its blanks.
     """
@@ -59,7 +59,7 @@ class Row:
     kind: str
     reason: str
     evidence: str
-    certainty: str
+    certainty: Certainty
     changes: tuple[Change, ...]
     ground: Mapping[str, Any] = field(default_factory=dict)
 
@@ -163,16 +163,16 @@ def build(text: Text, layers: Iterable[str] | None = None, without: Collection[s
     return tuple(line for line in lines if line.text.strip())
 
 
-def rows_needing(text: Text, row_id: str) -> tuple[str, ...]:
-    """Rows that cannot stand without ``row_id``: they change a card it inserted, or a fragment it supplied."""
-    lost: set[str] = {row_id}
+def lost_with(text: Text, row_id: str) -> frozenset[str]:
+    """The row and those that cannot stand without it: they change a card it inserted, or a fragment it supplied."""
+    lost = {row_id}
     while True:
         try:
             build(text, text.layers, lost)
         except RowMisfit as misfit:
             lost.add(misfit.row_id)
         else:
-            return tuple(sorted(lost - {row_id}))
+            return frozenset(lost)
 
 
 class RowMisfit(ApparatusError):
@@ -245,8 +245,8 @@ def _row(text_id: str, raw: Mapping[str, Any], layers: Collection[str]) -> Row:
         raise ApparatusError(f"{text_id}: row {name} lacks {', '.join(missing)}")
     if raw["layer"] not in layers:
         raise ApparatusError(f"{text_id}: row {name} is of layer {raw['layer']!r}; the text has {', '.join(layers)}")
-    if raw["certainty"] not in CERTAINTIES:
-        raise ApparatusError(f"{text_id}: row {name}: certainty is one of {', '.join(CERTAINTIES)}")
+    if raw["certainty"] not in get_args(Certainty):
+        raise ApparatusError(f"{text_id}: row {name}: certainty is one of {', '.join(get_args(Certainty))}")
     changes = tuple(
         Change(
             line=str(c["line"]),

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from decimal import ROUND_DOWN, Context
 from fractions import Fraction
 from itertools import product
 
-from emulator.language.cards import Deck
 from emulator.machine.result import Options
-from modern.comparison.difference import against
+from modern.comparison.difference import disagreement
 from modern.comparison.outcome import Outcome, Vector, from_cards, from_judge
 from modern.edition import programs
 from modern.edition.chapter4 import THEOREMS, Point, Theorem, load_text, load_theorems, theorem_faults
@@ -21,6 +21,9 @@ from modern.exact_hull import exact_hull
 from modern.formats.deck import data_deck
 from modern.thesis.cards import scaled
 from modern.thesis.job import Load, run_hull
+
+_CARD = Context(prec=8, rounding=ROUND_DOWN)
+"""What a card holds of a number: eight significant digits, the rest cut."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,19 +149,21 @@ def _four_eight(theorem: Theorem) -> Iterator[Claim]:
 
 
 def _through_the_programs(theorem: Theorem, load: Load) -> Claim:
-    """The printed points through the listing, held against the exact hull of what the cards hold."""
-    points: list[Vector] = [tuple(_cut(x) for x in point.at) for point in theorem.points]
+    """The printed points through the listing, compared with the exact hull of what the cards hold."""
+    cut = [[_CARD.divide(x.numerator, x.denominator) for x in point.at] for point in theorem.points]
+    points: list[Vector] = [tuple(map(Fraction, point)) for point in cut]
+    deck = data_deck([list(map(str, point)) for point in cut], "theorem")
     exactly = all(one == point.at for one, point in zip(points, theorem.points, strict=True))
     judge = from_judge(exact_hull([*map(list, points)]), points)
-    outcome = from_cards("listing", run_hull(_deck(points), load, Options(limit=200_000)), points)
-    agrees = outcome.determined and against(outcome, judge, points).agrees
-    held = "the points" if exactly else "the points cut to eight digits"
+    outcome = from_cards("listing", run_hull(deck, load, Options(limit=200_000)), points)
+    agrees = outcome.determined and disagreement(outcome, judge, points).agrees
+    taken = "the points" if exactly else "the points cut to eight digits"
     missing = f", {', '.join(theorem.lost)} left out" if theorem.lost else ""
     return _claim(
         theorem,
         "through the 1963 programs (the thesis does not say)",
         None,
-        f"{held}{missing}: {_seen(outcome, agrees, judge)}",
+        f"{taken}{missing}: {_seen(outcome, agrees, judge)}",
     )
 
 
@@ -168,29 +173,3 @@ def _seen(outcome: Outcome, agrees: bool, judge: Outcome) -> str:
         return f"the listing ends with {outcome.status}; the hull has {hull}"
     verdict = "as the exact hull" if agrees else "unlike the exact hull"
     return f"{len(outcome.vertices)} vertices, {len(outcome.equations)} planes, {verdict}"
-
-
-def _cut(value: Fraction) -> Fraction:
-    """The number a card holds: eight significant digits, the rest cut."""
-    if not value:
-        return value
-    exponent = 0
-    size = abs(value)
-    while size >= 1:
-        size, exponent = size / 10, exponent + 1
-    while size < Fraction(1, 10):
-        size, exponent = size * 10, exponent - 1
-    cut = Fraction(int(size * 10**8), 10**8) * Fraction(10) ** exponent
-    return cut if value > 0 else -cut
-
-
-def _deck(points: Sequence[Vector]) -> Deck:
-    return data_deck([list(map(_decimal, point)) for point in points], "theorem")
-
-
-def _decimal(value: Fraction) -> str:
-    """The decimal text of a number cut by :func:`_cut`."""
-    power = 0
-    while value.denominator != 1:
-        value, power = value * 10, power - 1
-    return f"{value.numerator}e{power}"

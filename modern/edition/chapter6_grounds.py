@@ -23,7 +23,7 @@ from collections.abc import Callable, Mapping, Sequence
 from decimal import Decimal
 from typing import Any
 
-from modern.edition.apparatus import ApparatusError, Line, Row, build, rows_needing
+from modern.edition.apparatus import ApparatusError, Line, Row, build, lost_with
 from modern.edition.chapter6 import Device, Layout, Role
 from modern.edition.chapter6_cards import E14, Card, Chapter, TranscriptError, cards, printed_lines, rebuilt
 
@@ -38,7 +38,7 @@ def row_faults(chapter: Chapter, row: Row) -> tuple[str, ...]:
     """Why the row does not stand: its ground fails in the corrected print, or holds without the row too."""
     grounds = [row.ground, *([row.ground["also"]] if "also" in row.ground else [])]
     faults = []
-    gone = frozenset({row.id, *rows_needing(chapter.text, row.id)})
+    gone = lost_with(chapter.text, row.id)
     without = rebuilt(chapter.text, chapter.layout, chapter.layers, gone)
     for ground in grounds:
         check = _CHECKS.get(str(ground.get("kind", "")))
@@ -112,7 +112,7 @@ def _deck(chapter: Chapter, row: Row, ground: Ground) -> bool:
     if "field" not in ground:
         return wanted in (_values(chapter, line) for line in _touched(chapter, row))
     value = wanted[ground["field"] - 1]
-    gone = frozenset({row.id, *rows_needing(chapter.text, row.id)})
+    gone = lost_with(chapter.text, row.id)
     without = rebuilt(chapter.text, chapter.layout, chapter.layers, gone)
     return _count(chapter, row, value) > _count(without, row, value)
 

@@ -22,7 +22,7 @@ from emulator.language.objectcode import Program
 from emulator.language.statements import sources
 from emulator.machine.result import Options
 from modern.edition import chapter6, programs
-from modern.edition.apparatus import ApparatusError, Row, rows_needing
+from modern.edition.apparatus import ApparatusError, Row, lost_with
 from modern.edition.reproduce import EXACT, State, reproduce
 from modern.thesis.job import run_hull
 
@@ -63,11 +63,6 @@ def check_row(row: Row) -> Proof:
     return Proof(row.id, holds, f"{kind}: {words}")
 
 
-def without(row: Row) -> frozenset[str]:
-    """The row and those that cannot stand without it."""
-    return frozenset({row.id, *rows_needing(programs.text(row.text), row.id)})
-
-
 def _name(row: Row) -> str:
     """The built-in program a row is judged by: the one its ground names, else the plain listing."""
     return str(row.ground.get("program", "program1_examples" if row.layer == "examples" else row.text))
@@ -84,6 +79,10 @@ def _built(row: Row, left_out: Collection[str] = ()) -> Deck:
     return programs.built(_name(row), layers_for(row), left_out)
 
 
+def _lost(row: Row) -> frozenset[str]:
+    return lost_with(programs.text(row.text), row.id)
+
+
 def _compiled(row: Row, left_out: Collection[str]) -> tuple[Program | None, str]:
     try:
         return compile_deck(_built(row, left_out)), ""
@@ -94,7 +93,7 @@ def _compiled(row: Row, left_out: Collection[str]) -> tuple[Program | None, str]
 
 
 def _parse(row: Row) -> tuple[bool, str]:
-    program, message = _compiled(row, without(row))
+    program, message = _compiled(row, _lost(row))
     if program is None:
         return True, f"without it: {message}"
     return False, "without it the deck still compiles"
@@ -102,7 +101,7 @@ def _parse(row: Row) -> tuple[bool, str]:
 
 def _cosmetic(row: Row) -> tuple[bool, str]:
     whole, _ = _compiled(row, ())
-    program, message = _compiled(row, without(row))
+    program, message = _compiled(row, _lost(row))
     if program is None or whole is None:
         return False, f"without it the deck does not compile: {message}"
     return (
@@ -118,7 +117,7 @@ def _print(row: Row) -> tuple[bool, str]:
     seen = []
     for example in row.ground.get("examples", ()):
         with_row = _exact(example, state, number, {})
-        program, message = _compiled(row, without(row))
+        program, message = _compiled(row, _lost(row))
         if program is None:
             return False, f"without it the deck does not compile: {message}"
         without_row = _exact(example, state, number, {name: program})
@@ -145,7 +144,7 @@ def _deck(row: Row) -> tuple[bool, str]:
     if data is None:
         return False, f"there is no deck {deck_name!r}"
     whole, _ = _compiled(row, ())
-    program, message = _compiled(row, without(row))
+    program, message = _compiled(row, _lost(row))
     if whole is None or program is None:
         return False, f"without it the deck does not compile: {message}"
     one, other = _outcome(row, whole, data), _outcome(row, program, data)
@@ -159,9 +158,9 @@ def _deck(row: Row) -> tuple[bool, str]:
 
 def ground_deck(name: str) -> Deck | None:
     """A deck a row names: an example's input data, or one of those made for the purpose."""
-    match = re.fullmatch(r"example([1-6])", name)
-    if match:
-        return chapter6.input_deck(int(match[1]))
+    examples = {f"example{number}": number for number in chapter6.EXAMPLES}
+    if name in examples:
+        return chapter6.input_deck(examples[name])
     entry = programs.sources().joinpath("grounds", f"{name}.deck")
     return deck_from_text(entry.name, entry.read_text(encoding="ascii")) if entry.is_file() else None
 
@@ -188,7 +187,7 @@ def _forced(row: Row) -> tuple[bool, str]:
     exchange = dict(zip(names[::2], names[1::2], strict=True))
     with_row = _card(_built(row), card)
     other = _renamed(_card(_built(row), sibling), exchange)
-    without_row = _card(_built(row, without(row)), card)
+    without_row = _card(_built(row, _lost(row)), card)
     if with_row != other:
         return False, f"card {card} is not card {sibling} with names exchanged"
     if without_row == other:

@@ -18,7 +18,7 @@ from importlib.resources.abc import Traversable
 from typing import Final, Literal
 
 from emulator.errors import EmulatorError
-from emulator.machine.result import Options
+from emulator.machine.result import Ending, Options
 from modern.edition import programs
 from modern.edition.chapter6 import EXAMPLES, Output, Print, input_deck, prints
 from modern.thesis.cards import planes_hold, read_hull, read_intermediate, same_hull
@@ -68,7 +68,10 @@ class Verdict:
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """The verdict on one device of one example, for one state of program 1."""
+    """The verdict on one device of one example, for one state of program 1.
+
+    ``ending`` is how the program ended, the error that ended the job, or None where the program was not reached.
+    """
 
     example: int
     state: State
@@ -78,7 +81,7 @@ class Report:
     printed: tuple[str, ...]
     produced: tuple[str, ...]
     verdict: Verdict
-    ending: str
+    ending: Ending | EmulatorError | None
 
     @property
     def stated(self) -> bool:
@@ -118,12 +121,12 @@ def summary(reports: Iterable[Report]) -> tuple[bool, int, int, int]:
 def _one(
     example: int, state: State, expected: tuple[Print, ...], load: Load, folder: Traversable | None
 ) -> Iterator[Report]:
-    trouble = ""
+    trouble: EmulatorError | None = None
     steps: tuple[Step, ...] = ()
     try:
         steps = run_hull(input_deck(example, folder), load, Options(limit=200_000), STATES[state]).steps
     except EmulatorError as error:
-        trouble = str(error)
+        trouble = error
     last = max(p.program for p in expected)
     produced = {step.number: step for step in steps}
     for printed in expected:
@@ -131,8 +134,8 @@ def _one(
         lines = () if step is None else step.result.punched if printed.device == "punch" else step.result.typed
         final = printed.program == last
         verdict = compare(printed.lines, lines, final, oriented=printed.program > 1, reason=WHY_ORDER)
-        ending = trouble or ("the program was not reached" if step is None else step.result.ending.message)
-        if ending and verdict.kind != DIFFERENT:
+        ending = trouble if step is None else step.result.ending
+        if not (isinstance(ending, Ending) and ending.normal) and verdict.kind != DIFFERENT:
             verdict = replace(verdict, kind=DIFFERENT, same="", reason="", differences=())
         name = STATES[state] if printed.program == 1 else f"program{printed.program}"
         yield Report(

@@ -31,7 +31,7 @@ from decimal import Context, Decimal
 from fractions import Fraction
 
 from emulator.machine.result import Options
-from modern.comparison.difference import NEAR, Disagreement, against
+from modern.comparison.difference import NEAR, Disagreement, disagreement
 from modern.comparison.outcome import Outcome, from_card_hull, from_hull
 from modern.geometry.hull import ERROR, NOT_ACCEPTABLE, TABLE_FULL, Hull
 from modern.study.causes import looping_at, out_of_bounds, refused_at, stopped_at
@@ -119,7 +119,7 @@ def number_text(value: Fraction) -> str:
 
 def _judged(outcome: Outcome, judged: Judged, hull: CardHull | Hull) -> Filed:
     """File a hull that was determined."""
-    found = against(outcome, judged.outcome, judged.points)
+    found = disagreement(outcome, judged.outcome, judged.points)
     figures = {"coefficient_error": number_text(found.error), "excluded": number_text(found.excluded)}
     fault = _fault(outcome, judged, found, hull)
     if fault:
@@ -143,7 +143,7 @@ def _fault(outcome: Outcome, judged: Judged, found: Disagreement, hull: CardHull
     fault = next((words for holds, words in faults if holds), "")
     if fault:
         return fault
-    if outcome.notes or not _plane_right(hull, judged):
+    if outcome.faulty or not _plane_right(hull, judged):
         return "equations wrong"
     return "" if _numbers_right(hull, judged, found) else "vertices of a plane wrong"
 

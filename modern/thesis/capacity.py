@@ -7,13 +7,12 @@ the estimate of :func:`emulator.language.length.code_positions`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 
 from emulator.language.length import code_positions
 from emulator.language.objectcode import Program
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 
-POINTS = 51
 _SIZES: dict[int, Callable[[int], int]] = {
     51: lambda n: n,
     52: lambda n: n + 1,
@@ -21,7 +20,7 @@ _SIZES: dict[int, Callable[[int], int]] = {
     193: lambda n: max(4 * n - 11, 5),
 }
 """Array lengths of the hull programs, at 51 points, as functions of the number of points."""
-_WORDS = {51: "N", 52: "N+1", 98: "2N-4", 193: "4N-11"}
+_FORMULAS = {51: "N", 52: "N+1", 98: "2N-4", 193: "4N-11"}
 
 
 def data_positions(program: Program, points: int) -> int:
@@ -45,12 +44,7 @@ def largest(program: Program, core: int) -> int:
     return points
 
 
-def capacity_lines(program: Program, core: int) -> Iterator[str]:
-    """What fits, in words."""
-    points = largest(program, core)
-    lengths = sorted({entry.size for entry in program.storage.arrays()} & _WORDS.keys())
-    arrays = f"arrays of {' and '.join(_WORDS[length] for length in lengths)} fields"
-    if points:
-        yield f"  with {arrays} about {points} points would fit; the thesis's N is {POINTS}"
-    else:
-        yield f"  with {arrays} the program does not fit"
+def array_lengths(program: Program) -> tuple[str, ...]:
+    """The lengths of a program's arrays as the formulas they were dimensioned by, N being the number of points."""
+    lengths = {entry.size for entry in program.storage.arrays()}
+    return tuple(_FORMULAS[length] for length in sorted(lengths & _FORMULAS.keys()))

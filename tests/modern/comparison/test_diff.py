@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from modern.cli.main import main
-from modern.comparison.difference import against
+from modern.comparison.difference import disagreement
 from modern.comparison.outcome import Outcome, Vector, from_judge
 from modern.exact_hull import exact_hull
 from tests.support.paths import MACHINE_RUNS
@@ -33,25 +33,25 @@ def changed(outcome: Outcome, **changes: object) -> Outcome:
 
 def test_the_judge_agrees_with_itself() -> None:
     judge = judge_of(TETRAHEDRON)
-    found = against(judge, judge, vectors(TETRAHEDRON))
+    found = disagreement(judge, judge, vectors(TETRAHEDRON))
     assert found.agrees
     assert (found.error, found.excluded, found.points) == (0, 0, ())
 
 
 def test_every_kind_of_disagreement_is_seen() -> None:
     judge, points = judge_of(TETRAHEDRON), vectors(TETRAHEDRON)
-    missed = against(changed(judge, vertices=judge.vertices - {3}), judge, points)
+    missed = disagreement(changed(judge, vertices=judge.vertices - {3}), judge, points)
     assert (missed.missed, missed.agrees) == (frozenset({3}), False)
-    added = against(changed(judge, vertices=judge.vertices | {4}), judge, points)
+    added = disagreement(changed(judge, vertices=judge.vertices | {4}), judge, points)
     assert (added.added, added.agrees) == (frozenset({4}), False)
-    misfiled = against(changed(judge, boundary=frozenset(), inside=frozenset({4, 5})), judge, points)
+    misfiled = disagreement(changed(judge, boundary=frozenset(), inside=frozenset({4, 5})), judge, points)
     assert (misfiled.misfiled, misfiled.agrees) == (frozenset({5}), False)
-    fewer = against(changed(judge, equations=judge.equations[1:]), judge, points)
+    fewer = disagreement(changed(judge, equations=judge.equations[1:]), judge, points)
     assert (fewer.planes_missing, fewer.agrees) == (1, False)
-    doubled = against(changed(judge, equations=(*judge.equations, judge.equations[0])), judge, points)
+    doubled = disagreement(changed(judge, equations=(*judge.equations, judge.equations[0])), judge, points)
     assert (doubled.planes_doubled, doubled.agrees) == (1, False)
     extra_plane = (Fraction(1), Fraction(2), Fraction(7), Fraction(-100))
-    extra = against(changed(judge, equations=(*judge.equations, extra_plane)), judge, points)
+    extra = disagreement(changed(judge, equations=(*judge.equations, extra_plane)), judge, points)
     assert (extra.planes_extra, extra.agrees) == (1, False)
 
 
@@ -59,7 +59,7 @@ def test_a_small_error_of_a_coefficient_is_measured_not_counted() -> None:
     judge, points = judge_of(TETRAHEDRON), vectors(TETRAHEDRON)
     a, b, c, d = judge.equations[0]
     off = (a, b, c, d + max(abs(a), abs(b), abs(c)) / 10**6)
-    found = against(changed(judge, equations=(off, *judge.equations[1:])), judge, points)
+    found = disagreement(changed(judge, equations=(off, *judge.equations[1:])), judge, points)
     assert found.agrees
     assert 0 < found.error <= Fraction(1, 10**6)
     assert found.excluded > 0

@@ -14,7 +14,7 @@ from emulator.language.cards import deck_from_lines
 from emulator.language.objectcode import Line
 from emulator.machine.machine import Machine
 from emulator.machine.result import Ending, Options
-from modern.comparison.difference import NEAR, against
+from modern.comparison.difference import NEAR, disagreement
 from modern.edition import programs
 from modern.edition.grounds import ground_deck
 from modern.formats.deck import with_epsilon
@@ -315,6 +315,6 @@ def test_a_doubled_equation_and_a_near_one_are_told_apart() -> None:
     right = one.outcome
     a, b, c, d = right.equations[1]
     near, far = (a * (1 + NEAR / 2), b, c, d), (a + 3 * max(map(abs, (a, b, c))), b, c, d)
-    found = against(replace(right, equations=(*right.equations, near, far)), right, one.points)
+    found = disagreement(replace(right, equations=(*right.equations, near, far)), right, one.points)
     assert found.places == (*range(len(right.equations)), 1, -1)
     assert (found.planes_doubled, found.planes_extra, found.planes_missing) == (1, 1, 0)

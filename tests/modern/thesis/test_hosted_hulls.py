@@ -13,7 +13,7 @@ from emulator.language.cards import Deck, deck_from_lines, read_deck
 from emulator.machine.divergence import diverge
 from emulator.machine.result import Options
 from emulator.numbers import DecimalNumbers, numbers
-from modern.comparison.difference import against
+from modern.comparison.difference import disagreement
 from modern.comparison.outcome import Vector, from_cards, from_judge
 from modern.edition import chapter6, programs
 from modern.exact_hull import exact_hull
@@ -72,7 +72,7 @@ def test_the_examples_exactly(example: int) -> None:
     assert run.complete
     given: list[Vector] = [tuple(point) for point in points]
     judge = from_judge(exact_hull(points), given)
-    found = against(from_cards("exact", run, given), judge, given)
+    found = disagreement(from_cards("exact", run, given), judge, given)
     assert found.agrees or judge.dimension < 2
     assert not found.missed
     assert not found.added
