@@ -1,4 +1,4 @@
-"""Run the benchmarks: what, median, least, most, and what it was measured against.
+"""Run the benchmarks: what, median, least, most, and what to compare it with.
 
 ``python -m modern.bench`` runs every group, ``python -m modern.bench digital papers`` those named.
 """

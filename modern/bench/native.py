@@ -14,7 +14,7 @@ from emulator.language.cards import Deck
 from modern.bench.translate import translated
 
 COMPILERS = ("gfortran", "flang", "flang-new", "ifx", "f95")
-"""Looked for in this order, behind what the environment variable FC names."""
+"""Looked for in this order, after what the environment variable FC names."""
 
 _EXTRA = {"gfortran": ("-std=legacy", "-w"), "ifx": ("-w",)}
 _PATIENCE = 120

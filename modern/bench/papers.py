@@ -17,8 +17,8 @@ from modern.bench.hulls import ball, eight_digits
 from modern.bench.timing import Figure, timed
 from modern.digital import solids
 from modern.exact_hull import exact_hull
-from modern.papers.appel_will import MENDED, Method, appel_will
-from modern.papers.appel_will.star import as_mended
+from modern.papers.appel_will import CORRECTED, Method, appel_will
+from modern.papers.appel_will.star import as_corrected
 from modern.papers.kovalevsky_schulz import (
     CENTRES,
     INVISIBLE,
@@ -65,17 +65,17 @@ def convex_edges() -> Iterator[Figure]:
     """Appel and Will's method, beside the judge."""
     in_ball = [tuple(p) for p in eight_digits(ball(POINTS)).tolist()]
     sets = {"in a ball": in_ball, "on a sphere": on_sphere(POINTS), "of a grid": on_grid(POINTS)}
-    by_star = Method(star=as_mended)
+    by_star = Method(star=as_corrected)
     for name, points in sets.items():
         what = f"Appel & Will, {POINTS} points {name}"
-        ours = timed(what, lambda p=points: appel_will(p, method=MENDED), "bar 2 s")  # type: ignore[misc]
+        ours = timed(what, lambda p=points: appel_will(p, method=CORRECTED), "bar 2 s")  # type: ignore[misc]
         yield ours
         star = timed(f"{what}, star polygons", lambda p=points: appel_will(p, method=by_star))  # type: ignore[misc]
         yield Figure(star.what, star.seconds, f"{star.median / ours.median:.1f} times as long")
         judge = timed(f"judge, {POINTS} points {name}", lambda p=points: exact_hull(p))  # type: ignore[misc]
         yield Figure(judge.what, judge.seconds, f"Appel & Will {ours.median / judge.median:.1f} times as long")
     many = on_sphere(ON_SPHERE)
-    yield timed(f"Appel & Will, {ON_SPHERE} points on a sphere", lambda: appel_will(many, method=MENDED))
+    yield timed(f"Appel & Will, {ON_SPHERE} points on a sphere", lambda: appel_will(many, method=CORRECTED))
 
 
 def cell_lists(largest: int = LARGEST_BALL) -> Iterator[Figure]:

@@ -6,7 +6,7 @@ What differs between the two languages, and what becomes of it:
 - PUNCH goes to standard output, PRINT and TYPE to a second file, READ comes from standard input, and a hopper
   that is empty ends the run (C26-5619 p. 32-43);
 - a DO runs at least once and its limit is looked up at each pass (p. 25-28): step, test and jump are written
-  out behind its last statement, so that jumps into its range do what they do on the machine;
+  out after its last statement, so that jumps into its range do what they do on the machine;
 - IF (SENSE SWITCH n) asks a logical constant;
 - Hollerith texts of a FORMAT become quoted ones, on input blanks;
 - floating-point constants become double precision, names keep their implicit type; SQRTF is SQRT.

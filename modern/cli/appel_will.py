@@ -14,7 +14,7 @@ from modern.formats import off
 from modern.formats.off import parse_off
 from modern.formats.points import OFF, Input, parse_input
 from modern.geometry.mesh import Mesh
-from modern.papers.appel_will import LITERAL, MENDED, Assembled, MapError, appel_will
+from modern.papers.appel_will import CORRECTED, LITERAL, Assembled, MapError, appel_will
 from modern.papers.appel_will.corners import Preprocessing, Rule
 from modern.papers.appel_will.loops import Loop
 from modern.papers.appel_will.star import as_printed, in_one_pass
@@ -57,7 +57,7 @@ def main(args: argparse.Namespace) -> int:
     given = parse_off(text, name).faces if found.kind == OFF else ()
     if args.inside_corners and not given:
         raise UsageError(f"{found.source}: --inside-corners needs the surfaces of the polyhedron, in an OFF file")
-    method = LITERAL if args.literal else MENDED
+    method = LITERAL if args.literal else CORRECTED
     if args.star is not None:
         method = replace(method, star=as_printed if args.star == "printed" else in_one_pass)
     try:

@@ -43,7 +43,7 @@ def column_ends(volume: Truth) -> tuple[Grid, Grid, Grid, Grid]:
 def reduced(x: Grid, y: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
     """The points left when those on or above a chord of their row or column of (x, y) are struck.
 
-    No struck point is a vertex of the lower side of the hull; points that are none may be left.  x, y, z: one point a
+    No struck point is a vertex of the lower side of the hull; other points may be left.  x, y, z: one point a
     place (x, y), in raster order, as is the result.
     """
     x, y, z = _along(x, y, z)

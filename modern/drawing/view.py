@@ -7,10 +7,11 @@ so that the z axis of space stands upright; seen along z itself, x is to the rig
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+from modern.exact_hull.coordinates import common_scale, to_integers
 from modern.geometry.vectors import Vector, cross, dot, lowest, minus
 
 Eye = tuple[int, int, int]
@@ -88,8 +89,7 @@ def choose(points: Sequence[Vector], normals: Sequence[Vector]) -> Eye:
     each other; the first of equals.  Where none serves, the first on the curve (t, -t t - 1, t t t) that does, t being
     2, 3, 4 and so on: a face or a pair of vertices rules out three of its directions at the most, so there is one.
     """
-    scale = math.lcm(*(number.denominator for point in points for number in point))
-    places = [tuple3(number.numerator * (scale // number.denominator) for number in point) for point in points]
+    places = to_integers(points, common_scale(points))
     flanks = [lowest(normal) for normal in normals if any(normal)]
     best, most = None, Fraction(0)
     for eye in EYES:
@@ -116,12 +116,6 @@ def towards(normal: Vector) -> Eye:
     """The direction at right angles to a polygon: from above, or from the front, or from the right."""
     x, y, z = lowest(normal)
     return (x, y, z) if (z, -y, x) > (0, 0, 0) else (-x, -y, -z)
-
-
-def tuple3(numbers: Iterable[int]) -> Eye:
-    """Three integers as a point or direction."""
-    x, y, z = numbers
-    return x, y, z
 
 
 def _serves(points: Sequence[Eye], normals: Sequence[Eye], eye: Eye) -> bool:

@@ -12,6 +12,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Final, Literal, TypeVar
 
+from modern.geometry.mesh import sides
+
 N = TypeVar("N", int, Fraction)
 
 Kind = Literal["inner", "contour", "outline", "back", "flat"]
@@ -68,7 +70,7 @@ def classify(
     """
     beside: dict[tuple[int, int], list[int]] = defaultdict(list)
     for order, face in enumerate(faces):
-        for a, b in zip(face, face[1:] + face[:1], strict=True):
+        for a, b in sides(face):
             beside[min(a, b), max(a, b)].append(order)
     return tuple(Edge(a, b, _kind(orders, signs, flat), tuple(orders)) for (a, b), orders in sorted(beside.items()))
 
@@ -79,12 +81,7 @@ def contour(faces: Sequence[tuple[int, ...]], signs: Sequence[int]) -> tuple[int
     A front face runs clockwise in the image, and so does its side without another front face beyond.  Empty where no
     face is seen: of a plate that is edge-on.
     """
-    directed = {
-        (a, b)
-        for face, seen in zip(faces, signs, strict=True)
-        if seen > 0
-        for a, b in zip(face, face[1:] + face[:1], strict=True)
-    }
+    directed = {(a, b) for face, seen in zip(faces, signs, strict=True) if seen > 0 for a, b in sides(face)}
     ahead = {a: b for a, b in directed if (b, a) not in directed}
     if not ahead:
         return ()

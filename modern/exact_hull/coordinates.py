@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -77,12 +77,12 @@ def read_points(points: Points) -> list[ExactPoint]:
     return found
 
 
-def common_scale(points: list[ExactPoint]) -> int:
+def common_scale(points: Sequence[ExactPoint]) -> int:
     """The least positive integer that makes every coordinate an integer: the lcm of the denominators."""
     return math.lcm(*{value.denominator for point in points for value in point})
 
 
-def to_integers(points: list[ExactPoint], scale: int) -> list[IntPoint]:
+def to_integers(points: Sequence[ExactPoint], scale: int) -> list[IntPoint]:
     """Every coordinate times ``scale``, a multiple of every denominator."""
     if scale == 1:
         return [(x.numerator, y.numerator, z.numerator) for x, y, z in points]

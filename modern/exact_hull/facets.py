@@ -116,10 +116,9 @@ def segment(points: Sequence[IntPoint]) -> list[Facet]:
     places = range(len(points))
     low, high = min(places, key=points.__getitem__), max(places, key=points.__getitem__)
     along = minus(points[high], points[low])
-    against = minus(points[low], points[high])
     return [
         Facet(lowest_terms(plane_at(along, points[high])), (high,)),
-        Facet(lowest_terms(plane_at(against, points[low])), (low,)),
+        Facet(lowest_terms(plane_at((-along[0], -along[1], -along[2]), points[low])), (low,)),
     ]
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from emulator.errors import EmulatorError
@@ -84,9 +84,9 @@ def mesh(hull: Hull) -> Mesh:
     return Mesh(hull.dimension, points, tuple(polygons))
 
 
-def sides(face: tuple[int, ...]) -> Iterator[tuple[int, int]]:
+def sides(face: Sequence[int]) -> Iterator[tuple[int, int]]:
     """The directed edges of a face."""
-    return zip(face, face[1:] + face[:1], strict=True)
+    return zip(face, (*face[1:], face[0]), strict=True)
 
 
 def _cycle(lines: list[tuple[int, ...]], count: int) -> tuple[int, ...]:

@@ -23,7 +23,7 @@ class Method:
     inside_corners: Rule | None = None
 
 
-MENDED = Method()
+CORRECTED = Method()
 LITERAL = Method(as_printed, Rules(dot_condition=False))
 """By the letter, but for the two step numbers of the appendix without which no second loop is found."""
 
@@ -83,12 +83,12 @@ class Assembled:
         return fates(self.points, given, self.surfaces)
 
 
-def appel_will(points: Points, surfaces: Sequence[Surface] = (), method: Method = MENDED) -> Assembled:
+def appel_will(points: Points, surfaces: Sequence[Surface] = (), method: Method = CORRECTED) -> Assembled:
     """The hull of at least one point, by Appel and Will's method, in exact arithmetic.
 
     points: (x, y, z) each, of ints, Fractions, decimal strings or floats (taken as the binary numbers they are).
     surfaces: the topological map of the polyhedron, where there is one; only preprocessing needs it.
-    Raises PointsError for points that are none, MapError for surfaces that are none.
+    Raises PointsError for invalid points, MapError for invalid surfaces.
     """
     read = read_points(points)
     scale = common_scale(read)

@@ -24,7 +24,7 @@ class Rules:
     L1 (the main text's condition for two lines that give a plane), else take the first.  Without it the first is
     taken always, as step 3 has it.
     ``rejected_to_step_2``: "go back to step 2" in steps 5 and 7 by the letter, so that a rejected L2 costs its L1 the
-    turn; the mended number is step 3.
+    turn; the corrected number is step 3.
     ``line_again``: step 9 by the letter, which leaves out L1 and L2 only, not the other lines already on the loop.
     """
 
@@ -72,7 +72,7 @@ class Intersection:
 
     Type 1: both lines begin at the common point; 2: L1 begins and L2 ends there; 3: L1 ends and L2 begins there; 4:
     both end there.  Figs. 20 and 21 are lost: type 1 and its signs are certain from Figs. 21 and 22, the signs of the
-    others follow from the sense of the loop, their numbers are ours.
+    others follow from the sense of the loop, their numbers are this project's.
     """
 
     first: int
@@ -98,20 +98,20 @@ def find_loops(points: Sequence[IntPoint], edges: Sequence[Pair], rules: Rules) 
     """Steps 1 to 10.  The points that matter are the ends of the edges ("the vertex list" as reduced)."""
     vertices = sorted({end for edge in edges for end in edge})
     uses = [0] * len(edges)
+    table = _Table(points, vertices, edges, uses, [], rules)
     loops: list[Loop] = []
-    on_loops: list[frozenset[int]] = []
     while True:
-        begun = _begin(points, vertices, edges, uses, on_loops, rules)
+        begun = _begin(table)
         if begun is None:
             return LoopTable(tuple(loops), tuple(uses))
-        entries = _follow(points, edges, uses, begun, rules)
+        entries = _follow(table, begun)
         if entries is None:
             lines = f"lines {begun.first + 1} and {begun.second + 1}"
             return LoopTable(tuple(loops), tuple(uses), f"the loop begun with {lines} does not come back to its start")
         for entry in entries:
             uses[abs(entry) - 1] += 1
         loops.append(Loop(tuple(entries), begun.kind, begun.start, begun.match, tuple(uses)))
-        on_loops.append(frozenset(surface(entries, edges)))
+        table.on_loops.append(frozenset(surface(entries, edges)))
 
 
 def surface(entries: Sequence[int], edges: Sequence[Pair]) -> tuple[int, ...]:
@@ -119,81 +119,78 @@ def surface(entries: Sequence[int], edges: Sequence[Pair]) -> tuple[int, ...]:
     return tuple(edges[abs(entry) - 1][0 if entry > 0 else 1] for entry in entries)
 
 
-def _begin(
-    points: Sequence[IntPoint],
-    vertices: Sequence[int],
-    edges: Sequence[Pair],
-    uses: Sequence[int],
-    on_loops: Sequence[frozenset[int]],
-    rules: Rules,
-) -> Intersection | None:
+@dataclass(frozen=True, slots=True)
+class _Table:
+    """What the search for the next loop looks at: the reduced vertex list, the uses of the edges and the points of the
+    loops so far, which grow."""
+
+    points: Sequence[IntPoint]
+    vertices: Sequence[int]
+    edges: Sequence[Pair]
+    uses: list[int]
+    on_loops: list[frozenset[int]]
+    rules: Rules
+
+
+def _begin(table: _Table) -> Intersection | None:
     """Steps 2 to 8: the two lines the next loop begins with, or None when all edges were addressed in step 2."""
-    for first in range(len(edges)):
-        if uses[first] == TIMES:
+    for first in range(len(table.edges)):
+        if table.uses[first] == TIMES:
             continue
-        found = _seconds(points, vertices, edges, uses, on_loops, rules, first)
+        found = _seconds(table, first)
         chosen = next(found, None)
         if chosen is None:
             continue
-        if rules.dot_condition and not _acute(points, edges, chosen):
-            return next((other for other in found if _acute(points, edges, other)), chosen)
+        if table.rules.dot_condition and not _acute(table, chosen):
+            return next((other for other in found if _acute(table, other)), chosen)
         return chosen
     return None
 
 
-def _seconds(
-    points: Sequence[IntPoint],
-    vertices: Sequence[int],
-    edges: Sequence[Pair],
-    uses: Sequence[int],
-    on_loops: Sequence[frozenset[int]],
-    rules: Rules,
-    first: int,
-) -> Iterator[Intersection]:
+def _seconds(table: _Table, first: int) -> Iterator[Intersection]:
     """Steps 3 to 7: the lines that make a plane of the hull with line ``first``, on which no loop lies yet."""
-    for second in range(len(edges)):
-        if second == first or uses[second] == TIMES:
+    for second in range(len(table.edges)):
+        if second == first or table.uses[second] == TIMES:
             continue
-        both = intersect(edges, first, second)
+        both = intersect(table.edges, first, second)
         if both is None:
             continue
         three = {both.common, both.start, both.match}
-        if any(three <= loop for loop in on_loops) or not _is_convex_plane(points, vertices, both):
-            if rules.rejected_to_step_2:
+        if any(three <= loop for loop in table.on_loops) or not _is_convex_plane(table, both):
+            if table.rules.rejected_to_step_2:
                 return
             continue
         yield both
 
 
-def _is_convex_plane(points: Sequence[IntPoint], vertices: Sequence[int], both: Intersection) -> bool:
+def _is_convex_plane(table: _Table, both: Intersection) -> bool:
     """Steps 6 and 7: whether all points are in the plane of the two lines or on one side of it."""
-    normal, origin = _plane(points, both)
-    sides = {(height > 0) - (height < 0) for height in (dot(normal, minus(points[p], origin)) for p in vertices)}
+    normal, origin = _plane(table.points, both)
+    heights = (dot(normal, minus(table.points[p], origin)) for p in table.vertices)
+    sides = {(height > 0) - (height < 0) for height in heights}
     return not {1, -1} <= sides
 
 
-def _follow(
-    points: Sequence[IntPoint], edges: Sequence[Pair], uses: Sequence[int], both: Intersection, rules: Rules
-) -> list[int] | None:
+def _follow(table: _Table, both: Intersection) -> list[int] | None:
     """Steps 9 and 10: the entries of the whole loop, or None if it does not close.
 
     The list is searched no more often than it has lines, as the appendix advises.
     """
-    normal, origin = _plane(points, both)
+    normal, origin = _plane(table.points, both)
     entries = [*both.entries]
     left_out = {both.first, both.second}
     match = both.match
-    for _ in edges:
-        for line, (one, other) in enumerate(edges):
-            if uses[line] == TIMES or line in left_out or match not in (one, other):
+    for _ in table.edges:
+        for line, (one, other) in enumerate(table.edges):
+            if table.uses[line] == TIMES or line in left_out or match not in (one, other):
                 continue
             beyond = other if one == match else one
-            if beyond != both.start and dot(normal, minus(points[beyond], origin)):
+            if beyond != both.start and dot(normal, minus(table.points[beyond], origin)):
                 continue
             entries.append(line + 1 if one == match else -(line + 1))
             if beyond == both.start:
                 return entries
-            if not rules.line_again:
+            if not table.rules.line_again:
                 left_out.add(line)
             match = beyond
             break
@@ -208,7 +205,7 @@ def _plane(points: Sequence[IntPoint], both: Intersection) -> tuple[IntPoint, In
     return cross(minus(points[both.start], origin), minus(points[both.match], origin)), origin
 
 
-def _acute(points: Sequence[IntPoint], edges: Sequence[Pair], both: Intersection) -> bool:
+def _acute(table: _Table, both: Intersection) -> bool:
     """a_k a_l + b_k b_l + c_k c_l > 0 for the lines as directed from LC1 to LC2."""
-    (p, q), (r, s) = edges[both.first], edges[both.second]
+    points, (p, q), (r, s) = table.points, table.edges[both.first], table.edges[both.second]
     return dot(minus(points[q], points[p]), minus(points[s], points[r])) > 0

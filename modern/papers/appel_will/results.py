@@ -19,12 +19,12 @@ from modern.papers import Lines
 from modern.papers.appel_will.corners import corners, triple_product, vectors
 from modern.papers.appel_will.edges import IntPoint, Pair, project
 from modern.papers.appel_will.hull import Assembled, Method, appel_will
-from modern.papers.appel_will.star import as_mended
+from modern.papers.appel_will.star import as_corrected
 from modern.papers.appel_will.surfaces import Line, Surface, area_normal, oriented
 
 FOLDER = "appel_will_1976"
 """Of the print under ``transcripts``."""
-BY_STAR = Method(star=as_mended)
+BY_STAR = Method(star=as_corrected)
 """With the star polygon itself, as the paper has it, not its short form."""
 ROMAN = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 FIG_18_LINES = {5: (1, 2), 7: (2, 3), 6: (4, 3)}
@@ -40,7 +40,7 @@ class Solid:
 
 
 def found_solid(name: str) -> Solid:
-    """An object whose coordinates are ours, by its figure (``fig14``).  Raises KeyError."""
+    """An object whose coordinates this project found, by its figure (``fig14``).  Raises KeyError."""
     text = files("transcripts").joinpath(FOLDER, "coordinates.toml").read_text(encoding="utf-8")
     entries = {entry["id"]: entry for entry in tomllib.loads(text)["solid"]}
     entry = entries[name]
@@ -128,7 +128,7 @@ def _parallel_lines(points: Sequence[IntPoint], pair: Pair) -> Iterator[str]:
     lines = [
         (i, j) for i, j in combinations(range(len(points)), 2) if not any(cross(along, minus(points[j], points[i])))
     ]
-    convex = [line for line in lines if as_mended(project(points, line, range(len(points))).images)]
+    convex = [line for line in lines if as_corrected(project(points, line, range(len(points))).images)]
     yield f"lines {_listed(f'({i + 1}, {j + 1})' for i, j in convex)} are convex points"
     for i, j in lines:
         if (i, j) not in convex:

@@ -41,7 +41,7 @@ def as_printed(images: Sequence[Image]) -> bool:
     return not star or any(vorticity(a, b) < 0 or on_one_ray(a, b) for a, b in _sides(star))
 
 
-def as_mended(images: Sequence[Image]) -> bool:
+def as_corrected(images: Sequence[Image]) -> bool:
     """The test as it must be: images on one ray carry no information, unless all of them are on one.
 
     A side that turns clockwise spans more than 180 degrees of the turn about C.  A side of exactly 180 degrees
@@ -52,7 +52,7 @@ def as_mended(images: Sequence[Image]) -> bool:
 
 
 def in_one_pass(images: Sequence[Image]) -> bool:
-    """What :func:`as_mended` finds, without sorting: whether all images are in one angle of less than 180 degrees.
+    """What :func:`as_corrected` finds, without sorting: whether all images are in one angle of less than 180 degrees.
 
     ``first`` and ``last`` bound the angle of the images so far, counterclockwise.
     """

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from emulator.errors import EmulatorError
+from modern.geometry.mesh import sides
 from modern.geometry.vectors import area_vector, cross, dot, minus
 from modern.papers.appel_will.edges import IntPoint, Pair
 
@@ -85,7 +86,7 @@ def oriented(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> tuple[S
             raise MapError(f"surface {number + 1}: it has no area")
         if any(dot(normal, minus(points[index], points[surface[0]])) for index in surface):
             raise MapError(f"surface {number + 1}: its points do not lie in one plane")
-        for line in _lines(surface):
+        for line in sides(surface):
             beside[frozenset(line)].append(number)
     for ends, numbers in beside.items():
         if len(numbers) != 2:
@@ -102,7 +103,7 @@ def oriented(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> tuple[S
 
 def lines(surfaces: Sequence[Surface]) -> tuple[Line, ...]:
     """Every line of oriented surfaces once, with the surfaces on both sides of it, by its surface of lower number."""
-    owner = {line: number for number, surface in enumerate(surfaces) for line in _lines(surface)}
+    owner = {line: number for number, surface in enumerate(surfaces) for line in sides(surface)}
     return tuple(
         Line(line, number, owner[line[1], line[0]])
         for line, number in owner.items()
@@ -115,12 +116,12 @@ def _one_sense(surfaces: Sequence[Surface], beside: dict[frozenset[int], list[in
     turned: dict[int, Surface] = {0: surfaces[0]}
     waiting = [0]
     for number in waiting:
-        for start, end in _lines(turned[number]):
+        for start, end in sides(turned[number]):
             for other in beside[frozenset((start, end))]:
                 if other == number:
                     continue
                 surface = surfaces[other]
-                if (start, end) in _lines(turned.get(other, surface)):
+                if (start, end) in sides(turned.get(other, surface)):
                     if other in turned:
                         raise MapError(f"surface {other + 1}: the surfaces have no outside, like a Moebius strip")
                     surface = (surface[0], *surface[:0:-1])
@@ -131,10 +132,6 @@ def _one_sense(surfaces: Sequence[Surface], beside: dict[frozenset[int], list[in
         alone = next(number for number in range(len(surfaces)) if number not in turned)
         raise MapError(f"surface {alone + 1}: it is not connected with surface 1")
     return [turned[number] for number in range(len(surfaces))]
-
-
-def _lines(surface: Surface) -> list[Pair]:
-    return list(zip(surface, (*surface[1:], surface[0]), strict=True))
 
 
 def _lies_in(points: Sequence[IntPoint], surface: Surface, other: Surface) -> bool:

@@ -15,6 +15,7 @@ from itertools import pairwise
 import numpy as np
 
 from emulator.errors import EmulatorError
+from modern.geometry.mesh import sides
 from modern.geometry.vectors import cross, minus
 
 IntPoint = tuple[int, int, int]
@@ -201,13 +202,8 @@ def decoded(numbers: Iterable[int]) -> Economical:
         (size,) = _taken(row, 1)
         cycles.append(tuple(_taken(row, size)))
     if next(row, None) is not None:
-        raise CellListError("numbers are left over behind the last face")
+        raise CellListError("numbers are left over after the last face")
     return Economical(tuple((x, y, z) for x, y, z in points), tuple(cycles))
-
-
-def sides(cycle: Sequence[int]) -> Iterator[tuple[int, int]]:
-    """The directed edges of a cycle of vertices."""
-    return zip(cycle, (*cycle[1:], cycle[0]), strict=True)
 
 
 def _taken(row: Iterator[int], count: int) -> list[int]:

@@ -19,8 +19,8 @@ from modern.papers.nakamae_nishita.projection import Observer
 from modern.papers.nakamae_nishita.solids import Solid, solid
 
 ENCLOSED, TOUCHING, ENDS, GHOSTS = "enclosed", "touching", "ends", "ghosts"
-MENDS = (ENCLOSED, TOUCHING, ENDS, GHOSTS)
-"""What may be left out, to see what it is for.  Three are gaps of the paper mended: ``enclosed``, a segment wholly
+REFINEMENTS = (ENCLOSED, TOUCHING, ENDS, GHOSTS)
+"""What may be left out, to see what it is for.  Three close gaps of the paper: ``enclosed``, a segment wholly
 within a nearer contour has no intersection, so nothing in section 3.5 counts it as hidden; ``touching``, where
 polyhedra touch (4) and (5) may both be 0, and a separating plane decides; ``ends``, a segment that ends on a contour or
 runs through its corner has d = -2 or -1 there, which (6) does not cover.  ``ghosts`` is the paper's own section 3.4."""
@@ -101,15 +101,15 @@ def draw(
 ) -> Drawing:
     """Draw convex polyhedra, or what a function makes, which is then timed as the first step.
 
-    without: names from ``MENDS`` to leave out.  hidden: the hidden parts are pieces too, and edges of faces that all
-    turn away.  check: prove of every pair whose contours overlap that they do not intersect.
+    without: names from ``REFINEMENTS`` to leave out.  hidden: the hidden parts are pieces too, and edges of faces that
+    all turn away.  check: prove of every pair whose contours overlap that they do not intersect.
 
-    Raises SceneError for polyhedra that intersect, one not wholly before the observation point, and a name that is no
-    mend.
+    Raises SceneError for polyhedra that intersect, one not wholly before the observation point, and a name that is
+    none of these.
     """
-    strange = sorted(set(without) - set(MENDS))
+    strange = sorted(set(without) - set(REFINEMENTS))
     if strange:
-        raise SceneError(f"{strange[0]!r} is none of {', '.join(MENDS)}")
+        raise SceneError(f"{strange[0]!r} is none of {', '.join(REFINEMENTS)}")
     started = time.perf_counter()
     polyhedra = made() if callable(made) else made
     searched = time.perf_counter()

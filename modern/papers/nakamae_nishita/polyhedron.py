@@ -6,7 +6,6 @@ scene, from an OFF file and from every hull of this project.
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -14,7 +13,7 @@ from fractions import Fraction
 from pathlib import PurePath
 
 from emulator.errors import EmulatorError
-from modern.drawing.view import tuple3
+from modern.exact_hull.coordinates import common_scale, to_integers
 from modern.formats.off import OffMesh
 from modern.geometry.hull import Hull
 from modern.geometry.mesh import mesh, sides
@@ -95,7 +94,7 @@ def _check_closed(polyhedron: Polyhedron) -> None:
 def _faults(polyhedron: Polyhedron) -> Iterator[str]:
     """What keeps closed faces from being a convex solid, or a plate, clockwise from outside."""
     points, faces = polyhedron.vertices, polyhedron.faces
-    whole = integers(points, denominator(points))
+    whole = to_integers(points, common_scale(points))
     flat = True
     for order, face in enumerate(faces, 1):
         normal = outward(polyhedron, face)
@@ -145,16 +144,6 @@ def _volume(polyhedron: Polyhedron) -> Fraction:
         ),
         Fraction(0),
     )
-
-
-def denominator(points: Sequence[Vector]) -> int:
-    """The least positive integer that makes every coordinate an integer."""
-    return math.lcm(*(number.denominator for point in points for number in point))
-
-
-def integers(points: Sequence[Vector], scale: int) -> list[tuple[int, int, int]]:
-    """The points times a multiple of their denominator."""
-    return [tuple3(number.numerator * (scale // number.denominator) for number in point) for point in points]
 
 
 def polyhedron_of_off(found: OffMesh) -> Polyhedron:

@@ -8,14 +8,14 @@ and lines and the sense of rotation stays, so formulas (1) to (6) of the paper h
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
 from modern.drawing.view import Eye, view
+from modern.exact_hull.coordinates import common_scale, to_integers
 from modern.geometry.vectors import Vector, dot, lowest, minus
-from modern.papers.nakamae_nishita.polyhedron import Polyhedron, SceneError, denominator, integers
+from modern.papers.nakamae_nishita.polyhedron import Polyhedron, SceneError
 
 Homogeneous = tuple[int, int, int, int]
 
@@ -57,9 +57,8 @@ def project(polyhedron: Polyhedron, observer: Observer, origin: Vector) -> list[
     """
     points = [*polyhedron.vertices, *(corner for figure in polyhedron.figures for corner in figure.corners)]
     centre = observer.point or origin
-    scale = math.lcm(denominator(points), denominator([centre]))
-    whole = integers(points, scale)
-    (c,) = integers([centre], scale)
+    scale = common_scale([*points, centre])
+    *whole, c = to_integers([*points, centre], scale)
     right, up, eye = observer.right, observer.up, observer.eye
     # Products written out: this is done for every vertex of a scene.
     away = [(x - c[0], y - c[1], z - c[2]) for x, y, z in whole]

@@ -8,6 +8,7 @@ from typing import Final, Literal
 
 from modern.drawing import visible
 from modern.drawing.visible import Edge, line_through
+from modern.geometry.mesh import sides
 from modern.geometry.vectors import Vector
 from modern.papers.nakamae_nishita.contours import Line
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron
@@ -91,7 +92,7 @@ def solid(number: int, polyhedron: Polyhedron, observer: Observer, origin: Vecto
         tuple(signs),
         edges,
         chain,
-        tuple(line_through(flat[a], flat[b]) for a, b in zip(chain, chain[1:] + chain[:1], strict=True)),
+        tuple(line_through(flat[a], flat[b]) for a, b in (sides(chain) if chain else ())),
         tuple(planes),
         tuple(Segment(a, b, where[a], where[b], kind, seen) for a, b, kind, seen in found),
         used,

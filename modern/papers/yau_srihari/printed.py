@@ -35,7 +35,7 @@ class Printed:
 
     @classmethod
     def only(cls, *names: str) -> Printed:
-        """These statements as printed, the others corrected.  Raises ValueError for a name that is none."""
+        """These statements as printed, the others corrected.  Raises ValueError for an unknown name."""
         unknown = [name for name in names if name not in NAMES]
         if unknown:
             raise ValueError(f"{unknown[0]!r} is none of {', '.join(NAMES)}")

@@ -13,9 +13,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from modern.exact_hull import exact_hull
-from modern.papers.appel_will import LITERAL, MENDED, Method, appel_will
+from modern.papers.appel_will import CORRECTED, LITERAL, Method, appel_will
 from modern.papers.appel_will.loops import Rules
-from modern.papers.appel_will.star import as_mended
+from modern.papers.appel_will.star import as_corrected
 from tests.support.judged import sets
 
 Point = tuple[int, int, int]
@@ -29,7 +29,7 @@ def cycle(polygon: Sequence[int]) -> tuple[int, ...]:
     return min(turned, (turned[0], *turned[:0:-1]))
 
 
-def differences(points: Sequence[Sequence[object]], method: Method = MENDED) -> list[str]:
+def differences(points: Sequence[Sequence[object]], method: Method = CORRECTED) -> list[str]:
     """In what the method differs from the judge; empty where it does not."""
     ours, judge = appel_will(points, method=method), exact_hull(points)  # type: ignore[arg-type]
     polygons = {3: [facet.polygon for facet in judge.facets], 2: [judge.polygon]}.get(judge.dimension, [])
@@ -54,7 +54,7 @@ def test_families_agree_with_the_judge(seed: int) -> None:
 def test_forms_of_the_method_agree_with_the_judge() -> None:
     for name, points in sets(60, 3):
         assert differences(points, LETTER) == [], name
-        assert differences(points, Method(star=as_mended)) == [], name
+        assert differences(points, Method(star=as_corrected)) == [], name
 
 
 coordinate = st.one_of(st.integers(-1, 2), st.fractions(-2, 2, max_denominator=3))

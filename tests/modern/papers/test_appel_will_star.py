@@ -10,11 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from modern.exact_hull import exact_hull
-from modern.papers.appel_will import MENDED, Method, appel_will
+from modern.papers.appel_will import CORRECTED, Method, appel_will
 from modern.papers.appel_will.edges import project
 from modern.papers.appel_will.star import (
     Image,
-    as_mended,
+    as_corrected,
     as_printed,
     in_one_pass,
     on_one_ray,
@@ -38,13 +38,13 @@ images_far = st.tuples(st.integers(-(10**12), 10**12), st.integers(-(10**12), 10
 
 @given(st.lists(st.one_of(images_near, images_far), max_size=9))
 def test_mended_test_and_one_pass_are_the_judges_corner(images: list[Image]) -> None:
-    assert as_mended(images) == in_one_pass(images) == is_corner(images)
+    assert as_corrected(images) == in_one_pass(images) == is_corner(images)
 
 
 @given(st.lists(images_near, min_size=1, max_size=9))
 def test_forms_differ_only_where_two_images_are_on_one_ray(images: list[Image]) -> None:
     tied = any(on_one_ray(a, b) for k, a in enumerate(images) for b in images[:k])
-    assert as_printed(images) == (as_mended(images) or tied)
+    assert as_printed(images) == (as_corrected(images) or tied)
 
 
 @given(st.lists(images_near, min_size=1, max_size=9))
@@ -73,11 +73,11 @@ def test_star_polygon_goes_around_once(images: list[Image]) -> None:
 )
 def test_collinear_possibilities_of_fig_12(images: list[Image], printed: bool, mended: bool) -> None:
     assert as_printed(images) == printed
-    assert as_mended(images) == in_one_pass(images) == mended
+    assert as_corrected(images) == in_one_pass(images) == mended
 
 
 def test_printed_form_makes_edges_of_the_diagonals_of_a_cube() -> None:
-    printed, mended = appel_will(CUBE, method=PRINTED), appel_will(CUBE, method=MENDED)
+    printed, mended = appel_will(CUBE, method=PRINTED), appel_will(CUBE, method=CORRECTED)
     assert len(mended.edges) == 12
     false = set(printed.edges) - set(mended.edges)
     assert len(false) == 12
