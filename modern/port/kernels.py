@@ -1,6 +1,6 @@
 """Program 3 from H_1 on for floats, one number at a time, in the part of Python that numba compiles.
 
-The steps are those of :mod:`modern.port.growth`, :mod:`modern.port.polyhedron` and :mod:`modern.port.inside`, and so
+The steps are those of :mod:`modern.port.growth`, :mod:`modern.port.polyhedron` and :mod:`modern.port.growth`, and so
 are the decisions and the numbers, which come from the formulas those use.  What is not ordinary is left to them: a
 stage that stops, that meets a mend not yet noted, or that takes back a vertex returns UNUSUAL with nothing
 changed but the equation to check.

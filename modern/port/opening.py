@@ -11,9 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from modern.port.arithmetic import Arithmetic, Scalar, Vector
-from modern.port.equations import Equations, Slack, snapped
 from modern.port.formulas import Point, at, line, moments, plane
-from modern.port.places import Places
+from modern.port.table import Equations, Places, Slack, snapped
 
 Four = tuple[Scalar, Scalar, Scalar, Scalar]
 _PAIRS = {1: ((0, 1), (0, 2)), 2: ((0, 1), (1, 2)), 3: ((0, 2), (1, 2))}

@@ -13,13 +13,21 @@ from numpy.typing import NDArray
 
 from modern.geometry.hull import ERROR, NOT_ACCEPTABLE, TABLE_FULL
 from modern.port.arithmetic import Arithmetic, Scalar, Vector
-from modern.port.equations import Equations
 from modern.port.formulas import plane
-from modern.port.growth import Grown, grow, stage
-from modern.port.inside import Remaining
-from modern.port.places import Places
-from modern.port.progress import LAST_PAIR, TABLE_OF_PLANES, THROUGH_CENTRE, Progress, Stopped, Watcher
-from modern.port.turning import turned
+from modern.port.growth import (
+    LAST_PAIR,
+    LAST_REPEAT,
+    TABLE_OF_PLANES,
+    THROUGH_CENTRE,
+    Grown,
+    Progress,
+    Remaining,
+    Stopped,
+    Watcher,
+    grow,
+    stage,
+)
+from modern.port.table import Equations, Places, turned
 
 LISTED_PLANES, PLANES = 98, 193
 """Places for planes in the listing, and in the layer ``corrected``: 4N-11 for N = 51."""
@@ -164,3 +172,36 @@ class Polyhedron:
                 above[name], defining[name] = values[k], fresh.defining[:, k]
             names: Sequence[int] = sorted(above)
             equation = names[self.arithmetic.last_largest(self.arithmetic.filled([above[k] for k in names]))]
+
+
+On = list[NDArray[np.int64]]
+
+
+def strike_repeats(table: Equations, on: On, places: int, progress: Progress) -> On:
+    """One equation of each plane stays, the first (164 to 174); of the places that satisfy each, what stays of them.
+
+    An equation is struck when the three points of an earlier one satisfy it.
+    """
+    mm, nn, kk = table.defining
+    struck_by = np.full(len(table), -1)
+    member = np.zeros(places, np.bool_)
+    for k, points in enumerate(on):
+        if k and not (len(points) == 3 and set(points.tolist()) == {mm[k], nn[k], kk[k]}):
+            member[points] = True
+            earlier = np.flatnonzero(member[mm[:k]] & member[nn[:k]] & member[kk[:k]] & (struck_by[:k] < 0))
+            member[points] = False
+            if earlier.size:
+                struck_by[k] = earlier[0]
+    wanted = struck_by < 0
+    # The listing looks beyond the table when an equation has struck the last of those behind it.
+    last = np.flatnonzero(wanted)[-1]
+    if (struck_by == last).any():
+        progress.mend(LAST_REPEAT)
+    table.keep(wanted)
+    return [points for k, points in enumerate(on) if wanted[k]]
+
+
+def are_vertices(on: On, count: int, places: int) -> NDArray[np.bool_]:
+    """Which of the places are vertices: of the first ``count`` those that satisfy three equations (174 to 182)."""
+    planes = np.bincount(np.concatenate(on), minlength=places)
+    return np.asarray((planes >= 3) & (np.arange(places) < count), dtype=np.bool_)

@@ -9,20 +9,16 @@ from fractions import Fraction
 import numpy as np
 
 from modern.geometry.hull import DETERMINED, ERROR, Hull
-from modern.port import edges, surface
 from modern.port.arithmetic import Arithmetic, RangeError, Scalar, Vector
-from modern.port.choice import take
-from modern.port.equations import Equations, Slack
+from modern.port.fast import choose
 from modern.port.formulas import at, less
+from modern.port.growth import Progress, Stopped
 from modern.port.opening import Opening, mean, open_hull, tetrahedron
 from modern.port.outcome import LINE, PLANE, Faces, Historian, coefficients, point_texts, texts
-from modern.port.places import Places
-from modern.port.points import Points, first_of_equals, read_decimal
-from modern.port.polygon import Polygon, projection
-from modern.port.polyhedron import Polyhedron
-from modern.port.progress import Progress, Stopped
-from modern.port.steps import choose
-from modern.port.turning import turned
+from modern.port.points import Points, first_of_equals, read_decimal, take
+from modern.port.polygon import Polygon, projection, strike_between
+from modern.port.polyhedron import Polyhedron, are_vertices, strike_repeats
+from modern.port.table import Equations, Places, Slack, turned
 
 Epsilon = str | int | Fraction | None
 
@@ -144,8 +140,8 @@ class _Run:
         polyhedron.run(steps.stage)
         self.move_back(places, table, centre)
         count = polyhedron.vertices
-        on = surface.strike_repeats(table, steps.satisfied(table, places), len(places), self.progress)
-        vertex = surface.vertices(on, count, len(places))
+        on = strike_repeats(table, steps.satisfied(table, places), len(places), self.progress)
+        vertex = are_vertices(on, count, len(places))
         self.progress.boundary += places.names(slice(count, None)) + places.names(np.flatnonzero(~vertex[:count]))
         # With no vertex left the listing looks for the vertices of a plane in vain (199).
         known = self.finished("program3 212") if vertex.any() else replace(self.finished("program3 133"), status=ERROR)
@@ -172,7 +168,7 @@ class _Run:
         table, count = polygon.table, polygon.vertices
         self.progress.boundary += flat.names(slice(count, None))
         corners = Places(flat.coordinates[:, :count], flat.who[:count])
-        ends, gone = edges.strike_between(numbers, table, corners, self.progress)
+        ends, gone = strike_between(numbers, table, corners, self.progress)
         on = table.satisfied(flat.coordinates)
         vertex = np.ones(count, np.bool_)
         vertex[gone] = False

@@ -20,9 +20,9 @@ from modern.edition import programs
 from modern.formats.deck import coordinate_field
 from modern.geometry.hull import DETERMINED, ERROR, NOT_ACCEPTABLE, TABLE_FULL
 from modern.port import convex_hull
-from modern.port.compare import differences, from_cards, from_run
 from modern.thesis.job import HullRun, run_hull
 from tests.support.paths import MACHINE_RUNS
+from tests.support.punched import differences, from_cards, from_run
 
 SETS = int(os.environ.get("HULL1620_SETS", "250"))
 RUNS = MACHINE_RUNS

@@ -16,11 +16,10 @@ from numpy.typing import NDArray
 
 from emulator.compiled.jit import compiled
 from modern.geometry.hull import DETERMINED, ERROR, NOT_ACCEPTABLE, TABLE_FULL, Hull
-from modern.port import convex_hull, kernels, stages, steps, workspace
+from modern.port import convex_hull, fast, kernels, workspace
 from modern.port.binary import FloatArithmetic
-from modern.port.equations import Slack
-from modern.port.places import Places
-from modern.port.progress import LAST_PAIR, TABLE_OF_PLANES, THROUGH_CENTRE
+from modern.port.growth import LAST_PAIR, TABLE_OF_PLANES, THROUGH_CENTRE
+from modern.port.table import Places, Slack
 
 Points = NDArray[np.float64]
 Source = np.random.Generator
@@ -142,7 +141,7 @@ def test_the_kernels_as_plain_python_decide_as_numpy(
 ) -> None:
     """The text the kernels are compiled from, without numba."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(stages, "load", lambda: stages.with_kernels(kernels.grow, kernels.satisfied))
+        patch.setattr(fast, "load", lambda: fast.with_kernels(kernels.grow, kernels.satisfied))
         same(np.array(points), "float64", epsilon=epsilon, translate=translate)
 
 
@@ -181,22 +180,22 @@ def test_numbers_that_may_overflow_are_left_to_numpy() -> None:
         places = Places(np.array([[size], [0.0], [0.0]]), np.arange(1))
         e = None if slack is None else Slack(numbers, Fraction(slack), True)
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(stages, "load", lambda: (len, len))
-            assert (steps.choose(numbers, places, e, True) is not steps.PLAIN) == kernel
+            patch.setattr(fast, "load", lambda: (len, len))
+            assert (fast.choose(numbers, places, e, True) is not fast.PLAIN) == kernel
 
 
 def test_without_numba_numpy_does_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "numba", None)
-    stages.load.cache_clear()
+    fast.load.cache_clear()
     points = whole_ball(np.random.default_rng(1), 6000)
     try:
         places = Places(points.T.copy(), np.arange(len(points)))
-        assert steps.choose(FloatArithmetic(np.float64), places, None, None) is steps.PLAIN
+        assert fast.choose(FloatArithmetic(np.float64), places, None, None) is fast.PLAIN
         assert convex_hull(points, "float64").status == DETERMINED
         with pytest.raises(ValueError, match=r"^compiled code needs numba \(extra fast\): [^\n]*numba[^\n]*$"):
             convex_hull(points, "float64", fast=True)
     finally:
-        stages.load.cache_clear()
+        fast.load.cache_clear()
 
 
 def test_few_points_do_not_load_numba() -> None:

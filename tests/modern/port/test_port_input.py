@@ -15,8 +15,8 @@ from emulator.numbers.arithmetic import TRUNCATING
 from emulator.numbers.fields import FALLBACK, read_floating, write_floating
 from modern.port import PointsError, convex_hull
 from modern.port.arithmetic import exact_text
-from modern.port.choice import fixed_arithmetic
-from modern.port.compare import e_field
+from modern.port.points import fixed_arithmetic
+from tests.support.punched import e_field
 
 GOOD = (0, 0, 0)
 BAD = (

@@ -1,22 +1,21 @@
-"""The compiled form of a polyhedron's growth: its state handed to the kernels, and taken back.
-
-The kernels (:mod:`modern.port.kernels`) run as many stages as they can; a stage they leave alone is numpy's.
-"""
+"""The steps compiled by numba (extra ``fast``), and when they are taken instead of numpy's."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from emulator.compiled.jit import Function, compiled
+from emulator.compiled.jit import Function, NotInstalled, compiled
 from modern.port import growth, kernels, workspace
-from modern.port.equations import Equations
-from modern.port.places import Places
+from modern.port.arithmetic import Arithmetic
+from modern.port.binary import FloatArithmetic
+from modern.port.growth import LAST_PAIR, TABLE_OF_PLANES, THROUGH_CENTRE
 from modern.port.polyhedron import LISTED_PLANES, PLANES, Polyhedron
-from modern.port.progress import LAST_PAIR, TABLE_OF_PLANES, THROUGH_CENTRE
+from modern.port.table import Equations, Places, Slack
 from modern.port.workspace import Cloud, Rules, Slots
 
 _MENDS = {THROUGH_CENTRE: workspace.THROUGH, TABLE_OF_PLANES: workspace.TABLE, LAST_PAIR: workspace.PAIR}
@@ -114,3 +113,52 @@ def _take_back(hull: Polyhedron, cloud: Cloud, slots: Slots, state: NDArray[np.i
     hull.vertices, hull.to_check = int(state[workspace.VERTICES]), int(state[workspace.CHECKED])
     remaining.keeper, remaining.tried = cloud.keeper[hull.vertices : count], int(state[workspace.TRIED])
     remaining.struck = bool(state[workspace.STRUCK])
+
+
+_MANY = 5_000
+"""Points from which on loading the kernels costs less than it saves."""
+
+
+@dataclass(frozen=True, slots=True)
+class Steps:
+    """A stage of a polyhedron's growth, and the places that satisfy each equation."""
+
+    stage: Callable[[Polyhedron, bool], growth.Grown | None]
+    satisfied: Callable[[Equations, Places], list[NDArray[np.int64]]]
+
+
+def plain_satisfied(table: Equations, places: Places) -> list[NDArray[np.int64]]:
+    return table.satisfied(places.coordinates)
+
+
+PLAIN = Steps(growth.stage, plain_satisfied)
+
+
+def choose(arithmetic: Arithmetic, places: Places, slack: Slack | None, fast: bool | None) -> Steps:
+    """The steps for these points.
+
+    ``fast``: False numpy's; True the kernels; None the kernels where numba is there and it pays: many points, or
+    kernels that are loaded already.  Raises NotInstalled where it is True and numba is missing.
+    """
+    if fast is False or not isinstance(arithmetic, FloatArithmetic) or not _in_range(arithmetic, places, slack):
+        return PLAIN
+    if fast is None and len(places) < _MANY and not load.cache_info().currsize:
+        return PLAIN
+    try:
+        return Steps(*load())
+    except NotInstalled:
+        if fast:
+            raise
+        return PLAIN
+
+
+def _in_range(arithmetic: FloatArithmetic, places: Places, slack: Slack | None) -> bool:
+    """Whether no number of the procedure can overflow, which numpy notices and compiled code does not.
+
+    The largest are squares of a plane's coefficients, at most 36 M**4 for coordinates up to M, values at a point, at
+    most 24 M**3, and e, for all the equations, times a coefficient.
+    """
+    limit = float(np.finfo(arithmetic.dtype).max)
+    largest = max(1.0, float(abs(places.coordinates).max()))
+    e = max(1.0, float(arithmetic.tolerance(slack.size, 0))) if slack else 1.0
+    return largest < limit**0.25 / 8 and e < limit / (8 * largest**2)

@@ -1,8 +1,8 @@
-"""The table of equations of supporting planes or lines, and what it says of points."""
+"""What the construction works on: the points in their places, and the table of equations of planes or lines."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -11,6 +11,48 @@ from numpy.typing import NDArray
 
 from modern.port.arithmetic import Arithmetic, Scalar, Vector
 from modern.port.formulas import at
+
+
+@dataclass
+class Places:
+    """Coordinates by place, from 0, in three rows; ``who`` names the point of the input in each place."""
+
+    coordinates: Vector
+    who: NDArray[np.int64]
+
+    def __len__(self) -> int:
+        return int(self.coordinates.shape[1])
+
+    @property
+    def rows(self) -> tuple[Vector, Vector, Vector]:
+        return self.coordinates[0], self.coordinates[1], self.coordinates[2]
+
+    def at(self, place: int) -> tuple[Scalar, Scalar, Scalar]:
+        """The coordinates of one point."""
+        return self.coordinates[0, place], self.coordinates[1, place], self.coordinates[2, place]
+
+    def several(self, places: NDArray[np.int64]) -> tuple[Vector, Vector, Vector]:
+        """The coordinates of several points, in vectors."""
+        found = self.coordinates[:, places]
+        return found[0], found[1], found[2]
+
+    def swap(self, one: int, other: int) -> None:
+        if one != other:
+            self.coordinates[:, [one, other]] = self.coordinates[:, [other, one]]
+            self.who[[one, other]] = self.who[[other, one]]
+
+    def keep(self, wanted: NDArray[np.bool_]) -> list[int]:
+        """Leave out the points not wanted, the rest closing up; returns who they were, in order of place."""
+        gone: list[int] = self.who[~wanted].tolist()
+        self.coordinates = self.coordinates[:, wanted]
+        self.who = self.who[wanted]
+        return gone
+
+    def names(self, places: slice | Sequence[int] | NDArray[np.int64]) -> tuple[int, ...]:
+        """Who stands in the places given."""
+        chosen = places if isinstance(places, slice) else np.asarray(places, np.int64)
+        return tuple(self.who[chosen].tolist())
+
 
 _BLOCK = 1 << 16
 """Numbers of a matrix, equations by points, worked on at a time."""
@@ -140,3 +182,20 @@ class Equations:
         width = max(1, _BLOCK // max(1, equations))
         for start in range(0, points.shape[1], width):
             yield points[:, start : start + width]
+
+
+def turned(
+    arithmetic: Arithmetic, coefficients: Vector, centre: tuple[Scalar, ...] | None
+) -> tuple[Vector, NDArray[np.bool_]]:
+    """The equations (columns) turned, and which of them have the value zero at C.
+
+    ``centre`` is None where the origin was moved to C: then the constant term tells (thesis p. 118).  No epsilon
+    applies: C is no given point.
+    """
+    values = coefficients[-1] if centre is None else at(tuple(coefficients), centre)
+    signs = arithmetic.sign(values)
+    # The listing multiplies by -1.: the product with 1., its sign reversed, so that a zero comes out as minus zero.
+    reversed_ = -(coefficients[:, signs > 0] * arithmetic.one)
+    result = coefficients.copy()
+    result[:, signs > 0] = reversed_
+    return result, signs == 0
