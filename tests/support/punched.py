@@ -11,6 +11,7 @@ from dataclasses import dataclass, fields
 from fractions import Fraction
 
 from emulator.numbers.arithmetic import MINUS_ZERO, TRUNCATING, ZERO
+from emulator.numbers.base import decimal_length
 from emulator.numbers.fields import FALLBACK, write_floating
 from modern.geometry.hull import DETERMINED, TABLE_FULL, Hull
 from modern.thesis.cards import SECTIONS, sections
@@ -112,7 +113,7 @@ def e_field(text: str) -> str:
     if value == 0:
         return write_floating(FALLBACK, 0, MINUS_ZERO if text.startswith("-") else ZERO, TRUNCATING.rules)[0].strip()
     size = abs(value)
-    exponent = len(str(size.numerator)) - len(str(size.denominator)) + 1
+    exponent = decimal_length(size.numerator) - decimal_length(size.denominator) + 1
     exponent -= size < Fraction(10) ** (exponent - 1)
     mantissa = int(size / Fraction(10) ** (exponent - 8))
     return write_floating(FALLBACK, -mantissa if value < 0 else mantissa, exponent, TRUNCATING.rules)[0].strip()

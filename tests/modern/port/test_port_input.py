@@ -15,7 +15,7 @@ from emulator.numbers.arithmetic import TRUNCATING
 from emulator.numbers.fields import FALLBACK, read_floating, write_floating
 from modern.port import PointsError, convex_hull
 from modern.port.arithmetic import exact_text
-from modern.port.points import fixed_arithmetic
+from modern.port.points import NAMES, fixed_arithmetic
 from tests.support.punched import e_field
 
 GOOD = (0, 0, 0)
@@ -52,6 +52,25 @@ def test_a_point_out_of_range_is_named(arithmetic: str, number: str, message: st
     with pytest.raises(PointsError) as caught:
         convex_hull([GOOD, (0, number, 0)], arithmetic)
     assert str(caught.value) == message
+
+
+@pytest.mark.parametrize("huge", ["1e5000", "-1e5000", "1e-5000", "9e9999"])
+@pytest.mark.parametrize("name", [name.replace("BITS", "60").replace(":P", ":12") for name in NAMES])
+def test_thousands_of_digits(name: str, huge: str) -> None:
+    """Beyond what ``str`` takes; a number is held, is nothing in doubles, or is refused in one line."""
+    points = [(huge, "0", "0"), ("0", "1", "0")]
+    vanishes = name.startswith("float") and huge == "1e-5000"
+    if name != "exact" and not name.startswith("mp:") and not vanishes:
+        with pytest.raises(PointsError, match=r"^point 0, coordinate x: [^\n]+$"):
+            convex_hull(points, name)
+        return
+    found, given = Fraction(Decimal(convex_hull(points, name).points[0][0])), Fraction(Decimal(huge))
+    if name == "exact":
+        assert found == given
+    elif vanishes:
+        assert found == 0
+    else:
+        assert abs(found - given) <= abs(given) / 2**59
 
 
 def test_arrays() -> None:
