@@ -16,8 +16,9 @@ if TYPE_CHECKING:
     from emulator.language.compiler import compile_deck, translate
     from emulator.language.objectcode import Program
     from emulator.machine.divergence import Divergence, diverge
+    from emulator.machine.endings import Ending
     from emulator.machine.machine import Machine
-    from emulator.machine.result import Ending, Options, Result
+    from emulator.machine.result import Options, Result
     from emulator.machine.timing import Timing, measure
     from emulator.numbers.arithmetic import Profile, profile
 
@@ -30,7 +31,8 @@ _HOMES = {
     "errors": ("CardError", "CompileError", "DeckError", "Diagnostic", "EmulatorError"),
     "machine.machine": ("Machine",),
     "language.objectcode": ("Program",),
-    "machine.result": ("Ending", "Options", "Result"),
+    "machine.endings": ("Ending",),
+    "machine.result": ("Options", "Result"),
     "machine.timing": ("Timing", "measure"),
 }
 

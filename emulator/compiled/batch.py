@@ -10,16 +10,16 @@ from collections.abc import Callable, Iterable, Iterator
 from itertools import islice
 from typing import TypeVar
 
-from emulator.compiled import devices
-from emulator.compiled import kernel as engine
+from emulator.compiled import devices, kernel
 from emulator.compiled.engine import INSTEAD, why_plain
 from emulator.compiled.jit import NotInstalled
 from emulator.compiled.runner import BLOCK, WAYS, Run, Runner, packed, packed_text
 from emulator.language.cards import Deck, deck_from_text
 from emulator.language.objectcode import Program
-from emulator.machine.endings import begun, error_counts, looped, pausing, stopped
+from emulator.machine.endings import Ending, Notice, decided, looped, out_of_bounds, stopped, unfit
+from emulator.machine.interpreter import AT_BOUNDS, AT_LIMIT, AT_OUTSIDE, AT_STOP, AT_UNDEFINED
 from emulator.machine.machine import Machine
-from emulator.machine.result import Ending, Event, Options, Result
+from emulator.machine.result import Event, Options, Result, begun, machine_errors
 
 T = TypeVar("T")
 Note = Callable[[str], None]
@@ -95,9 +95,14 @@ def _result(program: Program, deck: Deck, options: Options, run: Run) -> Result:
             events.append(Event("begin"))
         elif letter == "R":
             events.append(Event("read", next(cards).text))
+        elif letter == "P":
+            lines["P"].append(text)
+            events.append(Event("punch", text))
         else:
-            lines[letter].append(text)
-            events.append(Event("punch" if letter == "P" else "type", text))
+            statement, decision = int(text[: devices.STAMP]), int(text[devices.STAMP : 2 * devices.STAMP])
+            text = text[2 * devices.STAMP :]
+            lines["T"].append(text)
+            events.append(Event("type", text, program.statements[statement], decided(program, decision)))
     errors: dict[tuple[str, int], int] = {}
     for at, times in run.errors:
         statement, number = divmod(at, devices.CODES)
@@ -108,18 +113,29 @@ def _result(program: Program, deck: Deck, options: Options, run: Run) -> Result:
         typed=tuple(lines["T"]),
         ending=_ending(program, options, run),
         events=tuple(events),
-        warnings=tuple(pausing(program, statement) for statement in run.pauses),
+        notices=tuple(Notice("pause", program.source, program.statements[statement]) for statement in run.pauses),
         statements=begun(program, run.counts),
         counts=tuple(run.counts),
         cards_read=run.cards_read,
         numbers=tuple((way, n) for way, n in zip(WAYS, run.numbers, strict=True) if n),
-        errors=error_counts(errors),
+        errors=machine_errors(errors),
     )
 
 
 def _ending(program: Program, options: Options, run: Run) -> Ending:
+    registers = run.registers
+    at, decision, address = registers[kernel.AT], registers[kernel.DECISION], registers[kernel.ADDRESS]
+    subscripts = registers[kernel.INDEX], registers[kernel.INDEX2]
     if run.reason == devices.AT_HOPPER:
         return Ending("hopper")
-    if run.reason == engine.AT_LIMIT:
-        return looped(program, options.limit, run.before, run.counts)
-    return stopped(program, run.reason, run.registers, run.held)
+    if run.reason == AT_LIMIT:
+        return looped(program, options.limit, run.before, run.counts, decision)
+    if run.reason == AT_STOP:
+        return Ending("stop" if program.code[registers[kernel.PC]].second == 0 else "end")
+    if run.reason == AT_UNDEFINED:
+        return unfit(program, at, decision, address, run.held)
+    if run.reason == AT_BOUNDS:
+        return out_of_bounds(program, at, decision, address, subscripts)
+    if run.reason == AT_OUTSIDE:
+        return stopped(program, "outside", at, decision)
+    return stopped(program, "select", at, decision, subscripts[:1])

@@ -32,19 +32,16 @@ from emulator.compiled.devices import (
     VERB,
     Cards,
     Code,
-    Core,
     Forms,
     Report,
-    Row,
     begin,
     end_record,
     error,
     item,
     to_field,
 )
-from emulator.compiled.kernel import (
-    ADDRESS,
-    AT,
+from emulator.compiled.kernel import ADDRESS, AT, CHARACTERISTIC, EVENT, FAC, Core, Row, run
+from emulator.machine.interpreter import (
     AT_BEGIN,
     AT_EVENT,
     AT_FINISH,
@@ -54,10 +51,6 @@ from emulator.compiled.kernel import (
     AT_PAUSE,
     AT_POWER,
     AT_POWERX,
-    CHARACTERISTIC,
-    EVENT,
-    FAC,
-    run,
 )
 from emulator.machine.result import LOOP_WINDOW
 from emulator.numbers.arithmetic import ZERO, Rules, square_root, whole_power
@@ -134,24 +127,7 @@ def run_deck(
     now = limit - min(LOOP_WINDOW, limit // 2)
     last = False
     while True:
-        reason = run(
-            code.operations,
-            code.addresses,
-            code.subscripts,
-            code.seconds,
-            code.table,
-            code.targets,
-            code.loops,
-            code.begins,
-            core.mantissas,
-            core.exponents,
-            counts,
-            registers,
-            core.switches,
-            rules,
-            core.powers,
-            (now, strict, 0),
-        )
+        reason = run(code.flat, core, counts, registers, rules, now, strict)
         pc = registers[AT]
         address = registers[ADDRESS]
         status = GO_ON
@@ -160,9 +136,9 @@ def run_deck(
         elif reason == AT_BEGIN:
             status = begin(code, forms, cards, core, report, d)
         elif reason == AT_FINISH:
-            status = to_field(forms, cards, core, report, d, False)
+            status = to_field(code, forms, cards, core, report, d, False)
             if status == GO_ON and core.devices[VERB] != READ:
-                status = end_record(cards, core, report, d)
+                status = end_record(code, cards, core, report, d)
         elif reason == AT_EVENT:
             status = error(registers[EVENT], code, core, report, d, announces)
         elif reason == AT_POWERX:

@@ -10,16 +10,15 @@ run ends.
 
 from __future__ import annotations
 
-from collections.abc import MutableSequence, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
-from emulator.compiled.kernel import ADDRESS, AT, STATEMENTS
+from emulator.compiled.kernel import ADDRESS, AT, DECISION, WORK, Core, Row
 from emulator.language.cards import COLUMNS
+from emulator.language.objectcode import Flat
 from emulator.machine.result import PUNCH_COLUMNS, TYPEWRITER_COLUMNS
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, Rules
 from emulator.numbers.columns import BLANK, DIGIT, FINE, read_fixed, read_floating, write_fixed, write_floating
-
-Row = MutableSequence[int]
 
 # Endings besides the engine's reasons to return; GO_ON is none.
 GO_ON, AT_HOPPER, NOT_HERE, LOG_FULL = -1, 100, 101, 102
@@ -46,19 +45,14 @@ CODES = 10
 LINE_ROOM = 4096
 """Columns of the longest line that is kept; of none so long does a device have a record."""
 ERROR_WORDS = b"ERROR E0"
+STAMP = 6
+"""Digits of a number in the log."""
 
 
 class Code(NamedTuple):
-    """Object code as emulator.language.loader flattens it, the statement of each instruction, 1 for a SQRT, verbs."""
+    """Object code, the statement of each instruction, 1 for each function that is SQRT, and the verbs."""
 
-    operations: Row
-    addresses: Row
-    subscripts: Row
-    seconds: Row
-    table: Row
-    targets: Row
-    loops: Row
-    begins: Row
+    flat: Flat
     statements: Row
     roots: Row
     verbs: Row
@@ -87,19 +81,6 @@ class Cards(NamedTuple):
     first: Row
 
 
-class Core(NamedTuple):
-    """What a run works on: storage, the texts of the FORMATs, which reading changes, the line, and a field."""
-
-    mantissas: Row
-    exponents: Row
-    texts: Row
-    devices: Row
-    line: Row
-    field: Row
-    switches: Row
-    powers: Row
-
-
 class Report(NamedTuple):
     """What is found out, a row a deck, and the log."""
 
@@ -117,7 +98,7 @@ def begin(code: Code, forms: Forms, cards: Cards, core: Core, report: Report, d:
     """An input or output statement begins."""
     devices, pc = core.devices, report.registers[d][AT]
     verb = code.verbs[report.registers[d][ADDRESS]]
-    number = code.seconds[pc]
+    number = code.flat.seconds[pc]
     devices[VERB] = verb
     devices[FORMAT] = number
     devices[SPEC] = forms.first[number]
@@ -136,10 +117,10 @@ def begin(code: Code, forms: Forms, cards: Cards, core: Core, report: Report, d:
         status = put(BEGUN, core.field, 0, core, report)
         if status != GO_ON:
             return status
-    return end_record(cards, core, report, d)
+    return end_record(code, cards, core, report, d)
 
 
-def to_field(forms: Forms, cards: Cards, core: Core, report: Report, d: int, wanted: bool) -> int:
+def to_field(code: Code, forms: Forms, cards: Cards, core: Core, report: Report, d: int, wanted: bool) -> int:
     """Go on to the next field of the FORMAT; if one is wanted, beyond its end to its start and a new record."""
     devices = core.devices
     while True:
@@ -150,10 +131,10 @@ def to_field(forms: Forms, cards: Cards, core: Core, report: Report, d: int, wan
                 return GO_ON
             if forms.fields[devices[FORMAT]] == 0:
                 return NOT_HERE
-            status = end_record(cards, core, report, d)
+            status = end_record(code, cards, core, report, d)
             devices[SPEC] = forms.first[devices[FORMAT]]
         elif forms.kinds[spec] == SLASH:
-            status = end_record(cards, core, report, d)
+            status = end_record(code, cards, core, report, d)
             devices[SPEC] = spec + 1
         elif forms.kinds[spec] == TEXT:
             status = text(forms.places[spec], forms.widths[spec], cards, core)
@@ -185,7 +166,7 @@ def column_of(cards: Cards, card: int, column: int) -> int:
     return cards.columns[card * COLUMNS + column] if column < COLUMNS else BLANK
 
 
-def end_record(cards: Cards, core: Core, report: Report, d: int) -> int:
+def end_record(code: Code, cards: Cards, core: Core, report: Report, d: int) -> int:
     """The next card is taken, or the line goes out."""
     devices = core.devices
     length = devices[COLUMN]
@@ -201,8 +182,10 @@ def end_record(cards: Cards, core: Core, report: Report, d: int) -> int:
         length -= 1
     if length > (PUNCH_COLUMNS if devices[VERB] == PUNCH else TYPEWRITER_COLUMNS):
         return NOT_HERE
-    report.registers[d][STATEMENTS] += 1
-    return put(PUNCHED if devices[VERB] == PUNCH else TYPED, line, length, core, report)
+    report.registers[d][WORK] += 1
+    if devices[VERB] == PUNCH:
+        return put(PUNCHED, line, length, core, report)
+    return put_typed(line, length, code, core, report, d)
 
 
 def put(letter: int, line: Row, length: int, core: Core, report: Report) -> int:
@@ -216,6 +199,32 @@ def put(letter: int, line: Row, length: int, core: Core, report: Report) -> int:
     log[used + 1 + length] = LINE_END
     core.devices[USED] = used + length + 2
     return GO_ON
+
+
+def put_typed(line: Row, length: int, code: Code, core: Core, report: Report, d: int) -> int:
+    """Write a line typed to the log: before its text the statement that types it, and the last decision."""
+    registers, log, used = report.registers[d], report.log, core.devices[USED]
+    if used + length + 2 + 2 * STAMP > len(log):
+        return LOG_FULL
+    status = put(TYPED, line, 0, core, report)
+    core.devices[USED] = used + 1
+    stamp(code.statements[registers[AT]], core, report)
+    stamp(registers[DECISION], core, report)
+    used = core.devices[USED]
+    for k in range(length):
+        log[used + k] = line[k]
+    log[used + length] = LINE_END
+    core.devices[USED] = used + length + 1
+    return status
+
+
+def stamp(number: int, core: Core, report: Report) -> None:
+    """Write a number of STAMP digits to the log."""
+    used = core.devices[USED]
+    for k in range(STAMP):
+        report.log[used + STAMP - 1 - k] = DIGIT + number % 10
+        number = number // 10
+    core.devices[USED] = used + STAMP
 
 
 def error(number: int, code: Code, core: Core, report: Report, d: int, announces: int) -> int:
@@ -233,8 +242,8 @@ def error(number: int, code: Code, core: Core, report: Report, d: int, announces
         field[last] = DIGIT + 8
     else:
         field[last] = DIGIT + number
-    registers[STATEMENTS] += 1
-    return put(TYPED, field, last + 1, core, report)
+    registers[WORK] += 1
+    return put_typed(field, last + 1, code, core, report, d)
 
 
 def item(
@@ -242,14 +251,14 @@ def item(
 ) -> int:
     """One number of a list, read or put out."""
     devices, field, registers = core.devices, core.field, report.registers[d]
-    registers[STATEMENTS] += 1
-    status = to_field(forms, cards, core, report, d, True)
+    registers[WORK] += 1
+    status = to_field(code, forms, cards, core, report, d, True)
     if status != GO_ON:
         return status
     spec, address = devices[SPEC], registers[ADDRESS]
     devices[SPEC] += 1
     kind, width, decimals = forms.kinds[spec], forms.widths[spec], forms.decimals[spec]
-    fixed = code.seconds[registers[AT]] == 1
+    fixed = code.flat.seconds[registers[AT]] == 1
     column = devices[COLUMN]
     if (kind == I_FIELD) != fixed:
         return NOT_HERE

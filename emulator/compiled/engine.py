@@ -14,10 +14,11 @@ from emulator.compiled import devices
 from emulator.compiled import kernel as engine
 from emulator.compiled.jit import NotInstalled, compiled
 from emulator.language import cards, objectcode
-from emulator.machine import result
+from emulator.machine import interpreter, result
 from emulator.machine.result import Options
 from emulator.numbers import accumulator, arithmetic
 from emulator.numbers import columns as conversion
+from emulator.numbers.decimal import DecimalNumbers
 
 MAX_DIGITS = 9
 INSTEAD = "the plain engine runs instead"
@@ -59,6 +60,8 @@ _HELPERS = (
     devices.column_of,
     devices.end_record,
     devices.put,
+    devices.put_typed,
+    devices.stamp,
     devices.error,
     devices.item,
 )
@@ -69,13 +72,13 @@ def why_plain(options: Options) -> str:
 
     Code that cannot be made or loaded comes to light in :class:`emulator.compiled.runner.Runner`.
     """
-    if options.numbers is not None:
+    if not isinstance(options.numbers, DecimalNumbers):
         return f"the compiled engine has no {options.numbers.name} numbers: {INSTEAD}"
     if options.uncut:
         return f"the compiled engine keeps no numbers beside the cards: {INSTEAD}"
-    digits = options.profile.digits
-    if digits > MAX_DIGITS:
-        return f"{options.profile.name} has {digits} digits, the compiled engine has at most {MAX_DIGITS}: {INSTEAD}"
+    profile = options.numbers.profile
+    if profile.digits > MAX_DIGITS:
+        return f"{profile.name} has {profile.digits} digits, the compiled engine has at most {MAX_DIGITS}: {INSTEAD}"
     try:
         run_decks()
     except NotInstalled as error:
@@ -86,7 +89,7 @@ def why_plain(options: Options) -> str:
 @cache
 def run_decks() -> Callable[..., Any]:
     """:func:`emulator.compiled.deck.run_decks` compiled.  Raises emulator.compiled.jit.NotInstalled."""
-    modules = (accumulator, arithmetic, cards, conversion, devices, engine, objectcode, result, unattended)
+    modules = (accumulator, arithmetic, cards, conversion, devices, engine, interpreter, objectcode, result, unattended)
     # Nothing is divided by zero and no array is made, so that numba need not look for the one nor count the other's
     # users, which takes half the time.
     return compiled([unattended.run_decks], _HELPERS, modules, error_model="numpy", _nrt=False)[0]

@@ -1,15 +1,15 @@
-"""The engine: one loop over object code and storage, on integers only.
+"""The kernel: one loop over object code and storage, on integers only, for runs that nobody watches.
 
 Storage is two sequences, mantissas and exponents (emulator/numbers/arithmetic.py); a fixed-point number is its value
-with the exponent FIXED_POINT.  The loop runs until something outside the arithmetic is needed (input, output,
-a library function, a message, the end) and returns a reason; whatever drives it (emulator/machine/machine.py) sees to
-that and calls it again.  The subset of the language used here is that of a compiler of integer loops; every
-argument is a flat sequence of integers.
+with the exponent FIXED_POINT.  The loop runs until something outside the arithmetic is needed (input, output, a
+library function, a message, the end) and returns a reason, as the interpreter does; emulator/compiled/deck.py sees to
+that and calls it again.  The subset of the language used here is that of a compiler of integer loops.
 """
 
 from __future__ import annotations
 
-from collections.abc import MutableSequence, Sequence
+from collections.abc import MutableSequence
+from typing import NamedTuple
 
 from emulator.language.objectcode import (
     BEGIN,
@@ -47,65 +47,58 @@ from emulator.language.objectcode import (
     XMP,
     XSB,
     XSBR,
+    Flat,
+)
+from emulator.machine.interpreter import (
+    AT_BEGIN,
+    AT_BOUNDS,
+    AT_EVENT,
+    AT_FINISH,
+    AT_FUNCTION,
+    AT_ITEM,
+    AT_LIMIT,
+    AT_OUTSIDE,
+    AT_PAUSE,
+    AT_POWER,
+    AT_POWERX,
+    AT_SELECT,
+    AT_STOP,
+    AT_UNDEFINED,
 )
 from emulator.numbers.accumulator import add, divide, divide_fixed, multiply, negate, subtract, subtract_reversed
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, Rules, from_integer, to_integer, wrap_integer
 
-# Reasons to return.
-(
-    AT_LIMIT,
-    AT_STATEMENT,
-    AT_BEGIN,
-    AT_ITEM,
-    AT_FINISH,
-    AT_FUNCTION,
-    AT_POWER,
-    AT_POWERX,
-    AT_PAUSE,
-    AT_STOP,
-    AT_EVENT,
-    AT_UNDEFINED,
-    AT_BOUNDS,
-    AT_OUTSIDE,
-    AT_SELECT,
-) = range(15)
-
-# Registers kept between calls.
-PC, FAC, CHARACTERISTIC, FIXED, STATEMENTS, STORED, SENT, SENT_EXPONENT, EVENT, ADDRESS, INDEX, INDEX2, AT = range(13)
+# Registers kept between calls.  DECISION is the last IF or computed GO TO, its instruction counted from 1.
+PC, FAC, CHARACTERISTIC, FIXED, WORK, SENT, SENT_EXPONENT, EVENT, ADDRESS, INDEX, INDEX2, AT, DECISION = range(13)
 REGISTERS = 13
 
+Row = MutableSequence[int]
 
-def run(
-    operations: Sequence[int],
-    addresses: Sequence[int],
-    subscripts: Sequence[int],
-    seconds: Sequence[int],
-    table: Sequence[int],
-    targets: Sequence[int],
-    loops: Sequence[int],
-    begins: Sequence[int],
-    mantissas: MutableSequence[int],
-    exponents: MutableSequence[int],
-    counts: MutableSequence[int],
-    registers: MutableSequence[int],
-    switches: Sequence[int],
-    rules: Rules,
-    powers: Sequence[int],
-    options: tuple[int, int, int],
-) -> int:
+
+class Core(NamedTuple):
+    """What a run works on: storage, the texts of the FORMATs, which reading changes, the line, and a field."""
+
+    mantissas: Row
+    exponents: Row
+    texts: Row
+    devices: Row
+    line: Row
+    field: Row
+    switches: Row
+    powers: Row
+
+
+def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit: int, strict: int) -> int:
     """Run until a reason to return; registers and storage are changed in place.
 
-    ``table`` holds for each subscript (v1, c1, o1, rows, v2, c2, o2, columns), found by ``subscripts``, which is -1
-    where an instruction has none; ``targets`` the branch tables, each behind its length; ``loops`` four numbers a
-    loop: variable, step, limit, first instruction; ``begins`` is 1 where a statement begins, 2 at a pass of an
-    indexed list, which counts against the limit like a statement.  ``options`` is (statement limit, strict bounds,
-    stop at each statement).
+    ``limit`` is how much work may be done in all, ``strict`` stops at a subscript outside its array.
     """
-    limit, strict, tracing = options
+    operations, addresses, subscripts, seconds, table, targets, loops, begins = code
+    mantissas, exponents = core.mantissas, core.exponents
     size = len(mantissas)
     pc = registers[PC]
     fm, fe, fixed = registers[FAC], registers[CHARACTERISTIC], registers[FIXED]
-    done, stored = registers[STATEMENTS], registers[STORED]
+    work, decision = registers[WORK], registers[DECISION]
     sm, se = registers[SENT], registers[SENT_EXPONENT]
     event = 0
     a = 0
@@ -158,7 +151,6 @@ def run(
             if o == FMFAC:
                 mantissas[a] = fm
                 exponents[a] = fe
-                stored = a
                 pc += 1
                 continue
             m = mantissas[a]
@@ -174,11 +166,11 @@ def run(
             if o == FMP:
                 fm, fe, event = multiply(fm, fe, m, e, rules)
             elif o == FAD:
-                fm, fe, event = add(fm, fe, m, e, rules, powers)
+                fm, fe, event = add(fm, fe, m, e, rules, core.powers)
             elif o == FSB:
-                fm, fe, event = subtract(fm, fe, m, e, rules, powers)
+                fm, fe, event = subtract(fm, fe, m, e, rules, core.powers)
             elif o == FSBR:
-                fm, fe, event = subtract_reversed(fm, fe, m, e, rules, powers)
+                fm, fe, event = subtract_reversed(fm, fe, m, e, rules, core.powers)
             elif o == FDV:
                 fm, fe, event = divide(fm, fe, m, e, rules)
             else:
@@ -188,19 +180,14 @@ def run(
                 break
         elif o == COUNT:
             if begins[a]:
-                if done >= limit:
+                if work >= limit:
                     reason = AT_LIMIT
                     break
-                done += 1
-                counts[a] += 1
-                pc += 1
-                if tracing and begins[a] == 1:
-                    reason = AT_STATEMENT
-                    break
-            else:
-                counts[a] += 1
-                pc += 1
+                work += 1
+            counts[a] += 1
+            pc += 1
         elif o == IF:
+            decision = pc + 1
             pc = targets[a] if fm < 0 else targets[a + 1] if fm == 0 else targets[a + 2]
         elif o == DOTEST:
             v = loops[a]
@@ -222,7 +209,6 @@ def run(
         elif o == TRANSMIT:
             mantissas[a] = sm
             exponents[a] = se
-            stored = a
             pc += 1
         elif o == BRANCH:
             pc = targets[a]
@@ -230,7 +216,6 @@ def run(
             if o == FMFIX:
                 mantissas[a] = fixed
                 exponents[a] = FIXED_POINT
-                stored = a
                 pc += 1
                 continue
             if exponents[a] != FIXED_POINT:
@@ -256,6 +241,7 @@ def run(
                     reason = AT_EVENT
                     break
         elif o == IFX:
+            decision = pc + 1
             pc = targets[a] if fixed < 0 else targets[a + 1] if fixed == 0 else targets[a + 2]
         elif o == RSGN:
             fm, fe = negate(fm, fe)
@@ -267,7 +253,7 @@ def run(
             fm, fe = from_integer(fixed, rules)
             pc += 1
         elif o == FIX:
-            fixed = to_integer(fm, fe, rules, powers)
+            fixed = to_integer(fm, fe, rules, core.powers)
             pc += 1
         elif o == SELECT:
             if exponents[a] != FIXED_POINT:
@@ -279,9 +265,10 @@ def run(
                 registers[INDEX] = v
                 reason = AT_SELECT
                 break
+            decision = pc + 1
             pc = targets[s + v - 1]
         elif o == SWITCH:
-            pc = targets[a] if switches[seconds[pc] - 1] else targets[a + 1]
+            pc = targets[a] if core.switches[seconds[pc] - 1] else targets[a + 1]
         elif o == ITEM:
             pc += 1
             reason = AT_ITEM
@@ -317,8 +304,8 @@ def run(
     registers[FAC] = fm
     registers[CHARACTERISTIC] = fe
     registers[FIXED] = fixed
-    registers[STATEMENTS] = done
-    registers[STORED] = stored
+    registers[WORK] = work
+    registers[DECISION] = decision
     registers[SENT] = sm
     registers[SENT_EXPONENT] = se
     registers[EVENT] = event

@@ -15,12 +15,14 @@ from emulator.compiled import kernel as engine
 from emulator.compiled.engine import run_decks
 from emulator.compiled.jit import refused
 from emulator.language.cards import CHARACTERS, COLUMNS, MAX_CARDS, Deck
-from emulator.language.formats import MAX_RECORD, Field, Literal
-from emulator.language.loader import flatten
-from emulator.language.objectcode import Program
-from emulator.machine.machine import Machine
+from emulator.language.formats import MAX_RECORD, Literal
+from emulator.language.objectcode import Flat, Program, flatten
+from emulator.machine.interpreter import AT_LIMIT, FLOATING
+from emulator.machine.machine import loaded, refuse_overlap
 from emulator.machine.result import Options
 from emulator.numbers.arithmetic import powers_of_ten
+from emulator.numbers.decimal import DecimalNumbers
+from emulator.numbers.fields import Field
 
 BLOCK = 128
 """The most decks at a time."""
@@ -88,12 +90,15 @@ class Runner:
 
     def __init__(self, program: Program, options: Options) -> None:
         self.kernel = run_decks()
-        loaded = Machine(program, Deck("no deck", ()), options)
-        profile = options.profile
+        assert isinstance(options.numbers, DecimalNumbers)
+        profile = options.numbers.profile
+        refuse_overlap(program, options.core)
+        values, kinds = loaded(program, options.numbers)
+        start = [value if kind == FLOATING else (value, kind) for value, kind in zip(values, kinds, strict=True)]
         self.code, self.forms = _code(program), _forms(program)
-        self.start = unattended.Start(_row(loaded.mantissas), _short(loaded.exponents))
-        fields, statements = len(loaded.mantissas), len(program.statements)
-        self.core = devices.Core(
+        self.start = unattended.Start(_row(m for m, _ in start), _short(e for _, e in start))
+        fields, statements = len(values), len(program.statements)
+        self.core = engine.Core(
             mantissas=_row([0] * fields),
             exponents=_short([0] * fields),
             texts=_codes(bytes(self.forms.texts)),
@@ -163,7 +168,7 @@ class Runner:
             log=report.log[start:end].tobytes(),
             registers=report.registers[d].tolist(),
             counts=report.counts[d].tolist(),
-            before=report.before[d].tolist() if reason == engine.AT_LIMIT else [],
+            before=report.before[d].tolist() if reason == AT_LIMIT else [],
             numbers=report.numbers[d].tolist(),
             errors=[(k, int(errors[k])) for k in np.flatnonzero(errors).tolist()],
             pauses=paused[np.argsort(pauses[paused])].tolist(),
@@ -185,7 +190,8 @@ def _codes(text: bytes) -> Any:
 def _code(program: Program) -> devices.Code:
     roots = [int(name == "SQRT") for name in program.functions]
     verbs = [_VERBS.get(verb, devices.TYPE) for verb in program.verbs]
-    return devices.Code._make(map(_short, (*flatten(program), program.statement_numbers(), roots, verbs)))
+    flat = Flat._make(map(_short, flatten(program)))
+    return devices.Code(flat, *map(_short, (program.statement_numbers(), roots, verbs)))
 
 
 def _forms(program: Program) -> devices.Forms:

@@ -184,7 +184,7 @@ class _Translation:
             self._dimension(body)
             return
         index = len(self.lines)
-        self.lines.append(Line(statement.label, statement.place, _words(statement)))
+        self.lines.append(Line(statement.label, statement.place, _words(statement), index=index))
         if statement.label:
             self.targets.setdefault(statement.label, len(self.emitter.code))
         self.emitter.temporaries = 0

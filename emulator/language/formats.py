@@ -11,9 +11,11 @@ from dataclasses import dataclass
 
 from emulator.errors import Diagnostic
 from emulator.language.tree import Format, Place
+from emulator.numbers.fields import Field, FieldKind
 
 MAX_LITERAL = 49
 MAX_RECORD = 87
+_KINDS: dict[str, FieldKind] = {"E": "E", "F": "F", "I": "I"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,18 +24,6 @@ class Literal:
 
     text: str
     skip: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class Field:
-    """``Iw``, ``Fw.d`` or ``Ew.d``: one number."""
-
-    kind: str
-    width: int
-    decimals: int = 0
-
-    def __str__(self) -> str:
-        return f"{self.kind}{self.width}" + ("" if self.kind == "I" else f".{self.decimals}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,7 +167,7 @@ class _Reader:
                 raise FormatError(self.place(), f"{letter}{width}. lacks its decimals")
         if int(width) > MAX_RECORD:
             raise FormatError(start, f"a field of {width} columns")
-        return [Field(letter, int(width), int(decimals or 0))] * self.repeat(count, start), True
+        return [Field(_KINDS[letter], int(width), int(decimals or 0))] * self.repeat(count, start), True
 
     def repeat(self, count: str, start: Place) -> int:
         if count and int(count) == 0:

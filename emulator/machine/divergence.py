@@ -23,11 +23,11 @@ from emulator.errors import EmulatorError
 from emulator.language import objectcode as op
 from emulator.language.cards import Deck
 from emulator.language.objectcode import Line, Program
-from emulator.machine.endings import begun
+from emulator.machine.endings import Ending
 from emulator.machine.interpreter import Entry, Journal
 from emulator.machine.machine import Machine
 from emulator.machine.postdominators import meeting, post_dominators, successors
-from emulator.machine.result import Ending, Options
+from emulator.machine.result import Options, begun
 from emulator.numbers import Numbers
 from emulator.numbers.base import Number
 from emulator.numbers.exact import ExactNumbers
@@ -165,7 +165,6 @@ class _Run:
     """One of the two runs, some statements at a time."""
 
     def __init__(self, program: Program, deck: Deck, options: Options, values: bool) -> None:
-        assert options.numbers is not None
         self.name = options.numbers.name
         self._journal = Journal(values)
         self._machine = Machine(program, deck, options, journal=self._journal)
@@ -175,7 +174,7 @@ class _Run:
 
     @property
     def statements(self) -> int:
-        return begun(self._program, self._machine.counts)
+        return begun(self._program, self._machine.state.counts)
 
     def entries(self) -> Iterator[Entry]:
         """The journal's entries, while the run goes on behind them."""
@@ -185,9 +184,9 @@ class _Run:
             try:
                 self.ending = self._machine.advance(goal)
             except EmulatorError as error:
-                self.error, self.ending = error, Ending("input", str(error))
+                self.error, self.ending = error, Ending("input", trouble=str(error))
             if self.ending is None and goal == self._limit:
-                self.ending = Ending("limit", f"stopped after {self._limit} statements")
+                self.ending = Ending("limit", count=self._limit)
             yield from self._journal.entries
             self._journal.entries.clear()
 

@@ -14,7 +14,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from emulator.language.cards import Card
-from emulator.language.formats import Field, FormatSpec, Literal, Slash
+from emulator.language.formats import FormatSpec, Literal, Slash
+from emulator.numbers.fields import Field
 
 
 class NoField(Exception):

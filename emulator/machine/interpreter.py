@@ -1,9 +1,10 @@
-"""The engine over numbers of Python: the same object code, registers and reasons to return as
-emulator/compiled/kernel.py.
+"""The interpreter: one loop over object code and storage, with the numbers of any arithmetic.
 
 A field's number is in ``values`` and what it is in ``kinds``: FIXED_POINT, UNDEFINED, or FLOATING for a number of
-the system.  What the run is asked for goes into a :class:`Journal`: every decision, and with ``stores`` every
-statement begun and every field changed, so that two runs can be compared without stopping them.
+the system.  The loop runs until something outside the arithmetic is needed (input, output, a library function, a
+message, the end) and returns a reason; the machine (emulator/machine/machine.py) sees to that and calls it again.
+What two runs are compared by goes into a :class:`Journal`: every decision, and with ``stores`` every statement begun
+and every field changed, so that a run need not be stopped for it.
 """
 
 from __future__ import annotations
@@ -11,41 +12,30 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from emulator.compiled.kernel import (
-    ADDRESS,
-    AT,
-    AT_BEGIN,
-    AT_BOUNDS,
-    AT_EVENT,
-    AT_FINISH,
-    AT_FUNCTION,
-    AT_ITEM,
-    AT_LIMIT,
-    AT_OUTSIDE,
-    AT_PAUSE,
-    AT_POWER,
-    AT_POWERX,
-    AT_SELECT,
-    AT_STATEMENT,
-    AT_STOP,
-    AT_UNDEFINED,
-    EVENT,
-    FAC,
-    FIXED,
-    INDEX,
-    INDEX2,
-    PC,
-    SENT,
-    SENT_EXPONENT,
-    STATEMENTS,
-    STORED,
-)
 from emulator.language import objectcode as op
-from emulator.language.loader import SUBSCRIPT, Flat
-from emulator.language.objectcode import Program
+from emulator.language.objectcode import SUBSCRIPT, Flat, Program
 from emulator.numbers.accumulator import divide_fixed
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, ZERO, wrap_integer
 from emulator.numbers.base import Number, Numbers, Trap
+
+# Reasons to return.
+(
+    AT_LIMIT,
+    AT_STATEMENT,
+    AT_BEGIN,
+    AT_ITEM,
+    AT_FINISH,
+    AT_FUNCTION,
+    AT_POWER,
+    AT_POWERX,
+    AT_PAUSE,
+    AT_STOP,
+    AT_EVENT,
+    AT_UNDEFINED,
+    AT_BOUNDS,
+    AT_OUTSIDE,
+    AT_SELECT,
+) = range(15)
 
 FLOATING = ZERO
 """The kind of a field that holds a number of the system."""
@@ -95,30 +85,54 @@ def entered(program: Program) -> list[bool]:
     return found
 
 
+@dataclass
+class State:
+    """A run between two calls of :func:`run`: storage, counts, and the registers.
+
+    ``pc`` is the next instruction, ``at`` the one a reason to return arose in, ``address`` the field it is about and
+    ``index`` its subscripts; ``fac`` and ``fixed`` are the accumulators, ``sent`` and ``sent_kind`` a field on its way,
+    ``stored`` the field last stored into.  ``work`` is what counts against the limit, ``event`` the number of an error
+    code, and ``decision`` the last IF or computed GO TO, its instruction counted from 1.
+    """
+
+    values: list[Number]
+    kinds: list[int]
+    counts: list[int]
+    fac: Number
+    pc: int = 0
+    at: int = 0
+    fixed: int = 0
+    sent: Number = 0
+    sent_kind: int = UNDEFINED
+    stored: int = 0
+    address: int = 0
+    index: tuple[int, ...] = ()
+    event: int = 0
+    decision: int = 0
+    work: int = 0
+
+
 def run(
     code: Flat,
-    values: list[Number],
-    kinds: list[int],
-    counts: list[int],
-    registers: list[Number],
+    state: State,
     switches: Sequence[int],
     numbers: Numbers,
-    options: tuple[int, int, int],
+    limit: int,
+    strict: bool,
+    traced: bool,
     journal: Journal | None = None,
     enters: Sequence[bool] = (),
 ) -> int:
-    """Run until a reason to return, as emulator.compiled.kernel.run does; ``options`` are the first three of its.
+    """Run until a reason to return; the state is changed in place.
 
-    ``registers[FAC]`` and ``registers[SENT]`` hold numbers of the system.  Raises Undecided where the system cannot
-    say; the registers then tell where.
+    ``strict`` stops at a subscript outside its array, ``traced`` at each statement.  ``enters`` says which instructions
+    a journal enters.  Raises Undecided where the numbers cannot say; the state then tells where.
     """
     operations, addresses, subscripts, seconds, table, targets, loops, begins = code
-    limit, strict, tracing = options
+    values, kinds, counts = state.values, state.kinds, state.counts
     size = len(values)
-    pc: int = registers[PC]
-    fac, fixed = registers[FAC], registers[FIXED]
-    done, stored = registers[STATEMENTS], registers[STORED]
-    sent, sent_kind = registers[SENT], registers[SENT_EXPONENT]
+    pc, fac, fixed, work, stored, decision = state.pc, state.fac, state.fixed, state.work, state.stored, state.decision
+    sent, sent_kind = state.sent, state.sent_kind
     event = 0
     a = 0
     reason = AT_EVENT
@@ -132,7 +146,7 @@ def run(
     decide = journal.entries.append if journal else None
     enter = journal.entries.append if journal and journal.stores else None
     if enter and pc and operations[pc - 1] == op.ITEM and enters[pc - 1]:
-        enter((pc - 1, registers[ADDRESS], values[registers[ADDRESS]]))
+        enter((pc - 1, state.address, values[state.address]))
     try:
         while True:
             o = operations[pc]
@@ -154,7 +168,7 @@ def run(
                             sent, sent_kind = 0, UNDEFINED
                             pc += 1
                             continue
-                        registers[INDEX], registers[INDEX2] = i, 0
+                        state.index = (i,)
                         reason = AT_BOUNDS
                         break
                     a += i - 1
@@ -168,7 +182,7 @@ def run(
                             break
                         j += row[5] * values[v]
                     if strict and (i < 1 or i > row[3] or j < 1 or j > row[7]):
-                        registers[INDEX], registers[INDEX2] = i, j
+                        state.index = (i, j)
                         reason = AT_BOUNDS
                         break
                     a += i - 1 + row[3] * (j - 1)
@@ -205,15 +219,15 @@ def run(
                     fac = numbers.divide(value, fac)
             elif o == op.COUNT:
                 if begins[a]:
-                    if done >= limit:
+                    if work >= limit:
                         reason = AT_LIMIT
                         break
-                    done += 1
+                    work += 1
                     counts[a] += 1
                     if enter:
                         enter((pc, 0, None))
                     pc += 1
-                    if tracing and begins[a] == 1:
+                    if traced and begins[a] == 1:
                         reason = AT_STATEMENT
                         break
                 else:
@@ -223,6 +237,7 @@ def run(
                     pc += 1
             elif o == op.IF:
                 target = targets[a + 1 + sign(fac)]
+                decision = pc + 1
                 if decide:
                     decide((pc, target, fac))
                 pc = target
@@ -282,6 +297,7 @@ def run(
                         break
             elif o == op.IFX:
                 target = targets[a + 1 + (fixed > 0) - (fixed < 0)]
+                decision = pc + 1
                 if decide:
                     decide((pc, target, fixed))
                 pc = target
@@ -304,10 +320,11 @@ def run(
                 value = values[a]
                 s = seconds[pc]
                 if value < 1 or value > targets[s - 1]:
-                    registers[INDEX] = value
+                    state.index = (value,)
                     reason = AT_SELECT
                     break
                 target = targets[s + value - 1]
+                decision = pc + 1
                 if decide:
                     decide((pc, target, value))
                 pc = target
@@ -329,10 +346,7 @@ def run(
         fac, event, reason = trap.value, trap.event, AT_EVENT
     finally:
         stays = reason in (AT_UNDEFINED, AT_BOUNDS, AT_OUTSIDE, AT_SELECT, AT_LIMIT, AT_STOP)
-        registers[AT] = pc if stays else pc - 1
-        registers[PC] = pc
-        registers[FAC], registers[FIXED] = fac, fixed
-        registers[STATEMENTS], registers[STORED] = done, stored
-        registers[SENT], registers[SENT_EXPONENT] = sent, sent_kind
-        registers[EVENT], registers[ADDRESS] = event, a
+        state.at = pc if stays else pc - 1
+        state.pc, state.fac, state.fixed, state.work, state.stored = pc, fac, fixed, work, stored
+        state.sent, state.sent_kind, state.event, state.address, state.decision = sent, sent_kind, event, a, decision
     return reason

@@ -1,48 +1,44 @@
 """A 1620 with its devices: card reader, punch, typewriter, four sense switches, and core storage.
 
-A :class:`Machine` holds everything a run needs; any number of them exist side by side.  It drives the engine
-and does what the engine returns for: input, output, library functions, messages, endings.
+A :class:`Machine` holds everything a run needs; any number of them exist side by side.  It drives the interpreter
+and does what the interpreter returns for: input, output, library functions, messages, endings.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
-from emulator.compiled import kernel as engine
 from emulator.errors import CardError, DeckError
 from emulator.language.cards import COLUMNS, Card, Deck, read_line
-from emulator.language.formats import Field
-from emulator.language.length import code_positions
-from emulator.language.loader import flatten
-from emulator.language.objectcode import Line, Program
+from emulator.language.objectcode import Line, Program, code_positions, flatten
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
-from emulator.machine import interpreter as hosted
-from emulator.machine.endings import begun, error_counts, looped, pausing, stopped, undecided
+from emulator.machine import interpreter
+from emulator.machine.endings import Ending, Kind, Mode, Notice, decided, looped, out_of_bounds, stopped, unfit
 from emulator.machine.forms import Input, Layout, NoField, Output
+from emulator.machine.interpreter import FLOATING, Journal, State
 from emulator.machine.result import (
     LOOP_WINDOW,
     PUNCH_COLUMNS,
     TYPEWRITER_COLUMNS,
-    Ending,
     Event,
     Options,
     Result,
     Uncut,
+    begun,
+    machine_errors,
 )
-from emulator.machine.unit import DecimalUnit, HostedUnit, Stored, Unit
-from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, ZERO, powers_of_ten
-from emulator.numbers.base import Undecided
-from emulator.numbers.fields import FieldError, read_fixed, write_fixed
+from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED
+from emulator.numbers.base import Number, Numbers, Undecided
+from emulator.numbers.fields import Field, FieldError, Remark, read_fixed, write_fixed
 
-BAD_INPUT = Ending("input", "bad input")
+BAD_INPUT = Ending("input", trouble="bad input")
 
 
 class _Ended(Exception):
-    def __init__(self, kind: str, message: str = "") -> None:
-        super().__init__(message)
-        self.ending = Ending(kind, message)
+    def __init__(self, ending: Ending) -> None:
+        super().__init__(ending.kind)
+        self.ending = ending
 
 
 Tracer = Callable[[Line, "Machine"], None]
@@ -63,38 +59,23 @@ class Machine:
     options: Options = field(default_factory=Options)
     keyboard: Iterable[str] = ()
     tracer: Tracer | None = None
-    journal: hosted.Journal | None = None
+    journal: Journal | None = None
     uncut: Sequence[Sequence[Uncut]] = ()
 
     def __post_init__(self) -> None:
-        program, rules, numbers = self.program, self.options.profile.rules, self.options.numbers
-        need = program.storage.fields * FIELD + code_positions(program)
-        room = self.options.core - OBJECT_PROGRAM - FUNCTION_NAMES
-        if need > room:
-            raise DeckError(
-                f"{program.source}: OVERLAP: program and data need about {need} positions; "
-                f"a machine of {self.options.core} has {room} for them"
-            )
-        self.unit: Unit = DecimalUnit(rules) if numbers is None else HostedUnit(numbers)
-        self.mantissas: list[Any] = [0] * program.storage.fields
-        self.exponents = [UNDEFINED] * program.storage.fields
-        for address, text in program.storage.constants:
-            if "." in text:
-                self.mantissas[address], self.exponents[address] = self.unit.constant(text)
-            else:
-                self.mantissas[address], self.exponents[address] = int(text), FIXED_POINT
-        self.registers: list[Any] = [0] * engine.REGISTERS
-        self.registers[engine.CHARACTERISTIC] = ZERO
-        self.counts = [0] * len(program.counters)
+        program = self.program
+        refuse_overlap(program, self.options.core)
+        values, kinds = loaded(program, self.options.numbers)
+        self.state = State(values, kinds, [0] * len(program.counters), self.options.numbers.from_integer(0))
         self._code = flatten(program)
         self._statement_of = program.statement_numbers()
-        self._powers = powers_of_ten(rules)
-        self._enters = hosted.entered(program) if self.journal else []
+        self._switches = [int(n in self.options.switches) for n in (1, 2, 3, 4)]
+        self._enters = interpreter.entered(program) if self.journal else []
         self._layouts = [Layout(spec) for _, spec in program.formats]
         self._whole = {
-            (card.number, column, width): stored
+            (card.number, column, width): value
             for card, beside in zip(self.deck.cards, self.uncut, strict=False)
-            for column, width, stored in beside
+            for column, width, value in beside
         }
         self._beside: list[Uncut] = []
         self._uncut: list[tuple[Uncut, ...]] = []
@@ -109,8 +90,8 @@ class Machine:
         self._punched: list[str] = []
         self._typed: list[str] = []
         self._events: list[Event] = []
-        self._warnings: dict[str, None] = {}
-        self._numbers: dict[str, int] = {}
+        self._notices: dict[Notice, None] = {}
+        self._fields: dict[str, int] = {}
         self._errors: dict[tuple[str, int], int] = {}
 
     def run(self) -> Result:
@@ -119,122 +100,105 @@ class Machine:
         Raises CardError for a card whose field is no number, DeckError for a hopper empty in the middle of a
         data set or from the start.
         """
-        window = min(LOOP_WINDOW, self.options.limit // 2)
-        ending = self.advance(self.options.limit - window)
+        limit = self.options.limit
+        ending = self.advance(limit - min(LOOP_WINDOW, limit // 2))
         if ending is None:
-            before = list(self.counts)
-            ending = self.advance(self.options.limit)
-            ending = ending or looped(self.program, self.options.limit, before, self.counts)
+            before = list(self.state.counts)
+            ending = self.advance(limit)
+            ending = ending or looped(self.program, limit, before, self.state.counts, self.state.decision)
         return self.result(ending)
 
     def advance(self, limit: int) -> Ending | None:
-        """Run on until ``limit`` statements are done in all; how the run ended, or None where it did not.
+        """Run on until ``limit`` is done in all (:class:`emulator.machine.result.Options`); how the run ended, or None.
 
         Raises what :meth:`run` does.
         """
         try:
-            while (reason := self._engine(limit)) != engine.AT_LIMIT:
+            while (reason := self._interpret(limit)) != interpreter.AT_LIMIT:
                 self._serve(reason)
         except _Ended as ended:
             return ended.ending
         except Undecided as error:
-            return undecided(self.program, self.registers[engine.AT], str(error))
+            return self._ending("undecided", trouble=str(error))
         return None
 
-    def _engine(self, limit: int) -> int:
-        operations, addresses, subscripts, seconds, table, targets, loops, begins = self._code
-        profile = self.options.profile
-        switches = [int(n in self.options.switches) for n in (1, 2, 3, 4)]
-        strict = int(self.options.bounds == "strict")
-        if self.options.numbers is not None:
-            return hosted.run(
-                self._code,
-                self.mantissas,
-                self.exponents,
-                self.counts,
-                self.registers,
-                switches,
-                self.options.numbers,
-                (limit, strict, int(self.tracer is not None)),
-                self.journal,
-                self._enters,
-            )
-        flags = (limit, strict, int(self.tracer is not None))
-        return engine.run(
-            operations,
-            addresses,
-            subscripts,
-            seconds,
-            table,
-            targets,
-            loops,
-            begins,
-            self.mantissas,
-            self.exponents,
-            self.counts,
-            self.registers,
-            switches,
-            profile.rules,
-            self._powers,
-            flags,
+    def _interpret(self, limit: int) -> int:
+        return interpreter.run(
+            self._code,
+            self.state,
+            self._switches,
+            self.options.numbers,
+            limit,
+            self.options.bounds == "strict",
+            self.tracer is not None,
+            self.journal,
+            self._enters,
         )
 
     def _line_at(self, pc: int) -> Line:
         return self.program.statements[self._statement_of[pc]]
 
     def _serve(self, reason: int) -> None:
-        registers = self.registers
-        here = self._line_at(registers[engine.AT])
-        address = registers[engine.ADDRESS]
-        if reason == engine.AT_ITEM:
-            self._item(address, here)
-        elif reason == engine.AT_BEGIN:
+        state, numbers = self.state, self.options.numbers
+        here = self._line_at(state.at)
+        address = state.address
+        if reason == interpreter.AT_ITEM:
+            self._item(address)
+        elif reason == interpreter.AT_BEGIN:
             self._begin(address, here)
-        elif reason == engine.AT_FINISH:
+        elif reason == interpreter.AT_FINISH:
             assert self._transfer is not None
             self._transfer.finish()
-        elif reason == engine.AT_STATEMENT:
+        elif reason == interpreter.AT_STATEMENT:
             assert self.tracer is not None
             self.tracer(here, self)
-        elif reason == engine.AT_FUNCTION:
-            self._to_fac(*self.unit.function(self.program.functions[address], self._fac()))
-        elif reason == engine.AT_POWER:
-            self._to_fac(*self.unit.power((self.mantissas[address], self.exponents[address]), self._fac()))
-        elif reason == engine.AT_POWERX:
-            self._to_fac(*self.unit.integer_power(self._fac(), self.mantissas[address]))
-        elif reason == engine.AT_EVENT:
-            self._error(f"E{registers[engine.EVENT]}")
-        elif reason == engine.AT_PAUSE:
-            self._warn(pausing(self.program, self._statement_of[registers[engine.AT]]))
+        elif reason == interpreter.AT_FUNCTION:
+            self._to_fac(*numbers.function(self.program.functions[address], state.fac))
+        elif reason == interpreter.AT_POWER:
+            self._to_fac(*numbers.power(state.values[address], state.fac))
+        elif reason == interpreter.AT_POWERX:
+            self._to_fac(*numbers.integer_power(state.fac, state.values[address]))
+        elif reason == interpreter.AT_EVENT:
+            self._error(f"E{state.event}")
+        elif reason == interpreter.AT_PAUSE:
+            self._note(Notice("pause", self.program.source, here))
         else:
-            held = self.exponents[address] if reason == engine.AT_UNDEFINED else ZERO
-            ending = stopped(self.program, reason, registers, held)
-            raise _Ended(ending.kind, ending.message)
+            raise _Ended(self._stopped(reason, address))
 
-    def _fac(self) -> Stored:
-        return self.registers[engine.FAC], self.registers[engine.CHARACTERISTIC]
+    def _stopped(self, reason: int, address: int) -> Ending:
+        """The ending for a reason the run does not go on from."""
+        state = self.state
+        if reason == interpreter.AT_STOP:
+            return Ending("stop" if self.program.code[state.pc].second == 0 else "end")
+        if reason == interpreter.AT_UNDEFINED:
+            return unfit(self.program, state.at, state.decision, address, state.kinds[address])
+        if reason == interpreter.AT_BOUNDS:
+            return out_of_bounds(self.program, state.at, state.decision, address, state.index)
+        if reason == interpreter.AT_OUTSIDE:
+            return stopped(self.program, "outside", state.at, state.decision)
+        return stopped(self.program, "select", state.at, state.decision, state.index)
 
-    def _to_fac(self, value: Stored, code: str) -> None:
-        self.registers[engine.FAC], self.registers[engine.CHARACTERISTIC] = value
+    def _to_fac(self, value: Number, code: str) -> None:
+        self.state.fac = value
         if code:
             self._error(code)
 
     def _error(self, code: str) -> None:
-        card = self._line_at(self.registers[engine.AT]).place.card
+        card = self._line_at(self.state.at).place.card
         self._errors[code, card] = self._errors.get((code, card), 0) + 1
-        if self.options.profile.announces:
+        if self.options.numbers.announces:
             self._type(f"ERROR {code}")
 
     def _begin(self, address: int, here: Line) -> None:
         verb = self.program.verbs[address]
-        number = self.program.code[self.registers[engine.AT]].second
+        number = self.program.code[self.state.at].second
         self._verb, self._format = verb, self.program.formats[number][0]
         layout = self._layouts[number]
         self.listed = []
         if verb == "READ":
-            begins = self._first_read in (-1, self.registers[engine.AT])
+            begins = self._first_read in (-1, self.state.at)
             if begins:
-                self._first_read = self.registers[engine.AT]
+                self._first_read = self.state.at
                 self._events.append(Event("begin"))
             card = self._take_card(here, begins)
             self._transfer = Input(layout, lambda: self._take_card(here, False), card)
@@ -246,7 +210,7 @@ class Machine:
     def _take_card(self, here: Line, begins: bool) -> Card:
         if self._position >= len(self.deck.cards):
             if begins and self._position:
-                raise _Ended("hopper")
+                raise _Ended(Ending("hopper"))
             if not self.deck.cards:
                 raise DeckError(
                     f"{self.deck.source}: the hopper is empty at the first READ ({self.program.source}, {here.name})"
@@ -269,99 +233,112 @@ class Machine:
         self._typed_in += 1
         return read_line("typewriter", self._typed_in, line.rstrip("\r\n")[:COLUMNS], "line")
 
-    def _item(self, address: int, here: Line) -> None:
-        fixed = self.program.code[self.registers[engine.AT]].second == 1
+    def _item(self, address: int) -> None:
+        fixed = self.program.code[self.state.at].second == 1
         transfer = self._transfer
         assert transfer is not None
         self.listed.append(address)
-        self.registers[engine.STATEMENTS] += 1
+        self.state.work += 1
         try:
             if isinstance(transfer, Output):
-                self._write(transfer, transfer.next_field(), address, fixed, here)
+                self._write(transfer, transfer.next_field(), address, fixed)
             else:
-                self._read(transfer, *transfer.next_field(), address, fixed, here)
+                self._read(transfer, *transfer.next_field(), address, fixed)
         except NoField:
-            raise _Ended(
-                "mode",
-                f"{self.program.source}: card {here.place.card}: FORMAT {self._format} has no field for the list",
-            ) from None
+            raise _Ended(self._ending("mode", format=self._format)) from None
 
-    def _check_mode(self, spec: Field, fixed: bool, address: int, here: Line) -> None:
+    def _check_mode(self, spec: Field, fixed: bool, address: int) -> None:
         key = spec.kind + ("<" if isinstance(self._transfer, Input) else ">")
-        self._numbers[key] = self._numbers.get(key, 0) + 1
+        self._fields[key] = self._fields.get(key, 0) + 1
         if (spec.kind == "I") != fixed:
-            mode = "fixed" if fixed else "floating"
-            raise _Ended(
-                "mode",
-                f"{self.program.source}: card {here.place.card}: {self.program.storage.name_of(address)} "
-                f"is {mode} point, its field in FORMAT {self._format} is {spec}",
-            )
+            mode: Mode = "fixed" if fixed else "floating"
+            name = self.program.storage.name_of(address)
+            raise _Ended(self._ending("mode", name=name, mode=mode, format=self._format, field=spec))
 
-    def _write(self, transfer: Output, spec: Field, address: int, fixed: bool, here: Line) -> None:
-        self._check_mode(spec, fixed, address, here)
-        mantissa, exponent = self.mantissas[address], self.exponents[address]
-        if exponent == UNDEFINED:
+    def _write(self, transfer: Output, spec: Field, address: int, fixed: bool) -> None:
+        self._check_mode(spec, fixed, address)
+        value, kind = self.state.values[address], self.state.kinds[address]
+        if kind == UNDEFINED or (kind == FIXED_POINT) != fixed:
             name = self.program.storage.name_of(address)
-            raise _Ended(
-                "undefined",
-                f"{self.program.source}: card {here.place.card}: {name} is undefined where it is put out, "
-                f"in {here.text}",
-            )
-        if (exponent == FIXED_POINT) != fixed:
-            name = self.program.storage.name_of(address)
-            raise _Ended(
-                "mode", f"{self.program.source}: card {here.place.card}: {name} holds a number of the other mode"
-            )
+            raise _Ended(self._ending("undefined" if kind == UNDEFINED else "mode", name=name, put_out=True))
         if fixed:
-            transfer.write(write_fixed(spec, mantissa))
+            transfer.write(write_fixed(spec, value))
             return
-        columns, overflowed = self.unit.write(spec, (mantissa, exponent))
-        self._beside.append((len(transfer.line) + 1, len(columns), (mantissa, exponent)))
+        columns, overflowed = self.options.numbers.write(spec, value)
+        self._beside.append((len(transfer.line) + 1, len(columns), value))
         transfer.write(columns)
         if overflowed:
             self._error("F8")
 
-    def _read(
-        self, transfer: Input, spec: Field, card: Card, column: int, address: int, fixed: bool, here: Line
-    ) -> None:
-        self._check_mode(spec, fixed, address, here)
+    def _read(self, transfer: Input, spec: Field, card: Card, column: int, address: int, fixed: bool) -> None:
+        self._check_mode(spec, fixed, address)
         columns = card.columns(column, column + spec.width - 1).ljust(spec.width)
-        source, unit = (self.deck.source, "card") if self._verb == "READ" else ("typewriter", "line")
+        typed = self._verb != "READ"
+        source = "typewriter" if typed else self.deck.source
+        value: Number
+        remark: Remark | None = None
         try:
             if fixed:
                 read = read_fixed(columns)
-                stored, warning = (read.mantissa, FIXED_POINT), read.warning
-            elif self._verb == "READ" and (card.number, column, spec.width) in self._whole:
-                stored, warning = self._whole[card.number, column, spec.width], ""
+                value, remark = read.mantissa, read.remark
+            elif not typed and (card.number, column, spec.width) in self._whole:
+                value = self._whole[card.number, column, spec.width]
             else:
-                stored, warning = self.unit.read(spec, columns)
+                value, remark = self.options.numbers.read(spec, columns)
         except FieldError as error:
-            raise CardError(source, card.number, column, str(error), unit) from None
-        self.mantissas[address], self.exponents[address] = stored
-        if warning:
-            self._warn(f"{source}: {unit} {card.number}, column {column}: {warning}")
+            raise CardError(source, card.number, column, str(error), "line" if typed else "card") from None
+        self.state.values[address], self.state.kinds[address] = value, FIXED_POINT if fixed else FLOATING
+        if remark is not None:
+            self._note(Notice("field", source, card=card.number, column=column, typed=typed, remark=remark))
 
     def _punch(self, line: str) -> None:
         if self.options.uncut:
             self._uncut.append(tuple(self._beside))
-        self._out("punch", self._punched, line, PUNCH_COLUMNS)
+        text = self._cut(line, PUNCH_COLUMNS)
+        self._punched.append(text)
+        self._events.append(Event("punch", text))
 
     def _type(self, line: str) -> None:
-        self._out("type", self._typed, line, TYPEWRITER_COLUMNS)
+        text = self._cut(line, TYPEWRITER_COLUMNS)
+        self._typed.append(text)
+        decision = decided(self.program, self.state.decision)
+        self._events.append(Event("type", text, self._line_at(self.state.at), decision))
 
-    def _out(self, what: str, lines: list[str], line: str, columns: int) -> None:
-        if len(line.rstrip()) > columns:
-            self._warn(
-                f"{self.program.source}: FORMAT {self._format}: a record of {len(line)} characters, cut at {columns}"
-            )
-        text = line[:columns].rstrip()
-        lines.append(text)
+    def _cut(self, line: str, room: int) -> str:
+        """A record as its device has it; it counts as work."""
+        if len(line.rstrip()) > room:
+            self._note(Notice("record", self.program.source, format=self._format, width=len(line), kept=room))
         self._beside.clear()
-        self.registers[engine.STATEMENTS] += 1
-        self._events.append(Event(what, text))
+        self.state.work += 1
+        return line[:room].rstrip()
 
-    def _warn(self, message: str) -> None:
-        self._warnings[message] = None
+    def _note(self, notice: Notice) -> None:
+        self._notices[notice] = None
+
+    def _ending(
+        self,
+        kind: Kind,
+        *,
+        name: str = "",
+        mode: Mode | None = None,
+        format: int = 0,
+        field: Field | None = None,
+        put_out: bool = False,
+        trouble: str = "",
+    ) -> Ending:
+        """An ending at the present statement."""
+        return Ending(
+            kind,
+            self.program.source,
+            self._line_at(self.state.at),
+            decided(self.program, self.state.decision),
+            name=name,
+            mode=mode,
+            format=format,
+            field=field,
+            put_out=put_out,
+            trouble=trouble,
+        )
 
     def result(self, ending: Ending = BAD_INPUT) -> Result:
         """What the devices have so far; of use after :meth:`run` raised an error for a bad card."""
@@ -370,11 +347,34 @@ class Machine:
             typed=tuple(self._typed),
             ending=ending,
             events=tuple(self._events),
-            warnings=tuple(self._warnings),
-            statements=begun(self.program, self.counts),
-            counts=tuple(self.counts),
+            notices=tuple(self._notices),
+            statements=begun(self.program, self.state.counts),
+            counts=tuple(self.state.counts),
             cards_read=self._position,
-            numbers=tuple(sorted(self._numbers.items())),
-            errors=error_counts(self._errors),
+            numbers=tuple(sorted(self._fields.items())),
+            errors=machine_errors(self._errors),
             uncut=tuple(self._uncut),
         )
+
+
+def refuse_overlap(program: Program, core: int) -> None:
+    """Raise DeckError when a program and its data do not fit a machine of ``core`` positions."""
+    need = program.storage.fields * FIELD + code_positions(program)
+    room = core - OBJECT_PROGRAM - FUNCTION_NAMES
+    if need > room:
+        raise DeckError(
+            f"{program.source}: OVERLAP: program and data need about {need} positions; "
+            f"a machine of {core} has {room} for them"
+        )
+
+
+def loaded(program: Program, numbers: Numbers) -> tuple[list[Number], list[int]]:
+    """Core as a program finds it: values and kinds of the fields, all but the constants undefined."""
+    values: list[Number] = [0] * program.storage.fields
+    kinds = [UNDEFINED] * program.storage.fields
+    for address, text in program.storage.constants:
+        if "." in text:
+            values[address], kinds[address] = numbers.constant(text), FLOATING
+        else:
+            values[address], kinds[address] = int(text), FIXED_POINT
+    return values, kinds

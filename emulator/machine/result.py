@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Literal
 
-from emulator.numbers.arithmetic import TRUNCATING, Profile
-from emulator.numbers.base import Numbers
+from emulator.language.objectcode import Line, Program
+from emulator.machine.endings import Ending, Notice
+from emulator.numbers import Number, Numbers, numbers
 
 DEFAULT_LIMIT = 5_000_000
 DEFAULT_CORE = 40_000
@@ -16,28 +18,28 @@ LOOP_WINDOW = 2_000
 PUNCH_COLUMNS = 72
 TYPEWRITER_COLUMNS = 87
 
-NORMAL = ("hopper", "stop", "end")
+TRUNCATING = numbers("truncating")
 
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """How a run is set up.  ``switches`` are the sense switches that are on; ``bounds`` is strict or core.
+    """How a run is set up.  ``switches`` are the sense switches that are on.
 
-    ``numbers``, where it is given, takes the place of the profile's decimal numbers.  ``uncut``: the numbers punched
-    are kept as they were before the card's field cut them (:attr:`Result.uncut`).
+    ``bounds``: strict stops at a subscript outside its array, core does as the machine did.  ``limit``: how much work a
+    run may do: statements begun, passes of indexed lists, numbers read or put out, lines.  ``uncut``: the numbers
+    punched are kept as they were before the card's field cut them (:attr:`Result.uncut`).
     """
 
-    profile: Profile = TRUNCATING
+    numbers: Numbers = TRUNCATING
     switches: frozenset[int] = frozenset()
     core: int = DEFAULT_CORE
-    bounds: str = "strict"
+    bounds: Literal["strict", "core"] = "strict"
     limit: int = DEFAULT_LIMIT
-    numbers: Numbers | None = None
     uncut: bool = False
 
 
-Uncut = tuple[int, int, tuple[Any, int]]
-"""A number punched: its first column, how many columns it takes, and the field of storage it comes from."""
+Uncut = tuple[int, int, Number]
+"""A number punched: its first column, how many columns it takes, and the number."""
 
 ERRORS = {
     "E1": "a sum overflows",
@@ -60,27 +62,25 @@ ERRORS = {
 
 
 @dataclass(frozen=True, slots=True)
-class Event:
-    """What a device did, in order: ``begin`` (of a data set by READ), ``read``, ``accept``, ``punch``, ``type``."""
+class MachineError:
+    """An error code of the arithmetic (:data:`ERRORS`), the card of the statement it arose in, and how often."""
 
-    what: str
-    text: str = ""
+    code: str
+    card: int
+    times: int
 
 
 @dataclass(frozen=True, slots=True)
-class Ending:
-    """Why a run ended.
+class Event:
+    """What a device did, in order: ``begin`` (of a data set by READ), ``read``, ``accept``, ``punch``, ``type``.
 
-    ``kind``: hopper, stop, end (all normal), limit, bounds, undefined, outside, select, mode, undecided.  ``message``
-    is one line for a user, empty for a normal end.
+    Of a line typed, ``line`` is the statement that typed it and ``decision`` the last IF or computed GO TO before it.
     """
 
-    kind: str
-    message: str = ""
-
-    @property
-    def normal(self) -> bool:
-        return self.kind in NORMAL
+    what: Literal["begin", "read", "accept", "punch", "type"]
+    text: str = ""
+    line: Line | None = None
+    decision: Line | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,18 +88,28 @@ class Result:
     """A finished run: what the devices got, how it ended, and what was counted.
 
     ``uncut``, where it was asked for, holds for each punched card its floating-point numbers.  ``punched`` and
-    ``typed`` are lines without trailing blanks; ``counts`` how often each counter of the
-    program ran; ``errors`` the arithmetic's error codes with the statement each arose in, and how often.
+    ``typed`` are lines without trailing blanks; ``statements`` how many statements began; ``counts`` how often each
+    counter of the program ran; ``numbers`` how many numbers each kind of field read (``E<``) and put out (``E>``).
     """
 
     punched: tuple[str, ...]
     typed: tuple[str, ...]
     ending: Ending
     events: tuple[Event, ...]
-    warnings: tuple[str, ...]
+    notices: tuple[Notice, ...]
     statements: int
     counts: tuple[int, ...]
     cards_read: int
     numbers: tuple[tuple[str, int], ...]
-    errors: tuple[tuple[str, int], ...]
+    errors: tuple[MachineError, ...]
     uncut: tuple[tuple[Uncut, ...], ...] = ()
+
+
+def begun(program: Program, counts: Sequence[int]) -> int:
+    """How many statements began, from the counts."""
+    return sum(n for counter, n in zip(program.counters, counts, strict=True) if counter.begins)
+
+
+def machine_errors(found: Mapping[tuple[str, int], int]) -> tuple[MachineError, ...]:
+    """Error codes from how often each arose on each card."""
+    return tuple(MachineError(code, card, times) for (code, card), times in sorted(found.items()))

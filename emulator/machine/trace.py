@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TextIO
 
-from emulator.compiled import kernel as engine
 from emulator.language.objectcode import Line, Program
 from emulator.machine.machine import Machine
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED
@@ -44,29 +43,21 @@ class Tracer:
 
 def effect(machine: Machine, line: Line) -> str:
     """What the statement just run did: ``X(3) = .20000000E+01``, or the value it tested."""
-    registers = machine.registers
+    state, name = machine.state, machine.program.storage.name_of
     if line.effect == "store":
-        address = registers[engine.STORED]
-        return f"{machine.program.storage.name_of(address)} = {contents(machine, address)}"
+        return f"{name(state.stored)} = {contents(machine, state.stored)}"
     if line.effect == "test":
-        return _floating(machine, registers[engine.FAC], registers[engine.CHARACTERISTIC])
+        return machine.options.numbers.traced(state.fac)
     if line.effect == "test fixed":
-        return str(registers[engine.FIXED])
+        return str(state.fixed)
     if line.effect == "list":
-        name = machine.program.storage.name_of
         return ", ".join(f"{name(address)} = {contents(machine, address)}" for address in machine.listed)
     return ""
 
 
 def contents(machine: Machine, address: int) -> str:
     """A field's contents as text."""
-    mantissa, exponent = machine.mantissas[address], machine.exponents[address]
-    if exponent == UNDEFINED:
+    value, kind = machine.state.values[address], machine.state.kinds[address]
+    if kind == UNDEFINED:
         return "undefined"
-    if exponent == FIXED_POINT:
-        return str(mantissa)
-    return _floating(machine, mantissa, exponent)
-
-
-def _floating(machine: Machine, mantissa: int, exponent: int) -> str:
-    return machine.unit.text((mantissa, exponent))
+    return str(value) if kind == FIXED_POINT else machine.options.numbers.traced(value)

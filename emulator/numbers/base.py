@@ -15,9 +15,8 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
-from emulator.language.formats import Field
 from emulator.numbers.arithmetic import MAX_EXPONENT, MIN_EXPONENT, MINUS_ZERO, ZERO, Rules, rules_of
-from emulator.numbers.fields import FALLBACK, read_floating, write_floating
+from emulator.numbers.fields import FALLBACK, Field, Remark, read_floating, write_floating
 
 Number = Any
 """A number of some system."""
@@ -139,12 +138,21 @@ class Numbers(ABC):
         left_out = Fraction(mantissa) * Fraction(10) ** (exponent - SHOWN) != exact
         return decimal_text(mantissa, exponent - SHOWN) + ("..." if left_out else "")
 
-    def read(self, field: Field, columns: str) -> tuple[Number, str]:
-        """A number from the columns of a field, all of its digits, and a warning or nothing.  Raises FieldError."""
+    def traced(self, value: Number) -> str:
+        """The number as a trace shows it."""
+        return self.text(value)
+
+    @property
+    def announces(self) -> bool:
+        """Whether every error of the arithmetic types its code."""
+        return False
+
+    def read(self, field: Field, columns: str) -> tuple[Number, Remark | None]:
+        """A number from the columns of a field, all of its digits, and a remark or none.  Raises FieldError."""
         digits = max(len(columns), 2)
         found = read_floating(field, columns, cutting_rules(digits))
         minus = found.exponent == MINUS_ZERO
-        return self.decimal(found.mantissa, found.exponent - digits if found.mantissa else 0, minus), found.warning
+        return self.decimal(found.mantissa, found.exponent - digits if found.mantissa else 0, minus), found.remark
 
     def constant(self, text: str) -> Number:
         """A floating constant of the source.  Raises FieldError when it is out of range."""

@@ -9,11 +9,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 
-from emulator.language.formats import Field
 from emulator.numbers import accumulator, arithmetic, functions
 from emulator.numbers.arithmetic import MINUS_ZERO, ZERO, Profile, Rules, powers_of_ten
 from emulator.numbers.base import Numbers, Trap, cut_decimal
-from emulator.numbers.fields import read_floating, write_floating
+from emulator.numbers.fields import FALLBACK, Field, Remark, read_floating, write_floating
 
 Pair = tuple[int, int]
 
@@ -91,9 +90,16 @@ class DecimalNumbers(Numbers):
     def cut(self, value: Pair, digits: int) -> Pair:
         return value if value[0] == 0 else cut_decimal(value[0], value[1] - self._rules[0], digits)
 
-    def read(self, field: Field, columns: str) -> tuple[Pair, str]:
+    def traced(self, value: Pair) -> str:
+        return write_floating(FALLBACK, *value, self._rules)[0].strip()
+
+    @property
+    def announces(self) -> bool:
+        return self.profile.announces
+
+    def read(self, field: Field, columns: str) -> tuple[Pair, Remark | None]:
         found = read_floating(field, columns, self._rules)
-        return (found.mantissa, found.exponent), found.warning
+        return (found.mantissa, found.exponent), found.remark
 
     def write(self, field: Field, value: Pair) -> tuple[str, bool]:
         return write_floating(field, *value, self._rules)

@@ -10,19 +10,54 @@ emulator/numbers/columns.py; here are texts and words.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
-from emulator.language.formats import Field
-from emulator.numbers import columns as conversion
+from emulator.numbers import columns
 from emulator.numbers.arithmetic import UNDEFINED, Rules
 
-FALLBACK = Field("E", conversion.E_COLUMNS, conversion.E_DECIMALS)
+FieldKind = Literal["E", "F", "I"]
 
-_WARNINGS = {
-    conversion.FINE: "",
-    conversion.BLANK_FIELD: "a blank field is read as zero",
-    conversion.BLANKS_INSIDE: "blanks inside a number",
-    conversion.BLANKS_AS_ZEROS: "blanks behind or inside a number are read as zeros",
+
+@dataclass(frozen=True, slots=True)
+class Field:
+    """``Iw``, ``Fw.d`` or ``Ew.d``: one number."""
+
+    kind: FieldKind
+    width: int
+    decimals: int = 0
+
+    def __str__(self) -> str:
+        return f"{self.kind}{self.width}" + ("" if self.kind == "I" else f".{self.decimals}")
+
+
+FALLBACK = Field("E", columns.E_COLUMNS, columns.E_DECIMALS)
+
+_REMARKS = {
+    columns.BLANK_FIELD: "a blank field is read as zero",
+    columns.BLANKS_INSIDE: "blanks inside a number",
+    columns.BLANKS_AS_ZEROS: "blanks after or inside a number are read as zeros",
 }
+
+
+@dataclass(frozen=True, slots=True)
+class Remark:
+    """What a user should know of a number that was read; ``status`` is one of emulator/numbers/columns.py.
+
+    Of a number with too many digits, ``digits`` and ``kept`` count them, or ``text`` is the whole number cut to four.
+    """
+
+    status: int
+    digits: int = 0
+    kept: int = 0
+    text: str = ""
+
+    @property
+    def words(self) -> str:
+        if self.status == columns.CUT:
+            return f"{self.digits} digits; those beyond {self.kept} are cut"
+        if self.status == columns.FOUR_KEPT:
+            return f"{self.text} has more than four digits; the last four are kept"
+        return _REMARKS[self.status]
 
 
 class FieldError(ValueError):
@@ -31,11 +66,11 @@ class FieldError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Read:
-    """A number read: mantissa and exponent (a fixed-point value and 0), and what there is to warn about."""
+    """A number read: mantissa and exponent (a fixed-point value and 0), and what there is to remark."""
 
     mantissa: int
     exponent: int
-    warning: str = ""
+    remark: Remark | None = None
 
 
 def write_floating(field: Field, mantissa: int, exponent: int, rules: Rules) -> tuple[str, bool]:
@@ -45,11 +80,11 @@ def write_floating(field: Field, mantissa: int, exponent: int, rules: Rules) -> 
     """
     if exponent == UNDEFINED:
         raise FieldError("an undefined number cannot be written")
-    columns = bytearray(max(field.width, FALLBACK.width))
-    end, overflowed = conversion.write_floating(
-        columns, 0, field.kind == "E", field.width, field.decimals, mantissa, exponent, rules
+    codes = bytearray(max(field.width, FALLBACK.width))
+    end, overflowed = columns.write_floating(
+        codes, 0, field.kind == "E", field.width, field.decimals, mantissa, exponent, rules
     )
-    return columns[:end].decode("ascii"), bool(overflowed)
+    return codes[:end].decode("ascii"), bool(overflowed)
 
 
 def write_fixed(field: Field, value: int) -> str:
@@ -58,34 +93,37 @@ def write_fixed(field: Field, value: int) -> str:
     High-order digits that do not fit are lost without notice (p. 38).  Only a negative number uses up a
     position for the sign: OPEN-QUESTIONS 7.
     """
-    columns = bytearray(field.width)
-    conversion.write_fixed(columns, 0, field.width, value)
-    return columns.decode("ascii")
+    codes = bytearray(field.width)
+    columns.write_fixed(codes, 0, field.width, value)
+    return codes.decode("ascii")
 
 
-def read_floating(field: Field, columns: str, rules: Rules) -> Read:
+def read_floating(field: Field, text: str, rules: Rules) -> Read:
     """A number from the columns of an E or F field.  Raises FieldError."""
-    codes = bytearray(columns.encode("ascii", "replace"))
-    mantissa, exponent, status = conversion.read_floating(codes, len(codes), field.decimals, rules)
-    if status == conversion.NO_NUMBER:
-        raise FieldError(f"{columns.strip()!r} is no number")
-    if status == conversion.OUT_OF_RANGE:
-        raise FieldError(f"{columns.strip()[:40]!r} is out of range: the exponent is -99 to 99")
-    if status >= conversion.CUT:
-        return Read(mantissa, exponent, f"{status - conversion.CUT} digits; those beyond {rules[0]} are cut")
-    return Read(mantissa, exponent, _WARNINGS[status])
+    codes = bytearray(text.encode("ascii", "replace"))
+    mantissa, exponent, status = columns.read_floating(codes, len(codes), field.decimals, rules)
+    if status == columns.NO_NUMBER:
+        raise FieldError(f"{text.strip()!r} is no number")
+    if status == columns.OUT_OF_RANGE:
+        raise FieldError(f"{text.strip()[:40]!r} is out of range: the exponent is -99 to 99")
+    if status >= columns.CUT:
+        return Read(mantissa, exponent, Remark(columns.CUT, status - columns.CUT, rules[0]))
+    return Read(mantissa, exponent, _remark(status))
 
 
-def read_fixed(columns: str) -> Read:
+def read_fixed(text: str) -> Read:
     """A fixed-point number from the columns of an I field.  Raises FieldError."""
-    codes = bytearray(columns.encode("ascii", "replace"))
-    value, status = conversion.read_fixed(codes, len(codes))
-    if status == conversion.NO_NUMBER:
-        raise FieldError(f"{columns.strip()!r} is no whole number")
-    if status == conversion.FOUR_KEPT:
-        text = codes.decode("ascii").rstrip(" ")
-        return Read(value, 0, f"{text} has more than four digits; the last four are kept")
-    return Read(value, 0, _WARNINGS[status])
+    codes = bytearray(text.encode("ascii", "replace"))
+    value, status = columns.read_fixed(codes, len(codes))
+    if status == columns.NO_NUMBER:
+        raise FieldError(f"{text.strip()!r} is no whole number")
+    if status == columns.FOUR_KEPT:
+        return Read(value, 0, Remark(status, text=codes.decode("ascii").rstrip(" ")))
+    return Read(value, 0, _remark(status))
+
+
+def _remark(status: int) -> Remark | None:
+    return None if status == columns.FINE else Remark(status)
 
 
 def parse_constant(text: str, rules: Rules) -> tuple[int, int]:

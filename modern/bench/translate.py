@@ -21,8 +21,9 @@ from collections.abc import Collection, Iterator
 from emulator.errors import DeckError
 from emulator.language import tree
 from emulator.language.cards import Deck
-from emulator.language.formats import Field, Literal, parse_format
+from emulator.language.formats import Literal, parse_format
 from emulator.language.parser import parse
+from emulator.numbers.fields import Field
 
 LIBRARY = {name + end: name for name in ("SQRT", "SIN", "COS", "ATAN", "EXP", "LOG") for end in ("", "F")}
 EMPTY = 90000

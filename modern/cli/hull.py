@@ -17,7 +17,7 @@ from modern.cli.shared.machine import (
     profile_lines,
     put_out,
     run_arguments,
-    say_warnings,
+    say_notices,
     tracing,
 )
 from modern.edition import programs
@@ -64,12 +64,11 @@ def main(args: argparse.Namespace) -> int:
         [card for run in runs for card in run.final.result.punched],
         [line for run in runs for step in run.steps for line in step.result.typed],
     )
-    say(f"warning: {warning}" for warning in checked.warnings)
-    # The machine warns of a field without naming its axis.
-    already = {w.replace(f": {axis}: ", ": ", 1) for w in checked.warnings for axis in "xyz"}
+    say(f"warning: {warning.message}" for warning in checked.warnings)
+    already = {(w.card, w.column) for w in checked.warnings}
     for run in runs:
         for step in run.steps:
-            say_warnings(step.program, step.result, already)
+            say_notices(step.program, step.result, already if step is run.steps[0] else ())
             if args.profile:
                 say(profile_lines(step.program, step.result))
             if not step.result.ending.normal:

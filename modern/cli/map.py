@@ -5,8 +5,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator
 
-from emulator.language.length import code_positions
-from emulator.language.objectcode import Program
+from emulator.language.objectcode import Program, code_positions
 from emulator.language.storage import FIELD, core_address
 from modern.cli.shared.console import OK
 from modern.cli.shared.machine import layers_argument, layers_of, load_program

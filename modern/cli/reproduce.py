@@ -13,7 +13,7 @@ from functools import partial
 from typing import TYPE_CHECKING, TextIO
 
 from emulator.files import check_writable, write_text
-from emulator.machine.result import Ending
+from emulator.machine.endings import Ending
 from modern.cli.shared.console import DIFFERS, OK, UsageError
 from modern.edition.chapter4 import THEOREMS
 from modern.edition.chapter6 import EXAMPLES

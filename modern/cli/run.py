@@ -17,7 +17,7 @@ from modern.cli.shared.machine import (
     profile_lines,
     put_out,
     run_arguments,
-    say_warnings,
+    say_notices,
     tracing,
 )
 from modern.thesis.job import refusal
@@ -52,7 +52,7 @@ def main(args: argparse.Namespace) -> int:
     put_out(args, result.punched, result.typed)
     if bad is not None:
         raise bad
-    say_warnings(program, result)
+    say_notices(program, result)
     if args.profile:
         say(profile_lines(program, result))
     if not result.ending.normal:

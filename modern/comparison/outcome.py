@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from emulator.machine.result import Ending
+from emulator.machine.endings import Ending
 from modern.exact_hull import ExactHull
 from modern.geometry.hull import DETERMINED, Hull
 from modern.thesis.cards import CardHull, read_hull

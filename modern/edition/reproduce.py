@@ -18,7 +18,8 @@ from importlib.resources.abc import Traversable
 from typing import Final, Literal
 
 from emulator.errors import EmulatorError
-from emulator.machine.result import Ending, Options
+from emulator.machine.endings import Ending
+from emulator.machine.result import Options
 from modern.edition import programs
 from modern.edition.chapter6 import EXAMPLES, Output, Print, input_deck, prints
 from modern.thesis.cards import planes_hold, read_hull, read_intermediate, same_hull

@@ -14,9 +14,8 @@ from fractions import Fraction
 
 from emulator.errors import CardError, DeckError
 from emulator.language.cards import Card, Deck, deck_from_lines
-from emulator.language.formats import Field
 from emulator.numbers.arithmetic import TRUNCATING, Rules, profile
-from emulator.numbers.fields import FieldError, Read, read_fixed, read_floating
+from emulator.numbers.fields import Field, FieldError, Read, Remark, read_fixed, read_floating
 from modern.geometry.numbers import Point, finite_decimal, split_decimal
 
 MAX_POINTS = 51
@@ -40,12 +39,32 @@ class DataSet:
 
 
 @dataclass(frozen=True, slots=True)
+class DeckWarning:
+    """What a user should know of a card: the place, and either ``words`` or a remark on the number called ``name``."""
+
+    source: str
+    card: int
+    column: int
+    words: str = ""
+    name: str = ""
+    remark: Remark | None = None
+
+    @property
+    def message(self) -> str:
+        """One line for a user."""
+        said = self.words
+        if self.remark is not None:
+            said = f"{self.name}: {self.remark.words}" if self.name else f"{self.remark.words}: {self.words}"
+        return f"{self.source}: card {self.card}, column {self.column}: {said}"
+
+
+@dataclass(frozen=True, slots=True)
 class CheckedDeck:
-    """A deck that was checked: its data sets and what there is to warn about, a line each."""
+    """A deck that was checked: its data sets and what there is to warn about."""
 
     source: str
     sets: tuple[DataSet, ...]
-    warnings: tuple[str, ...]
+    warnings: tuple[DeckWarning, ...]
 
     def deck(self, index: int) -> Deck:
         """One data set as a deck of its own; the cards keep their numbers."""
@@ -124,7 +143,7 @@ def exact_points(deck: Deck) -> tuple[dict[int, Point], tuple[str, ...]]:
     for card in first.sets[0].cards[1:]:
         x, y, z = (_decimal(read) for read in read_coordinates(card, _RULES))
         points[card.number] = (x, y, z)
-    return points, (*notes, *first.warnings)
+    return points, (*notes, *(warning.message for warning in first.warnings))
 
 
 def _decimal(read: Read) -> str:
@@ -136,20 +155,19 @@ def _decimal(read: Read) -> str:
 
 
 def check(deck: Deck, rules: Rules = TRUNCATING.rules, epsilon: bool = False) -> CheckedDeck:
-    """Check every data set of a deck; ``epsilon`` says that the programs read e behind N.
+    """Check every data set of a deck; ``epsilon`` says that the programs read e after N.
 
     Raises CardError for an N that is no number or not 1 to 51, for a coordinate that is no number and for an e
     that is none or negative, DeckError where the deck ends before N points are there.
     """
     sets: list[DataSet] = []
-    warnings: list[str] = []
+    warnings: list[DeckWarning] = []
     at = 0
     cards = deck.cards
     while at < len(cards):
         if sets and not any(card.text for card in cards[at:]):
-            warnings.append(
-                f"{deck.source}: card {cards[at].number}, column 1: blank cards behind the last data set are not read"
-            )
+            words = "blank cards after the last data set are not read"
+            warnings.append(DeckWarning(deck.source, cards[at].number, 1, words))
             break
         n = _count(deck, cards[at], warnings, _E_LAST if epsilon else _E_FIRST - 1)
         if epsilon:
@@ -165,10 +183,8 @@ def check(deck: Deck, rules: Rules = TRUNCATING.rules, epsilon: bool = False) ->
             numbers = _point(deck, card, rules, warnings)
             first = seen.setdefault(numbers, card.number)
             if first != card.number:
-                warnings.append(
-                    f"{deck.source}: card {card.number}, column 1: the point of card {first} again; "
-                    "the thesis takes distinct points"
-                )
+                words = f"the point of card {first} again; the thesis takes distinct points"
+                warnings.append(DeckWarning(deck.source, card.number, 1, words))
         sets.append(DataSet(n, (cards[at], *points)))
         at += 1 + n
     if not sets:
@@ -176,7 +192,7 @@ def check(deck: Deck, rules: Rules = TRUNCATING.rules, epsilon: bool = False) ->
     return CheckedDeck(deck.source, tuple(sets), tuple(warnings))
 
 
-def _count(deck: Deck, card: Card, warnings: list[str], last: int) -> int:
+def _count(deck: Deck, card: Card, warnings: list[DeckWarning], last: int) -> int:
     columns = card.columns(1, 2)
     try:
         number = read_fixed(columns)
@@ -187,15 +203,15 @@ def _count(deck: Deck, card: Card, warnings: list[str], last: int) -> int:
     n = number.mantissa
     if not 1 <= n <= MAX_POINTS:
         raise CardError(deck.source, card.number, 1, f"N is {n}; the programs take 1 to {MAX_POINTS} points")
-    if number.warning:
-        warnings.append(f"{deck.source}: card {card.number}, column 1: {number.warning}: N is {n}")
+    if number.remark:
+        warnings.append(DeckWarning(deck.source, card.number, 1, f"N is {n}", remark=number.remark))
     if card.text[last:].strip():
-        words = f"what stands behind {'N' if last < _E_FIRST else 'e'} is not read"
-        warnings.append(f"{deck.source}: card {card.number}, column {last + 1}: {words}")
+        words = f"what stands after {'N' if last < _E_FIRST else 'e'} is not read"
+        warnings.append(DeckWarning(deck.source, card.number, last + 1, words))
     return n
 
 
-def _interval(deck: Deck, card: Card, rules: Rules, warnings: list[str]) -> None:
+def _interval(deck: Deck, card: Card, rules: Rules, warnings: list[DeckWarning]) -> None:
     """Check e, columns 3 to 16; blank is zero."""
     columns = card.columns(_E_FIRST, _E_LAST)
     if not columns.strip():
@@ -206,11 +222,11 @@ def _interval(deck: Deck, card: Card, rules: Rules, warnings: list[str]) -> None
         raise CardError(deck.source, card.number, _E_FIRST, f"e: {error}") from None
     if number.mantissa < 0:
         raise CardError(deck.source, card.number, _E_FIRST, "e is negative: no value lies from -e to +e")
-    if number.warning:
-        warnings.append(f"{deck.source}: card {card.number}, column {_E_FIRST}: e: {number.warning}")
+    if number.remark:
+        warnings.append(DeckWarning(deck.source, card.number, _E_FIRST, name="e", remark=number.remark))
 
 
-def _point(deck: Deck, card: Card, rules: Rules, warnings: list[str]) -> tuple[tuple[int, int], ...]:
+def _point(deck: Deck, card: Card, rules: Rules, warnings: list[DeckWarning]) -> tuple[tuple[int, int], ...]:
     """The three numbers of a card, minus zero as zero."""
     numbers = []
     for axis, (first, columns) in zip("xyz", _fields(card), strict=True):
@@ -219,11 +235,10 @@ def _point(deck: Deck, card: Card, rules: Rules, warnings: list[str]) -> tuple[t
         except FieldError as error:
             raise CardError(deck.source, card.number, first, f"{axis}: {error}") from None
         numbers.append((number.mantissa, number.exponent if number.mantissa else 0))
-        if number.warning:
-            warnings.append(f"{deck.source}: card {card.number}, column {first}: {axis}: {number.warning}")
+        if number.remark:
+            warnings.append(DeckWarning(deck.source, card.number, first, name=axis, remark=number.remark))
     if card.text[_LAST_COLUMN:].strip():
-        column = _LAST_COLUMN + 1
-        warnings.append(f"{deck.source}: card {card.number}, column {column}: what stands behind z is not read")
+        warnings.append(DeckWarning(deck.source, card.number, _LAST_COLUMN + 1, "what stands after z is not read"))
     return tuple(numbers)
 
 

@@ -31,6 +31,7 @@ from decimal import Context, Decimal
 from fractions import Fraction
 
 from emulator.machine.result import Options
+from emulator.numbers.decimal import DecimalNumbers
 from modern.comparison.difference import NEAR, Disagreement, disagreement
 from modern.comparison.outcome import Outcome, from_card_hull, from_hull
 from modern.geometry.hull import ERROR, NOT_ACCEPTABLE, TABLE_FULL, Hull
@@ -83,7 +84,8 @@ def file_run(run: HullRun, judged: Judged, options: Options, runs: Runs) -> File
     if step is None:
         final = run.final
         hull = read_hull(final.result.punched)
-        points = held(judged, options.profile.rules) if options.numbers is None else judged.points
+        numbers = options.numbers
+        points = held(judged, numbers.profile.rules) if isinstance(numbers, DecimalNumbers) else judged.points
         outcome = from_card_hull(final.name, final.name, hull, points)
         return _judged(outcome, judged, hull)
     kind = step.result.ending.kind

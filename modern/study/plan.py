@@ -49,7 +49,7 @@ class Programs:
     epsilon: str = ""
     limit: int = DEFAULT_LIMIT
     core: int = DEFAULT_CORE
-    bounds: str = "strict"
+    bounds: Literal["strict", "core"] = "strict"
     measures: tuple[str, ...] = ()
 
 

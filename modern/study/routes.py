@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import cache
 
 from emulator.errors import EmulatorError
 from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import Program
 from emulator.machine.result import Options
-from emulator.numbers import DecimalNumbers, numbers
+from emulator.numbers import numbers
 from modern.edition import programs
 from modern.edition.apparatus import ApparatusError
 from modern.formats.deck import with_epsilon
@@ -35,10 +34,7 @@ def options_of(route: Programs) -> Options:
         found = numbers(route.arithmetic)
     except ValueError as error:
         raise PlanError(f"route {route.name}: {error}") from None
-    options = Options(core=route.core, bounds=route.bounds, limit=route.limit)
-    if isinstance(found, DecimalNumbers):
-        return replace(options, profile=found.profile)
-    return replace(options, numbers=found)
+    return Options(found, core=route.core, bounds=route.bounds, limit=route.limit)
 
 
 def programs_of(route: Programs) -> tuple[str, Load]:

@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from emulator.language.length import code_positions
-from emulator.language.objectcode import Program
+from emulator.language.objectcode import Program, code_positions
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 
 _SIZES: dict[int, Callable[[int], int]] = {

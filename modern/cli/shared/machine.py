@@ -7,7 +7,6 @@ import sys
 import textwrap
 from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 
 from emulator.files import write_text, writing
 from emulator.language.cards import Deck, read_deck
@@ -17,7 +16,7 @@ from emulator.machine.result import ERRORS, Options, Result
 from emulator.machine.timing import Row, measure
 from emulator.machine.trace import Tracer
 from emulator.numbers import DecimalNumbers, Numbers, numbers
-from emulator.numbers.arithmetic import TRUNCATING, Rules
+from emulator.numbers.arithmetic import Rules
 from emulator.numbers.base import cutting_rules
 from emulator.numbers.fields import FALLBACK
 from modern.cli.shared.console import UsageError, say
@@ -112,10 +111,7 @@ def machine_options(args: argparse.Namespace) -> Options:
     found = number_system(args.arithmetic, "--arithmetic")
     if args.limit < 1:
         raise UsageError(f"--limit: {args.limit} is no number of statements")
-    options = Options(TRUNCATING, frozenset(args.switch), args.core, args.bounds, args.limit)
-    if isinstance(found, DecimalNumbers):
-        return replace(options, profile=found.profile)
-    return replace(options, numbers=found)
+    return Options(found, frozenset(args.switch), args.core, args.bounds, args.limit)
 
 
 def number_system(name: str, option: str) -> Numbers:
@@ -128,7 +124,8 @@ def number_system(name: str, option: str) -> Numbers:
 
 def card_rules(options: Options) -> Rules:
     """How many digits of a card's field the machine takes: all of them where its numbers are not decimal."""
-    return options.profile.rules if options.numbers is None else cutting_rules(FALLBACK.width)
+    numbers = options.numbers
+    return numbers.profile.rules if isinstance(numbers, DecimalNumbers) else cutting_rules(FALLBACK.width)
 
 
 def put_out(args: argparse.Namespace, punched: Iterable[str], typed: Iterable[str]) -> None:
@@ -142,12 +139,12 @@ def put_out(args: argparse.Namespace, punched: Iterable[str], typed: Iterable[st
     write_text(args.punch, "".join(card + "\n" for card in punched))
 
 
-def say_warnings(program: Program, result: Result, said: Collection[str] = ()) -> None:
-    """A run's warnings, but for those said before, and its arithmetic's error codes."""
-    say(f"warning: {warning}" for warning in result.warnings if warning not in said)
-    for error, n in result.errors:
-        code = error.split()[0]
-        say([f"note: {program.source}: {error}: {ERRORS[code]}{f', {n} times' if n > 1 else ''}"])
+def say_notices(program: Program, result: Result, said: Collection[tuple[int, int]] = ()) -> None:
+    """What is to be noted of a run, but for fields (card and column) said before, and its arithmetic's error codes."""
+    say(f"warning: {n.message}" for n in result.notices if n.kind != "field" or (n.card, n.column) not in said)
+    for error in result.errors:
+        times = f", {error.times} times" if error.times > 1 else ""
+        say([f"note: {program.source}: {error.code} on card {error.card}: {ERRORS[error.code]}{times}"])
 
 
 @contextmanager

@@ -16,7 +16,7 @@ from emulator.language.compiler import translate
 from emulator.language.objectcode import Program
 from emulator.machine.machine import Machine
 from emulator.machine.result import Options
-from emulator.numbers.arithmetic import profile
+from emulator.numbers import numbers
 from tests.support.decks_at_random import ALL_FUNCTIONS, DATA, programs
 from tests.support.deckwork import agreed, program, source, within
 
@@ -34,7 +34,7 @@ PROFILES = [
 ]
 OPTIONS = st.builds(
     Options,
-    profile=st.sampled_from(PROFILES).map(profile),
+    numbers=st.sampled_from(PROFILES).map(numbers),
     switches=st.frozensets(st.integers(1, 4)),
     bounds=st.sampled_from(["strict", "core"]),
     limit=st.sampled_from([1, 2, 7, 300, 1_000, 1_001]),
@@ -140,7 +140,7 @@ def test_error_codes(name: str) -> None:
     """Counted, and typed where the profile does; F8 in the middle of a line, E3 and E7 of whole powers."""
     lines = ["A=1.E60", "B=A*A", "C=1./B/A/A", "Z=0.", "D=A/Z", "K=5/0", "X=Z**(-2)", "Y=A**3", "W=(-A)**3"]
     lines += ["V=1.E-99-1.1E-99", "PUNCH 1,A,B,C", "PUNCH 2,D,X", "1 FORMAT(F5.1,E14.8,E9.4)", "2 FORMAT(2E14.8)"]
-    assert alone([*lines, "END"], ["1"], options=Options(profile=profile(name))) == 1
+    assert alone([*lines, "END"], ["1"], options=Options(numbers=numbers(name))) == 1
 
 
 @pytest.mark.parametrize("name", PROFILES)
@@ -150,7 +150,7 @@ def test_roots_and_whole_powers(name: str) -> None:
         f" .{m:08d}E{e:+03d}{i:4d}" for m in (10000000, 12345678, 99999999) for e in (-98, 0, 3, 51) for i in (-3, 0, 2)
     ]
     assert alone([*lines, "END"], data, ["-.40000000E+01   3"], [".0              1"]) >= 2
-    assert alone([*lines, "END"], data, options=Options(profile=profile(name))) <= 1
+    assert alone([*lines, "END"], data, options=Options(numbers=numbers(name))) <= 1
 
 
 def test_endings() -> None:
@@ -245,7 +245,7 @@ def test_a_limit_wherever_it_falls() -> None:
     lines = ["A=1.E60", "1 B=A*A", "PUNCH 2,B,(A,I=1,2)", "GO TO 1", "2 FORMAT(F5.1/E14.8,3H E=/F9.2)", "END"]
     for name in ("truncating", "ibm1962"):
         for limit in range(40):
-            assert alone(lines, ["1"], options=Options(profile=profile(name), limit=limit)) == 1
+            assert alone(lines, ["1"], options=Options(numbers=numbers(name), limit=limit)) == 1
 
 
 def test_text_in_text_out() -> None:
@@ -253,7 +253,7 @@ def test_text_in_text_out() -> None:
     texts = [f"{card}\n{card}\n", card, f"{card}\r\n", f"{card}{' ' * 70}\n"]
     one = "A = .20000000E+01 .15000000E+01   12\n"
     assert list(punched(program(*COPY), texts)) == [one * 2, one, one, one]
-    assert list(punched(program(*COPY), texts, Options(profile=profile("truncating:20")))) == [one * 2, one, one, one]
+    assert list(punched(program(*COPY), texts, Options(numbers=numbers("truncating:20")))) == [one * 2, one, one, one]
 
 
 @pytest.mark.parametrize("text", ["", "lower case\n", "X" * 81 + "\n", "\N{EURO SIGN}\n", "A\tB\n"])

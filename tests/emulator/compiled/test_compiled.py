@@ -21,7 +21,7 @@ from emulator.compiled.batch import run_batch
 from emulator.language.cards import deck_from_lines
 from emulator.machine.machine import Machine
 from emulator.machine.result import Options
-from emulator.numbers import DecimalNumbers
+from emulator.numbers import numbers
 from emulator.numbers.arithmetic import profile
 from tests.support.deckwork import program
 
@@ -32,7 +32,7 @@ DECK = deck_from_lines("deck", ["  41"])
 def test_ten_digits_are_too_many() -> None:
     """Eighteen digits of a product fit into 64 bits, twenty do not; the plain engine runs, and one line says so."""
     notes: list[str] = []
-    options = Options(profile=profile("truncating:10"))
+    options = Options(numbers=numbers("truncating:10"))
     (result,) = run_batch(program(*LINES), [DECK], options, notes.append)
     assert result.punched == ("  42",)
     assert notes == ["truncating:10 has 10 digits, the compiled engine has at most 9: the plain engine runs instead"]
@@ -92,7 +92,7 @@ def test_kept_code_that_is_damaged(tmp_path: Path, monkeypatch: pytest.MonkeyPat
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (Options(numbers=DecimalNumbers(profile("truncating"))), "has no truncating numbers"),
+        (Options(numbers=numbers("float64")), "has no float64 numbers"),
         (Options(uncut=True), "keeps no numbers beside the cards"),
     ],
 )
@@ -164,7 +164,7 @@ def test_another_process_need_not_compile() -> None:
 
 def lists(of: Any) -> Any:
     """The arrays of a tuple as lists of Python's own integers."""
-    return type(of)(*(value.tolist() for value in of))
+    return type(of)(*(lists(value) if isinstance(value, tuple) else value.tolist() for value in of))
 
 
 @settings(max_examples=10)
@@ -174,7 +174,7 @@ def test_the_same_functions_run_as_python(number: int, name: str) -> None:
     pytest.importorskip("numba")
     from emulator.compiled.runner import Runner, packed
 
-    options = Options(profile=profile(name))
+    options = Options(numbers=numbers(name))
     lines = ["READ 1,I", "A=I", "A=SQRT(A*A+1.)/3.", "PUNCH 2,I,A", "1 FORMAT(I5)", "2 FORMAT(I5,E14.8)", "END"]
     deck = deck_from_lines("deck", [f"{number:5d}"])
     made = program(*lines)
@@ -189,7 +189,7 @@ def test_the_same_functions_run_as_python(number: int, name: str) -> None:
         unattended.Cards(list(columns), [0, 1]),
         lists(runner.core),
         report,
-        options.profile.rules,
+        profile(name).rules,
         runner.setting,
     )
     assert done == 1

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from emulator.language.formats import Field, Literal, Slash, Spec
+from emulator.language.formats import Literal, Slash, Spec
+from emulator.numbers.fields import Field
 from tests.support.deckwork import diagnostics, errors, program
 
 

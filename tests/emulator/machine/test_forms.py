@@ -88,14 +88,14 @@ def test_punch_is_cut_at_72_and_typewriter_at_87() -> None:
     result = run(*lines, "END")
     assert result.punched == ("A" * 40 + "B" * 32,)
     assert result.typed == ("A" * 40 + "B" * 40 + "C" * 7,)
-    assert [w.split(": ")[2] for w in result.warnings] == [
+    assert [w.split(": ")[2] for w in (n.message for n in result.notices)] == [
         "a record of 89 characters, cut at 72",
         "a record of 89 characters, cut at 87",
     ]
 
 
 def test_blanks_beyond_72_are_no_loss() -> None:
-    assert run("PUNCH 1", "1 FORMAT(3HABC,40X,40X)", "END").warnings == ()
+    assert run("PUNCH 1", "1 FORMAT(3HABC,40X,40X)", "END").notices == ()
 
 
 @pytest.mark.parametrize(("verb", "device"), [("PUNCH", "punch"), ("TYPE", "type"), ("PRINT", "type")])
@@ -121,10 +121,10 @@ def test_bad_field_on_the_second_card() -> None:
 def test_blank_field_is_zero_with_a_warning() -> None:
     result = run("READ 1,A,N", "PUNCH 1,A,N", "1 FORMAT(E14.8,I4)", "END", data=[""])
     assert result.punched == (" .00000000E-99   0",)
-    assert result.warnings == (
+    assert [notice.message for notice in result.notices] == [
         "data.cards: card 1, column 1: a blank field is read as zero",
         "data.cards: card 1, column 15: a blank field is read as zero",
-    )
+    ]
 
 
 def test_minus_zero_goes_in_and_out() -> None:

@@ -13,13 +13,13 @@ from emulator.language.compiler import translate
 from emulator.machine.machine import Machine
 from emulator.machine.result import Options, Result
 from emulator.machine.timing import measure
-from emulator.numbers.arithmetic import profile
+from emulator.numbers import numbers
 from tests.support.decks_at_random import ALL_FUNCTIONS, CARD, CARD_TEXT, DATA, programs, spoilt_programs
 from tests.support.deckwork import source, within
 
 OPTIONS = st.builds(
     Options,
-    profile=st.sampled_from(["truncating", "ibm1962", "truncating:2", "rounding:8", "rounding:28"]).map(profile),
+    numbers=st.sampled_from(["truncating", "ibm1962", "truncating:2", "rounding:8", "rounding:28"]).map(numbers),
     switches=st.frozensets(st.integers(1, 4)),
     core=st.sampled_from([20_000, 40_000, 60_000]),
     bounds=st.sampled_from(["strict", "core"]),
@@ -54,7 +54,7 @@ def judged(machine: Machine, result: Result, options: Options) -> str:
     assert result.statements <= options.limit
     assert bool(result.ending.message) == (not result.ending.normal)
     assert "\n" not in result.ending.message
-    assert len(machine.mantissas) == len(machine.exponents) == machine.program.storage.fields
+    assert len(machine.state.values) == len(machine.state.kinds) == machine.program.storage.fields
     assert measure(machine.program, result).seconds >= 0
     return result.ending.kind
 

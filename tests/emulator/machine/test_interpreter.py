@@ -1,14 +1,12 @@
-"""The object code over numbers of Python: against the decimal engine, between systems, and as a user sets it up."""
+"""The object code over numbers of every kind: between systems, and as a user sets it up."""
 
 from __future__ import annotations
 
 import io
 import re
-from dataclasses import replace
 
 import pytest
 from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from emulator.compiled.batch import run_batch
 from emulator.errors import EmulatorError
@@ -17,19 +15,9 @@ from emulator.language.compiler import translate
 from emulator.machine.machine import Machine
 from emulator.machine.result import Options, Result
 from emulator.machine.trace import Tracer
-from emulator.numbers import DecimalNumbers, numbers
-from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, profile
+from emulator.numbers import numbers
 from tests.support.decks_at_random import ALL_FUNCTIONS, DATA, programs
 from tests.support.deckwork import program, source, within
-
-PROFILES = st.sampled_from(["truncating", "ibm1962", "truncating:2", "truncating:20", "rounding:3", "rounding:28"])
-OPTIONS = st.builds(
-    Options,
-    profile=PROFILES.map(profile),
-    switches=st.frozensets(st.integers(1, 4)),
-    bounds=st.sampled_from(["strict", "core"]),
-    limit=st.sampled_from([0, 1, 30, 3_000]),
-)
 
 
 def ran(lines: list[str], data: list[str], options: Options) -> tuple[Result | str, Machine | None]:
@@ -48,23 +36,6 @@ def ran(lines: list[str], data: list[str], options: Options) -> tuple[Result | s
 def results(name: str, *lines: str, data: tuple[str, ...] = (), limit: int = 10_000) -> Result:
     options = Options(numbers=numbers(name), limit=limit)
     return Machine(program(*lines), deck_from_lines("data.cards", data), options).run()
-
-
-@settings(max_examples=60)
-@given(programs(ALL_FUNCTIONS, powers=True), DATA, OPTIONS)
-def test_decimal_numbers_run_as_the_decimal_engine_does(cards: list[str], data: list[str], options: Options) -> None:
-    """Every card, typed line, error code, warning, count and message; and every field of storage at the end."""
-    plain, first = ran(cards, data, options)
-    hosted, second = ran(cards, data, replace(options, numbers=DecimalNumbers(options.profile)))
-    assert hosted == plain
-    if first is not None and second is not None:
-        assert fields(second) == list(zip(first.mantissas, first.exponents, strict=True))
-        assert first.registers[4] == second.registers[4]
-
-
-def fields(machine: Machine) -> list[tuple[int, int]]:
-    pairs = zip(machine.mantissas, machine.exponents, strict=True)
-    return [(value, kind) if kind in (FIXED_POINT, UNDEFINED) else value for value, kind in pairs]
 
 
 @settings(max_examples=60)
@@ -97,7 +68,7 @@ def test_long_decimals_exactly(cards: list[str], data: list[str]) -> None:
         ran(whole, data, options)[0]
         for options in (
             Options(numbers=numbers("exact"), limit=200),
-            Options(profile=profile("truncating:28"), limit=200),
+            Options(numbers=numbers("truncating:28"), limit=200),
         )
     ]
     one, other = runs
@@ -218,7 +189,7 @@ def test_uncut_numbers_go_with_the_cards(name: str) -> None:
 
 
 def test_the_decimal_engine_keeps_numbers_uncut_as_well() -> None:
-    options = Options(profile=profile("truncating:12"), uncut=True)
+    options = Options(numbers=numbers("truncating:12"), uncut=True)
     made = program("A=1./3.", "PUNCH 1,A", "1 FORMAT(E14.8)", "END")
     result = Machine(made, deck_from_lines("d", []), options).run()
     assert result.uncut == (((1, 14, (333333333333, 0)),),)

@@ -9,7 +9,7 @@ import pytest
 from emulator.errors import CardError, DeckError
 from emulator.language.cards import deck_from_lines
 from emulator.machine.machine import Machine
-from emulator.machine.result import Ending, Options
+from emulator.machine.result import Ending, MachineError, Options
 from tests.support.deckwork import errors, machine, number, program, punched, run, source, within
 
 OUT = "PUNCH 90,K"
@@ -174,7 +174,9 @@ def test_pause_goes_on_with_a_warning() -> None:
     """OPEN-QUESTIONS 11."""
     result = run("7 PAUSE", "K=5", OUT, F, "END")
     assert result.punched == ("   5",)
-    assert result.warnings == ("deck.f: PAUSE at statement 7 (card 1): the operator presses START",)
+    assert [notice.message for notice in result.notices] == [
+        "deck.f: PAUSE at statement 7 (card 1): the operator presses START"
+    ]
 
 
 # Lists.
@@ -317,7 +319,7 @@ def test_error_codes_are_typed_by_ibm1962_only_and_counted_by_statement() -> Non
     loud, silent = run(*lines, arithmetic="ibm1962"), run(*lines)
     assert loud.typed == ("ERROR E7", "ERROR E7", "ERROR E7", "ERROR E3")
     assert silent.typed == ()
-    assert loud.errors == silent.errors == (("E3 on card 3", 1), ("E7 on card 2", 3))
+    assert loud.errors == silent.errors == (MachineError("E3", 3, 1), MachineError("E7", 2, 3))
 
 
 def test_a_field_too_small_types_f8_under_ibm1962() -> None:

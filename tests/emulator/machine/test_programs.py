@@ -10,7 +10,7 @@ import pytest
 from emulator.language.cards import deck_from_lines, read_deck
 from emulator.language.compiler import translate
 from emulator.machine.result import Options, Result
-from emulator.numbers.arithmetic import profile
+from emulator.numbers import numbers
 from tests.support.deckwork import MakeMachine
 from tests.support.paths import PROGRAMS
 
@@ -23,7 +23,7 @@ def job(
     made, messages = translate(read_deck(str(PROGRAMS / f"{name}.f")))
     assert made is not None, messages
     assert messages == ()
-    options = Options(profile=profile(arithmetic), switches=frozenset(on), limit=100_000)
+    options = Options(numbers=numbers(arithmetic), switches=frozenset(on), limit=100_000)
     return engines(made, deck_from_lines("data", data), options).run()
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from emulator.language import objectcode as op
-from emulator.language.length import code_positions
+from emulator.language.objectcode import code_positions
 from emulator.machine.timing import (
     COSTS,
     FIELD_COSTS,

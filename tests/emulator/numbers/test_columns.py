@@ -12,9 +12,8 @@ from decimal import Decimal
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from emulator.language.formats import Field
 from emulator.numbers.arithmetic import MINUS_ZERO, ZERO, profile
-from emulator.numbers.fields import FieldError, read_fixed, read_floating, write_fixed, write_floating
+from emulator.numbers.fields import Field, FieldError, read_fixed, read_floating, write_fixed, write_floating
 
 FLOATING = re.compile(r"([+-]?)(\d*)(?:(\.)(\d*))?(?:E([+-]?)(\d+)|([+-])(\d+))?")
 FIXED = re.compile(r"([+-]?)(\d+)")

@@ -8,9 +8,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from emulator.language.formats import Field
 from emulator.numbers.arithmetic import MINUS_ZERO, TRUNCATING, UNDEFINED, ZERO, profile
-from emulator.numbers.fields import FieldError, parse_constant, read_fixed, read_floating, write_fixed, write_floating
+from emulator.numbers.fields import (
+    Field,
+    FieldError,
+    parse_constant,
+    read_fixed,
+    read_floating,
+    write_fixed,
+    write_floating,
+)
 
 RULES = TRUNCATING.rules
 E14 = Field("E", 14, 8)

@@ -14,11 +14,10 @@ from hypothesis import strategies as st
 from mpmath import MPContext
 
 from emulator.language.cards import deck_from_lines
-from emulator.language.formats import Field
 from emulator.machine.machine import Machine
-from emulator.machine.result import Options, Result
+from emulator.machine.result import MachineError, Options, Result
 from emulator.numbers import Trap, Undecided, numbers
-from emulator.numbers.fields import FALLBACK
+from emulator.numbers.fields import FALLBACK, Field
 from emulator.numbers.roots import MAX_ROOTS, RootSum, square_root
 from tests.support.deckwork import program
 
@@ -101,7 +100,7 @@ def test_a_number_of_many_bits_is_written_as_it_was_read(x: float, bits: int) ->
 def test_overflow_is_an_infinity_noted_with_the_machines_code() -> None:
     result = run("float64", "A=1.E90", "B=A*A*A*A", "K=1", "IF(B)1,1,2", "1 STOP", "2 PUNCH 3,K", "3 FORMAT(I2)")
     assert result.punched == (" 1",)
-    assert result.errors == (("E3 on card 2", 1),)
+    assert result.errors == (MachineError("E3", 2, 1),)
 
 
 @pytest.mark.parametrize(
@@ -131,7 +130,7 @@ def test_codes_of_binary_numbers(name: str, statement: str, code: str) -> None:
     if name == "float32":
         statement = statement.replace("A*A*A*8.E37", "A*30.").replace("A*A*A/", "A/")
     result = run(name, start, *statement.split(" $"))
-    assert [error.split()[0] for error, _ in result.errors][-1:] == [code]
+    assert [error.code for error in result.errors][-1:] == [code]
     assert result.ending.kind == "end"
 
 
@@ -357,12 +356,12 @@ def test_an_infinity_is_no_whole_number(name: str) -> None:
 )
 def test_codes_of_many_bits(statement: str, code: str) -> None:
     result = run("mp:70", "Z=0.", statement)
-    assert [error.split()[0] for error, _ in result.errors][-1:] == [code]
+    assert [error.code for error in result.errors][-1:] == [code]
 
 
 def test_many_bits_have_a_range_too() -> None:
     result = run("mp:20", "A=3.", "DO 5 I=1,40", "5 A=A*A", "B=1.", "C=B/3.", "DO 6 I=1,40", "6 C=C*C")
-    assert {error.split()[0] for error, _ in result.errors} == {"E3", "E4"}
+    assert {error.code for error in result.errors} == {"E3", "E4"}
 
 
 def test_a_root_of_a_negative_number_is_that_of_its_size() -> None:
@@ -373,7 +372,7 @@ def test_a_root_of_a_negative_number_is_that_of_its_size() -> None:
 def test_a_blank_field_and_blanks_warn_as_in_the_decimal_engine() -> None:
     result = run("exact", "READ 1,A,B", "PUNCH 1,A,B", "1 FORMAT(2E14.8)", data=("",))
     assert result.punched == (" .00000000E-99 .00000000E-99",)
-    assert any("a blank field is read as zero" in warning for warning in result.warnings)
+    assert any("a blank field is read as zero" in notice.message for notice in result.notices)
 
 
 def test_an_undecided_sum_is_not_written_wrong() -> None:

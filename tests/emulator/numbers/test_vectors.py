@@ -10,14 +10,14 @@ import pytest
 from emulator.language.cards import deck_from_lines
 from emulator.machine.machine import Machine
 from emulator.machine.result import Options
-from emulator.numbers.arithmetic import profile
+from emulator.numbers import numbers
 from tests.support.deckwork import MakeMachine, number, program
 from tests.support.vectorfile import Vector, load
 
 
 def started(engines: MakeMachine, vector: Vector, lines: list[str], data: tuple[str, ...] = ()) -> Machine:
     return engines(
-        program(*lines), deck_from_lines("data", data), Options(profile=profile(vector.profile), limit=9_999)
+        program(*lines), deck_from_lines("data", data), Options(numbers=numbers(vector.profile), limit=9_999)
     )
 
 
@@ -29,7 +29,7 @@ def check_value(engines: MakeMachine, vector: Vector, field: str) -> None:
     result = started(engines, vector, lines).run()
     assert result.ending.kind == "end"
     assert [card.strip() for card in result.punched] == [expected]
-    assert [error.split()[0] for error, _ in result.errors] == ([code] if code else [])
+    assert [error.code for error in result.errors] == ([code] if code else [])
     typed = (f"ERROR {code}",) if code and vector.profile == "ibm1962" else ()
     assert result.typed == typed
 

@@ -15,7 +15,7 @@ import pytest
 from emulator.language.cards import Deck, deck_from_lines
 from emulator.language.objectcode import Program
 from emulator.machine.result import Options
-from emulator.numbers.arithmetic import profile
+from emulator.numbers import numbers
 from modern.edition import programs
 from modern.formats.deck import coordinate_field
 from modern.geometry.hull import DETERMINED, ERROR, NOT_ACCEPTABLE, TABLE_FULL
@@ -112,7 +112,7 @@ def run(cards: Deck, arithmetic: str, *layers: str) -> HullRun:
         present = {row.layer for row in programs.text(programs.built_in(name).text).rows}
         return programs.program(name, tuple(layer for layer in layers if layer in present))
 
-    return run_hull(cards, load, Options(profile=profile(arithmetic), core=CORE, limit=3_000_000))
+    return run_hull(cards, load, Options(numbers=numbers(arithmetic), core=CORE, limit=3_000_000))
 
 
 @pytest.mark.parametrize("arithmetic", ["truncating", "truncating:4", "ibm1962", "guarded:5", "rounding:5"])

@@ -42,7 +42,7 @@ def _finished(plan: Plan, folder: Path, module: object) -> Report:
 def _table_places(machine: Machine) -> int:
     """The greatest index of program 3's array A that anything was stored in."""
     storage = machine.program.storage
-    names = [storage.name_of(a) for a in range(storage.fields) if machine.exponents[a] != UNDEFINED]
+    names = [storage.name_of(a) for a in range(storage.fields) if machine.state.kinds[a] != UNDEFINED]
     return max(int(name[2:-1]) for name in names if re.fullmatch(r"A\(\d+\)", name))
 
 

@@ -20,7 +20,7 @@ from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import Program
 from emulator.machine.machine import Machine
 from emulator.machine.result import Options, Result
-from emulator.numbers.arithmetic import profile
+from emulator.numbers import numbers
 from modern.edition import chapter6, programs
 from modern.edition.grounds import ground_deck
 from modern.thesis.job import COPLANAR, NOT_COPLANAR
@@ -36,9 +36,9 @@ SETTINGS = [
     Options(core=60_000, limit=60_000),
     Options(core=60_000, limit=60_000, bounds="core"),
     Options(core=60_000, limit=2_500, switches=frozenset({1})),
-    Options(core=60_000, limit=60_000, profile=profile("ibm1962")),
-    Options(core=60_000, limit=60_000, profile=profile("rounding:9")),
-    Options(core=60_000, limit=60_000, profile=profile("truncating:4")),
+    Options(core=60_000, limit=60_000, numbers=numbers("ibm1962")),
+    Options(core=60_000, limit=60_000, numbers=numbers("rounding:9")),
+    Options(core=60_000, limit=60_000, numbers=numbers("truncating:4")),
 ]
 
 
@@ -127,7 +127,7 @@ def test_bad_cards_in_the_middle_of_a_batch() -> None:
     data = [deck_from_lines(f"deck {n}", lines) for n, lines in enumerate([good, *bad, good])]
     results = both(programs.program("program1"), data, Options())
     assert sum(isinstance(r, str) for r in results) == 5
-    assert any(isinstance(r, Result) and r.warnings for r in results)
+    assert any(isinstance(r, Result) and r.notices for r in results)
 
 
 def test_the_compiled_engine_runs_ordinary_decks_by_itself() -> None:

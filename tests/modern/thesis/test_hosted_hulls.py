@@ -11,8 +11,7 @@ import pytest
 
 from emulator.language.cards import Deck, deck_from_lines, read_deck
 from emulator.machine.divergence import diverge
-from emulator.machine.result import Options
-from emulator.numbers import DecimalNumbers, numbers
+from emulator.numbers import numbers
 from modern.comparison.difference import disagreement
 from modern.comparison.outcome import Vector, from_cards, from_judge
 from modern.edition import chapter6, programs
@@ -28,23 +27,12 @@ DECIMAL = {"18_dec3_n6", "23_dec2_n15"}
 
 
 def hull(deck: Deck, name: str = "", layers: tuple[str, ...] = (), uncut: bool = False) -> HullRun:
-    options = replace(OPTIONS, limit=60_000, uncut=uncut, numbers=numbers(name) if name else None)
+    options = replace(OPTIONS, limit=60_000, uncut=uncut, numbers=numbers(name or "truncating"))
     return run_hull(deck, lambda program: programs.with_layers(program, layers), options)
 
 
 def deck_of_folder(folder: Path) -> Deck:
     return read_deck(str(folder / "deck.cards"))
-
-
-@pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
-@pytest.mark.parametrize("profile", ["truncating", "ibm1962"])
-def test_decimal_numbers_give_every_result_of_the_engine(folder: Path, profile: str) -> None:
-    found = numbers(profile)
-    assert isinstance(found, DecimalNumbers)
-    options = Options(profile=found.profile, limit=20_000)
-    plain = run_hull(deck_of_folder(folder), programs.program, options)
-    hosted = run_hull(deck_of_folder(folder), programs.program, replace(options, numbers=found))
-    assert hosted.steps == plain.steps
 
 
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
