@@ -11,7 +11,6 @@ from modern.study.registry import entries, names, study
 from modern.study.report import spoken
 from modern.study.run import run_study
 from modern.study.tomlplan import is_plan_file, read_plan
-from modern.study.words import count
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
@@ -34,8 +33,7 @@ def main(args: argparse.Namespace) -> int:
     if args.list:
         for entry in entries():
             print(f"{entry.name:<14} {entry.title}")
-            sets = f"{count(entry.sets, 'set')} in {count(entry.cells, 'cell')}"
-            print(f"{'':<14} --samples {entry.samples} (default): {sets}")
+            print(f"{'':<14} --samples {entry.samples} (default): sets {entry.sets:,}, cells {entry.cells}")
         return OK
     if args.name is None:
         raise PlanError(f"which study? There are {', '.join(names())}, or a plan file; --list says what they are")

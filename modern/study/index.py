@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import json
 import sqlite3
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
+from typing import NotRequired, TypedDict
 
-from modern.study.files import StudyFileError
+from modern.study.plan import StudyFileError
 
 NAME = "index.sqlite"
 _SCHEMA = """
@@ -27,7 +27,28 @@ CREATE TABLE IF NOT EXISTS runs (
     PRIMARY KEY (cell, place, route)
 ) WITHOUT ROWID;
 """
-_COLUMNS = ("n", "dimension", "vertices", "planes", "boundary", "inside")
+JUDGE = ("n", "dimension", "vertices", "planes", "boundary", "inside")
+"""What the judge says of a sample's size and of its hull's."""
+
+
+class RouteRow(TypedDict):
+    """One route's answer to a sample, in a row."""
+
+    outcome: str
+    detail: str
+    figures: dict[str, int | str]
+
+
+class Row(TypedDict):
+    """A line of a file of rows: a sample, what the judge says of it, and each route's answer by its name."""
+
+    cell: int
+    index: int
+    seed: str
+    tags: NotRequired[dict[str, int | str]]
+    deck: list[str]
+    judge: dict[str, int]
+    runs: dict[str, RouteRow]
 
 
 def open_index(folder: Path) -> sqlite3.Connection:
@@ -46,7 +67,8 @@ def open_index(folder: Path) -> sqlite3.Connection:
                 old.unlink()
             return _opened(path)
     except sqlite3.Error as error:
-        words = "another run is at work in this folder" if "locked" in str(error) else str(error)
+        busy = error.sqlite_errorcode in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED)
+        words = "another run is at work in this folder" if busy else str(error)
         raise StudyFileError(f"{path}: {words}") from None
     except OSError as error:
         raise StudyFileError(f"{path}: {(error.strerror or str(error)).lower()}") from None
@@ -83,13 +105,13 @@ def clear(index: sqlite3.Connection) -> None:
     index.execute("COMMIT")
 
 
-def enter(index: sqlite3.Connection, name: str, rows: Iterable[Mapping[str, Any]]) -> None:
+def enter(index: sqlite3.Connection, name: str, rows: Iterable[Row]) -> None:
     """Put a chunk's rows in, all or none.  Raises StudyFileError."""
     samples, runs = [], []
     for row in rows:
         key = (row["cell"], row["index"])
         tags = json.dumps(row.get("tags", {}), sort_keys=True)
-        samples.append((*key, *(row["judge"][column] for column in _COLUMNS), tags))
+        samples.append((*key, *(row["judge"][column] for column in JUDGE), tags))
         runs += [
             (*key, route, run["outcome"], run["detail"], json.dumps(run["figures"], sort_keys=True))
             for route, run in row["runs"].items()

@@ -10,9 +10,9 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from modern.study.files import StudyFileError, put
-from modern.study.plan import Plan, Programs
+from modern.study.plan import Plan, Programs, StudyFileError
 from modern.study.routes import programs_of
+from modern.study.store import put
 
 NAME = "manifest.json"
 _PACKAGES = ("hull1620", "numpy", "numba")

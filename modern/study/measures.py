@@ -13,25 +13,23 @@ from decimal import Decimal
 from importlib import import_module
 from itertools import pairwise
 
-from emulator.language.cards import deck_from_lines
 from emulator.machine.divergence import diverge
 from emulator.machine.result import Options
 from emulator.machine.timing import measure
 from emulator.numbers import numbers
 from modern.geometry.hull import Hull
-from modern.study.causes import place
-from modern.study.filing import Figures
-from modern.study.judged import Judged
+from modern.study.outcomes import Figures, place
 from modern.study.plan import PlanError
+from modern.study.sample import Sample
 from modern.thesis.cards import planes_hold, read_intermediate
 from modern.thesis.job import HullRun
 
 Run = HullRun | Hull
-Measure = Callable[[Judged, Run], Figures]
+Measure = Callable[[Sample, Run], Figures]
 _MILLISECOND = Decimal("0.001")
 
 
-def machine_time(judged: Judged, run: Run) -> Figures:
+def machine_time(sample: Sample, run: Run) -> Figures:
     """Seconds on a 1620 of all programs run, processor, reader, punch and typewriter apart
     (emulator/machine/timing.py)."""
     if not isinstance(run, HullRun):
@@ -43,7 +41,7 @@ def machine_time(judged: Judged, run: Run) -> Figures:
     return {f"seconds_{name}": str(Decimal(value).quantize(_MILLISECOND)) for name, value in seconds.items()}
 
 
-def operations(judged: Judged, run: Run) -> Figures:
+def operations(sample: Sample, run: Run) -> Figures:
     """Floating-point operations of all programs run: additions (and subtractions), products, quotients."""
     if not isinstance(run, HullRun):
         return {}
@@ -57,7 +55,7 @@ def operations(judged: Judged, run: Run) -> Figures:
     }
 
 
-def plane_table(judged: Judged, run: Run) -> Figures:
+def plane_table(sample: Sample, run: Run) -> Figures:
     """The most places of program 3's table of planes in use at once; of a port's run with its history.
 
     Three planes are put behind the others before the one they replace is struck, so a stage that begins with L planes
@@ -70,7 +68,7 @@ def plane_table(judged: Judged, run: Run) -> Figures:
     return {"planes_at_once": max(grown, default=len(stages[0].equations))}
 
 
-def divergence(judged: Judged, run: Run) -> Figures:
+def divergence(sample: Sample, run: Run) -> Figures:
     """Where a run in the programs' own arithmetic first decides otherwise than exact numbers would, on its cards.
 
     ``diverges`` is program and statement; ``cards to program3`` where no decision of program 1 differs but a plane it
@@ -81,16 +79,13 @@ def divergence(judged: Judged, run: Run) -> Figures:
         return {}
     studied, exact = numbers("truncating"), numbers("exact")
     for step in run.steps:
-        cards = [event.text for event in step.result.events if event.what == "read"]
-        middle = read_intermediate(cards) if step is not run.steps[0] else None
+        middle = read_intermediate([card.text for card in step.deck.cards]) if step is not run.steps[0] else None
         if middle is not None and not planes_hold(middle):
             return {"diverges": f"cards to {step.name}"}
-        deck = deck_from_lines(step.name, cards)
         options = Options(core=60_000, limit=step.result.statements + 1)
-        found = diverge(step.program, deck, studied, exact, options, values=False)
+        found = diverge(step.program, step.deck, studied, exact, options, values=False)
         if found.first_decision is not None:
-            index = step.program.statements.index(found.first_decision.line)
-            return {"diverges": f"{step.name} {place(step.program, index)}"}
+            return {"diverges": f"{step.name} {place(step.program, found.first_decision.line)}"}
         if found.apart:
             return {"diverges": "", "undecided": found.apart}
     return {"diverges": ""}

@@ -28,6 +28,10 @@ class PlanError(EmulatorError):
     """A study that cannot be carried out as it is written; one line."""
 
 
+class StudyFileError(PlanError):
+    """A file of a study that cannot be written or read; one line that says what to do."""
+
+
 @dataclass(frozen=True, slots=True)
 class Programs:
     """A route through the emulated programs: program 1, then 2 or 3 as it types.

@@ -10,9 +10,9 @@ import io
 from pathlib import Path
 from typing import Any
 
-from modern.study.charts import Bars, Chart, Lines, Series
-from modern.study.files import put
 from modern.study.plan import PlanError
+from modern.study.report import Bars, Chart, Lines, Series
+from modern.study.store import put
 
 GREYS = ("0.5", "0.8", "0.95", "0.65", "0.88", "0.35")
 """Of bars: light enough that the interval shows on them."""

@@ -1,19 +1,159 @@
-"""What a study ends in: tables, charts, a paragraph of plain words; and the files they are written to."""
+"""What a study ends in: tables, charts and a few sentences, as data; the texts and files they become."""
 
 from __future__ import annotations
 
+import csv
+import io
 import textwrap
-from collections import Counter
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from math import isinf
 from pathlib import Path
 
-from modern.study.charts import Bars, Chart, Place, Series
-from modern.study.files import put
-from modern.study.filing import DETERMINED, OUTCOMES
 from modern.study.plan import Plan
 from modern.study.statistics import Interval, wilson
-from modern.study.store import Store
-from modern.study.tables import Table, percent
+from modern.study.store import Store, put
+from modern.study.summary import summary
+
+_NUMERIC = frozenset("0123456789.+-%eE to(),")
+INTERVALS = ("In brackets: 95 % intervals, of proportions by Wilson's formula.",)
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Named columns and rows of text; ``name`` is its file's (``table`` for the main one), ``notes`` stand below."""
+
+    name: str
+    title: str
+    head: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    notes: tuple[str, ...] = ()
+
+    def text(self) -> str:
+        """Aligned columns, numbers to the right."""
+        widths = [max(len(row[k]) for row in (self.head, *self.rows)) for k in range(len(self.head))]
+        right = self._right()
+        lines = [
+            "  ".join(
+                cell.rjust(width) if aside else cell.ljust(width)
+                for cell, width, aside in zip(row, widths, right, strict=True)
+            ).rstrip()
+            for row in (self.head, *self.rows)
+        ]
+        return "\n".join([self.title, *lines, *self.notes]) + "\n"
+
+    def csv(self) -> str:
+        """The rows under their heads; no title, no notes."""
+        file = io.StringIO()
+        csv.writer(file, lineterminator="\n").writerows([self.head, *self.rows])
+        return file.getvalue()
+
+    def markdown(self) -> str:
+        """A table of Markdown under its title in bold."""
+        rule = ["--:" if aside else ":--" for aside in self._right()]
+        lines = ["| " + " | ".join(c.replace("|", "\\|") for c in row) + " |" for row in (self.head, rule, *self.rows)]
+        return "\n".join([f"**{self.title}**", "", *lines, *(f"\n{note}" for note in self.notes)]) + "\n"
+
+    def _right(self) -> list[bool]:
+        return [
+            any(row[k] for row in self.rows) and all(set(row[k]) <= _NUMERIC for row in self.rows)
+            for k in range(len(self.head))
+        ]
+
+
+def percent(share: Interval) -> str:
+    """A proportion with its interval, in percent: ``2.9 (0.8 to 9.8) %``."""
+    digits = 1 if share.high >= 0.1 else 2 if share.high >= 0.01 else 3
+    return f"{100 * share.value:.{digits}f} ({100 * share.low:.{digits}f} to {100 * share.high:.{digits}f}) %"
+
+
+def with_interval(estimate: Interval, digits: int = 2) -> str:
+    """An estimate with its interval: ``1.43 (1.38 to 1.48)``; of one value alone, which has none, the value."""
+    if isinf(estimate.high):
+        return f"{estimate.value:.{digits}f}"
+    return f"{estimate.value:.{digits}f} ({estimate.low:.{digits}f} to {estimate.high:.{digits}f})"
+
+
+Place = str | float
+
+
+def share_of(hits: int, of: int, interval: Callable[[int, int], Interval] = wilson) -> str:
+    """A count of a total, with the proportion: ``3 of 40, 7.5 (2.6 to 19.9) %``; of none, ``0 of 0``."""
+    return f"{hits:,} of {of:,}" + (f", {percent(interval(hits, of))}" if of else "")
+
+
+def listed(items: Iterable[object]) -> str:
+    """``a; b; c``; ``none`` where there are no items."""
+    return "; ".join(map(str, items)) or "none"
+
+
+def powers(exponents: Iterable[int]) -> str:
+    """Powers of ten by their exponents, which rise: ``10^-6 to 10^-3, 10^1``; ``none`` where there are none."""
+    runs: list[tuple[int, int]] = []
+    for number in exponents:
+        if runs and runs[-1][1] + 1 == number:
+            runs[-1] = runs[-1][0], number
+        else:
+            runs.append((number, number))
+    return ", ".join(f"10^{a}" if a == b else f"10^{a} to 10^{b}" for a, b in runs) or "none"
+
+
+@dataclass(frozen=True, slots=True)
+class Series:
+    """Values with intervals over places: names of bars, or numbers on the axis of x."""
+
+    name: str
+    points: tuple[tuple[Place, Interval], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """A value to compare with: a line across the chart at x (``upright``) or at y, with its words.
+
+    The words of a level line stand at its right end, or with ``left`` at the other, where nothing is drawn.
+    """
+
+    at: float
+    words: str
+    upright: bool = False
+    left: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Bars:
+    """Bars side by side over named places.
+
+    name: the file's.  x and y: the axes' words, with units.  percent: values are proportions, shown in percent.
+    marks: values to compare with; ``at`` of an upright one counts the places from 0.
+    """
+
+    name: str
+    title: str
+    x: str
+    y: str
+    series: tuple[Series, ...]
+    percent: bool = False
+    marks: tuple[Mark, ...] = field(default=())
+    note: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Lines:
+    """Values over numbers, joined by lines, intervals as bars; either axis may be logarithmic."""
+
+    name: str
+    title: str
+    x: str
+    y: str
+    series: tuple[Series, ...]
+    percent: bool = False
+    log_x: bool = False
+    log_y: bool = False
+    marks: tuple[Mark, ...] = field(default=())
+    note: str = ""
+
+
+Chart = Bars | Lines
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,24 +171,16 @@ class Report:
 
 def outcome_report(plan: Plan, store: Store) -> Report:
     """The report of a study that brings none of its own: how often each outcome, by cell and route."""
-    counts = store.counts("cell", "route", "outcome")
-    totals: Counter[tuple[int, str]] = Counter()
-    for (cell, route, _), n in counts.items():
-        totals[cell, route] += n
-    seen = [outcome for outcome in OUTCOMES if any(key[2] == outcome for key in counts)]
+    found = summary(store)
+    seen = found.seen()
     rows: list[tuple[str, ...]] = []
     series: dict[str, list[tuple[Place, Interval]]] = {}
-    words: list[str] = []
     for number, cell in enumerate(plan.cells):
         for route in cell.routes:
-            of = totals[number, route.name]
-            found = sum(counts.get((number, route.name, outcome), 0) for outcome in DETERMINED)
-            share = wilson(found, of)
-            each = [str(counts.get((number, route.name, outcome), 0)) for outcome in seen]
-            rows.append((cell.name, route.name, str(of), *each, percent(share)))
+            share = found.share(number, route.name)
+            each = [str(found.hits(number, route.name, (outcome,))) for outcome in seen]
+            rows.append((cell.name, route.name, str(found.of(number, route.name)), *each, percent(share)))
             series.setdefault(route.name, []).append((cell.name or "all", share))
-            where = f"{cell.name}, " if cell.name else ""
-            words.append(f"{where}{route.name}: the hull was found for {found} of {of} sets, {percent(share)}.")
     table = Table("table", plan.title, ("cell", "route", "sets", *seen, "hull found"), tuple(rows), INTERVALS)
     chart = Bars(
         "outcomes",
@@ -58,10 +190,7 @@ def outcome_report(plan: Plan, store: Store) -> Report:
         tuple(Series(name, tuple(points)) for name, points in series.items()),
         percent=True,
     )
-    return Report((table,), (chart,), (" ".join(words),))
-
-
-INTERVALS = ("In brackets: 95 % intervals, of proportions by Wilson's formula.",)
+    return Report((table,), (chart,), ())
 
 
 def write_report(folder: Path, plan: Plan, report: Report, plotted: bool) -> None:

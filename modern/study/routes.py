@@ -1,4 +1,4 @@
-"""A route carried out: a chunk's samples through the programs or the port, each filed."""
+"""A route carried out: a chunk's samples through the programs or the port, each answer."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from modern.edition.apparatus import ApparatusError
 from modern.formats.deck import with_epsilon
 from modern.geometry.hull import Hull
 from modern.port import RangeError, convex_hull
-from modern.study.filing import OTHERWISE, Figures, Filed, file_hull, file_run
-from modern.study.judged import Judged
 from modern.study.measures import measure_of
+from modern.study.outcomes import OTHERWISE, Answer, Figures, answer_of_hull, answer_of_run
 from modern.study.plan import PlanError, Port, Programs, Route
+from modern.study.sample import Sample
 from modern.thesis.batch import Runs, run_hulls
 from modern.thesis.job import HullRun, Load
 
 
-def carry_out(route: Route, samples: Sequence[Judged], runs: Runs) -> list[Filed]:
+def carry_out(route: Route, samples: Sequence[Sample], runs: Runs) -> list[Answer]:
     """Each sample through the route.  ``runs`` carries runs over to the other routes of the same samples."""
     return _programs(route, samples, runs) if isinstance(route, Programs) else [_port(route, one) for one in samples]
 
@@ -70,36 +70,36 @@ def _program(name: str, layers: tuple[str, ...], rows: tuple[str, ...]) -> Progr
         raise PlanError(f"rows {', '.join(rows)} of {name} do not stand without others: {error}") from None
 
 
-def _programs(route: Programs, samples: Sequence[Judged], runs: Runs) -> list[Filed]:
+def _programs(route: Programs, samples: Sequence[Sample], runs: Runs) -> list[Answer]:
     options, (first, load) = options_of(route), programs_of(route)
     data = [with_epsilon(one.deck, route.epsilon) if route.epsilon else one.deck for one in samples]
     found = []
     for one, run in zip(samples, run_hulls(data, load, options, first, runs), strict=True):
         if isinstance(run, EmulatorError):
-            found.append(Filed(OTHERWISE, str(run)))
+            found.append(Answer(OTHERWISE, str(run)))
             continue
-        filed = file_run(run, one, options, runs)
+        answer = answer_of_run(run, one, options)
         statements = sum(step.result.statements for step in run.steps)
-        found.append(_with(filed, {"statements": statements, **_measured(route, one, run)}))
+        found.append(_with(answer, {"statements": statements, **_measured(route, one, run)}))
     return found
 
 
-def _port(route: Port, one: Judged) -> Filed:
+def _port(route: Port, one: Sample) -> Answer:
     try:
         hull = convex_hull(
             one.drawn.points, route.arithmetic, route.epsilon or None, route.translate, history=route.history
         )
     except RangeError as error:
-        return Filed(OTHERWISE, str(error))
-    return _with(file_hull(hull, one), _measured(route, one, hull))
+        return Answer(OTHERWISE, str(error))
+    return _with(answer_of_hull(hull, one), _measured(route, one, hull))
 
 
-def _measured(route: Route, one: Judged, run: HullRun | Hull) -> Figures:
+def _measured(route: Route, one: Sample, run: HullRun | Hull) -> Figures:
     figures: dict[str, int | str] = {}
     for name in route.measures:
         figures.update(measure_of(name)(one, run))
     return figures
 
 
-def _with(filed: Filed, figures: Figures) -> Filed:
-    return Filed(filed.outcome, filed.detail, {**filed.figures, **figures}, filed.order)
+def _with(answer: Answer, figures: Figures) -> Answer:
+    return Answer(answer.outcome, answer.detail, {**answer.figures, **figures}, answer.order)

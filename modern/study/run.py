@@ -1,25 +1,32 @@
-"""A study from plan to report, in a folder: begun, interrupted, resumed, finished."""
+"""A study from plan to report, in a folder: checked, begun, interrupted, resumed, finished."""
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import ExitStack, closing
 from pathlib import Path
 from typing import Any
 
 from emulator.compiled.engine import why_plain
-from modern.study.check import check_plan
-from modern.study.dasked import carry_out_on_dask, connect
-from modern.study.files import BESIDE, StudyFileError
+from emulator.language.cards import deck_from_lines
+from emulator.machine.machine import Machine
+from modern.edition import programs
+from modern.formats.deck import coordinate_field
+from modern.port import convex_hull
+from modern.study.families import draw_sample
 from modern.study.manifest import NAME, differences, manifest, read_manifest, versions, write_manifest
-from modern.study.plan import Plan, Programs
+from modern.study.measures import measure_of
+from modern.study.plan import Cell, Plan, PlanError, Programs, Route, StudyFileError
 from modern.study.plots import can_plot, draw
 from modern.study.progress import Progress
 from modern.study.report import Report, outcome_report, write_report
-from modern.study.routes import options_of
-from modern.study.runner import carry_out, processes
-from modern.study.store import Store
+from modern.study.routes import options_of, programs_of
+from modern.study.store import BESIDE, Store
+from modern.study.workers import connect, in_processes, on_cluster, processes
+
+MOST_FILES = 1_000_000
+"""Files of rows a study may have: their names are held in memory while it runs."""
 
 Reporter = Callable[[Plan, Store], Report]
 
@@ -82,7 +89,7 @@ def _complete(plan: Plan, store: Store, client: Any, workers: int, quiet: bool) 
     missing = store.missing()
     left = sum(chunk.stop - chunk.start for chunk in missing)
     progress = Progress(plan.samples, plan.samples - left, quiet=quiet)
-    done = carry_out_on_dask(plan, missing, client) if client else carry_out(plan, missing, workers)
+    done = on_cluster(plan, missing, client) if client else in_processes(plan, missing, workers)
     try:
         with closing(done):
             for chunk, text in done:
@@ -114,3 +121,67 @@ def _begin(plan: Plan, folder: Path, resume: bool, command: Sequence[str]) -> di
         raise StudyFileError(f"{folder}: {(error.strerror or str(error)).lower()}") from None
     write_manifest(folder, here)
     return here
+
+
+def check_plan(plan: Plan) -> None:
+    """Look through a plan before it is begun.  Raises PlanError (or FamilyError), one line, for what is wrong."""
+    if not plan.name or not plan.name.replace("-", "").replace("_", "").isalnum():
+        raise PlanError(f"a study's name is letters, digits, - and _; {plan.name!r} is not")
+    if not plan.cells:
+        raise PlanError(f"{plan.name}: the plan has no cells")
+    _differ((cell.name for cell in plan.cells), f"{plan.name}: two cells have the key")
+    files = 0
+    for cell in plan.cells:
+        _check_cell(cell, plan.seed)
+        files += -(-cell.samples // cell.chunk)
+    if files > MOST_FILES:
+        raise PlanError(
+            f"{plan.name}: {plan.samples:,} samples are {files:,} files of rows; a study has at most {MOST_FILES:,}"
+        )
+
+
+def _check_cell(cell: Cell, seed: int) -> None:
+    where = f"cell {cell.name}".rstrip()
+    if cell.samples < 1 or cell.chunk < 1:
+        raise PlanError(f"{where}: samples and chunk are 1 or more")
+    if not cell.routes:
+        raise PlanError(f"{where}: no routes")
+    _differ((route.name for route in cell.routes), f"{where}: two routes have the name")
+    if cell.reference and cell.reference not in {route.name for route in cell.routes}:
+        raise PlanError(f"{where}: no route is called {cell.reference!r}, the reference")
+    for route in cell.routes:
+        _check_route(route)
+    draw_sample(cell, seed, 0)
+
+
+def _check_route(route: Route) -> None:
+    if not route.name:
+        raise PlanError("a route has no name")
+    for name in route.measures:
+        measure_of(name)
+    if not isinstance(route, Programs):
+        try:
+            convex_hull([(0, 0, 0)], route.arithmetic, route.epsilon or None)
+        except ValueError as error:
+            raise PlanError(f"route {route.name}: {error}") from None
+        return
+    if route.state not in ("listing", "examples") or route.bounds not in ("strict", "core") or route.limit < 1:
+        raise PlanError(f"route {route.name}: state is listing or examples, bounds strict or core, limit 1 or more")
+    if bool(route.epsilon) != ("epsilon" in route.layers):
+        raise PlanError(f"route {route.name}: an epsilon needs the layer 'epsilon', and that layer an epsilon")
+    try:
+        coordinate_field(route.epsilon or "0")
+    except ValueError as error:
+        raise PlanError(f"route {route.name}: epsilon: {error}") from None
+    options = options_of(route)
+    first, load = programs_of(route)
+    for name in (first, *(text for text in programs.TEXTS if text != "program1")):
+        Machine(load(name), deck_from_lines(route.name, ["1"]), options)
+
+
+def _differ(names: Iterable[str], words: str) -> None:
+    seen: set[str] = set()
+    for name in names:
+        if name in seen:
+            raise PlanError(f"{words} {name!r}")
+        seen.add(name)

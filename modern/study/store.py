@@ -8,19 +8,50 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 import sqlite3
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
-from itertools import zip_longest
+from itertools import islice, zip_longest
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
-from modern.study.chunks import Row
-from modern.study.files import StudyFileError, put, sweep
-from modern.study.index import clear, enter, known_chunks, open_index
-from modern.study.plan import Chunk, Plan
+from modern.study.index import JUDGE, Row, clear, enter, known_chunks, open_index
+from modern.study.plan import Chunk, Plan, StudyFileError
 
 ROWS = "rows"
+BESIDE = ".beside-"
+"""How the name of a file begins that is not in its place yet."""
+_BATCH = 10_000
+"""Answers that go to Parquet at once."""
+
+
+@contextmanager
+def placing(path: Path) -> Iterator[BinaryIO]:
+    """A file to write, put in its place when all of it is on disk.  Raises StudyFileError."""
+    beside = path.with_name(f"{BESIDE}{path.name}")
+    try:
+        with open(beside, "wb") as file:
+            yield file
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(beside, path)
+    except OSError as error:
+        beside.unlink(missing_ok=True)
+        raise StudyFileError(f"{path}: {(error.strerror or str(error)).lower()}") from None
+
+
+def put(path: Path, data: bytes | str) -> None:
+    """Write a file whole or not at all.  Raises StudyFileError."""
+    with placing(path) as file:
+        file.write(data.encode("utf-8") if isinstance(data, str) else data)
+
+
+def sweep(folder: Path) -> None:
+    """Take away what an interrupted run left beside."""
+    for path in folder.glob(f"{BESIDE}*"):
+        path.unlink(missing_ok=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +115,7 @@ class Store:
         put(self.folder / ROWS / chunk.name, text)
         enter(self.database, chunk.name, map(json.loads, text.splitlines()))
 
-    def rows(self) -> Iterator[dict[str, Any]]:
+    def rows(self) -> Iterator[Row]:
         """Every row, as the files have it.  Raises StudyFileError where a file does not hold its chunk's rows."""
         for chunk in self.plan.chunks():
             yield from self._chunk_rows(chunk)
@@ -125,12 +156,11 @@ class Store:
         return {tuple(row[:-1]): row[-1] for row in asked}
 
     def parquet(self) -> None:
-        """``rows.parquet``, a row for each answer, where pyarrow is there; nothing where it is not."""
+        """``rows.parquet``, a row for each answer, for other tools; nothing where pyarrow is not installed."""
         try:
-            from modern.study.parquet import write_parquet
+            _write_parquet(self.folder / "rows.parquet", self.rows())
         except ImportError:
             return
-        write_parquet(self.folder / "rows.parquet", self.rows())
 
     def query(self, sql: str, values: Sequence[Any] = ()) -> Iterator[tuple[Any, ...]]:
         """A query of one's own over the tables ``samples`` and ``runs`` (modern/study/index.py)."""
@@ -146,21 +176,21 @@ class Store:
         routes = {route.name for route in self.plan.cells[chunk.cell].routes}
         for number, (line, index) in enumerate(zip_longest(lines, range(chunk.start, chunk.stop)), 1):
             row = _row(line or b"")
-            if not row or (row["cell"], row["index"], row["runs"].keys()) != (chunk.cell, index, routes):
+            if not row or (row["cell"], row["index"], set(row["runs"])) != (chunk.cell, index, routes):
                 raise StudyFileError(
                     f"{path}: line {number} is damaged; take the file away, and --resume makes it anew"
                 )
             yield row
 
 
-def _row(line: bytes) -> Row:
-    """A line of a chunk's file as data; empty where it is no row."""
+def _row(line: bytes) -> Row | None:
+    """A line of a chunk's file as data; None where it is no row."""
     try:
-        found = json.loads(line)
+        found: Row = json.loads(line)
     except ValueError:
-        return {}
+        return None
     whole = isinstance(found, dict) and {"cell", "index", "deck", "judge"} <= found.keys()
-    return found if whole and isinstance(found.get("runs"), dict) else {}
+    return found if whole and isinstance(found.get("runs"), dict) else None
 
 
 def _where(cell: int | None, route: str | None) -> tuple[str, list[int | str]]:
@@ -178,6 +208,44 @@ def _column(name: str) -> str:
         return f"json_extract(tags, '$.{key}')"
     if name in ("cell", "route", "outcome", "detail"):
         return f"runs.{name}"
-    if name in ("n", "dimension", "vertices", "planes", "boundary", "inside"):
+    if name in JUDGE:
         return f"samples.{name}"
     raise ValueError(f"{name!r} is no column of the index")
+
+
+def _write_parquet(path: Path, rows: Iterable[Row]) -> None:
+    """One row for each answer, in order; tags and figures as JSON, the deck as text.
+
+    Raises StudyFileError, and ImportError without pyarrow.
+    """
+    import pyarrow
+    from pyarrow import parquet
+
+    whole, text = pyarrow.int64(), pyarrow.string()
+    schema = pyarrow.schema(
+        [
+            *((name, whole) for name in ("cell", "index")),
+            *((name, text) for name in ("seed", "tags", "deck")),
+            *((name, whole) for name in JUDGE),
+            *((name, text) for name in ("route", "outcome", "detail", "figures")),
+        ]
+    )
+    answers = _answers(rows)
+    with placing(path) as file, parquet.ParquetWriter(file, schema) as writer:
+        while batch := list(islice(answers, _BATCH)):
+            writer.write_table(pyarrow.Table.from_pylist(batch, schema=schema))
+
+
+def _answers(rows: Iterable[Row]) -> Iterator[dict[str, int | str]]:
+    for row in rows:
+        shared: dict[str, int | str] = {
+            "cell": row["cell"],
+            "index": row["index"],
+            "seed": row["seed"],
+            "tags": json.dumps(row.get("tags", {}), sort_keys=True),
+            "deck": "".join(card + "\n" for card in row["deck"]),
+            **row["judge"],
+        }
+        for route, run in row["runs"].items():
+            figures = json.dumps(run["figures"], sort_keys=True)
+            yield {**shared, "route": route, "outcome": run["outcome"], "detail": run["detail"], "figures": figures}

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from modern.study.filing import DETERMINED, OUTCOMES
+from modern.study.outcomes import DETERMINED, OUTCOMES
 from modern.study.plan import Cell, Plan, Value
 from modern.study.statistics import Interval, wilson
 from modern.study.store import Store

@@ -11,14 +11,12 @@ from dataclasses import dataclass
 from emulator.language.objectcode import code_positions
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 from modern.edition import programs
-from modern.study.charts import Lines, Mark, Series
-from modern.study.filing import TABLE
+from modern.study.outcomes import TABLE
 from modern.study.plan import Cell, Plan, Port, Programs, Value
-from modern.study.report import Report
+from modern.study.report import Lines, Mark, Report, Series, Table, percent, with_interval
 from modern.study.statistics import Interval, exact, mean_of
 from modern.study.store import Store
 from modern.study.summary import Summary, cells, summary, values
-from modern.study.tables import Table, percent, with_interval
 
 TITLE = "places in the table of planes against the number of points"
 SAMPLES = 100
@@ -89,7 +87,7 @@ def report(plan: Plan, store: Store) -> Report:
     return Report(
         (_main(plan, found, peaks), _sizes(plan, found, peaks), _core(peaks)),
         (_chart(plan, peaks), _full(plan, found)),
-        tuple(_words(plan, found, peaks)),
+        _words(plan, found, peaks),
     )
 
 
@@ -190,36 +188,18 @@ def _full(plan: Plan, found: Summary) -> Lines:
     )
 
 
-def _words(plan: Plan, found: Summary, peaks: dict[int, _Peak]) -> list[str]:
-    words = []
-    for name in values(plan, "sets"):
-        along = _along(plan, name)
-        over = [int(n) for k, n in along if k in peaks and peaks[k].most > PLACES]
-        last, n = along[-1]
-        most = max((peaks[k].most for k, _ in along if k in peaks), default=0)
-        if over:
-            words.append(
-                f"{name}: some set needs more than {PLACES} places from N = {over[0]} on; at N = {int(n)} "
-                f"{percent(found.share(last, LISTED, (TABLE,)))} of the runs as listed end with the table full."
-            )
-        else:
-            words.append(f"{name}: never more than {most} places, up to N = {int(n)}.")
+def _words(plan: Plan, found: Summary, peaks: dict[int, _Peak]) -> tuple[str, ...]:
     tried = [(int(cell.key["n"]), peaks[k].most) for k, cell in enumerate(plan.cells) if k in peaks]
     bears = max((n for n, _ in tried if all(most <= PLACES for m, most in tried if m <= n)), default=0)
     most = max((peak.most for peak in peaks.values()), default=0)
-    number = sum(found.of(k, LISTED) for k, c in enumerate(plan.cells) if c.key["n"] == bears)
+    words = [
+        f"Most places seen in use at once: {most}; the table as listed holds {PLACES}. Largest N tried at which, as at "
+        f"every smaller one, no set needed more than {PLACES}: {bears or 'none'}."
+    ]
     if bears:
-        close = (
-            f"Of the sizes tried, N = {bears} is the largest at which, as at every smaller one, no set of any family "
-            f"needed more than {PLACES} places (none of {number} at that N; up to "
-            f"{100 * exact(0, number).high:.2f} % of such sets could, 95 %). "
+        number = sum(found.of(k, LISTED) for k, cell in enumerate(plan.cells) if cell.key["n"] == bears)
+        words.append(
+            f"Sets tried at that N: {number}. With none above {PLACES}, up to {100 * exact(0, number).high:.2f} % of "
+            "such sets could need more (95 %, exact)."
         )
-    else:
-        close = f"Of the sizes tried there is none at which {PLACES} places always did. "
-    if most > PLACES:
-        fits = next((core for core in CORE if positions(most) <= core), None)
-        close += (
-            f"The most places seen at once are {most}; with them program 3 would take about {positions(most)} "
-            f"positions and fit {f'a machine of {fits}' if fits else 'no 1620'}."
-        )
-    return [" ".join(words), close]
+    return tuple(words)

@@ -8,15 +8,12 @@ each d.  docs/studies.md derives the digits that decide every zero, and those th
 from __future__ import annotations
 
 from modern.geometry.hull import NOT_ACCEPTABLE
-from modern.study.charts import Bars, Lines, Mark, Series
-from modern.study.filing import DETERMINED, WRONG
+from modern.study.outcomes import DETERMINED, WRONG
 from modern.study.plan import Cell, Plan, Port, Programs, Route
-from modern.study.report import INTERVALS, Report
+from modern.study.report import INTERVALS, Bars, Lines, Mark, Report, Series, Table, listed, percent, share_of
 from modern.study.statistics import Interval, exact
 from modern.study.store import Store
 from modern.study.summary import Summary, summary
-from modern.study.tables import Table, percent
-from modern.study.words import series
 
 TITLE = "digits of coordinates against digits of the arithmetic"
 SAMPLES = 300
@@ -80,7 +77,7 @@ def report(plan: Plan, store: Store) -> Report:
     return Report(
         (_main(found, cells), _by_working(found, cells), _outcomes(found, cells)),
         (_growth(found, cells), _needed(found, cells), _eight(found, cells)),
-        tuple(_words(found, cells)),
+        _words(found, cells),
     )
 
 
@@ -197,38 +194,18 @@ def _eight(found: Summary, cells: Cells) -> Bars:
     )
 
 
-def _words(found: Summary, cells: Cells) -> list[str]:
-    listed = [f"{percent(found.share(cell, LISTED))} for {d}" for cell, d in cells]
-    safe = [d for cell, d in cells if not found.failed(cell, CORRECTED)]
-    none = [d for cell, d in cells if not found.hits(cell, CORRECTED)]
+def _words(found: Summary, cells: Cells) -> tuple[str, ...]:
+    sound = [d for cell, d in cells if not found.failed(cell, CORRECTED)]
+    lost = [d for cell, d in cells if not found.hits(cell, CORRECTED)]
     wrong = sum(found.hits(cell, CORRECTED, (WRONG,)) for cell, _ in cells)
-    lost = sum(found.failed(cell, CORRECTED) for cell, _ in cells)
-    first = (
-        f"Of sets of {POINTS} points the programs as listed find the hull with these proportions, by digits of the "
-        f"coordinates: {', '.join(listed)}. With the mends of the layer corrected eight digits "
-        + (f"never failed for coordinates of {_lengths(safe)}" if safe else "failed for coordinates of every length")
-        + (f"; for {_lengths(none)} it found no hull at all." if none else ".")
+    failed = sum(found.failed(cell, CORRECTED) for cell, _ in cells)
+    agree = [d for cell, d in cells if least(found, cell) == exact_zeros(d)]
+    sets = found.of(0, LISTED)
+    return (
+        f"Eight digits, layer corrected: digits d of the coordinates at which no set failed: {listed(sound)}; at which "
+        f"no hull was found: {listed(lost)}.",
+        f"Of the sets that failed so, those that ended in a wrong hull that looks right: {share_of(wrong, failed)}.",
+        f"Lengths d for which the least P is 3d + 1, with which every test for zero is exact: {len(agree)} of "
+        f"{len(cells)}. Where none of {sets} sets fails, up to {100 * exact(0, sets).high:.2f} % of such sets could "
+        "(95 %, exact); with 3d + 4 digits none can.",
     )
-    second = (
-        f"{'' if wrong else 'The programs notice it themselves. '}Of {lost} sets that failed with the mends, {wrong} "
-        f"ended in a wrong hull that looks like a right one ({percent(exact(wrong, lost))})"
-        f"{'; the others were refused or did not end' if wrong < lost else ''}."
-        if lost
-        else "No set failed with the mends."
-    )
-    pairs = [(d, least(found, cell)) for cell, d in cells]
-    known = [(d, p) for d, p in pairs if p is not None]
-    agree = [d for d, p in known if p == exact_zeros(d)]
-    third = (
-        "The least P from which on no set failed is "
-        + (", ".join(f"{p} for {d}" for d, p in known) if known else "not reached")
-        + f"; it is 3d + 1, with which every test for zero is exact, for {len(agree)} of the {len(cells)} lengths. "
-        f"Where no set of {found.of(0, LISTED)} fails, up to "
-        f"{100 * exact(0, found.of(0, LISTED)).high:.2f} % of all such sets could (95 %, exact); with 3d + 4 digits "
-        "none can."
-    )
-    return [first, second, third]
-
-
-def _lengths(numbers: list[int]) -> str:
-    return f"{series(numbers)} digit{'' if numbers == [1] else 's'}"

@@ -12,13 +12,11 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass
 
-from modern.study.charts import Bars, Series
-from modern.study.filing import DETERMINED
+from modern.study.outcomes import DETERMINED
 from modern.study.plan import Cell, Plan, Programs
-from modern.study.report import INTERVALS, Report
-from modern.study.statistics import exact, wilson
+from modern.study.report import INTERVALS, Bars, Report, Series, Table, listed, percent, share_of
+from modern.study.statistics import wilson
 from modern.study.store import Store
-from modern.study.tables import Table, percent
 
 TITLE = "the statement that first decides otherwise than exact numbers"
 SAMPLES = 600
@@ -98,7 +96,7 @@ def _places(store: Store) -> _Place:
 def report(plan: Plan, store: Store) -> Report:
     """Tables, chart and words."""
     seen = _places(store)
-    return Report((_main(seen), _by_family(plan, seen)), (_chart(plan, seen),), tuple(_words(plan, seen)))
+    return Report((_main(seen), _by_family(plan, seen)), (_chart(plan, seen),), _words(plan, seen))
 
 
 def _main(seen: _Place) -> Table:
@@ -117,7 +115,7 @@ def _main(seen: _Place) -> Table:
     head = ("first other decision", "sets", "of all sets", "hull found all the same", "of these sets")
     notes = (
         *INTERVALS,
-        "Statements by number: 196+2 is the second behind statement 196. Cards: a plane on the cards program 1 "
+        "Statements by number: 196+2 is the second after statement 196. Cards: a plane on the cards program 1 "
         "punched, of eight digits, misses its own points. Families count alike.",
     )
     return Table("table", "The statement that first decides otherwise", head, rows, notes)
@@ -157,30 +155,15 @@ def _chart(plan: Plan, seen: _Place) -> Bars:
     )
 
 
-def _words(plan: Plan, seen: _Place) -> list[str]:
-    everything = sum(seen.counts.values())
+def _words(plan: Plan, seen: _Place) -> tuple[str, ...]:
+    everything, same = sum(seen.counts.values()), seen.total(NOWHERE)
     never = [str(cell.key["sets"]) for k, cell in enumerate(plan.cells) if seen.counts[k, NOWHERE] == seen.of(k)]
-    told = [f"{name} ({percent(wilson(seen.total(name), everything))} of all sets)" for name in seen.places[:3]]
-    first = (
-        f"Of {everything} sets {percent(wilson(seen.total(NOWHERE), everything))} go through every decision as exact "
-        "numbers would"
-        + (f", all of the families {'; '.join(never)}" if never else "")
-        + (f". What most often goes otherwise first: {', '.join(told)}." if told else ".")
+    saved = sum(seen.ended_well(name) for name in seen.places)
+    lost = same - seen.ended_well(NOWHERE)
+    return (
+        f"Sets that go through every decision as exact numbers would: {share_of(same, everything)}. Families of which "
+        f"every set does: {listed(never)}.",
+        f"Of the other sets, those that still end in the right hull: {share_of(saved, everything - same)}. Of the sets "
+        f"that follow exact numbers throughout, those that fail, by the programs' own faults: {share_of(lost, same)}.",
+        f"Runs that exact numbers could not follow to a decision that differs: {seen.undecided}.",
     )
-    misled = everything - seen.total(NOWHERE)
-    words = [first]
-    if misled:
-        saved = sum(seen.ended_well(name) for name in seen.places)
-        lost = seen.total(NOWHERE) - seen.ended_well(NOWHERE)
-        words.append(
-            f"Of the {misled} other sets {saved} still end in the right hull ({percent(wilson(saved, misled))}). "
-            + (
-                f"Of the {seen.total(NOWHERE)} that follow exact numbers throughout {lost} fail "
-                f"({percent(exact(lost, seen.total(NOWHERE)))}): by the programs' own faults, not by their digits."
-                if seen.total(NOWHERE)
-                else ""
-            ).strip()
-        )
-    if seen.undecided:
-        words.append(f"Exact numbers could not follow {seen.undecided} of the runs to a decision that differs.")
-    return words

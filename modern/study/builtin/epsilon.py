@@ -10,15 +10,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from modern.study.charts import Lines, Series
-from modern.study.filing import DETERMINED, WRONG
+from modern.study.outcomes import DETERMINED, WRONG
 from modern.study.plan import Cell, Plan, Port, Programs, Route
-from modern.study.report import INTERVALS, Report
+from modern.study.report import INTERVALS, Lines, Report, Series, Table, listed, percent, powers
 from modern.study.statistics import Interval, wilson
 from modern.study.store import Store
 from modern.study.summary import Summary, summary
-from modern.study.tables import Table, percent
-from modern.study.words import count, powers, series
 
 TITLE = "chapter 7's e: acceptance, wrong hulls, vertices swallowed, by size of e"
 SAMPLES = 200
@@ -40,7 +37,7 @@ SETS: Mapping[str, tuple[str, Mapping[str, int]]] = {
 }
 _CHARTED = ("integers of 1 digit", "integers of 2 digits", "integers of 3 digits", "integers of 4 digits", "gap of .01")
 SWALLOWED = ("vertex missed", "dimension wrong")
-"""What a swallowed vertex is filed as: a hull without one of its vertices, or a body taken for flat or for a line."""
+"""The details of a swallowed vertex: a hull without one of its vertices, or a body taken for flat or for a line."""
 
 Name = Callable[[int], str]
 _MARKS = ", ".join("?" * len(DETERMINED))
@@ -59,6 +56,9 @@ def ported(power: int) -> str:
 def scaled(power: int) -> str:
     """The port with e = 10**power times the equation's largest coefficient A, B or C."""
     return f"scaled e = 10^{power}"
+
+
+_WAYS: tuple[tuple[str, Name, tuple[int, ...]], ...] = (("as it is", taken, ABSOLUTE), ("scaled", scaled, SCALED))
 
 
 def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
@@ -135,13 +135,15 @@ def report(plan: Plan, store: Store) -> Report:
             _main(plan, rows),
             _each(plan, rows, "absolute", "The programs with e as it is", (WITHOUT, *map(taken, ABSOLUTE))),
             _each(plan, rows, "scaled", "The port with e scaled to the equation", tuple(map(scaled, SCALED))),
+            _best(plan, rows),
+            _price(plan, rows, store),
         ),
         (
             _chart(plan, rows, "found", "Sets whose hull is found, with e as it is", taken, ABSOLUTE),
             _chart(plan, rows, "scaled", "Sets whose hull is found, with e scaled to the equation", scaled, SCALED),
             _chart(plan, rows, "swallowed", "Sets of which e swallows a vertex", taken, ABSOLUTE, swallows=True),
         ),
-        tuple(_words(plan, rows, store)),
+        _words(plan, rows, store),
     )
 
 
@@ -149,7 +151,7 @@ def _main(plan: Plan, rows: _Rows) -> Table:
     lines = []
     for number, cell in enumerate(plan.cells):
         texts = [str(cell.key["sets"]), str(cell.samples), percent(rows.found.share(number, WITHOUT))]
-        for name, tried in ((taken, ABSOLUTE), (scaled, SCALED)):
+        for _, name, tried in _WAYS:
             begins = rows.begins(number, name, tried)
             texts += [powers(rows.clean(number, name, tried)), "-" if begins is None else f"10^{begins}"]
         lines.append(tuple(texts))
@@ -209,98 +211,72 @@ def _chart(
     )
 
 
-def _words(plan: Plan, rows: _Rows, store: Store) -> list[str]:
-    refused = [
-        f"{cell.key['sets']} {percent(rows.found.share(number, WITHOUT))}"
-        for number, cell in enumerate(plan.cells)
-        if rows.found.failed(number, WITHOUT)
-    ]
-    first = (
-        f"Without e the corrected programs find fewer than all hulls of these sets: {'; '.join(refused)}. "
-        if refused
-        else "Without e the corrected programs find the hull of every set. "
-    )
-    first += f"{_for_all(plan, rows, taken, ABSOLUTE, 'as it is')} {_for_all(plan, rows, scaled, SCALED, 'scaled')}"
-    return [first, _worry(plan, rows), _price(plan, rows, store)]
-
-
-def _for_all(plan: Plan, rows: _Rows, name: Name, tried: tuple[int, ...], how: str) -> str:
+def _best(plan: Plan, rows: _Rows) -> Table:
     """Whether one e does for all sets; and if none, which does best, and for which kinds."""
-    clean = [rows.clean(number, name, tried) for number in range(len(plan.cells))]
-    common = [k for k in tried if all(k in one for one in clean)]
     of = sum(cell.samples for cell in plan.cells)
-    if common:
-        none = wilson(of, of)
-        return (
-            f"With e {how} no set of any kind failed at {powers(common)}; up to {100 * (1 - none.low):.2f} % of such "
-            "sets could (95 %)."
+    lines = []
+    for how, name, tried in _WAYS:
+        clean = [rows.clean(number, name, tried) for number in range(len(plan.cells))]
+        hits = {k: sum(rows.found.hits(number, name(k)) for number in range(len(plan.cells))) for k in tried}
+        best = max(tried, key=lambda k: hits[k])
+        lines.append(
+            (
+                how,
+                powers(k for k in tried if all(k in one for one in clean)),
+                f"10^{best}",
+                percent(wilson(hits[best], of)),
+                listed(cell.key["sets"] for number, cell in enumerate(plan.cells) if best not in clean[number]),
+                listed(cell.key["sets"] for number, cell in enumerate(plan.cells) if not clean[number]),
+            )
         )
-    hits = {k: sum(rows.found.hits(number, name(k)) for number in range(len(plan.cells))) for k in tried}
-    best = max(tried, key=lambda k: hits[k])
-    lost = [str(cell.key["sets"]) for number, cell in enumerate(plan.cells) if best not in clean[number]]
-    never = [str(cell.key["sets"]) for number, cell in enumerate(plan.cells) if not clean[number]]
-    text = (
-        f"Of e {how}, no value tried does for all sets: the best, 10^{best}, finds the hulls of "
-        f"{percent(wilson(hits[best], of))} of the {count(of, 'set')} and fails on some of the {series(lost)}"
+    head = ("e", "no failure at all at", "best e", "hulls found with it", "kinds it fails on", "kinds every e fails on")
+    return Table("best", "One e for all sets", head, tuple(lines), INTERVALS)
+
+
+def _price(plan: Plan, rows: _Rows, store: Store) -> Table:
+    lines = []
+    for words, below in (("smaller", True), ("greater", False)):
+        wrong, of = _wrong_beside(plan, rows, store, below)
+        lines.append((words, str(of), str(wrong), percent(wilson(wrong, of)) if of else "-"))
+    notes = (
+        *INTERVALS,
+        "Smaller, greater: than those at which no set of the kind failed; a set counts once, whatever the e.",
     )
-    return text + (f"; for the {series(never)} there is none at which no set fails." if never else ".")
+    head = ("e, as it is", "sets", "wrong hull", "of these sets")
+    return Table("price", "Wrong hulls that look right, with an e too small or too great", head, tuple(lines), notes)
 
 
-def _worry(plan: Plan, rows: _Rows) -> str:
-    """Where the thesis's worry begins."""
-    told = []
-    for number, cell in enumerate(plan.cells):
-        begins = rows.begins(number, taken, ABSOLUTE)
-        if begins is not None:
-            share = percent(rows.swallows(number, taken(begins)))
-            told.append(f"{cell.key['sets']} at 10^{begins}, with {share} of the sets")
-    silent = [
-        f"{cell.key['sets']} ({percent(rows.swallows(number, WITHOUT))})"
-        for number, cell in enumerate(plan.cells)
-        if rows.swallowed.get((number, WITHOUT), 0)
-    ]
-    text = (
-        f"The thesis's worry, a true vertex swallowed, begins at these e, taken as it is: {'; '.join(told)}."
-        if told
-        else "The thesis's worry, a true vertex swallowed, begins at no e tried."
-    )
-    if silent:
-        text += f" With e = 0 a vertex is lost too, of these shares of the sets: {series(silent)}."
-    return text
-
-
-def _price(plan: Plan, rows: _Rows, store: Store) -> str:
-    """What acceptance costs in wrong hulls, on either side of the right e; whether port and programs agree."""
+def _words(plan: Plan, rows: _Rows, store: Store) -> tuple[str, ...]:
     saved = [
-        series(
+        listed(
             cell.key["sets"]
             for number, cell in enumerate(plan.cells)
             if rows.found.failed(number, WITHOUT) and rows.clean(number, name, tried)
         )
-        for name, tried in ((taken, ABSOLUTE), (scaled, SCALED))
+        for _, name, tried in _WAYS
     ]
-    text = ""
-    if any(rows.found.failed(number, WITHOUT) for number in range(len(plan.cells))):
-        text = "Of the kinds of which sets fail without e, those of which some e saves every set are " + (
-            f"{saved[0]}, as it is and scaled alike."
-            if saved[0] == saved[1]
-            else f"{saved[0]} as it is, {saved[1]} scaled."
-        )
-    small, large = _wrong_beside(plan, rows, store, below=True), _wrong_beside(plan, rows, store, below=False)
-    for (wrong, of), words in ((small, "smaller"), (large, "greater")):
-        if of:
-            text += (
-                f" With an e, taken as it is, {words} than those at which none of the kind failed, {wrong:,} of {of:,} "
-                f"sets, {percent(wilson(wrong, of))}, ended in a wrong hull that looks like a right one."
-            )
-    same, of = next(
-        store.query(
-            f"SELECT SUM(a.outcome = b.outcome OR a.outcome IN ({_MARKS}) AND b.outcome IN ({_MARKS})), COUNT(*) "
-            "FROM runs a JOIN runs b ON a.cell = b.cell AND a.place = b.place AND b.route = 'port, ' || a.route",
-            (*DETERMINED, *DETERMINED),
-        )
+    lost = [cell.key["sets"] for number, cell in enumerate(plan.cells) if rows.swallowed.get((number, WITHOUT), 0)]
+    same, of = _same_as_port(store)
+    return (
+        f"Kinds of which sets fail without e and some e saves every set: taken as it is: {saved[0]}; scaled: "
+        f"{saved[1]}. Kinds of which a vertex is lost at e = 0 too: {listed(lost)}.",
+        f"Runs in which the port with the same e ends as the programs do: {same:,} of {of:,}.",
     )
-    return f"{text} The port with the same e ends as the programs do in {same:,} of {of:,} runs.".lstrip()
+
+
+def _same_as_port(store: Store) -> tuple[int, int]:
+    """In how many runs, and of how many, programs and port with the same e end alike; found is found in any order."""
+    same = of = 0
+    for k in ABSOLUTE:
+        alike, runs = next(
+            store.query(
+                f"SELECT SUM(a.outcome = b.outcome OR a.outcome IN ({_MARKS}) AND b.outcome IN ({_MARKS})), COUNT(*) "
+                "FROM runs a JOIN runs b ON a.cell = b.cell AND a.place = b.place WHERE a.route = ? AND b.route = ?",
+                (*DETERMINED, *DETERMINED, taken(k), ported(k)),
+            )
+        )
+        same, of = same + (alike or 0), of + runs
+    return same, of
 
 
 def _wrong_beside(plan: Plan, rows: _Rows, store: Store, below: bool) -> tuple[int, int]:

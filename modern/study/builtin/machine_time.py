@@ -7,16 +7,13 @@ measured and in part estimated (docs/emulator.md).  ``samples`` counts the sets 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import isinf
 
-from modern.study.charts import Lines, Mark, Series
-from modern.study.filing import DETERMINED
+from modern.study.outcomes import DETERMINED
 from modern.study.plan import Cell, Plan, Programs, Value
-from modern.study.report import Report
+from modern.study.report import Lines, Mark, Report, Series, Table, listed, with_interval
 from modern.study.statistics import Interval, mean_of
 from modern.study.store import Store
 from modern.study.summary import cells, values
-from modern.study.tables import Table, with_interval
 
 TITLE = "time on the 1620 against the number of points"
 SAMPLES = 60
@@ -86,18 +83,8 @@ def report(plan: Plan, store: Store) -> Report:
     return Report(
         (_main(plan, times), _sizes(plan, times)),
         (_chart(plan, times), _parts(plan, times)),
-        tuple(_words(plan, times)),
+        _words(plan, times),
     )
-
-
-def spoken_time(seconds: float) -> str:
-    """A duration in words: ``1 h 24 min``, ``7.5 min``, ``18 s``; of an interval without bounds its end says so."""
-    if isinf(seconds):
-        return "no bound"
-    if seconds >= _HOUR:
-        minutes = round(seconds / _MINUTE)
-        return f"{minutes // _MINUTE} h {minutes % _MINUTE} min"
-    return f"{seconds / _MINUTE:.1f} min" if seconds >= 2 * _MINUTE else f"{seconds:.0f} s"
 
 
 def _in_minutes(seconds: Interval) -> Interval:
@@ -175,28 +162,16 @@ def _parts(plan: Plan, times: dict[int, _Time]) -> Lines:
     )
 
 
-def _words(plan: Plan, times: dict[int, _Time]) -> list[str]:
-    told = []
-    for name in values(plan, "sets"):
-        along = _along(plan, times, name)
-        if not along:
-            continue
-        n, time = along[-1]
-        told.append(
-            f"{name}: {spoken_time(time.total.value)} ({spoken_time(time.total.low)} to "
-            f"{spoken_time(time.total.high)}), the longest {spoken_time(time.longest)}"
-        )
-    if not told:
-        return ["No set was determined, so nothing was timed."]
-    n = max(int(n) for name in values(plan, "sets") for n, _ in _along(plan, times, name))
-    first = f"A set of {n} points takes on the mean, by kind: {'; '.join(told)}."
+def _words(plan: Plan, times: dict[int, _Time]) -> tuple[str, ...]:
+    timed = [entry for name in values(plan, "sets") for entry in _along(plan, times, name)]
+    if not timed:
+        return ("No set was determined, so nothing was timed.",)
     shares = []
-    for number in (POINTS[1], n):
-        there = [t for name in values(plan, "sets") for m, t in _along(plan, times, name) if m == number]
+    for number in (POINTS[1], max(n for n, _ in timed)):
+        there = [time for n, time in timed if n == number]
         if there:
             share = sum(t.parts["processor"].value for t in there) / sum(t.total.value for t in there)
-            shares.append(f"{100 * share:.0f} % at N = {number}")
-    second = (
-        f"The processor has this part of the time, over all kinds: {', '.join(shares)}; the rest is cards and typing."
+            shares.append(f"{100 * share:.0f} % at N = {number:.0f}")
+    return (
+        f"The processor's part of the time, over all kinds of sets: {listed(shares)}; the rest is cards and typing.",
     )
-    return [first, second]

@@ -10,15 +10,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from modern.study.charts import Bars, Lines, Series
-from modern.study.filing import DETERMINED, WRONG
+from modern.study.outcomes import DETERMINED, WRONG
 from modern.study.plan import Cell, Plan, Port, Programs, Route
-from modern.study.report import INTERVALS, Report
+from modern.study.report import INTERVALS, Bars, Lines, Report, Series, Table, percent, powers
 from modern.study.statistics import exact, wilson
 from modern.study.store import Store
 from modern.study.summary import Summary, cells, summary
-from modern.study.tables import Table, percent
-from modern.study.words import powers, series
 
 TITLE = "what ways of rounding buy: truncation, rounded products, a guard digit, floats"
 SAMPLES = 300
@@ -98,8 +95,8 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 
 
 @dataclass(frozen=True, slots=True)
-class _Against:
-    """A way against truncation on the same sets: where it does better, and where worse."""
+class _Pairs:
+    """A way compared with truncation on the same sets: where it does better, and where worse."""
 
     better: int
     worse: int
@@ -119,15 +116,24 @@ def report(plan: Plan, store: Store) -> Report:
     tested = {way: _compared(plan, store, way, "exact") for way in WAYS[1:]}
     widened = {way: _compared(plan, store, way, "interval") for way in WAYS[1:]}
     return Report(
-        (_main(plan, found, tested, widened), _sizes(plan, found), _widths(plan, found)),
+        (
+            _main(plan, found, tested, widened),
+            _sizes(plan, found),
+            _widths(plan, found),
+            _verdicts(tested, widened),
+            _sound_widths(plan, found),
+            _silent(plan, found),
+        ),
         (_size_chart(plan, found), _width_chart(plan, found), _wrong_chart(plan, found)),
-        tuple(_words(plan, found, tested, widened)),
+        _words(plan, found),
     )
 
 
-def _compared(plan: Plan, store: Store, way: str, test: str) -> _Against:
+def _compared(plan: Plan, store: Store, way: str, test: str) -> _Pairs:
     """Set by set: whether the hull is found or, with the interval, at how many widths."""
     better = worse = 0
+    names = {way: (way, *(within(way, k) for k in WIDTHS)) for way in (way, TRUNCATING)}
+    way_of = {route: way for way, routes in names.items() for route in routes}
     for number, cell in cells(plan, test=test):
         hits: dict[str, list[int]] = {way: [0] * cell.samples, TRUNCATING: [0] * cell.samples}
         asked = store.query(
@@ -135,13 +141,12 @@ def _compared(plan: Plan, store: Store, way: str, test: str) -> _Against:
             (number, *DETERMINED),
         )
         for route, place in asked:
-            name = route.split(",")[0]
-            if name in hits:
-                hits[name][place] += 1
+            if route in way_of:
+                hits[way_of[route]][place] += 1
         pairs = list(zip(hits[way], hits[TRUNCATING], strict=True))
         better += sum(a > b for a, b in pairs)
         worse += sum(a < b for a, b in pairs)
-    return _Against(better, worse)
+    return _Pairs(better, worse)
 
 
 def _pooled(plan: Plan, found: Summary, test: str, route: str, outcomes: tuple[str, ...]) -> tuple[int, int]:
@@ -150,7 +155,7 @@ def _pooled(plan: Plan, found: Summary, test: str, route: str, outcomes: tuple[s
     return sum(found.hits(k, route, outcomes) for k in numbers), sum(found.of(k, route) for k in numbers)
 
 
-def _main(plan: Plan, found: Summary, tested: Mapping[str, _Against], widened: Mapping[str, _Against]) -> Table:
+def _main(plan: Plan, found: Summary, tested: Mapping[str, _Pairs], widened: Mapping[str, _Pairs]) -> Table:
     rows = []
     for way in WAYS:
         right, of = _pooled(plan, found, "exact", way, DETERMINED)
@@ -259,86 +264,52 @@ def _largest(plan: Plan, found: Summary, way: str) -> int | None:
     return best
 
 
-def _words(plan: Plan, found: Summary, tested: Mapping[str, _Against], widened: Mapping[str, _Against]) -> list[str]:
-    sizes: dict[int | None, list[str]] = {}
+def _verdicts(tested: Mapping[str, _Pairs], widened: Mapping[str, _Pairs]) -> Table:
+    rows = tuple(
+        (way, test, str(one.better), str(one.worse), one.verdict)
+        for test, pairs in (("exact", tested), ("interval", widened))
+        for way, one in pairs.items()
+    )
+    notes = (
+        "Better, worse: with the exact test, sets whose hull the way finds and truncating does not, and the other way "
+        "round; with the interval, sets whose hull it finds at more, and at fewer, of the widths. Verdict: by the "
+        "exact 95 % interval (Clopper and Pearson) of the share that is better.",
+    )
+    return Table(
+        "pairs", "Compared with truncating, set by set", ("way", "test", "better", "worse", "verdict"), rows, notes
+    )
+
+
+def _sound_widths(plan: Plan, found: Summary) -> Table:
+    rows = tuple(
+        (
+            str(cell.key["sets"]),
+            *(powers(k for k in WIDTHS if not found.failed(number, within(way, k))) for way in WAYS),
+        )
+        for number, cell in cells(plan, test="interval")
+    )
+    return Table("widths", "Widths e of the interval at which no set failed", ("sets", *WAYS), rows)
+
+
+def _silent(plan: Plan, found: Summary) -> Table:
+    rows = tuple(
+        (f"10^{k}", *(percent(wilson(*_pooled(plan, found, "interval", within(way, k), (WRONG,)))) for way in WAYS))
+        for k in WIDTHS
+    )
+    return Table("silent", "Wrong hulls that look right, with the interval", ("e", *WAYS), rows, INTERVALS)
+
+
+def _words(plan: Plan, found: Summary) -> tuple[str, ...]:
+    right, wrong, of = 0, 0, 0
     for way in WAYS:
-        sizes.setdefault(_largest(plan, found, way), []).append(way)
-    reach = [
-        f"{size or 'none'} with {series(ways)}" for size, ways in sorted(sizes.items(), key=lambda one: one[0] or 0)
-    ]
-    first = (
-        f"The largest whole numbers up to which no set of {POINTS} points failed with the exact test are, of the sizes "
-        f"tried, {'; '.join(reach)}. "
-        f"Against truncation, on the same sets of all kinds, {_told(tested, 'found and {} lost')}."
-    )
-    third = (
-        "With the interval a way does better on a set than truncation where it finds its hull at more of the widths: "
-        f"{_told(widened, 'better and {} worse')}. {_windows(plan, found)}"
-    )
-    return [first, _refusals(plan, found) + _decimal_sets(plan, found), third, _silent(plan, found)]
-
-
-def _told(pairs: Mapping[str, _Against], words: str) -> str:
-    return "; ".join(f"{way}: {one.better} {words.format(one.worse)} ({one.verdict})" for way, one in pairs.items())
-
-
-def _refusals(plan: Plan, found: Summary) -> str:
-    """How many of the failures with the exact test nobody would notice."""
-    told, others = [], 0
-    for way in WAYS:
-        right, of = _pooled(plan, found, "exact", way, DETERMINED)
-        wrong, _ = _pooled(plan, found, "exact", way, (WRONG,))
-        others += of - right - wrong
-        if right < of:
-            told.append(f"{way}, {wrong} of {of - right}, {percent(exact(wrong, of - right))}")
-    if not told:
-        return "With the exact test no set failed in any way of rounding."
-    return (
-        "Of the sets that failed with the exact test so many ended in a wrong hull that looks like a right one (95 %, "
-        "exact): "
-        f"{'; '.join(told)}.{' The others were refused or did not end.' if others else ''}"
-    )
-
-
-def _decimal_sets(plan: Plan, found: Summary) -> str:
-    """What decimal numbers are worth where the coordinates are decimals."""
+        hits, sets = _pooled(plan, found, "exact", way, DETERMINED)
+        right, of = right + hits, of + sets
+        wrong += _pooled(plan, found, "exact", way, (WRONG,))[0]
     ((number, cell),) = cells(plan, sets=TENTHS)
     eight, binary = found.share(number, TRUNCATING), found.share(number, "float64")
-    if eight.low <= binary.high:
-        return ""
     return (
-        f" Decimals need a decimal machine: of the sets {cell.key['sets']}, truncation to eight digits finds "
-        f"{percent(eight)}; float64, which cannot hold a tenth, {percent(binary)}."
-    )
-
-
-def _windows(plan: Plan, found: Summary) -> str:
-    """The widths at which no set failed, by kind of set."""
-    told = []
-    for number, cell in cells(plan, test="interval"):
-        by_width: dict[str, list[str]] = {}
-        for way in WAYS:
-            clean = powers((k for k in WIDTHS if not found.failed(number, within(way, k))), "at no width")
-            by_width.setdefault(clean, []).append(way)
-        told.append(f"{cell.key['sets']}: " + ", ".join(f"{w} ({series(ways)})" for w, ways in by_width.items()))
-    return f"Widths e at which no set failed: {'; '.join(told)}."
-
-
-def _silent(plan: Plan, found: Summary) -> str:
-    """How often the interval makes a hull wrong that looks right."""
-    told, some = [], False
-    for way in (TRUNCATING, "rounding", "float64"):
-        shares = {k: wilson(*_pooled(plan, found, "interval", within(way, k), (WRONG,))) for k in WIDTHS}
-        first, worst = shares[WIDTHS[0]], max(WIDTHS, key=lambda k: shares[k].value)
-        some = some or shares[worst].value > 0
-        told.append(
-            f"{way}, {percent(first)} at e = 10^{WIDTHS[0]} and {percent(shares[worst])} at 10^{worst}"
-            if shares[worst].value > first.value
-            else f"{way}, {percent(first)} at e = 10^{WIDTHS[0]} and at no width more"
-        )
-    return (
-        "The interval has its price in wrong hulls that look right; of its sets, at the narrowest width and at the "
-        f"worst: {'; '.join(told)}."
-        if some
-        else "With the interval no hull that looks right was wrong."
+        f"Failures with the exact test, all ways together: {of - right:,}. Of these ended in a wrong hull that looks "
+        f"right: {wrong:,}; were refused or did not end: {of - right - wrong:,}.",
+        f"Hulls found of the sets {cell.key['sets']}: by truncation to eight digits {percent(eight)}; by float64, "
+        f"which cannot hold a tenth, {percent(binary)}.",
     )

@@ -11,15 +11,12 @@ from collections import Counter
 from dataclasses import dataclass
 
 from modern.geometry.hull import NOT_ACCEPTABLE
-from modern.study.charts import Bars, Mark, Series
 from modern.study.families.thesis import KINDS
-from modern.study.filing import DETERMINED, WRONG
+from modern.study.outcomes import DETERMINED, WRONG
 from modern.study.plan import Cell, Plan, PlanError, Programs
-from modern.study.report import INTERVALS, Report
+from modern.study.report import INTERVALS, Bars, Mark, Report, Series, Table, listed, percent, share_of, with_interval
 from modern.study.statistics import Interval, exact, mean, wilson
 from modern.study.store import Store
-from modern.study.tables import Table, percent, with_interval
-from modern.study.words import count
 
 TITLE = "failures in seventy examples, with and without the mend of the last pair"
 SEVENTY = 70
@@ -82,12 +79,12 @@ class _Route:
 
 def report(plan: Plan, store: Store) -> Report:
     """Tables, the two charts and the words."""
-    listed, mended = _route(store, LISTED), _route(store, MENDED)
+    as_listed, mended = _route(store, LISTED), _route(store, MENDED)
     kinds = store.counts("tags.kind", "route", "outcome")
     return Report(
-        (_main(listed, mended), _distribution(listed, mended), _by_kind(kinds), _causes(listed, mended)),
-        (_chart(listed, mended), _kind_chart(kinds)),
-        tuple(_words(listed, mended, kinds, _longest(store))),
+        (_main(as_listed, mended), _distribution(as_listed, mended), _by_kind(kinds), _causes(as_listed, mended)),
+        (_chart(as_listed, mended), _kind_chart(kinds)),
+        _words(as_listed, mended, kinds, _longest(store)),
     )
 
 
@@ -220,51 +217,43 @@ def _share(kinds: dict[tuple[str, ...], int], names: tuple[str, ...], route: str
     return wilson(failed, _of(kinds, names, route))
 
 
-def _words(listed: _Route, mended: _Route, kinds: dict[tuple[str, ...], int], longest: int) -> list[str]:
-    space = tuple(name for name in _names(kinds) if name in _IN_SPACE)
-    often, like = listed.mean, listed.groups(THESIS)
+def _words(as_listed: _Route, mended: _Route, kinds: dict[tuple[str, ...], int], longest: int) -> tuple[str, ...]:
+    causes = as_listed.causes
     digits, wrong = (
-        sum(n for (outcome, _), n in listed.causes.items() if outcome == named) for named in (NOT_ACCEPTABLE, WRONG)
+        sum(n for (outcome, _), n in causes.items() if outcome == named) for named in (NOT_ACCEPTABLE, WRONG)
     )
-    beside = "less than" if often.high < THESIS else "more than" if often.low > THESIS else "as may be"
-    first = (
-        f"As listed, the programs fail on {with_interval(often)} of seventy such sets, {beside} the thesis's two; "
-        f"exactly two fail in {percent(listed.groups(THESIS, THESIS))} of the seventies, two or more in "
-        f"{percent(like)}. "
-    )
-    if like.low > _RARE or like.high < _RARE:
-        first += f"So two failures in seventy are {'nothing unusual' if like.low > _RARE else 'unusual'} for such sets."
-    else:
-        first += "Whether two failures are unusual for such sets, so few seventies do not tell."
-    causes = listed.causes.most_common(3)
-    told = "; ".join(f"{outcome} at {where}, {percent(wilson(n, listed.failed))}" for (outcome, where), n in causes)
-    second = "As listed, no set failed."
-    if listed.failed:
-        second = (
-            f"Of the {count(listed.failed, 'failure')} the most frequent are: {told}. {digits or 'None'} of them "
-            f"{'is' if digits < 2 else 'are'} DATA NOT ACCEPTABLE, the programs' own word for too few digits, which is "
-            "what the limits of the computer, to which the thesis puts its two down, lead to; "
-            f"{wrong or 'none'} {'ends' if wrong < 2 else 'end'} with a hull that is wrong, without a word."
-        )
-        if digits + wrong < listed.failed:
-            second += " The others are stops and loops within the programs."
-    fewer = listed.mean.value - mended.mean.value
-    third = (
-        f"One card, the check that mends the last pair of inside planes, leaves {with_interval(mended.mean)} failures "
-        f"in seventy: it saves {fewer:.2f}."
-    )
+    frequent = (f"{outcome} {where}, {share_of(n, as_listed.failed)}" for (outcome, where), n in causes.most_common(3))
+    words = [
+        f"Failures of seventy such sets as listed: {with_interval(as_listed.mean)}, "
+        f"{_beside_two(as_listed.mean)}. Seventies with exactly two: "
+        f"{percent(as_listed.groups(THESIS, THESIS))}; with two or more: {percent(as_listed.groups(THESIS))}. "
+        f"Two failures in seventy are {_unusual(as_listed.groups(THESIS))}.",
+        f"Most frequent failures as listed: {listed(frequent)}. DATA NOT ACCEPTABLE, the programs' message for too few "
+        f"digits: {share_of(digits, as_listed.failed)}. Wrong hulls that look right: "
+        f"{share_of(wrong, as_listed.failed)}.",
+        f"Failures of seventy with the one card of row P3-025: {with_interval(mended.mean)}; the difference: "
+        f"{as_listed.mean.value - mended.mean.value:.2f}.",
+        f"The longest run that gave a hull took {longest:,} statements; {_LIMIT:,} count as endless.",
+    ]
+    space = tuple(name for name in _names(kinds) if name in _IN_SPACE)
     if space:
         share = _share(kinds, space, LISTED)
-        third += (
-            f" Of the sets in space {percent(share)} fail as listed; were all seventy such sets, "
-            f"{SEVENTY * share.value:.1f} ({SEVENTY * share.low:.1f} to {SEVENTY * share.high:.1f}) of them would, "
+        seventy = Interval(*(SEVENTY * value for value in (share.value, share.low, share.high)))
+        words[2] += (
+            f" Sets in space that fail as listed: {percent(share)}; of seventy such sets: {with_interval(seventy, 1)}."
         )
-        third += (
-            f"and two are expected where {THESIS / share.value:.0f} of the seventy are."
-            if SEVENTY * share.value >= THESIS
-            else "fewer than two."
-            if SEVENTY * share.high < THESIS
-            else "which may be two."
-        )
-    third += f" The longest run that gave a hull took {longest:,} statements, where {_LIMIT:,} count as endless."
-    return [first, second, third]
+    return tuple(words)
+
+
+def _beside_two(often: Interval) -> str:
+    """A mean number of failures beside the thesis's two, as a verdict."""
+    if often.high < THESIS:
+        return "fewer than the thesis's two"
+    return "more than the thesis's two" if often.low > THESIS else "not to be told from the thesis's two"
+
+
+def _unusual(share: Interval) -> str:
+    """How often seventies have two failures or more, as a verdict."""
+    if share.low > _RARE:
+        return "nothing unusual for such sets"
+    return "unusual for such sets" if share.high < _RARE else "not to be judged from so few seventies"

@@ -15,15 +15,12 @@ from itertools import pairwise
 from math import inf
 from typing import Any
 
-from modern.study.charts import Lines, Mark, Series
-from modern.study.filing import DETERMINED
+from modern.study.outcomes import DETERMINED
 from modern.study.plan import Cell, Plan, Port, Programs, Route
-from modern.study.report import Report
+from modern.study.report import Lines, Mark, Report, Series, Table, listed, percent
 from modern.study.statistics import Interval, mean, wilson
 from modern.study.store import Store
 from modern.study.summary import Summary, cells, summary
-from modern.study.tables import Table, percent
-from modern.study.words import count, series
 
 TITLE = "the origin moved to C: operations, time and digits with and without"
 SAMPLES = 50
@@ -145,7 +142,7 @@ def report(plan: Plan, store: Store) -> Report:
     return Report(
         (_main(plan, pairs), _by_ratio(pairs), _digits(plan, found)),
         (_time_chart(plan, pairs), _digit_chart(plan, found)),
-        tuple(_words(plan, pairs, found)),
+        _words(plan, pairs, found),
     )
 
 
@@ -310,64 +307,40 @@ def _digit_chart(plan: Plan, found: Summary) -> Lines:
     )
 
 
-def _words(plan: Plan, pairs: list[_Pair], found: Summary) -> list[str]:
-    return [_time_words(plan, pairs), _digit_words(plan, found)]
+def _words(plan: Plan, pairs: list[_Pair], found: Summary) -> tuple[str, ...]:
+    return _time_words(pairs), _digit_words(plan, found)
 
 
-def _time_words(plan: Plan, pairs: list[_Pair]) -> str:
+def _time_words(pairs: list[_Pair]) -> str:
     if not pairs:
         return "No set was determined both ways, so no time can be compared."
-    told = []
-    for name in _TIMED:
-        timed = [(cell.key["n"], [p for p in pairs if p.cell == k]) for k, cell in cells(plan, asked="time", sets=name)]
-        both = [(n, here) for n, here in timed if here]
-        ends = both[:1] + both[-1:] if len(both) > 1 else both
-        if ends:
-            told.append(f"{name}, " + " and ".join(f"{_share(_saved(here))} at N = {n}" for n, here in ends))
-    text = (
-        "Of the processor's time moving the origin to C saves on the mean (a negative part is lost): "
-        f"{'; '.join(told)}. By planes of the hull a point: "
-    )
-    classes = []
-    for name, here in _classes(pairs):
-        saved = _saved(here)
-        verb = "saves" if saved.low > 0 else "costs" if saved.high < 0 else "saves or costs nothing that can be told,"
-        size = saved if saved.high >= 0 else Interval(-saved.value, -saved.high, -saved.low)
-        classes.append(f"{name}, it {verb} {_share(size)}")
-    whole = mean(pair.saved_in_all for pair in pairs)
     each = [pair.saved("seconds_processor") for pair in pairs]
-    greatest, least = max(each), min(each)
+    whole = mean(pair.saved_in_all for pair in pairs)
     return (
-        f"{text}{'; '.join(classes)}. The most it saved of any of the {count(len(pairs), 'set')} is "
-        f"{100 * greatest:.1f} %, the least {100 * least:.1f} %; of the whole time, cards and typing included, "
-        f"{_share(whole)} on the mean of all."
+        f"Sets timed both ways: {len(pairs)}. Processor time saved: at most {100 * max(each):.1f} %, at least "
+        f"{100 * min(each):.1f} %; of the whole time, cards and typing included, {_share(whole)} on the mean. "
+        "Moving the origin, by planes of the hull a point: "
+        f"{listed(f'{_verdict(_saved(here))} ({name})' for name, here in _classes(pairs))}."
     )
+
+
+def _verdict(saved: Interval) -> str:
+    """Whether time is saved, by the interval of the mean."""
+    return "saves time" if saved.low > 0 else "costs time" if saved.high < 0 else "makes no difference that can be told"
 
 
 def _digit_words(plan: Plan, found: Summary) -> str:
-    needs, never, apart, alike = [], [], [], []
+    never: list[str] = []
+    verdicts: dict[str, list[str]] = {"loses": [], "gains": [], "same": []}
     for number, cell in cells(plan, asked="digits"):
         name = str(cell.key["sets"])
-        kept, moved = (_least(found, number, way) for way in (PLAIN, MOVED))
-        needs.append(f"{name}, {kept or 'none'} and {moved or 'none'}")
-        if kept is not None and moved is None:
-            share = found.share(number, working(MOVED, WORKING[-1]))
-            never.append(
-                f"of the {name}, {percent(share)} are found with {WORKING[-1]} digits; with the origin kept {kept} do"
-            )
-        there, then = found.share(number, PLAIN), found.share(number, MOVED)
-        if there.low > then.high or then.low > there.high:
-            verb = "loses" if there.low > then.high else "gains"
-            apart.append(f"{name}, it {verb}: {percent(there)} and {percent(then)}")
-        else:
-            alike.append(name)
-    text = f"The least P from which on no set failed, origin kept and moved: {'; '.join(needs)}. "
-    if never:
-        text += f"With the origin moved some fail at every P tried: {'; '.join(never)}. "
-    if apart:
-        text += (
-            f"Through the programs with eight digits, hulls found with the origin kept and moved: {'; '.join(apart)}. "
-        )
-    if alike:
-        text += f"With eight digits no difference can be told for {series(alike)}."
-    return text.rstrip()
+        if _least(found, number, PLAIN) is not None and _least(found, number, MOVED) is None:
+            never.append(name)
+        kept, moved = found.share(number, PLAIN), found.share(number, MOVED)
+        verdicts["loses" if kept.low > moved.high else "gains" if moved.low > kept.high else "same"].append(name)
+    return (
+        "Kinds of which some set fails at every P tried with the origin moved, and none from some P on with it kept: "
+        f"{listed(never)}. Through the programs with eight digits moving the origin loses hulls of: "
+        f"{listed(verdicts['loses'])}; gains hulls of: {listed(verdicts['gains'])}; makes no difference that can be "
+        f"told for: {listed(verdicts['same'])}."
+    )

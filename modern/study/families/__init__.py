@@ -12,20 +12,20 @@ from importlib import import_module
 from typing import Any
 
 from modern.formats.deck import coordinate_field
-from modern.study.families import given, grids, rounds, solids, thesis
-from modern.study.families.drawing import Draw, Drawn, FamilyError
+from modern.study.families import given, scattered, solids, thesis
+from modern.study.families.draws import Draw, Drawn, FamilyError
 from modern.study.plan import Cell, PlanError, random_of
 
 Family = Callable[..., Drawn]
 
 FAMILIES: Mapping[str, Family] = {
     "thesis": thesis.thesis,
-    "integers": grids.integers,
-    "box": grids.box,
-    "decimals": grids.decimals,
-    "ball": rounds.ball,
-    "sphere": rounds.sphere,
-    "cube": rounds.cube,
+    "integers": scattered.integers,
+    "box": scattered.box,
+    "decimals": scattered.decimals,
+    "ball": scattered.ball,
+    "sphere": scattered.sphere,
+    "cube": scattered.cube,
     "prism": solids.prism,
     "pyramid": solids.pyramid,
     "near-coplanar": solids.near_coplanar,

@@ -9,7 +9,7 @@ from modern.edition import chapter6
 from modern.edition.chapter4 import load_theorems
 from modern.formats.points import parse_input, read_input
 from modern.geometry.numbers import finite_decimal
-from modern.study.families.drawing import MOST, Count, Draw, Drawn, FamilyError, Point
+from modern.study.families.draws import MOST, Count, Draw, Drawn, FamilyError, Point
 
 
 @cache

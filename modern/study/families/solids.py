@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from math import isqrt
 
-from modern.study.families.drawing import Count, Draw, Drawn, FamilyError, Whole, drawn, size_of
-from modern.study.families.rounds import nearest
-
-_FINE = 10**12
+from modern.study.families.draws import Count, Draw, Drawn, FamilyError, Whole, drawn, size_of
+from modern.study.families.scattered import FINE, nearest
 
 
 def prism(draw: Draw, digits: int, n: Count) -> Drawn:
@@ -50,8 +48,8 @@ def near_coplanar(draw: Draw, digits: int, n: Count, gap: int) -> Drawn:
 def _base(draw: Draw, count: int, size: int) -> list[tuple[int, int]]:
     def point() -> Whole:
         while True:
-            x, y = draw.whole(-_FINE, _FINE), draw.whole(-_FINE, _FINE)
-            if 0 < x * x + y * y <= _FINE * _FINE:
+            x, y = draw.whole(-FINE, FINE), draw.whole(-FINE, FINE)
+            if 0 < x * x + y * y <= FINE * FINE:
                 length = isqrt(x * x + y * y)
                 return nearest(size * x, length), nearest(size * y, length), 0
 

@@ -23,7 +23,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from modern.study.families.drawing import Count, Draw, Drawn, FamilyError, Whole, drawn
+from modern.study.families.draws import Count, Draw, Drawn, FamilyError, Whole, drawn
 
 N = (4, 17)
 _LARGE, _SMALL, _WIDE, _MULTIPLE = 200, 9, 20, 3000

@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 from modern.study import Plan, PlanError, run_study
-from modern.study import dasked as study_dask
+from modern.study import workers as study_workers
 from tests.modern.study.test_study_runs import contents
 from tests.support.studied import PLAN
 
@@ -61,8 +61,8 @@ def test_a_worker_killed_in_mid_run_changes_nothing(cluster: Any, tmp_path: Path
 
 
 def test_a_worker_of_another_version_is_refused(cluster: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    own = study_dask.versions()
-    monkeypatch.setattr(study_dask, "versions", lambda: {**own, "numpy": "0.1"})
+    own = study_workers.versions()
+    monkeypatch.setattr(study_workers, "versions", lambda: {**own, "numpy": "0.1"})
     with pytest.raises(PlanError, match=rf"a worker has numpy {own['numpy']}, this process 0.1"):
         run_study(PLAN, tmp_path / "old", dask=cluster.scheduler_address, quiet=True)
 
@@ -71,7 +71,7 @@ def test_a_worker_without_hull1620_is_refused(cluster: Any, tmp_path: Path, monk
     def missing() -> None:
         raise ModuleNotFoundError("No module named 'modern'")
 
-    monkeypatch.setattr(study_dask, "_loaded", missing)
+    monkeypatch.setattr(study_workers, "_loaded", missing)
     with pytest.raises(PlanError, match=r"a worker cannot load hull1620: .*No module named 'modern'") as refused:
         run_study(PLAN, tmp_path / "none", dask=cluster.scheduler_address, quiet=True)
     assert "\n" not in str(refused.value)
@@ -100,7 +100,7 @@ def test_a_cluster_that_goes_away_is_said_in_a_line(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("address", ["nonsense", "tcp://", "tcp://127.0.0.1:1"])
 def test_no_cluster_there(address: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(study_dask, "TIMEOUT", 1)
+    monkeypatch.setattr(study_workers, "TIMEOUT", 1)
     with pytest.raises(PlanError) as refused:
         run_study(PLAN, tmp_path / "no", dask=address, quiet=True)
     assert str(refused.value).startswith(f"--dask {address}: ")

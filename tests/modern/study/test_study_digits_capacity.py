@@ -16,14 +16,13 @@ from modern.edition import programs
 from modern.exact_hull import exact_hull
 from modern.port import convex_hull
 from modern.study.builtin import capacity, digits, divergence, machine_time
-from modern.study.charts import Lines
 from modern.study.families import draw_sample
-from modern.study.judged import Judged, judge
 from modern.study.measures import divergence as divergence_of
 from modern.study.measures import plane_table
 from modern.study.plan import Cell, Plan
-from modern.study.report import Report
+from modern.study.report import Lines, Report
 from modern.study.run import run_study
+from modern.study.sample import Sample, judge
 from modern.study.statistics import exact
 from modern.study.store import Store
 from modern.study.summary import cells, summary, values
@@ -31,7 +30,7 @@ from modern.thesis.job import HullRun, run_hull
 from tests.support.judged import OPTIONS
 
 
-def _sample(family: str, index: int, **parameters: int) -> Judged:
+def _sample(family: str, index: int, **parameters: int) -> Sample:
     return judge(draw_sample(Cell({"sets": family}, family, parameters, (), 9), 1963, index), "sample")
 
 
@@ -68,7 +67,7 @@ def test_no_places_without_a_history_or_in_the_plane() -> None:
     assert plane_table(sample, convex_hull(flat, history=True)) == {}
 
 
-def _run(sample: Judged) -> HullRun:
+def _run(sample: Sample) -> HullRun:
     return run_hull(sample.deck, programs.program)
 
 
@@ -121,7 +120,9 @@ def test_digits_follows_the_rows(digits_study: tuple[Plan, Path, Report]) -> Non
         after = digits.report(plan, store)
         assert digits.least(summary(store), 1) == 21
     assert after.tables[0].rows[1][4] == "21"
-    assert after.words[2] != before.words[2]
+    assert before.words[2].startswith("Lengths d for which the least P is 3d + 1, with which every test for zero")
+    assert "is exact: 3 of 3." in before.words[2]
+    assert "is exact: 2 of 3." in after.words[2]
 
 
 def test_capacity_reports_the_most_places_of_its_rows(tmp_path: Path) -> None:
@@ -134,8 +135,10 @@ def test_capacity_reports_the_most_places_of_its_rows(tmp_path: Path) -> None:
         again = capacity.report(plan, store)
     assert again == report
     assert max(int(row[4]) for row in report.tables[0].rows) == max(figures) > capacity.PLACES
-    assert "sphere: some set needs more than 98 places from N = 51 on" in report.words[0]
-    assert report.words[1].startswith("Of the sizes tried, N = 8 is the largest at which")
+    assert [row[1] for row in report.tables[0].rows] == ["-", "51"]
+    assert report.words[0].startswith(f"Most places seen in use at once: {max(figures)}; ")
+    assert report.words[0].endswith("no set needed more than 98: 8.")
+    assert report.words[1].startswith("Sets tried at that N: 4. ")
     assert report.tables[2].rows[0][1:] == ("98", str(capacity.positions(98)), "40000")
 
 
@@ -174,30 +177,25 @@ def test_machine_time_counts_only_sets_whose_hull_was_found(tmp_path: Path) -> N
         assert machine_time.report(plan, store).words == ("No set was determined, so nothing was timed.",)
 
 
-def test_durations_in_words() -> None:
-    assert machine_time.spoken_time(18.2) == "18 s"
-    assert machine_time.spoken_time(450) == "7.5 min"
-    assert machine_time.spoken_time(5070) == "1 h 24 min"
-
-
 def test_divergence_names_where_and_follows_the_rows(tmp_path: Path) -> None:
     whole = divergence.plan(3, 3)
     wanted = [cell for cell in whole.cells if cell.key["sets"] in ("whole, 2 digits", "whole, 6 digits")]
     plan = Plan(whole.name, whole.title, whole.question, tuple(wanted), whole.seed)
     report = _finished(plan, tmp_path / "out", divergence)
     assert sum(int(row[1]) for row in report.tables[0].rows) == 6
-    assert "all of the families whole, 2 digits" in report.words[0]
+    assert report.words[0].endswith("Families of which every set does: whole, 2 digits.")
     with closing(Store.open(tmp_path / "out", plan)) as store:
         store.query("UPDATE runs SET outcome = 'right'")
-        assert "Of the 3 that follow exact numbers throughout 0 fail" in divergence.report(plan, store).words[1]
+        assert "by the programs' own faults: 0 of 3," in divergence.report(plan, store).words[1]
         store.query("UPDATE runs SET outcome = 'endless' WHERE place = 0")
         once = divergence.report(plan, store).words[1]
-        assert once.startswith("Of the 3 other sets 2 still end in the right hull")
-        assert "Of the 3 that follow exact numbers throughout 1 fail" in once
+        assert once.startswith("Of the other sets, those that still end in the right hull: 2 of 3,")
+        assert "by the programs' own faults: 1 of 3," in once
         store.query("UPDATE runs SET figures = json_set(figures, '$.diverges', 'program3 116')")
         after = divergence.report(plan, store)
     assert after.tables[0].rows[0][:2] == ("program3 116", "6")
-    assert "all of the families" not in after.words[0]
+    assert after.words[0].endswith("Families of which every set does: none.")
+    assert after.words[1].endswith("by the programs' own faults: 0 of 0.")
 
 
 @pytest.mark.parametrize("module", [digits, capacity, machine_time, divergence])

@@ -14,7 +14,7 @@ from modern.exact_hull import exact_hull
 from modern.formats.deck import coordinate_field
 from modern.study import Cell, PlanError
 from modern.study.families import FAMILIES, draw_sample
-from modern.study.families.drawing import Draw, Drawn, FamilyError
+from modern.study.families.draws import Draw, Drawn, FamilyError
 from modern.study.families.given import published_sets
 from modern.study.families.thesis import KINDS
 from modern.study.plan import random_of
@@ -196,6 +196,6 @@ def test_a_family_that_has_too_few_points_says_so() -> None:
 
 
 def test_a_family_of_ones_own() -> None:
-    assert draw("modern.study.families.grids:integers", 3, digits=2, n=4).points
+    assert draw("modern.study.families.scattered:integers", 3, digits=2, n=4).points
     with pytest.raises(PlanError):
-        draw("modern.study.families.grids:nothing", 3, n=4)
+        draw("modern.study.families.scattered:nothing", 3, n=4)

@@ -17,12 +17,11 @@ from emulator.errors import EmulatorError
 from modern.cli.main import main
 from modern.study import Plan, PlanError, Port, Programs, run_study
 from modern.study.builtin import seventy
-from modern.study.charts import Bars, Lines, Mark, Series
-from modern.study.filing import DETERMINED, OUTCOMES
+from modern.study.outcomes import DETERMINED, OUTCOMES
 from modern.study.plots import can_plot, draw
 from modern.study.registry import entries, names, study
+from modern.study.report import Bars, Lines, Mark, Series, Table, percent, with_interval
 from modern.study.statistics import Interval, exact, mean, wilson
-from modern.study.tables import Table, percent, with_interval
 from modern.study.tomlplan import read_plan
 from tests.support.paths import ROOT
 
@@ -141,7 +140,7 @@ def test_one_seventy_tells_little(tmp_path: Path) -> None:
     report = run_study(seventy.plan(70, 1963), tmp_path / "one", seventy.report, workers=1, quiet=True)
     words = " ".join(report.words)
     assert "inf" not in words + " ".join(report.tables[0].rows[0])
-    assert "so few seventies do not tell" in words
+    assert "not to be judged from so few seventies" in words
 
 
 @pytest.mark.parametrize("samples", [0, 69, 71])

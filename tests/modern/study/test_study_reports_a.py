@@ -13,15 +13,14 @@ from typing import Any
 import pytest
 
 from modern.study.builtin import epsilon, rounding, translation
-from modern.study.charts import Bars
-from modern.study.check import check_plan
-from modern.study.chunks import chunk_text
-from modern.study.filing import DETERMINED, OUTCOMES
+from modern.study.outcomes import DETERMINED, OUTCOMES
 from modern.study.plan import Chunk, Plan
-from modern.study.report import Report
+from modern.study.report import Bars, Report, Table, listed, powers, share_of
+from modern.study.run import check_plan
+from modern.study.statistics import exact
 from modern.study.store import Store
 from modern.study.summary import cells, summary
-from modern.study.words import count, powers, series, spans
+from modern.study.workers import chunk_text
 
 STUDIES = {module.__name__.rpartition(".")[2]: module for module in (epsilon, rounding, translation)}
 SLIPS = re.compile(r"  | [.,;:](?!\d)|[.,;:][.,;:]|None|nan|inf\b")
@@ -70,6 +69,10 @@ def all_right(*_: object) -> tuple[str, str]:
 def report_of(name: str, plan: Plan, folder: Path, outcome: Outcome) -> Report:
     with stored(plan, folder, made_up(plan, outcome)) as store:
         return STUDIES[name].report(plan, store)
+
+
+def table_of(report: Report, name: str) -> Table:
+    return next(table for table in report.tables if table.name == name)
 
 
 def check_form(report: Report) -> None:
@@ -156,27 +159,31 @@ def test_rounding_tells_a_way_that_is_better(tmp_path: Path) -> None:
 
     report = report_of("rounding", plan, tmp_path / "a", outcome)
     tested = 10 * len(cells(plan, test="exact"))
-    assert f"guard digit: {tested // 2} found and 0 lost (better)" in report.words[0]
-    assert "float64: 0 found and 0 lost (no difference)" in report.words[0]
-    assert "9999 with guard digit" in report.words[0]
-    assert "none with truncating" in report.words[0]
-    assert f"truncating, {tested // 2} of {tested // 2}, 100.0" in report.words[1]
-    assert "guard digit," not in report.words[1]
-    assert "The others" not in report.words[1]
+    pairs = {(row[0], row[1]): row[2:] for row in table_of(report, "pairs").rows}
+    assert pairs["guard digit", "exact"] == (str(tested // 2), "0", "better")
+    assert pairs["float64", "exact"] == ("0", "0", "no difference")
+    assert pairs["guard digit", "interval"] == (str(10 * 4 // 2), "0", "better")
+    largest = {row[0]: row[1] for row in report.tables[0].rows}
+    assert largest["guard digit"] == "9999"
+    assert largest["truncating"] == "-"
+    lost = (len(rounding.WAYS) - 1) * tested // 2
+    assert f"all ways together: {lost:,}. Of these ended in a wrong hull that looks right: {lost:,};" in report.words[0]
+    assert {row[1:] for row in table_of(report, "widths").rows} == {("none", "none", "10^-6 to 10^-1", *["none"] * 3)}
     fair = report_of("rounding", plan, tmp_path / "b", all_right)
-    assert "no set failed in any way" in fair.words[1]
-    assert "better and 0 worse (better)" not in fair.words[2]
+    assert fair.words[0].startswith("Failures with the exact test, all ways together: 0.")
+    assert {row[4] for row in table_of(fair, "pairs").rows} == {"no difference"}
 
 
-def test_rounding_says_what_decimals_need_only_where_it_shows(tmp_path: Path) -> None:
+def test_rounding_says_what_decimals_need(tmp_path: Path) -> None:
     plan = rounding.plan(20, 1963)
     ((tenths, _),) = cells(plan, sets=rounding.TENTHS)
 
     def outcome(cell: int, route: str, index: int) -> tuple[str, str]:
         return ("DATA NOT ACCEPTABLE", "") if cell == tenths and route == "float64" else ("right", "")
 
-    assert "Decimals need" in report_of("rounding", plan, tmp_path / "a", outcome).words[1]
-    assert "Decimals need" not in report_of("rounding", plan, tmp_path / "b", all_right).words[1]
+    words = report_of("rounding", plan, tmp_path / "a", outcome).words[1]
+    assert "by truncation to eight digits 100.0 (83.9 to 100.0) %; by float64" in words
+    assert words.endswith("cannot hold a tenth, 0.0 (0.0 to 16.1) %.")
 
 
 def test_epsilon_tells_an_e_that_does_for_all(tmp_path: Path) -> None:
@@ -191,12 +198,15 @@ def test_epsilon_tells_an_e_that_does_for_all(tmp_path: Path) -> None:
         return ("wrong hull", "vertex missed") if lost else ("DATA NOT ACCEPTABLE", "program1 1")
 
     report = report_of("epsilon", plan, tmp_path / "a", outcome)
-    assert "With e as it is no set of any kind failed at 10^2" in report.words[0]
-    assert "With e scaled no set of any kind failed at 10^-1" in report.words[0]
+    assert [row[:3] for row in table_of(report, "best").rows] == [
+        ("as it is", "10^2", "10^2"),
+        ("scaled", "10^-1", "10^-1"),
+    ]
     assert all(row[3:] == ("10^2", "10^3", "10^-1", "-") for row in report.tables[0].rows)
     sets = 4 * len(plan.cells)
-    assert f"smaller than those at which none of the kind failed, {sets} of {sets}" in report.words[2]
-    assert f"greater than those at which none of the kind failed, {sets} of {sets} sets, 100.0" in report.words[2]
+    price = table_of(report, "price").rows
+    assert [row[:3] for row in price] == [("smaller", f"{sets}", f"{sets}"), ("greater", f"{sets}", f"{sets}")]
+    assert price[1][3].startswith("100.0 ")
 
 
 def test_epsilon_tells_where_no_e_does(tmp_path: Path) -> None:
@@ -207,16 +217,21 @@ def test_epsilon_tells_where_no_e_does(tmp_path: Path) -> None:
         return ("wrong hull", "plane missed") if fails else ("right", "")
 
     report = report_of("epsilon", plan, tmp_path / "a", outcome)
-    assert "Of e as it is, no value tried does for all sets" in report.words[0]
-    assert "for the gap of .001 there is none at which no set fails" in report.words[0]
-    assert "begins at no e tried" in report.words[1]
+    absolute = table_of(report, "best").rows[0]
+    assert absolute[1] == "none"
+    assert absolute[4:] == ("gap of .001", "gap of .001")
+    assert all(row[4] == "-" for row in report.tables[0].rows)
 
 
 def test_translation_tells_whether_it_saves(tmp_path: Path) -> None:
     plan = translation.plan(3, 1963)
     report = report_of("translation", plan, tmp_path / "a", all_right)
-    assert "it saves 10.0 (10.0 to 10.0) %" in report.words[0]
-    assert "no difference can be told" in report.words[1]
+    assert "saves time (1 to 1.5)" in report.words[0]
+    assert "on the mean. Moving the origin" in report.words[0]
+    assert (
+        "loses hulls of: none; gains hulls of: none; makes no difference that can be told for: numbers to 9;"
+        in (report.words[1])
+    )
     # The whole time goes from 135 to 125 seconds; additions from 100 to 110.
     assert all(row[4].startswith("-10.0") and row[8].startswith("7.4") for row in report.tables[0].rows)
 
@@ -225,17 +240,18 @@ def test_translation_tells_whether_it_saves(tmp_path: Path) -> None:
 
     lost = report_of("translation", plan, tmp_path / "b", refused)
     assert lost.words[0] == "No set was determined both ways, so no time can be compared."
-    assert "numbers to 9, it loses: 100.0" in lost.words[1]
-    assert "some fail at every P tried" in lost.words[1]
+    assert "from some P on with it kept: numbers to 9; numbers to 9 about 100;" in lost.words[1]
+    assert lost.words[1].endswith("gains hulls of: none; makes no difference that can be told for: none.")
     assert all(row[3] == "-" for row in lost.tables[2].rows)
 
 
-def test_words_in_series() -> None:
-    assert (series([]), series([1]), series("ab"), series("abc")) == ("none", "1", "a and b", "a, b and c")
-    assert (count(0, "set"), count(1, "set"), count(1200, "set")) == ("no set", "1 set", "1,200 sets")
-    assert spans([-3, -2, -1, 4, 6]) == ((-3, -1), (4, 4), (6, 6))
-    assert powers([-3, -2, 1]) == "10^-3 to 10^-2 and 10^1"
-    assert powers([], "nowhere") == "nowhere"
+def test_lists_and_shares_as_text() -> None:
+    assert (listed([]), listed([1]), listed("abc")) == ("none", "1", "a; b; c")
+    assert powers([-3, -2, 1]) == "10^-3 to 10^-2, 10^1"
+    assert powers([]) == "none"
+    assert share_of(0, 0) == "0 of 0"
+    assert share_of(3, 1200) == "3 of 1,200, 0.250 (0.085 to 0.733) %"
+    assert share_of(0, 300, exact) == "0 of 300, 0.00 (0.00 to 1.22) %"
 
 
 def test_outcomes_that_give_the_hull_count_as_found(tmp_path: Path) -> None:

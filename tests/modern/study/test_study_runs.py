@@ -20,13 +20,12 @@ from pathlib import Path
 import pytest
 
 from modern.study import Plan, PlanError, Port, Programs, run_study
-from modern.study import files as study_files
-from modern.study.files import BESIDE, StudyFileError
+from modern.study import store as study_store
 from modern.study.index import NAME as INDEX
 from modern.study.progress import Progress
 from modern.study.run import plain_lines
-from modern.study.runner import carry_out
-from modern.study.store import Store
+from modern.study.store import BESIDE, Store, StudyFileError
+from modern.study.workers import in_processes
 from tests.support.paths import ROOT
 from tests.support.studied import PLAN, ROUTES
 
@@ -41,7 +40,7 @@ if __name__ == "__main__":
 WORKER = """
 import multiprocessing
 from concurrent.futures import ProcessPoolExecutor
-from modern.study.runner import _begin_worker
+from modern.study.workers import _begin_worker
 
 pool = ProcessPoolExecutor(1, multiprocessing.get_context("spawn"), initializer=_begin_worker)
 pool.submit(print, "at work", flush=True).result()
@@ -197,7 +196,7 @@ def test_a_full_disk_is_said_in_a_line_and_resumed_from(
         if left[0] < 0:
             raise OSError(errno.ENOSPC, "No space left on device")
 
-    monkeypatch.setattr(study_files.os, "fsync", fsync)
+    monkeypatch.setattr(study_store.os, "fsync", fsync)
     with pytest.raises(StudyFileError, match="no space left on device") as full:
         run_study(PLAN, folder, workers=1, quiet=True)
     assert "\n" not in str(full.value)
@@ -438,7 +437,7 @@ def test_the_work_is_given_out_as_it_is_wanted() -> None:
     """Memory stays flat: of a plan of many chunks only those asked for are made."""
     plan = replace(PLAN, cells=(replace(PLAN.cells[0], samples=5_000_000),))
     chunks = [chunk for chunk, _ in zip(plan.chunks(), range(1000), strict=False)]
-    made = carry_out(plan, chunks, 1)
+    made = in_processes(plan, chunks, 1)
     assert [next(made)[0] for _ in range(2)] == chunks[:2]
     made.close()
 
@@ -446,7 +445,7 @@ def test_the_work_is_given_out_as_it_is_wanted() -> None:
 def test_threads_are_none_of_a_study() -> None:
     """A study with one worker starts nothing beside itself."""
     before = threading.active_count()
-    list(carry_out(PLAN, list(PLAN.chunks())[:1], 1))
+    list(in_processes(PLAN, list(PLAN.chunks())[:1], 1))
     assert threading.active_count() == before
 
 

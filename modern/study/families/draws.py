@@ -1,14 +1,16 @@
-"""What every family draws with: a generator, distinct points, and decimals from whole numbers."""
+"""What every family draws its random numbers with: a generator, distinct points, decimals from whole numbers."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from random import Random
+from typing import TypeVar
 
 from emulator.errors import EmulatorError
 from modern.port.arithmetic import scaled_decimal
 
+T = TypeVar("T")
 Point = tuple[str, str, str]
 Whole = tuple[int, int, int]
 Count = int | Sequence[int]
@@ -41,9 +43,9 @@ class Draw:
             raise FamilyError(f"n is {low}{'' if low == high else f' to {high}'}; the programs take 1 to {MOST} points")
         return self.whole(low, high)
 
-    def distinct(self, count: int, point: Callable[[], Whole]) -> list[Whole]:
+    def distinct(self, count: int, point: Callable[[], T]) -> list[T]:
         """``count`` distinct points.  Raises FamilyError where the family hardly has as many."""
-        found: dict[Whole, None] = {}
+        found: dict[T, None] = {}
         for _ in range(_TRIES * count):
             if len(found) == count:
                 break

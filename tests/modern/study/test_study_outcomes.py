@@ -10,7 +10,6 @@ from fractions import Fraction
 import pytest
 
 from emulator.errors import EmulatorError
-from emulator.language.cards import deck_from_lines
 from emulator.language.objectcode import Line
 from emulator.machine.machine import Machine
 from emulator.machine.result import Ending, Options
@@ -20,15 +19,14 @@ from modern.edition.grounds import ground_deck
 from modern.formats.deck import with_epsilon
 from modern.formats.points import parse_input
 from modern.study import Cell, Port, Programs, Route
-from modern.study.causes import place, refused_at
 from modern.study.families import draw_sample
-from modern.study.families.drawing import Drawn
-from modern.study.filing import OUTCOMES, Filed, file_run, number_text, reordered
-from modern.study.judged import Judged, judge
+from modern.study.families.draws import Drawn
+from modern.study.outcomes import OUTCOMES, Answer, answer_of_run, number_text, place, reordered
 from modern.study.routes import carry_out, options_of, programs_of
+from modern.study.sample import Sample, judge
 from modern.thesis.batch import Runs, run_hulls
 from modern.thesis.job import HullRun, run_hull
-from tests.modern import judged as shared
+from tests.support import judged as shared
 from tests.support.paths import MACHINE_RUNS
 
 MENDED = Programs("mended", layers=("corrected",), core=60_000, limit=1_000_000)
@@ -43,12 +41,12 @@ def points_of(name: str) -> tuple[tuple[str, str, str], ...]:
     return parse_input(text, name).points
 
 
-def sample(points: Sequence[Sequence[int | str]] | str) -> Judged:
+def sample(points: Sequence[Sequence[int | str]] | str) -> Sample:
     given = points_of(points) if isinstance(points, str) else points
     return judge(Drawn(tuple((str(x), str(y), str(z)) for x, y, z in given)), "sample")
 
 
-def filed(points: Sequence[Sequence[int | str]] | str, route: Route = LISTED) -> Filed:
+def answer(points: Sequence[Sequence[int | str]] | str, route: Route = LISTED) -> Answer:
     (one,) = carry_out(route, [sample(points)], Runs())
     return one
 
@@ -87,24 +85,24 @@ CASES = [
 
 @pytest.mark.parametrize(("points", "route", "outcome", "detail"), CASES)
 def test_every_outcome(points: Sequence[Sequence[int | str]] | str, route: Route, outcome: str, detail: str) -> None:
-    found = filed(points, route)
+    found = answer(points, route)
     assert (found.outcome, found.detail) == (outcome, detail)
 
 
 def test_the_plane_table_is_full() -> None:
     """KNOWN-FAULTS 5: with the mend of the last pair the 47 points of the ground come to its end."""
-    found = filed("table", Programs("one mend", rows=("P3-025",)))
+    found = answer("table", Programs("one mend", rows=("P3-025",)))
     assert (found.outcome, found.detail) == ("table full", "program3 MM(99)")
-    assert filed("table", MENDED).outcome == "right"
+    assert answer("table", MENDED).outcome == "right"
 
 
 def test_another_order_is_seen_against_the_reference_only() -> None:
     """The examples' state of program 1 orders points otherwise than the listing does."""
-    listed, examples = filed("example5"), filed("example5", Programs("examples", state="examples"))
+    listed, examples = answer("example5"), answer("example5", Programs("examples", state="examples"))
     assert listed.outcome == examples.outcome == "right"
     assert reordered(examples, listed).outcome == "reordered"
     assert reordered(examples, examples).outcome == "right"
-    wrong = filed("lastpair")
+    wrong = answer("lastpair")
     assert reordered(listed, wrong) == listed
     assert reordered(wrong, listed) == wrong
 
@@ -114,7 +112,7 @@ def small_sets(count: int) -> list[list[shared.Point]]:
     return [points for _, points in shared.sets(count, 3) if len(points) < 14]
 
 
-def run_of(name: str) -> tuple[HullRun, Judged]:
+def run_of(name: str) -> tuple[HullRun, Sample]:
     one = sample(name)
     (run,) = run_hulls([one.deck], programs_of(LISTED)[1], options_of(LISTED))
     assert isinstance(run, HullRun)
@@ -126,12 +124,12 @@ def punched_otherwise(run: HullRun, cards: Sequence[str]) -> HullRun:
     return HullRun((*run.steps[:-1], last))
 
 
-def refiled(run: HullRun, one: Judged) -> tuple[str, str]:
-    found = file_run(run, one, Options(), Runs())
+def answered(run: HullRun, one: Sample) -> tuple[str, str]:
+    found = answer_of_run(run, one, Options())
     return found.outcome, found.detail
 
 
-def test_changed_cards_are_filed_as_what_they_say() -> None:
+def test_changed_cards_are_what_they_say() -> None:
     """What no deck at hand brings about: a plane twice, a vertex, a plane or a point too many."""
     run, one = run_of("example5")
     cards = list(run.final.result.punched)
@@ -146,20 +144,20 @@ def test_changed_cards_are_filed_as_what_they_say() -> None:
     more = [card.rstrip()[: len(card.rstrip()) - 1] + str(count + 1) for card in satisfied]
     end = cards.index("CONVEX HULL HAS BEEN DETERMINED")
     twice = [*cards[: last + 1], again, *cards[last + 1 : end], *more, *cards[end:]]
-    assert refiled(punched_otherwise(run, twice), one) == ("doubled plane", "1")
-    assert refiled(punched_otherwise(run, [c for k, c in enumerate(cards) if k != last]), one)[1] == "plane missed"
+    assert answered(punched_otherwise(run, twice), one) == ("doubled plane", "1")
+    assert answered(punched_otherwise(run, [c for k, c in enumerate(cards) if k != last]), one)[1] == "plane missed"
     foreign = again.replace(again.split()[1], "-.12345678E+05")
     extra = [*cards[: last + 1], foreign, *cards[last + 1 :]]
-    assert refiled(punched_otherwise(run, extra), one) == ("wrong hull", "plane too many")
+    assert answered(punched_otherwise(run, extra), one) == ("wrong hull", "plane too many")
     inside = next(k for k, card in enumerate(cards) if card.startswith("INSIDE"))
     moved = next(k for k in range(inside, len(cards)) if cards[k].count("E+") == 3)
-    assert refiled(punched_otherwise(run, [c for k, c in enumerate(cards) if k != moved]), one)[1] == "point misfiled"
+    assert answered(punched_otherwise(run, [c for k, c in enumerate(cards) if k != moved]), one)[1] == "point misfiled"
     vertices = cards.index("VERTICES")
     corner = next(k for k in range(vertices, len(cards)) if cards[k].count("E") == 3 and "." in cards[k])
     added = [*cards[:corner], f"   1  {cards[moved].strip()}", *cards[corner:]]
-    assert refiled(punched_otherwise(run, added), one) == ("wrong hull", "vertex too many")
+    assert answered(punched_otherwise(run, added), one) == ("wrong hull", "vertex too many")
     fewer = [c for k, c in enumerate(cards) if k != corner]
-    assert refiled(punched_otherwise(run, fewer), one) == ("wrong hull", "vertex missed")
+    assert answered(punched_otherwise(run, fewer), one) == ("wrong hull", "vertex missed")
 
 
 @pytest.mark.parametrize(
@@ -179,26 +177,30 @@ def test_the_plane_of_coplanar_points_is_judged_too(printed: str, outcome: str) 
     title = next(k for k, card in enumerate(cards) if card.startswith("COEFFICIENTS OF AN EQUATION"))
     where = next(k for k in range(title, len(cards)) if cards[k].count("E") == 4 and "." in cards[k])
     cards[where] = f"{'':7}{printed}"
-    assert refiled(punched_otherwise(run, cards), one) == (outcome, "" if outcome == "right" else "equations wrong")
+    assert answered(punched_otherwise(run, cards), one) == (outcome, "" if outcome == "right" else "equations wrong")
 
 
-def test_other_endings_are_filed_by_where_they_were() -> None:
+def test_other_endings_say_where_they_were() -> None:
     """No deck has reached an undefined value (OPEN-QUESTIONS 22); the ending is put in the place of a run's own."""
     run, one = run_of("example5")
-    message = "program3.f: card 99: A(7) is undefined where it is computed with, in ..."
+    line = next(line for line in run.final.program.statements if line.place.card == 99)
+    where = f"program3 {place(run.final.program, line)}"
 
-    def ended(kind: str, words: str) -> HullRun:
-        last = replace(run.final, result=replace(run.final.result, ending=Ending(kind, words)))
-        return HullRun((*run.steps[:-1], last))
+    def ended(ending: Ending) -> tuple[str, str]:
+        last = replace(run.final, result=replace(run.final.result, ending=ending))
+        return answered(HullRun((*run.steps[:-1], last)), one)
 
-    here = next(k for k, line in enumerate(run.final.program.statements) if line.place.card == 99)
-    where = f"program3 {place(run.final.program, here)}"
-    assert refiled(ended("undefined", message), one) == ("undefined value", where)
-    assert refiled(ended("mode", message), one) == ("stopped otherwise", f"mode in {where}")
-    outside = "program3.f: card 99: a subscript reaches outside the data into the program, in ..."
-    assert refiled(ended("outside", outside), one) == ("out of bounds", where)
-    below = "program3.f: card 99: A(0) is outside A(98), in ..."
-    assert refiled(ended("bounds", below), one) == ("out of bounds", "program3 A(0)")
+    assert ended(Ending("undefined", line=line, name="A(7)")) == ("undefined value", where)
+    assert ended(Ending("mode", line=line, name="A(7)", mode="fixed")) == ("stopped otherwise", f"mode in {where}")
+    assert ended(Ending("outside", line=line)) == ("out of bounds", where)
+    below = Ending("bounds", line=line, name="A", shape=(98,), subscripts=(0,))
+    assert ended(below) == ("out of bounds", "program3 A(0)")
+    assert ended(replace(below, subscripts=(99,))) == ("table full", "program3 A(99)")
+    assert ended(replace(below, name="X", subscripts=(99,))) == ("out of bounds", "program3 X(99)")
+    assert ended(replace(below, name="XY", shape=(3, 9), subscripts=(4, 1))) == ("out of bounds", "program3 XY(4,1)")
+    loop = tuple(line for line in run.final.program.statements if 100 <= line.place.card <= 110)
+    first, last = place(run.final.program, loop[0]), [line.label for line in loop if line.label][-1]
+    assert ended(Ending("limit", count=9, loop=loop, repeats=True)) == ("endless", f"program3 {first}-{last}")
 
 
 def test_every_outcome_has_a_case() -> None:
@@ -229,7 +231,7 @@ def test_a_deck_that_cannot_be_read_stops_no_other() -> None:
 
 
 def test_the_statement_that_decided_is_the_one_a_trace_shows() -> None:
-    """Against a route of its own: the last IF of the trace before the message."""
+    """Compared with a trace of the run: the last IF before the message."""
     seen = set()
     for points in small_sets(90):
         one = sample(points)
@@ -238,15 +240,13 @@ def test_the_statement_that_decided_is_the_one_a_trace_shows() -> None:
         if run.refusal != "ERROR IN PROGRAM":
             continue
         step = run.final
-        told = refused_at(step, run.refusal, options_of(LISTED), Runs())
+        told = answer_of_run(run, one, options_of(LISTED)).detail
         lines: list[Line] = []
-        deck = deck_from_lines("middle", [event.text for event in step.result.events if event.what == "read"])
-        machine = Machine(step.program, deck, options_of(LISTED))
+        machine = Machine(step.program, step.deck, options_of(LISTED))
         machine.tracer = lambda line, _, lines=lines: lines.append(line)  # type: ignore[misc]
         machine.run()
         typed = max(k for k, line in enumerate(lines) if line.text.startswith("PRINT"))
-        index = step.program.statements.index(lines[typed - 1])
-        assert told == f"{step.name} {place(step.program, index)}"
+        assert told == f"{step.name} {place(step.program, lines[typed - 1])}"
         seen.add(told)
     assert len(seen) > 1
 
@@ -261,17 +261,17 @@ def test_single_rows_are_added_without_the_rest_of_their_layer() -> None:
     slabs = Cell({}, "thesis", {"kinds": {"slab": 1}, "n": [12, 17]}, (), 1)
     ones = [judge(draw_sample(slabs, 2, k), "slab") for k in range(120)]
     before = carry_out(LISTED, ones, Runs())
-    behind = carry_out(replace(LISTED, rows=("P3-025",)), ones, Runs())
+    after = carry_out(replace(LISTED, rows=("P3-025",)), ones, Runs())
     last_pair = ("program3 147", "program3 142-160")
-    mended = [late for early, late in zip(before, behind, strict=True) if early.detail in last_pair]
+    mended = [late for early, late in zip(before, after, strict=True) if early.detail in last_pair]
     assert "right" in {one.outcome for one in mended}
-    assert all(one.detail not in last_pair for one in behind)
+    assert all(one.detail not in last_pair for one in after)
 
 
 def test_fewer_digits_than_a_card_are_taken_as_the_program_takes_them() -> None:
     """Points of five digits in four: the programs punch them cut, and the vertices are known all the same."""
     corners = [("10001", "0", "0"), ("0", "10001", "0"), ("0", "0", "10001"), ("-10001", "-10001", "-10001")]
-    found = filed(corners, replace(LISTED, arithmetic="truncating:4"))
+    found = answer(corners, replace(LISTED, arithmetic="truncating:4"))
     assert found.outcome in ("right", "wrong hull")
     assert found.detail != "coordinates changed"
 

@@ -11,13 +11,13 @@ from emulator.numbers.arithmetic import Rules
 from modern.comparison.outcome import Outcome, Vector, from_judge
 from modern.exact_hull import ExactHull, exact_hull
 from modern.formats.deck import data_deck, read_coordinates
-from modern.study.families.drawing import Drawn
+from modern.study.families.draws import Drawn
 
 _CARD_DIGITS = 8
 
 
 @dataclass(frozen=True, slots=True)
-class Judged:
+class Sample:
     """A sample and the judge's hull of it.
 
     ``points`` are the exact coordinates (x, y, z) that stand on ``deck``'s cards; ``on`` holds, for each equation of
@@ -43,25 +43,24 @@ class Judged:
             "inside": len(hull.inside),
         }
 
+    def points_read(self, rules: Rules) -> Sequence[Vector]:
+        """The points as an arithmetic of these rules reads them from the cards; below eight digits it cuts them."""
+        if rules[0] >= _CARD_DIGITS:
+            return self.points
+        points = []
+        for card in self.deck.cards[1:]:
+            reads = read_coordinates(card, rules)
+            points.append(tuple(read.mantissa * Fraction(10) ** (read.exponent - rules[0]) for read in reads))
+        return points
 
-def judge(drawn: Drawn, name: str) -> Judged:
-    """The deck of a sample, and its exact hull.  Raises ValueError where the points do not fit a deck."""
+
+def judge(drawn: Drawn, name: str) -> Sample:
+    """The deck of a set drawn, and its exact hull.  Raises ValueError where the points do not fit a deck."""
     deck = data_deck(drawn.points, name)
     points = tuple(tuple(map(Fraction, point)) for point in drawn.points)
     hull = exact_hull(drawn.points)
     outcome = from_judge(hull, points)
-    return Judged(drawn, deck, points, hull, outcome, _on(hull))
-
-
-def held(judged: Judged, rules: Rules) -> Sequence[Vector]:
-    """The points as an arithmetic of these rules reads them from the cards: with fewer than eight digits it cuts."""
-    if rules[0] >= _CARD_DIGITS:
-        return judged.points
-    points = []
-    for card in judged.deck.cards[1:]:
-        reads = read_coordinates(card, rules)
-        points.append(tuple(read.mantissa * Fraction(10) ** (read.exponent - rules[0]) for read in reads))
-    return points
+    return Sample(drawn, deck, points, hull, outcome, _on(hull))
 
 
 def _on(hull: ExactHull) -> tuple[frozenset[int], ...]:

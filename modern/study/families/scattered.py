@@ -1,0 +1,103 @@
+"""Points drawn one by one: in a cube or box, in a ball, on a sphere or on the surface of a cube.
+
+All are drawn by integers alone: whole numbers, or decimals as whole numbers times a power of ten.
+"""
+
+from __future__ import annotations
+
+from math import isqrt
+
+from modern.port.arithmetic import scaled_decimal
+from modern.study.families.draws import DIGITS, Count, Draw, Drawn, FamilyError, Whole, drawn, size_of, whole_range
+
+FINE = 10**12
+"""The radius of the grid a direction is drawn on before it is rounded."""
+
+
+def integers(draw: Draw, digits: int, n: Count) -> Drawn:
+    """Whole numbers from -(10**digits - 1) to 10**digits - 1, each coordinate uniform."""
+    size = size_of(digits)
+
+    def point() -> Whole:
+        return draw.whole(-size, size), draw.whole(-size, size), draw.whole(-size, size)
+
+    return drawn(draw.distinct(draw.count(n), point))
+
+
+def box(draw: Draw, most: int, n: Count, centre: int = 0) -> Drawn:
+    """Whole numbers from centre - most to centre + most, each coordinate uniform."""
+    if not isinstance(most, int) or not isinstance(centre, int) or most < 1 or abs(centre) + most > size_of(DIGITS):
+        raise FamilyError(f"most is {most}, centre {centre}; a card holds whole numbers of {DIGITS} digits")
+
+    def point() -> Whole:
+        x, y, z = (draw.whole(centre - most, centre + most) for _ in range(3))
+        return x, y, z
+
+    return drawn(draw.distinct(draw.count(n), point))
+
+
+def decimals(draw: Draw, digits: int, n: Count, exponent: Count = (0, 1)) -> Drawn:
+    """Decimals of exactly ``digits`` significant digits and either sign, as .12345 times a power of ten.
+
+    exponent: the power, or the least and the greatest it is drawn from, for each coordinate anew: with more than
+    one the digits of two coordinates do not stand one under the other, and a difference of them has more.
+    """
+    low, high = whole_range(exponent, "exponent")
+    if not -20 <= low <= high <= 20:
+        raise FamilyError(f"exponent is {low} to {high}; it is from -20 to 20")
+    least, most = 10 ** (digits - 1), size_of(digits)
+
+    def coordinate() -> str:
+        mantissa = draw.whole(least, most)
+        while digits > 1 and mantissa % 10 == 0:
+            mantissa = draw.whole(least, most)
+        return scaled_decimal(mantissa * (1 - 2 * draw.whole(0, 1)), draw.whole(low, high) - digits)
+
+    return Drawn(tuple(draw.distinct(draw.count(n), lambda: (coordinate(), coordinate(), coordinate()))))
+
+
+def ball(draw: Draw, digits: int, n: Count) -> Drawn:
+    """Uniform among the grid points of the ball of radius 10**digits - 1."""
+    size = size_of(digits)
+    return drawn(draw.distinct(draw.count(n), lambda: in_ball(draw, size)))
+
+
+def sphere(draw: Draw, digits: int, n: Count) -> Drawn:
+    """Directions uniform on the sphere of radius 10**digits - 1, each rounded to the nearest grid point."""
+    size = size_of(digits)
+    return drawn(draw.distinct(draw.count(n), lambda: on_sphere(draw, size)))
+
+
+def cube(draw: Draw, digits: int, n: Count) -> Drawn:
+    """Uniform on the six faces of the cube from -(10**digits - 1) to 10**digits - 1."""
+    size = size_of(digits)
+
+    def point() -> Whole:
+        place = [draw.whole(-size, size) for _ in range(3)]
+        place[draw.whole(0, 2)] = size * (1 - 2 * draw.whole(0, 1))
+        return place[0], place[1], place[2]
+
+    return drawn(draw.distinct(draw.count(n), point))
+
+
+def in_ball(draw: Draw, size: int) -> Whole:
+    """A grid point of the ball of that radius, the centre too."""
+    while True:
+        x, y, z = (draw.whole(-size, size) for _ in range(3))
+        if x * x + y * y + z * z <= size * size:
+            return x, y, z
+
+
+def on_sphere(draw: Draw, size: int) -> Whole:
+    """The grid point nearest to a point of the sphere of that radius."""
+    x, y, z = in_ball(draw, FINE)
+    while not (x or y or z):
+        x, y, z = in_ball(draw, FINE)
+    length = isqrt(x * x + y * y + z * z)
+    return nearest(size * x, length), nearest(size * y, length), nearest(size * z, length)
+
+
+def nearest(number: int, divisor: int) -> int:
+    """The whole number nearest to number/divisor, halves away from zero."""
+    size = (2 * abs(number) + divisor) // (2 * divisor)
+    return size if number >= 0 else -size
