@@ -12,8 +12,46 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from emulator.language import objectcode as op
-from emulator.language.objectcode import SUBSCRIPT, Flat, Program
+from emulator.language.objectcode import (
+    BEGIN,
+    BRANCH,
+    COUNT,
+    DOTEST,
+    FAD,
+    FDV,
+    FDVR,
+    FINISH,
+    FIX,
+    FLOAT,
+    FMFAC,
+    FMFIX,
+    FMP,
+    FSB,
+    FSBR,
+    FUNCTION,
+    IF,
+    IFX,
+    ITEM,
+    PAUSE,
+    POWER,
+    POWERX,
+    RSGN,
+    RSGX,
+    SELECT,
+    SEND,
+    SUBSCRIPT,
+    SWITCH,
+    TOFAC,
+    TOFIX,
+    TRANSMIT,
+    XAD,
+    XDVR,
+    XMP,
+    XSB,
+    XSBR,
+    Flat,
+    Program,
+)
 from emulator.numbers.accumulator import divide_fixed
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, ZERO, wrap_integer
 from emulator.numbers.base import Number, Numbers, Trap
@@ -44,13 +82,13 @@ Entry = tuple[int, int, Number]
 """(instruction, field changed or instruction gone to, value stored or tested); at a COUNT (instruction, 0, None)."""
 
 _SERVED = {
-    op.ITEM: AT_ITEM,
-    op.BEGIN: AT_BEGIN,
-    op.FINISH: AT_FINISH,
-    op.FUNCTION: AT_FUNCTION,
-    op.POWER: AT_POWER,
-    op.POWERX: AT_POWERX,
-    op.PAUSE: AT_PAUSE,
+    ITEM: AT_ITEM,
+    BEGIN: AT_BEGIN,
+    FINISH: AT_FINISH,
+    FUNCTION: AT_FUNCTION,
+    POWER: AT_POWER,
+    POWERX: AT_POWERX,
+    PAUSE: AT_PAUSE,
 }
 """What the machine sees to, not this loop: operation and reason to return."""
 
@@ -75,12 +113,12 @@ def entered(program: Program) -> list[bool]:
     named = {address for e in variables for address in range(e.first, e.first + e.size)}
     for instruction in program.code:
         operation = instruction.operation
-        if operation == op.BEGIN:
+        if operation == BEGIN:
             reading = program.verbs[instruction.address] in ("READ", "ACCEPT")
-        if operation == op.ITEM:
+        if operation == ITEM:
             found.append(reading)
         else:
-            stores = operation in (op.FMFAC, op.FMFIX, op.TRANSMIT)
+            stores = operation in (FMFAC, FMFIX, TRANSMIT)
             found.append(stores and (instruction.subscript >= 0 or instruction.address in named))
     return found
 
@@ -112,8 +150,17 @@ class State:
     work: int = 0
 
 
+Table = dict[int, Sequence[int]]
+
+
+def subscript_table(code: Flat) -> Table:
+    """The subscripts of a program by their place in :attr:`Flat.table`."""
+    return {k: code.table[k : k + SUBSCRIPT] for k in range(0, len(code.table), SUBSCRIPT)}
+
+
 def run(
     code: Flat,
+    table: Table,
     state: State,
     switches: Sequence[int],
     numbers: Numbers,
@@ -125,10 +172,11 @@ def run(
 ) -> int:
     """Run until a reason to return; the state is changed in place.
 
-    ``strict`` stops at a subscript outside its array, ``traced`` at each statement.  ``enters`` says which instructions
-    a journal enters.  Raises Undecided where the numbers cannot say; the state then tells where.
+    ``table`` is that of :func:`subscript_table`.  ``strict`` stops at a subscript outside its array, ``traced`` at each
+    statement.  ``enters`` says which instructions a journal enters.  Raises Undecided where the numbers cannot say; the
+    state then tells where.
     """
-    operations, addresses, subscripts, seconds, table, targets, loops, begins = code
+    operations, addresses, subscripts, seconds, _, targets, loops, begins = code
     values, kinds, counts = state.values, state.kinds, state.counts
     size = len(values)
     pc, fac, fixed, work, stored, decision = state.pc, state.fac, state.fixed, state.work, state.stored, state.decision
@@ -145,7 +193,7 @@ def run(
     )
     decide = journal.entries.append if journal else None
     enter = journal.entries.append if journal and journal.stores else None
-    if enter and pc and operations[pc - 1] == op.ITEM and enters[pc - 1]:
+    if enter and pc and operations[pc - 1] == ITEM and enters[pc - 1]:
         enter((pc - 1, state.address, values[state.address]))
     try:
         while True:
@@ -153,18 +201,16 @@ def run(
             a = addresses[pc]
             s = subscripts[pc]
             if s >= 0:
-                row = table[s : s + SUBSCRIPT]
-                v = row[0]
-                i = row[2]
+                v, c, i, rows, w, d, j, columns = table[s]
                 if v >= 0:
                     if kinds[v] != FIXED_POINT:
                         a = v
                         reason = AT_UNDEFINED
                         break
-                    i += row[1] * values[v]
-                if row[7] == 0:
-                    if strict and (i < 1 or i > row[3]):
-                        if o == op.SEND and i == row[3] + 1:
+                    i += c * values[v]
+                if columns == 0:
+                    if strict and not 1 <= i <= rows:
+                        if o == SEND and i == rows + 1:
                             sent, sent_kind = 0, UNDEFINED
                             pc += 1
                             continue
@@ -173,24 +219,22 @@ def run(
                         break
                     a += i - 1
                 else:
-                    j = row[6]
-                    v = row[4]
-                    if v >= 0:
-                        if kinds[v] != FIXED_POINT:
-                            a = v
+                    if w >= 0:
+                        if kinds[w] != FIXED_POINT:
+                            a = w
                             reason = AT_UNDEFINED
                             break
-                        j += row[5] * values[v]
-                    if strict and (i < 1 or i > row[3] or j < 1 or j > row[7]):
+                        j += d * values[w]
+                    if strict and not (1 <= i <= rows and 1 <= j <= columns):
                         state.index = (i, j)
                         reason = AT_BOUNDS
                         break
-                    a += i - 1 + row[3] * (j - 1)
+                    a += i - 1 + rows * (j - 1)
                 if a < 0 or a >= size:
                     reason = AT_OUTSIDE
                     break
-            if o <= op.FDVR:
-                if o == op.FMFAC:
+            if o <= FDVR:
+                if o == FMFAC:
                     values[a] = checked(fac)
                     kinds[a] = FLOATING
                     stored = a
@@ -203,21 +247,21 @@ def run(
                     break
                 value = values[a]
                 pc += 1
-                if o == op.TOFAC:
+                if o == TOFAC:
                     fac = value
-                elif o == op.FMP:
+                elif o == FMP:
                     fac = multiply(fac, value)
-                elif o == op.FAD:
+                elif o == FAD:
                     fac = add(fac, value)
-                elif o == op.FSB:
+                elif o == FSB:
                     fac = subtract(fac, value)
-                elif o == op.FSBR:
+                elif o == FSBR:
                     fac = numbers.subtract_reversed(fac, value)
-                elif o == op.FDV:
+                elif o == FDV:
                     fac = numbers.divide(fac, value)
                 else:
                     fac = numbers.divide(value, fac)
-            elif o == op.COUNT:
+            elif o == COUNT:
                 if begins[a]:
                     if work >= limit:
                         reason = AT_LIMIT
@@ -235,38 +279,38 @@ def run(
                     if enter:
                         enter((pc, 0, None))
                     pc += 1
-            elif o == op.IF:
+            elif o == IF:
                 target = targets[a + 1 + sign(fac)]
                 decision = pc + 1
                 if decide:
                     decide((pc, target, fac))
                 pc = target
-            elif o == op.DOTEST:
+            elif o == DOTEST:
                 v = loops[a]
-                unset = [f for f in (v, loops[a + 1], loops[a + 2]) if kinds[f] != FIXED_POINT]
-                if unset:
-                    a = unset[0]
+                step, last = loops[a + 1], loops[a + 2]
+                if not kinds[v] == kinds[step] == kinds[last] == FIXED_POINT:
+                    a = next(f for f in (v, step, last) if kinds[f] != FIXED_POINT)
                     reason = AT_UNDEFINED
                     break
-                value = wrap_integer(values[v] + values[loops[a + 1]])
+                value = wrap_integer(values[v] + values[step])
                 values[v] = value
-                target = loops[a + 3] if value <= values[loops[a + 2]] else pc + 1
+                target = loops[a + 3] if value <= values[last] else pc + 1
                 if decide:
                     decide((pc, target, value))
                 pc = target
-            elif o == op.SEND:
+            elif o == SEND:
                 sent, sent_kind = values[a], kinds[a]
                 pc += 1
-            elif o == op.TRANSMIT:
+            elif o == TRANSMIT:
                 values[a], kinds[a] = sent, sent_kind
                 stored = a
                 if enter and enters[pc]:
                     enter((pc, a, None if sent_kind == UNDEFINED else sent))
                 pc += 1
-            elif o == op.BRANCH:
+            elif o == BRANCH:
                 pc = targets[a]
-            elif o <= op.XDVR:
-                if o == op.FMFIX:
+            elif o <= XDVR:
+                if o == FMFIX:
                     values[a], kinds[a] = fixed, FIXED_POINT
                     stored = a
                     if enter and enters[pc]:
@@ -278,42 +322,42 @@ def run(
                     break
                 value = values[a]
                 pc += 1
-                if o == op.TOFIX:
+                if o == TOFIX:
                     fixed = value
-                elif o == op.XAD:
+                elif o == XAD:
                     fixed = wrap_integer(fixed + value)
-                elif o == op.XSB:
+                elif o == XSB:
                     fixed = wrap_integer(fixed - value)
-                elif o == op.XSBR:
+                elif o == XSBR:
                     fixed = wrap_integer(value - fixed)
-                elif o == op.XMP:
+                elif o == XMP:
                     fixed = wrap_integer(fixed * value)
                 else:
-                    if o == op.XDVR:
+                    if o == XDVR:
                         fixed, value = value, fixed
                     fixed, event = divide_fixed(fixed, value)
                     if event:
                         reason = AT_EVENT
                         break
-            elif o == op.IFX:
+            elif o == IFX:
                 target = targets[a + 1 + (fixed > 0) - (fixed < 0)]
                 decision = pc + 1
                 if decide:
                     decide((pc, target, fixed))
                 pc = target
-            elif o == op.RSGN:
+            elif o == RSGN:
                 fac = numbers.negate(fac)
                 pc += 1
-            elif o == op.RSGX:
+            elif o == RSGX:
                 fixed = -fixed
                 pc += 1
-            elif o == op.FLOAT:
+            elif o == FLOAT:
                 fac = numbers.from_integer(fixed)
                 pc += 1
-            elif o == op.FIX:
+            elif o == FIX:
                 fixed = numbers.to_integer(fac)
                 pc += 1
-            elif o == op.SELECT:
+            elif o == SELECT:
                 if kinds[a] != FIXED_POINT:
                     reason = AT_UNDEFINED
                     break
@@ -328,12 +372,10 @@ def run(
                 if decide:
                     decide((pc, target, value))
                 pc = target
-            elif o == op.SWITCH:
+            elif o == SWITCH:
                 pc = targets[a] if switches[seconds[pc] - 1] else targets[a + 1]
             elif o in _SERVED:
-                if o in (op.POWER, op.POWERX) and (
-                    kinds[a] == UNDEFINED or (kinds[a] == FIXED_POINT) != (o == op.POWERX)
-                ):
+                if o in (POWER, POWERX) and (kinds[a] == UNDEFINED or (kinds[a] == FIXED_POINT) != (o == POWERX)):
                     reason = AT_UNDEFINED
                     break
                 pc += 1

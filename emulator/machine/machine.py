@@ -68,6 +68,7 @@ class Machine:
         values, kinds = loaded(program, self.options.numbers)
         self.state = State(values, kinds, [0] * len(program.counters), self.options.numbers.from_integer(0))
         self._code = flatten(program)
+        self._table = interpreter.subscript_table(self._code)
         self._statement_of = program.statement_numbers()
         self._switches = [int(n in self.options.switches) for n in (1, 2, 3, 4)]
         self._enters = interpreter.entered(program) if self.journal else []
@@ -125,6 +126,7 @@ class Machine:
     def _interpret(self, limit: int) -> int:
         return interpreter.run(
             self._code,
+            self._table,
             self.state,
             self._switches,
             self.options.numbers,

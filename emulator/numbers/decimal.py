@@ -45,19 +45,27 @@ class DecimalNumbers(Numbers):
         return cut_decimal(whole, power, self._rules[0])
 
     def add(self, first: Pair, second: Pair) -> Pair:
-        return _checked(accumulator.add(*first, *second, self._rules, self._powers))
+        m, e, event = accumulator.add(first[0], first[1], second[0], second[1], self._rules, self._powers)
+        return self._trapped(m, e, event) if event else (m, e)
 
     def subtract(self, first: Pair, second: Pair) -> Pair:
-        return _checked(accumulator.subtract(*first, *second, self._rules, self._powers))
+        m, e, event = accumulator.subtract(first[0], first[1], second[0], second[1], self._rules, self._powers)
+        return self._trapped(m, e, event) if event else (m, e)
 
     def subtract_reversed(self, first: Pair, second: Pair) -> Pair:
-        return _checked(accumulator.subtract_reversed(*first, *second, self._rules, self._powers))
+        m, e, event = accumulator.subtract_reversed(*first, *second, self._rules, self._powers)
+        return self._trapped(m, e, event) if event else (m, e)
 
     def multiply(self, first: Pair, second: Pair) -> Pair:
-        return _checked(accumulator.multiply(*first, *second, self._rules))
+        m, e, event = accumulator.multiply(first[0], first[1], second[0], second[1], self._rules)
+        return self._trapped(m, e, event) if event else (m, e)
 
     def divide(self, dividend: Pair, divisor: Pair) -> Pair:
-        return _checked(accumulator.divide(*dividend, *divisor, self._rules))
+        m, e, event = accumulator.divide(dividend[0], dividend[1], divisor[0], divisor[1], self._rules)
+        return self._trapped(m, e, event) if event else (m, e)
+
+    def _trapped(self, mantissa: int, exponent: int, event: int) -> Pair:
+        raise Trap(event, (mantissa, exponent))
 
     def negate(self, value: Pair) -> Pair:
         return accumulator.negate(*value)
@@ -103,13 +111,6 @@ class DecimalNumbers(Numbers):
 
     def write(self, field: Field, value: Pair) -> tuple[str, bool]:
         return write_floating(field, *value, self._rules)
-
-
-def _checked(result: tuple[int, int, int]) -> Pair:
-    mantissa, exponent, event = result
-    if event:
-        raise Trap(event, (mantissa, exponent))
-    return mantissa, exponent
 
 
 def _given(value: functions.Value) -> tuple[Pair, str]:
