@@ -6,11 +6,6 @@ import argparse
 import sys
 
 from modern.cli.shared.console import OK
-from modern.study.plan import SEED, PlanError
-from modern.study.registry import entries, names, study
-from modern.study.report import spoken
-from modern.study.run import run_study
-from modern.study.tomlplan import is_plan_file, read_plan
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
@@ -30,6 +25,13 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 
 def main(args: argparse.Namespace) -> int:
     """Carry out the study named, or list those there are."""
+    # Here, so that its --help need not wait for all that studies import.
+    from modern.study.plan import SEED, PlanError
+    from modern.study.registry import entries, names, study
+    from modern.study.report import spoken
+    from modern.study.run import run_study
+    from modern.study.tomlplan import is_plan_file, read_plan
+
     if args.list:
         for entry in entries():
             print(f"{entry.name:<14} {entry.title}")

@@ -1,6 +1,6 @@
 """NRRD files (Kindlmann, "Definition of NRRD File Format", teem.sourceforge.net/nrrd/format.html): volumes as arrays.
 
-Read are arrays of two or three axes of the standard number types, encoded raw or gzip, with the data behind the
+Read are arrays of two or three axes of the standard number types, encoded raw or gzip, with the data after the
 header or in one file that a detached header names (``data file: NAME``).  The fastest axis is the first, so the
 array is indexed [x, y, z].  Whatever says where the volume lies in the world (spacings, space directions) is passed
 over.

@@ -44,7 +44,7 @@ def read_volume(path: str, shape: Sequence[int] | None = None, dtype: str | None
     """A volume by the name of a file (``-``: standard input) or of a ball: ``ball:32``, ``half-ball:18:vertex``.
 
     shape, dtype: of a file of bare numbers, x fastest (``uint8`` where only the shape is given).  Other files say
-    themselves what they are.  Raises FileError for a file that cannot be read, VolumeError for what is no volume.
+    themselves what they are.  Raises FileError for a file that cannot be read, VolumeError for an invalid volume.
     """
     named = _BALL.fullmatch(path)
     if named:

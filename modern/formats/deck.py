@@ -158,7 +158,7 @@ def check(deck: Deck, rules: Rules = TRUNCATING.rules, epsilon: bool = False) ->
     """Check every data set of a deck; ``epsilon`` says that the programs read e after N.
 
     Raises CardError for an N that is no number or not 1 to 51, for a coordinate that is no number and for an e
-    that is none or negative, DeckError where the deck ends before N points are there.
+    that is no number or negative, DeckError where the deck ends before N points are there.
     """
     sets: list[DataSet] = []
     warnings: list[DeckWarning] = []

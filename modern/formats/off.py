@@ -44,7 +44,7 @@ def read_off(path: str) -> OffMesh:
 def parse_off(text: str, source: str) -> OffMesh:
     """An OFF file from its text.  The heading OFF may be missing, and so may the count of edges.
 
-    Colours behind a face are passed over.  Raises FileError with line and column for every other departure: other
+    Colours after a face are passed over.  Raises FileError with line and column for everything else: other
     kinds of OFF (``COFF``, ``OFF BINARY``), a vertex that is not three decimals, a face of vertices that are not
     there, too few lines or too many.
     """

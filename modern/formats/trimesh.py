@@ -5,8 +5,6 @@ from __future__ import annotations
 import importlib
 from typing import Any
 
-import numpy as np
-
 from modern.geometry.hull import Hull
 from modern.geometry.mesh import ExportError, mesh
 
@@ -24,6 +22,8 @@ def to_trimesh(hull: Hull) -> Any:
         trimesh = importlib.import_module("trimesh")
     except ImportError:
         raise ExportError("to_trimesh needs the package trimesh, which is not installed") from None
+    import numpy as np  # here, so that no other format waits for it
+
     try:
         vertices = np.array([[float(number) for number in point] for point in surface.numbers()], dtype=np.float64)
     except OverflowError:

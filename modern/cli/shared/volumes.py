@@ -22,7 +22,7 @@ def volume_arguments(parser: argparse.ArgumentParser) -> None:
 def volume_of(args: argparse.Namespace) -> Volume:
     """The volume ``VOLUME``, read as ``--shape`` and ``--dtype`` say; its notes go to standard error.
 
-    Raises FileError, VolumeError, and UsageError for a shape that is none.
+    Raises FileError, VolumeError, and UsageError for an invalid shape.
     """
     volume = read_volume(args.volume, _shape(args.shape), args.dtype)
     say(f"note: {note}" for note in volume.notes)
