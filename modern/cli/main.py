@@ -7,6 +7,7 @@ import os
 import sys
 from collections.abc import Sequence
 
+from emulator.errors import EmulatorError
 from modern.cli.shared.console import BAD_INPUT, OK, Parser, complain
 
 COMMANDS = {
@@ -61,14 +62,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         # What cannot be opened is said where it is known by name; this is an output that fails in mid-writing.
         complain(f"cannot write: {(error.strerror or str(error)).lower()}")
         return BAD_INPUT
-    except Exception as error:
-        from emulator.errors import EmulatorError
-        from modern.edition.apparatus import ApparatusError
-
-        if isinstance(error, EmulatorError | ApparatusError):
-            complain(str(error))
-            return BAD_INPUT
-        raise
+    except EmulatorError as error:
+        complain(str(error))
+        return BAD_INPUT
 
 
 def build_parser(words: Sequence[str]) -> Parser:

@@ -17,12 +17,14 @@ from dataclasses import dataclass, field
 from importlib.resources.abc import Traversable
 from typing import Any, Literal, get_args
 
+from emulator.errors import EmulatorError
+
 PAGE_MARK = "## page "
 LAST_COLUMN = 72
 Certainty = Literal["certain", "probable", "conjecture"]
 
 
-class ApparatusError(ValueError):
+class ApparatusError(EmulatorError, ValueError):
     """A row that cannot be read or does not fit the text; the message names the row."""
 
 

@@ -22,7 +22,7 @@ from emulator.language.objectcode import Program
 from emulator.language.statements import sources
 from emulator.machine.result import Options
 from modern.edition import chapter6, programs
-from modern.edition.apparatus import ApparatusError, Row, lost_with
+from modern.edition.apparatus import Row, lost_with
 from modern.edition.reproduce import EXACT, State, reproduce
 from modern.thesis.job import run_hull
 
@@ -88,7 +88,7 @@ def _compiled(row: Row, left_out: Collection[str]) -> tuple[Program | None, str]
         return compile_deck(_built(row, left_out)), ""
     except CompileError as error:
         return None, error.diagnostics[0].message
-    except (EmulatorError, ApparatusError) as error:
+    except EmulatorError as error:
         return None, str(error)
 
 

@@ -19,7 +19,10 @@ _SHOWN = 40
 
 
 class PointsError(EmulatorError, ValueError):
-    """Points that are not three exact coordinates each; the message names point and coordinate, from 0."""
+    """Points that are not three exact coordinates each, or that an arithmetic cannot hold; one line naming the point.
+
+    Points and coordinates are counted from 0.
+    """
 
 
 def shown(text: str) -> str:

@@ -1,6 +1,7 @@
 """Butler's procedure as one would write it today, over any arithmetic."""
 
-from modern.port.arithmetic import PointsError, RangeError
+from modern.geometry.numbers import PointsError
+from modern.port.arithmetic import RangeError
 from modern.port.procedure import convex_hull
 
 __all__ = ["PointsError", "RangeError", "convex_hull"]

@@ -25,10 +25,6 @@ Scalar = Any
 _LONGEST = 80
 
 
-class PointsError(ValueError):
-    """A point that is none, or that the arithmetic cannot hold; one line that names the point."""
-
-
 class RangeError(ValueError):
     """A number beyond the range of an arithmetic."""
 

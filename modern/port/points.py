@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from emulator.numbers.arithmetic import FAMILIES, PROFILES, profile
-from modern.port.arithmetic import Arithmetic, Exact, PointsError, RangeError, Vector
+from modern.geometry.numbers import PointsError
+from modern.port.arithmetic import Arithmetic, Exact, RangeError, Vector
 from modern.port.binary import MAX_BITS, MIN_BITS, FloatArithmetic, MultiprecisionArithmetic
 from modern.port.decimal import Arithmetic1620
 from modern.port.exact import exact_arithmetic

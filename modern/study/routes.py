@@ -11,7 +11,6 @@ from emulator.language.objectcode import Program
 from emulator.machine.result import Options
 from emulator.numbers import numbers
 from modern.edition import programs
-from modern.edition.apparatus import ApparatusError
 from modern.formats.deck import with_epsilon
 from modern.geometry.hull import Hull
 from modern.port import RangeError, convex_hull
@@ -66,7 +65,7 @@ def _program(name: str, layers: tuple[str, ...], rows: tuple[str, ...]) -> Progr
     wanted = (*(layer for layer in layers if layer in present), *sorted(single))
     try:
         return compile_deck(programs.built(name, wanted, others))
-    except (ApparatusError, EmulatorError) as error:
+    except EmulatorError as error:
         raise PlanError(f"rows {', '.join(rows)} of {name} do not stand without others: {error}") from None
 
 
