@@ -18,7 +18,7 @@ from modern.cli.shared.console import DIFFERS, OK, UsageError
 from modern.edition.chapter4 import THEOREMS
 from modern.edition.chapter6 import EXAMPLES
 from modern.edition.published import CANNOT, CORRECTED, EXPLAINED, PAPERS, Finding, Paper, findings
-from modern.edition.reproduce import DIFFERENT, EXACT, ORDER, SPACING, Report, reproduce, summary
+from modern.edition.reproduce import DIFFERENT, EXACT, ORDER, SPACING, Part, Report, Verdict, reproduce, summary
 
 if TYPE_CHECKING:
     from modern.edition.chapter4_claims import Claim
@@ -27,6 +27,17 @@ if TYPE_CHECKING:
 _STATES = {"examples": "as the examples were run (program1_examples.f)", "listing": "as listed (program1.f)"}
 _COLOURS = {EXACT: "32", SPACING: "33", ORDER: "33", DIFFERENT: "31"}
 _MOST_DIFFERENCES = 8
+_PARTS: dict[Part, str] = {
+    "points": "points",
+    "inside": "inside points",
+    "boundary": "boundary points",
+    "vertices": "vertices",
+    "equations": "equations, up to a factor",
+}
+_WHY_ORDER = (
+    "the listing swaps the extreme points into places 1 and 2 and looks for the farthest third; the examples were "
+    "printed by an earlier state of program 1, which put the six extremes in front"
+)
 
 
 _PAINTED_AS = {EXACT: EXACT, CORRECTED: EXACT, EXPLAINED: ORDER, CANNOT: "", DIFFERENT: DIFFERENT}
@@ -137,7 +148,7 @@ def _example_lines(example: int, reports: Iterable[Report], colour: bool, width:
         yield f"    {name:<16} {_paint(verdict.kind, verdict.kind, colour)}"
         yield from _indented(_evidence(report), width)
         if verdict.kind == ORDER:
-            yield from _indented(f"{verdict.same}; {'order: as above' if explained else verdict.reason}", width)
+            yield from _indented(f"{_same(verdict)}; {'order: as above' if explained else _WHY_ORDER}", width)
             explained = True
         ending = _ending(report)
         if ending:
@@ -145,6 +156,12 @@ def _example_lines(example: int, reports: Iterable[Report], colour: bool, width:
         if verdict.kind in (DIFFERENT, SPACING):
             yield from _differences(report, width)
     yield ""
+
+
+def _same(verdict: Verdict) -> str:
+    """What agrees where the order differs; empty of any other verdict."""
+    counted = ", ".join(f"{count} {_PARTS[part]}" for part, count in verdict.same)
+    return f"the same {counted}" if counted else ""
 
 
 def _ending(report: Report) -> str:
@@ -231,8 +248,8 @@ def _document(reports: list[Report], claims: list[Claim], found: list[Finding], 
                 "device": report.device,
                 "evidence": "stated in chapter 5" if report.stated else "printed in chapter 6",
                 "verdict": report.verdict.kind,
-                "same": report.verdict.same,
-                "reason": report.verdict.reason,
+                "same": _same(report.verdict),
+                "reason": _WHY_ORDER if report.verdict.kind == ORDER else "",
                 "ending": _ending(report),
                 "proved_by_print": {
                     "numbers": report.verdict.numbers,

@@ -54,11 +54,6 @@ class Card:
     image: str
     tokens: tuple[Token, ...]
 
-    @property
-    def line(self) -> str | None:
-        """The printed line the card begins on; None for a blank card and for a typed line."""
-        return self.tokens[0].line if self.tokens else None
-
 
 @dataclass(frozen=True, slots=True)
 class Chapter:

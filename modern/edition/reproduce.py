@@ -35,10 +35,8 @@ ORDER: Final = "exact in another order"
 DIFFERENT: Final = "different"
 Kind = Literal["exact", "exact but for spacing", "exact in another order", "different"]
 
-WHY_ORDER = (
-    "the listing swaps the extreme points into places 1 and 2 and looks for the farthest third; the examples were "
-    "printed by an earlier state of program 1, which put the six extremes in front"
-)
+Part = Literal["points", "inside", "boundary", "vertices", "equations"]
+"""What can agree in another order: the points of an intermediate deck, or the parts of a hull."""
 
 _NUMBER = re.compile(r"[+-]?\.\d+E[+-]\d\d|(?<![A-Z0-9.])\d+")
 
@@ -49,7 +47,7 @@ class Verdict:
 
     ``numbers`` and ``words`` are how many of each the print shows, ``cards`` how many cards carry print,
     ``blank`` how many are blank; ``differences`` are (card, printed, produced), with an empty string where one side
-    has no such card; ``same`` says what agrees where the order differs, ``reason`` why it does.
+    has no such card; ``same`` counts what agrees where the order differs.
     """
 
     kind: Kind
@@ -57,8 +55,7 @@ class Verdict:
     words: int
     cards: int
     blank: int
-    same: str = ""
-    reason: str = ""
+    same: tuple[tuple[Part, int], ...] = ()
     differences: tuple[tuple[int, str, str], ...] = ()
 
     @property
@@ -134,21 +131,21 @@ def _one(
         step = produced.get(printed.program)
         lines = () if step is None else step.result.punched if printed.device == "punch" else step.result.typed
         final = printed.program == last
-        verdict = compare(printed.lines, lines, final, oriented=printed.program > 1, reason=WHY_ORDER)
+        verdict = compare(printed.lines, lines, final, oriented=printed.program > 1)
         ending = trouble if step is None else step.result.ending
         if not (isinstance(ending, Ending) and ending.normal) and verdict.kind != DIFFERENT:
-            verdict = replace(verdict, kind=DIFFERENT, same="", reason="", differences=())
+            verdict = replace(verdict, kind=DIFFERENT, same=(), differences=())
         name = STATES[state] if printed.program == 1 else f"program{printed.program}"
         yield Report(
             example, state, f"{name}.f", printed.program, printed.device, printed.lines, lines, verdict, ending
         )
 
 
-def compare(printed: Sequence[str], produced: Sequence[str], final: bool, oriented: bool, reason: str) -> Verdict:
+def compare(printed: Sequence[str], produced: Sequence[str], final: bool, oriented: bool) -> Verdict:
     """The verdict on a device's lines.
 
     ``final`` cards are a hull's, others an intermediate deck; ``oriented``: see
-    :func:`modern.thesis.cards.same_hull`; ``reason`` is given where the order differs.
+    :func:`modern.thesis.cards.same_hull`.
     """
     tokens = [token for line in printed for token in line.split()]
     numbers = sum(len(_NUMBER.findall(line)) for line in printed)
@@ -162,23 +159,23 @@ def compare(printed: Sequence[str], produced: Sequence[str], final: bool, orient
         return Verdict(SPACING, *base, differences=differences)
     same = _same_results(printed, produced, oriented) if final else _same_deck(printed, produced)
     if same:
-        return Verdict(ORDER, *base, same=_agreement(printed, final), reason=reason, differences=differences)
+        return Verdict(ORDER, *base, same=_agreement(printed, final), differences=differences)
     return Verdict(DIFFERENT, *base, differences=differences)
 
 
-def _agreement(printed: Sequence[str], final: bool) -> str:
+def _agreement(printed: Sequence[str], final: bool) -> tuple[tuple[Part, int], ...]:
     """What two results in different order have in common, counted."""
     if not final:
         middle = read_intermediate(printed)
-        return f"the same {len(middle.points)} points" if middle else ""
+        return (("points", len(middle.points)),) if middle else ()
     hull = read_hull(printed)
-    counts = (
-        (len(hull.inside), "inside points"),
-        (len(hull.boundary), "boundary points"),
-        (len(hull.vertices), "vertices"),
-        (len(hull.equations), "equations, up to a factor"),
+    counts: tuple[tuple[Part, int], ...] = (
+        ("inside", len(hull.inside)),
+        ("boundary", len(hull.boundary)),
+        ("vertices", len(hull.vertices)),
+        ("equations", len(hull.equations)),
     )
-    return "the same " + ", ".join(f"{n} {what}" for n, what in counts if n)
+    return tuple((part, count) for part, count in counts if count)
 
 
 def _dense(lines: Sequence[str]) -> list[str]:
