@@ -382,11 +382,11 @@ def test_work_done_before_a_bad_card_is_put_out(room: Path, capsys: pytest.Captu
     assert "READ 2,X" in Path("log").read_text()
 
 
-def test_blank_cards_behind_the_deck(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_blank_cards_after_the_deck(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     Path("b.deck").write_text(DECK + "\n\n")
     code, _, err = call(capsys, "hull", "b.deck")
     assert code == 0
-    assert "warning: b.deck: card 6, column 1: blank cards behind" in err
+    assert "warning: b.deck: card 6, column 1: blank cards after" in err
 
 
 def test_errors_of_the_arithmetic_are_always_mentioned(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -394,7 +394,7 @@ def test_errors_of_the_arithmetic_are_always_mentioned(room: Path, capsys: pytes
     Path("big.deck").write_text(" 2\n" + cards)
     code, _, err = call(capsys, "hull", "big.deck")
     assert code == 0
-    assert "what stands behind z is not read" in err
+    assert "what stands after z is not read" in err
     assert "note: program1.f: E3 on card 40: a product overflows" in err
 
 
