@@ -20,6 +20,7 @@ from emulator.language.cards import Deck, deck_from_text
 from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import Program
 from emulator.language.statements import sources
+from emulator.machine.endings import Ending
 from emulator.machine.result import Options
 from modern.edition import chapter6, programs
 from modern.edition.apparatus import Row, lost_with
@@ -148,12 +149,10 @@ def _deck(row: Row) -> tuple[bool, str]:
     if whole is None or program is None:
         return False, f"without it the deck does not compile: {message}"
     one, other = _outcome(row, whole, data), _outcome(row, program, data)
-    if one == other:
+    if one.same_as(other):
         return False, f"deck {deck_name} gives the same cards without it"
-    return (
-        True,
-        f"deck {deck_name} ends with {one[1] or 'an empty hopper'}; without it: {other[1] or 'other cards'}",
-    )
+    ends = one.trouble or "an empty hopper"
+    return True, f"deck {deck_name} ends with {ends}; without it: {other.trouble or 'other cards'}"
 
 
 def ground_deck(name: str) -> Deck | None:
@@ -165,7 +164,28 @@ def ground_deck(name: str) -> Deck | None:
     return deck_from_text(entry.name, entry.read_text(encoding="ascii")) if entry.is_file() else None
 
 
-def _outcome(row: Row, program: Program, deck: Deck) -> tuple[tuple[str, ...], str]:
+@dataclass(frozen=True, slots=True)
+class _Outcome:
+    """What a data deck gave: every line punched and typed, and the last program's ending, or the error of the job."""
+
+    lines: tuple[str, ...]
+    ending: Ending | EmulatorError
+
+    @property
+    def trouble(self) -> str:
+        """Why the job did not end as it should; empty where it did."""
+        return self.ending.message if isinstance(self.ending, Ending) else str(self.ending)
+
+    def same_as(self, other: _Outcome) -> bool:
+        """Whether the same was put out and the job ended for the same reason; cards are numbered anew without a row."""
+        one, two = self.ending, other.ending
+        if isinstance(one, Ending) and isinstance(two, Ending):
+            where = [(e.kind, e.name, e.subscripts, [line.label for line in e.loop]) for e in (one, two)]
+            return self.lines == other.lines and where[0] == where[1]
+        return self.lines == other.lines and str(one) == str(two)
+
+
+def _outcome(row: Row, program: Program, deck: Deck) -> _Outcome:
     """What a data deck gives with ``program`` in the place of the built-in the row is judged by."""
     name, layers = _name(row), layers_for(row)
     first = "program1_examples" if name == "program1_examples" else "program1"
@@ -176,9 +196,9 @@ def _outcome(row: Row, program: Program, deck: Deck) -> tuple[tuple[str, ...], s
     try:
         steps = run_hull(deck, load, LAYERED if layers else LISTED, first).steps
     except EmulatorError as error:
-        return (), str(error)
+        return _Outcome((), error)
     lines = tuple(line for step in steps for line in (*step.result.punched, *step.result.typed))
-    return lines, steps[-1].result.ending.message
+    return _Outcome(lines, steps[-1].result.ending)
 
 
 def _forced(row: Row) -> tuple[bool, str]:

@@ -12,7 +12,6 @@ from emulator.machine.result import Options, Result, Uncut
 
 COPLANAR = "POINTS ARE COPLANAR"
 NOT_COPLANAR = "POINTS ARE NOT COPLANAR"
-DETERMINED = "CONVEX HULL"
 REFUSALS = ("DATA NOT ACCEPTABLE", "ERROR IN PROGRAM")
 
 Load = Callable[[str], Program]
