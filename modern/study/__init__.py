@@ -1,4 +1,4 @@
-"""Studies of numerical error: many samples, each judged by the exact hull and filed under one outcome.
+"""Studies of numerical error: many samples, each judged by the exact hull, each with one outcome.
 
 A study is data (:class:`Plan`): families of point sets, and the routes each set is sent by.  :func:`run_study`
 carries it out in a folder, where it can be interrupted at any moment and resumed.

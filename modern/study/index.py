@@ -1,4 +1,4 @@
-"""The sqlite index of a study: what tables are computed from, made from the rows and made anew where it is in doubt.
+"""The sqlite index of a study: what tables are computed from, made from the rows, again where it is in doubt.
 
 Two tables.  ``samples``: cell, place (the sample's index), n, dimension, vertices, planes, boundary, inside, tags
 (JSON).  ``runs``: cell, place, route, outcome, detail, figures (JSON).  ``chunks`` names the files that are in.
@@ -52,7 +52,7 @@ class Row(TypedDict):
 
 
 def open_index(folder: Path) -> sqlite3.Connection:
-    """The folder's index, held against other runs; made anew where what stands there is none.
+    """The folder's index, locked for this run; made anew where the file there is not one.
 
     Raises StudyFileError where another run holds it, or it cannot be written.
     """

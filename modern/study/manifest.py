@@ -62,7 +62,7 @@ def read_manifest(folder: Path) -> dict[str, Any]:
     except OSError as error:
         raise StudyFileError(f"{path}: {(error.strerror or str(error)).lower()}") from None
     except ValueError:
-        raise StudyFileError(f"{path}: this is no manifest of a study") from None
+        raise StudyFileError(f"{path}: not a manifest of a study") from None
     return found
 
 

@@ -1,7 +1,7 @@
 """Further figures of a run, by name: what a route asks for with ``measures``.
 
 A measure is a function of a sample and of its run, a :class:`modern.thesis.job.HullRun` of the programs or a
-:class:`modern.geometry.hull.Hull` of the port, that gives figures: whole numbers, or decimal text where they are none.
+:class:`modern.geometry.hull.Hull` of the port, that gives figures: whole numbers, or decimals as text.
 ``module:function`` names one of a user's own.
 """
 
@@ -58,7 +58,7 @@ def operations(sample: Sample, run: Run) -> Figures:
 def plane_table(sample: Sample, run: Run) -> Figures:
     """The most places of program 3's table of planes in use at once; of a port's run with its history.
 
-    Three planes are put behind the others before the one they replace is struck, so a stage that begins with L planes
+    Three planes are put after the others before the one they replace is struck, so a stage that begins with L planes
     and replaces m of them reaches L + 2m + 1 (thesis p. 32, statements 126 to 140).
     """
     if not isinstance(run, Hull) or run.dimension < 3 or not run.history:
@@ -72,7 +72,7 @@ def divergence(sample: Sample, run: Run) -> Figures:
     """Where a run in the programs' own arithmetic first decides otherwise than exact numbers would, on its cards.
 
     ``diverges`` is program and statement; ``cards to program3`` where no decision of program 1 differs but a plane it
-    punched, of eight digits, misses its own points, which no arithmetic of the next program can mend; empty where
+    punched, of eight digits, misses its own points, which no arithmetic of the next program can correct; empty where
     every decision is the same.  ``undecided`` says so where exact numbers cannot follow.
     """
     if not isinstance(run, HullRun):

@@ -40,7 +40,7 @@ class Programs:
     to the three programs.  rows: single rows of the apparatus, added without the rest of their layer.
     arithmetic: of the emulator, ``truncating``, ``ibm1962``, ``truncating:P``, ``guarded:P``, ``rounding:P``, or
     ``float64``, ``float32``, ``mp:BITS``, ``exact`` (:func:`emulator.numbers.numbers`).
-    epsilon: chapter 7's e, punched behind N; it needs the layer ``epsilon``.  limit: statements a program may run
+    epsilon: chapter 7's e, punched after N; it needs the layer ``epsilon``.  limit: statements a program may run
     before it counts as endless.  core, bounds: as :class:`emulator.machine.result.Options` has them.  measures: names
     of further figures (:mod:`modern.study.measures`).
     """

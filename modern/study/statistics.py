@@ -127,4 +127,4 @@ def _root(rising: Callable[[float], float]) -> float:
 
 def _check(hits: int, of: int) -> None:
     if of < 1 or not 0 <= hits <= of:
-        raise ValueError(f"{hits} of {of} is no proportion")
+        raise ValueError(f"{hits} of {of} is not a proportion")

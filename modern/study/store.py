@@ -49,7 +49,7 @@ def put(path: Path, data: bytes | str) -> None:
 
 
 def sweep(folder: Path) -> None:
-    """Take away what an interrupted run left beside."""
+    """Remove files that an interrupted run left unfinished."""
     for path in folder.glob(f"{BESIDE}*"):
         path.unlink(missing_ok=True)
 
@@ -101,7 +101,7 @@ class Store:
         present = {path.name for path in (self.folder / ROWS).glob("*.jsonl")}
         strange = present - chunks.keys()
         if strange:
-            raise StudyFileError(f"{self.folder / ROWS}: {min(strange)} is no chunk of this study")
+            raise StudyFileError(f"{self.folder / ROWS}: {min(strange)} is not a chunk of this study")
         known = known_chunks(self.database)
         if not known <= present:
             clear(self.database)
@@ -184,7 +184,7 @@ class Store:
 
 
 def _row(line: bytes) -> Row | None:
-    """A line of a chunk's file as data; None where it is no row."""
+    """A line of a chunk's file as data; None where it is not a row."""
     try:
         found: Row = json.loads(line)
     except ValueError:
@@ -204,13 +204,13 @@ def _column(name: str) -> str:
     if name.startswith("tags."):
         key = name.removeprefix("tags.")
         if not key.replace("_", "").isalnum():
-            raise ValueError(f"{name!r} names no tag")
+            raise ValueError(f"{name!r} is not a tag")
         return f"json_extract(tags, '$.{key}')"
     if name in ("cell", "route", "outcome", "detail"):
         return f"runs.{name}"
     if name in JUDGE:
         return f"samples.{name}"
-    raise ValueError(f"{name!r} is no column of the index")
+    raise ValueError(f"{name!r} is not a column of the index")
 
 
 def _write_parquet(path: Path, rows: Iterable[Row]) -> None:

@@ -34,7 +34,7 @@ class Summary:
         return self.counts[cell, route].total()
 
     def hits(self, cell: int, route: str, outcomes: Iterable[str] = DETERMINED) -> int:
-        """Samples filed under one of the outcomes; by default those whose hull was found."""
+        """Samples with one of the outcomes; by default those whose hull was found."""
         wanted = frozenset(outcomes)
         return sum(n for outcome, n in self.counts[cell, route].items() if outcome in wanted)
 
@@ -59,7 +59,7 @@ class Summary:
         return wilson(self.hits(cell, route, outcomes), self.of(cell, route))
 
     def seen(self) -> tuple[str, ...]:
-        """The outcomes that occur, in the order of the filing."""
+        """The outcomes that occur, in the order of OUTCOMES."""
         present = {outcome for counter in self.counts.values() for outcome in counter}
         return tuple(outcome for outcome in OUTCOMES if outcome in present)
 

@@ -204,7 +204,8 @@ def _words(found: Summary, cells: Cells) -> tuple[str, ...]:
     return (
         f"Eight digits, layer corrected: digits d of the coordinates at which no set failed: {listed(sound)}; at which "
         f"no hull was found: {listed(lost)}.",
-        f"Of the sets that failed so, those that ended in a wrong hull that looks right: {share_of(wrong, failed)}.",
+        "Of the sets that failed so, those that ended in a wrong hull that looks right: "
+        f"{share_of(wrong, failed, exact)}.",
         f"Lengths d for which the least P is 3d + 1, with which every test for zero is exact: {len(agree)} of "
         f"{len(cells)}. Where none of {sets} sets fails, up to {100 * exact(0, sets).high:.2f} % of such sets could "
         "(95 %, exact); with 3d + 4 digits none can.",

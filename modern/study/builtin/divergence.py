@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from modern.study.outcomes import DETERMINED
 from modern.study.plan import Cell, Plan, Programs
 from modern.study.report import INTERVALS, Bars, Report, Series, Table, listed, percent, share_of
-from modern.study.statistics import wilson
+from modern.study.statistics import exact, wilson
 from modern.study.store import Store
 
 TITLE = "the statement that first decides otherwise than exact numbers"
@@ -164,6 +164,7 @@ def _words(plan: Plan, seen: _Place) -> tuple[str, ...]:
         f"Sets that go through every decision as exact numbers would: {share_of(same, everything)}. Families of which "
         f"every set does: {listed(never)}.",
         f"Of the other sets, those that still end in the right hull: {share_of(saved, everything - same)}. Of the sets "
-        f"that follow exact numbers throughout, those that fail, by the programs' own faults: {share_of(lost, same)}.",
+        "that follow exact numbers throughout, those that fail, by the programs' own faults: "
+        f"{share_of(lost, same, exact)}.",
         f"Runs that exact numbers could not follow to a decision that differs: {seen.undecided}.",
     )

@@ -150,7 +150,7 @@ def _compared(plan: Plan, store: Store, way: str, test: str) -> _Pairs:
 
 
 def _pooled(plan: Plan, found: Summary, test: str, route: str, outcomes: tuple[str, ...]) -> tuple[int, int]:
-    """How many sets of all kinds are filed so, and of how many."""
+    """How many sets of all kinds have these outcomes, and of how many."""
     numbers = [number for number, _ in cells(plan, test=test)]
     return sum(found.hits(k, route, outcomes) for k in numbers), sum(found.of(k, route) for k in numbers)
 

@@ -1,7 +1,7 @@
 """Two failures in about seventy examples: what the thesis may have seen.
 
 Sets like the thesis's (:mod:`modern.study.families.thesis`), seventy at a time, are sent through its programs as
-listed, and with the one card that mends the last pair of inside planes (row P3-025, KNOWN-FAULTS 1).  A set fails
+listed, and with the one card that corrects the last pair of inside planes (row P3-025, KNOWN-FAULTS 1).  A set fails
 where the programs do not give its hull.  ``samples`` counts sets and is a multiple of seventy.
 """
 

@@ -44,7 +44,7 @@ class Draw:
         return self.whole(low, high)
 
     def distinct(self, count: int, point: Callable[[], T]) -> list[T]:
-        """``count`` distinct points.  Raises FamilyError where the family hardly has as many."""
+        """``count`` distinct points.  Raises FamilyError where so many are hardly to be found."""
         found: dict[T, None] = {}
         for _ in range(_TRIES * count):
             if len(found) == count:

@@ -83,7 +83,7 @@ def slab(draw: Draw, count: int) -> list[Whole]:
 
 
 def plane_and_points(draw: Draw, count: int) -> list[Whole]:
-    """Two points of the box before or behind a plane's others, as example 6 puts its two before example 4's eight."""
+    """Two points of the box before a plane's others, as example 6 puts its two before example 4's eight."""
     inner = plane(draw, max(count - 2, 2))
     outer = [p for p in draw.distinct(len(inner) + 2, lambda: _in_box(draw, _SMALL)) if p not in inner][:2]
     return [*outer, *inner]

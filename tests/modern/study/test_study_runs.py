@@ -149,7 +149,7 @@ def test_two_workers_stopped_by_ctrl_c_and_resumed_give_the_same_files(finished:
 
 
 def test_what_is_stopped_between_file_and_index_is_counted_once(finished: Path, tmp_path: Path) -> None:
-    """Interrupted behind every chunk in turn, before the index has it."""
+    """Interrupted after every chunk in turn, before the index has it."""
     folder = tmp_path / "between"
     chunks = list(PLAN.chunks())
     run_study(replace(PLAN), folder, workers=1, quiet=True, resume=True)
@@ -261,7 +261,7 @@ def test_another_version_or_program_is_not_resumed(tmp_path: Path) -> None:
             run_study(plan, folder, workers=1, quiet=True, resume=True)
     for text in ("{}", "no json", "[]", '{"plan": 3, "versions": {}, "programs_sha256": {}}'):
         path.write_text(text)
-        with pytest.raises(PlanError, match="no manifest of a study"):
+        with pytest.raises(PlanError, match="not a manifest of a study"):
             run_study(plan, folder, workers=1, quiet=True, resume=True)
 
 
@@ -341,7 +341,7 @@ def test_reading_the_store(finished: Path) -> None:
         assert next(iter(store.query("SELECT COUNT(*) FROM samples"))) == (PLAN.samples,)
         assert [row["index"] for row in store.rows()] == [*range(24), *range(20)]
         for bad in ("rowid", "tags.a b", "tags.x') --"):
-            with pytest.raises(ValueError, match=r"names no tag|is no column"):
+            with pytest.raises(ValueError, match=r"is not a tag|is not a column"):
                 store.counts(bad)
     finally:
         store.close()
@@ -351,7 +351,7 @@ def test_a_row_file_that_is_none_of_the_plan_is_named(tmp_path: Path) -> None:
     plan = replace(PLAN, cells=(replace(PLAN.cells[0], samples=2),))
     run_study(plan, tmp_path / "s", workers=1, quiet=True)
     (tmp_path / "s/rows/0009-000000000.jsonl").write_text("{}\n")
-    with pytest.raises(StudyFileError, match=r"0009-000000000.jsonl is no chunk of this study"):
+    with pytest.raises(StudyFileError, match=r"0009-000000000.jsonl is not a chunk of this study"):
         run_study(plan, tmp_path / "s", workers=1, quiet=True, resume=True)
 
 

@@ -64,7 +64,7 @@ def test_means(values: list[float]) -> None:
 def test_what_is_no_sample() -> None:
     for hits, of in ((1, 0), (-1, 5), (6, 5)):
         for method in (wilson, exact):
-            with pytest.raises(ValueError, match="no proportion"):
+            with pytest.raises(ValueError, match="is not a proportion"):
                 method(hits, of)
     with pytest.raises(ValueError, match="needs a value"):
         mean([])
