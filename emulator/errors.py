@@ -15,7 +15,7 @@ class FileError(EmulatorError):
 
 
 class CardError(EmulatorError):
-    """A card that cannot be read: a character outside the code, too many columns, a field that is no number.
+    """A card that cannot be read: a character outside the code, too many columns, a field that holds no number.
 
     ``unit`` is what the source is made of: cards, or lines typed.
     """
@@ -28,6 +28,14 @@ class CardError(EmulatorError):
 
 class DeckError(EmulatorError):
     """A deck that cannot be used as a whole: empty, too long or too short."""
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Place:
+    """A place in the source deck: card number and column, both from 1."""
+
+    card: int
+    column: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +52,17 @@ class Diagnostic:
         kind = "warning" if self.warning else ("error" if not self.number else f"error {self.number}")
         where = f"card {self.card}" + (f", column {self.column}" if self.column else "")
         return f"{source}: {where}: {kind}: {self.message}"
+
+
+class Refused(Exception):
+    """A statement or a specification the compiler refuses, while it is being read; it goes on with the next statement.
+
+    ``number`` is as of :class:`Diagnostic`.
+    """
+
+    def __init__(self, place: Place, message: str, number: int = 0) -> None:
+        super().__init__(message)
+        self.diagnostic = Diagnostic(place.card, place.column, message, number)
 
 
 class CompileError(EmulatorError):

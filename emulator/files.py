@@ -84,7 +84,7 @@ def check_writable(*paths: str | None) -> None:
 def writing(path: str) -> Iterator[TextIO]:
     """A text file to write: beside its place first, then renamed, so that it appears whole or not at all.
 
-    A link is followed, an existing file keeps its mode, and what is no plain file (a device, a pipe) is written
+    A link is followed, an existing file keeps its mode, and what is not a plain file (a device, a pipe) is written
     directly.  Raises FileError when it cannot be written.
     """
     how = {"mode": "w", "encoding": "ascii", "errors": "backslashreplace", "newline": ""}

@@ -1,7 +1,7 @@
 """A deck run from its first card to its ending in integers alone: the engine with the devices it needs.
 
 Most runs need READ, PUNCH, PRINT and TYPE by any FORMAT, SQRT, whole powers, error codes, PAUSE and the endings.  A
-deck that needs anything else (another function, ACCEPT, a field that is no number or that a warning goes with, a
+deck that needs anything else (another function, ACCEPT, a field that holds no number or calls for a remark, a
 record too long, a list its FORMAT does not fit, a hopper empty too early) ends with NOT_HERE, and whoever asked
 runs it on a :class:`emulator.machine.machine.Machine` from the start.
 

@@ -20,7 +20,7 @@ from emulator.machine.result import PUNCH_COLUMNS, TYPEWRITER_COLUMNS
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, Rules
 from emulator.numbers.columns import BLANK, DIGIT, FINE, read_fixed, read_floating, write_fixed, write_floating
 
-# Endings besides the engine's reasons to return; GO_ON is none.
+# Endings besides the kernel's reasons to return; GO_ON says that the run goes on.
 GO_ON, AT_HOPPER, NOT_HERE, LOG_FULL = -1, 100, 101, 102
 
 # What stands in a FORMAT.
@@ -59,7 +59,7 @@ class Code(NamedTuple):
 
 
 class Forms(NamedTuple):
-    """All FORMATs behind one another: of each its bounds and whether it has fields, of each specification what it is.
+    """All FORMATs, one after the other: of each its bounds and whether it has fields, of each specification what it is.
 
     ``places`` is where the text of an H or X begins in ``texts``, ``widths`` its length.
     """
@@ -75,7 +75,7 @@ class Forms(NamedTuple):
 
 
 class Cards(NamedTuple):
-    """Decks behind one another: 80 codes a card, and the first card of each deck."""
+    """Decks one after the other: 80 codes a card, and the first card of each deck."""
 
     columns: Row
     first: Row

@@ -9,9 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from emulator.compiled import deck as unattended
-from emulator.compiled import devices
-from emulator.compiled import kernel as engine
+from emulator.compiled import deck as decks
+from emulator.compiled import devices, kernel
 from emulator.compiled.engine import run_decks
 from emulator.compiled.jit import refused
 from emulator.language.cards import CHARACTERS, COLUMNS, MAX_CARDS, Deck
@@ -28,7 +27,7 @@ BLOCK = 128
 """The most decks at a time."""
 LOG_ROOM = 1 << 20
 MOST_LOG_ROOM = 1 << 26
-"""Room for the log of a block; a deck that needs more than the most is left to the plain engine."""
+"""Room for the log of a block; a deck that needs more than the most is left to the plain kernel."""
 
 WAYS = ("E<", "E>", "F<", "F>", "I<", "I>")
 """What Result.numbers counts, in order of Report.numbers."""
@@ -44,7 +43,7 @@ def packed(deck: Deck) -> bytes | None:
 
 
 def packed_text(text: str) -> bytes | None:
-    """The same of a deck's text; None for what is no deck, which whoever reads it card by card can say better."""
+    """The same of a deck's text; None for what is not a deck: reading it card by card says why."""
     lines = text.replace("\r\n", "\n").split("\n")
     if lines[-1] == "":
         lines.pop()
@@ -96,9 +95,9 @@ class Runner:
         values, kinds = loaded(program, options.numbers)
         start = [value if kind == FLOATING else (value, kind) for value, kind in zip(values, kinds, strict=True)]
         self.code, self.forms = _code(program), _forms(program)
-        self.start = unattended.Start(_row(m for m, _ in start), _short(e for _, e in start))
+        self.start = decks.Start(_row(m for m, _ in start), _short(e for _, e in start))
         fields, statements = len(values), len(program.statements)
-        self.core = engine.Core(
+        self.core = kernel.Core(
             mantissas=_row([0] * fields),
             exponents=_short([0] * fields),
             texts=_codes(bytes(self.forms.texts)),
@@ -110,7 +109,7 @@ class Runner:
         )
         widths = {
             "ends": devices.ENDS,
-            "registers": engine.REGISTERS,
+            "registers": kernel.REGISTERS,
             "counts": len(program.counters),
             "before": len(program.counters),
             "numbers": len(WAYS),

@@ -11,12 +11,12 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
-from emulator.errors import CompileError, DeckError, Diagnostic
+from emulator.errors import CompileError, DeckError, Diagnostic, Refused
 from emulator.language import objectcode as op
 from emulator.language import tree
 from emulator.language.cards import Deck
-from emulator.language.expressions import LIBRARY, Emitter, Operand, Refused, is_fixed_name
-from emulator.language.formats import FormatError, FormatSpec, parse_format
+from emulator.language.expressions import LIBRARY, Emitter, Operand, is_fixed_name
+from emulator.language.formats import FormatSpec, parse_format
 from emulator.language.objectcode import Line, Program
 from emulator.language.parser import parse
 from emulator.language.storage import CORES, FIELD, FUNCTION_NAMES
@@ -150,7 +150,7 @@ class _Translation:
                 continue
             try:
                 spec, warnings = parse_format(statement.body)
-            except FormatError as error:
+            except Refused as error:
                 self.diagnostics.append(error.diagnostic)
                 spec = FormatSpec(())
             else:
@@ -175,7 +175,7 @@ class _Translation:
     def _statement(self, statement: tree.Statement) -> None:
         body = statement.body
         if self.ended:
-            raise Refused(statement.place, "a card behind END")
+            raise Refused(statement.place, "a card after END")
         if statement.label:
             self.emitter.allocator.place("statement number", str(statement.label))
         if isinstance(body, tree.Format):

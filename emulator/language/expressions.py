@@ -10,11 +10,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from emulator.errors import Diagnostic
+from emulator.errors import Refused
 from emulator.language import objectcode as op
 from emulator.language.objectcode import Counter, Instruction, Subscript
 from emulator.language.storage import Allocator
-from emulator.language.tree import Expression, Number, Place, Power, Product, Reference, Sum
+from emulator.language.tree import Expression, Number, Power, Product, Reference, Sum
 from emulator.numbers.arithmetic import TRUNCATING
 from emulator.numbers.fields import FieldError, parse_constant
 
@@ -43,14 +43,6 @@ _FIXED = {
 }
 _REVERSED = {"+": "+", "*": "*", "-": "-r", "/": "/r"}
 _FLIPPED = {"+": "-", "-": "+"}
-
-
-class Refused(Exception):
-    """A statement the compiler cannot translate; carries the Diagnostic."""
-
-    def __init__(self, place: Place, message: str, number: int = 0) -> None:
-        super().__init__(message)
-        self.diagnostic = Diagnostic(place.card, place.column, message, number)
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from emulator.errors import Diagnostic
+from emulator.errors import Diagnostic, Refused
 from emulator.language.tree import Format, Place
 from emulator.numbers.fields import Field, FieldKind
 
@@ -56,16 +56,13 @@ class FormatSpec:
         yield width
 
 
-class FormatError(ValueError):
-    """A specification that does not parse; carries a Diagnostic."""
-
-    def __init__(self, place: Place, message: str, number: int = 11) -> None:
-        super().__init__(message)
-        self.diagnostic = Diagnostic(place.card, place.column, message, number)
+def _refused(place: Place, message: str, number: int = 11) -> Refused:
+    """A specification that does not parse is error type 11, where nothing else is said (C26-5619 p. 56)."""
+    return Refused(place, message, number)
 
 
 def parse_format(statement: Format) -> tuple[FormatSpec, tuple[Diagnostic, ...]]:
-    """The specification of a FORMAT statement and the compiler's warnings.  Raises FormatError."""
+    """The specification of a FORMAT statement and the compiler's warnings.  Raises Refused."""
     reader = _Reader(statement)
     specs = reader.group()
     reader.expect_end()
@@ -104,21 +101,21 @@ class _Reader:
             digits += self.text[self.at]
             self.at += 1
         if len(digits) > 4:
-            raise FormatError(self.place(), f"the number {digits} in a FORMAT is too large")
+            raise _refused(self.place(), f"the number {digits} in a FORMAT is too large")
         return digits
 
     def group(self, depth: int = 0) -> list[Spec]:
         if self.peek() != "(":
-            raise FormatError(self.place(), "a FORMAT's specification begins with a parenthesis")
+            raise _refused(self.place(), "a FORMAT's specification begins with a parenthesis")
         if depth > 2:
-            raise FormatError(self.place(), "groups are nested too deep in a FORMAT")
+            raise _refused(self.place(), "groups are nested too deep in a FORMAT")
         self.at += 1
         specs: list[Spec] = []
         need_comma = False
         while True:
             char = self.peek()
             if char == "":
-                raise FormatError(self.place(), "the FORMAT does not end with a parenthesis")
+                raise _refused(self.place(), "the FORMAT does not end with a parenthesis")
             if char == ")":
                 self.at += 1
                 return specs
@@ -129,12 +126,12 @@ class _Reader:
                 need_comma = False
                 continue
             if need_comma:
-                raise FormatError(self.place(), f"a comma is missing before {char!r}")
+                raise _refused(self.place(), f"a comma is missing before {char!r}")
             new, need_comma = self.one(depth)
             specs.extend(new)
             self.count += len(new)
             if self.count > self.MAX_FIELDS:
-                raise FormatError(self.place(), f"a FORMAT of more than {self.MAX_FIELDS} fields")
+                raise _refused(self.place(), f"a FORMAT of more than {self.MAX_FIELDS} fields")
 
     def one(self, depth: int) -> tuple[list[Spec], bool]:
         """One specification with its repeat count; also whether a comma must follow it."""
@@ -145,39 +142,39 @@ class _Reader:
             return self.group(depth + 1) * self.repeat(count, start), False
         if letter in ("X", "H"):
             if not count:
-                raise FormatError(start, f"{letter} needs its width before it")
+                raise _refused(start, f"{letter} needs its width before it")
             return [self.literal(letter, int(count), start)], False
         if letter not in ("I", "E", "F"):
-            raise FormatError(
-                self.place(), f"{letter or 'the end'!r} is no specification; there are I, E, F, X, H and /"
+            raise _refused(
+                self.place(), f"{letter or 'the end'!r} is not a specification; there are I, E, F, X, H and /"
             )
         self.at += 1
         width = self.number()
         if not width or int(width) == 0:
-            raise FormatError(self.place(), f"{letter} needs a width")
+            raise _refused(self.place(), f"{letter} needs a width")
         decimals = ""
         if letter in ("E", "F"):
             if self.peek() != ".":
-                raise FormatError(self.place(), f"{letter}{width} lacks its point and decimals")
+                raise _refused(self.place(), f"{letter}{width} lacks its point and decimals")
             self.at += 1
             if self.text[self.at : self.at + 1] == " ":
-                raise FormatError(self.place(), f"a blank after the point of {letter}{width}.")
+                raise _refused(self.place(), f"a blank after the point of {letter}{width}.")
             decimals = self.number()
             if not decimals:
-                raise FormatError(self.place(), f"{letter}{width}. lacks its decimals")
+                raise _refused(self.place(), f"{letter}{width}. lacks its decimals")
         if int(width) > MAX_RECORD:
-            raise FormatError(start, f"a field of {width} columns")
+            raise _refused(start, f"a field of {width} columns")
         return [Field(_KINDS[letter], int(width), int(decimals or 0))] * self.repeat(count, start), True
 
     def repeat(self, count: str, start: Place) -> int:
         if count and int(count) == 0:
-            raise FormatError(start, "a repeat count of zero")
+            raise _refused(start, "a repeat count of zero")
         return int(count or 1)
 
     def literal(self, letter: str, width: int, start: Place) -> Literal:
         self.at += 1
         if width == 0:
-            raise FormatError(start, f"0{letter} has no width")
+            raise _refused(start, f"0{letter} has no width")
         if width > MAX_LITERAL:
             message = f"{width}{letter}: the width of X and H is at most {MAX_LITERAL}; use two in a row"
             self.warnings.append(Diagnostic(start.card, start.column, message, 11, warning=True))
@@ -185,10 +182,10 @@ class _Reader:
             return Literal(" " * width, skip=True)
         text = self.text[self.at : self.at + width]
         if len(text) < width:
-            raise FormatError(start, f"{width}H runs past the end of the card")
+            raise _refused(start, f"{width}H runs past the end of the card")
         self.at += width
         return Literal(text)
 
     def expect_end(self) -> None:
         if self.peek():
-            raise FormatError(self.place(), f"{self.peek()!r} after the end of the FORMAT")
+            raise _refused(self.place(), f"{self.peek()!r} after the end of the FORMAT")

@@ -11,7 +11,7 @@ from typing import Any
 from lark import Lark, Token, Transformer, UnexpectedCharacters, UnexpectedInput, UnexpectedToken
 from lark.exceptions import VisitError
 
-from emulator.errors import Diagnostic
+from emulator.errors import Diagnostic, Refused
 from emulator.language import tree
 from emulator.language.cards import Deck
 from emulator.language.statements import Source, sources
@@ -60,44 +60,38 @@ def parse(deck: Deck) -> Parsed:
     for source in sources(deck):
         try:
             statements.append(parse_statement(source))
-        except _Refused as refused:
+        except Refused as refused:
             diagnostics.append(refused.diagnostic)
             labels.add(source.label.lstrip("0"))
     return Parsed(tuple(statements), tuple(diagnostics), frozenset(labels))
 
 
-class _Refused(Exception):
-    def __init__(self, place: tree.Place, message: str, number: int = 0) -> None:
-        super().__init__(message)
-        self.diagnostic = Diagnostic(place.card, place.column, message, number)
-
-
 def parse_statement(source: Source) -> tree.Statement:
     """Parse one statement."""
     if not source.text:
-        raise _Refused(source.place, f"a statement number without a statement: {source.label}")
+        raise Refused(source.place, f"a statement number without a statement: {source.label}")
     label = _statement_number(source.label, source.place) if source.label else 0
     text = "\n".join(card.text for card in source.cards)
     if source.kind == "format":
         return tree.Statement(label, source.place, text, tree.Format(source.text, source.places))
     if source.kind == "unknown":
         if _FORMAT_LIKE.match(source.text):
-            raise _Refused(source.place, "FORMAT is misspelled", 10)
-        raise _Refused(source.place, f"not a statement of this FORTRAN: {source.text[:40]}")
+            raise Refused(source.place, "FORMAT is misspelled", 10)
+        raise Refused(source.place, f"not a statement of this FORTRAN: {source.text[:40]}")
     if _depth(source.text) > MAX_NESTING:
-        raise _Refused(source.place, f"parentheses are nested more than {MAX_NESTING} deep")
+        raise Refused(source.place, f"parentheses are nested more than {MAX_NESTING} deep")
     number = _NUMBERS.get(source.kind, 0)
     try:
         body = _Builder(source.places).transform(_grammar().parse(source.text, start=source.kind))
     except UnexpectedCharacters as error:
         at = source.places[error.pos_in_stream or 0]
-        raise _Refused(at, f"{error.char!r} does not fit here; the form is {_FORMS[source.kind]}", number) from None
+        raise Refused(at, f"{error.char!r} does not fit here; the form is {_FORMS[source.kind]}", number) from None
     except UnexpectedToken as error:
-        raise _Refused(*_token_message(error, source), number) from None
+        raise Refused(*_token_message(error, source), number) from None
     except UnexpectedInput:
-        raise _Refused(source.place, f"does not parse; the form is {_FORMS[source.kind]}", number) from None
+        raise Refused(source.place, f"does not parse; the form is {_FORMS[source.kind]}", number) from None
     except VisitError as error:
-        if isinstance(error.orig_exc, _Refused):
+        if isinstance(error.orig_exc, Refused):
             raise error.orig_exc from None
         raise
     return tree.Statement(label, source.place, text, body)
@@ -105,7 +99,7 @@ def parse_statement(source: Source) -> tree.Statement:
 
 def _statement_number(digits: str, place: tree.Place) -> int:
     if len(digits.lstrip("0")) > 4 or not digits.strip("0"):
-        raise _Refused(place, f"statement number {digits[:12]} is not between 1 and 9999")
+        raise Refused(place, f"statement number {digits[:12]} is not between 1 and 9999")
     return int(digits)
 
 
@@ -145,7 +139,7 @@ class _Builder(Transformer[Token, Any]):
     def number(self, children: list[Token]) -> tree.Number:
         token = children[0]
         if "." not in token and len(token) > 4:
-            raise _Refused(self._at(token), f"fixed-point constant {token} has more than four digits")
+            raise Refused(self._at(token), f"fixed-point constant {token} has more than four digits")
         return tree.Number(str(token), self._at(token))
 
     def reference(self, children: list[Any]) -> tree.Reference:
@@ -153,7 +147,7 @@ class _Builder(Transformer[Token, Any]):
 
     def _name(self, token: Token, arguments: tuple[tree.Expression, ...] = ()) -> tree.Reference:
         if len(token) > 5:
-            raise _Refused(self._at(token), f"the name {token} has more than five characters", 6)
+            raise Refused(self._at(token), f"the name {token} has more than five characters", 6)
         return tree.Reference(str(token), arguments, self._at(token))
 
     def power(self, children: list[Any]) -> tree.Power:
@@ -192,7 +186,7 @@ class _Builder(Transformer[Token, Any]):
 
     def if_switch(self, children: list[Token]) -> tree.IfSwitch:
         if children[0] not in ("1", "2", "3", "4"):
-            raise _Refused(self._at(children[0]), f"there is no sense switch {children[0]}; the console has 1 to 4", 7)
+            raise Refused(self._at(children[0]), f"there is no sense switch {children[0]}; the console has 1 to 4", 7)
         on, off = map(self._label, children[1:])
         return tree.IfSwitch(int(children[0]), (on, off))
 
@@ -215,9 +209,9 @@ class _Builder(Transformer[Token, Any]):
     def array(self, children: list[Token]) -> tuple[str, tuple[int, ...], tree.Place]:
         name = self._name(children[0])
         if len(children) > 3:
-            raise _Refused(name.place, f"{name.name} has more than two dimensions", 9)
+            raise Refused(name.place, f"{name.name} has more than two dimensions", 9)
         if any(len(d.lstrip("0")) > 4 for d in children[1:]):
-            raise _Refused(name.place, f"{name.name}: a dimension has more than four digits", 9)
+            raise Refused(name.place, f"{name.name}: a dimension has more than four digits", 9)
         return name.name, tuple(int(d) for d in children[1:]), name.place
 
     def dimension(self, children: list[tuple[str, tuple[int, ...], tree.Place]]) -> tree.Dimension:

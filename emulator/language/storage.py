@@ -1,7 +1,7 @@
 """Where a program's data lie: one ten-digit field for every variable, constant, temporary and statement number.
 
 Fields are assigned downward from the top of core in order of first appearance; an array takes one field an
-element, element 1 highest, the arrays of a DIMENSION one behind the other without a gap (C26-5619 p. 66-69;
+element, element 1 highest, the arrays of a DIMENSION one after the other without a gap (C26-5619 p. 66-69;
 subscripts, and that nothing checks them: executed on IBM's code).  The 120 positions at the top hold the
 names of the library functions; the object program begins at 08300 (p. 67).
 """
@@ -28,7 +28,7 @@ class Entry:
     shape: tuple[int, ...] = ()
 
     def element(self, index: int) -> str:
-        """The name of the field ``index`` fields behind the first: ``X(3)``, ``A(2,1)``, or the name itself."""
+        """The name of the field ``index`` fields after the first: ``X(3)``, ``A(2,1)``, or the name itself."""
         if not self.shape:
             return self.name
         if len(self.shape) == 1:

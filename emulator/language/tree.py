@@ -7,13 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-
-@dataclass(frozen=True, slots=True, order=True)
-class Place:
-    """A place in the source deck: card number and column, both from 1."""
-
-    card: int
-    column: int
+from emulator.errors import Place as Place
 
 
 @dataclass(frozen=True, slots=True)

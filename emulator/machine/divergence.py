@@ -1,13 +1,13 @@
 """Two arithmetics in step through one program: where the first value differs, and where the first decision does.
 
 Both runs read the same deck.  While every decision (IF, computed GO TO, the end of a DO) goes the same way in
-both, statement meets statement and what they store can be compared.  Behind a decision that goes two ways the
+both, statement meets statement and what they store can be compared.  After a decision that goes two ways the
 runs are apart until both come to the first statement that every path from either way must come to
 (emulator/machine/postdominators.py); from there they are compared again.  Where there is no such statement, or one
 run ends before it, the comparison ends.
 
-Digits lost are counted up to the first differing decision only: behind it a value may differ because another
-point was taken, which is no loss of digits.  A value that agrees with the reference to a relative difference r
+Digits lost are counted up to the first differing decision only: after it a value may differ because another
+point was taken, and no digit was lost.  A value that agrees with the reference to a relative difference r
 has lost ``P + log10(r)`` of the P digits the poorer of the two arithmetics carries, at least 0 and at most P.
 """
 
@@ -177,7 +177,7 @@ class _Run:
         return begun(self._program, self._machine.state.counts)
 
     def entries(self) -> Iterator[Entry]:
-        """The journal's entries, while the run goes on behind them."""
+        """The journal's entries, as the run goes on."""
         goal = 0
         while self.ending is None:
             goal = min(goal + _STRIDE, self._limit)

@@ -14,7 +14,7 @@ from emulator.language.objectcode import Program
 
 
 def successors(program: Program) -> list[tuple[int, ...]]:
-    """For each instruction those that may follow it; the number behind the last stands for the end of the run.
+    """For each instruction those that may follow it; the number after the last stands for the end of the run.
 
     A READ may find the hopper empty, which ends the run.
     """
@@ -62,7 +62,7 @@ def post_dominators(follow: Sequence[Sequence[int]]) -> list[int]:
 
 
 def _order(before: Sequence[Sequence[int]], end: int) -> list[int]:
-    """Instructions from which the end can be reached, each behind one that follows it, the end first."""
+    """Instructions from which the end can be reached, each after one that follows it, the end first."""
     seen = {end}
     finished: list[int] = []
     stack = [(end, iter(before[end]))]

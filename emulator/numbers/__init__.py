@@ -12,7 +12,7 @@ from emulator.numbers.decimal import DecimalNumbers
 __all__ = ["HOSTED", "DecimalNumbers", "Number", "Numbers", "Trap", "Undecided", "hosted", "numbers"]
 
 HOSTED = ("float64", "float32", "mp:BITS", "exact")
-"""The names that are no decimal profile of emulator/numbers/arithmetic.py."""
+"""The names of arithmetics that are not decimal profiles of emulator/numbers/arithmetic.py."""
 
 
 def hosted(name: str) -> Numbers | None:

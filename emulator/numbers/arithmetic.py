@@ -1,10 +1,10 @@
 """Decimal floating point as the 1620's subroutines did it: pure functions on integers under named profiles.
 
-A number is a pair (mantissa, exponent) of value ``mantissa * 10**(exponent - P)``: P digits behind the
+A number is a pair (mantissa, exponent) of value ``mantissa * 10**(exponent - P)``: P digits after the
 point, the first not zero, exponent -99 to +99 (C26-5619 p. 13, 38).  Zero is (0, -99), as it is printed;
 minus zero, which the machine kept as a flag, is (0, MINUS_ZERO); a field nothing was stored in is
 (0, UNDEFINED).  A field that holds a fixed-point number has its value and the exponent FIXED_POINT.
-Operations return an exponent that may lie out of range: the engine decides what then.
+Operations return an exponent that may lie out of range: emulator/numbers/accumulator.py decides what then.
 
 The functions use only what a compiler of integer loops accepts; ``rules`` is a plain tuple for that reason.
 Where each rule was obtained stands with :data:`PROFILES`.
@@ -203,7 +203,7 @@ def square_root(mantissa: int, exponent: int, rules: Rules) -> tuple[int, int]:
         root = better
         better = (root + size // root) // 2
     exponent = power // 2 + rules[0]
-    # Above the half exactly when the rest is more than the root: (r+1/2)**2 is no whole number.
+    # Above the half exactly when the rest is more than the root: (r+1/2)**2 is never whole.
     if rules[6] and size - root * root > root:
         root += 1
         if root >= rules[1]:
@@ -267,14 +267,6 @@ class Profile:
     @property
     def digits(self) -> int:
         return self.rules[0]
-
-    @property
-    def keeps_left_zero(self) -> bool:
-        return bool(self.rules[KEEPS_LEFT_ZERO])
-
-    @property
-    def signed_underflow(self) -> bool:
-        return bool(self.rules[SIGNED_UNDERFLOW])
 
 
 def rules_of(

@@ -128,7 +128,7 @@ class Numbers(ABC):
         """
 
     def text(self, value: Number) -> str:
-        """The number for a reader, in decimal; dots behind it where digits are left out."""
+        """The number for a reader, in decimal; dots after it where digits are left out."""
         exact = self.exact(value, SHOWN + 5)
         if exact is None:
             return str(value)

@@ -1,7 +1,7 @@
 """``float64`` and ``float32``: IEEE 754 numbers, rounded to nearest.
 
 A decimal is taken as the nearest number (single: of the nearest double).  What overflows is an infinity and what
-is no number stays none, each noted with the 1620's error code; an IF cannot tell the sign of what is no number.
+is not a number (NaN) stays so, each noted with the 1620's error code; an IF cannot tell the sign of a NaN.
 On a card stands the shortest decimal that would be read back as the same number, cut to the field: .3 stays
 .30000000E+00 although the number held is a little smaller.  Single precision is double precision rounded after
 every operation, which for + - * / and SQRT is the correctly rounded result.
@@ -99,7 +99,7 @@ class FloatNumbers(Numbers):
 
     def sign(self, value: float) -> int:
         if value != value:
-            raise Undecided(f"{self.name} has no sign for what is no number (NaN)")
+            raise Undecided(f"{self.name} has no sign for what is not a number (NaN)")
         return (value > 0) - (value < 0)
 
     def to_integer(self, value: float) -> int:

@@ -25,8 +25,8 @@ E_COLUMNS, E_DECIMALS = 14, 8
 def squeeze(columns: MutableSequence[int], width: int) -> tuple[int, int]:
     """Move a number to the left end of its field and fill its blanks; its length and FINE or a warning.
 
-    Leading blanks are nothing.  With a point or an E among them, trailing blanks are nothing too (behind the
-    point they would change nothing, behind an exponent they would multiply it by ten), and blanks inside are
+    Leading blanks are nothing.  With a point or an E among them, trailing blanks are nothing too (after the
+    point they would change nothing, after an exponent they would multiply it by ten), and blanks inside are
     zeros, or nothing where an exponent might be meant.  Else blanks are zeros (OPEN-QUESTIONS 6).
     """
     first = 0
@@ -176,7 +176,7 @@ def read_fixed(columns: MutableSequence[int], width: int) -> tuple[int, int]:
 def write_e(
     columns: MutableSequence[int], at: int, width: int, decimals: int, mantissa: int, exponent: int, rules: Rules
 ) -> int:
-    """Write an E field from column ``at`` on; the column behind it, or -1 where the field cannot hold the number.
+    """Write an E field from column ``at`` on; the column after it, or -1 where the field cannot hold the number.
 
     Sign, digits, point, digits, E, sign, two digits: eight digits in fourteen columns or more, else w-6.
     """
@@ -217,7 +217,7 @@ def write_e(
 def write_f(
     columns: MutableSequence[int], at: int, width: int, decimals: int, mantissa: int, exponent: int, rules: Rules
 ) -> int:
-    """Write an F field from column ``at`` on; the column behind it, or -1 where the field cannot hold the number."""
+    """Write an F field from column ``at`` on; the column after it, or -1 where the field cannot hold the number."""
     minus = 1 if mantissa < 0 or exponent == MINUS_ZERO else 0
     whole = exponent if mantissa != 0 and exponent > 0 else 0
     if minus + whole + 1 + decimals > width:
@@ -251,7 +251,7 @@ def write_floating(
     exponent: int,
     rules: Rules,
 ) -> tuple[int, int]:
-    """Write an E field (``lettered``) or an F field; the column behind it, and 1 where it went by E14.8 instead."""
+    """Write an E field (``lettered``) or an F field; the column after it, and 1 where it went by E14.8 instead."""
     if lettered:
         end = write_e(columns, at, width, decimals, mantissa, exponent, rules)
     else:

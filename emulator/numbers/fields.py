@@ -61,7 +61,7 @@ class Remark:
 
 
 class FieldError(ValueError):
-    """A field that is no number, or a number out of range."""
+    """A field that holds no number, or one out of range."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,7 +103,7 @@ def read_floating(field: Field, text: str, rules: Rules) -> Read:
     codes = bytearray(text.encode("ascii", "replace"))
     mantissa, exponent, status = columns.read_floating(codes, len(codes), field.decimals, rules)
     if status == columns.NO_NUMBER:
-        raise FieldError(f"{text.strip()!r} is no number")
+        raise FieldError(f"{text.strip()!r} is not a number")
     if status == columns.OUT_OF_RANGE:
         raise FieldError(f"{text.strip()[:40]!r} is out of range: the exponent is -99 to 99")
     if status >= columns.CUT:
@@ -116,7 +116,7 @@ def read_fixed(text: str) -> Read:
     codes = bytearray(text.encode("ascii", "replace"))
     value, status = columns.read_fixed(codes, len(codes))
     if status == columns.NO_NUMBER:
-        raise FieldError(f"{text.strip()!r} is no whole number")
+        raise FieldError(f"{text.strip()!r} is not a whole number")
     if status == columns.FOUR_KEPT:
         return Read(value, 0, Remark(status, text=codes.decode("ascii").rstrip(" ")))
     return Read(value, 0, _remark(status))

@@ -126,7 +126,7 @@ def _digits(value: Any, context: Any) -> tuple[int, int]:
 
 
 def _cut_exactly(context: Any, value: Any, rules: Rules) -> tuple[int, int] | None:
-    """The value cut to P digits, or None when its digits behind those are all nines or all zeros (too close to say)."""
+    """The value cut to P digits, or None when the digits after those are all nines or all zeros (too close to say)."""
     if not value:
         return 0, ZERO
     number, power_of_ten = _digits(value, context)

@@ -79,7 +79,7 @@ class MultiprecisionNumbers(Numbers):
 
     def sign(self, value: Any) -> int:
         if self._context.isnan(value):
-            raise Undecided(f"{self.name} has no sign for what is no number (NaN)")
+            raise Undecided(f"{self.name} has no sign for what is not a number (NaN)")
         return int(value > 0) - int(value < 0)
 
     def to_integer(self, value: Any) -> int:

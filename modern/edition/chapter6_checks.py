@@ -17,7 +17,8 @@ from collections.abc import Sequence
 from decimal import Decimal
 from importlib.resources.abc import Traversable
 
-from emulator.language.formats import FormatError, Literal, Slash, parse_format
+from emulator.errors import Refused
+from emulator.language.formats import Literal, Slash, parse_format
 from emulator.language.tree import Format, Place
 from modern.edition.apparatus import PAGE_MARK
 from modern.edition.chapter6 import CardShape, DeviceLayout, Field, Role, chapter6_folder
@@ -102,7 +103,7 @@ def check_layout(chapter: Chapter) -> tuple[str, ...]:
         except KeyError:
             faults.append(f"card {shape.id}: the layout has no FORMAT {shape.format} of program {shape.program}")
             continue
-        except FormatError as error:
+        except Refused as error:
             faults.append(f"card {shape.id}: {error}")
             continue
         sizes[shape.program, shape.format, shape.values] = len(given)
@@ -123,7 +124,7 @@ def check_layout(chapter: Chapter) -> tuple[str, ...]:
 def records(text: str, values: int) -> tuple[tuple[tuple[Field, str], ...], ...]:
     """The cards that ``values`` numbers give under FORMAT ``text``, in one scan: its fields, a literal's word by word.
 
-    A field's text is empty for a number; a card without fields is blank.  Raises FormatError for a FORMAT that does
+    A field's text is empty for a number; a card without fields is blank.  Raises Refused for a FORMAT that does
     not parse or leaves numbers over.
     """
     spec, _ = parse_format(Format(text, tuple(Place(1, column) for column in range(1, len(text) + 1))))
@@ -143,7 +144,7 @@ def records(text: str, values: int) -> tuple[tuple[tuple[Field, str], ...], ...]
         else:  # unused numeric groups at the end are dropped, a literal before them is punched
             break
     if left:
-        raise FormatError(Place(1, len(text)), f"{left} of {values} numbers are left over")
+        raise Refused(Place(1, len(text)), f"{left} of {values} numbers are left over")
     return tuple(map(tuple, given))
 
 

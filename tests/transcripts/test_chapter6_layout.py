@@ -8,7 +8,7 @@ from importlib.resources import files
 
 import pytest
 
-from emulator.language.formats import FormatError
+from emulator.errors import Refused
 from modern.edition.chapter6 import CardShape, Format
 from modern.edition.chapter6_cards import Chapter, TranscriptError, load_chapter, rebuilt
 from modern.edition.chapter6_checks import check_layout, records
@@ -46,7 +46,7 @@ def test_format_columns(text: str, values: int, expected: list[list[tuple[int, i
     [("(I2)", 2, "1 of 2 numbers"), ("I2", 1, "parenthesis"), ("(5HABC)", 0, "5H"), ("(I2,Q)", 1, "'Q'")],
 )
 def test_a_format_that_cannot_be_read_is_one_line(text: str, values: int, words: str) -> None:
-    with pytest.raises(FormatError, match=words) as caught:
+    with pytest.raises(Refused, match=words) as caught:
         records(text, values)
     assert "\n" not in str(caught.value)
 

@@ -200,7 +200,7 @@ def test_an_error_comes_where_its_deck_stands() -> None:
     found = results(program(*COPY), decks([card], [card], ["BAD"], [card]), Options())
     assert next(found).ending.kind == "hopper"
     assert next(found).punched
-    with pytest.raises(CardError, match=r"deck 3: card 1, column 1: 'BAD' is no number"):
+    with pytest.raises(CardError, match=r"deck 3: card 1, column 1: 'BAD' is not a number"):
         next(found)
 
 

@@ -65,7 +65,7 @@ MESSAGES = [
     ("DO from zero", ["DO 5 I=0,3", "5 CONTINUE", "END"], 1, 0, "greater than zero"),
     ("DO step zero", ["DO 5 I=1,3,0", "5 CONTINUE", "END"], 1, 0, "greater than zero"),
     ("computed GO TO, floating", ["GO TO(5),A", "5 END"], 1, 0, "fixed-point variable"),
-    ("card behind END", ["END", "X=1."], 2, 0, "a card behind END"),
+    ("card after END", ["END", "X=1."], 2, 0, "a card after END"),
     ("too much data", ["DIMENSION X(70,90)", "END"], 1, 0, "OVERLAP"),
 ]
 

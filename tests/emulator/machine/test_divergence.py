@@ -155,7 +155,7 @@ def test_infinities_and_what_is_no_number_are_the_same(names: tuple[str, str]) -
 
 
 def test_a_bad_card_is_a_bad_card() -> None:
-    with pytest.raises(CardError, match="d: card 1, column 1: 'X' is no number"):
+    with pytest.raises(CardError, match="d: card 1, column 1: 'X' is not a number"):
         compared("READ 1,A", "1 FORMAT(E14.8)", "END", data=["X"])
     with pytest.raises(DeckError, match="the hopper is empty"):
         compared("READ 1,A", "1 FORMAT(E14.8)", "END")

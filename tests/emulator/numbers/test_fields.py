@@ -87,13 +87,13 @@ def test_small_i_fields_lose_high_digits(value: int, width: int) -> None:
     "columns", ["ABC", "1.2.3", "1E", "E5", "--1", "1-", ".", "+", "1E+", "1.E5.", "1,5", "1/2", "1E+5+3"]
 )
 def test_no_number(columns: str) -> None:
-    with pytest.raises(FieldError, match="is no number"):
+    with pytest.raises(FieldError, match="is not a number"):
         read_floating(E14, columns, RULES)
 
 
 @pytest.mark.parametrize("columns", ["1.5", "1E2", "A", "+-1", "-", "1 -"])
 def test_no_whole_number(columns: str) -> None:
-    with pytest.raises(FieldError, match="is no whole number"):
+    with pytest.raises(FieldError, match="is not a whole number"):
         read_fixed(columns)
 
 

@@ -139,7 +139,7 @@ def test_what_is_no_number_has_no_sign() -> None:
         result = run(name, "Z=0.", "A=Z/Z", "7 IF(A)1,1,1", "1 STOP")
         assert (result.ending.kind, result.ending.message) == (
             "undecided",
-            f"deck.f: card 3: {name} has no sign for what is no number (NaN), in 7 IF(A)1,1,1",
+            f"deck.f: card 3: {name} has no sign for what is not a number (NaN), in 7 IF(A)1,1,1",
         )
 
 

@@ -195,7 +195,7 @@ def test_bad_field_in_run(room: Path, capsys: pytest.CaptureFixture[str]) -> Non
     Path("bad.deck").write_text("2.\nABC\n")
     assert call(capsys, "run", "good.f", "bad.deck")[::2] == (
         2,
-        "hull1620: bad.deck: card 2, column 1: 'ABC' is no number\n",
+        "hull1620: bad.deck: card 2, column 1: 'ABC' is not a number\n",
     )
 
 

@@ -143,7 +143,7 @@ BAD = [
     ("wide-field", "1,2," + "a" * 200000 + "\n", "a.csv", "a.csv: line 1, column 1: field larger than field limit"),
     ("deck-n", "XX\n" + CARD, "a.deck", "a.deck: card 1, column 1: N, in columns 1-2, is 'XX': no number"),
     ("deck-short", " 3\n" + CARD, "a", "a: card 2, column 1: the deck ends after 1 of 3 points"),
-    ("deck-number", " 1\n+.10000000E+01  1.2.3\n", "a", "a: card 2, column 15: y: '1.2.3' is no number"),
+    ("deck-number", " 1\n+.10000000E+01  1.2.3\n", "a", "a: card 2, column 15: y: '1.2.3' is not a number"),
     ("deck-range", " 1\n.10000000E+100\n", "a", "a: card 2, column 1: x: "),
     ("deck-strange", " 1\n1.e0\n", "a", "a: card 2, column 3: 'e' is not in the card code"),
     ("deck-52", "52\n" + 52 * CARD, "a", "a: card 1, column 1: N is 52; the programs take 1 to 51 points"),
