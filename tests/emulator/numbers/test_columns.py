@@ -80,7 +80,7 @@ def test_floating_fields(columns: str, decimals: int, rules: tuple[int, ...]) ->
     except FieldError:
         assert want is None
         return
-    assert want == (found.mantissa, found.exponent, bool(found.warning))
+    assert want == (found.mantissa, found.exponent, bool(found.remark))
 
 
 @settings(max_examples=300)
@@ -97,7 +97,7 @@ def test_fixed_fields(columns: str) -> None:
     value = int(match[1] + match[2]) if match else 0
     assert bool(match) == bool(text)
     assert found.mantissa == (value % 10000 if value >= 0 else -(-value % 10000))
-    assert bool(found.warning) == (warned or not text or abs(value) > 9999)
+    assert bool(found.remark) == (warned or not text or abs(value) > 9999)
 
 
 @settings(max_examples=300)

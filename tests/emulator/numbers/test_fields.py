@@ -12,6 +12,7 @@ from emulator.numbers.arithmetic import MINUS_ZERO, TRUNCATING, UNDEFINED, ZERO,
 from emulator.numbers.fields import (
     Field,
     FieldError,
+    Read,
     parse_constant,
     read_fixed,
     read_floating,
@@ -27,13 +28,19 @@ exponents = st.integers(-99, 99)
 numbers = st.tuples(mantissas, exponents) | st.sampled_from(((0, ZERO), (0, MINUS_ZERO)))
 
 
+def words(read: Read) -> str:
+    """What there is to remark of a number that was read."""
+    assert read.remark is not None
+    return read.remark.words
+
+
 @given(numbers)
 def test_e14_8_round_trip_of_eight_digits(number: tuple[int, int]) -> None:
     columns, overflowed = write_floating(E14, *number, RULES)
     assert len(columns) == 14
     assert not overflowed
     read = read_floating(E14, columns, RULES)
-    assert (read.mantissa, read.exponent, read.warning) == (*number, "")
+    assert (read.mantissa, read.exponent, read.remark) == (*number, None)
 
 
 @given(numbers, st.integers(14, 30), st.integers(0, 8))
@@ -124,7 +131,7 @@ def test_blanks_in_an_i_field(columns: str, value: int) -> None:
     """OPEN-QUESTIONS 6: leading blanks nothing, others zeros, with a warning; a blank field warns too."""
     found = read_fixed(columns)
     assert found.mantissa == value
-    assert bool(found.warning) == (not columns.strip() or " " in columns.lstrip())
+    assert bool(found.remark) == (not columns.strip() or " " in columns.lstrip())
 
 
 @pytest.mark.parametrize(
@@ -142,13 +149,13 @@ def test_blanks_in_an_e_field(columns: str, expected: tuple[int, int], warned: b
     """OPEN-QUESTIONS 6."""
     found = read_floating(E14, columns, RULES)
     assert (found.mantissa, found.exponent) == expected
-    assert bool(found.warning) == warned
+    assert bool(found.remark) == warned
 
 
 def test_lost_digits_warn() -> None:
-    assert read_floating(E14, ".123456789", RULES).warning == "9 digits; those beyond 8 are cut"
-    assert read_floating(E14, ".1234567800", RULES).warning == ""
-    assert "more than four digits" in read_fixed("12345").warning
+    assert words(read_floating(E14, ".123456789", RULES)) == "9 digits; those beyond 8 are cut"
+    assert read_floating(E14, ".1234567800", RULES).remark is None
+    assert words(read_fixed("12345")) == "12345 has more than four digits; the last four are kept"
     assert read_fixed("12345").mantissa == 2345
     assert read_fixed("-12345").mantissa == -2345
 
