@@ -4,7 +4,7 @@ VENV ?= .venv
 BIN = $(VENV)/bin
 JOBS ?= 2
 
-.PHONY: reproduce test lint wheel benchmark clean
+.PHONY: reproduce test lint wheel benchmark mutants clean
 
 reproduce: $(VENV)/.run
 	$(BIN)/hull1620 reproduce
@@ -22,6 +22,9 @@ wheel: $(VENV)/.dev
 
 benchmark: $(VENV)/.dev
 	$(BIN)/python -m modern.bench
+
+mutants: $(VENV)/.dev
+	$(BIN)/python -m tests.mutants --jobs $(JOBS)
 
 $(VENV)/.run: pyproject.toml
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "hull1620 needs Python 3.11 or later; set PYTHON=...")'
