@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Mapping
 from decimal import Decimal
-from importlib import import_module
 from itertools import pairwise
 
 from emulator.machine.divergence import diverge
@@ -19,7 +18,7 @@ from emulator.machine.timing import measure
 from emulator.numbers import numbers
 from modern.geometry.hull import Hull
 from modern.study.outcomes import Figures, place
-from modern.study.plan import PlanError
+from modern.study.plan import named
 from modern.study.sample import Sample
 from modern.thesis.cards import planes_hold, read_intermediate
 from modern.thesis.job import HullRun
@@ -101,13 +100,4 @@ MEASURES: Mapping[str, Measure] = {
 
 def measure_of(name: str) -> Measure:
     """The measure of that name, or the function ``module:function``.  Raises PlanError."""
-    if name in MEASURES:
-        return MEASURES[name]
-    module, colon, function = name.partition(":")
-    if not colon:
-        raise PlanError(f"no measure is called {name!r}; there are {', '.join(MEASURES)} and module:function")
-    try:
-        found: Measure = getattr(import_module(module), function)
-    except (ImportError, AttributeError) as error:
-        raise PlanError(f"measure {name}: {error}") from None
-    return found
+    return named("measure", name, MEASURES)

@@ -9,14 +9,16 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, field
+from importlib import import_module
 from random import Random
-from typing import Any, Literal
+from typing import Literal, TypeVar
 
 from emulator.errors import EmulatorError
 from emulator.machine.result import DEFAULT_CORE, DEFAULT_LIMIT
 
+F = TypeVar("F", bound=Callable[..., object])
 Value = str | int
 SEED = 1963
 """The seed of a study that is given none."""
@@ -87,7 +89,7 @@ class Cell:
 
     key: Mapping[str, Value]
     family: str
-    parameters: Mapping[str, Any]
+    parameters: Mapping[str, object]
     routes: tuple[Route, ...]
     samples: int
     reference: str = ""
@@ -102,6 +104,20 @@ class Cell:
         """The seed of a sample: 32 hexadecimal digits of SHA-256 of study seed, key and index."""
         text = json.dumps([study, list(self.key.items()), index])
         return hashlib.sha256(text.encode("ascii")).hexdigest()[:32]
+
+
+def named(what: str, name: str, known: Mapping[str, F]) -> F:
+    """The function of that name, or ``module:function`` of a user's own.  Raises PlanError."""
+    if name in known:
+        return known[name]
+    module, colon, function = name.partition(":")
+    if not colon:
+        raise PlanError(f"no {what} is called {name!r}; there are {', '.join(known)} and module:function")
+    try:
+        found: F = getattr(import_module(module), function)
+    except (ImportError, AttributeError) as error:
+        raise PlanError(f"{what} {name}: {error}") from None
+    return found
 
 
 def random_of(seed: str) -> Random:
@@ -148,7 +164,7 @@ class Plan:
             for start in range(0, cell.samples, cell.chunk):
                 yield Chunk(number, start, min(start + cell.chunk, cell.samples))
 
-    def document(self) -> dict[str, Any]:
+    def document(self) -> dict[str, object]:
         """The plan as JSON data: equal exactly for equal plans."""
         data = asdict(self)
         data["cells"] = [
@@ -158,6 +174,6 @@ class Plan:
         return dict(json.loads(json.dumps(data)))
 
 
-def document(route: Route) -> dict[str, Any]:
+def document(route: Route) -> dict[str, object]:
     """A route as JSON data, with the kind it is."""
     return {"kind": "programs" if isinstance(route, Programs) else "port", **asdict(route)}

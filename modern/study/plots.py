@@ -63,10 +63,10 @@ def draw(chart: Chart, folder: Path) -> None:
     with matplotlib.rc_context(_STYLE):
         figure = Figure(figsize=(7.5, 4.5), layout="constrained")
         axes = figure.add_subplot()
-        if isinstance(chart, Bars):
-            _bars(axes, chart)
-        else:
+        if isinstance(chart, Lines):
             _lines(axes, chart)
+        else:
+            _bars(axes, chart)
         _frame(figure, axes, chart)
         for kind, metadata in (("svg", {"Date": None}), ("png", {"Software": None})):
             file = io.BytesIO()
@@ -107,7 +107,7 @@ def _errors(series: Series) -> list[list[float]]:
     return [low, [max(0.0, estimate.high - estimate.value) for _, estimate in series.points]]
 
 
-def _bars(axes: Any, chart: Bars) -> None:
+def _bars(axes: Any, chart: Chart) -> None:
     names = list(dict.fromkeys(place for series in chart.series for place, _ in series.points))
     width = 0.8 / len(chart.series)
     for k, series in enumerate(chart.series):

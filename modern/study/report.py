@@ -120,11 +120,11 @@ class Mark:
 
 
 @dataclass(frozen=True, slots=True)
-class Bars:
-    """Bars side by side over named places.
+class Chart:
+    """What bars and lines have in common.
 
     name: the file's.  x and y: the axes' words, with units.  percent: values are proportions, shown in percent.
-    marks: values to compare with; ``at`` of an upright one counts the places from 0.
+    marks: values to compare with.
     """
 
     name: str
@@ -138,22 +138,16 @@ class Bars:
 
 
 @dataclass(frozen=True, slots=True)
-class Lines:
+class Bars(Chart):
+    """Bars side by side over named places; ``at`` of an upright mark counts the places from 0."""
+
+
+@dataclass(frozen=True, slots=True)
+class Lines(Chart):
     """Values over numbers, joined by lines, intervals as bars; either axis may be logarithmic."""
 
-    name: str
-    title: str
-    x: str
-    y: str
-    series: tuple[Series, ...]
-    percent: bool = False
     log_x: bool = False
     log_y: bool = False
-    marks: tuple[Mark, ...] = field(default=())
-    note: str = ""
-
-
-Chart = Bars | Lines
 
 
 @dataclass(frozen=True, slots=True)

@@ -62,11 +62,11 @@ class Run:
     index: int
     n: int
     dimension: int
-    tags: dict[str, Any]
+    tags: dict[str, int | str]
     route: str
     outcome: str
     detail: str
-    figures: dict[str, Any]
+    figures: dict[str, int | str]
 
 
 @dataclass

@@ -13,7 +13,6 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from math import inf
-from typing import Any
 
 from modern.study.outcomes import DETERMINED
 from modern.study.plan import Cell, Plan, Port, Programs, Route
@@ -32,14 +31,14 @@ EIGHT = 8
 PARTS = ("additions", "products", "quotients", "seconds_processor")
 RATIOS = (0.0, 0.5, 1.0, 1.5, inf)
 """Planes of the hull a point, in classes."""
-_TIMED: Mapping[str, tuple[str, Mapping[str, Any], tuple[int, ...]]] = {
+_TIMED: Mapping[str, tuple[str, Mapping[str, object], tuple[int, ...]]] = {
     PLANES: ("thesis", {"kinds": {"plane": 1}}, (8, 16, 32)),
     "slabs like example 5": ("thesis", {"kinds": {"slab": 1}}, (15, 30)),
     "whole numbers to 2": ("box", {"most": 2}, (10, 20, 30, 40, 50)),
     "whole numbers to 99": ("box", {"most": 99}, (10, 20, 30, 40, 50)),
     "sphere of 2 digits": ("sphere", {"digits": 2}, (10, 20, 30, 40)),
 }
-_VARIED: Mapping[str, tuple[str, Mapping[str, Any]]] = {
+_VARIED: Mapping[str, tuple[str, Mapping[str, object]]] = {
     "numbers to 9": ("box", {"most": 9}),
     "numbers to 9 about 100": ("box", {"most": 9, "centre": 100}),
     "numbers to 9 about 10000": ("box", {"most": 9, "centre": 10_000}),

@@ -8,13 +8,11 @@ digits.  FAMILIES names those that come with hull1620; ``module:function`` names
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from importlib import import_module
-from typing import Any
 
 from modern.formats.deck import coordinate_field
 from modern.study.families import given, scattered, solids, thesis
 from modern.study.families.draws import Draw, Drawn, FamilyError
-from modern.study.plan import Cell, PlanError, random_of
+from modern.study.plan import Cell, PlanError, named, random_of
 
 Family = Callable[..., Drawn]
 
@@ -36,16 +34,7 @@ FAMILIES: Mapping[str, Family] = {
 
 def family_of(name: str) -> Family:
     """The family of that name, or the function ``module:function``.  Raises PlanError."""
-    if name in FAMILIES:
-        return FAMILIES[name]
-    module, colon, function = name.partition(":")
-    if not colon:
-        raise PlanError(f"no family is called {name!r}; there are {', '.join(FAMILIES)} and module:function")
-    try:
-        found: Family = getattr(import_module(module), function)
-    except (ImportError, AttributeError) as error:
-        raise PlanError(f"family {name}: {error}") from None
-    return found
+    return named("family", name, FAMILIES)
 
 
 def draw_sample(cell: Cell, study: int, index: int) -> Drawn:
@@ -78,5 +67,5 @@ def check_points(drawn: Drawn, where: str) -> None:
         raise FamilyError(f"{where}: two points are the same; the thesis takes distinct points")
 
 
-def _keywords(parameters: Mapping[str, Any]) -> dict[str, Any]:
+def _keywords(parameters: Mapping[str, object]) -> dict[str, object]:
     return {name.replace("-", "_"): value for name, value in parameters.items()}
