@@ -3,8 +3,9 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN = $(VENV)/bin
 JOBS ?= 2
+PIP = $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: reproduce test lint wheel benchmark mutants clean
+.PHONY: reproduce test lint format coverage wheel benchmark mutants upgrade hooks clean
 
 reproduce: $(VENV)/.run
 	$(BIN)/hull1620 reproduce
@@ -17,8 +18,15 @@ lint: $(VENV)/.dev
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 
+format: $(VENV)/.dev
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+coverage: $(VENV)/.dev
+	$(BIN)/python -m pytest -q -n $(JOBS) --cov --cov-report term:skip-covered
+
 wheel: $(VENV)/.dev
-	$(BIN)/python -m build --wheel --outdir dist .
+	$(BIN)/python -m build --wheel --no-isolation --outdir dist .
 
 benchmark: $(VENV)/.dev
 	$(BIN)/python -m modern.bench
@@ -26,14 +34,25 @@ benchmark: $(VENV)/.dev
 mutants: $(VENV)/.dev
 	$(BIN)/python -m tests.mutants --jobs $(JOBS)
 
-$(VENV)/.run: pyproject.toml
+# The newest versions that pyproject.toml allows, for every platform, with hashes: locks/run.lock what the command needs, dev.lock all.
+LOCK = $(BIN)/uv pip compile --quiet --upgrade --universal --python-version 3.11 --fork-strategy fewest --generate-hashes \
+	--no-header --no-annotate --no-emit-index-url --no-emit-find-links pyproject.toml locks/build.in
+upgrade: $(VENV)/.dev
+	$(LOCK) --output-file locks/run.lock
+	$(LOCK) --all-extras --constraints locks/run.lock --output-file locks/dev.lock
+
+hooks: $(VENV)/.dev
+	$(BIN)/pre-commit install
+
+$(VENV)/.run: pyproject.toml locks/run.lock
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "hull1620 needs Python 3.11 or later; set PYTHON=...")'
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
+	$(PIP) --require-hashes --requirement locks/run.lock
+	$(PIP) --no-deps --no-build-isolation --editable .
 	touch $@
 
-$(VENV)/.dev: $(VENV)/.run
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+$(VENV)/.dev: $(VENV)/.run locks/dev.lock
+	$(PIP) --require-hashes --requirement locks/dev.lock
 	touch $@
 
 clean:
