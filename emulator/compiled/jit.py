@@ -1,88 +1,112 @@
-"""Functions compiled by numba (the extra ``fast``): compiled when first called, and kept in the user's cache folder."""
+"""Functions compiled by numba (the extra ``fast``): compiled when first needed, and kept where numba keeps code.
+
+That is the folder ``NUMBA_CACHE_DIR``; where none is given, ``__pycache__`` beside the source, or the user's cache
+folder if that cannot be written.
+"""
 
 from __future__ import annotations
 
 import hashlib
 import inspect
-import os
 import sys
-import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
+from contextlib import suppress
+from functools import cache
 from pathlib import Path
-from types import ModuleType
+from types import FunctionType, ModuleType
 from typing import Any
 
 Function = Callable[..., Any]
 
 
 class NotInstalled(ValueError):
-    """numba was asked for and is not there, or is no numba that compiles this; one line."""
+    """Compiled code was asked for, and numba is missing, turned off, or cannot make it; one line."""
 
 
-def refused(error: Exception) -> NotInstalled:
+class Compiled:
+    """A function, with all it calls, that numba compiles for the types it is to be called with."""
+
+    def __init__(self, entry: Function, **options: Any) -> None:
+        """``entry`` and what it calls are written in the part of Python that numba compiles; ``options`` are numba's.
+
+        Raises NotInstalled without numba, and where NUMBA_DISABLE_JIT keeps it from compiling: as Python over numpy's
+        arrays the functions compute something else (codes of eight bits overflow).
+        """
+        try:
+            import numba
+        except ImportError as error:
+            raise NotInstalled(f"compiled code needs numba (extra fast): {error}") from None
+        config: Any = numba.config
+        if config.DISABLE_JIT:
+            raise NotInstalled("compiled code is turned off by NUMBA_DISABLE_JIT")
+        for helper in called(entry)[1:]:
+            _make_callable(helper)
+        # numba looks for changes only in the file of the entry: the name stands for the source of all that it calls.
+        self._entry = FunctionType(entry.__code__, entry.__globals__, entry.__name__, entry.__defaults__)
+        self._entry.__qualname__ += "_" + digest(entry, repr(options))
+        self._jit = numba.njit(**options)
+        self.function: Any = self._jit(self._entry)
+        with suppress(RuntimeError):  # no folder can be written: the code is for this process only
+            self.function = numba.njit(cache=True, **options)(self._entry)
+
+    def ready(self, *arguments: Any) -> Function:
+        """The function compiled for the types of these arguments, or loaded: seconds, once.
+
+        Kept code that cannot be read is thrown away; what is compiled instead is for this process only.  Raises
+        NotInstalled where numba cannot compile the function.
+        """
+        import numba
+
+        types = tuple(map(numba.typeof, arguments))
+        try:
+            self.function.compile(types)
+        except Exception:  # of no common kind: whatever a damaged file leads to
+            self._forget()
+            self.function = self._jit(self._entry)
+            try:
+                self.function.compile(types)
+            except Exception as error:
+                raise _refused(error) from None
+        return self.function  # type: ignore[no-any-return]
+
+    def _forget(self) -> None:
+        folder = self.function.stats.cache_path
+        for index in Path(folder).glob(f"*.{self._entry.__qualname__}-*.nbi") if folder else ():
+            with suppress(OSError):
+                index.unlink()
+
+
+def _refused(error: Exception) -> NotInstalled:
     """What numba raised, as one line."""
     said = next(iter(str(error).strip().splitlines()), "")
     return NotInstalled(f"numba cannot make the compiled code: {type(error).__name__}{': ' if said else ''}{said}")
 
 
-def compiled(
-    entries: Sequence[Function], helpers: Sequence[Function], modules: Sequence[ModuleType] = (), **options: Any
-) -> list[Function]:
-    """The entries compiled; ``helpers`` are the functions they call, and call each other.
-
-    All are written in what numba reads of Python.  Each entry is compiled for the types it is called with, which
-    takes seconds once; the machine code is kept in :func:`cache_folder` if that can be written, else for this process
-    only.  ``modules`` are those whose constants the functions use; ``options`` are numba's.
-
-    Raises NotInstalled: without numba, with one that refuses the functions, and where NUMBA_DISABLE_JIT keeps it from
-    compiling: as Python over numpy's arrays the functions compute something else (codes of eight bits overflow).
-    """
-    try:
-        import numba
-        from numba.extending import register_jitable
-    except ImportError as error:
-        raise NotInstalled(f"compiled code needs numba (extra fast): {error}") from None
-    config: Any = numba.config
-    if config.DISABLE_JIT:
-        raise NotInstalled("compiled code is turned off by NUMBA_DISABLE_JIT")
-    for helper in helpers:
-        register_jitable(helper)
-    before = config.CACHE_DIR
-    folder = cache_folder(before, [*entries, *helpers, *modules], repr(options))
-    try:
-        # numba asks for the folder as it wraps a function, and only then.
-        config.CACHE_DIR = str(folder or "")
-        return [numba.njit(cache=folder is not None, **options)(entry) for entry in entries]
-    except Exception as error:  # numba's own reasons, of no common kind; an option it does not know may wait for a call
-        raise refused(error) from None
-    finally:
-        config.CACHE_DIR = before
+def called(entry: Function) -> list[Function]:
+    """The function, those it calls by their names, and those that these call."""
+    found = [entry]
+    for function in found:
+        used = inspect.getclosurevars(function).globals.values()
+        found += [value for value in used if isinstance(value, FunctionType) and value not in found]
+    return found
 
 
-def cache_folder(given: str, sources: Sequence[Function | ModuleType], options: str = "") -> Path | None:
-    """The folder for code of these sources, below ``given`` (NUMBA_CACHE_DIR) or the user's cache.
+@cache
+def _make_callable(helper: Function) -> None:
+    """Let compiled code call the function; called as Python it stays what it is."""
+    from numba.extending import register_jitable
 
-    None if it cannot be written.  Its name is of the sources' text and of the options: numba itself looks only at the
-    time of the file of an entry, not at what it calls.
-    """
-    text = "\0".join([options, *map(inspect.getsource, sources)])
-    try:
-        folder = (Path(given) if given else _users()) / hashlib.sha256(text.encode()).hexdigest()[:16]
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
-            return folder
-    except (OSError, RuntimeError):
-        return None
+    register_jitable(helper)
 
 
-def _users() -> Path:
-    """Where this user's programs keep what they can make again.  Raises RuntimeError without a home folder."""
-    if os.environ.get("XDG_CACHE_HOME"):
-        base = Path(os.environ["XDG_CACHE_HOME"])
-    elif sys.platform == "win32":
-        base = Path(os.environ.get("LOCALAPPDATA") or Path.home())
-    elif sys.platform == "darwin":
-        base = Path.home() / "Library" / "Caches"
-    else:
-        base = Path.home() / ".cache"
-    return base / "hull1620"
+def digest(entry: Function, options: str) -> str:
+    """What the compiled code depends on, in 16 letters: modules of the functions, constants they use, options."""
+    functions = called(entry)
+    text = [options]
+    for module in dict.fromkeys(function.__module__ for function in functions):
+        text.append(inspect.getsource(sys.modules[module]))
+    for function in functions:
+        for name, value in inspect.getclosurevars(function).globals.items():
+            if not isinstance(value, (FunctionType, ModuleType)):
+                text.append(f"{name} {value!r}")
+    return hashlib.sha256("\0".join(text).encode()).hexdigest()[:16]

@@ -12,7 +12,6 @@ import numpy as np
 from emulator.compiled import deck as decks
 from emulator.compiled import devices, kernel
 from emulator.compiled.engine import run_decks
-from emulator.compiled.jit import refused
 from emulator.language.cards import CHARACTERS, COLUMNS, MAX_CARDS, Deck
 from emulator.language.formats import MAX_RECORD, Literal
 from emulator.language.objectcode import Flat, Program, flatten
@@ -88,7 +87,6 @@ class Runner:
     """
 
     def __init__(self, program: Program, options: Options) -> None:
-        self.kernel = run_decks()
         assert isinstance(options.numbers, DecimalNumbers)
         profile = options.numbers.profile
         refuse_overlap(program, options.core)
@@ -121,12 +119,8 @@ class Runner:
         self.rules = profile.rules
         flags = options.bounds == "strict", profile.announces
         self.setting = (options.limit, *map(int, flags))
-        try:
-            self._some([])
-        except Exception as error:
-            # The first call compiles, or loads what is kept: a file that is damaged, or a numba of another kind, comes
-            # to light here, before a deck is begun, and as any error.
-            raise refused(error) from None
+        # Kept code that is damaged, or a numba of another kind, comes to light here, before a deck is begun.
+        self.kernel = run_decks().ready(*self._arguments([]))
 
     def runs(self, packed: Sequence[bytes | None]) -> Iterator[Run | None]:
         """One after the other; None for a deck that needs a Machine.  At most BLOCK decks."""
@@ -148,10 +142,13 @@ class Runner:
 
     def _some(self, packed: list[bytes]) -> list[Run | None]:
         """As many decks as the log has room for."""
+        return [self._run(d) for d in range(self.kernel(*self._arguments(packed)))]
+
+    def _arguments(self, packed: list[bytes]) -> tuple[Any, ...]:
+        """What the kernel is called with for these decks."""
         first = _row(accumulate((len(deck) // COLUMNS for deck in packed), initial=0))
         cards = devices.Cards(_codes(b"".join(packed)), first)
-        done = self.kernel(self.code, self.forms, self.start, cards, self.core, self.report, self.rules, self.setting)
-        return [self._run(d) for d in range(done)]
+        return self.code, self.forms, self.start, cards, self.core, self.report, self.rules, self.setting
 
     def _run(self, d: int) -> Run | None:
         report: Any = self.report

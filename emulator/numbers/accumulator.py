@@ -12,7 +12,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from emulator.numbers import arithmetic
 from emulator.numbers.arithmetic import (
     KEEPS_LEFT_ZERO,
     MAX_EXPONENT,
@@ -22,6 +21,9 @@ from emulator.numbers.arithmetic import (
     ZERO,
     Rules,
 )
+from emulator.numbers.arithmetic import add as add_digits
+from emulator.numbers.arithmetic import divide as divide_digits
+from emulator.numbers.arithmetic import multiply as multiply_digits
 
 # Events, numbered as the codes E1 to E8.
 (
@@ -47,7 +49,7 @@ def add(ma: int, ea: int, mb: int, eb: int, rules: Rules, powers: Sequence[int])
         return ma, ea, 0
     if ma == 0:
         return mb, eb, 0
-    m, e = arithmetic.add(ma, ea, mb, eb, rules, powers)
+    m, e = add_digits(ma, ea, mb, eb, rules, powers)
     if e > MAX_EXPONENT:
         return largest(m, rules), MAX_EXPONENT, SUM_OVER
     if e < MIN_EXPONENT and m != 0:
@@ -71,7 +73,7 @@ def multiply(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
     """FAC * number.  A product with a zero is a plus zero."""
     if ma == 0 or mb == 0:
         return 0, ZERO, 0
-    m, e = arithmetic.multiply(ma, ea, mb, eb, rules)
+    m, e = multiply_digits(ma, ea, mb, eb, rules)
     if e > MAX_EXPONENT:
         return largest(m, rules), MAX_EXPONENT, PRODUCT_OVER
     if e < MIN_EXPONENT:
@@ -85,7 +87,7 @@ def divide(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
         return largest(1, rules), MAX_EXPONENT, ZERO_DIVISOR
     if ma == 0:
         return 0, ZERO, 0
-    m, e = arithmetic.divide(ma, ea, mb, eb, rules)
+    m, e = divide_digits(ma, ea, mb, eb, rules)
     if e > MAX_EXPONENT:
         return largest(m, rules), MAX_EXPONENT, QUOTIENT_OVER
     if e < MIN_EXPONENT:

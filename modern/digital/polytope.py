@@ -11,7 +11,6 @@ of X by Y by Z cells are at most 12 XYZ: no volume that a memory can hold comes 
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable, MutableSequence, Sequence
 from functools import cache, partial
 from typing import Any, NamedTuple
@@ -19,7 +18,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from emulator.compiled.jit import compiled
+from emulator.compiled.jit import Compiled
 
 Integers = MutableSequence[int]
 Grid = NDArray[np.int64]
@@ -194,8 +193,9 @@ def hull(at: Points, surface: Surface, a: int, b: int, c: int, d: int) -> int:
 
 @cache
 def compiled_hull() -> Callable[..., Any]:
-    """``hull`` compiled.  Raises NotInstalled without numba."""
-    return compiled([hull], [value, place, hand_out, look, cone, grow], [sys.modules[__name__]])[0]
+    """``hull`` compiled.  Raises NotInstalled."""
+    one: Any = np.zeros(1, np.int64)
+    return Compiled(hull).ready(Points(one, one, one), Surface(*[one] * len(Surface._fields)), 0, 0, 0, 0)
 
 
 def polyhedron(points: Grid, simplex: tuple[int, int, int, int], fast: bool) -> tuple[Grid, Grid]:

@@ -9,7 +9,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from emulator.compiled.jit import Function, NotInstalled, compiled
+from emulator.compiled.jit import Compiled, Function, NotInstalled
 from modern.port import growth, kernels, workspace
 from modern.port.arithmetic import Arithmetic
 from modern.port.binary import FloatArithmetic
@@ -25,17 +25,69 @@ _FIRST = 4
 _SPARE = 1024
 """Slots to begin with, besides six for each equation: a stage needs at most four and a half, of those that stand."""
 
-Stage = Callable[[Polyhedron, bool], growth.Grown | None]
-Satisfied = Callable[[Equations, Places], list[NDArray[np.int64]]]
+_MANY = 5_000
+"""Points from which on loading the kernels costs less than it saves."""
+
+
+@dataclass(frozen=True, slots=True)
+class Steps:
+    """A stage of a polyhedron's growth, and the places that satisfy each equation."""
+
+    stage: Callable[[Polyhedron, bool], growth.Grown | None]
+    satisfied: Callable[[Equations, Places], list[NDArray[np.int64]]]
+
+
+def plain_satisfied(table: Equations, places: Places) -> list[NDArray[np.int64]]:
+    return table.satisfied(places.coordinates)
+
+
+PLAIN = Steps(growth.stage, plain_satisfied)
+
+
+def choose(arithmetic: Arithmetic, places: Places, slack: Slack | None, fast: bool | None) -> Steps:
+    """The steps for these points.
+
+    ``fast``: False numpy's; True the kernels; None the kernels where numba is there and it pays: many points, or
+    kernels that are loaded already.  Raises NotInstalled where it is True and numba is missing.
+    """
+    if fast is False or not isinstance(arithmetic, FloatArithmetic) or not _in_range(arithmetic, places, slack):
+        return PLAIN
+    if fast is None and len(places) < _MANY and not load.cache_info().currsize:
+        return PLAIN
+    try:
+        return load(arithmetic.name)
+    except NotInstalled:
+        if fast:
+            raise
+        return PLAIN
+
+
+def _in_range(arithmetic: FloatArithmetic, places: Places, slack: Slack | None) -> bool:
+    """Whether no number of the procedure can overflow, which numpy notices and compiled code does not.
+
+    The largest are squares of a plane's coefficients, at most 36 M**4 for coordinates up to M, values at a point, at
+    most 24 M**3, and e, for all the equations, times a coefficient.
+    """
+    limit = float(np.finfo(arithmetic.dtype).max)
+    largest = max(1.0, float(abs(places.coordinates).max()))
+    e = max(1.0, float(arithmetic.tolerance(slack.size, 0))) if slack else 1.0
+    return largest < limit**0.25 / 8 and e < limit / (8 * largest**2)
 
 
 @cache
-def load() -> tuple[Stage, Satisfied]:
-    """The steps by compiled kernels.  Raises NotInstalled."""
-    return with_kernels(*compiled(kernels.ENTRIES, kernels.HELPERS, [kernels, workspace]))
+def load(name: str) -> Steps:
+    """The steps by kernels compiled for ``float64`` or ``float32``.  Raises NotInstalled."""
+    some, one = np.zeros((4, 1), name), np.zeros(1, np.int64)
+    cloud = Cloud(some[:3].copy(), one, one, one)
+    slots = Slots(some, np.zeros((3, 1), np.int64), some[0].copy(), np.ones(1, np.bool_))
+    rules = Rules(some[:3, 0].copy(), False, some[0, 0], False, LISTED_PLANES, PLANES)
+    return with_kernels(
+        Compiled(kernels.grow).ready(cloud, slots, one, rules, False, 1),
+        Compiled(kernels.satisfied).ready(slots, cloud.coordinates),
+    )
 
 
-def with_kernels(grow: Function, find: Function) -> tuple[Stage, Satisfied]:
+def with_kernels(grow: Function, find: Function) -> Steps:
     """The steps by the kernels given, compiled or as they stand in Python."""
 
     def stage(hull: Polyhedron, first: bool) -> growth.Grown | None:
@@ -55,17 +107,17 @@ def with_kernels(grow: Function, find: Function) -> tuple[Stage, Satisfied]:
         ends = np.cumsum(counts).tolist()
         return [found[start:end] for start, end in zip([0, *ends], ends, strict=False)]
 
-    return stage, satisfied
+    return Steps(stage, satisfied)
 
 
 def _cloud(hull: Polyhedron) -> Cloud:
     """The points; each keeps the slot of its equation, -1 where that was struck."""
     places, serial = hull.places, hull.table.serial
-    behind = hull.remaining.keeper
-    slot = np.searchsorted(serial, behind)
+    kept_by = hull.remaining.keeper
+    slot = np.searchsorted(serial, kept_by)
     slot[slot == len(serial)] = 0
     keeper = np.full(len(places), -1, np.int64)
-    keeper[hull.vertices :] = np.where(serial[slot] == behind, slot, -1)
+    keeper[hull.vertices :] = np.where(serial[slot] == kept_by, slot, -1)
     # Copies in C order: for each other layout numba would compile the kernels again.
     return Cloud(np.array(places.coordinates, order="C"), places.who.copy(), keeper, np.empty(len(places), np.int64))
 
@@ -113,52 +165,3 @@ def _take_back(hull: Polyhedron, cloud: Cloud, slots: Slots, state: NDArray[np.i
     hull.vertices, hull.to_check = int(state[workspace.VERTICES]), int(state[workspace.CHECKED])
     remaining.keeper, remaining.tried = cloud.keeper[hull.vertices : count], int(state[workspace.TRIED])
     remaining.struck = bool(state[workspace.STRUCK])
-
-
-_MANY = 5_000
-"""Points from which on loading the kernels costs less than it saves."""
-
-
-@dataclass(frozen=True, slots=True)
-class Steps:
-    """A stage of a polyhedron's growth, and the places that satisfy each equation."""
-
-    stage: Callable[[Polyhedron, bool], growth.Grown | None]
-    satisfied: Callable[[Equations, Places], list[NDArray[np.int64]]]
-
-
-def plain_satisfied(table: Equations, places: Places) -> list[NDArray[np.int64]]:
-    return table.satisfied(places.coordinates)
-
-
-PLAIN = Steps(growth.stage, plain_satisfied)
-
-
-def choose(arithmetic: Arithmetic, places: Places, slack: Slack | None, fast: bool | None) -> Steps:
-    """The steps for these points.
-
-    ``fast``: False numpy's; True the kernels; None the kernels where numba is there and it pays: many points, or
-    kernels that are loaded already.  Raises NotInstalled where it is True and numba is missing.
-    """
-    if fast is False or not isinstance(arithmetic, FloatArithmetic) or not _in_range(arithmetic, places, slack):
-        return PLAIN
-    if fast is None and len(places) < _MANY and not load.cache_info().currsize:
-        return PLAIN
-    try:
-        return Steps(*load())
-    except NotInstalled:
-        if fast:
-            raise
-        return PLAIN
-
-
-def _in_range(arithmetic: FloatArithmetic, places: Places, slack: Slack | None) -> bool:
-    """Whether no number of the procedure can overflow, which numpy notices and compiled code does not.
-
-    The largest are squares of a plane's coefficients, at most 36 M**4 for coordinates up to M, values at a point, at
-    most 24 M**3, and e, for all the equations, times a coefficient.
-    """
-    limit = float(np.finfo(arithmetic.dtype).max)
-    largest = max(1.0, float(abs(places.coordinates).max()))
-    e = max(1.0, float(arithmetic.tolerance(slack.size, 0))) if slack else 1.0
-    return largest < limit**0.25 / 8 and e < limit / (8 * largest**2)

@@ -13,7 +13,7 @@ from modern.port.table import Equations, Places
 
 
 class Remaining:
-    """The points behind the first ``vertices`` places, each with an equation it is not inside of."""
+    """The points after the first ``vertices`` places, each with an equation it is not inside of."""
 
     def __init__(self) -> None:
         self.keeper: NDArray[np.int64] = np.empty(0, np.int64)

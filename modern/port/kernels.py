@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.port.formulas import at, less, plane
+from modern.port.formulas import at, plane
 from modern.port.workspace import (
     ADDED,
     ALIVE,
@@ -144,7 +144,7 @@ def replaced(point: Any, slots: Any, state: NDArray[np.int64]) -> NDArray[np.int
 
 
 def three_planes(order: NDArray[np.int64], place: int, cloud: Any, slots: Any, state: Any, rules: Any) -> int:
-    """``Polyhedron.three_planes`` into the slots behind those used; the bits of mends, -1 if the stage is to stop."""
+    """``Polyhedron.three_planes`` into the slots after those used; the bits of mends, -1 if the stage is to stop."""
     new, slot, mends = state[VERTICES], state[MADE], 0
     point = corner(cloud.coordinates, place)
     for old in order:
@@ -182,7 +182,7 @@ def doubles(defining: NDArray[np.int64], first: int, last: int) -> NDArray[np.in
     while size < 2 * (last - first):
         size *= 2
     chains = np.full(size, -1, np.int64)
-    behind = np.empty(last - first, np.int64)
+    following = np.empty(last - first, np.int64)
     partner = np.full(last - first, -1, np.int64)
     keys = np.empty((2, last - first), np.int64)
     for k in range(last - first):
@@ -193,21 +193,21 @@ def doubles(defining: NDArray[np.int64], first: int, last: int) -> NDArray[np.in
         bucket = (low * 40503 + high) & (size - 1)
         before, other = -1, chains[bucket]
         while other >= 0 and not (keys[0, other] == low and keys[1, other] == high):
-            before, other = other, behind[other]
+            before, other = other, following[other]
         if other < 0:
-            behind[k] = chains[bucket]
+            following[k] = chains[bucket]
             chains[bucket] = k
         else:
             partner[k], partner[other] = other, k
             if before < 0:
-                chains[bucket] = behind[other]
+                chains[bucket] = following[other]
             else:
-                behind[before] = behind[other]
+                following[before] = following[other]
     return partner
 
 
 def takes_last_pair(partner: NDArray[np.int64]) -> bool:
-    """Whether a pair is struck with at most one plane left behind it, as ``Polyhedron.single`` notes it."""
+    """Whether a pair is struck with at most one plane left after it, as ``Polyhedron.single`` notes it."""
     left = len(partner)
     for k in range(len(partner)):
         if partner[k] < 0:
@@ -293,7 +293,7 @@ def touching(coordinates: NDArray[Any], start: int, end: int, found: Any, e: Any
 
 
 def satisfied(slots: Any, coordinates: NDArray[Any]) -> Any:
-    """``Equations.satisfied``: how many points satisfy each equation, and their places one behind the other."""
+    """``Equations.satisfied``: how many points satisfy each equation, and their places, equation after equation."""
     counts = np.zeros(len(slots.alive), np.int64)
     places = np.empty(4 * len(slots.alive), np.int64)
     k, count = 0, coordinates.shape[1]
@@ -314,29 +314,3 @@ def satisfied(slots: Any, coordinates: NDArray[Any]) -> Any:
                         k += 1
         counts[slot] = k - first
     return counts, places[:k]
-
-
-ENTRIES = (grow, satisfied)
-HELPERS = (
-    less,
-    at,
-    plane,
-    is_outside,
-    is_not_inside,
-    is_on,
-    corner,
-    equation,
-    tolerance,
-    pack,
-    keeper_among,
-    strike_inside,
-    reaching,
-    touching,
-    farthest_outside,
-    outside_point,
-    replaced,
-    three_planes,
-    doubles,
-    takes_last_pair,
-    expand,
-)

@@ -155,7 +155,9 @@ IntPoint = tuple[int, int, int]
 
 
 def cyclic(points: Sequence[IntPoint], normal: Sequence[Exact]) -> list[int]:
-    """The order in which points of a plane stand around it, counterclockwise against ``normal``, the first first.
+    """The order in which points of a plane stand around it, seen from where ``normal`` points counterclockwise.
+
+    It begins with the first point.
 
     ``points`` are the corners of a convex polygon, exactly or nearly so: the order is that of the directions
     from the lowest corner, in the projection along the normal's largest component.

@@ -46,7 +46,7 @@ def read_number(value: object) -> Read:
     if isinstance(value, str):
         return read_decimal(value)
     if isinstance(value, (bool, np.bool_)):
-        raise ValueError("a truth value is no coordinate")
+        raise ValueError("a truth value is not a coordinate")
     if isinstance(value, (int, np.integer)):
         return int(value), False
     if isinstance(value, Fraction):
@@ -67,7 +67,7 @@ def read_points(points: Points) -> list[Read]:
     index = -1
     for index, point in enumerate(points):
         if isinstance(point, str) or not isinstance(point, Iterable):
-            raise PointsError(f"point {index}: a {type(point).__name__} is no point; a point has three coordinates")
+            raise PointsError(f"point {index}: {type(point).__name__} is not a point; a point has three coordinates")
         row = list(point)
         if len(row) != 3:
             raise PointsError(f"point {index}: {len(row)} coordinates; a point has three")

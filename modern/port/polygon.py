@@ -130,7 +130,7 @@ def other_lines(
     """Which equations stay when those that both ends satisfy are struck, but for the one ``keep`` (161 to 167).
 
     As in the listing KK stays a place in the table while the equations before it are struck; exactly there are
-    none, since a line has two equations and the first of them comes first.  Raises Stopped.
+    no such equations, since a line has two and the first of them comes first.  Raises Stopped.
     """
     first, second = (places.at(int(i))[:2] for i in ends)
     both = (arithmetic.sign(table.all_at(first)) == 0) & (arithmetic.sign(table.all_at(second)) == 0)
@@ -166,7 +166,7 @@ def middle(arithmetic: Arithmetic, places: Places, three: tuple[int, int, int], 
 
 
 def lowered(ends: NDArray[np.int64], gone: Sequence[int]) -> list[int]:
-    """Numbers of the vertices once those before them that are none are left out."""
+    """Numbers of the vertices once the places before them that are no vertices are left out."""
     return [end - sum(g < end for g in set(gone)) for end in ends.ravel().tolist()]
 
 

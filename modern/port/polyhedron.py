@@ -141,7 +141,7 @@ class Polyhedron:
                 waiting[key] = k
         for one, other in sorted(pairs):
             wanted[[one, other]] = False
-            # The listing goes on with the plane in the struck one's place and looks at those behind it.
+            # The listing goes on with the plane in the struck one's place and looks at those after it.
             if wanted[one:].sum() <= 1:
                 self.progress.mend(LAST_PAIR)
         return wanted
@@ -193,7 +193,7 @@ def strike_repeats(table: Equations, on: On, places: int, progress: Progress) ->
             if earlier.size:
                 struck_by[k] = earlier[0]
     wanted = struck_by < 0
-    # The listing looks beyond the table when an equation has struck the last of those behind it.
+    # The listing looks beyond the table when an equation has struck the last of those after it.
     last = np.flatnonzero(wanted)[-1]
     if (struck_by == last).any():
         progress.mend(LAST_REPEAT)

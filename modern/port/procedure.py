@@ -42,11 +42,11 @@ def convex_hull(
     extra ``fast``) for ``float64`` and ``float32``; None: where they are there and points are many.  The result is
     the same.
 
-    The mends of the layer ``corrected`` are built in; :attr:`Hull.mended` names those that mattered.  Numbers
+    What the layer ``corrected`` changes is built in; :attr:`Hull.mended` names the rows that mattered.  Numbers
     that are rounded may end in a status other than ``determined``, as the programs do.
 
-    Raises PointsError for points that are none, ValueError for an arithmetic or epsilon that is none or for kernels
-    asked for where numba is missing, RangeError where an intermediate result exceeds what floats hold.
+    Raises PointsError for invalid points; ValueError for an unknown arithmetic, an invalid epsilon, or kernels asked
+    for where numba is missing or cannot compile; RangeError where an intermediate result exceeds what floats hold.
     """
     size = read_epsilon(epsilon)
     with np.errstate(over="raise", invalid="raise", divide="raise", under="ignore"):

@@ -190,7 +190,7 @@ def turned(
     """The equations (columns) turned, and which of them have the value zero at C.
 
     ``centre`` is None where the origin was moved to C: then the constant term tells (thesis p. 118).  No epsilon
-    applies: C is no given point.
+    applies: C is not a given point.
     """
     values = coefficients[-1] if centre is None else at(tuple(coefficients), centre)
     signs = arithmetic.sign(values)

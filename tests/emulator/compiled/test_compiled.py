@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import importlib.util
 import json
+import linecache
 import os
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import pytest
@@ -15,9 +19,9 @@ from hypothesis import strategies as st
 
 from emulator.compiled import deck as unattended
 from emulator.compiled import engine as compiled
-from emulator.compiled import jit as compiling
 from emulator.compiled import runner
 from emulator.compiled.batch import run_batch
+from emulator.compiled.jit import Compiled, NotInstalled, called, digest
 from emulator.language.cards import deck_from_lines
 from emulator.machine.machine import Machine
 from emulator.machine.result import Options
@@ -72,21 +76,8 @@ def test_a_numba_that_does_not_compile(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_a_numba_that_does_not_know_an_option(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("numba")
-    make = compiling.compiled
-    monkeypatch.setattr(compiled, "compiled", lambda *given, **options: make(*given, **options, unheard_of=1))
+    monkeypatch.setattr(compiled, "Compiled", partial(Compiled, unheard_of=1))
     assert "numba cannot make the compiled code: KeyError: " in said_instead(monkeypatch)
-
-
-def test_kept_code_that_is_damaged(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """It comes to light as the program is put in core, before a deck is begun."""
-    pytest.importorskip("numba")
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    monkeypatch.setattr("numba.core.config.CACHE_DIR", "")
-    kernel: Any = compiled.run_decks.__wrapped__()
-    kernel._cache.flush()
-    (index,) = tmp_path.rglob("*.nbi")
-    index.write_bytes(b"")
-    assert "numba cannot make the compiled code: EOFError: " in said_instead(monkeypatch)
 
 
 @pytest.mark.parametrize(
@@ -121,20 +112,101 @@ def test_nothing_of_it_is_imported_for_a_plain_run() -> None:
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
-def test_the_code_is_kept_in_the_users_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    folder = compiling.cache_folder("", [compiled.why_plain])
-    assert folder is not None
-    assert folder.parent == tmp_path / "hull1620"
-    assert compiling.cache_folder("", [compiled.why_plain]) == folder
-    assert compiling.cache_folder("", [compiled.run_decks]) != folder
-    assert compiling.cache_folder("", [compiled.why_plain], "other options") != folder
-    assert compiling.cache_folder(str(tmp_path / "given"), [compiled.why_plain]) == tmp_path / "given" / folder.name
+SUM = "def twice(x):\n    return 2 * x\n\n\ndef entry(x):\n    return twice(x) + 1\n"
 
 
-def test_a_cache_that_cannot_be_written_is_none(tmp_path: Path) -> None:
-    (tmp_path / "file").write_text("")
-    assert compiling.cache_folder(str(tmp_path / "file"), [compiled.why_plain]) is None
+@pytest.fixture
+def kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder where numba is to keep code."""
+    pytest.importorskip("numba")
+    monkeypatch.setattr("numba.core.config.CACHE_DIR", str(tmp_path / "kept"))
+    return tmp_path / "kept"
+
+
+def made(folder: Path, source: str = SUM) -> Compiled:
+    """``entry`` of a module with that source, imported anew."""
+    path = folder / "entered.py"
+    path.write_text(source)
+    linecache.clearcache()
+    spec = importlib.util.spec_from_file_location("entered", path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules["entered"] = module
+    # Two versions may be written within a second, and have the same length.
+    exec(compile(source, str(path), "exec"), vars(module))
+    return Compiled(module.entry)
+
+
+def from_cache(code: Compiled) -> int:
+    return sum(code.function.stats.cache_hits.values())
+
+
+def test_code_is_kept_until_a_source_changes(tmp_path: Path, kept: Path) -> None:
+    """Of a helper too, at which numba itself does not look; so does a constant or an option."""
+    for source, expected in ((SUM, 11), (SUM.replace("2 * x", "3 * x"), 16)):
+        first = made(tmp_path, source)
+        assert first.ready(5)(5) == expected
+        assert from_cache(first) == 0
+        second = made(tmp_path, source)
+        assert second.ready(5)(5) == expected
+        assert from_cache(second) == 1
+    assert [path.parent.parent for path in kept.rglob("*.nbi")] == [kept, kept]
+    entry = sys.modules["entered"].entry
+    assert digest(entry, "") != digest(entry, "other")
+    assert called(entry) == [entry, sys.modules["entered"].twice]
+
+
+def test_constants_of_other_modules_count(tmp_path: Path, kept: Path) -> None:
+    """The source of the functions is the same, the number they use another."""
+    for number in (2, 3):
+        sys.modules["factors"] = ModuleType("factors")
+        vars(sys.modules["factors"])["FACTOR"] = number
+        code = made(tmp_path, "from factors import FACTOR\n\n\ndef entry(x):\n    return FACTOR * x\n")
+        assert code.ready(5)(5) == 5 * number
+        assert from_cache(code) == 0
+    del sys.modules["factors"]
+
+
+@pytest.mark.parametrize("pattern", ["*.nbi", "*.nbc"])
+def test_kept_code_that_is_damaged_is_made_anew(tmp_path: Path, kept: Path, pattern: str) -> None:
+    made(tmp_path).ready(5)
+    (file,) = kept.rglob(pattern)
+    file.write_bytes(b"")
+    damaged = made(tmp_path)
+    assert damaged.ready(5)(5) == 11
+    assert damaged.function.stats.cache_path is None
+    assert made(tmp_path).ready(5)(5) == 11
+    after = made(tmp_path)
+    assert after.ready(5)(5) == 11
+    assert from_cache(after) == 1
+
+
+def test_where_no_folder_can_be_written_code_is_for_this_process(
+    tmp_path: Path, kept: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*given: object, **named: object) -> None:
+        raise PermissionError("no place here")
+
+    monkeypatch.setattr("tempfile.TemporaryFile", refuse)
+    code = made(tmp_path)
+    assert code.ready(5)(5) == 11
+    assert code.function.stats.cache_path is None
+
+
+def test_what_numba_cannot_compile_is_one_line(tmp_path: Path, kept: Path) -> None:
+    code = made(tmp_path, "def entry(x):\n    return open(x)\n")
+    with pytest.raises(NotInstalled, match=r"^numba cannot make the compiled code: TypingError: [^\n]*$"):
+        code.ready(5)
+
+
+def test_the_functions_stay_as_they_are(tmp_path: Path, kept: Path) -> None:
+    """Called as Python they call Python, also after they were compiled."""
+    code = made(tmp_path)
+    code.ready(5)
+    module = sys.modules["entered"]
+    assert module.entry(5.5) == 12.0
+    assert type(module.twice) is type(made)
 
 
 SCRIPT = """
@@ -145,7 +217,7 @@ from emulator.compiled.engine import run_decks
 from emulator.language.compiler import compile_deck
 program = compile_deck(deck_from_lines("p", json.loads(sys.argv[1])))
 run_batch(program, [deck_from_lines("d", ["  41"])])
-stats = run_decks().stats
+stats = run_decks().function.stats
 print(json.dumps([sum(stats.cache_hits.values()), sum(stats.cache_misses.values())]))
 """
 

@@ -6,6 +6,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from emulator.compiled.jit import compiled
+from emulator.compiled.jit import Compiled
 from modern.geometry.hull import DETERMINED, ERROR, NOT_ACCEPTABLE, TABLE_FULL, Hull
 from modern.port import convex_hull, fast, kernels, workspace
 from modern.port.binary import FloatArithmetic
@@ -141,7 +142,7 @@ def test_the_kernels_as_plain_python_decide_as_numpy(
 ) -> None:
     """The text the kernels are compiled from, without numba."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(fast, "load", lambda: fast.with_kernels(kernels.grow, kernels.satisfied))
+        patch.setattr(fast, "load", lambda _: fast.with_kernels(kernels.grow, kernels.satisfied))
         same(np.array(points), "float64", epsilon=epsilon, translate=translate)
 
 
@@ -165,12 +166,12 @@ def test_doubles_pair_as_a_table_of_points_does(edges: list[tuple[int, int]]) ->
 def test_no_product_is_fused_with_a_sum() -> None:
     """(1+e)(1-e) - 1 is 0 when the product is rounded first, and -e**2 when it is not."""
     pytest.importorskip("numba")
-    (find,) = compiled([kernels.satisfied], kernels.HELPERS)
     e = 2.0**-30
     slots = workspace.Slots(
         np.array([[1 + e], [0.0], [0.0], [-1.0]]), np.zeros((3, 1), np.int64), np.array([-1.0]), np.array([True])
     )
-    counts, places = find(slots, np.array([[1 - e, 1.0], [0.0, 0.0], [0.0, 0.0]]))
+    given = slots, np.array([[1 - e, 1.0], [0.0, 0.0], [0.0, 0.0]])
+    counts, places = Compiled(kernels.satisfied).ready(*given)(*given)
     assert (counts.tolist(), places.tolist()) == ([1], [0])
 
 
@@ -180,7 +181,7 @@ def test_numbers_that_may_overflow_are_left_to_numpy() -> None:
         places = Places(np.array([[size], [0.0], [0.0]]), np.arange(1))
         e = None if slack is None else Slack(numbers, Fraction(slack), True)
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(fast, "load", lambda: (len, len))
+            patch.setattr(fast, "load", lambda _: fast.Steps(len, len))
             assert (fast.choose(numbers, places, e, True) is not fast.PLAIN) == kernel
 
 
@@ -196,6 +197,32 @@ def test_without_numba_numpy_does_it(monkeypatch: pytest.MonkeyPatch) -> None:
             convex_hull(points, "float64", fast=True)
     finally:
         fast.load.cache_clear()
+
+
+def test_the_kernels_are_compiled_for_the_types_they_are_called_with() -> None:
+    """Whether they can be is known when the steps are chosen, and nothing is compiled twice."""
+    pytest.importorskip("numba")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(fast, "with_kernels", lambda *functions: functions)
+        made: Any = fast.load.__wrapped__("float64")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(fast, "load", lambda _: fast.with_kernels(*made))
+        for translate in (False, True):
+            same(whole_ball(np.random.default_rng(1), 30), "float64", epsilon="rel:1e-9", translate=translate)
+    assert [len(function.signatures) for function in made] == [1, 1]
+
+
+def test_kept_kernels_that_are_damaged_are_made_anew(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("numba")
+    monkeypatch.setattr("numba.core.config.CACHE_DIR", str(tmp_path))
+    kept: Any = Compiled(kernels.satisfied).function
+    kept._cache.flush()
+    (index,) = tmp_path.rglob("*.nbi")
+    index.write_bytes(b"")
+    slots = workspace.Slots(np.zeros((4, 1)), np.zeros((3, 1), np.int64), np.zeros(1), np.array([True]))
+    counts, places = Compiled(kernels.satisfied).ready(slots, np.zeros((3, 2)))(slots, np.zeros((3, 2)))
+    assert (counts.tolist(), places.tolist()) == ([2], [0, 1])
+    assert not index.exists()
 
 
 def test_few_points_do_not_load_numba() -> None:

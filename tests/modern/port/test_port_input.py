@@ -25,9 +25,9 @@ BAD = (
     ((1, "", 3), "point 1, coordinate y: '' is no decimal number"),
     ((float("nan"), 2, 3), "point 1, coordinate x: nan is not finite"),
     ((1, 2, None), "point 1, coordinate z: NoneType: give an int, a Fraction, a decimal string or a float"),
-    ((True, 2, 3), "point 1, coordinate x: a truth value is no coordinate"),
-    ("123", "point 1: a str is no point; a point has three coordinates"),
-    (7, "point 1: a int is no point; a point has three coordinates"),
+    ((True, 2, 3), "point 1, coordinate x: a truth value is not a coordinate"),
+    ("123", "point 1: str is not a point; a point has three coordinates"),
+    (7, "point 1: int is not a point; a point has three coordinates"),
     ((1, 2, "1e99999"), "point 1, coordinate z: more than 4000 digits or an exponent beyond 9999"),
 )
 
