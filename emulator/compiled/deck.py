@@ -13,6 +13,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from emulator.compiled.devices import (
+    ANY_READ,
     CARDS_READ,
     DEVICES,
     FIRST_CARD,
@@ -53,7 +54,7 @@ from emulator.machine.interpreter import (
     AT_POWERX,
 )
 from emulator.machine.result import LOOP_WINDOW
-from emulator.numbers.arithmetic import ZERO, Rules, square_root, whole_power
+from emulator.numbers.arithmetic import POWERS_MULTIPLY, ZERO, Rules, square_root, whole_power
 
 
 class Start(NamedTuple):
@@ -63,8 +64,8 @@ class Start(NamedTuple):
     exponents: Row
 
 
-Setting = tuple[int, int, int]
-"""(statement limit, strict bounds, errors typed)."""
+Setting = tuple[int, int, int, int]
+"""(limit, strict bounds, errors typed, an empty hopper ends the run at any READ)."""
 
 
 def run_decks(
@@ -122,7 +123,8 @@ def run_deck(
     code: Code, forms: Forms, cards: Cards, core: Core, report: Report, d: int, rules: Rules, setting: Setting
 ) -> int:
     """Run the deck the devices are set to; how it ended."""
-    limit, strict, announces = setting
+    limit, strict, announces, any_read = setting
+    core.devices[ANY_READ] = any_read
     registers, counts = report.registers[d], report.counts[d]
     now = limit - min(LOOP_WINDOW, limit // 2)
     last = False
@@ -141,7 +143,7 @@ def run_deck(
                 status = end_record(code, cards, core, report, d)
         elif reason == AT_EVENT:
             status = error(registers[EVENT], code, core, report, d, announces)
-        elif reason == AT_POWERX:
+        elif reason == AT_POWERX and (rules[POWERS_MULTIPLY] or -1 <= core.mantissas[address] <= 2):
             m, e, event = whole_power(registers[FAC], registers[CHARACTERISTIC], core.mantissas[address], rules)
             registers[FAC] = m
             registers[CHARACTERISTIC] = e
@@ -166,7 +168,7 @@ def run_deck(
                 before[k] = counts[k]
             now = limit
             last = True
-        elif reason == AT_POWER:
+        elif reason == AT_POWER or reason == AT_POWERX:
             return NOT_HERE
         else:
             return reason

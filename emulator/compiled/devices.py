@@ -30,9 +30,10 @@ E_FIELD, F_FIELD, I_FIELD, TEXT, SLASH = range(5)
 READ, PUNCH, TYPE, ACCEPT = range(4)
 
 # Registers of the devices: the FORMAT, place in it and its bounds, verb, column on the card or of the line, card read,
-# next card, bounds of the deck, the READ a data set begins with, length of the log, number of PAUSEs met.
-FORMAT, SPEC, LAST_SPEC, VERB, COLUMN, CARD, NEXT, FIRST_CARD, LAST_CARD, FIRST_READ, USED, PAUSES = range(12)
-DEVICES = 12
+# next card, bounds of the deck, the READ a data set begins with, length of the log, number of PAUSEs met, 1 where the
+# run may end at any READ.
+FORMAT, SPEC, LAST_SPEC, VERB, COLUMN, CARD, NEXT, FIRST_CARD, LAST_CARD, FIRST_READ, USED, PAUSES, ANY_READ = range(13)
+DEVICES = 13
 
 # What a row of Report.ends holds: how the run ended, cards read, bounds in the log, and what the engine's ADDRESS held.
 REASON, CARDS_READ, LOG_FROM, LOG_TO, HELD = range(5)
@@ -59,13 +60,15 @@ class Code(NamedTuple):
 
 
 class Forms(NamedTuple):
-    """All FORMATs, one after the other: of each its bounds and whether it has fields, of each specification what it is.
+    """All FORMATs, one after the other: of each its bounds, where a longer list goes on, and whether it has fields; of
+    each specification what it is.
 
     ``places`` is where the text of an H or X begins in ``texts``, ``widths`` its length.
     """
 
     first: Row
     last: Row
+    again: Row
     fields: Row
     kinds: Row
     widths: Row
@@ -108,15 +111,16 @@ def begin(code: Code, forms: Forms, cards: Cards, core: Core, report: Report, d:
         return NOT_HERE
     if verb != READ:
         return GO_ON
-    begins = devices[FIRST_READ] < 0 or devices[FIRST_READ] == pc
-    if begins:
+    empty = devices[NEXT] == devices[LAST_CARD] and devices[NEXT] > devices[FIRST_CARD]
+    if devices[FIRST_READ] < 0 or devices[FIRST_READ] == pc:
         devices[FIRST_READ] = pc
-        if devices[NEXT] == devices[LAST_CARD] and devices[NEXT] > devices[FIRST_CARD]:
-            status = put(BEGUN, core.field, 0, core, report)
-            return AT_HOPPER if status == GO_ON else status
         status = put(BEGUN, core.field, 0, core, report)
         if status != GO_ON:
             return status
+        if empty:
+            return AT_HOPPER
+    elif empty and devices[ANY_READ]:
+        return AT_HOPPER
     return end_record(code, cards, core, report, d)
 
 
@@ -132,7 +136,7 @@ def to_field(code: Code, forms: Forms, cards: Cards, core: Core, report: Report,
             if forms.fields[devices[FORMAT]] == 0:
                 return NOT_HERE
             status = end_record(code, cards, core, report, d)
-            devices[SPEC] = forms.first[devices[FORMAT]]
+            devices[SPEC] = forms.again[devices[FORMAT]]
         elif forms.kinds[spec] == SLASH:
             status = end_record(code, cards, core, report, d)
             devices[SPEC] = spec + 1

@@ -117,7 +117,7 @@ class Runner:
         rows: dict[str, Any] = {name: np.zeros((BLOCK, width), np.int64) for name, width in widths.items()}
         self.report = devices.Report(**rows, log=_codes(bytes(LOG_ROOM)))
         self.rules = profile.rules
-        flags = options.bounds == "strict", profile.announces
+        flags = options.bounds == "strict", profile.announces, options.hopper == "any"
         self.setting = (options.limit, *map(int, flags))
         # Kept code that is damaged, or a numba of another kind, comes to light here, before a deck is begun.
         self.kernel = run_decks().ready(*self._arguments([]))
@@ -191,10 +191,11 @@ def _code(program: Program) -> devices.Code:
 
 
 def _forms(program: Program) -> devices.Forms:
-    first, last, fields, texts = [], [], [], ""
+    first, last, again, fields, texts = [], [], [], [], ""
     rows: list[tuple[int, int, int, int]] = []
     for _, spec in program.formats:
         first.append(len(rows))
+        again.append(len(rows) + spec.again)
         for part in spec.specs:
             if isinstance(part, Field):
                 rows.append((_KINDS[part.kind], part.width, part.decimals, 0))
@@ -206,4 +207,4 @@ def _forms(program: Program) -> devices.Forms:
         last.append(len(rows))
         fields.append(int(spec.has_fields))
     columns = ([row[k] for row in rows] for k in range(4))
-    return devices.Forms._make([*map(_row, (first, last, fields, *columns)), _codes(texts.encode("ascii"))])
+    return devices.Forms._make([*map(_row, (first, last, again, fields, *columns)), _codes(texts.encode("ascii"))])

@@ -94,14 +94,23 @@ def read_deck(path: str) -> Deck:
 
 
 def read_line(source: str, number: int, line: str, unit: str = "card") -> Card:
-    """A card from a line without its end.  Raises CardError for a strange character or an 81st column."""
-    for column, char in enumerate(line, 1):
-        if char not in CHARACTERS:
-            raise CardError(source, number, column, _strange(char), unit)
+    """A card from a line without its end.  Raises CardError for a strange character or an 81st column.
+
+    A card with C in column 1 may be a comment of a source deck, which holds what its writer liked.
+    """
+    if not line.startswith("C"):
+        refuse_strange(source, number, line, unit)
     text = line.rstrip(" ")
     if len(text) > COLUMNS:
         raise CardError(source, number, COLUMNS + 1, f"a card has {COLUMNS} columns; this one would need {len(text)}")
     return Card(number, text)
+
+
+def refuse_strange(source: str, number: int, line: str, unit: str = "card") -> None:
+    """Raise CardError for the first character that is not in the card code."""
+    for column, char in enumerate(line, 1):
+        if char not in CHARACTERS:
+            raise CardError(source, number, column, _strange(char), unit)
 
 
 def _strange(char: str) -> str:

@@ -62,7 +62,7 @@ def translate(deck: Deck) -> tuple[Program | None, tuple[Diagnostic, ...]]:
         raise DeckError(f"{deck.source}: the source deck has no statement")
     translation = _Translation(deck.source, parsed.statements, refused=parsed.refused)
     translation.diagnostics.extend(parsed.diagnostics)
-    translation.run(broken=bool(parsed.diagnostics))
+    translation.run(broken=any(not message.warning for message in parsed.diagnostics))
     messages = tuple(sorted(dict.fromkeys(translation.diagnostics), key=lambda d: (d.card, d.column)))
     failed = any(not d.warning for d in messages)
     return (None if failed else translation.program()), messages

@@ -236,13 +236,12 @@ class Emitter:
             self.load(exponent)
             self.emit(op.POWER, operand)
             return
-        if isinstance(exponent, Number) and exponent.text in ("2", "3"):
+        if isinstance(exponent, Number) and exponent.text == "2":
             self.load(base)
             if operand is None:
                 operand = self.temporary()
                 self.emit(op.FMFAC, operand)
-            for _ in range(int(exponent.text) - 1):
-                self.emit(op.FMP, operand)
+            self.emit(op.FMP, operand)
             return
         power = self.simple(exponent)
         if power is None:

@@ -36,9 +36,14 @@ Spec = Literal | Field | Slash
 
 @dataclass(frozen=True, slots=True)
 class FormatSpec:
-    """A FORMAT as a flat sequence, repeat counts and groups written out."""
+    """A FORMAT as a flat sequence, repeat counts and groups written out.
+
+    ``again`` is where a list that is longer goes on: with the last group that holds a field, its repeat count included,
+    or with the first specification (IBM FORTRAN II-D, executed).
+    """
 
     specs: tuple[Spec, ...]
+    again: int = 0
 
     @property
     def has_fields(self) -> bool:
@@ -66,7 +71,7 @@ def parse_format(statement: Format) -> tuple[FormatSpec, tuple[Diagnostic, ...]]
     reader = _Reader(statement)
     specs = reader.group()
     reader.expect_end()
-    spec = FormatSpec(tuple(specs))
+    spec = FormatSpec(tuple(specs), reader.again)
     warnings = list(reader.warnings)
     widest = max(spec.widths())
     if widest > MAX_RECORD:
@@ -85,6 +90,7 @@ class _Reader:
         self.text, self.places = statement.text, statement.places
         self.at = 0
         self.count = 0
+        self.again = 0
         self.warnings: list[Diagnostic] = []
 
     def place(self) -> Place:
@@ -127,7 +133,10 @@ class _Reader:
                 continue
             if need_comma:
                 raise _refused(self.place(), f"a comma is missing before {char!r}")
+            grouped = self.at
             new, need_comma = self.one(depth)
+            if depth == 0 and self.text[grouped : self.at].lstrip("0123456789 ").startswith("("):
+                self.again = len(specs) if any(isinstance(spec, Field) for spec in new) else self.again
             specs.extend(new)
             self.count += len(new)
             if self.count > self.MAX_FIELDS:

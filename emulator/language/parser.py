@@ -13,8 +13,8 @@ from lark.exceptions import VisitError
 
 from emulator.errors import Diagnostic, Refused
 from emulator.language import tree
-from emulator.language.cards import Deck
-from emulator.language.statements import Source, sources
+from emulator.language.cards import Card, Deck
+from emulator.language.statements import Source, is_comment, may_be_comment, resembles_statement, sources
 
 _STARTS = ("assignment go_to computed_go_to if if_switch do continue pause stop end dimension input_output").split()
 
@@ -61,9 +61,19 @@ def parse(deck: Deck) -> Parsed:
         try:
             statements.append(parse_statement(source))
         except Refused as refused:
+            if may_be_comment(source):
+                diagnostics.append(_taken_as_comment(source.cards[0], refused.diagnostic.message))
+                continue
             diagnostics.append(refused.diagnostic)
             labels.add(source.label.lstrip("0"))
+    for card in deck.cards:
+        if is_comment(card) and resembles_statement(card):
+            diagnostics.append(_taken_as_comment(card, "it begins as a statement does"))
     return Parsed(tuple(statements), tuple(diagnostics), frozenset(labels))
+
+
+def _taken_as_comment(card: Card, why: str) -> Diagnostic:
+    return Diagnostic(card.number, 1, f"taken as a comment, for its C in column 1: {why}", warning=True)
 
 
 def parse_statement(source: Source) -> tree.Statement:

@@ -49,8 +49,25 @@ class Source:
 
 
 def is_comment(card: Card) -> bool:
-    """A comment: C followed by two blanks in columns 1 to 3 (p. 12), or a card with no statement punched."""
-    return not card.columns(1, LAST_COLUMN).strip() or card.text.ljust(3).startswith("C  ")
+    """A comment: C in column 1 and no form of a statement, or a card with no statement punched.
+
+    The manual (p. 12) asks for two blanks after the C; IBM's FORTRAN II-D and PDQ FORTRAN take ``C-----`` and
+    ``C TEXT`` as well (executed).  What has the form of a statement and does not parse: :func:`may_be_comment`.
+    """
+    if not card.columns(1, LAST_COLUMN).strip() or card.text.ljust(3).startswith("C  "):
+        return True
+    return card.text.startswith("C") and _source((card,)).kind == "unknown"
+
+
+def may_be_comment(source: Source) -> bool:
+    """Whether a statement that does not parse can be taken as a comment: one card with C in column 1."""
+    return len(source.cards) == 1 and source.place.column == 1 and source.cards[0].text.startswith("C")
+
+
+def resembles_statement(card: Card) -> bool:
+    """Whether a comment looks as if a statement had been meant: it begins as a word of the language does."""
+    text = card.columns(1, LAST_COLUMN).replace(" ", "")
+    return not card.text.ljust(3).startswith("C  ") and text.startswith(("CONTIN", "COMMON", "CALL"))
 
 
 def sources(deck: Deck) -> Iterator[Source]:

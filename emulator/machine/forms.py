@@ -47,7 +47,7 @@ class _Walk(ABC):
             if not self.layout.spec.has_fields:
                 raise NoField
             self._end_record()
-            self.at = 0
+            self.at = self.layout.spec.again
             found = self._advance()
         self.at += 1
         return found

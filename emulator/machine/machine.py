@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 
 from emulator.errors import CardError, DeckError
-from emulator.language.cards import COLUMNS, Card, Deck, read_line
+from emulator.language.cards import COLUMNS, Card, Deck, read_line, refuse_strange
 from emulator.language.objectcode import Line, Program, code_positions, flatten
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 from emulator.machine import interpreter
@@ -202,7 +202,7 @@ class Machine:
             if begins:
                 self._first_read = self.state.at
                 self._events.append(Event("begin"))
-            card = self._take_card(here, begins)
+            card = self._take_card(here, begins or self.options.hopper == "any")
             self._transfer = Input(layout, lambda: self._take_card(here, False), card)
         elif verb == "ACCEPT":
             self._transfer = Input(layout, lambda: self._take_line(here), self._take_line(here))
@@ -223,6 +223,7 @@ class Machine:
                 f"another card is read by {here.name} of {self.program.source}"
             )
         card = self.deck.cards[self._position]
+        refuse_strange(self.deck.source, card.number, card.text)
         self._position += 1
         self._events.append(Event("read", card.text))
         return card

@@ -25,6 +25,9 @@ TRUNCATING = numbers("truncating")
 class Options:
     """How a run is set up.  ``switches`` are the sense switches that are on.
 
+    ``hopper``: where an empty hopper is the normal end of a run: at the first card of any READ, or only of the READ
+    that a data set begins with, the first of the run.
+
     ``bounds``: strict stops at a subscript outside its array, core does as the machine did.  ``limit``: how much work a
     run may do: statements begun, passes of indexed lists, numbers read or put out, lines.  ``uncut``: the numbers
     punched are kept as they were before the card's field cut them (:attr:`Result.uncut`).
@@ -36,6 +39,7 @@ class Options:
     bounds: Literal["strict", "core"] = "strict"
     limit: int = DEFAULT_LIMIT
     uncut: bool = False
+    hopper: Literal["first", "any"] = "first"
 
 
 Uncut = tuple[int, int, Number]

@@ -17,6 +17,8 @@ from emulator.numbers.arithmetic import (
     MAX_EXPONENT,
     MIN_EXPONENT,
     MINUS_ZERO,
+    SIGNED_BY_ZERO,
+    SIGNED_SUMS,
     SIGNED_UNDERFLOW,
     ZERO,
     Rules,
@@ -53,7 +55,7 @@ def add(ma: int, ea: int, mb: int, eb: int, rules: Rules, powers: Sequence[int])
     if e > MAX_EXPONENT:
         return largest(m, rules), MAX_EXPONENT, SUM_OVER
     if e < MIN_EXPONENT and m != 0:
-        return 0, ZERO, SUM_UNDER
+        return 0, (MINUS_ZERO if rules[SIGNED_SUMS] and m < 0 else ZERO), SUM_UNDER
     return m, e, 0
 
 
@@ -84,7 +86,7 @@ def multiply(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
 def divide(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
     """FAC / number.  Zero divided is a plus zero; division by zero gives the largest number."""
     if mb == 0:
-        return largest(1, rules), MAX_EXPONENT, ZERO_DIVISOR
+        return largest(-1 if rules[SIGNED_BY_ZERO] and ma < 0 else 1, rules), MAX_EXPONENT, ZERO_DIVISOR
     if ma == 0:
         return 0, ZERO, 0
     m, e = divide_digits(ma, ea, mb, eb, rules)

@@ -24,12 +24,12 @@ MIN_EXPONENT = -99
 
 MIN_DIGITS, MAX_DIGITS = 2, 28
 
-Rules = tuple[int, int, int, int, int, int, int, int, int, int]
-"""(digits, 10**digits, 10**(digits-1), guard digits, sticky, round sums, round products, round quotients, then two of
-emulator/numbers/accumulator.py: zero plus zero keeps the sign of FAC's zero; a product or quotient that underflows
-keeps its sign)."""
-KEEPS_LEFT_ZERO, SIGNED_UNDERFLOW = 8, 9
-"""Where the last two stand."""
+Rules = tuple[int, int, int, int, int, int, int, int, int, int, int, int, int]
+"""(digits, 10**digits, 10**(digits-1), guard digits, sticky, round sums, round products, round quotients), then those
+below."""
+KEEPS_LEFT_ZERO, SIGNED_UNDERFLOW, SIGNED_SUMS, SIGNED_BY_ZERO, POWERS_MULTIPLY = range(8, 13)
+"""Zero plus zero keeps the sign of FAC's zero; a product or quotient that underflows keeps its sign, and so does a sum;
+a number divided by zero keeps its sign; a whole power is multiplied out, each product cut, not the exact power cut."""
 
 
 def add(ma: int, ea: int, mb: int, eb: int, rules: Rules, powers: Sequence[int]) -> tuple[int, int]:
@@ -213,7 +213,7 @@ def square_root(mantissa: int, exponent: int, rules: Rules) -> tuple[int, int]:
 
 
 def whole_power(mantissa: int, exponent: int, count: int, rules: Rules) -> tuple[int, int, int]:
-    """``A ** J`` by repeated multiplication, each product cut as the profile cuts it (OPEN-QUESTIONS 8).
+    """``A ** J`` by repeated multiplication, each product cut as the profile cuts it: the exact power for J = -1 to 2.
 
     The third number is that of the error code E3 (overflow), E4 (underflow) or E7 (a negative power of zero),
     or 0; the result is in range.
@@ -243,7 +243,7 @@ def whole_power(mantissa: int, exponent: int, count: int, rules: Rules) -> tuple
     if e > MAX_EXPONENT:
         return (rules[1] - 1 if m > 0 else -(rules[1] - 1)), MAX_EXPONENT, 3
     if e < MIN_EXPONENT:
-        return 0, ZERO, 4
+        return 0, (MINUS_ZERO if rules[SIGNED_UNDERFLOW] and m < 0 else ZERO), 4
     return m, e, 0
 
 
@@ -276,24 +276,28 @@ def rules_of(
     sums: int = 0,
     products: int = 0,
     quotients: int = 0,
+    *,
     left_zero: int = 0,
-    signed_underflow: int = 0,
+    signed_sums: int = 1,
+    signed_by_zero: int = 1,
+    powers_multiply: int = 0,
 ) -> Rules:
-    """Rules of that many digits; what is not said is cut, and zeros are plus zeros."""
+    """Rules of that many digits; what is not said is cut, and zeros and nines have signs as under II-D."""
     low = 10 ** (digits - 1)
-    return digits, 10 * low, low, guard, sticky, sums, products, quotients, left_zero, signed_underflow
+    rounding = guard, sticky, sums, products, quotients
+    return digits, 10 * low, low, *rounding, left_zero, 1, signed_sums, signed_by_zero, powers_multiply
 
 
 TRUNCATING = Profile(
     "truncating",
-    "thesis p. 116 (eight digits, no rounding occurs); IBM FORTRAN II-D executed in a simulator; "
-    "signs of zero: the thesis's prints",
+    "thesis p. 116 (eight digits, no rounding occurs); signs of zero: the thesis's prints; signs of what underflows "
+    "or is divided by zero, and whole powers: IBM FORTRAN II-D executed in a simulator",
     rules_of(8),
 )
 IBM1962 = Profile(
     "ibm1962",
     "IBM's subroutine set of 1962, executed digit by digit in a simulator: product rounded half up, the rest cut",
-    rules_of(8, products=1, left_zero=1, signed_underflow=1),
+    rules_of(8, products=1, left_zero=1, signed_sums=0, signed_by_zero=0, powers_multiply=1),
     announces=True,
 )
 PROFILES = {profile.name: profile for profile in (TRUNCATING, IBM1962)}

@@ -220,7 +220,8 @@ def write_f(
     """Write an F field from column ``at`` on; the column after it, or -1 where the field cannot hold the number."""
     minus = 1 if mantissa < 0 or exponent == MINUS_ZERO else 0
     whole = exponent if mantissa != 0 and exponent > 0 else 0
-    if minus + whole + 1 + decimals > width:
+    # One column is the sign's, whether there is one or not (C26-5619 p. 39).
+    if 1 + whole + 1 + decimals > width:
         return -1
     end = at + width
     point = end - decimals - 1

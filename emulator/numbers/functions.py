@@ -7,12 +7,24 @@ follows GOTRAN's table F1 to F6 (C26-5594 p. 28) and IBM FORTRAN II-D for SQRT o
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from emulator.numbers.arithmetic import MAX_EXPONENT, MIN_EXPONENT, ZERO, Rules, from_integer, square_root, whole_power
+from emulator.numbers.arithmetic import (
+    MAX_EXPONENT,
+    MIN_EXPONENT,
+    MINUS_ZERO,
+    POWERS_MULTIPLY,
+    ZERO,
+    Rules,
+    from_integer,
+    square_root,
+    whole_power,
+)
+from emulator.numbers.base import cut_decimal, decimal_length
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,9 +69,36 @@ def power(base: tuple[int, int], exponent: tuple[int, int], rules: Rules) -> Val
 
 
 def integer_power(mantissa: int, exponent: int, count: int, rules: Rules) -> Value:
-    """``A ** J`` by repeated multiplication, each product cut as the profile cuts it (OPEN-QUESTIONS 8)."""
-    m, e, code = whole_power(mantissa, exponent, count, rules)
-    return Value(m, e, f"E{code}" if code else "")
+    """``A ** J``: the exact power cut, or multiplied out where the profile says so (OPEN-QUESTIONS 8)."""
+    if mantissa == 0 or -1 <= count <= 2 or rules[POWERS_MULTIPLY]:
+        m, e, code = whole_power(mantissa, exponent, count, rules)
+        return Value(m, e, f"E{code}" if code else "")
+    size, times = abs(mantissa), abs(count)
+    minus = mantissa < 0 and times % 2 == 1
+    # What is far out of range is not computed: the power may have a million digits.
+    decades = count * (math.log10(size) + exponent - rules[0])
+    if decades > MAX_EXPONENT + 1:
+        m, e = 1, MAX_EXPONENT + 1
+    elif decades < MIN_EXPONENT - 2:
+        m, e = 1, MIN_EXPONENT - 1
+    else:
+        m, e = _exact_power(size, exponent - rules[0], count, rules)
+    value = _in_range(-m if minus else m, e, rules, "E3", "E4")
+    return Value(0, MINUS_ZERO, "E4") if value.code == "E4" and minus else value
+
+
+def _exact_power(size: int, power_of_ten: int, count: int, rules: Rules) -> tuple[int, int]:
+    """``(size * 10**power_of_ten) ** count`` cut to the digits of the rules, or rounded where products are."""
+    whole, scale = size ** abs(count), power_of_ten * abs(count)
+    if count < 0:
+        # So many digits of the reciprocal that its cut is the exact one's: a quotient cut is cut for good.
+        more = decimal_length(whole) + rules[0] + 1
+        whole, scale = 10**more // whole, -scale - more
+    kept, exponent = cut_decimal(whole, scale, rules[0] + 1)
+    kept, last = divmod(kept, 10)
+    if rules[6] and last >= 5:
+        kept += 1
+    return (kept // 10, exponent + 1) if kept >= rules[1] else (kept, exponent)
 
 
 def _sqrt(mantissa: int, exponent: int, rules: Rules) -> Value:

@@ -7,6 +7,7 @@ import json
 import shutil
 import textwrap
 from collections.abc import Iterator
+from dataclasses import replace
 
 from emulator.files import check_writable, write_text
 from emulator.language.cards import read_deck
@@ -36,7 +37,7 @@ def main(args: argparse.Namespace) -> int:
     check_writable(args.json)
     studied = number_system(args.arithmetic, "--arithmetic")
     reference = number_system(args.against, "--against")
-    options = machine_options(args)
+    options = replace(machine_options(args), hopper="any")
     program = load_program(args.program, layers_of(args))
     found = diverge(program, read_deck(args.deck), studied, reference, options, values=not args.first)
     width = max(_NARROWEST, min(shutil.get_terminal_size((100, 24)).columns, _WIDEST))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from dataclasses import replace
 
 from emulator.errors import EmulatorError
 from emulator.files import check_writable
@@ -34,7 +35,7 @@ def main(args: argparse.Namespace) -> int:
     """Run, put out cards and typed lines, say how it ended."""
     if args.program == "-" and args.deck == "-":
         raise UsageError("program and deck cannot both come from standard input")
-    options = machine_options(args)
+    options = replace(machine_options(args), hopper="any")
     check_writable(args.punch, args.typewriter, args.trace)
     program = load_program(args.program, layers_of(args))
     deck = read_deck(args.deck) if args.deck else Deck("no deck", ())

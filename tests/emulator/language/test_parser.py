@@ -130,7 +130,7 @@ def test_format_holds_its_columns() -> None:
 
 REFUSED = [
     ("X", 1, 0, "not a statement of this FORTRAN"),
-    ("CALL SUB(X)", 1, 0, "not a statement"),
+    ("      CALL SUB(X)", 7, 0, "not a statement"),
     ("SUBROUTINE X", 1, 0, "not a statement"),
     ("X=", 2, 0, "ends too soon"),
     ("X=A+", 4, 0, "ends too soon"),
@@ -160,7 +160,7 @@ REFUSED = [
     ("IF (SENSE SWITCH 5) 1,2", 18, 7, "no sense switch 5"),
     ("DO 10 I=1,", 10, 8, "ends too soon"),
     ("DO 10 I=1,2,3,4", 14, 8, "',' does not fit"),
-    ("CONTINUE 5", 10, 0, "'5' does not fit"),
+    (" CONTINUE 5", 11, 0, "'5' does not fit"),
     ("DIMENSION X(5),", 15, 9, "ends too soon"),
     ("DIMENSION X", 11, 9, "ends too soon"),
     ("DIMENSION X(I)", 13, 9, "'I' does not fit"),

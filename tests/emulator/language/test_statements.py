@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from emulator.errors import CardError
 from emulator.language.statements import Source, classify, is_comment, sources
 from emulator.language.tree import Place
-from tests.support.deckwork import source
+from tests.support.deckwork import diagnostics, run, source
 
 
 def only(*lines: str) -> Source:
@@ -60,6 +61,27 @@ def test_comments(card: str) -> None:
     (found,) = source(card, "X=1.").cards[:1]
     assert is_comment(found)
     assert only(card, "X=1.").text == "X=1."
+
+
+@pytest.mark.parametrize(
+    "card", ["C-----", "C TEXT", "COMMENT", "Cany text, any \u00e9 #", "C*** 1 ***"]
+)
+def test_comments_as_the_compilers_take_them(card: str) -> None:
+    """IBM's FORTRAN II-D and PDQ FORTRAN, executed (c1 of tests/data/compiler_runs)."""
+    assert diagnostics(card, "X=1.", "END") == ()
+
+
+@pytest.mark.parametrize("card", ["C=A+", "CONTINU", "CONTINUE 5", "CALL SUB(X)", "COMMON X", "C SEE X=1 BELOW"])
+def test_a_comment_that_looks_like_a_statement_is_warned_of(card: str) -> None:
+    (message,) = diagnostics(card, "X=1.", "END")
+    assert message.warning
+    assert (message.card, message.column) == (1, 1)
+    assert "taken as a comment" in message.message
+
+
+def test_a_card_of_data_may_not_hold_what_a_comment_may() -> None:
+    with pytest.raises(CardError, match=r"data\.cards: card 1, column 3: 'x' is not in the card code"):
+        run("READ 1,I", "1 FORMAT(I4)", "END", data=["C x"])
 
 
 @pytest.mark.parametrize("card", ["C1=2.", "C(3)=2.", "C =2.", "CA =1.", "CONTINUE"])

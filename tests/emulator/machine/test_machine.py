@@ -333,3 +333,21 @@ def test_counts_of_statements() -> None:
     result = run("DO 5 I=1,3", "5 K=I", "END")
     assert result.statements == 1 + 3 + 1
     assert result.numbers == ()
+
+
+HEADED = ["READ 1,N", "5 READ 1,I", "PUNCH 1,I", "GO TO 5", "1 FORMAT(I4)", "END"]
+
+
+def test_an_empty_hopper_at_a_later_read_ends_a_run_where_it_may() -> None:
+    """A header card and then a loop of cases, the usual shape: the next case finds no card."""
+    made, data = program(*HEADED), deck_from_lines("data", ["   3", "   7", "   8"])
+    result = Machine(made, data, Options(hopper="any")).run()
+    assert (result.ending.kind, result.punched) == ("hopper", ("   7", "   8"))
+    with pytest.raises(DeckError, match="the deck ends in the middle of a data set"):
+        Machine(made, data, Options()).run()
+
+
+def test_a_hopper_empty_in_the_middle_of_a_list_is_an_error_either_way() -> None:
+    made = program("READ 1,I,J", "1 FORMAT(I4)", "END")
+    with pytest.raises(DeckError, match="the deck ends in the middle of a data set"):
+        Machine(made, deck_from_lines("data", ["   3"]), Options(hopper="any")).run()

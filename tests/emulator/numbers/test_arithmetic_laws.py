@@ -121,8 +121,8 @@ def test_rounding_gives_the_exact_result_rounded(case: tuple[Profile, Number, Nu
 def test_ibm1962_rounds_products_only(case: tuple[Profile, Number, Number]) -> None:
     found, a, b = case
     p = found.digits
-    rules = (*found.rules[:6], 1, 0, 1, 1)
-    assert IBM1962.rules == (*TRUNCATING.rules[:6], 1, 0, 1, 1)
+    rules = (*found.rules[:6], 1, *found.rules[7:])
+    assert IBM1962.rules == (*TRUNCATING.rules[:6], 1, 0, 1, 1, 0, 0, 1)
     assert multiply(*a, *b, rules) == nearest(value(a, p) * value(b, p), p, half=True)
 
 

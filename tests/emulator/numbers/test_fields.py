@@ -64,7 +64,7 @@ def test_f_fields_cut(mantissa: int, exponent: int, width: int, decimals: int) -
     if overflowed:
         assert columns == write_floating(E14, mantissa, exponent, RULES)[0]
         whole = str(abs(int(value))).lstrip("0")
-        assert len(whole) + 1 + decimals + (mantissa < 0) > width
+        assert 1 + len(whole) + 1 + decimals > width, "one column is always the sign's (C26-5619 p. 39)"
     else:
         assert len(columns) == width
         assert Decimal(columns.strip().replace("-.", "-0.") + "0") == cut.scaleb(-decimals)
