@@ -223,7 +223,9 @@ class Machine:
                 f"another card is read by {here.name} of {self.program.source}"
             )
         card = self.deck.cards[self._position]
-        refuse_strange(self.deck.source, card.number, card.text)
+        if card.text.startswith("C"):
+            # What a comment of a source deck may hold is no data.
+            refuse_strange(self.deck.source, card.number, card.text)
         self._position += 1
         self._events.append(Event("read", card.text))
         return card

@@ -63,9 +63,7 @@ def test_comments(card: str) -> None:
     assert only(card, "X=1.").text == "X=1."
 
 
-@pytest.mark.parametrize(
-    "card", ["C-----", "C TEXT", "COMMENT", "Cany text, any \u00e9 #", "C*** 1 ***"]
-)
+@pytest.mark.parametrize("card", ["C-----", "C TEXT", "COMMENT", "Cany text, any \u00e9 #", "C*** 1 ***"])
 def test_comments_as_the_compilers_take_them(card: str) -> None:
     """IBM's FORTRAN II-D and PDQ FORTRAN, executed (c1 of tests/data/compiler_runs)."""
     assert diagnostics(card, "X=1.", "END") == ()
