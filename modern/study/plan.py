@@ -115,7 +115,7 @@ def named(what: str, name: str, known: Mapping[str, F]) -> F:
         raise PlanError(f"no {what} is called {name!r}; there are {', '.join(known)} and module:function")
     try:
         found: F = getattr(import_module(module), function)
-    except (ImportError, AttributeError) as error:
+    except (ImportError, AttributeError, TypeError, ValueError) as error:
         raise PlanError(f"{what} {name}: {error}") from None
     return found
 

@@ -96,7 +96,10 @@ def _port(route: Port, one: Sample) -> Answer:
 def _measured(route: Route, one: Sample, run: HullRun | Hull) -> Figures:
     figures: dict[str, int | str] = {}
     for name in route.measures:
-        figures.update(measure_of(name)(one, run))
+        try:
+            figures.update(measure_of(name)(one, run))
+        except (TypeError, ValueError) as error:
+            raise PlanError(f"route {route.name}: measure {name}: {error}") from error
     return figures
 
 

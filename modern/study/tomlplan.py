@@ -61,6 +61,8 @@ def read_plan(path: str, samples: int | None = None, seed: int | None = None) ->
     text = read_text(path)
     try:
         data = tomllib.loads(text)
+    except RecursionError:
+        raise PlanError(f"{path}: nested too deeply") from None
     except tomllib.TOMLDecodeError as error:
         raise PlanError(f"{path}: {str(error).splitlines()[0]}") from None
     try:
@@ -113,7 +115,8 @@ def _route(raw: Mapping[str, Any], where: str) -> Route:
         raise PlanError(f"{where}: it has no name")
     sample = made("")
     for name, value in values.items():
-        if type(value) is not type(getattr(sample, name)):
+        of_text = not isinstance(value, tuple) or all(isinstance(item, str) for item in value)
+        if type(value) is not type(getattr(sample, name)) or not of_text:
             raise PlanError(f"{where}: {name} = {value!r} is of a wrong kind")
     route: Route = made(**values)
     return route

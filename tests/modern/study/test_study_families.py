@@ -199,3 +199,6 @@ def test_a_family_of_ones_own() -> None:
     assert draw("modern.study.families.scattered:integers", 3, digits=2, n=4).points
     with pytest.raises(PlanError):
         draw("modern.study.families.scattered:nothing", 3, n=4)
+    for name in (":f", ".x:f"):
+        with pytest.raises(PlanError, match=f"family {name}: "):
+            draw(name, 3, n=4)

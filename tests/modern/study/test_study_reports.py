@@ -182,6 +182,8 @@ def test_a_plan_file_is_what_it_says(plan_file: Path) -> None:
         ("[[route]]\nlimit = 3", "route 1: it has no name"),
         ("[[route]]\nname = 'a'\nlimit = '3'", "limit = '3' is of a wrong kind"),
         ("[[route]]\nname = 'a'\nlimit = true", "limit = True is of a wrong kind"),
+        ("[[route]]\nname = 'a'\nmeasures = [1]", "measures = (1,) is of a wrong kind"),
+        ("x = " + "[" * 3000 + "]" * 3000, "nested too deeply"),
         ("[[route]]\nname = 'a'\nkind = 'train'", "kind is programs or port"),
         ("[[route]]\nname = 'a'\n[[route]]\nname = 'a'", "two routes"),
         ("[[route]]\nname = 'a'\n[[cell]]\nroutes = ['b']\nfamily = 'thesis'", "no route 'b'"),

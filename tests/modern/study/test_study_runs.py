@@ -328,6 +328,13 @@ def test_measures_become_figures(tmp_path: Path) -> None:
     assert {"seconds_processor", "seconds_reader", "additions", "products"} <= figures["figures"].keys()
 
 
+def test_a_measure_that_cannot_take_a_run_is_one_line(tmp_path: Path) -> None:
+    route = Programs("listed", measures=("os:getpid",))
+    plan = replace(PLAN, cells=(replace(PLAN.cells[0], routes=(route,), samples=1),))
+    with pytest.raises(PlanError, match=r"route listed: measure os:getpid: .* takes no arguments"):
+        run_study(plan, tmp_path / "m", workers=1, quiet=True)
+
+
 def test_reading_the_store(finished: Path) -> None:
     store = Store.open(finished, PLAN)
     try:
