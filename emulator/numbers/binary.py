@@ -177,4 +177,5 @@ class FloatNumbers(Numbers):
         """The shortest decimal that is read back as the same number."""
         if not self._single or value - value != 0:
             return repr(value)
-        return next(text for text in (f"{value:.{k}g}" for k in range(1, 18)) if _single(float(text)) == value)
+        shorter = (float(f"{value:.{k}g}") for k in range(1, 18))
+        return repr(next(number for number in shorter if _single(number) == value))

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from emulator.numbers import accumulator
 from emulator.numbers.arithmetic import (
     IBM1962,
     MAX_DIGITS,
@@ -163,6 +164,22 @@ def test_a_number_less_itself_is_zero_and_one_changes_nothing(case: tuple[Profil
     assert plus(a, (-a[0], a[1]), found) == (0, ZERO)
     assert multiply(*a, *one, found.rules) == divide(*a, *one, found.rules) == a
     assert divide(*a, *a, found.rules) == one
+
+
+@given(families.flatmap(operands))
+def test_a_zero_added_or_subtracted_changes_nothing(case: tuple[Profile, Number, Number]) -> None:
+    found, a, _ = case
+    powers = powers_of_ten(found.rules)
+    assert accumulator.add(*a, 0, ZERO, found.rules, powers) == (*a, 0)
+    assert accumulator.add(0, ZERO, *a, found.rules, powers) == (*a, 0)
+    assert accumulator.subtract(*a, 0, ZERO, found.rules, powers) == (*a, 0)
+
+
+@pytest.mark.parametrize("p", range(3, MAX_DIGITS + 1))
+def test_a_product_just_below_a_power_of_ten_is_rounded_up_to_it(p: int) -> None:
+    """(10**(p-1) + 1) * (10**p - 10) = 10**(2p-1) - 10, whole numbers of p digits."""
+    product = multiply(10 ** (p - 1) + 1, p, 10**p - 10, p, profile(f"rounding:{p}").rules)
+    assert product == (10 ** (p - 1), 2 * p)
 
 
 # Against the standard library's decimal arithmetic.

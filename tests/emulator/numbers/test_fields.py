@@ -114,6 +114,7 @@ def test_the_largest_and_smallest() -> None:
     assert parse_constant(".99999999E99", RULES) == (99999999, 99)
     assert parse_constant(".1E-99", RULES) == (10000000, -99)
     assert parse_constant("0.E50", RULES) == (0, ZERO)
+    assert parse_constant("0.E999999", RULES) == (0, ZERO)
 
 
 @pytest.mark.parametrize(
@@ -143,6 +144,7 @@ def test_blanks_in_an_i_field(columns: str, value: int) -> None:
         ("2 .5", (20500000, 2), True),
         ("12   ", (12000000, -3), True),
         ("     ", (0, ZERO), True),
+        ("1.2 5E1", (12500000, 2), True),
     ],
 )
 def test_blanks_in_an_e_field(columns: str, expected: tuple[int, int], warned: bool) -> None:
@@ -158,6 +160,9 @@ def test_lost_digits_warn() -> None:
     assert words(read_fixed("12345")) == "12345 has more than four digits; the last four are kept"
     assert read_fixed("12345").mantissa == 2345
     assert read_fixed("-12345").mantissa == -2345
+    assert (read_fixed("9999").mantissa, read_fixed("9999").remark) == (9999, None)
+    assert read_fixed("10000").mantissa == 0
+    assert words(read_fixed("10000")) == "10000 has more than four digits; the last four are kept"
 
 
 def test_undefined_cannot_be_written() -> None:

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from emulator.numbers.arithmetic import IBM1962, TRUNCATING, ZERO, multiply, profile
+from emulator.numbers.arithmetic import IBM1962, TRUNCATING, ZERO, from_integer, multiply, profile
 from emulator.numbers.functions import Value, function, integer_power, power
 from tests.support.deckwork import machine, number
 
@@ -156,6 +156,16 @@ def test_whole_powers_at_the_edges(base: tuple[int, int], count: int, expected: 
 def test_floating_powers(base: tuple[int, int], exponent: tuple[int, int], expected: Value) -> None:
     """The exact power, cut; F6 takes |A| (C26-5594 p. 28)."""
     assert power(base, exponent, RULES) == expected
+
+
+@pytest.mark.parametrize("base", range(2, 22))
+def test_a_power_that_is_exact_is_not_cut_to_the_number_below(base: int) -> None:
+    """With floating exponents the logarithm may give 2.9999..., however many digits it has."""
+    for count in range(2, 7):
+        whole, exact = from_integer(base, RULES), from_integer(base**count, RULES)
+        assert power(whole, from_integer(count, RULES), RULES) == Value(*exact)
+    half = (50000000, 0)
+    assert power(from_integer(base * base, RULES), half, RULES) == Value(*from_integer(base, RULES))
 
 
 def test_sqrt_is_rounded_where_products_are() -> None:

@@ -16,7 +16,7 @@ from mpmath import MPContext
 from emulator.language.cards import deck_from_lines
 from emulator.machine.machine import Machine
 from emulator.machine.result import MachineError, Options, Result
-from emulator.numbers import Trap, Undecided, numbers
+from emulator.numbers import Numbers, Trap, Undecided, numbers
 from emulator.numbers.fields import FALLBACK, Field
 from emulator.numbers.roots import MAX_ROOTS, RootSum, square_root
 from tests.support.deckwork import program
@@ -94,7 +94,63 @@ def test_a_number_of_many_bits_is_written_as_it_was_read(x: float, bits: int) ->
         assert Fraction(mantissa) * Fraction(10) ** (exponent - 6) == whole * Fraction(10) ** power
 
 
+SYSTEMS = ("float64", "float32", "mp:24", "exact", "truncating:8", "rounding:12")
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+@pytest.mark.parametrize(("base", "count"), [(2, 1), (2, 5), (3, 4), (-2, 3), (-2, 4), (-3, 5), (2, -2), (-2, -3)])
+def test_a_whole_power(name: str, base: int, count: int) -> None:
+    """Small enough for every system to hold the exact one."""
+    system = numbers(name)
+    found, code = system.integer_power(system.decimal(base, 0), count)
+    assert (system.exact(found, 30), code) == (Fraction(base) ** count, "")
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_the_sign_of_small_and_large_numbers(name: str) -> None:
+    system = numbers(name)
+    for power in (-30, -1, 0, 30):
+        assert [system.sign(system.decimal(whole, power)) for whole in (-1, 0, 1)] == [-1, 0, 1]
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_the_exact_value_of_zero_is_zero(name: str) -> None:
+    assert numbers(name).exact(numbers(name).decimal(0, 0), 30) == 0
+
+
+@pytest.mark.parametrize("name", [name for name in SYSTEMS if not name.startswith("float")])
+def test_a_power_of_ten_for_a_reader_has_no_point(name: str) -> None:
+    """Digits as they are up to twenty, beyond them an exponent."""
+    system = numbers(name)
+    assert system.text(system.decimal(1, 19)) == "1" + "0" * 19
+    assert system.text(system.decimal(-1, 30)) == "-1E+30"
+    assert system.text(system.decimal(1, -8)) == "1E-8"
+    assert system.text(system.decimal(15, 29)) == "1.5E+30"
+
+
+@pytest.mark.parametrize("name", ["float64", "float32"])
+def test_a_whole_binary_number_for_a_reader_has_no_point(name: str) -> None:
+    assert [numbers(name).text(value) for value in (2.0, -40.0, 0.5)] == ["2", "-40", "0.5"]
+
+
 # IEEE 754 through the object code.
+
+
+@pytest.mark.parametrize("system", [DOUBLE, SINGLE])
+def test_zeros_have_signs_and_so_have_quotients_by_them(system: Numbers) -> None:
+    """IEEE 754 (1985) 6.3 and 7.2."""
+    minus_zero = system.read(FALLBACK, "-.00000000E+00")[0]
+    assert (minus_zero, math.copysign(1, minus_zero)) == (0, -1)
+    assert math.copysign(1, system.read(FALLBACK, " .00000000E+00")[0]) == 1
+    for dividend, divisor, expected in (
+        (1.0, 0.0, math.inf),
+        (-1.0, 0.0, -math.inf),
+        (1.0, minus_zero, -math.inf),
+        (-1.0, minus_zero, math.inf),
+    ):
+        with pytest.raises(Trap) as trap:
+            system.divide(dividend, divisor)
+        assert trap.value.value == expected
 
 
 def test_overflow_is_an_infinity_noted_with_the_machines_code() -> None:
