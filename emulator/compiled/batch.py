@@ -11,9 +11,8 @@ from itertools import islice
 from typing import TypeVar
 
 from emulator.compiled import devices, kernel
-from emulator.compiled.engine import INSTEAD, why_plain
 from emulator.compiled.jit import NotInstalled
-from emulator.compiled.runner import BLOCK, WAYS, Run, Runner, packed, packed_text
+from emulator.compiled.runner import BLOCK, INSTEAD, WAYS, Run, Runner, packed, packed_text, why_plain
 from emulator.language.cards import Deck, deck_from_text
 from emulator.language.objectcode import Program
 from emulator.machine.endings import Ending, Notice, decided, looped, out_of_bounds, stopped, unfit

@@ -1,9 +1,14 @@
-"""The compiled engine with one program in core: blocks of packed decks in, one row of numbers and a log a deck out."""
+"""The compiled engine with one program in core: blocks of packed decks in, one row of numbers and a log a deck out.
+
+numba compiles :func:`emulator.compiled.deck.run_decks` and what it calls as they stand.  Numbers must fit into 64 bits:
+nine digits are the most, whose products have eighteen.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache
 from itertools import accumulate
 from typing import Any
 
@@ -11,7 +16,7 @@ import numpy as np
 
 from emulator.compiled import deck as decks
 from emulator.compiled import devices, kernel
-from emulator.compiled.engine import run_decks
+from emulator.compiled.jit import Compiled, NotInstalled
 from emulator.language.cards import CHARACTERS, COLUMNS, MAX_CARDS, Deck
 from emulator.language.formats import MAX_RECORD, Literal
 from emulator.language.objectcode import Flat, Program, flatten
@@ -21,6 +26,9 @@ from emulator.machine.result import Options
 from emulator.numbers.arithmetic import powers_of_ten
 from emulator.numbers.decimal import DecimalNumbers
 from emulator.numbers.fields import Field
+
+MAX_DIGITS = 9
+INSTEAD = "the plain engine runs instead"
 
 BLOCK = 128
 """The most decks at a time."""
@@ -34,6 +42,33 @@ WAYS = ("E<", "E>", "F<", "F>", "I<", "I>")
 _VERBS = {"READ": devices.READ, "PUNCH": devices.PUNCH, "ACCEPT": devices.ACCEPT}
 _KINDS = {"E": devices.E_FIELD, "F": devices.F_FIELD, "I": devices.I_FIELD}
 _CARD_CODES = "".join(sorted(CHARACTERS)).encode("ascii")
+
+
+def why_plain(options: Options) -> str:
+    """Why the compiled engine cannot run with these options, one line; empty where it can.
+
+    Code that cannot be made or loaded comes to light in :class:`Runner`.
+    """
+    if not isinstance(options.numbers, DecimalNumbers):
+        return f"the compiled engine has no {options.numbers.name} numbers: {INSTEAD}"
+    if options.uncut:
+        return f"the compiled engine keeps no numbers beside the cards: {INSTEAD}"
+    profile = options.numbers.profile
+    if profile.digits > MAX_DIGITS:
+        return f"{profile.name} has {profile.digits} digits, the compiled engine has at most {MAX_DIGITS}: {INSTEAD}"
+    try:
+        run_decks()
+    except NotInstalled as error:
+        return f"{error}: {INSTEAD}"
+    return ""
+
+
+@cache
+def run_decks() -> Compiled:
+    """:func:`emulator.compiled.deck.run_decks` for numba to compile.  Raises emulator.compiled.jit.NotInstalled."""
+    # Nothing is divided by zero and no array is made, so that numba need not look for the one nor count the other's
+    # users, which takes a quarter of the running time.
+    return Compiled(decks.run_decks, error_model="numpy", _nrt=False)
 
 
 def packed(deck: Deck) -> bytes | None:

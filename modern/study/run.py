@@ -8,7 +8,7 @@ from contextlib import ExitStack, closing
 from pathlib import Path
 from typing import Any
 
-from emulator.compiled.engine import why_plain
+from emulator.compiled.runner import why_plain
 from emulator.language.cards import deck_from_lines
 from emulator.machine.machine import Machine
 from modern.edition import programs

@@ -9,8 +9,7 @@ from contextlib import contextmanager
 import pytest
 
 from emulator.compiled.batch import run_batch
-from emulator.compiled.engine import why_plain
-from emulator.compiled.runner import BLOCK, Runner, packed
+from emulator.compiled.runner import BLOCK, Runner, packed, why_plain
 from emulator.errors import Diagnostic, EmulatorError
 from emulator.language import objectcode as op
 from emulator.language.cards import Deck, deck_from_lines

@@ -18,7 +18,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from emulator.compiled import deck as unattended
-from emulator.compiled import engine as compiled
 from emulator.compiled import runner
 from emulator.compiled.batch import run_batch
 from emulator.compiled.jit import Compiled, NotInstalled, called, digest
@@ -44,7 +43,7 @@ def test_ten_digits_are_too_many() -> None:
 
 def test_without_numba(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "numba", None)
-    monkeypatch.setattr(compiled, "run_decks", compiled.run_decks.__wrapped__)
+    monkeypatch.setattr(runner, "run_decks", runner.run_decks.__wrapped__)
     notes: list[str] = []
     (result,) = run_batch(program(*LINES), [DECK], None, notes.append)
     assert result == Machine(program(*LINES), DECK).run()
@@ -55,9 +54,7 @@ def test_without_numba(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def said_instead(monkeypatch: pytest.MonkeyPatch) -> str:
     """What is said where numba does not do; the result is the plain engine's."""
-    anew = compiled.run_decks.__wrapped__
-    for module in (compiled, runner):
-        monkeypatch.setattr(module, "run_decks", anew)
+    monkeypatch.setattr(runner, "run_decks", runner.run_decks.__wrapped__)
     notes: list[str] = []
     (result,) = run_batch(program(*LINES), [DECK], None, notes.append)
     assert result == Machine(program(*LINES), DECK).run()
@@ -76,7 +73,7 @@ def test_a_numba_that_does_not_compile(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_a_numba_that_does_not_know_an_option(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("numba")
-    monkeypatch.setattr(compiled, "Compiled", partial(Compiled, unheard_of=1))
+    monkeypatch.setattr(runner, "Compiled", partial(Compiled, unheard_of=1))
     assert "numba cannot make the compiled code: KeyError: " in said_instead(monkeypatch)
 
 
@@ -213,7 +210,7 @@ SCRIPT = """
 import json, sys
 from emulator.compiled.batch import run_batch
 from emulator.language.cards import deck_from_lines
-from emulator.compiled.engine import run_decks
+from emulator.compiled.runner import run_decks
 from emulator.language.compiler import compile_deck
 program = compile_deck(deck_from_lines("p", json.loads(sys.argv[1])))
 run_batch(program, [deck_from_lines("d", ["  41"])])

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from emulator.compiled import engine as compiled
+from emulator.compiled import runner
 from emulator.errors import DeckError
 from emulator.language.cards import deck_from_lines
 from emulator.language.compiler import compile_deck
@@ -217,7 +217,7 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeyp
     monkeypatch.setenv("PATH", os.devnull)
     monkeypatch.delenv("FC", raising=False)
     monkeypatch.setitem(sys.modules, "numba", None)
-    monkeypatch.setattr(compiled, "run_decks", compiled.run_decks.__wrapped__)
+    monkeypatch.setattr(runner, "run_decks", runner.run_decks.__wrapped__)
     monkeypatch.setattr("modern.bench.timing.RUNS", 1)
     place = tmp_path / "bench.json"
     assert main(["bench", "--decks", "1", "--json", str(place)]) == 0
