@@ -1,0 +1,103 @@
+"""The compiler at its limits: how deep lists, groups and parentheses may stand, and constant factors of subscripts."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.support.deckwork import code, diagnostics, errors, punched, run
+
+FILLED = ["DIMENSION A(9),B(2,4)", "DO 5 I=1,9", "5 A(I)=I"]
+"""A(k) is k."""
+
+
+def cards(statement: str) -> list[str]:
+    """A long statement on a card of 72 columns and continuation cards of 66 (OPEN-QUESTIONS 1)."""
+    return [statement[:72], *(f"     1{statement[k : k + 66]}" for k in range(72, len(statement), 66))]
+
+
+def nested(item: str, *variables: str) -> str:
+    """The item in a list for each variable, the first the innermost, each from 1 to 2."""
+    for variable in variables:
+        item = f"({item},{variable}=1,2)"
+    return item
+
+
+@pytest.mark.parametrize(
+    ("item", "card"),
+    [
+        (nested("J", "J"), " 1 2"),
+        (nested("J,K", "J", "K"), " 1 1 2 1 1 2 2 2"),
+        (nested("J,K,L", "J", "K", "L"), " 1 1 1 2 1 1 1 2 1 2 2 1 1 1 2 2 1 2 1 2 2 2 2 2"),
+    ],
+    ids=["one", "two", "three"],
+)
+def test_lists_stand_three_deep(item: str, card: str) -> None:
+    """Three are taken, one more than an array has subscripts; the innermost variable goes fastest, as in DO's."""
+    assert punched(f"PUNCH 1,{item}", "1 FORMAT(24I2)", "END") == (card,)
+
+
+@pytest.mark.parametrize(
+    "item",
+    [nested("J", "J", "K", "L", "M"), f"({nested('J', 'J', 'K', 'L')},M,M=1,2)", f"I,{nested('J', *'JKLM')}"],
+    ids=["alone", "with another item", "not the first item"],
+)
+def test_a_fourth_list_inside_is_refused(item: str) -> None:
+    """One message, on the statement's card; a list beside another is not inside it."""
+    (message,) = errors("I=1", *cards(f"PUNCH 1,{item}"), "1 FORMAT(24I2)", "END")
+    assert (message.card, "nested too deep" in message.message) == (2, True)
+    beside = ",".join([nested("J", "J", "K", "L")] * 3)
+    assert errors(*cards(f"PUNCH 1,{beside}"), "1 FORMAT(24I2)", "END") == ()
+
+
+def test_groups_of_a_format_stand_two_deep() -> None:
+    """A FORMAT's own parentheses are none of them: 2(1X,2(I1)) is four fields."""
+    assert punched("PUNCH 1,(J,J=1,4)", "1 FORMAT(2(1X,2(I1)))", "END") == (" 12 34",)
+    (message,) = errors("1 FORMAT(2(1X,2(2(I1))))", "END")
+    assert (message.card, message.number) == (1, 11)
+
+
+def test_sixty_parentheses_are_parsed_and_sixty_one_are_not() -> None:
+    """The limit keeps the parser within Python's own; it is the parentheses open at once that count."""
+    sixty = f"{'(' * 60}1.{')' * 60}"
+    assert diagnostics(*cards(f"X={sixty}"), "END") == ()
+    assert diagnostics(*cards(f"X={sixty}+{sixty}"), "END") == ()
+    assert len(errors(*cards(f"X=({sixty})"), "END")) == 1
+
+
+@pytest.mark.parametrize(
+    ("subscript", "element"),
+    [("2*3", 6), ("2*3+1", 7), ("2*3-1", 5), ("3*1", 3), ("2+3", 5), ("7-3", 4), ("9*1-8", 1), ("3*3", 9)],
+)
+def test_a_constant_subscript_is_reckoned(subscript: str, element: int) -> None:
+    """Factor times constant, then the addend, as c*v+k is (C26-5619 p. 18): an address, without code for it."""
+    lines = [*FILLED, f"J=A({subscript})", "PUNCH 1,J", "1 FORMAT(I2)", "END"]
+    assert punched(*lines) == (f"{element:2}",)
+    assert code("DIMENSION A(9)", f"X=A({subscript})", "END")[0] == f"SEND A({element})"
+
+
+def test_constant_factors_in_both_subscripts() -> None:
+    """B(2*1,2*2) of B(2,4) is row 2, column 4."""
+    assert code("DIMENSION B(2,4)", "X=B(2*1,2*2-1)", "END")[0] == "SEND B(2,3)"
+    assert code("DIMENSION B(2,4)", "B(3-1,2*2)=X", "END")[:2] == ["SEND X", "TRANSMIT B(2,4)"]
+
+
+@pytest.mark.parametrize(("subscript", "element"), [("2*3", 6), ("2*4-1", 7), ("2*3-6", 0), ("3-4", -1)])
+def test_a_constant_subscript_out_of_bounds_is_found_in_the_run(subscript: str, element: int) -> None:
+    """The subscript named is the one reckoned."""
+    result = run("DIMENSION A(5)", f"A({subscript})=1.", "END")
+    assert result.ending.kind == "bounds"
+    assert str(element) in result.ending.message
+
+
+def test_a_factor_before_a_variable_is_its_own() -> None:
+    """2*J+1 is 7 for J = 3, and the limit of the loop is not touched by it."""
+    lines = [*FILLED, "J=3", "K=A(2*J+1)", "L=A(3*J-2)", "PUNCH 1,K,L,J", "1 FORMAT(3I2)", "END"]
+    assert punched(*lines) == (" 7 7 3",)
+
+
+@pytest.mark.parametrize("subscript", ["4/2", "2*3*1", "1+2+3", "-2", "-2*J", "-J+5", "+2*J+1-1", "J*2", "1+J"])
+def test_other_subscripts_are_refused(subscript: str) -> None:
+    """C26-5619 p. 18 has v, c, v+c, v-c, c*v, c*v+c and c*v-c only."""
+    (message,) = errors("DIMENSION A(9)", f"X=A({subscript})", "END")
+    assert (message.card, message.number) == (2, 0)
+    assert "subscript" in message.message

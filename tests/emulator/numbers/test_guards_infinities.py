@@ -1,0 +1,94 @@
+"""Infinities in binary numbers: what has no finite operand cannot overflow, whichever operand is infinite.
+
+IEEE 754-2008, 6.1: operations on infinite operands are exact and signal nothing, but for those without an answer
+(7.2), which give what is no number.  Only finite operands overflow (7.4), which is noted with the machine's code.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import inf, isnan, nan
+
+import pytest
+
+from emulator.numbers import Trap, numbers
+from emulator.numbers.base import Numbers
+
+SYSTEMS = ("float64", "float32")
+OPERATIONS: dict[str, Callable[[Numbers, float, float], float]] = {
+    "+": lambda system, x, y: system.add(x, y),
+    "-": lambda system, x, y: system.subtract(x, y),
+    "-r": lambda system, x, y: system.subtract_reversed(x, y),
+    "*": lambda system, x, y: system.multiply(x, y),
+    "/": lambda system, x, y: system.divide(x, y),
+}
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+@pytest.mark.parametrize(
+    ("operation", "first", "second", "result"),
+    [
+        ("+", 1.0, inf, inf),
+        ("+", 1.0, -inf, -inf),
+        ("+", inf, 1.0, inf),
+        ("+", inf, inf, inf),
+        ("-", 1.0, inf, -inf),
+        ("-", inf, 1.0, inf),
+        ("-", -inf, inf, -inf),
+        ("-r", 1.0, inf, inf),
+        ("-r", inf, 1.0, -inf),
+        ("*", 2.0, inf, inf),
+        ("*", -2.0, inf, -inf),
+        ("*", inf, -2.0, -inf),
+        ("*", inf, inf, inf),
+        ("/", inf, 2.0, inf),
+        ("/", -inf, 2.0, -inf),
+        ("/", 2.0, inf, 0.0),
+    ],
+)
+def test_an_infinite_operand_is_no_overflow(
+    name: str, operation: str, first: float, second: float, result: float
+) -> None:
+    """A Trap would be an error code typed a second time for the one operation that overflowed."""
+    assert OPERATIONS[operation](numbers(name), first, second) == result
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+@pytest.mark.parametrize(
+    ("operation", "first", "second"),
+    [
+        ("+", inf, -inf),
+        ("-", inf, inf),
+        ("*", 0.0, inf),
+        ("*", inf, 0.0),
+        ("/", inf, inf),
+        *((operation, *pair) for operation in "+-*/" for pair in ((nan, 1.0), (1.0, nan), (nan, inf), (inf, nan))),
+    ],
+)
+def test_what_has_no_answer_is_no_number_and_no_overflow(
+    name: str, operation: str, first: float, second: float
+) -> None:
+    assert isnan(OPERATIONS[operation](numbers(name), first, second))
+
+
+@pytest.mark.parametrize(("name", "largest"), [("float64", 2.0**1023), ("float32", 2.0**127)])
+@pytest.mark.parametrize(
+    ("operation", "sign", "other"), [("+", 1, 1.0), ("-", 1, -1.0), ("*", 1, 2.0), ("*", -1, 2.0), ("/", 1, 0.5)]
+)
+def test_finite_operands_do_overflow(name: str, largest: float, operation: str, sign: int, other: float) -> None:
+    """The largest power of two doubled, by each operation, either sign."""
+    second = other * largest if operation in "+-" else other
+    with pytest.raises(Trap) as caught:
+        OPERATIONS[operation](numbers(name), sign * largest, second)
+    assert caught.value.value == sign * inf
+
+
+def test_an_infinity_of_many_bits_is_no_overflow() -> None:
+    system = numbers("mp:40")
+    with pytest.raises(Trap) as caught:
+        system.divide(system.decimal(1, 0), system.decimal(0, 0))
+    infinity, one = caught.value.value, system.decimal(1, 0)
+    for found in (system.add(one, infinity), system.add(infinity, one), system.multiply(one, infinity)):
+        assert found == infinity
+    assert system.subtract(one, infinity) == system.negate(infinity)
+    assert system.divide(one, infinity) == 0
