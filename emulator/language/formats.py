@@ -111,8 +111,7 @@ class _Reader:
         return digits
 
     def group(self, depth: int = 0) -> list[Spec]:
-        if self.peek() != "(":
-            raise _refused(self.place(), "a FORMAT's specification begins with a parenthesis")
+        """What stands between the parenthesis that comes next and the one that closes it."""
         if depth > 2:
             raise _refused(self.place(), "groups are nested too deep in a FORMAT")
         self.at += 1

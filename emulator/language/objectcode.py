@@ -108,9 +108,9 @@ class Instruction:
     """One instruction; see the module's text."""
 
     operation: int
-    address: int = 0
-    subscript: int = -1
-    second: int = 0
+    address: int
+    subscript: int
+    second: int
 
 
 @dataclass(frozen=True, slots=True)

@@ -83,6 +83,19 @@ def test_variable_subscripts(subscript: str, factor: int, addend: int) -> None:
     assert made.storage.name_of(found.v1) == "I"
 
 
+def test_what_has_no_subscript_says_so() -> None:
+    made = program("DIMENSION X(5)", "A=X(I)", "GO TO 5", "5 END")
+    assert [i.subscript for i in made.code if i.operation == op.SEND] == [0]
+    assert {i.subscript for i in made.code if i.operation != op.SEND} == {-1}
+
+
+@pytest.mark.parametrize(("statement", "more"), [("A=X(2)", 0), ("A=X(I)", 30), ("A=Y(I,J)", 60), ("A=Y(I,1)", 60)])
+def test_a_variable_subscript_takes_thirty_positions(statement: str, more: int) -> None:
+    """Fitted to the lengths of the hull programs as PDQ FORTRAN compiles them; two for an array of two dimensions."""
+    plain, longer = (program("DIMENSION X(5),Y(2,2)", line, "END") for line in ("A=B", statement))
+    assert op.code_positions(longer) - op.code_positions(plain) == more
+
+
 def test_do_tests_at_the_bottom() -> None:
     """IBM's object code 10504-10912: set, body, then step and compare (part one 1)."""
     made = program("DO 5 I=2,N,3", "5 A=B", "END")

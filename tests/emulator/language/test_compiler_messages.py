@@ -19,6 +19,7 @@ MESSAGES = [
     ("missing FORMAT", ["PUNCH 5,A", "END"], 1, 13, "no FORMAT number 5"),
     ("FORMAT number of a statement", ["5 A=1.", "PUNCH 5,A", "END"], 2, 13, "no FORMAT number 5"),
     ("FORMAT without field", ["PUNCH 5,A", "5 FORMAT(3HABC)", "END"], 1, 13, "no field for the list"),
+    ("FORMAT with a wrong letter", ["5 FORMAT(A4)", "END"], 1, 11, "'A' is not a specification"),
     ("FORMAT unnumbered", ["FORMAT(I4)", "END"], 1, 10, "a FORMAT needs a statement number"),
     ("mixed sum", ["X=A+I", "END"], 1, 5, "mixed"),
     ("mixed product", ["I=J*2.", "END"], 1, 5, "mixed"),
@@ -80,7 +81,8 @@ def test_message(lines: list[str], card: int, number: int, words: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("line", "column"), [("  X = A + I", 11), (" X = Y(2)", 6), ("  GO TO 5", 3), ("  10 PUNCH 5, A", 6)]
+    ("line", "column"),
+    [("  X = A + I", 11), (" X = Y(2)", 6), ("  GO TO 5", 3), ("  10 PUNCH 5, A", 6), ("  I = J ** 2", 7)],
 )
 def test_columns(line: str, column: int) -> None:
     (message,) = errors(line, "END")
@@ -111,6 +113,7 @@ def test_long_record_is_error_12_as_a_warning() -> None:
     """C26-5619 p. 56: 87 characters; what is beyond is lost at run time, so the deck still runs."""
     (message,) = diagnostics("5 FORMAT(40X,40X,8X)", "END")
     assert (message.number, message.warning) == (12, True)
+    assert (message.card, message.column) == (1, 9)
     assert diagnostics("5 FORMAT(40X,40X,7X)", "END") == ()
 
 
@@ -163,6 +166,14 @@ def test_a_huge_array_in_a_list_is_refused_at_once(size: str, words: str) -> Non
     """No object code is made for an array that no core can hold."""
     with within(2):
         assert words in errors(f"DIMENSION X({size})", "PUNCH 90,X", F, "END")[0].message
+
+
+def test_the_largest_core_holds_5988_fields() -> None:
+    """60,000 positions, 120 of them for names, ten a field (C26-5619 p. 66-67)."""
+    assert diagnostics("DIMENSION X(5988)", "END") == ()
+    assert "OVERLAP" in errors("DIMENSION X(5989)", "END")[0].message
+    assert diagnostics("DIMENSION X(5987)", "X(1)=Y", "END") == ()
+    assert "OVERLAP" in errors("DIMENSION X(5988)", "X(1)=Y", "END")[0].message
 
 
 def test_a_label_missing_twice_in_one_statement() -> None:

@@ -38,6 +38,10 @@ E, I4 = Field("E", 14, 8), Field("I", 4)
         ("(I4/I4)", (I4, Slash(), I4)),
         ("(2(I4,1X))", (I4, Literal(" ", True), I4, Literal(" ", True))),
         ("()", ()),
+        ("(2(2(I4)))", (I4,) * 4),
+        ("(2(I4)I4)", (I4,) * 3),
+        ("(1000I4)", (I4,) * 1000),
+        ("(2000I4)", (I4,) * 2000),
     ],
 )
 def test_specifications(text: str, expected: tuple[Spec, ...]) -> None:
@@ -74,6 +78,7 @@ def test_hollerith_ends_at_column_72() -> None:
         "(I88)",
         "(10000I1)",
         "(((((I4)))))",
+        "((((I4))))",
         "(2000I4,I4)",
     ],
 )
@@ -86,6 +91,23 @@ def test_error_11(text: str) -> None:
     (message,) = errors(*lines)
     assert (message.card, message.number) == (1, 11)
     assert message.column >= 9
+
+
+@pytest.mark.parametrize(
+    ("text", "column", "words"),
+    [
+        ("(I4,A4)", 13, "'A' is not a specification; there are I, E, F, X, H and /"),
+        ("(I4,4)", 14, "')' is not a specification"),
+        ("(I4,4".ljust(64), 72, "'the end' is not a specification"),
+        ("(I4".ljust(64), 72, "the FORMAT does not end with a parenthesis"),
+        ("(10000I1)", 15, "the number 10000 in a FORMAT is too large"),
+        ("((((I4))))", 12, "groups are nested too deep"),
+    ],
+)
+def test_what_is_wrong_and_where(text: str, column: int, words: str) -> None:
+    (message,) = errors(f"5 FORMAT{text}", "END")
+    assert message.column == column
+    assert message.message.startswith(words)
 
 
 def test_blank_after_the_point_is_error_11() -> None:

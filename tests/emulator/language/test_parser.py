@@ -199,6 +199,11 @@ def test_error_types_of_page_56(line: str, number: int) -> None:
     assert message.number == number
 
 
+def test_a_long_card_that_is_no_statement_is_quoted_to_forty_characters() -> None:
+    (message,) = parsed("SUBROUTINE " + "ABCDEFGHIJ" * 6).diagnostics
+    assert message.message == "not a statement of this FORTRAN: SUBROUTINE" + "ABCDEFGHIJ" * 3
+
+
 def test_a_statement_number_without_a_statement() -> None:
     (message,) = parsed("100").diagnostics
     assert "a statement number without a statement" in message.message
