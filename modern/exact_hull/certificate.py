@@ -269,7 +269,8 @@ def _check_points(hull: ExactHull) -> Incidences:
 def _check_convex(polygon: Sequence[int], normal: IntPoint, scaled: Sequence[IntPoint], name: str) -> None:
     """A polygon turns left everywhere, seen from where ``normal`` points to, and goes around once.
 
-    It goes around once if the edge's direction enters the upper half turn (0 to 180 degrees, the end excluded) once.
+    It goes around as often as the side's direction comes to have a positive coordinate, on an axis that is not the
+    normal's: a turn of less than 180 degrees passes over no half of the directions.
     """
     _require(len(polygon) >= 3, f"{name}: fewer than three vertices")
     sides = [
@@ -277,8 +278,8 @@ def _check_convex(polygon: Sequence[int], normal: IntPoint, scaled: Sequence[Int
     ]
     for before, after, index in zip(sides, sides[1:] + sides[:1], (*polygon[1:], polygon[0]), strict=True):
         _require(_dot(_product(before, after), normal) > 0, f"{name}: no left turn at vertex {index}")
-    u, v = ((1, 2), (0, 2), (0, 1))[next(axis for axis in range(3) if normal[axis])]
-    upper = [side[v] > 0 or (side[v] == 0 and side[u] > 0) for side in sides]
+    axis = 2 if any(normal[:2]) else 1
+    upper = [side[axis] > 0 for side in sides]
     entries = sum(after and not before for before, after in zip(upper, upper[1:] + upper[:1], strict=True))
     _require(entries == 1, f"{name}: the polygon goes around {entries} times")
 

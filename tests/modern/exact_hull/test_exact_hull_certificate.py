@@ -418,6 +418,20 @@ def test_a_construction_that_sees_too_little_is_caught(monkeypatch: pytest.Monke
         exact_hull(points)
 
 
+@pytest.mark.parametrize("times", [0, 2])
+def test_a_horizon_that_is_no_simple_cycle_is_caught(monkeypatch: pytest.MonkeyPatch, times: int) -> None:
+    """Its first edge left out, or named twice."""
+    seen = surface_module.Surface._seen
+
+    def broken(surface, p):
+        triangles, horizon = seen(surface, p)
+        return triangles, horizon[:1] * times + horizon[1:]
+
+    monkeypatch.setattr(surface_module.Surface, "_seen", broken)
+    with pytest.raises(RuntimeError, match="the horizon is not a simple cycle"):
+        exact_hull([(0, 0, 0), (9, 0, 0), (0, 9, 0), (0, 0, 9), (5, 5, 5)])
+
+
 def test_a_construction_that_calls_boundary_inside_is_caught(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(build_module, "_on_facets", lambda points, facets: [])
     with pytest.raises(CertificateError, match="its class says otherwise"):
