@@ -17,6 +17,7 @@ lint: $(VENV)/.dev
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+	$(BIN)/lint-imports --no-cache
 
 format: $(VENV)/.dev
 	$(BIN)/ruff check --fix .
@@ -26,6 +27,7 @@ coverage: $(VENV)/.dev
 	$(BIN)/python -m pytest -q -n $(JOBS) --cov --cov-report term:skip-covered
 
 wheel: $(VENV)/.dev
+	rm -rf build/lib
 	$(BIN)/python -m build --wheel --no-isolation --outdir dist .
 
 benchmark: $(VENV)/.dev
