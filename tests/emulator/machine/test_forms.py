@@ -72,6 +72,13 @@ def test_a_rescan_puts_out_literals_again() -> None:
     assert punched(*lines) == ("", "N= 7", "", "N= 7", "", "N= 7")
 
 
+def test_a_rescan_goes_on_with_the_last_group_that_has_a_field() -> None:
+    """IBM FORTRAN II-D, executed (g1 of tests/data/compiler_runs; OPEN-QUESTIONS 4)."""
+    lines = ["I=1", "J=2", "K=3", "L=4", "M=5", "PUNCH 17,I,J,K,L,M"]
+    assert punched(*lines, "17 FORMAT(1HA,I2,1HB,2(I2,1HC))", "END") == ("A 1B 2C 3C", " 4C 5C")
+    assert punched(*lines, "17 FORMAT(1HA,I2,1HB,2(I2,1HC),2(1HD))", "END") == ("A 1B 2C 3CDD", " 4C 5CDD")
+
+
 def test_a_rescan_after_a_slash_at_the_end() -> None:
     lines = ["N=7", "PUNCH 1,N,N", "1 FORMAT(I2/)", "END"]
     assert punched(*lines) == (" 7", "", " 7", "")
