@@ -98,7 +98,7 @@ class Machine:
     def run(self) -> Result:
         """Run to an ending.
 
-        Raises CardError for a card whose field is no number, DeckError for a hopper empty in the middle of a
+        Raises CardError for a card whose field is not a number, DeckError for a hopper empty in the middle of a
         data set or from the start.
         """
         limit = self.options.limit

@@ -20,7 +20,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 def main(args: argparse.Namespace) -> int:
     """Measure, print the table, write the figures."""
     if args.decks < 1:
-        raise UsageError(f"--decks: {args.decks} is no number of decks")
+        raise UsageError(f"--decks: {args.decks} is not a number of decks")
     check_writable(args.json)
     bench = measure(args.decks, lambda line: say([f"{line} ..."]))
     sys.stdout.write("".join(line + "\n" for line in lines(bench)))

@@ -15,6 +15,7 @@ from emulator.language.objectcode import Line
 from emulator.machine.divergence import Divergence, Loss, diverge
 from modern.cli.shared.console import DIFFERS, OK, UsageError
 from modern.cli.shared.machine import layers_of, load_program, machine_arguments, machine_options, number_system
+from modern.edition import programs
 
 _NARROWEST, _WIDEST = 40, 120
 
@@ -37,7 +38,10 @@ def main(args: argparse.Namespace) -> int:
     check_writable(args.json)
     studied = number_system(args.arithmetic, "--arithmetic")
     reference = number_system(args.against, "--against")
-    options = replace(machine_options(args), hopper="any")
+    options = machine_options(args)
+    if args.program not in programs.NAMES:
+        # Of its own decks the thesis's programs want whole data sets.
+        options = replace(options, hopper="any")
     program = load_program(args.program, layers_of(args))
     found = diverge(program, read_deck(args.deck), studied, reference, options, values=not args.first)
     width = max(_NARROWEST, min(shutil.get_terminal_size((100, 24)).columns, _WIDEST))

@@ -79,7 +79,7 @@ def _truth(array: NDArray[Any]) -> Truth:
     if array.size > MAX_VOXELS:
         raise VolumeError(f"a volume of more than {MAX_VOXELS} voxels has no exact hull in 64 bits")
     if array.dtype.kind == "f" and np.isnan(array).any():
-        raise VolumeError("a value is no number (nan), so that nobody can say whether the voxel belongs")
+        raise VolumeError("a value is not a number (nan), so that nobody can say whether the voxel belongs")
     truth: Truth = array if array.dtype == np.bool_ else array != 0
     return truth
 

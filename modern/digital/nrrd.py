@@ -74,7 +74,7 @@ def parse_nrrd(data: bytes, source: str) -> NDArray[Any]:
     if len(body) < wanted:
         raise VolumeError(f"{source}: the data end after {len(body)} of {wanted} bytes")
     if len(body) > wanted:
-        raise VolumeError(f"{source}: the data go on behind the {wanted} bytes of {'x'.join(map(str, sizes))} numbers")
+        raise VolumeError(f"{source}: the data go on after the {wanted} bytes of {'x'.join(map(str, sizes))} numbers")
     return np.frombuffer(body, kind).reshape(sizes, order="F")
 
 
@@ -116,7 +116,7 @@ def _is_count(word: str) -> bool:
 def _number(fields: Mapping[str, tuple[int, str]], name: str, source: str) -> int:
     line, text = fields[name]
     if not _is_count(text.removeprefix("-")):
-        raise VolumeError(f"{source}: line {line}: {name}: {text!r} is no whole number")
+        raise VolumeError(f"{source}: line {line}: {name}: {text!r} is not a whole number")
     return int(text)
 
 

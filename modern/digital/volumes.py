@@ -87,7 +87,7 @@ def _of_array(array: NDArray[Any], source: str) -> Volume:
             "and two or three axes"
         )
     if array.dtype.kind == "f" and np.isnan(array).any():
-        raise VolumeError(f"{source}: a value is no number (nan), so that nobody can say whether the voxel belongs")
+        raise VolumeError(f"{source}: a value is not a number (nan), so that nobody can say whether the voxel belongs")
     truth = array if array.dtype == np.bool_ else array != 0
     if not truth.any():
         raise VolumeError(f"{source}: there are no voxels: every value is 0")
@@ -106,9 +106,9 @@ def _raw(data: bytes, source: str, shape: Sequence[int] | None, dtype: str) -> N
     try:
         kind = np.dtype(dtype)
     except (TypeError, ValueError, SyntaxError, OverflowError):  # numpy reads a small language here
-        raise VolumeError(f"--dtype: {shown(dtype)} is no type of numbers; for instance uint8, int16, >i2") from None
+        raise VolumeError(f"--dtype: {shown(dtype)} is not a type of numbers; for instance uint8, int16, >i2") from None
     if kind.kind not in "biuf":
-        raise VolumeError(f"--dtype: {kind} is no type of numbers; for instance uint8, int16, >i2")
+        raise VolumeError(f"--dtype: {kind} is not a type of numbers; for instance uint8, int16, >i2")
     if shape is None:
         raise VolumeError("--dtype: bare numbers need --shape NX,NY,NZ too")
     if len(shape) not in (2, 3) or min(shape) < 1:
@@ -129,7 +129,7 @@ def _listed(text: str, source: str) -> Volume:
             raise VolumeError(f"{source}: line {line}, column 1: {len(row)} fields; a voxel has {due}")
         for field, word in enumerate(row, 1):
             if not _WHOLE.fullmatch(word.strip()):
-                raise VolumeError(f"{source}: line {line}, field {field}: {shown(word.strip())} is no whole number")
+                raise VolumeError(f"{source}: line {line}, field {field}: {shown(word.strip())} is not a whole number")
             if len(word.strip().lstrip("+-")) > DIGITS:
                 raise VolumeError(f"{source}: line {line}, field {field}: more than {DIGITS} digits")
         found.append(tuple(int(word) for word in row))

@@ -187,5 +187,5 @@ def eye_of(texts: Sequence[str]) -> tuple[Fraction, ...]:
         try:
             found.append(number(text))
         except ValueError:
-            raise ExportError(f"the direction of view: {shown(text)} is no number") from None
+            raise ExportError(f"the direction of view: {shown(text)} is not a number") from None
     return tuple(found)

@@ -6,7 +6,7 @@ ground speaks of the print alone; no run of a program enters.
 
 Kinds of ground (the row's ``ground`` table; ``also`` may hold a second one, which must hold too):
 
-``width``       the row's lines hold something that is no number of its field; with the row they do not
+``width``       the row's lines hold something that is not a number of its field; with the row they do not
 ``deck``        the numbers of ``example, program, device, card`` (one of them with ``field``) stand in the row's line
 ``arithmetic``  ``check = "plane"``: equation n vanishes at its printed vertices, which are the ones named;
                 ``"carrier"``: the plane of example 4 vanishes at all points; ``"centre"``: the centre is the mean of

@@ -311,7 +311,9 @@ def _check_polygon(hull: ExactHull) -> int:
     for index, (x, y, z) in enumerate(hull.scaled):
         _require(a * x + b * y + c * z + d == 0, f"point {index} is not in the polygon's plane")
     cycle = hull.polygon
-    _require(sorted(cycle) == list(hull.vertices) and cycle[0] == min(cycle), "the polygon is no order of the vertices")
+    _require(
+        sorted(cycle) == list(hull.vertices) and cycle[0] == min(cycle), "the polygon is not an order of the vertices"
+    )
     _check_convex(cycle, normal, hull.scaled, "the polygon")
     pairs = [(min(p, q), max(p, q)) for p, q in zip(cycle, (*cycle[1:], cycle[0]), strict=True)]
     _require(sorted(facet.polygon for facet in hull.facets) == sorted(pairs), "the facets are not the polygon's edges")

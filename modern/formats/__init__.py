@@ -48,7 +48,7 @@ def mesh_text(surface: Mesh, form: str, digits: int | None = None) -> str:
     digits: as of ``export_text``.  Raises ExportError.
     """
     if form not in _MESHES:
-        raise ExportError(f"{form!r} is no format of a mesh; they are {', '.join(_MESHES)}")
+        raise ExportError(f"{form!r} is not a format of a mesh; they are {', '.join(_MESHES)}")
     return _MESHES[form](surface, digits)
 
 

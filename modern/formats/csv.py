@@ -38,7 +38,7 @@ def points(text: str, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
         for field, word in enumerate(row, 1):
             try:
                 if "/" in word:
-                    raise ValueError(f"{shown(word.strip())} is no decimal number")
+                    raise ValueError(f"{shown(word.strip())} is not a decimal number")
                 number(word)
             except ValueError as error:
                 raise FileError(f"{source}: line {line}, field {field}: {error}") from None

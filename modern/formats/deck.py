@@ -75,7 +75,7 @@ def coordinate_field(text: str, truncate: bool = False) -> str:
     """A decimal number in the 14 columns of E14.8, as the thesis's data sheet punches it: ``+.20000000E+01``.
 
     truncate: cut the digits beyond the eighth.  Raises ValueError for a ninth significant digit otherwise, for an
-    exponent that is not within -99 to 99 and for what is no decimal number.
+    exponent that is not within -99 to 99 and for what is not a decimal number.
     """
     minus, whole, fraction, exponent = split_decimal(text.strip())
     digits = (whole + fraction).lstrip("0")
@@ -157,8 +157,8 @@ def _decimal(read: Read) -> str:
 def check(deck: Deck, rules: Rules = TRUNCATING.rules, epsilon: bool = False) -> CheckedDeck:
     """Check every data set of a deck; ``epsilon`` says that the programs read e after N.
 
-    Raises CardError for an N that is no number or not 1 to 51, for a coordinate that is no number and for an e
-    that is no number or negative, DeckError where the deck ends before N points are there.
+    Raises CardError for an N that is not a number or not 1 to 51, for a coordinate that is not a number and for an e
+    that is not a number or negative, DeckError where the deck ends before N points are there.
     """
     sets: list[DataSet] = []
     warnings: list[DeckWarning] = []

@@ -74,7 +74,7 @@ def parse_off(text: str, source: str) -> OffMesh:
     polygons = [_face(source, line, words, vertices) for line, words in _take(lines, faces, source, last, "faces")]
     more = next(lines, None)
     if more is not None:
-        raise _error(source, more[0], more[1][0], "the last face has been read, and nothing is due behind it")
+        raise _error(source, more[0], more[1][0], "the last face has been read, and nothing is due after it")
     return OffMesh(source, tuple(points), tuple(places), tuple(polygons))
 
 
@@ -118,7 +118,7 @@ def _count(source: str, line: int, word: _Word) -> int:
 def _decimal(source: str, line: int, word: _Word) -> str:
     try:
         if "/" in word[0]:
-            raise ValueError(f"{shown(word[0])} is no decimal number")
+            raise ValueError(f"{shown(word[0])} is not a decimal number")
         number(word[0])
     except ValueError as error:
         raise _error(source, line, word, str(error)) from None

@@ -37,7 +37,7 @@ def split_decimal(text: str) -> tuple[bool, str, str, int]:
     """
     match = _DECIMAL.fullmatch(text.strip())
     if not match or not (match[2] or match[3]):
-        raise ValueError(f"{text!r} is no decimal number")
+        raise ValueError(f"{text!r} is not a decimal number")
     return match[1] == "-", match[2], match[3] or "", int(match[4] or 0)
 
 
@@ -72,7 +72,7 @@ def number(text: str) -> Fraction:
     except ValueError as error:
         if len(stripped) <= _SHOWN or len(str(error)) <= 2 * _SHOWN:
             raise
-        raise ValueError(f"{shown(stripped)} is no decimal number of at most 4000 digits") from None
+        raise ValueError(f"{shown(stripped)} is not a decimal number of at most 4000 digits") from None
 
 
 def coordinates(point: Sequence[str]) -> tuple[Fraction, Fraction, Fraction]:
@@ -103,7 +103,7 @@ def decimal_text(text: str, digits: int | None = None) -> str:
     if digits is None:
         raise ValueError(f"{shown(stripped)} has no finite decimal; state a number of digits to round it to")
     if digits < 1:
-        raise ValueError(f"{digits} is no number of digits to round to")
+        raise ValueError(f"{digits} is not a number of digits to round to")
     context = Context(prec=digits, rounding=ROUND_HALF_EVEN, Emin=MIN_EMIN, Emax=MAX_EMAX)
     return str(context.divide(Decimal(value.numerator), Decimal(value.denominator)))
 

@@ -31,7 +31,7 @@ def read_decimal(text: str) -> Read:
     """``12``, ``-1.5``, ``-.25E-3``: the number, without loss.  Raises ValueError."""
     match = _DECIMAL.fullmatch(text.strip())
     if not match or not (match[2] or match[3]):
-        raise ValueError(f"{text!r} is no decimal number")
+        raise ValueError(f"{text!r} is not a decimal number")
     digits, places = match[2] + (match[3] or ""), len(match[3] or "")
     exponent = int(match[4] or 0)
     if len(digits) > MAX_DIGITS or abs(exponent) > MAX_EXPONENT:

@@ -110,7 +110,7 @@ def machine_options(args: argparse.Namespace) -> Options:
     """The machine the options describe.  Raises UsageError for an unknown arithmetic or a limit below 1."""
     found = number_system(args.arithmetic, "--arithmetic")
     if args.limit < 1:
-        raise UsageError(f"--limit: {args.limit} is no number of statements")
+        raise UsageError(f"--limit: {args.limit} is not a number of statements")
     return Options(found, frozenset(args.switch), args.core, args.bounds, args.limit)
 
 

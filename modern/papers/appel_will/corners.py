@@ -77,7 +77,7 @@ def preprocess(points: Sequence[IntPoint], surfaces: Sequence[Surface], rule: Ru
     elif rule == "concave":
         deleted = set(at_inside).intersection(_concave(points, turned))
     else:
-        raise ValueError(f"{rule!r} is no rule; they are {', '.join(RULES)}")
+        raise ValueError(f"{rule!r} is not a rule; they are {', '.join(RULES)}")
     return Preprocessing(rule, inside, tuple(sorted(deleted)), _crowded(points, turned))
 
 

@@ -109,7 +109,7 @@ def draw(
     """
     strange = sorted(set(without) - set(REFINEMENTS))
     if strange:
-        raise SceneError(f"{strange[0]!r} is none of {', '.join(REFINEMENTS)}")
+        raise SceneError(f"{strange[0]!r} is not one of {', '.join(REFINEMENTS)}")
     started = time.perf_counter()
     polyhedra = made() if callable(made) else made
     searched = time.perf_counter()

@@ -51,7 +51,7 @@ def part(fields: Fields) -> Part:
     """A part from its table.  Raises SceneError."""
     shape = fields.text("shape", "")
     if shape not in _SHAPES:
-        raise fields.wrong("shape", f"{shown(shape)} is none of {', '.join(_SHAPES)}")
+        raise fields.wrong("shape", f"{shown(shape)} is not one of {', '.join(_SHAPES)}")
     build = _SHAPES[shape](fields)
     name = fields.text("name", "")
     count = fields.whole("count", 3) or (1, 1, 1)

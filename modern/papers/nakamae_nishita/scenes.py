@@ -74,7 +74,7 @@ def names() -> tuple[str, ...]:
 def scene(name: str) -> SceneFile:
     """A scene of the project by its name.  Raises SceneError where there is none."""
     if name not in names():
-        raise SceneError(f"{shown(name)} is no scene of the project; there are {', '.join(names())}")
+        raise SceneError(f"{shown(name)} is not a scene of the project; there are {', '.join(names())}")
     text = files("modern.papers.nakamae_nishita").joinpath("scenes", f"{name}.toml").read_text(encoding="utf-8")
     return parse(text, name)
 

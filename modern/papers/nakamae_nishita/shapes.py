@@ -63,7 +63,7 @@ def round_base(name: str, sides: int, radius: Fraction) -> list[Vector]:
     Raises SceneError for fewer than three sides, or more than 1000.
     """
     if not 3 <= sides <= _MOST_SIDES:
-        raise SceneError(f"{name}: {sides} is no number of sides from 3 to {_MOST_SIDES}")
+        raise SceneError(f"{name}: {sides} is not a number of sides from 3 to {_MOST_SIDES}")
     turns = [rotation(Fraction(360 * k, sides)) for k in range(sides)]
     return [(radius * cosine, radius * sine, _N) for cosine, sine in turns]
 

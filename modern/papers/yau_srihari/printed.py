@@ -38,7 +38,7 @@ class Printed:
         """These statements as printed, the others corrected.  Raises ValueError for an unknown name."""
         unknown = [name for name in names if name not in NAMES]
         if unknown:
-            raise ValueError(f"{unknown[0]!r} is none of {', '.join(NAMES)}")
+            raise ValueError(f"{unknown[0]!r} is not one of {', '.join(NAMES)}")
         return cls(**dict.fromkeys(names, True))
 
     def names(self) -> tuple[str, ...]:

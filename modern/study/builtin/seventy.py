@@ -30,7 +30,7 @@ _IN_SPACE = ("slab", "plane and points")
 
 
 def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
-    """The plan for ``samples`` sets.  Raises PlanError where that is no multiple of seventy."""
+    """The plan for ``samples`` sets.  Raises PlanError where that is not a multiple of seventy."""
     if samples < SEVENTY or samples % SEVENTY:
         raise PlanError(f"seventy: {samples} samples are no multiple of {SEVENTY}")
     routes = (Programs(LISTED, limit=_LIMIT), Programs(MENDED, rows=("P3-025",), limit=_LIMIT))

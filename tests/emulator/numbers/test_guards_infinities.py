@@ -1,7 +1,7 @@
 """Infinities in binary numbers: what has no finite operand cannot overflow, whichever operand is infinite.
 
 IEEE 754-2008, 6.1: operations on infinite operands are exact and signal nothing, but for those without an answer
-(7.2), which give what is no number.  Only finite operands overflow (7.4), which is noted with the machine's code.
+(7.2), which give what is not a number.  Only finite operands overflow (7.4), which is noted with the machine's code.
 """
 
 from __future__ import annotations

@@ -260,7 +260,7 @@ def test_everything_together(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--decks", "0"], "--decks: 0 is no number of decks"),
+        (["--decks", "0"], "--decks: 0 is not a number of decks"),
         (["--json", "/nothere/x.json"], "no such file or directory"),
         (["--json", "."], "is a directory"),
     ],

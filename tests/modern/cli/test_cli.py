@@ -109,7 +109,7 @@ MISUSE = [
     (["hull", "nosuch"], "nosuch: no such file"),
     (["run", "good.f", "x.deck", "--arithmetic", "decimal"], "no arithmetic is called 'decimal'"),
     (["run", "good.f", "x.deck", "--arithmetic", "truncating:1"], "the number of digits is 2 to 28"),
-    (["run", "good.f", "x.deck", "--limit", "0"], "0 is no number of statements"),
+    (["run", "good.f", "x.deck", "--limit", "0"], "0 is not a number of statements"),
     (["run", "good.f", "x.deck", "--limit", "many"], "argument --limit: invalid int value"),
     (["run", "good.f", "x.deck", "--switch", "5"], "argument --switch: invalid choice: 5"),
     (["run", "good.f", "x.deck", "--punch", "nosuch/file"], "nosuch/file: no such file or directory"),
@@ -184,11 +184,21 @@ def test_run_ends_normally_at_the_empty_hopper(room: Path, capsys: pytest.Captur
     assert call(capsys, "run", "good.f", "x.deck") == (0, " .20000000E+01\n .30000000E+01\n", "")
 
 
-def test_hopper_empty_in_the_middle_of_a_data_set(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_hopper_empty_at_a_later_read_ends_a_run(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Any READ may meet an empty hopper in ``run``; ``hull`` asks for whole data sets."""
     Path("short.deck").write_text(" 3\n" + GOOD_POINT + "\n")
-    code, out, err = call(capsys, "run", "program1", "short.deck")
+    assert call(capsys, "run", "program1", "short.deck")[:2] == (0, "")
+    code, out, err = call(capsys, "hull", "short.deck")
     assert (code, out) == (2, "")
-    assert "short.deck: card 2, column 1: the deck ends in the middle of a data set" in err
+    assert "short.deck: card 2, column 1: the deck ends after 1 of 3 points" in err
+
+
+def test_hopper_empty_in_the_middle_of_a_list(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("list.f").write_text("      READ 1,I,J\n    1 FORMAT(I4)\n      END\n")
+    Path("short.deck").write_text("   3\n")
+    code, out, err = call(capsys, "run", "list.f", "short.deck")
+    assert (code, out) == (2, "")
+    assert "short.deck: card 1, column 1: the deck ends in the middle of a data set" in err
 
 
 def test_bad_field_in_run(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -301,12 +311,12 @@ def test_cards_and_back(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
 
 CSV_FAULTS = [
     ("1,2\n", "line 1, column 1: 2 fields"),
-    ("1,2,x\n", "line 1, field 3: 'x' is no decimal number"),
+    ("1,2,x\n", "line 1, field 3: 'x' is not a decimal number"),
     ("1,2,123456789\n", "line 1, field 3: 9 significant digits"),
     ("1,2,1e100\n", "line 1, field 3: out of range"),
     ("", "there are no points"),
     ("1,2,3\n" * 100, "100 points"),
-    ("nan,inf,3\n", "line 1, field 1: 'nan' is no decimal number"),
+    ("nan,inf,3\n", "line 1, field 1: 'nan' is not a decimal number"),
 ]
 
 

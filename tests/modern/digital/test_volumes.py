@@ -134,7 +134,7 @@ def test_a_packed_nrrd_is_not_unpacked_beyond_its_sizes() -> None:
     array = np.ones((2, 2, 2), dtype="u1")
     packed = gzip.compress(bytes([1]) * 8 + bytes(10**9))
     tracemalloc.start()
-    with pytest.raises(VolumeError, match=r"a\.nrrd: the data go on behind the 8 bytes of 2x2x2 numbers"):
+    with pytest.raises(VolumeError, match=r"a\.nrrd: the data go on after the 8 bytes of 2x2x2 numbers"):
         parse_volume(nrrd(array, "uchar", encoding="gzip", data=packed), "a.nrrd")
     assert tracemalloc.get_traced_memory()[1] < 10**7
     tracemalloc.stop()
@@ -187,20 +187,20 @@ BAD_HEADER = nrrd(STEPS.astype("u1"), "uchar")
         (b"x,y,z\n", "there are no voxels"),
         (b"1,2,3\n1,2\n", "line 2, column 1: 2 fields; a voxel has 3"),
         (b"1,2,3,4\n", "line 1, column 1: 4 fields; a voxel has three, x,y,z"),
-        (b"1,2,3.5\n", "line 1, field 3: '3.5' is no whole number"),
-        (b"1,2,\n", "line 1, field 3: '' is no whole number"),
+        (b"1,2,3.5\n", "line 1, field 3: '3.5' is not a whole number"),
+        (b"1,2,\n", "line 1, field 3: '' is not a whole number"),
         (b"1,2,-1000000000000000000\n", "line 1, field 3: more than 18 digits"),
         (b"0,0,0\n2000000,2000,2000\n", "lie in a box of 2000001 x 2001 x 2001"),
         (b"\xff\xfe\x00", "neither NPY nor NRRD nor text in UTF-8"),
         (npy(np.zeros((2, 2, 2))), "there are no voxels: every value is 0"),
         (npy(np.ones(8)), "an array of float64 with 1 axes"),
         (npy(np.ones((2, 2, 2), dtype=complex)), "an array of complex128"),
-        (npy(np.full((2, 2, 2), np.nan)), "a value is no number"),
+        (npy(np.full((2, 2, 2), np.nan)), "a value is not a number"),
         (npy(np.array([[[None]]], dtype=object)), "no NPY array of numbers: "),
         (npy(STEPS)[:100], "no NPY array of numbers: "),
         (npy(STEPS)[:-5], "no NPY array of numbers: "),
         (BAD_HEADER.replace(b"dimension: 3", b"dimension: 4"), "line 4: 4 axes; a volume has two or three"),
-        (BAD_HEADER.replace(b"dimension: 3", b"dimension: x"), "line 4: dimension: 'x' is no whole number"),
+        (BAD_HEADER.replace(b"dimension: 3", b"dimension: x"), "line 4: dimension: 'x' is not a whole number"),
         (BAD_HEADER.replace(b"sizes: 2 3 4", b"sizes: 2 3"), "line 5: sizes: 3 numbers above 0 are due"),
         (BAD_HEADER.replace(b"sizes: 2 3 4", b"sizes: 2 0 4"), "line 5: sizes: 3 numbers above 0 are due"),
         (BAD_HEADER.replace(b"sizes: 2 3 4", b"sizes: 99999 99999 99999"), "line 5: a volume of more than"),
@@ -216,7 +216,7 @@ BAD_HEADER = nrrd(STEPS.astype("u1"), "uchar")
         (BAD_HEADER.replace(b"key:=", b"data file: LIST\nkey:="), "line 7: data in several files are not read"),
         (BAD_HEADER.replace(b"type: uchar", b"type: int").replace(b"raw", b"ascii"), "encoding: 'ascii' is not read"),
         (BAD_HEADER[:-3], "the data end after 21 of 24 bytes"),
-        (BAD_HEADER + b"12", "the data go on behind the 24 bytes of 2x3x4 numbers"),
+        (BAD_HEADER + b"12", "the data go on after the 24 bytes of 2x3x4 numbers"),
     ],
 )
 def test_bad_files_are_told_in_one_line(data: bytes, message: str) -> None:
@@ -232,10 +232,10 @@ def test_bad_files_are_told_in_one_line(data: bytes, message: str) -> None:
     [
         ((2, 2, 3), None, "file: 8 bytes; 2x2x3 numbers of uint8 are 12 bytes"),
         ((2, 2, 1), "i1", "file: 8 bytes; 2x2x1 numbers of int8 are 4 bytes"),
-        ((2, 2, 2), "nonsense", "--dtype: 'nonsense' is no type of numbers"),
-        ((2, 2, 2), ",", "--dtype: ',' is no type of numbers"),
-        ((2, 2, 2), "(99999999999,)u1", "--dtype: '(99999999999,)u1' is no type of numbers"),
-        ((2, 2, 2), "U4", "--dtype: <U4 is no type of numbers"),
+        ((2, 2, 2), "nonsense", "--dtype: 'nonsense' is not a type of numbers"),
+        ((2, 2, 2), ",", "--dtype: ',' is not a type of numbers"),
+        ((2, 2, 2), "(99999999999,)u1", "--dtype: '(99999999999,)u1' is not a type of numbers"),
+        ((2, 2, 2), "U4", "--dtype: <U4 is not a type of numbers"),
         (None, "u1", "--dtype: bare numbers need --shape"),
         ((8,), "u1", "--shape: two or three numbers"),
         ((0, 2, 2), "u1", "--shape: two or three numbers"),

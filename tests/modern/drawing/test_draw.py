@@ -483,5 +483,5 @@ def test_directions_as_text() -> None:
     assert eye_of(["1", "-2.5", " 1e-3"]) == (1, Fraction(-5, 2), Fraction(1, 1000))
     with pytest.raises(ExportError, match="is 2 numbers; it has three"):
         eye_of(["1", "2"])
-    with pytest.raises(ExportError, match="'x' is no number"):
+    with pytest.raises(ExportError, match="'x' is not a number"):
         eye_of(["1", "2", "x"])

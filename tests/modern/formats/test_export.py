@@ -190,7 +190,7 @@ def test_a_fraction_without_finite_decimal_is_refused_or_rounded_as_told() -> No
     halved = [(Fraction(x, 6), y, z) for x, y, z in CUBE]
     assert {p[0] for p in tiny_off(export_text(convex_hull(halved), "off", digits=3))[0]} == {0, Fraction("0.333")}
     assert '"2/3"' in export_text(hull, "json")
-    with pytest.raises(ExportError, match="0 is no number of digits"):
+    with pytest.raises(ExportError, match="0 is not a number of digits"):
         export_text(hull, "off", digits=0)
 
 
@@ -334,7 +334,7 @@ def test_format_of_a_name() -> None:
     for name in ("a", "a.txt", "off", "a.off/"):
         with pytest.raises(ExportError, match=r"must end with one of .off, .obj, .ply, .stl, .json$"):
             format_of(name)
-    with pytest.raises(ExportError, match="'dxf' is no format"):
+    with pytest.raises(ExportError, match="'dxf' is not a format"):
         export_text(convex_hull(CUBE), "dxf")
 
 
@@ -387,17 +387,17 @@ BAD_OFF = [
         GOOD.replace("1 0 0", "1 0 0 7"),
         "line 4, column 7: a vertex is three numbers",
     ),
-    ("no-number", GOOD.replace("1 0 0", "1  nan 0"), "line 4, column 4: 'nan' is no decimal number"),
-    ("quotient", GOOD.replace("1 0 0", "1 1/2 0"), "line 4, column 3: '1/2' is no decimal number"),
-    ("digits", GOOD.replace("1 0 0", "1 \u0661 0"), "line 4, column 3: '\u0661' is no decimal number"),
-    ("long", GOOD.replace("1 0 0", "1 " + "x" * 9000 + " 0"), f"line 4, column 3: '{'x' * 40}...' is no decimal"),
+    ("no-number", GOOD.replace("1 0 0", "1  nan 0"), "line 4, column 4: 'nan' is not a decimal number"),
+    ("quotient", GOOD.replace("1 0 0", "1 1/2 0"), "line 4, column 3: '1/2' is not a decimal number"),
+    ("digits", GOOD.replace("1 0 0", "1 \u0661 0"), "line 4, column 3: '\u0661' is not a decimal number"),
+    ("long", GOOD.replace("1 0 0", "1 " + "x" * 9000 + " 0"), f"line 4, column 3: '{'x' * 40}...' is not a decimal"),
     ("exponent", GOOD.replace("1 0 0", "1 1e99999 0"), "line 4, column 3: the exponent of '1e99999' is not within"),
     ("too-few", "OFF\n3 1 3\n0 0 0\n", "line 4, column 1: the file ends after 1 of 3 vertices"),
     ("no-face", GOOD.replace("3 0 1 2\n", ""), "line 6, column 1: the file ends after 0 of 1 faces"),
     ("short-face", GOOD.replace("3 0 1 2", "4 0 1 2"), "line 6, column 7: the face ends after 3 of 4 vertices"),
     ("no-vertex", GOOD.replace("3 0 1 2", "3 0 1 3"), "line 6, column 7: there is no vertex 3; they count from 0 to 2"),
     ("empty-face", GOOD.replace("3 0 1 2", "0"), "line 6, column 1: a face has at least one vertex"),
-    ("bad-colour", GOOD.replace("3 0 1 2", "3 0 1 2 red"), "line 6, column 9: 'red' is no decimal number"),
+    ("bad-colour", GOOD.replace("3 0 1 2", "3 0 1 2 red"), "line 6, column 9: 'red' is not a decimal number"),
     ("more", GOOD + " 1\n", "line 7, column 2: the last face has been read"),
 ]
 

@@ -133,11 +133,11 @@ BAD = [
     ("unknown-long", "y" * 9999, "a", f"a: line 1, column 1: '{'y' * 40}...' is neither"),
     ("two-fields", "1,2,3\n4,5\n", "a.csv", "a.csv: line 2, column 1: 2 fields; a point has three, x,y,z"),
     ("four-fields", "1,2,3,4\n", "a.csv", "a.csv: line 1, column 1: 4 fields"),
-    ("no-number", "1,2,3\n4,five,6\n", "a.csv", "a.csv: line 2, field 2: 'five' is no decimal number"),
-    ("no-field", "1,2,\n", "a.csv", "a.csv: line 1, field 3: '' is no decimal number"),
-    ("quotient", "1,2,1/3\n", "a.csv", "a.csv: line 1, field 3: '1/3' is no decimal number"),
-    ("infinite", "1,2,3\n4,5,inf\n", "a.csv", "a.csv: line 2, field 3: 'inf' is no decimal number"),
-    ("digits", "1,2,\u0663\n", "a.csv", "a.csv: line 1, field 3: '\u0663' is no decimal number"),
+    ("no-number", "1,2,3\n4,five,6\n", "a.csv", "a.csv: line 2, field 2: 'five' is not a decimal number"),
+    ("no-field", "1,2,\n", "a.csv", "a.csv: line 1, field 3: '' is not a decimal number"),
+    ("quotient", "1,2,1/3\n", "a.csv", "a.csv: line 1, field 3: '1/3' is not a decimal number"),
+    ("infinite", "1,2,3\n4,5,inf\n", "a.csv", "a.csv: line 2, field 3: 'inf' is not a decimal number"),
+    ("digits", "1,2,\u0663\n", "a.csv", "a.csv: line 1, field 3: '\u0663' is not a decimal number"),
     ("long", "1,2," + "9" * 5000 + "\n", "a.csv", "a.csv: line 1, field 3: 5000 digits; at most 4000 are read"),
     ("exponent", "1,2,1e99999\n", "a.csv", "a.csv: line 1, field 3: the exponent of '1e99999' is not within"),
     ("wide-field", "1,2," + "a" * 200000 + "\n", "a.csv", "a.csv: line 1, column 1: field larger than field limit"),
@@ -222,7 +222,7 @@ BAD_ARGUMENTS = [
     (("draw", "none.csv", "-o", "t.svg"), "none.csv: no such file or directory"),
     (("draw", "t.csv", "--eye", "0,0,0"), "the direction of view is 0,0,0"),
     (("draw", "t.csv", "--eye", "1,2"), "the direction of view is 2 numbers; it has three, X,Y,Z"),
-    (("draw", "t.csv", "--eye", "1,2,z"), "the direction of view: 'z' is no number"),
+    (("draw", "t.csv", "--eye", "1,2,z"), "the direction of view: 'z' is not a number"),
     (("draw", "s.csv", "--eye", "1,1,1"), "the direction of view is along the segment, which would be a point"),
 ]
 
@@ -280,8 +280,8 @@ def test_what_no_card_holds() -> None:
         ("1.23456789", "9 significant digits; a card holds 8"),
         ("1e99", "out of range"),
         ("1e-101", "out of range"),
-        ("1/2", "'1/2' is no decimal number"),
-        (".", "'.' is no decimal number"),
+        ("1/2", "'1/2' is not a decimal number"),
+        (".", "'.' is not a decimal number"),
     ):
         with pytest.raises(ValueError, match=words):
             coordinate_field(text)

@@ -179,7 +179,7 @@ def test_map_without_outside() -> None:
 
 
 def test_unknown_rule() -> None:
-    with pytest.raises(ValueError, match="'all' is no rule"):
+    with pytest.raises(ValueError, match="'all' is not a rule"):
         preprocess(*TETRAHEDRON, "all")
 
 

@@ -297,7 +297,7 @@ def test_each_mend_is_needed(mend: str, polyhedra: list[Polyhedron]) -> None:
 
 
 def test_no_mend_has_another_name() -> None:
-    with pytest.raises(SceneError, match=r"^'end' is none of enclosed, touching, ends, ghosts$"):
+    with pytest.raises(SceneError, match=r"^'end' is not one of enclosed, touching, ends, ghosts$"):
         draw(BEHIND, parallel((1, 1, 1)), ("end",))
 
 

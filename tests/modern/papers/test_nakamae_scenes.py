@@ -117,7 +117,7 @@ def test_shapes_that_are_none() -> None:
         plate("c", corner[:2])
     with pytest.raises(SceneError, match="length 0"):
         cuboid("c", Fraction(1), Fraction(0), Fraction(1))
-    with pytest.raises(SceneError, match="2 is no number of sides"):
+    with pytest.raises(SceneError, match="2 is not a number of sides"):
         round_base("c", 2, Fraction(1))
 
 
@@ -189,11 +189,11 @@ HEAD = "[[part]]\nshape = "
         ("a = = 1", "s: line 1, column 5: invalid value"),
         ("[[part]]\nshape = 'cuboid", "s: line 2, column 16"),
         ("a = 1\n" + HEAD + "'cuboid'\nsize = [1, 1, 1]", "s: 'a' is no field of this place"),
-        (HEAD + "'ball'", "s: part 1: shape: 'ball' is none of cuboid, parallelepiped, column, plate, polyhedron"),
+        (HEAD + "'ball'", "s: part 1: shape: 'ball' is not one of cuboid, parallelepiped, column, plate, polyhedron"),
         (HEAD + "'cuboid'", "s: part 1: size: the sides of the cuboid are not said"),
         (HEAD + "'cuboid'\nsize = [1, 1]", "s: part 1: size: a point is three numbers in brackets"),
         (HEAD + "'cuboid'\nsize = [1, 1, true]", "s: part 1: size: a number is due"),
-        (HEAD + "'cuboid'\nsize = [1, 1, inf]", "s: 'inf' is no decimal number"),
+        (HEAD + "'cuboid'\nsize = [1, 1, inf]", "s: 'inf' is not a decimal number"),
         (HEAD + "'cuboid'\nsize = [1, 1, '1/0']", "s: part 1: size: '1/0' has the denominator 0"),
         (HEAD + "'cuboid'\nsize = [1, 1, 1]\ncount = [2, 1, 1]", "s: part 1: step: how far apart"),
         (HEAD + "'cuboid'\nsize = [1, 1, 1]\ncount = [200, 200, 1]\nstep = [2, 2, 2]", "20,000 at the most"),
@@ -258,7 +258,7 @@ def test_the_scenes_of_the_project() -> None:
     assert counts["cuboids"] == (60, 480, 360, 0)
     assert counts["columns"] == (11, 116, 80, 0)
     assert counts["house"][3] == 32
-    with pytest.raises(SceneError, match="'barn' is no scene of the project; there are columns, cuboids, house"):
+    with pytest.raises(SceneError, match="'barn' is not a scene of the project; there are columns, cuboids, house"):
         scene("barn")
 
 
@@ -417,7 +417,7 @@ def test_tables(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
         (("cube.off", "--perspective", "--eye", "0.5,0.5,0.5"), "the observation point is the point looked at"),
         (("cube.off", "--perspective", "--eye", "0.5,0.5,0.6"), "cube.off: not wholly before the observation point"),
         (("cube.off", "--towards", "1,2,3"), "--towards is for a perspective"),
-        (("cube.off", "--without", "all"), "'all' is none of enclosed, touching, ends, ghosts"),
+        (("cube.off", "--without", "all"), "'all' is not one of enclosed, touching, ends, ghosts"),
         (("cube.off", "--width", "5"), "a picture 5 pixels wide is not drawn"),
         (("flat.csv",), "flat.csv: a segment is no polyhedron"),
     ],

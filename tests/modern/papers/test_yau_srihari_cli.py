@@ -130,8 +130,8 @@ def test_what_is_not_connected_says_so(stair: str, capsys: pytest.CaptureFixture
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["stair.csv", "--printed", "angel"], "--printed: 'angel' is none of angle, start"),
-        (["stair.csv", "--printed", ""], "--printed: '' is none of angle, start"),
+        (["stair.csv", "--printed", "angel"], "--printed: 'angel' is not one of angle, start"),
+        (["stair.csv", "--printed", ""], "--printed: '' is not one of angle, start"),
         (["stair.csv", "--literal", "--printed", "angle"], "not allowed with argument"),
         (["stair.csv", "-o", "hull.off"], "hull.off: a filled hull is written as an array"),
         (["stair.csv", "-o", "no/hull.npy"], "no/hull.npy: no such file or directory"),

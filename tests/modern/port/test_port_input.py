@@ -21,8 +21,8 @@ from tests.support.punched import e_field
 GOOD = (0, 0, 0)
 BAD = (
     ((1, 2), "point 1: 2 coordinates; a point has three"),
-    ((1, 2, "three"), "point 1, coordinate z: 'three' is no decimal number"),
-    ((1, "", 3), "point 1, coordinate y: '' is no decimal number"),
+    ((1, 2, "three"), "point 1, coordinate z: 'three' is not a decimal number"),
+    ((1, "", 3), "point 1, coordinate y: '' is not a decimal number"),
     ((float("nan"), 2, 3), "point 1, coordinate x: nan is not finite"),
     ((1, 2, None), "point 1, coordinate z: NoneType: give an int, a Fraction, a decimal string or a float"),
     ((True, 2, 3), "point 1, coordinate x: a truth value is not a coordinate"),

@@ -167,7 +167,7 @@ def test_published_sets_are_those_of_the_thesis_in_turn() -> None:
         ("thesis", {"kinds": {"star": 1}}, "kinds are"),
         ("thesis", {"kinds": {"line": 0}}, "kinds are"),
         ("published", {"sets": ["example 9"]}, "'example 9'"),
-        ("points", {"points": [["1", "2", "x"]]}, "'x' is no decimal number"),
+        ("points", {"points": [["1", "2", "x"]]}, "'x' is not a decimal number"),
         ("points", {"points": [["1", "2", "3.123456789"]]}, "significant digits"),
         ("points", {"points": [["1", "2", "3"], ["1.0", "2", "3"]]}, "the same"),
         ("points", {"points": [["0", "2", "3"], ["-0", "2", "3"]]}, "the same"),

@@ -302,7 +302,7 @@ def test_a_plan_that_cannot_be_carried_out_is_refused_before_it_begins(plan: Pla
         (Programs("r", rows=("P3-029",)), "do not stand without others"),
         (Programs("r", layers=("epsilon",)), "an epsilon needs the layer"),
         (Programs("r", epsilon="1"), "an epsilon needs the layer"),
-        (Programs("r", layers=("epsilon",), epsilon="one"), "epsilon: 'one' is no decimal"),
+        (Programs("r", layers=("epsilon",), epsilon="one"), "epsilon: 'one' is not a decimal"),
         (Programs("r", layers=("corrected",)), "OVERLAP"),
         (Programs("r", limit=0), "limit 1 or more"),
         (Programs("r", measures=("beauty",)), "no measure is called 'beauty'"),
