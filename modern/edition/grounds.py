@@ -105,10 +105,8 @@ def _cosmetic(row: Row) -> tuple[bool, str]:
     program, message = _compiled(row, _lost(row))
     if program is None or whole is None:
         return False, f"without it the deck does not compile: {message}"
-    return (
-        program.code == whole.code and program.formats == whole.formats,
-        "the object code is the same with and without it",
-    )
+    same = program.code == whole.code and program.formats == whole.formats
+    return same, f"the object code is {'the same with and without it' if same else 'another without it'}"
 
 
 def _print(row: Row) -> tuple[bool, str]:

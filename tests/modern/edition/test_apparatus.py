@@ -10,8 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from modern.edition import programs
-from modern.edition.apparatus import ApparatusError, Row, build, load
+from emulator.errors import DeckError
+from emulator.language.cards import deck_from_lines
+from modern.edition import chapter6, grounds, programs
+from modern.edition.apparatus import ApparatusError, Change, Row, build, load
 from modern.edition.grounds import check_decks, check_row
 
 ROWS = [row for name in programs.TEXTS for row in programs.text(name).rows]
@@ -73,30 +75,113 @@ def superfluous(ground: dict[str, object], row_id: str = "P1-038") -> Row:
     return replace(programs.text("program1").row(row_id), ground=ground)
 
 
-FALSE_CLAIMS = [
-    ("P1-043", {"kind": "parse"}),
-    ("P1-038", {"kind": "cosmetic"}),
-    ("P1-038", {"kind": "print", "program": "program1", "examples": [3]}),
-    ("P1-038", {"kind": "print", "program": "program1", "examples": []}),
-    ("P1-018", {"kind": "print", "program": "program1", "examples": [2]}),
-    ("P1-043", {"kind": "deck", "program": "program1", "deck": "example1"}),
-    ("P1-039", {"kind": "deck", "program": "program1", "deck": "nosuch"}),
-    ("P1-018", {"kind": "forced", "card": "125+1", "sibling": "125+3", "rename": ["O3", "O1"]}),
-    ("P1-038", {"kind": "forced", "card": "125+1", "sibling": "125+3", "rename": ["O3", "O1", "X", "Y", "Y", "Z"]}),
-    ("P1-038", {"kind": "because"}),
-    ("P1-038", {}),
+FORCED: dict[str, object] = {"kind": "forced", "card": "125+1", "sibling": "125+3"}
+FALSE_CLAIMS: list[tuple[str, dict[str, object], str]] = [
+    ("P1-043", {"kind": "parse"}, "parse: without it the deck still compiles"),
+    ("P1-038", {"kind": "cosmetic"}, "cosmetic: the object code is another without it"),
+    ("P1-001", {"kind": "cosmetic"}, "cosmetic: without it the deck does not compile: not a statement"),
+    ("P1-001", {"kind": "deck", "deck": "example1"}, "deck: without it the deck does not compile: not a statement"),
+    (
+        "P1-001",
+        {"kind": "print", "program": "program1", "examples": [2]},
+        "print: without it the deck does not compile: not a statement",
+    ),
+    (
+        "P1-038",
+        {"kind": "print", "program": "program1", "examples": [3]},
+        "print: example 3, program 1: exact with it, exact without",
+    ),
+    # Exact, but in another order: that is not exact.
+    (
+        "P1-038",
+        {"kind": "print", "program": "program1", "examples": [1]},
+        "print: example 1, program 1: not exact with it, not exact without",
+    ),
+    ("P1-038", {"kind": "print", "program": "program1", "examples": []}, "print: names no example"),
+    (
+        "P1-018",
+        {"kind": "print", "program": "program1", "examples": [2]},
+        "print: example 2, program 1: exact with it, exact without",
+    ),
+    (
+        "P1-043",
+        {"kind": "deck", "program": "program1", "deck": "example1"},
+        "deck: deck example1 gives the same cards without it",
+    ),
+    ("P1-039", {"kind": "deck", "program": "program1", "deck": "nosuch"}, "deck: there is no deck 'nosuch'"),
+    ("P1-018", FORCED | {"rename": ["O3", "O1"]}, "forced: card 125+1 is not card 125+3 with names exchanged"),
+    (
+        "P1-038",
+        FORCED | {"rename": ["O3", "O1", "X", "Y", "Y", "Z"]},
+        "forced: card 125+1 is card 125+3 with names exchanged also without it",
+    ),
+    ("P1-038", {"kind": "because"}, "names no ground (it says 'because')"),
+    ("P1-038", {}, "names no ground (it says '')"),
 ]
 
 
-@pytest.mark.parametrize(("row_id", "ground"), FALSE_CLAIMS, ids=[f"{r}-{g.get('kind')}" for r, g in FALSE_CLAIMS])
-def test_a_false_ground_fails(row_id: str, ground: dict[str, object]) -> None:
-    assert not check_row(superfluous(ground, row_id)).holds
+@pytest.mark.parametrize(
+    ("row_id", "ground", "words"), FALSE_CLAIMS, ids=[f"{r}-{g.get('kind')}" for r, g, _ in FALSE_CLAIMS]
+)
+def test_a_false_ground_fails(row_id: str, ground: dict[str, object], words: str) -> None:
+    found = check_row(superfluous(ground, row_id))
+    assert not found.holds
+    assert found.words.startswith(words)
+
+
+def test_names_are_exchanged_in_pairs() -> None:
+    with pytest.raises(ValueError, match="shorter"):
+        check_row(superfluous(FORCED | {"rename": ["O3", "O1", "X"]}, "P1-018"))
+
+
+TRUE_CLAIMS = [
+    ("P1-001", "parse: without it: not a statement of this FORTRAN: C"),
+    ("P1-002", "parse: without it: program1.f: card 22, column 9: '#' is "),
+    ("P1-018", "forced: card 125+1 is card 125+3 with O3 for O1, X for Y, Y for Z, not so without it"),
+    ("P1-037", "print: example 2 is exact with it, not without"),
+    ("P1-042", "print: example 5 is exact with it, not without"),
+    ("P1-043", "cosmetic: the object code is the same with and without it"),
+    ("P2-024", "deck: deck between ends with an empty hopper; without it: other cards"),
+    ("P2-026", "deck: deck epsplane ends with an empty hopper; without it: program2.f: card 53: EPS is undefined"),
+]
+
+
+@pytest.mark.parametrize(("row_id", "words"), TRUE_CLAIMS, ids=[row_id for row_id, _ in TRUE_CLAIMS])
+def test_a_true_ground_says_what_was_seen(row_id: str, words: str) -> None:
+    """Some rows of each ground; that every row's holds is tested above."""
+    found = check_row(next(row for row in ROWS if row.id == row_id))
+    assert found.holds
+    assert found.words.startswith(words)
+
+
+def test_outcomes_are_the_same_by_cards_and_ending() -> None:
+    job = grounds._outcome(programs.text("program1").rows[0], programs.program("program1"), chapter6.input_deck(1))
+    assert job.same_as(job)
+    assert not job.same_as(replace(job, lines=job.lines[1:]))
+    refused = replace(job, ending=DeckError("x"))
+    assert not job.same_as(refused)
+    assert not refused.same_as(job)
+    assert refused.same_as(replace(refused, ending=DeckError("x")))
+    assert not refused.same_as(replace(refused, ending=DeckError("y")))
+
+
+def test_a_card_is_named_by_its_number_or_the_one_before() -> None:
+    deck = deck_from_lines("d.f", ["5 A=1.", "C  COMMENT", "B=2.", "6 END"])
+    assert [grounds._card(deck, place) for place in ("5", "5+1", "6")] == ["A=1.", "B=2.", "END"]
 
 
 def test_check_of_decks_covers_all_four() -> None:
     findings = list(check_decks())
     assert [f.subject for f in findings] == [f"{name}.f" for name in programs.NAMES]
     assert all(f.holds for f in findings)
+    for finding in findings:
+        cards = len(programs.committed(finding.subject.removesuffix(".f")).cards)
+        assert finding.words.startswith(f"{cards} cards are witness and ")
+
+
+def test_a_layer_without_rows_is_refused() -> None:
+    with pytest.raises(DeckError, match=r"^program2 has no rows of a layer 'examples'; it has "):
+        programs.deck("program2", ("examples",))
 
 
 # The mechanism itself, on a text of three lines.
@@ -135,6 +220,33 @@ def test_changes_of_each_form(tmp_path: Path) -> None:
     words = ["alpha 1", "two", "beta", "new", "   12 gamma"]
     assert [text for _, text, _ in built(folder)] == words
     assert [text for _, text, _ in built(folder, "a", "b")] == [*words[:3], "newer", words[4]]
+
+
+def test_a_later_layer_by_itself(tmp_path: Path) -> None:
+    rows = [("r1", "a", '{ line = "1", witness = " l", lemma = " 1" }'), ("r2", "b", '{ line = "3", dense = true }')]
+    rows.append(("r3", "b", '{ line = "5", dense = true }'))
+    assert [text for _, text, _ in built(text_of(tmp_path, *rows[1:]), "b")] == ["alpha l", "beta", "12gamma"]
+    assert [text for _, text, _ in built(text_of(tmp_path, *rows), "b")] == ["alpha l", "beta", "12gamma"]
+
+
+def test_a_change_replaces_its_fragment_and_keeps_blanks_where_nothing_else_is_said(tmp_path: Path) -> None:
+    text = load(text_of(tmp_path, ("r", "a", '{ line = "1", witness = " l", lemma = " 1" }')), "t")
+    changed = replace(text, rows=(replace(text.rows[0], changes=(Change("5", "gamma", "X = 1"),)),))
+    assert build(changed)[-1].text == "  12 X = 1"
+
+
+def test_readings_for_a_table(tmp_path: Path) -> None:
+    """Fragments as they are, lines parted by a stroke, places by a bar; in words what has no fragment."""
+    several = ['{ line = "1", witness = " l", lemma = " 1\\ntwo" }', '{ line = "3", after = true, lemma = "new" }']
+    others = [
+        '{ line = "3", through = "5" }',
+        '{ line = "3", through = "5", form = true }',
+        '{ line = "5", dense = true }',
+    ]
+    (row,) = load(text_of(tmp_path, ("r", "a", ", ".join(several + others))), "t").rows
+    lines = "(lines 3 to 5)"
+    assert row.witness == f" l | (nothing after line 3) | {lines} | {lines} | (line 5, spread out)"
+    assert row.lemma == " 1 / two | new | - | (set out as on the form) | (without blanks)"
 
 
 @pytest.mark.parametrize(
