@@ -189,7 +189,7 @@ def test_compiled_code_without_numba_is_an_error(monkeypatch: pytest.MonkeyPatch
         (np.ones(5), "two or three axes"),
         (np.ones((2, 2, 2, 2)), "two or three axes"),
         (np.array([["a", "b"]]), "numbers or truth values"),
-        (np.array([[0.0, np.nan]]), "no number"),
+        (np.array([[0.0, np.nan]]), "not a number"),
         (np.broadcast_to(np.True_, (1 << 30, 1 << 30)), "no exact hull"),
     ],
 )
