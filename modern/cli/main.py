@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import io
 import os
 import sys
 from collections.abc import Sequence
@@ -40,6 +41,10 @@ the command is called, so that ``--help`` is quick.
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns the exit code."""
     words = sys.argv[1:] if arguments is None else list(arguments)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            # A name or a card may hold what a terminal of few characters cannot show.
+            stream.reconfigure(errors="backslashreplace")
     try:
         args = build_parser(words).parse_args(words)
         if sys.stdout is None:

@@ -97,7 +97,8 @@ def _of_array(array: NDArray[Any], source: str) -> Volume:
 def _npy(data: bytes, source: str) -> NDArray[Any]:
     try:
         return np.asarray(np.load(io.BytesIO(data), allow_pickle=False))
-    except (ValueError, EOFError, OSError, SyntaxError, MemoryError) as error:
+    except Exception as error:
+        # A damaged header ends in whatever error numpy's reader of it meets: TokenError, IndexError, OverflowError ...
         said = " ".join(str(error).split()) or "it cannot be read"
         raise VolumeError(f"{source}: no NPY array of numbers: {said[:120]}") from None
 

@@ -17,6 +17,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from emulator.errors import EmulatorError
+
 Exact = int | Fraction
 Vector = NDArray[Any]
 Scalar = Any
@@ -25,7 +27,7 @@ Scalar = Any
 _LONGEST = 80
 
 
-class RangeError(ValueError):
+class RangeError(EmulatorError, ValueError):
     """A number beyond the range of an arithmetic."""
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -10,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.commands import call
+from tests.support.paths import ROOT
 
 READERS = {
     "appel-will": (),
@@ -119,3 +121,22 @@ def test_the_shell_closes_standard_input() -> None:
     folder = Path(__file__).parents[3]
     done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False, cwd=folder)
     assert (done.returncode, done.stdout, done.stderr) == (2, "", "hull1620: standard input is closed\n")
+
+
+def test_points_beyond_doubles_are_one_line_in_diff(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("far.csv").write_text("0,0,0\n1e400,0,0\n0,1e400,0\n0,0,1e400\n")
+    code, _, err = call(capsys, "diff", "far.csv")
+    assert (code, err.count("\n")) == (2, 1)
+    assert "too large for float64" in err
+
+
+def test_a_name_that_the_terminal_cannot_show(tmp_path: Path) -> None:
+    (tmp_path / "\u00e9.f").write_text("      END\n")
+    command = [sys.executable, "-m", "modern.cli.main", "check", "\u00e9.f"]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "PYTHONIOENCODING": "ascii"}
+    done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, check=False)
+    assert (done.returncode, b"Traceback" in done.stderr) == (0, False)
+    assert b"\\xe9.f" in done.stdout + done.stderr

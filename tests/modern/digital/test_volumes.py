@@ -319,3 +319,20 @@ def test_a_ball_takes_no_shape_and_no_other_centre() -> None:
 def test_a_volume_is_made_of_truth_values(array: np.ndarray, origin: tuple[int, ...]) -> None:
     with pytest.raises(VolumeError):
         Volume(array, origin)
+
+
+HEADERS = [
+    b"{'descr': '<f8', 'fortran_order': False, 'shape': (2, 2, (2",
+    b"{'descr': ('<f8',), 'fortran_order': False, 'shape': (2, 2, 2)}",
+    b"{'descr': '<f8', 'fortran_order': False, 'shape': (99999999999999999999, 2, 2)}",
+]
+
+
+@pytest.mark.parametrize("header", HEADERS)
+def test_a_damaged_header_of_an_array_is_one_line(tmp_path: Path, header: bytes) -> None:
+    """numpy's reader of it ends in tokenize.TokenError, IndexError, OverflowError."""
+    head = header.ljust(118) + b"\n"
+    path = tmp_path / "a.npy"
+    path.write_bytes(b"\x93NUMPY\x01\x00" + len(head).to_bytes(2, "little") + head + bytes(64))
+    with pytest.raises(VolumeError, match="no NPY array of numbers"):
+        read_volume(str(path))
