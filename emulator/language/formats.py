@@ -69,6 +69,8 @@ def _refused(place: Place, message: str, number: int = 11) -> Refused:
 def parse_format(statement: Format) -> tuple[FormatSpec, tuple[Diagnostic, ...]]:
     """The specification of a FORMAT statement and the compiler's warnings.  Raises Refused."""
     reader = _Reader(statement)
+    if reader.peek() != "(":
+        raise _refused(reader.place(), "a FORMAT's specification begins with a parenthesis")
     specs = reader.group()
     reader.expect_end()
     spec = FormatSpec(tuple(specs), reader.again)

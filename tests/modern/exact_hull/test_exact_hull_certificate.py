@@ -348,7 +348,7 @@ def test_cycles_that_do_not_start_with_the_smallest() -> None:
     refused(OCTAHEDRON, exchanged(hull, 0, Facet(hull.facets[0].plane, (b, c, a))), "the smallest vertex is not first")
     refused(OCTAHEDRON, exchanged(hull, 0, Facet(hull.facets[0].plane, ())), "the smallest vertex is not first")
     hull = exact_hull(SKEW_SQUARE)
-    refused(SKEW_SQUARE, replace(hull, polygon=(*hull.polygon[1:], hull.polygon[0])), "no order of the vertices")
+    refused(SKEW_SQUARE, replace(hull, polygon=(*hull.polygon[1:], hull.polygon[0])), "not an order of the vertices")
 
 
 def test_a_polygon_whose_plane_is_not_in_lowest_terms() -> None:

@@ -245,5 +245,5 @@ def test_statements_have_names() -> None:
     assert Printed.only("angle", "marks").names() == ("angle", "marks")
     assert LITERAL.names() == NAMES
     assert Printed().names() == ()
-    with pytest.raises(ValueError, match="none of angle"):
+    with pytest.raises(ValueError, match="not one of angle"):
         Printed.only("corner")
