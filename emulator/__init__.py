@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from emulator.compiled.batch import run_batch
-    from emulator.errors import CardError, CompileError, DeckError, Diagnostic, EmulatorError
+    from emulator.errors import CardError, CompileError, DeckError, Diagnostic, EmulatorError, FileError
     from emulator.language.cards import Card, Deck, deck_from_lines, deck_from_text, read_deck
     from emulator.language.compiler import compile_deck, translate
     from emulator.language.objectcode import Program
@@ -28,7 +28,7 @@ _HOMES = {
     "language.cards": ("Card", "Deck", "deck_from_lines", "deck_from_text", "read_deck"),
     "language.compiler": ("compile_deck", "translate"),
     "machine.divergence": ("Divergence", "diverge"),
-    "errors": ("CardError", "CompileError", "DeckError", "Diagnostic", "EmulatorError"),
+    "errors": ("CardError", "CompileError", "DeckError", "Diagnostic", "EmulatorError", "FileError"),
     "machine.machine": ("Machine",),
     "language.objectcode": ("Program",),
     "machine.endings": ("Ending",),
@@ -46,6 +46,7 @@ __all__ = [
     "Divergence",
     "EmulatorError",
     "Ending",
+    "FileError",
     "Machine",
     "Options",
     "Profile",

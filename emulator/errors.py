@@ -26,6 +26,10 @@ class CardError(EmulatorError):
         self.source, self.card, self.column = source, card, column
 
 
+class LowerCaseError(CardError):
+    """A small letter on a card.  A source program can be read with capitals (emulator/language/statements.py)."""
+
+
 class DeckError(EmulatorError):
     """A deck that cannot be used as a whole: empty, too long or too short."""
 

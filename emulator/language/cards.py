@@ -6,10 +6,10 @@ blanks are the card's blank columns.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from emulator.errors import CardError, DeckError
+from emulator.errors import CardError, DeckError, LowerCaseError
 from emulator.files import read_bytes, source_name
 
 COLUMNS = 80
@@ -77,8 +77,8 @@ def deck_from_text(source: str, text: str) -> Deck:
     return deck_from_lines(source, lines)
 
 
-def read_deck(path: str) -> Deck:
-    """Read a deck file, or standard input for ``-``.
+def read_deck(path: str, change: Callable[[str], str] | None = None) -> Deck:
+    """Read a deck file, or standard input for ``-``; ``change`` is done to its text before it is taken for cards.
 
     Raises FileError when it cannot be read, DeckError when it is empty, CardError for a bad card.
     """
@@ -87,7 +87,7 @@ def read_deck(path: str) -> Deck:
         text = data.decode("utf-8")
     except UnicodeDecodeError:
         text = data.decode("latin-1")  # a card names the column of a strange character, whatever its code
-    deck = deck_from_text(name, text)
+    deck = deck_from_text(name, change(text) if change else text)
     if not any(card.text for card in deck.cards):
         raise DeckError(f"{name}: the deck is empty" if not deck.cards else f"{name}: the deck has only blank cards")
     return deck
@@ -110,13 +110,14 @@ def refuse_strange(source: str, number: int, line: str, unit: str = "card") -> N
     """Raise CardError for the first character that is not in the card code."""
     for column, char in enumerate(line, 1):
         if char not in CHARACTERS:
-            raise CardError(source, number, column, _strange(char), unit)
+            kind = LowerCaseError if char.upper() in CHARACTERS else CardError
+            raise kind(source, number, column, _strange(char), unit)
 
 
 def _strange(char: str) -> str:
     if char in COMMERCIAL:
         return f"{char!r} is the commercial graphic of the punch that FORTRAN prints as {COMMERCIAL[char]!r}"
-    if char.upper() in CHARACTERS and char != char.upper():
+    if char.upper() in CHARACTERS:
         return f"{char!r} is not in the card code: letters are capitals"
     return (
         f"{char!r} is not in the card code"

@@ -10,11 +10,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from string import ascii_lowercase, ascii_uppercase
 
 from emulator.language.cards import Card, Deck
 from emulator.language.tree import Place
 
 LAST_COLUMN = 72
+_CAPITALS = str.maketrans(ascii_lowercase, ascii_uppercase)
 
 _VERB = re.compile(r"READ|ACCEPT|PUNCH|PRINT|TYPE")
 _FORMAT = re.compile(r"\s*F\s*O\s*R\s*M\s*A\s*T\s*\(")
@@ -57,6 +59,17 @@ def is_comment(card: Card) -> bool:
     if not card.columns(1, LAST_COLUMN).strip() or card.text.ljust(3).startswith("C  "):
         return True
     return card.text.startswith("C") and _source((card,)).kind == "unknown"
+
+
+def capitals(text: str) -> str:
+    """A source's text with capitals for small letters, in Hollerith fields too; a comment keeps its own after the C."""
+    lines = []
+    for number, line in enumerate(text.split("\n"), 1):
+        upper = line.translate(_CAPITALS)
+        if upper.startswith("C") and is_comment(Card(number, upper.rstrip(" \r"))):
+            upper = "C" + line[1:]
+        lines.append(upper)
+    return "\n".join(lines)
 
 
 def may_be_comment(source: Source) -> bool:

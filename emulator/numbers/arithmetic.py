@@ -144,10 +144,8 @@ def divide(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
         size = size * base
     quotient = size // by
     if rules[7] and 2 * (size - quotient * by) >= by:
+        # No carry to P + 1 digits: the quotient is at most base - 1 exactly, or below base - 1 as 1 < base / by.
         quotient += 1
-        if quotient >= base:
-            quotient = quotient // 10
-            exponent += 1
     return (quotient if (ma > 0) == (mb > 0) else -quotient), exponent
 
 

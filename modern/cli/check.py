@@ -6,18 +6,19 @@ import argparse
 
 from emulator.language.compiler import translate
 from modern.cli.shared.console import BAD_INPUT, OK
-from modern.cli.shared.machine import layers_argument, layers_of, source_deck
+from modern.cli.shared.machine import layers_argument, layers_of, source_deck, upcase_argument
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of the command."""
     parser.add_argument("program", metavar="PROGRAM.f")
     layers_argument(parser)
+    upcase_argument(parser)
 
 
 def main(args: argparse.Namespace) -> int:
     """Compile and show every message under its card."""
-    deck = source_deck(args.program, layers_of(args))
+    deck = source_deck(args.program, layers_of(args), args.upcase)
     program, messages = translate(deck)
     cards = {card.number: card.text for card in deck.cards}
     for message in messages:

@@ -14,7 +14,14 @@ from emulator.language.cards import read_deck
 from emulator.language.objectcode import Line
 from emulator.machine.divergence import Divergence, Loss, diverge
 from modern.cli.shared.console import DIFFERS, OK, UsageError
-from modern.cli.shared.machine import layers_of, load_program, machine_arguments, machine_options, number_system
+from modern.cli.shared.machine import (
+    layers_of,
+    load_program,
+    machine_arguments,
+    machine_options,
+    number_system,
+    upcase_argument,
+)
 from modern.edition import programs
 
 _NARROWEST, _WIDEST = 40, 120
@@ -28,6 +35,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--first", action="store_true", help="stop at the first decision that differs; no values")
     parser.add_argument("--json", metavar="FILE", help="write the comparison as JSON")
     machine_arguments(parser)
+    upcase_argument(parser)
     parser.set_defaults(limit=1_000_000)
 
 
@@ -42,7 +50,7 @@ def main(args: argparse.Namespace) -> int:
     if args.program not in programs.NAMES:
         # Of its own decks the thesis's programs want whole data sets.
         options = replace(options, hopper="any")
-    program = load_program(args.program, layers_of(args))
+    program = load_program(args.program, layers_of(args), args.upcase)
     found = diverge(program, read_deck(args.deck), studied, reference, options, values=not args.first)
     width = max(_NARROWEST, min(shutil.get_terminal_size((100, 24)).columns, _WIDEST))
     for line in _report(found, width, values=not args.first):

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from emulator.language.objectcode import Program, code_positions
 from emulator.language.storage import FIELD, core_address
 from modern.cli.shared.console import OK
-from modern.cli.shared.machine import layers_argument, layers_of, load_program
+from modern.cli.shared.machine import layers_argument, layers_of, load_program, upcase_argument
 from modern.edition import programs
 from modern.formats.deck import MAX_POINTS
 from modern.thesis.capacity import array_lengths, largest
@@ -21,11 +21,12 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("program", metavar="PROGRAM.f")
     parser.add_argument("--core", type=int, choices=(20000, 40000, 60000), default=40000)
     layers_argument(parser)
+    upcase_argument(parser)
 
 
 def main(args: argparse.Namespace) -> int:
     """Print the map."""
-    program = load_program(args.program, layers_of(args))
+    program = load_program(args.program, layers_of(args), args.upcase)
     for line in map_lines(program, args.core):
         print(line)
     if args.program in programs.NAMES:

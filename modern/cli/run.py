@@ -20,6 +20,7 @@ from modern.cli.shared.machine import (
     run_arguments,
     say_notices,
     tracing,
+    upcase_argument,
 )
 from modern.thesis.job import refusal
 
@@ -29,6 +30,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("program", metavar="PROGRAM.f")
     parser.add_argument("deck", metavar="DECK", nargs="?", help="data cards, one a line")
     run_arguments(parser)
+    upcase_argument(parser)
 
 
 def main(args: argparse.Namespace) -> int:
@@ -37,7 +39,7 @@ def main(args: argparse.Namespace) -> int:
         raise UsageError("program and deck cannot both come from standard input")
     options = replace(machine_options(args), hopper="any")
     check_writable(args.punch, args.typewriter, args.trace)
-    program = load_program(args.program, layers_of(args))
+    program = load_program(args.program, layers_of(args), args.upcase)
     deck = read_deck(args.deck) if args.deck else Deck("no deck", ())
     keyboard = () if "-" in (args.program, args.deck) or sys.stdin is None or sys.stdin.isatty() else sys.stdin
     with tracing(args.trace) as tracer:

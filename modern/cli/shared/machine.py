@@ -8,10 +8,12 @@ import textwrap
 from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager
 
+from emulator.errors import LowerCaseError
 from emulator.files import write_text, writing
 from emulator.language.cards import Deck, read_deck
 from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import Program
+from emulator.language.statements import capitals
 from emulator.machine.result import ERRORS, Options, Result
 from emulator.machine.timing import Row, measure
 from emulator.machine.trace import Tracer
@@ -33,6 +35,11 @@ def layers_argument(parser: argparse.ArgumentParser) -> None:
         default="",
         help="layers of the apparatus added to a built-in program",
     )
+
+
+def upcase_argument(parser: argparse.ArgumentParser) -> None:
+    """``--upcase``."""
+    parser.add_argument("--upcase", action="store_true", help="read small letters of the program as capitals")
 
 
 def run_arguments(parser: argparse.ArgumentParser) -> None:
@@ -87,23 +94,26 @@ def layers_of(args: argparse.Namespace) -> tuple[str, ...]:
     return tuple(layer.strip() for layer in args.layers.split(",") if layer.strip())
 
 
-def source_deck(name: str, layers: tuple[str, ...]) -> Deck:
-    """A source deck: a built-in program by name, else a file.
+def source_deck(name: str, layers: tuple[str, ...], upcase: bool = False) -> Deck:
+    """A source deck: a built-in program by name, else a file, with capitals for small letters if ``upcase``.
 
-    Raises UsageError for layers with a file: only the built-in programs have an apparatus.
+    Raises UsageError for layers with a file (only the built-in programs have an apparatus) and for small letters.
     """
     if name in programs.NAMES:
         return programs.deck(name, layers)
     if layers:
         raise UsageError(f"{name}: --layers is for the built-in programs: {', '.join(programs.NAMES)}")
-    return read_deck(name)
+    try:
+        return read_deck(name, capitals if upcase else None)
+    except LowerCaseError as error:
+        raise UsageError(f"{error}; --upcase reads the whole program so") from None
 
 
-def load_program(name: str, layers: tuple[str, ...]) -> Program:
+def load_program(name: str, layers: tuple[str, ...], upcase: bool = False) -> Program:
     """A program compiled: a built-in by name, else a file."""
     if name in programs.NAMES:
         return programs.program(name, layers)
-    return compile_deck(source_deck(name, layers))
+    return compile_deck(source_deck(name, layers, upcase))
 
 
 def machine_options(args: argparse.Namespace) -> Options:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from emulator.errors import CardError
-from emulator.language.statements import Source, classify, is_comment, sources
+from emulator.language.cards import deck_from_text
+from emulator.language.statements import Source, capitals, classify, is_comment, sources
 from emulator.language.tree import Place
 from tests.support.deckwork import diagnostics, run, source
 
@@ -162,3 +163,33 @@ def test_continuation_of_an_indexed_list() -> None:
 )
 def test_classify(text: str, kind: str) -> None:
     assert classify(text) == kind
+
+
+SMALL = """\
+c  a comment, as it was typed
+      do 5 i = 1, 3
+c = 2.
+Continue
+5     punch 6, i
+6     format(4hi = , i1)
+      end
+"""
+
+
+def test_small_letters_are_read_as_capitals_but_for_comments() -> None:
+    """A card has no small letters, in Hollerith fields either; after the C of a comment anything may stand."""
+    deck = deck_from_text("small.f", capitals(SMALL))
+    assert deck.text() == SMALL.upper().replace("C  A COMMENT, AS IT WAS TYPED", "C  a comment, as it was typed")
+    assert [found.kind for found in sources(deck)] == ["do", "assignment", "continue", "input_output", "format", "end"]
+
+
+@pytest.mark.parametrize("text", ["", "\n", "C  \u00e9\u00df\r\n", "C " + "x" * 90 + "\n", "c#\n\nX=1.\n"])
+def test_capitals_keep_every_line(text: str) -> None:
+    found = capitals(text)
+    assert found == "C" + text[1:] if text.startswith(("c", "C")) else found == text
+
+
+def test_capitals_do_not_make_characters_that_are_not_letters_of_the_card_code() -> None:
+    assert capitals("x=\u00df\u00e9\n") == "X=\u00df\u00e9\n"
+    with pytest.raises(CardError, match="column 3: '\u00df' is not in the card code"):
+        deck_from_text("small.f", capitals("x=\u00df\n"))
