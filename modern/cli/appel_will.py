@@ -14,7 +14,7 @@ from modern.formats import off
 from modern.formats.off import parse_off
 from modern.formats.points import OFF, Input, parse_input
 from modern.geometry.mesh import Mesh
-from modern.papers.appel_will import CORRECTED, LITERAL, Assembled, MapError, appel_will
+from modern.papers.appel_will import PRINTED, Assembled, MapError, Method, appel_will, printed
 from modern.papers.appel_will.corners import Preprocessing, Rule
 from modern.papers.appel_will.loops import Loop
 from modern.papers.appel_will.star import as_printed, in_one_pass
@@ -32,11 +32,13 @@ RELIED_ON: dict[Rule, str] = {
 def arguments(parser: argparse.ArgumentParser) -> None:
     """The arguments of the command."""
     parser.add_argument("points", metavar="FILE", help="an OFF file (points and surfaces), a data deck or CSV")
-    parser.add_argument("--literal", action="store_true", help="star polygon test and loops by the paper's letter")
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument("--literal", action="store_true", help="every rule of the paper as printed")
+    which.add_argument("--printed", metavar="NAME,...", help=f"only these as printed: {', '.join(PRINTED)}")
     parser.add_argument(
         "--star",
         choices=("printed", "mended"),
-        help="the star polygon test (default: mended; with --literal: printed)",
+        help="the star polygon test, whatever the other rules (default: mended; with --literal: printed)",
     )
     parser.add_argument(
         "--inside-corners",
@@ -57,7 +59,7 @@ def main(args: argparse.Namespace) -> int:
     given = parse_off(text, name).faces if found.kind == OFF else ()
     if args.inside_corners and not given:
         raise UsageError(f"{found.source}: --inside-corners needs the surfaces of the polyhedron, in an OFF file")
-    method = LITERAL if args.literal else CORRECTED
+    method = _method(args)
     if args.star is not None:
         method = replace(method, star=as_printed if args.star == "printed" else in_one_pass)
     try:
@@ -65,6 +67,8 @@ def main(args: argparse.Namespace) -> int:
     except MapError as error:
         raise MapError(f"{found.source}: {error}") from None
     say(f"note: {note}" for note in found.notes)
+    if args.literal or args.printed is not None:
+        say([f"note: taken as printed: {', '.join(_names(args))}"])
     say(
         f"note: {found.source}: {found.places[index]}: the point of {found.places[first]} again"
         for index, first in hull.duplicates
@@ -81,6 +85,19 @@ def main(args: argparse.Namespace) -> int:
     if hull.fault:
         print(f"no hull: {hull.fault}", file=out)
     return DIFFERS if hull.fault else OK
+
+
+def _names(args: argparse.Namespace) -> Sequence[str]:
+    """The rules to take as printed, by name."""
+    return PRINTED if args.literal else [name.strip() for name in (args.printed or "").split(",") if name.strip()]
+
+
+def _method(args: argparse.Namespace) -> Method:
+    """Raises UsageError for a rule that does not exist."""
+    try:
+        return printed(*_names(args))
+    except ValueError as error:
+        raise UsageError(f"--printed: {error}") from None
 
 
 def _report(found: Input, given: Sequence[Surface], hull: Assembled, trace: bool, width: int) -> Iterator[str]:

@@ -6,7 +6,7 @@ the others' star polygon, and assembles these convex edges to the loops that bou
 """
 
 from modern.papers.appel_will.corners import RULES
-from modern.papers.appel_will.hull import CORRECTED, LITERAL, Assembled, Method, appel_will
+from modern.papers.appel_will.hull import CORRECTED, LITERAL, PRINTED, Assembled, Method, appel_will, printed
 from modern.papers.appel_will.surfaces import MapError
 
-__all__ = ["CORRECTED", "LITERAL", "RULES", "Assembled", "MapError", "Method", "appel_will"]
+__all__ = ["CORRECTED", "LITERAL", "PRINTED", "RULES", "Assembled", "MapError", "Method", "appel_will", "printed"]

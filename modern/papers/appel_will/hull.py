@@ -24,8 +24,25 @@ class Method:
 
 
 CORRECTED = Method()
-LITERAL = Method(as_printed, Rules(dot_condition=False))
-"""By the letter, but for the two step numbers of the appendix without which no second loop is found."""
+PRINTED = ("star", "step3", "step5", "step7", "step9", "step10")
+"""The rules that can be taken by the letter: Fig. 12's, and steps of the appendix."""
+
+
+def printed(*names: str) -> Method:
+    """The method with these rules as printed, the others corrected.  Raises ValueError for an unknown name.
+
+    ``star``: two images on one ray put C outside of the star polygon; ``step3``: the first L2 that will do is taken,
+    none is preferred; ``step5``, ``step7``, ``step9``, ``step10``: see :class:`~modern.papers.appel_will.loops.Rules`.
+    """
+    unknown = [name for name in names if name not in PRINTED]
+    if unknown:
+        raise ValueError(f"{unknown[0]!r} is not one of {', '.join(PRINTED)}")
+    steps = ("step5" in names, "step7" in names, "step9" in names, "step10" in names)
+    return Method(as_printed if "star" in names else in_one_pass, Rules("step3" not in names, *steps))
+
+
+LITERAL = printed(*PRINTED)
+"""By the letter, all of it."""
 
 
 @dataclass(frozen=True, slots=True)

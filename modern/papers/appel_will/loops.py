@@ -23,14 +23,18 @@ class Rules:
     ``dot_condition``: of the lines L2 that will do, prefer one whose direction has a positive product with that of
     L1 (the main text's condition for two lines that give a plane), else take the first.  Without it the first is
     taken always, as step 3 has it.
-    ``rejected_to_step_2``: "go back to step 2" in steps 5 and 7 by the letter, so that a rejected L2 costs its L1 the
-    turn; the corrected number is step 3.
-    ``line_again``: step 9 by the letter, which leaves out L1 and L2 only, not the other lines already on the loop.
+    ``step_5``, ``step_7``: "go back to step 2" by the letter, so that an L2 rejected there costs its L1 the turn; the
+    corrected number is step 3.
+    ``step_9``: by the letter, which leaves out L1 and L2 only, not the other lines already on the loop.
+    ``step_10``: "start another loop at step 1" by the letter, so that every loop begins with all counts 0; the
+    corrected number is step 2.
     """
 
     dot_condition: bool = True
-    rejected_to_step_2: bool = False
-    line_again: bool = False
+    step_5: bool = False
+    step_7: bool = False
+    step_9: bool = False
+    step_10: bool = False
 
 
 PREFERRED = Rules()
@@ -112,6 +116,8 @@ def find_loops(points: Sequence[IntPoint], edges: Sequence[Pair], rules: Rules) 
             uses[abs(entry) - 1] += 1
         loops.append(Loop(tuple(entries), begun.kind, begun.start, begun.match, tuple(uses)))
         table.on_loops.append(frozenset(surface(entries, edges)))
+        if rules.step_10:
+            uses[:] = [0] * len(edges)
 
 
 def surface(entries: Sequence[int], edges: Sequence[Pair]) -> tuple[int, ...]:
@@ -156,11 +162,13 @@ def _seconds(table: _Table, first: int) -> Iterator[Intersection]:
         if both is None:
             continue
         three = {both.common, both.start, both.match}
-        if any(three <= loop for loop in table.on_loops) or not _is_convex_plane(table, both):
-            if table.rules.rejected_to_step_2:
+        if any(three <= loop for loop in table.on_loops):
+            if table.rules.step_5:
                 return
-            continue
-        yield both
+        elif _is_convex_plane(table, both):
+            yield both
+        elif table.rules.step_7:
+            return
 
 
 def _is_convex_plane(table: _Table, both: Intersection) -> bool:
@@ -190,7 +198,7 @@ def _follow(table: _Table, both: Intersection) -> list[int] | None:
             entries.append(line + 1 if one == match else -(line + 1))
             if beyond == both.start:
                 return entries
-            if not table.rules.line_again:
+            if not table.rules.step_9:
                 left_out.add(line)
             match = beyond
             break

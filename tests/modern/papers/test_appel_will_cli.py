@@ -99,9 +99,10 @@ def test_literal_says_which_edges_are_none(room: Path, capsys: pytest.CaptureFix
     assert "edges are none, by images on one ray" in out
     assert out.splitlines()[-1].startswith("no hull: ")
     assert "The surfaces given" not in out
-    code, out, _ = call(capsys, "fig4.off", "--literal", "--star", "mended")
-    assert code == 0
+    code, out, err = call(capsys, "fig4.off", "--literal", "--star", "mended")
+    assert (code, err) == (1, "note: taken as printed: star, step3, step5, step7, step9, step10\n")
     assert "edges are none" not in out
+    assert out.splitlines()[-1] == "no hull: the loop begun with lines 3 and 1 does not come back to its start"
     code, out, _ = call(capsys, "fig4.off", "--star", "printed")
     assert code == 1
     assert "edges are none" in out
@@ -110,8 +111,8 @@ def test_literal_says_which_edges_are_none(room: Path, capsys: pytest.CaptureFix
 def test_literal_loops_are_those_of_the_letter(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     Path("fig14.csv").write_text("0,0,4\n8,0,4\n4,8,4\n1,-2,0\n9,14,0\n17,-2,0\n")
     _, preferred, _ = call(capsys, "fig14.csv")
-    code, letter, _ = call(capsys, "fig14.csv", "--literal")
-    assert code == 0
+    code, letter, err = call(capsys, "fig14.csv", "--printed", "step3")
+    assert (code, err) == (0, "note: taken as printed: step3\n")
     assert "LUP(3,N)  2 6 -7 -3" in preferred
     assert "LUP(3,N)  -2 3 7 -6" in letter
 
@@ -167,6 +168,8 @@ def test_flat_input(room: Path, capsys: pytest.CaptureFixture[str], text: str, w
         (["two.off"], "two.off: surface 1: 2 points; a surface has at least three"),
         (["twice.off"], "twice.off: surface 1: a point stands in it twice"),
         (["points.csv", "--inside-corners", "any"], "points.csv: --inside-corners needs the surfaces"),
+        (["crown.off", "--printed", "step4"], "--printed: 'step4' is not one of star, step3, step5,"),
+        (["crown.off", "--literal", "--printed", "star"], "not allowed with argument --literal"),
         (["crown.off", "--star", "both"], "argument --star: invalid choice: 'both'"),
         (["open.off", "--inside-corners", "two"], "open.off: surface 1: line 1-2 is on 1 surface;"),
         (["fig4.off", "-o", "nosuch/hull.off"], "nosuch/hull.off: no such file or directory"),

@@ -7,7 +7,7 @@ from itertools import product
 import pytest
 
 from modern.edition.published import PAPERS, results_of
-from modern.papers.appel_will import LITERAL, Method, appel_will
+from modern.papers.appel_will import PRINTED, Method, appel_will, printed
 from modern.papers.appel_will.loops import Rules, find_loops, intersect, surface
 from modern.papers.appel_will.results import found_solid
 
@@ -60,12 +60,12 @@ def test_every_loop_uses_its_edges_once_more_and_none_thrice(points: list[tuple[
 def test_readings_of_the_letter_find_the_same_faces_in_the_same_order() -> None:
     """Without the dot-product condition three of the twelve printed loops run the other way round."""
     for points in (FIG_14, FIG_23):
-        preferred, letter = (appel_will(points, method=m) for m in (Method(), Method(rules=LITERAL.rules)))
+        preferred, letter = (appel_will(points, method=m) for m in (Method(), Method(rules=printed("step3").rules)))
         assert [set(s) for s in preferred.surfaces] == [set(s) for s in letter.surfaces]
     differing = [
         (a, b)
         for points in (FIG_14, FIG_23)
-        for a, b in zip(entries(points, Rules()), entries(points, LITERAL.rules), strict=True)
+        for a, b in zip(entries(points, Rules()), entries(points, printed("step3").rules), strict=True)
         if a != b
     ]
     assert len(differing) == 3
@@ -77,16 +77,39 @@ def test_step_2_for_step_3_cannot_give_the_second_printed_loop() -> None:
     (printed,) = (result.corrected for result in results_of(PAPER) if result.id == "fig22-loops-1-3")
     second_loop = [int(word) for word in printed[0].split("\t")[3].split()]
     for dot in (True, False):
-        assert entries(FIG_14, Rules(dot, rejected_to_step_2=True))[1][0] != second_loop[0]
+        assert entries(FIG_14, Rules(dot, step_5=True))[1][0] != second_loop[0]
         assert entries(FIG_14, Rules(dot))[1] == second_loop
 
 
 def test_step_9_by_the_letter_takes_a_line_again_and_does_not_come_back() -> None:
     """It leaves out L1 and L2 only.  The face of five points here needs lines 8, 7 in falling order."""
     points = [(-6, -6, 1), (-4, -4, 5), (-8, 14, 8), (-2, 0, 10), (0, 2, 14), (-4, 20, 17)]
-    letter = appel_will(points, method=Method(rules=Rules(False, line_again=True)))
+    letter = appel_will(points, method=Method(rules=Rules(False, step_9=True)))
     assert "does not come back to its start" in letter.fault
     assert not appel_will(points, method=Method(rules=Rules(False))).fault
+
+
+def test_step_7_by_the_letter_begins_loops_elsewhere() -> None:
+    """An L2 that makes no plane of the hull costs its L1 the turn, so loops come in another order."""
+    points = [(0, 0, 2), (1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, -2)]
+    letter, mended = entries(points, printed("step7").rules), entries(points, Rules())
+    assert sorted(sorted(map(abs, loop)) for loop in letter) == sorted(sorted(map(abs, loop)) for loop in mended)
+    assert letter != mended
+
+
+def test_step_10_by_the_letter_finds_every_loop_and_forgets_its_counts() -> None:
+    """Step 5 keeps loops apart, and step 2 ends when all lines were addressed; but no count ever becomes 2."""
+    hull = appel_will(FIG_14, method=printed("step10"))
+    assert [set(s) for s in hull.surfaces] == [set(s) for s in appel_will(FIG_14).surfaces]
+    assert all(max(loop.uses) == 1 for loop in hull.table.loops)
+    assert hull.fault == "9 of 9 edges are not used twice"
+
+
+def test_rules_as_printed_have_names() -> None:
+    assert printed() == Method()
+    assert printed(*PRINTED).rules == Rules(False, True, True, True, True)
+    with pytest.raises(ValueError, match="'step2' is not one of star, step3"):
+        printed("step2")
 
 
 def test_cube_has_no_pair_with_a_positive_product_and_falls_back() -> None:
