@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from modern.exact_hull import exact_hull
-from modern.papers.appel_will import CORRECTED, LITERAL, Method, appel_will
+from modern.papers.appel_will import CORRECTED, Method, appel_will, printed
 from modern.papers.appel_will.loops import Rules
 from modern.papers.appel_will.star import as_corrected
 from tests.support.judged import sets
@@ -96,7 +96,7 @@ def test_faults_of_edges_and_loops_that_are_no_hull() -> None:
     assert replace(hull, table=replace(hull.table, uses=used)).fault == "1 of 6 edges are not used twice"
     assert replace(hull, surfaces=hull.surfaces[1:]).fault == "V - E + F is 4 - 6 + 3 = 1, not 2"
     square = [(x, y, 0) for x in (0, 1) for y in (0, 1)]
-    diagonals = appel_will([*square, (3, 1, 0)], method=LITERAL)
+    diagonals = appel_will([*square, (3, 1, 0)], method=printed("star", "step3"))
     assert diagonals.dimension == 2
     assert diagonals.fault.endswith("loops do not make one polygon")
 
