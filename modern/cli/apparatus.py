@@ -16,17 +16,6 @@ from modern.edition.chapter6_checks import check_chapter
 from modern.edition.grounds import Proof, check_decks, check_row
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument("--program", metavar="N", help="1, 2 or 3")
-    parser.add_argument("--layer", metavar="L")
-    parser.add_argument(
-        "--check",
-        action="store_true",
-        help="prove that witness and rows build the decks, and that each row is needed",
-    )
-
-
 def main(args: argparse.Namespace) -> int:
     """List rows, or check them."""
     rows = _rows(args)

@@ -12,7 +12,7 @@ from emulator.files import check_writable, read_text, source_name, write_text
 from modern.cli.shared.console import DIFFERS, OK, UsageError, counted, say
 from modern.formats import off
 from modern.formats.off import parse_off
-from modern.formats.points import OFF, Input, parse_input
+from modern.formats.points import Input, parse_input
 from modern.geometry.mesh import Mesh
 from modern.papers.appel_will import PRINTED, Assembled, MapError, Method, appel_will, printed
 from modern.papers.appel_will.corners import Preprocessing, Rule
@@ -29,34 +29,12 @@ RELIED_ON: dict[Rule, str] = {
 """What each rule for inside corners relies on."""
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument("points", metavar="FILE", help="an OFF file (points and surfaces), a data deck or CSV")
-    which = parser.add_mutually_exclusive_group()
-    which.add_argument("--literal", action="store_true", help="every rule of the paper as printed")
-    which.add_argument("--printed", metavar="NAME,...", help=f"only these as printed: {', '.join(PRINTED)}")
-    parser.add_argument(
-        "--star",
-        choices=("printed", "mended"),
-        help="the star polygon test, whatever the other rules (default: mended; with --literal: printed)",
-    )
-    parser.add_argument(
-        "--inside-corners",
-        metavar="RULE",
-        choices=("any", "two", "concave"),
-        help="delete points on inside corners first: any (right if no point is on more than three planes), "
-        "two or concave (right always)",
-    )
-    parser.add_argument("--trace", action="store_true", help="the use of every edge after each loop")
-    parser.add_argument("-o", "--output", metavar="FILE.off", help="write the hull as an OFF file too")
-
-
 def main(args: argparse.Namespace) -> int:
     """Read points and map, find the hull, print the tables."""
     check_writable(args.output)
     name, text = source_name(args.points), read_text(args.points)
     found = parse_input(text, name)
-    given = parse_off(text, name).faces if found.kind == OFF else ()
+    given = parse_off(text, name).faces if found.kind == "off" else ()
     if args.inside_corners and not given:
         raise UsageError(f"{found.source}: --inside-corners needs the surfaces of the polyhedron, in an OFF file")
     method = _method(args)

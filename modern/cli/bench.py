@@ -11,12 +11,6 @@ from modern.bench.measure import document, lines, measure
 from modern.cli.shared.console import OK, UsageError, say
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument("--decks", metavar="N", type=int, default=1000, help="decks of 51 points (default: 1000)")
-    parser.add_argument("--json", metavar="FILE", help="write the figures as JSON")
-
-
 def main(args: argparse.Namespace) -> int:
     """Measure, print the table, write the figures."""
     if args.decks < 1:

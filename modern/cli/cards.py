@@ -11,15 +11,6 @@ from modern.formats import csv
 from modern.formats.deck import MAX_POINTS, UnfitPoint, data_deck
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument("points", metavar="POINTS.csv", help="three decimal numbers a line")
-    parser.add_argument("-o", "--output", metavar="DECK", default="-")
-    parser.add_argument(
-        "--truncate", action="store_true", help="cut digits a card cannot hold instead of refusing them"
-    )
-
-
 def main(args: argparse.Namespace) -> int:
     """Read the points, write the deck."""
     source = source_name(args.points)

@@ -6,14 +6,7 @@ import argparse
 
 from emulator.language.compiler import translate
 from modern.cli.shared.console import BAD_INPUT, OK
-from modern.cli.shared.machine import layers_argument, layers_of, source_deck, upcase_argument
-
-
-def arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument("program", metavar="PROGRAM.f")
-    layers_argument(parser)
-    upcase_argument(parser)
+from modern.cli.shared.machine import layers_of, source_deck
 
 
 def main(args: argparse.Namespace) -> int:

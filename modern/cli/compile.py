@@ -8,14 +8,7 @@ from collections.abc import Iterator
 from emulator.language import objectcode as op
 from emulator.language.objectcode import Instruction, Program
 from modern.cli.shared.console import OK
-from modern.cli.shared.machine import layers_argument, layers_of, load_program, upcase_argument
-
-
-def arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument("program", metavar="PROGRAM.f")
-    layers_argument(parser)
-    upcase_argument(parser)
+from modern.cli.shared.machine import layers_of, load_program
 
 
 def main(args: argparse.Namespace) -> int:

@@ -12,7 +12,7 @@ from emulator.files import write_text
 from emulator.language.cards import Deck
 from emulator.machine.result import Options
 from modern.cli.shared.console import DIFFERS, OK, UsageError, say
-from modern.cli.shared.machine import layers_argument, layers_of
+from modern.cli.shared.machine import layers_of
 from modern.comparison.difference import Disagreement, disagreement
 from modern.comparison.outcome import Outcome, Vector, from_cards, from_hull, from_judge
 from modern.edition import programs
@@ -43,16 +43,6 @@ class Route:
     def fine(self) -> bool:
         """Whether the route agrees; one that could not be run says nothing against the others."""
         return bool(self.obstacle) or (self.found is not None and self.found.agrees)
-
-
-def arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument("points", metavar="POINTS", help="a data deck, CSV points x,y,z or an OFF file")
-    parser.add_argument(
-        "--epsilon", metavar="E", help="chapter 7's e for layer epsilon and the port; rel:E, for the port only"
-    )
-    parser.add_argument("--json", metavar="FILE", help="write the comparison as JSON")
-    layers_argument(parser)
 
 
 def main(args: argparse.Namespace) -> int:

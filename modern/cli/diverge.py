@@ -17,26 +17,12 @@ from modern.cli.shared.console import DIFFERS, OK, UsageError
 from modern.cli.shared.machine import (
     layers_of,
     load_program,
-    machine_arguments,
     machine_options,
     number_system,
-    upcase_argument,
 )
 from modern.edition import programs
 
 _NARROWEST, _WIDEST = 40, 120
-
-
-def arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument("program", metavar="PROGRAM.f")
-    parser.add_argument("deck", metavar="DECK", help="data cards: for program2 and program3 those program 1 punches")
-    parser.add_argument("--against", metavar="NAME", default="exact", help="the reference (default: exact)")
-    parser.add_argument("--first", action="store_true", help="stop at the first decision that differs; no values")
-    parser.add_argument("--json", metavar="FILE", help="write the comparison as JSON")
-    machine_arguments(parser)
-    upcase_argument(parser)
-    parser.set_defaults(limit=1_000_000)
 
 
 def main(args: argparse.Namespace) -> int:

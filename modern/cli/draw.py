@@ -12,14 +12,6 @@ from modern.drawing.draw import draw_svg
 from modern.drawing.scene import eye_of
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument("points", metavar="POINTS", help="a data deck, CSV points x,y,z or an OFF file")
-    parser.add_argument("-o", "--output", metavar="FILE.svg", default="-")
-    parser.add_argument("--eye", metavar="X,Y,Z", help="the direction to the eye; write --eye=-1,2,3 before a minus")
-    parser.add_argument("--title", metavar="TEXT", help="the line below the picture (default: the name of the file)")
-
-
 def main(args: argparse.Namespace) -> int:
     """Read the points, find the hull, write the picture."""
     eye = None if args.eye is None else eye_of(args.eye.split(","))

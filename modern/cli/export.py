@@ -5,20 +5,9 @@ from __future__ import annotations
 import argparse
 
 from modern.cli.shared.console import DIFFERS, OK, UsageError, say
-from modern.formats import format_of, write_hull
+from modern.formats.hulls import format_of, write_hull
 from modern.formats.points import read_input
 from modern.geometry.hull import Hull
-
-
-def arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument("points", metavar="POINTS", help="a data deck, CSV points x,y,z or an OFF file")
-    parser.add_argument(
-        "-o", "--output", metavar="FILE", default="-", help="a name ending .off, .obj, .ply, .stl or .json"
-    )
-    parser.add_argument(
-        "--format", choices=("off", "obj", "ply", "stl", "json"), help="the format, where the name does not say it"
-    )
 
 
 def main(args: argparse.Namespace) -> int:

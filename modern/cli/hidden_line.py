@@ -29,31 +29,6 @@ from modern.papers.nakamae_nishita.scenes import (
 _PLOTS = (".hpgl", ".plt")
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument(
-        "scene",
-        metavar="SCENE",
-        help="a scene file .toml, a convex polyhedron .off, points to take the hull of, or cuboids, columns, house",
-    )
-    parser.add_argument(
-        "-o", "--output", metavar="FILE", help="SVG, or HPGL with a name ending .hpgl or .plt (default: SVG to '-')"
-    )
-    parser.add_argument("--eye", metavar="X,Y,Z", help="the direction to the eye; write --eye=-1,2,3 before a minus")
-    parser.add_argument("--perspective", action="store_true", help="--eye is the observation point itself")
-    parser.add_argument("--towards", metavar="X,Y,Z", help="in perspective: the point looked at (default: the middle)")
-    parser.add_argument("--hidden", action="store_true", help="draw hidden lines too, dashed")
-    parser.add_argument("--tables", action="store_true", help="print contours, PL and LP tables with d, and indices")
-    parser.add_argument(
-        "--without",
-        metavar="MEND,...",
-        default="",
-        help="leave out mends of the paper's gaps: enclosed, touching, ends; or its own ghosts",
-    )
-    parser.add_argument("--title", metavar="TEXT", help="the line below the picture (default: the scene's)")
-    parser.add_argument("--width", metavar="PIXELS", type=int, default=640, help="of the SVG (default: 640)")
-
-
 def main(args: argparse.Namespace) -> int:
     """Read the scene, find what is hidden, print what is asked for, write the picture."""
     output = args.output or (None if args.tables else "-")

@@ -16,30 +16,12 @@ from modern.cli.shared.machine import (
     machine_options,
     profile_lines,
     put_out,
-    run_arguments,
     say_notices,
     tracing,
 )
 from modern.edition import programs
 from modern.formats.deck import check
 from modern.thesis.job import HullRun, run_hull
-
-
-def arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument("deck", metavar="DECK")
-    parser.add_argument(
-        "--programs",
-        choices=("listing", "examples"),
-        default="listing",
-        help="which state of program 1 (default: listing)",
-    )
-    parser.add_argument(
-        "--uncut",
-        action="store_true",
-        help="numbers go from program 1 to the next with all their digits, not with the eight a card holds",
-    )
-    run_arguments(parser)
 
 
 def main(args: argparse.Namespace) -> int:

@@ -9,33 +9,8 @@ import sys
 from collections.abc import Sequence
 
 from emulator.errors import EmulatorError
+from modern.cli.arguments import COMMANDS
 from modern.cli.shared.console import BAD_INPUT, OK, Parser, complain
-
-COMMANDS = {
-    "reproduce": "what the thesis and the later papers print, computed, with a verdict on every result",
-    "run": "run a FORTRAN program on the emulated 1620",
-    "hull": "the hull of a data deck: program 1, then 2 or 3 as the typewriter says",
-    "cards": "points to a data deck",
-    "diff": "one point set by the 1963 programs, the port and the exact hull",
-    "diverge": "run a program over two arithmetics and name the first value and the first decision that differ",
-    "study": "many samples, each judged: a table, a plot and plain words",
-    "export": "the exact hull of points as a mesh or as JSON",
-    "draw": "a line drawing of the exact hull of points, as SVG",
-    "appel-will": "the hull of a polyhedron from its convex edges, by Appel & Will",
-    "hidden-line": "convex polyhedra without their hidden lines, by Nakamae & Nishita",
-    "voxel-hull": "the hull of a voxel solid by Kovalevsky and Schulz, or its filled digital hull",
-    "octree-hull": "the digital hull of a voxel solid from its octree, by Yau and Srihari",
-    "apparatus": "the emendations of the listings, row by row",
-    "check": "the compiler's messages for a program",
-    "map": "the storage map of a program",
-    "compile": "the object code of a program",
-    "bench": "the speed of the engines side by side",
-}
-"""Every command, named as its module but for - instead of _, and what ``--help`` says of it.
-
-A command's module defines ``arguments(parser)`` and ``main(args)``, which returns the exit code; it is imported when
-the command is called, so that ``--help`` is quick.
-"""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -50,7 +25,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if sys.stdout is None:
             complain("standard output is closed")
             return BAD_INPUT
-        code: int = args.main(args)
+        code: int = importlib.import_module(f"modern.cli.{args.command.replace('-', '_')}").main(args)
         sys.stdout.flush()
         return code
     except BrokenPipeError:
@@ -73,7 +48,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def build_parser(words: Sequence[str]) -> Parser:
-    """The parser of these words: of all commands, with the arguments of the one that is called."""
+    """The parser of these words: of the one command that is called, or of all."""
     parser = Parser(
         prog="hull1620",
         description="Karen Jensen Butler's convex hull programs of 1963, restored and run on an emulated IBM 1620; "
@@ -83,13 +58,10 @@ def build_parser(words: Sequence[str]) -> Parser:
     )
     parser.add_argument("--version", action="version", version=f"hull1620 {_version()}" if "--version" in words else "")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True, parser_class=Parser)
-    called = next((word for word in words if not word.startswith("-")), "")
-    for name, words_of in COMMANDS.items():
-        command = commands.add_parser(name, help=words_of, description=words_of[0].upper() + words_of[1:] + ".")
-        if name == called:
-            module = importlib.import_module(f"modern.cli.{name.replace('-', '_')}")
-            module.arguments(command)
-            command.set_defaults(main=module.main)
+    # Only the command that is called needs its parser; the list of all is for --help and for names there are not.
+    for name in words[:1] if words and words[0] in COMMANDS else COMMANDS:
+        says, arguments = COMMANDS[name]
+        arguments(commands.add_parser(name, help=says, description=says[0].upper() + says[1:] + "."))
     return parser
 
 

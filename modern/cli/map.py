@@ -8,20 +8,12 @@ from collections.abc import Iterator
 from emulator.language.objectcode import Program, code_positions
 from emulator.language.storage import FIELD, core_address
 from modern.cli.shared.console import OK
-from modern.cli.shared.machine import layers_argument, layers_of, load_program, upcase_argument
+from modern.cli.shared.machine import layers_of, load_program
 from modern.edition import programs
 from modern.formats.deck import MAX_POINTS
 from modern.thesis.capacity import array_lengths, largest
 
 _PLURALS = {"constant": "constants", "temporary": "temporaries", "statement number": "statement numbers"}
-
-
-def arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument("program", metavar="PROGRAM.f")
-    parser.add_argument("--core", type=int, choices=(20000, 40000, 60000), default=40000)
-    layers_argument(parser)
-    upcase_argument(parser)
 
 
 def main(args: argparse.Namespace) -> int:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from emulator.files import check_writable
 from modern.cli.shared.console import DIFFERS, OK, UsageError, counted, say
-from modern.cli.shared.volumes import volume_arguments, volume_of
+from modern.cli.shared.volumes import volume_of
 from modern.digital.volumes import write_npy
 from modern.papers.yau_srihari import OctreeHull, Printed, octree_hull
 from modern.papers.yau_srihari.envelope import Edge, Envelope, Step
@@ -20,20 +20,6 @@ from modern.papers.yau_srihari.printed import LITERAL
 from modern.papers.yau_srihari.quadtree import Place
 
 Point = tuple[int, int, int]
-
-
-def arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
-    volume_arguments(parser)
-    which = parser.add_mutually_exclusive_group()
-    which.add_argument("--literal", action="store_true", help="every statement of the paper as printed")
-    which.add_argument(
-        "--printed",
-        metavar="NAME,...",
-        help="only these as printed: angle, start, triangles, truncation, bound, corners, marks",
-    )
-    parser.add_argument("--trace", action="store_true", help="every edge taken from the queue, and what became of it")
-    parser.add_argument("-o", "--output", metavar="FILE.npy", help="write the filled hull as an array")
 
 
 def main(args: argparse.Namespace) -> int:

@@ -50,14 +50,6 @@ Indented = Callable[[str], Iterable[str]]
 """Wraps and indents a line of explanation."""
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument(
-        "examples", metavar="EXAMPLE", nargs="*", help="1 to 6, a theorem (4.1, 4.2, 4.8) or a paper (default: all)"
-    )
-    parser.add_argument("--json", metavar="FILE", help="write the verdicts as JSON")
-
-
 def main(args: argparse.Namespace) -> int:
     """Run the examples, print the verdicts, write them as JSON if asked."""
     named = list(dict.fromkeys(map(_named, args.examples))) or _names()

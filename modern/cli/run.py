@@ -17,20 +17,10 @@ from modern.cli.shared.machine import (
     machine_options,
     profile_lines,
     put_out,
-    run_arguments,
     say_notices,
     tracing,
-    upcase_argument,
 )
 from modern.thesis.job import refusal
-
-
-def arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument("program", metavar="PROGRAM.f")
-    parser.add_argument("deck", metavar="DECK", nargs="?", help="data cards, one a line")
-    run_arguments(parser)
-    upcase_argument(parser)
 
 
 def main(args: argparse.Namespace) -> int:

@@ -8,21 +8,6 @@ import sys
 from modern.cli.shared.console import OK
 
 
-def arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument("name", metavar="NAME", nargs="?", help="a study built in, or a plan file NAME.toml")
-    parser.add_argument("--list", action="store_true", help="list the studies built in")
-    parser.add_argument("--samples", metavar="N", type=int, help="samples (--list: the sets they make)")
-    parser.add_argument("--seed", metavar="S", type=int, help="the seed of all samples (default: 1963)")
-    parser.add_argument("--workers", metavar="W", type=int, help="processes (default: one a processor)")
-    parser.add_argument(
-        "--dask", metavar="ADDRESS", help="the scheduler of a dask.distributed cluster, for its workers"
-    )
-    parser.add_argument("--out", metavar="DIR", help="the study's folder (default: its name)")
-    parser.add_argument("--resume", action="store_true", help="go on with the study begun in the folder")
-    parser.add_argument("--quiet", action="store_true", help="no progress")
-
-
 def main(args: argparse.Namespace) -> int:
     """Carry out the study named, or list those there are."""
     # Here, so that its --help need not wait for all that studies import.

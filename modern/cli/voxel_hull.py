@@ -7,9 +7,10 @@ from collections.abc import Iterator
 
 from emulator.files import check_writable, write_text
 from modern.cli.shared.console import OK, UsageError, counted
-from modern.cli.shared.volumes import volume_arguments, volume_of
+from modern.cli.shared.volumes import volume_of
 from modern.digital.volumes import Volume, write_npy
-from modern.formats import FORMATS, mesh_text
+from modern.formats import MESHES
+from modern.formats.hulls import mesh_text
 from modern.geometry.mesh import Mesh
 from modern.papers.kovalevsky_schulz import (
     CENTRES,
@@ -23,28 +24,6 @@ from modern.papers.kovalevsky_schulz import (
     voxel_hull,
 )
 from modern.papers.kovalevsky_schulz.tables import all_rows, cell_list_size, economical_size, triangulation_size
-
-
-def arguments(parser: argparse.ArgumentParser) -> None:
-    """The arguments of the command."""
-    volume_arguments(parser)
-    which = parser.add_mutually_exclusive_group()
-    which.add_argument("--centres", action="store_true", help="the hull of the voxels' centres")
-    which.add_argument(
-        "--vertices",
-        action="store_true",
-        help="of the voxels' corners (default): from (x, y, z) to (x+1, y+1, z+1) for voxel (x, y, z)",
-    )
-    parser.add_argument(
-        "--corners", type=int, choices=(6, 26), help="neighbours tested for local corners (default: 26)"
-    )
-    parser.add_argument(
-        "--coplanar", choices=("visible", "invisible"), help="faces in a plane with a new point (default: visible)"
-    )
-    parser.add_argument("--straight", action="store_true", help="merge edges in one line too, for --cells and -o")
-    parser.add_argument("--cells", action="store_true", help="print the cell list: vertices, edges and faces")
-    parser.add_argument("--fill", action="store_true", help="fill the hull of the centres; -o FILE.npy writes it")
-    parser.add_argument("-o", "--output", metavar="FILE", help="a mesh (.off, .obj, .ply, .stl); with --fill an array")
 
 
 def main(args: argparse.Namespace) -> int:
@@ -93,10 +72,9 @@ def _form(args: argparse.Namespace) -> str | None:
         if not args.output.lower().endswith(".npy"):
             raise UsageError(f"{args.output}: a filled hull is written as an array; the name must end with .npy")
         return None
-    meshes = [form for form in FORMATS if form != "json"]
     form: str = args.output.rpartition(".")[2].lower()
-    if form not in meshes:
-        raise UsageError(f"{args.output}: the name must end with one of {', '.join('.' + name for name in meshes)}")
+    if form not in MESHES:
+        raise UsageError(f"{args.output}: the name must end with one of {', '.join('.' + name for name in MESHES)}")
     return form
 
 

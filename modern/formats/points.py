@@ -11,12 +11,10 @@ from dataclasses import dataclass
 from emulator.errors import FileError
 from emulator.files import read_text, source_name
 from emulator.language.cards import deck_from_text
-from modern.formats import csv
+from modern.formats import POINTS, csv
 from modern.formats.deck import exact_points
 from modern.formats.off import parse_off
 from modern.geometry.numbers import Point, shown
-
-DECK, CSV, OFF = "deck", "csv", "off"
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,15 +38,14 @@ def read_input(path: str) -> Input:
 
 def parse_input(text: str, source: str) -> Input:
     """Points from a file's text.  Raises EmulatorError (one line)."""
-    kind = recognise(text, source)
-    found = {DECK: _deck, CSV: _csv, OFF: _off}[kind](text, source)
+    found = _READERS[recognise(text, source)](text, source)
     if not found.points:
         raise FileError(f"{source}: there are no points")
     return found
 
 
 def recognise(text: str, source: str) -> str:
-    """What a file is: ``deck``, ``csv`` or ``off``, by its first line that is neither blank nor a comment of OFF.
+    """Which of ``POINTS`` a file is, by its first line that is neither blank nor a comment of OFF.
 
     A word that ends with OFF begins an OFF file; a comma makes it CSV; a number alone is a deck's first card.  Else
     the ending of the file's name decides.  Raises FileError.
@@ -59,13 +56,13 @@ def recognise(text: str, source: str) -> str:
         raise FileError(f"{source}: there are no points")
     words = first.split()
     if words[0].isalnum() and words[0].upper().endswith("OFF"):
-        return OFF
+        return "off"
     if "," in first:
-        return CSV
+        return "csv"
     if len(words) == 1 and words[0].isdecimal() and words[0].isascii():
-        return DECK
+        return "deck"
     ending = source.rpartition(".")[2].lower()
-    if ending in (DECK, CSV, OFF):
+    if ending in POINTS:
         return ending
     raise FileError(
         f"{source}: line {line}, column 1: {shown(first)} is neither the first card of a deck (N in columns 1-2) "
@@ -75,14 +72,17 @@ def recognise(text: str, source: str) -> str:
 
 def _deck(text: str, source: str) -> Input:
     points, notes = exact_points(deck_from_text(source, text))
-    return Input(source, DECK, tuple(points.values()), tuple(f"card {number}" for number in points), notes)
+    return Input(source, "deck", tuple(points.values()), tuple(f"card {number}" for number in points), notes)
 
 
 def _csv(text: str, source: str) -> Input:
     points, lines = csv.points(text, source)
-    return Input(source, CSV, points, tuple(f"line {line}" for line in lines))
+    return Input(source, "csv", points, tuple(f"line {line}" for line in lines))
 
 
 def _off(text: str, source: str) -> Input:
     found = parse_off(text, source)
-    return Input(source, OFF, found.points, tuple(f"line {line}" for line in found.lines))
+    return Input(source, "off", found.points, tuple(f"line {line}" for line in found.lines))
+
+
+_READERS = {"deck": _deck, "csv": _csv, "off": _off}

@@ -27,68 +27,6 @@ from modern.edition import programs
 _MOST_RUN = 10
 
 
-def layers_argument(parser: argparse.ArgumentParser) -> None:
-    """``--layers``."""
-    parser.add_argument(
-        "--layers",
-        metavar="LAYER,...",
-        default="",
-        help="layers of the apparatus added to a built-in program",
-    )
-
-
-def upcase_argument(parser: argparse.ArgumentParser) -> None:
-    """``--upcase``."""
-    parser.add_argument("--upcase", action="store_true", help="read small letters of the program as capitals")
-
-
-def run_arguments(parser: argparse.ArgumentParser) -> None:
-    """Where the results of a run go, and those of ``machine_arguments``."""
-    parser.add_argument(
-        "--punch", metavar="FILE", default="-", help="where punched cards go (default: standard output)"
-    )
-    parser.add_argument("--typewriter", metavar="FILE", help="where typed lines go (default: standard error)")
-    parser.add_argument(
-        "--profile",
-        action="store_true",
-        help="count statements and operations, and give the time on the 1620",
-    )
-    parser.add_argument("--trace", metavar="FILE", help="write every statement with its card and values")
-    machine_arguments(parser)
-
-
-def machine_arguments(parser: argparse.ArgumentParser) -> None:
-    """The machine a program runs on, and ``--layers``."""
-    parser.add_argument(
-        "--switch",
-        metavar="N",
-        type=int,
-        action="append",
-        choices=(1, 2, 3, 4),
-        default=[],
-        help="sense switch N on",
-    )
-    parser.add_argument(
-        "--arithmetic",
-        metavar="NAME",
-        default="truncating",
-        help="truncating, ibm1962, truncating:P, guarded:P, rounding:P, float64, float32, mp:BITS or exact",
-    )
-    parser.add_argument(
-        "--core", type=int, choices=(20000, 40000, 60000), default=40000, help="positions of core storage"
-    )
-    parser.add_argument(
-        "--bounds",
-        choices=("strict", "core"),
-        default="strict",
-        help="a subscript out of bounds: stop, or use the neighbour's place as the machine did",
-    )
-    parser.add_argument(
-        "--limit", metavar="N", type=int, default=5_000_000, help="stop after N statements (default: %(default)s)"
-    )
-    layers_argument(parser)
-
-
 def layers_of(args: argparse.Namespace) -> tuple[str, ...]:
     """The layers asked for by ``--layers``."""
     return tuple(layer.strip() for layer in args.layers.split(",") if layer.strip())

@@ -8,17 +8,6 @@ from modern.cli.shared.console import UsageError, say
 from modern.digital.volumes import Volume, read_volume
 
 
-def volume_arguments(parser: argparse.ArgumentParser) -> None:
-    """VOLUME, ``--shape`` and ``--dtype``."""
-    parser.add_argument(
-        "volume",
-        metavar="VOLUME",
-        help="an NPY, NRRD or raw array, CSV voxels x,y,z, or ball:32, ball:32:vertex, half-ball:18",
-    )
-    parser.add_argument("--shape", metavar="NX,NY,NZ", help="of a raw array, x fastest")
-    parser.add_argument("--dtype", metavar="TYPE", help="of a raw array's numbers (default: uint8)")
-
-
 def volume_of(args: argparse.Namespace) -> Volume:
     """The volume ``VOLUME``, read as ``--shape`` and ``--dtype`` say; its notes go to standard error.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import io
 import json
 import os
@@ -11,6 +12,8 @@ from pathlib import Path
 
 import pytest
 
+from modern.cli import main
+from modern.cli.arguments import COMMANDS
 from tests.support.commands import call
 from tests.support.paths import MACHINE_RUNS
 
@@ -341,13 +344,35 @@ def test_a_deck_from_standard_input(
     assert call(capsys, "hull", "-")[0] == 0
 
 
-def test_help_imports_nothing_heavy() -> None:
-    code = "import sys; sys.argv = ['hull1620', '--help']\n" + (
-        "from modern.cli.main import main\n"
-        "try:\n    main()\nexcept SystemExit:\n    pass\n"
-        "assert not {'numpy', 'lark', 'mpmath'} & set(sys.modules)\n"
-    )
-    subprocess.run([sys.executable, "-c", code], check=True, stdout=subprocess.DEVNULL)
+def test_no_help_imports_what_only_a_run_needs() -> None:
+    # Of the project's own modules help needs the errors and the names of the formats.
+    code = f"""
+import sys, emulator, modern
+from modern.cli.main import main
+for words in ([], *([name] for name in {list(COMMANDS)})):
+    try:
+        main([*words, "--help"])
+    except SystemExit as left:
+        assert left.code == 0, words
+    own = {{name for name in sys.modules if name.startswith(("emulator.", "modern.")) and ".cli" not in name}}
+    assert not {{"numpy", "lark", "mpmath"}} & set(sys.modules), words
+    assert own == {{"emulator.errors", "modern.formats"}}, (words, own)
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.count("usage: hull1620") == len(COMMANDS) + 1
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_a_command_is_a_module_with_a_main_and_its_arguments_stand_with_those_of_all(name: str) -> None:
+    module = importlib.import_module(f"modern.cli.{name.replace('-', '_')}")
+    assert callable(module.main)
+    assert not hasattr(module, "arguments")
+
+
+def test_every_module_of_the_room_is_a_command_or_serves_all() -> None:
+    modules = {path.stem for path in Path(main.__file__).parent.glob("*.py")}
+    assert modules == {name.replace("-", "_") for name in COMMANDS} | {"__init__", "main", "arguments"}
 
 
 def test_a_closed_pipe_is_no_error() -> None:

@@ -22,8 +22,8 @@ from modern.drawing.draw import MOST_NUMBERS, draw_svg
 from modern.drawing.labels import HEIGHT, Label, crosses, place_labels
 from modern.drawing.scene import eye_of
 from modern.drawing.svg import escape, number
-from modern.formats import ExportError
 from modern.geometry.hull import Hull
+from modern.geometry.mesh import ExportError
 from modern.port import convex_hull
 from tests.support.paths import ROOT
 

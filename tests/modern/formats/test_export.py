@@ -14,9 +14,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from emulator.errors import FileError
-from modern.formats import ExportError, export_text, format_of, parse_off, read_off, to_trimesh, write_hull
+from modern.formats.hulls import export_text, format_of, to_trimesh, write_hull
+from modern.formats.off import parse_off, read_off
 from modern.geometry.hull import Face, Hull, Stage
-from modern.geometry.mesh import mesh
+from modern.geometry.mesh import ExportError, mesh
 from modern.geometry.numbers import decimal_text, finite_decimal, integer_text, number
 from modern.port import convex_hull
 

@@ -13,8 +13,8 @@ import pytest
 
 from emulator.errors import EmulatorError
 from modern.cli import export as export_command
-from modern.formats import parse_off
 from modern.formats.deck import coordinate_field, data_deck, exact_points, with_epsilon
+from modern.formats.off import parse_off
 from modern.formats.points import Input, parse_input, read_input, recognise
 from modern.geometry.hull import ERROR, Hull
 from tests.support.commands import call

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from modern.cli.main import build_parser, main
-from modern.formats import read_off
-from modern.papers.appel_will import RULES
+from modern.formats.off import read_off
+from modern.papers.appel_will import PRINTED, RULES
 
 FIG_4 = """OFF
 10 7 15
@@ -196,3 +196,9 @@ def test_choices_of_the_command_are_the_rules(capsys: pytest.CaptureFixture[str]
     for rule in RULES:
         words = ["appel-will", "x", "--inside-corners", rule]
         assert build_parser(words).parse_args(words).inside_corners == rule
+
+
+def test_help_names_every_printed_rule(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        call(capsys, "--help")
+    assert f"as printed: {', '.join(PRINTED)}" in " ".join(capsys.readouterr().out.split())

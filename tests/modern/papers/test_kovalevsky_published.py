@@ -23,7 +23,7 @@ from modern.edition.published import (
     text_of,
 )
 from modern.edition.reproduce import DIFFERENT, EXACT
-from modern.formats import parse_off
+from modern.formats.off import parse_off
 
 PAPER = next(paper for paper in PAPERS if paper.name == "kovalevsky-schulz")
 KINDS = {

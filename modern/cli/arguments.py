@@ -1,0 +1,319 @@
+"""The command line: every command with its arguments, and what ``--help`` says of them.
+
+Nothing here imports what a command needs to run, so that ``--help`` is quick.
+"""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser
+from collections.abc import Callable, Iterable
+
+from modern.formats import HULLS, MESHES, POINTS
+
+
+def _reproduce(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "examples", metavar="EXAMPLE", nargs="*", help="1 to 6, a theorem (4.1, 4.2, 4.8) or a paper (default: all)"
+    )
+    parser.add_argument("--json", metavar="FILE", help="write the verdicts as JSON")
+
+
+def _run(parser: ArgumentParser) -> None:
+    parser.add_argument("program", metavar="PROGRAM.f")
+    parser.add_argument("deck", metavar="DECK", nargs="?", help="data cards, one a line")
+    _results(parser)
+    _upcase(parser)
+
+
+def _hull(parser: ArgumentParser) -> None:
+    parser.add_argument("deck", metavar="DECK")
+    parser.add_argument(
+        "--programs",
+        choices=("listing", "examples"),
+        default="listing",
+        help="which state of program 1 (default: listing)",
+    )
+    parser.add_argument(
+        "--uncut",
+        action="store_true",
+        help="numbers go from program 1 to the next with all their digits, not with the eight a card holds",
+    )
+    _results(parser)
+
+
+def _cards(parser: ArgumentParser) -> None:
+    parser.add_argument("points", metavar="POINTS.csv", help="three decimal numbers a line")
+    parser.add_argument("-o", "--output", metavar="DECK", default="-")
+    parser.add_argument(
+        "--truncate", action="store_true", help="cut digits a card cannot hold instead of refusing them"
+    )
+
+
+def _diff(parser: ArgumentParser) -> None:
+    _points(parser)
+    parser.add_argument(
+        "--epsilon", metavar="E", help="chapter 7's e for layer epsilon and the port; rel:E, for the port only"
+    )
+    parser.add_argument("--json", metavar="FILE", help="write the comparison as JSON")
+    _layers(parser)
+
+
+def _diverge(parser: ArgumentParser) -> None:
+    parser.add_argument("program", metavar="PROGRAM.f")
+    parser.add_argument("deck", metavar="DECK", help="data cards: for program2 and program3 those program 1 punches")
+    parser.add_argument("--against", metavar="NAME", default="exact", help="the reference (default: exact)")
+    parser.add_argument("--first", action="store_true", help="stop at the first decision that differs; no values")
+    parser.add_argument("--json", metavar="FILE", help="write the comparison as JSON")
+    _machine(parser)
+    _upcase(parser)
+    parser.set_defaults(limit=1_000_000)
+
+
+def _study(parser: ArgumentParser) -> None:
+    parser.add_argument("name", metavar="NAME", nargs="?", help="a study built in, or a plan file NAME.toml")
+    parser.add_argument("--list", action="store_true", help="list the studies built in")
+    parser.add_argument("--samples", metavar="N", type=int, help="samples (--list: the sets they make)")
+    parser.add_argument("--seed", metavar="S", type=int, help="the seed of all samples (default: 1963)")
+    parser.add_argument("--workers", metavar="W", type=int, help="processes (default: one a processor)")
+    parser.add_argument(
+        "--dask", metavar="ADDRESS", help="the scheduler of a dask.distributed cluster, for its workers"
+    )
+    parser.add_argument("--out", metavar="DIR", help="the study's folder (default: its name)")
+    parser.add_argument("--resume", action="store_true", help="go on with the study begun in the folder")
+    parser.add_argument("--quiet", action="store_true", help="no progress")
+
+
+def _export(parser: ArgumentParser) -> None:
+    _points(parser)
+    endings = _listed(f".{name}" for name in HULLS)
+    parser.add_argument("-o", "--output", metavar="FILE", default="-", help=f"a name ending {endings}")
+    parser.add_argument("--format", choices=tuple(HULLS), help="the format, where the name does not say it")
+
+
+def _draw(parser: ArgumentParser) -> None:
+    _points(parser)
+    parser.add_argument("-o", "--output", metavar="FILE.svg", default="-")
+    parser.add_argument("--eye", metavar="X,Y,Z", help="the direction to the eye; write --eye=-1,2,3 before a minus")
+    parser.add_argument("--title", metavar="TEXT", help="the line below the picture (default: the name of the file)")
+
+
+def _appel_will(parser: ArgumentParser) -> None:
+    _points(parser, "FILE", " (points and surfaces)")
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument("--literal", action="store_true", help="every rule of the paper as printed")
+    which.add_argument(
+        "--printed", metavar="NAME,...", help="only these as printed: star, step3, step5, step7, step9, step10"
+    )
+    parser.add_argument(
+        "--star",
+        choices=("printed", "mended"),
+        help="the star polygon test, whatever the other rules (default: mended; with --literal: printed)",
+    )
+    parser.add_argument(
+        "--inside-corners",
+        metavar="RULE",
+        choices=("any", "two", "concave"),
+        help="delete points on inside corners first: any (right if no point is on more than three planes), "
+        "two or concave (right always)",
+    )
+    parser.add_argument("--trace", action="store_true", help="the use of every edge after each loop")
+    parser.add_argument("-o", "--output", metavar="FILE.off", help="write the hull as an OFF file too")
+
+
+def _hidden_line(parser: ArgumentParser) -> None:
+    parser.add_argument(
+        "scene",
+        metavar="SCENE",
+        help="a scene file .toml, a convex polyhedron .off, points to take the hull of, or cuboids, columns, house",
+    )
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", help="SVG, or HPGL with a name ending .hpgl or .plt (default: SVG to '-')"
+    )
+    parser.add_argument("--eye", metavar="X,Y,Z", help="the direction to the eye; write --eye=-1,2,3 before a minus")
+    parser.add_argument("--perspective", action="store_true", help="--eye is the observation point itself")
+    parser.add_argument("--towards", metavar="X,Y,Z", help="in perspective: the point looked at (default: the middle)")
+    parser.add_argument("--hidden", action="store_true", help="draw hidden lines too, dashed")
+    parser.add_argument("--tables", action="store_true", help="print contours, PL and LP tables with d, and indices")
+    parser.add_argument(
+        "--without",
+        metavar="MEND,...",
+        default="",
+        help="leave out mends of the paper's gaps: enclosed, touching, ends; or its own ghosts",
+    )
+    parser.add_argument("--title", metavar="TEXT", help="the line below the picture (default: the scene's)")
+    parser.add_argument("--width", metavar="PIXELS", type=int, default=640, help="of the SVG (default: 640)")
+
+
+def _voxel_hull(parser: ArgumentParser) -> None:
+    _volume(parser)
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument("--centres", action="store_true", help="the hull of the voxels' centres")
+    which.add_argument(
+        "--vertices",
+        action="store_true",
+        help="of the voxels' corners (default): from (x, y, z) to (x+1, y+1, z+1) for voxel (x, y, z)",
+    )
+    parser.add_argument(
+        "--corners", type=int, choices=(6, 26), help="neighbours tested for local corners (default: 26)"
+    )
+    parser.add_argument(
+        "--coplanar", choices=("visible", "invisible"), help="faces in a plane with a new point (default: visible)"
+    )
+    parser.add_argument("--straight", action="store_true", help="merge edges in one line too, for --cells and -o")
+    parser.add_argument("--cells", action="store_true", help="print the cell list: vertices, edges and faces")
+    parser.add_argument("--fill", action="store_true", help="fill the hull of the centres; -o FILE.npy writes it")
+    mesh = ", ".join(f".{name}" for name in MESHES)
+    parser.add_argument("-o", "--output", metavar="FILE", help=f"a mesh ({mesh}); with --fill an array")
+
+
+def _octree_hull(parser: ArgumentParser) -> None:
+    _volume(parser)
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument("--literal", action="store_true", help="every statement of the paper as printed")
+    which.add_argument(
+        "--printed",
+        metavar="NAME,...",
+        help="only these as printed: angle, start, triangles, truncation, bound, corners, marks",
+    )
+    parser.add_argument("--trace", action="store_true", help="every edge taken from the queue, and what became of it")
+    parser.add_argument("-o", "--output", metavar="FILE.npy", help="write the filled hull as an array")
+
+
+def _apparatus(parser: ArgumentParser) -> None:
+    parser.add_argument("--program", metavar="N", help="1, 2 or 3")
+    parser.add_argument("--layer", metavar="L")
+    parser.add_argument(
+        "--check",
+        action="store_true",
+        help="prove that witness and rows build the decks, and that each row is needed",
+    )
+
+
+def _program(parser: ArgumentParser) -> None:
+    parser.add_argument("program", metavar="PROGRAM.f")
+    _layers(parser)
+    _upcase(parser)
+
+
+def _map(parser: ArgumentParser) -> None:
+    parser.add_argument("program", metavar="PROGRAM.f")
+    parser.add_argument("--core", type=int, choices=(20000, 40000, 60000), default=40000)
+    _layers(parser)
+    _upcase(parser)
+
+
+def _bench(parser: ArgumentParser) -> None:
+    parser.add_argument("--decks", metavar="N", type=int, default=1000, help="decks of 51 points (default: 1000)")
+    parser.add_argument("--json", metavar="FILE", help="write the figures as JSON")
+
+
+def _results(parser: ArgumentParser) -> None:
+    """Where the results of a run go, and those of ``_machine``."""
+    parser.add_argument(
+        "--punch", metavar="FILE", default="-", help="where punched cards go (default: standard output)"
+    )
+    parser.add_argument("--typewriter", metavar="FILE", help="where typed lines go (default: standard error)")
+    parser.add_argument(
+        "--profile",
+        action="store_true",
+        help="count statements and operations, and give the time on the 1620",
+    )
+    parser.add_argument("--trace", metavar="FILE", help="write every statement with its card and values")
+    _machine(parser)
+
+
+def _machine(parser: ArgumentParser) -> None:
+    """The machine a program runs on, and ``--layers``."""
+    parser.add_argument(
+        "--switch",
+        metavar="N",
+        type=int,
+        action="append",
+        choices=(1, 2, 3, 4),
+        default=[],
+        help="sense switch N on",
+    )
+    parser.add_argument(
+        "--arithmetic",
+        metavar="NAME",
+        default="truncating",
+        help="truncating, ibm1962, truncating:P, guarded:P, rounding:P, float64, float32, mp:BITS or exact",
+    )
+    parser.add_argument(
+        "--core", type=int, choices=(20000, 40000, 60000), default=40000, help="positions of core storage"
+    )
+    parser.add_argument(
+        "--bounds",
+        choices=("strict", "core"),
+        default="strict",
+        help="a subscript out of bounds: stop, or use the neighbour's place as the machine did",
+    )
+    parser.add_argument(
+        "--limit", metavar="N", type=int, default=5_000_000, help="stop after N statements (default: %(default)s)"
+    )
+    _layers(parser)
+
+
+def _layers(parser: ArgumentParser) -> None:
+    """``--layers``."""
+    parser.add_argument(
+        "--layers",
+        metavar="LAYER,...",
+        default="",
+        help="layers of the apparatus added to a built-in program",
+    )
+
+
+def _upcase(parser: ArgumentParser) -> None:
+    """``--upcase``."""
+    parser.add_argument("--upcase", action="store_true", help="read small letters of the program as capitals")
+
+
+def _points(parser: ArgumentParser, metavar: str = "POINTS", more: str = "") -> None:
+    """A file of points, of any format that is read."""
+    parser.add_argument("points", metavar=metavar, help=_listed(POINTS.values()) + more)
+
+
+def _volume(parser: ArgumentParser) -> None:
+    """VOLUME, ``--shape`` and ``--dtype``."""
+    parser.add_argument(
+        "volume",
+        metavar="VOLUME",
+        help="an NPY, NRRD or raw array, CSV voxels x,y,z, or ball:32, ball:32:vertex, half-ball:18",
+    )
+    parser.add_argument("--shape", metavar="NX,NY,NZ", help="of a raw array, x fastest")
+    parser.add_argument("--dtype", metavar="TYPE", help="of a raw array's numbers (default: uint8)")
+
+
+def _listed(names: Iterable[str]) -> str:
+    *others, last = names
+    return f"{', '.join(others)} or {last}"
+
+
+COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {
+    "reproduce": ("what the thesis and the later papers print, computed, with a verdict on every result", _reproduce),
+    "run": ("run a FORTRAN program on the emulated 1620", _run),
+    "hull": ("the hull of a data deck: program 1, then 2 or 3 as the typewriter says", _hull),
+    "cards": ("points to a data deck", _cards),
+    "diff": ("one point set by the 1963 programs, the port and the exact hull", _diff),
+    "diverge": (
+        "run a program over two arithmetics and name the first value and the first decision that differ",
+        _diverge,
+    ),
+    "study": ("many samples, each judged: a table, a plot and plain words", _study),
+    "export": ("the exact hull of points as a mesh or as JSON", _export),
+    "draw": ("a line drawing of the exact hull of points, as SVG", _draw),
+    "appel-will": ("the hull of a polyhedron from its convex edges, by Appel & Will", _appel_will),
+    "hidden-line": ("convex polyhedra without their hidden lines, by Nakamae & Nishita", _hidden_line),
+    "voxel-hull": ("the hull of a voxel solid by Kovalevsky and Schulz, or its filled digital hull", _voxel_hull),
+    "octree-hull": ("the digital hull of a voxel solid from its octree, by Yau and Srihari", _octree_hull),
+    "apparatus": ("the emendations of the listings, row by row", _apparatus),
+    "check": ("the compiler's messages for a program", _program),
+    "map": ("the storage map of a program", _map),
+    "compile": ("the object code of a program", _program),
+    "bench": ("the speed of the engines side by side", _bench),
+}
+"""Every command, named as its module but for - instead of _: what ``--help`` says of it, and its arguments.
+
+A command's module defines ``main(args)``, which returns the exit code.
+"""
