@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from importlib.resources import files
 from typing import Any
 
-from lark import Lark, Token, Transformer, UnexpectedCharacters, UnexpectedInput, UnexpectedToken
+from lark import Lark, Token, Transformer, Tree, UnexpectedCharacters, UnexpectedInput, UnexpectedToken
 from lark.exceptions import VisitError
 
 from emulator.errors import Diagnostic, Refused
@@ -92,7 +92,7 @@ def parse_statement(source: Source) -> tree.Statement:
         raise Refused(source.place, f"parentheses are nested more than {MAX_NESTING} deep")
     number = _NUMBERS.get(source.kind, 0)
     try:
-        body = _Builder(source.places).transform(_grammar().parse(source.text, start=source.kind))
+        body = _Builder(source.places).transform(_tree(source.text, source.kind))
     except UnexpectedCharacters as error:
         at = source.places[error.pos_in_stream or 0]
         raise Refused(at, f"{error.char!r} does not fit here; the form is {_FORMS[source.kind]}", number) from None
@@ -128,6 +128,12 @@ def _depth(text: str) -> int:
         depth += (char == "(") - (char == ")")
         deepest = max(deepest, depth)
     return deepest
+
+
+@lru_cache(1024)
+def _tree(text: str, kind: str) -> Tree[Token]:
+    """Lark's tree; the same for the same text on any card, as programs repeat themselves and one another."""
+    return _grammar().parse(text, start=kind)
 
 
 @cache

@@ -16,9 +16,12 @@ from emulator.language.cards import Card, Deck
 from emulator.language.tree import Place
 
 LAST_COLUMN = 72
+_FIRST = 7
+"""Where a continuation card's text begins."""
 _CAPITALS = str.maketrans(ascii_lowercase, ascii_uppercase)
 
 _VERB = re.compile(r"READ|ACCEPT|PUNCH|PRINT|TYPE")
+_BEFORE = re.compile(r"[ 0-9]*")
 _FORMAT = re.compile(r"\s*F\s*O\s*R\s*M\s*A\s*T\s*\(")
 _DO = re.compile(r"DO\d+,?[A-Z][A-Z0-9]*=")
 _PREFIXES = (
@@ -127,27 +130,26 @@ def _continues(card: Card) -> bool:
 
 
 def _source(cards: tuple[Card, ...]) -> Source:
-    columns: list[tuple[str, Place]] = []
-    for n, card in enumerate(cards):
-        first = 1 if n == 0 else 7
-        columns.extend((char, Place(card.number, first + i)) for i, char in enumerate(card.columns(first, LAST_COLUMN)))
-    label, start = "", len(columns)
-    for i, (char, _) in enumerate(columns):
-        if char.isdigit():
-            label += char
-        elif char != " ":
-            start = i
-            break
-    body = columns[start:]
-    place = body[0][1] if body else next(where for char, where in columns if char != " ")
-    raw = "".join(char for char, _ in body)
-    match = _FORMAT.match(raw)
+    raw = cards[0].columns(1, LAST_COLUMN) + "".join(card.columns(_FIRST, LAST_COLUMN) for card in cards[1:])
+    before = _BEFORE.match(raw)
+    start = before.end() if before else 0
+    label = raw[:start].replace(" ", "")
+    place = _place(cards, start if start < len(raw) else raw.index(label[0]))
+    match = _FORMAT.match(raw, start)
     if match:
-        rest = body[match.end() - 1 :]
-        return Source(label, "format", "".join(c for c, _ in rest), tuple(p for _, p in rest), place, cards)
-    dense = [(char, where) for char, where in body if char != " "]
-    text = "".join(char for char, _ in dense)
-    return Source(label, classify(text), text, tuple(p for _, p in dense), place, cards)
+        kept = range(match.end() - 1, len(raw))
+        return Source(label, "format", raw[kept.start :], tuple(_place(cards, i) for i in kept), place, cards)
+    text = raw[start:].replace(" ", "")
+    places = tuple(_place(cards, i) for i in range(start, len(raw)) if raw[i] != " ")
+    return Source(label, classify(text), text, places, place, cards)
+
+
+def _place(cards: tuple[Card, ...], index: int) -> Place:
+    """Where a character of a statement stands: all of its first card, of each other from the seventh column on."""
+    if index < LAST_COLUMN:
+        return Place(cards[0].number, index + 1)
+    card, column = divmod(index - LAST_COLUMN, LAST_COLUMN - _FIRST + 1)
+    return Place(cards[card + 1].number, column + _FIRST)
 
 
 def _top_level(text: str, wanted: str) -> int:
