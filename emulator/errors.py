@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 
 
 class EmulatorError(Exception):
@@ -44,13 +44,17 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class Diagnostic:
-    """A message of the compiler: ``number`` is IBM's error type where one is known (C26-5619 p. 56), else 0."""
+    """A message of the compiler: ``number`` is IBM's error type where one is known (C26-5619 p. 56), else 0.
+
+    ``about``: a name or a statement of another FORTRAN, of which a deck's messages speak once (:func:`said_once`).
+    """
 
     card: int
     column: int
     message: str
     number: int = 0
     warning: bool = False
+    about: str = ""
 
     def line(self, source: str) -> str:
         kind = "warning" if self.warning else ("error" if not self.number else f"error {self.number}")
@@ -58,15 +62,35 @@ class Diagnostic:
         return f"{source}: {where}: {kind}: {self.message}"
 
 
+def said_once(diagnostics: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
+    """The messages in order of cards; of those about one thing the first, with the cards of the others."""
+    ordered = sorted(dict.fromkeys(diagnostics), key=lambda d: (d.card, d.column))
+    cards: dict[str, list[int]] = {}
+    for message in ordered:
+        if message.about:
+            cards.setdefault(message.about, []).append(message.card)
+    for message in ordered:
+        if not message.about:
+            yield message
+        elif also := list(dict.fromkeys(cards.pop(message.about, ()))):
+            more = also[1:]
+            yield replace(message, message=message.message + _also(more)) if more else message
+
+
+def _also(cards: list[int]) -> str:
+    shown = ", ".join(map(str, cards[:4])) + (f" and {len(cards) - 4} more" if len(cards) > 4 else "")
+    return f" (also on card{'s' * (len(cards) > 1)} {shown})"
+
+
 class Refused(Exception):
     """A statement or a specification the compiler refuses, while it is being read; it goes on with the next statement.
 
-    ``number`` is as of :class:`Diagnostic`.
+    ``number`` and ``about`` are as of :class:`Diagnostic`.
     """
 
-    def __init__(self, place: Place, message: str, number: int = 0) -> None:
+    def __init__(self, place: Place, message: str, number: int = 0, about: str = "") -> None:
         super().__init__(message)
-        self.diagnostic = Diagnostic(place.card, place.column, message, number)
+        self.diagnostic = Diagnostic(place.card, place.column, message, number, about=about)
 
 
 class CompileError(EmulatorError):

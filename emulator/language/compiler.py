@@ -11,11 +11,12 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
-from emulator.errors import CompileError, DeckError, Diagnostic, Refused
+from emulator.errors import CompileError, DeckError, Diagnostic, Refused, said_once
 from emulator.language import objectcode as op
 from emulator.language import tree
 from emulator.language.cards import Deck
-from emulator.language.expressions import LIBRARY, Emitter, Operand, is_fixed_name
+from emulator.language.expressions import LIBRARY, Emitter, Operand, function_of, is_fixed_name, unknown_function
+from emulator.language.foreign import references
 from emulator.language.formats import FormatSpec, parse_format
 from emulator.language.objectcode import Line, Program
 from emulator.language.parser import parse
@@ -60,10 +61,10 @@ def translate(deck: Deck) -> tuple[Program | None, tuple[Diagnostic, ...]]:
     parsed = parse(deck)
     if not parsed.statements and not parsed.diagnostics:
         raise DeckError(f"{deck.source}: the source deck has no statement")
-    translation = _Translation(deck.source, parsed.statements, refused=parsed.refused)
+    translation = _Translation(deck.source, parsed.statements, refused=parsed.refused, strangers=parsed.strangers)
     translation.diagnostics.extend(parsed.diagnostics)
     translation.run(broken=any(not message.warning for message in parsed.diagnostics))
-    messages = tuple(sorted(dict.fromkeys(translation.diagnostics), key=lambda d: (d.card, d.column)))
+    messages = tuple(said_once(translation.diagnostics))
     failed = any(not d.warning for d in messages)
     return (None if failed else translation.program()), messages
 
@@ -90,17 +91,20 @@ class _Translation:
     open_dos: list[_OpenDo] = field(default_factory=list)
     lines: list[Line] = field(default_factory=list)
     refused: frozenset[str] = frozenset()
+    strangers: frozenset[str] = frozenset()
     ended: bool = False
 
     def run(self, broken: bool) -> None:
         self._collect_formats()
         self._check_labels()
+        self._check_functions()
         for statement in self.statements:
             behind_end = self.ended
             try:
                 self._statement(statement)
             except Refused as refused:
-                self.diagnostics.append(refused.diagnostic)
+                if not any(reference.name in self.strangers for reference in references(statement.body)):
+                    self.diagnostics.append(refused.diagnostic)
             if not behind_end:
                 self._close_dos(statement)
         for do in self.open_dos:
@@ -165,6 +169,17 @@ class _Translation:
                 self._error(statement.place, f"statement number {statement.label} stands on card {first} already")
             seen.setdefault(statement.label, statement.place)
 
+    def _check_functions(self) -> None:
+        """Every function there is not, also beside another mistake of its statement."""
+        bodies = [statement.body for statement in self.statements]
+        arrays = {name for body in bodies if isinstance(body, tree.Dimension) for name, _, _ in body.arrays}
+        for body in bodies:
+            read = body.value if isinstance(body, tree.Assignment) else body
+            for found in references(read):
+                known = found.name in arrays or found.name in self.strangers or function_of(found, self.emitter.arrays)
+                if found.arguments and not known:
+                    self.diagnostics.append(unknown_function(found).diagnostic)
+
     def _why_no_target(self, label: int) -> str:
         if label in self.formats:
             return f"statement {label} is a FORMAT; a program cannot go there"
@@ -224,7 +239,8 @@ class _Translation:
     def _assignment(self, body: tree.Assignment) -> None:
         emitter, target = self.emitter, body.target
         if target.arguments and target.name not in emitter.arrays:
-            raise Refused(target.place, f"{target.name} is not an array (no DIMENSION before this card)")
+            message = f"{target.name} is not an array (no DIMENSION before this card)"
+            raise Refused(target.place, message, about=target.name)
         to_fixed, from_fixed = is_fixed_name(target.name), emitter.fixed(body.value)
         place = emitter.variable(target)
         source = emitter.simple(body.value)

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 
 from emulator.errors import Refused
 from emulator.language import objectcode as op
+from emulator.language.foreign import advice
 from emulator.language.objectcode import Counter, Instruction, Subscript
 from emulator.language.storage import Allocator
 from emulator.language.tree import Expression, Number, Power, Product, Reference, Sum
@@ -93,7 +94,7 @@ class Emitter:
         shape = self.arrays.get(reference.name)
         if shape is None:
             if reference.arguments:
-                raise Refused(reference.place, f"{reference.name} is neither an array nor a library function")
+                raise unknown_function(reference)
             return Operand(self.allocator.place("variable", reference.name).first)
         if not reference.arguments:
             raise Refused(reference.place, f"the array {reference.name} needs a subscript here")
@@ -272,6 +273,12 @@ def function_of(reference: Reference, arrays: dict[str, tuple[int, ...]]) -> str
         return ""
     name = reference.name.removesuffix("F")
     return name if name in LIBRARY else ""
+
+
+def unknown_function(reference: Reference) -> Refused:
+    """The refusal of a name with arguments that is neither an array nor a library function."""
+    message = f"{reference.name} is neither an array nor a library function; {advice(reference.name, LIBRARY)}"
+    return Refused(reference.place, message, about=reference.name)
 
 
 def _unsigned(expression: Expression) -> tuple[Expression, bool]:

@@ -6,15 +6,20 @@ records), p. 56 (error types 10 to 12).  Parenthesised groups: OPEN-QUESTIONS 5.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 from emulator.errors import Diagnostic, Refused
+from emulator.language.foreign import FIELDS
 from emulator.language.tree import Format, Place
 from emulator.numbers.fields import Field, FieldKind
 
 MAX_LITERAL = 49
 MAX_RECORD = 87
+_ENDS = {",": "comma", "/": "slash", ")": "parenthesis"}
+_SWALLOWED = re.compile(r",\s*\d*$")
+_TRIES = 3
 _KINDS: dict[str, FieldKind] = {"E": "E", "F": "F", "I": "I"}
 
 
@@ -67,13 +72,15 @@ def _refused(place: Place, message: str, number: int = 11) -> Refused:
 
 
 def parse_format(statement: Format) -> tuple[FormatSpec, tuple[Diagnostic, ...]]:
-    """The specification of a FORMAT statement and the compiler's warnings.  Raises Refused."""
+    """The specification of a FORMAT statement and the compiler's warnings.  Raises Refused.
+
+    Where a FORMAT does not parse, and would with another width of the last Hollerith field read, that width is named.
+    """
     reader = _Reader(statement)
-    if reader.peek() != "(":
-        raise _refused(reader.place(), "a FORMAT's specification begins with a parenthesis")
-    specs = reader.group()
-    reader.expect_end()
-    spec = FormatSpec(tuple(specs), reader.again)
+    try:
+        spec = reader.specification()
+    except Refused as refused:
+        raise _miscounted(reader) or refused from None
     warnings = list(reader.warnings)
     widest = max(spec.widths())
     if widest > MAX_RECORD:
@@ -83,13 +90,42 @@ def parse_format(statement: Format) -> tuple[FormatSpec, tuple[Diagnostic, ...]]
     return spec, tuple(warnings)
 
 
+def _miscounted(failed: _Reader) -> Refused | None:
+    """What is wrong with the width of the last Hollerith field, if there is a width with which the FORMAT parses.
+
+    Too wide, the field took in what ends its text; too narrow, it left some of its text, where the reading failed.
+    """
+    if failed.hollerith is None:
+        return None
+    begun, start, width = failed.hollerith
+    text, end = failed.text, start + width
+    widths = [at - start for at in range(min(end, len(text)) - 1, start, -1) if text[at] in _ENDS]
+    if failed.begun == begun or (failed.begun >= end and not text[end : failed.begun].strip()):
+        widths[_TRIES:] = [at - start for at in range(end, len(text)) if text[at] in _ENDS]
+    for fit in widths[: 2 * _TRIES]:
+        try:
+            _Reader(failed.statement, (start, fit)).specification()
+        except Refused:
+            continue
+        what = f"takes in the {_ENDS[text[start + fit]]} after its text" if fit < width else "ends within its text"
+        return _refused(failed.places[begun], f"{width}H {what}; {fit}H would fit")
+    return None
+
+
 class _Reader:
-    """One pass over the columns; ``group`` calls itself for a parenthesised group."""
+    """One pass over the columns; ``group`` calls itself for a parenthesised group.
+
+    ``instead``: where the text of a Hollerith field starts, and the width to give it.  ``begun`` is where the last
+    specification began; ``hollerith`` where the last Hollerith field and its text began, and its width.
+    """
 
     MAX_FIELDS = 2000
 
-    def __init__(self, statement: Format) -> None:
+    def __init__(self, statement: Format, instead: tuple[int, int] | None = None) -> None:
+        self.statement, self.instead = statement, instead
         self.text, self.places = statement.text, statement.places
+        self.begun = 0
+        self.hollerith: tuple[int, int, int] | None = None
         self.at = 0
         self.count = 0
         self.again = 0
@@ -102,6 +138,15 @@ class _Reader:
         while self.at < len(self.text) and self.text[self.at] == " ":
             self.at += 1
         return self.text[self.at] if self.at < len(self.text) else ""
+
+    def specification(self) -> FormatSpec:
+        """The whole FORMAT, from its parenthesis on."""
+        if self.peek() != "(":
+            raise _refused(self.place(), "a FORMAT's specification begins with a parenthesis")
+        specs = self.group()
+        if self.peek():
+            raise _refused(self.place(), f"{self.peek()!r} after the end of the FORMAT")
+        return FormatSpec(tuple(specs), self.again)
 
     def number(self) -> str:
         digits = ""
@@ -145,7 +190,8 @@ class _Reader:
 
     def one(self, depth: int) -> tuple[list[Spec], bool]:
         """One specification with its repeat count; also whether a comma must follow it."""
-        start = self.place()
+        self.peek()
+        self.begun, start = self.at, self.place()
         count = self.number()
         letter = self.peek()
         if letter == "(":
@@ -154,6 +200,8 @@ class _Reader:
             if not count:
                 raise _refused(start, f"{letter} needs its width before it")
             return [self.literal(letter, int(count), start)], False
+        if letter in FIELDS:
+            raise Refused(self.place(), FIELDS[letter], 11, about=f"{letter} field")
         if letter not in ("I", "E", "F"):
             raise _refused(
                 self.place(), f"{letter or 'the end'!r} is not a specification; there are I, E, F, X, H and /"
@@ -182,7 +230,7 @@ class _Reader:
         return int(count or 1)
 
     def literal(self, letter: str, width: int, start: Place) -> Literal:
-        self.at += 1
+        begun, self.at = self.begun, self.at + 1
         if width == 0:
             raise _refused(start, f"0{letter} has no width")
         if width > MAX_LITERAL:
@@ -190,12 +238,15 @@ class _Reader:
             self.warnings.append(Diagnostic(start.card, start.column, message, 11, warning=True))
         if letter == "X":
             return Literal(" " * width, skip=True)
+        if self.instead and self.instead[0] == self.at:
+            width = self.instead[1]
+        self.hollerith = begun, self.at, width
         text = self.text[self.at : self.at + width]
         if len(text) < width:
             raise _refused(start, f"{width}H runs past the end of the card")
         self.at += width
+        swallowed = _SWALLOWED.search(text)
+        if swallowed and swallowed.start() and self.peek() and self.peek() not in _ENDS:
+            message = f"{width}H takes in a comma, and none follows; {swallowed.start()}H if it is not of the text"
+            self.warnings.append(Diagnostic(start.card, start.column, message, 11, warning=True))
         return Literal(text)
-
-    def expect_end(self) -> None:
-        if self.peek():
-            raise _refused(self.place(), f"{self.peek()!r} after the end of the FORMAT")

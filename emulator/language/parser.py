@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from importlib.resources import files
@@ -14,6 +15,7 @@ from lark.exceptions import VisitError
 from emulator.errors import Diagnostic, Refused
 from emulator.language import tree
 from emulator.language.cards import Card, Deck
+from emulator.language.foreign import STATEMENT_FUNCTION, Word, declared, word_of
 from emulator.language.statements import Source, is_comment, may_be_comment, resembles_statement, sources
 
 _STARTS = ("assignment go_to computed_go_to if if_switch do continue pause stop end dimension input_output").split()
@@ -34,7 +36,7 @@ _FORMS = {
 }
 
 _NUMBERS = {"if_switch": 7, "do": 8, "dimension": 9, "input_output": 13}
-"""Error types of C26-5619 p. 56 by the form they belong to."""
+"""Error types of C26-5619 p. 56 by the form they belong to; an IF with a comma after its parenthesis is type 7 too."""
 
 MAX_NESTING = 60
 _FORMAT_LIKE = re.compile(r"FO[A-Z]*\(")
@@ -44,12 +46,14 @@ _FORMAT_LIKE = re.compile(r"FO[A-Z]*\(")
 class Parsed:
     """What the parser made of a deck: the statements that parse, and a message for each that does not.
 
-    ``refused`` holds the statement numbers of those that do not.
+    ``refused`` holds the statement numbers of those that do not; ``strangers`` the names that statements of another
+    FORTRAN make arrays or functions, so that what uses them cannot be judged.
     """
 
     statements: tuple[tree.Statement, ...]
     diagnostics: tuple[Diagnostic, ...]
     refused: frozenset[str] = frozenset()
+    strangers: frozenset[str] = frozenset()
 
 
 def parse(deck: Deck) -> Parsed:
@@ -57,19 +61,49 @@ def parse(deck: Deck) -> Parsed:
     statements: list[tree.Statement] = []
     diagnostics: list[Diagnostic] = []
     labels: set[str] = set()
+    strangers: set[str] = set()
+    elsewhere = False
     for source in sources(deck):
+        if elsewhere:
+            elsewhere = source.kind != "end"
+            continue
         try:
             statements.append(parse_statement(source))
         except Refused as refused:
             if may_be_comment(source):
                 diagnostics.append(_taken_as_comment(source.cards[0], refused.diagnostic.message))
                 continue
-            diagnostics.append(refused.diagnostic)
             labels.add(source.label.lstrip("0"))
+            word = word_of(source.kind, source.text)
+            if word is None:
+                diagnostics.append(refused.diagnostic)
+                continue
+            diagnostics.append(_foreign(source.place, word))
+            strangers |= declared(word, source.text)
+            elsewhere = word.opens
+    arrays = {name for s in statements if isinstance(s.body, tree.Dimension) for name, _, _ in s.body.arrays}
+    for statement in statements:
+        if name := _function_defined(statement.body, arrays):
+            diagnostics.append(_foreign(statement.place, STATEMENT_FUNCTION))
+            strangers.add(name)
+    statements = [s for s in statements if not _function_defined(s.body, arrays)]
     for card in deck.cards:
         if is_comment(card) and resembles_statement(card):
             diagnostics.append(_taken_as_comment(card, "it begins as a statement does"))
-    return Parsed(tuple(statements), tuple(diagnostics), frozenset(labels))
+    return Parsed(tuple(statements), tuple(diagnostics), frozenset(labels), frozenset(strangers))
+
+
+def _foreign(place: tree.Place, word: Word) -> Diagnostic:
+    return Diagnostic(place.card, place.column, word.message, word.number, about=f"word {word.name}")
+
+
+def _function_defined(body: tree.Body, arrays: Collection[str]) -> str:
+    """The name of a statement function: names alone stand between its parentheses, and one cannot be a subscript."""
+    if not isinstance(body, tree.Assignment) or not body.target.arguments or body.target.name in arrays:
+        return ""
+    names = [a.name for a in body.target.arguments if isinstance(a, tree.Reference) and not a.arguments]
+    floating = any(name[0] not in "IJKLMN" for name in names)
+    return body.target.name if floating and len(names) == len(body.target.arguments) else ""
 
 
 def _taken_as_comment(card: Card, why: str) -> Diagnostic:
@@ -87,6 +121,8 @@ def parse_statement(source: Source) -> tree.Statement:
     if source.kind == "unknown":
         if _FORMAT_LIKE.match(source.text):
             raise Refused(source.place, "FORMAT is misspelled", 10)
+        if source.text.startswith("FORMAT"):
+            raise Refused(source.place, "no parenthesis follows FORMAT", 11)
         raise Refused(source.place, f"not a statement of this FORTRAN: {source.text[:40]}")
     if _depth(source.text) > MAX_NESTING:
         raise Refused(source.place, f"parentheses are nested more than {MAX_NESTING} deep")
@@ -97,6 +133,8 @@ def parse_statement(source: Source) -> tree.Statement:
         at = source.places[error.pos_in_stream or 0]
         raise Refused(at, f"{error.char!r} does not fit here; the form is {_FORMS[source.kind]}", number) from None
     except UnexpectedToken as error:
+        if source.kind == "if" and error.token == "," and source.text[(error.token.start_pos or 1) - 1] == ")":
+            number = 7
         raise Refused(*_token_message(error, source), number) from None
     except UnexpectedInput:
         raise Refused(source.place, f"does not parse; the form is {_FORMS[source.kind]}", number) from None
@@ -163,7 +201,7 @@ class _Builder(Transformer[Token, Any]):
 
     def _name(self, token: Token, arguments: tuple[tree.Expression, ...] = ()) -> tree.Reference:
         if len(token) > 5:
-            raise Refused(self._at(token), f"the name {token} has more than five characters", 6)
+            raise Refused(self._at(token), f"the name {token} has more than five characters", 6, about=str(token))
         return tree.Reference(str(token), arguments, self._at(token))
 
     def power(self, children: list[Any]) -> tree.Power:

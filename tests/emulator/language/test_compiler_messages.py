@@ -19,7 +19,7 @@ MESSAGES = [
     ("missing FORMAT", ["PUNCH 5,A", "END"], 1, 13, "no FORMAT number 5"),
     ("FORMAT number of a statement", ["5 A=1.", "PUNCH 5,A", "END"], 2, 13, "no FORMAT number 5"),
     ("FORMAT without field", ["PUNCH 5,A", "5 FORMAT(3HABC)", "END"], 1, 13, "no field for the list"),
-    ("FORMAT with a wrong letter", ["5 FORMAT(A4)", "END"], 1, 11, "'A' is not a specification"),
+    ("FORMAT with a wrong letter", ["5 FORMAT(B4)", "END"], 1, 11, "'B' is not a specification"),
     ("FORMAT unnumbered", ["FORMAT(I4)", "END"], 1, 10, "a FORMAT needs a statement number"),
     ("mixed sum", ["X=A+I", "END"], 1, 5, "mixed"),
     ("mixed product", ["I=J*2.", "END"], 1, 5, "mixed"),

@@ -130,8 +130,8 @@ def test_format_holds_its_columns() -> None:
 
 REFUSED = [
     ("X", 1, 0, "not a statement of this FORTRAN"),
-    ("      CALL SUB(X)", 7, 0, "not a statement"),
-    ("SUBROUTINE X", 1, 0, "not a statement"),
+    ("      CALL SUB(X)", 7, 0, "CALL is of FORTRAN II"),
+    ("SUBROUTINE X", 1, 0, "SUBROUTINE is of FORTRAN II"),
     ("X=", 2, 0, "ends too soon"),
     ("X=A+", 4, 0, "ends too soon"),
     ("X=A B)", 6, 0, "')' does not fit"),
@@ -147,13 +147,15 @@ REFUSED = [
     ("X=A+LENGTH", 5, 6, "LENGTH has more than five characters"),
     ("I=12345", 3, 0, "12345 has more than four digits"),
     ("GO TO", 5, 0, "ends too soon"),
-    ("GO TO X", 7, 0, "'X' does not fit"),
+    ("GO TO X", 1, 0, "an assigned number is of FORTRAN II"),
     ("GO TO 0", 7, 0, "0 is not between 1 and 9999"),
     ("GO TO (1,2)", 11, 0, "ends too soon"),
     ("GO TO 10000", 7, 0, "10000 is not between 1 and 9999"),
     ("10000 X=1.", 7, 0, "10000 is not between 1 and 9999"),
     ("IF (A) 1,2", 10, 0, "ends too soon"),
-    ("IF (A), 1,2,3", 7, 0, "',' does not fit"),
+    ("IF (A), 1,2,3", 7, 7, "',' does not fit"),
+    ("IF (A,B) 1,2,3", 6, 0, "',' does not fit"),
+    ("IF (A) 1,2,,3", 12, 0, "',' does not fit"),
     ("IF A 1,2,3", 1, 0, "not a statement"),
     ("IF (SENSE SWITCH) 1,2", 17, 7, "')' does not fit"),
     ("IF (SENSE SWITCH 1), 1,2", 20, 7, "',' does not fit"),
@@ -192,6 +194,8 @@ def test_refused(line: str, column: int, number: int, words: str) -> None:
         ("READ", 13),
         ("DIMENSION X(5),", 9),
         ("IF (SENSE SWITCH) 1,2", 7),
+        ("IF (A), 1,2,3", 7),
+        ("10 FORMAT I4", 11),
     ],
 )
 def test_error_types_of_page_56(line: str, number: int) -> None:
@@ -200,8 +204,8 @@ def test_error_types_of_page_56(line: str, number: int) -> None:
 
 
 def test_a_long_card_that_is_no_statement_is_quoted_to_forty_characters() -> None:
-    (message,) = parsed("SUBROUTINE " + "ABCDEFGHIJ" * 6).diagnostics
-    assert message.message == "not a statement of this FORTRAN: SUBROUTINE" + "ABCDEFGHIJ" * 3
+    (message,) = parsed("XYZ " + "ABCDEFGHIJ" * 6).diagnostics
+    assert message.message == "not a statement of this FORTRAN: XYZ" + ("ABCDEFGHIJ" * 4)[:37]
 
 
 def test_a_statement_number_without_a_statement() -> None:

@@ -1,0 +1,268 @@
+"""What other FORTRANs of the time have is named for what it is, once, and the rest of the deck is still checked."""
+
+from __future__ import annotations
+
+import pytest
+
+from emulator.errors import Diagnostic
+from emulator.language.expressions import LIBRARY
+from emulator.language.foreign import FIELDS, LATER, advice, word_of
+from emulator.language.statements import classify
+from tests.support.deckwork import diagnostics, errors, within
+
+F = "90 FORMAT(5E14.8)"
+
+
+def only(*lines: str) -> Diagnostic:
+    (message,) = errors(*lines, F, "END")
+    return message
+
+
+STATEMENTS = [
+    ("      CALL SUB(A,B)", "CALL is of FORTRAN II"),
+    ("      CALL EXIT", "CALL EXIT is STOP"),
+    ("      COMMON A,B(10)", "COMMON is of FORTRAN II"),
+    (" COMMON/BLOCK/A,B(10)", "COMMON is of FORTRAN II"),
+    ("EQUIVALENCE(A,B(1)),(C,D)", "EQUIVALENCE is of FORTRAN II"),
+    ("RETURN", "RETURN is of FORTRAN II"),
+    ("EXTERNAL F", "EXTERNAL is of FORTRAN IV"),
+    ("REAL I,J", "a declaration of types is of FORTRAN IV"),
+    ("INTEGER X(10)", "a declaration of types is of FORTRAN IV"),
+    ("REAL*8 X", "a declaration of types"),
+    ("DOUBLE PRECISION X", "a declaration of types"),
+    ("LOGICAL L", "a declaration of types"),
+    (" COMPLEX Z", "a declaration of types"),
+    ("IMPLICIT REAL(A-Z)", "IMPLICIT is of FORTRAN IV"),
+    ("DATA A,B/1.,2./", "DATA is of FORTRAN IV"),
+    ("DATA(A(I),I=1,3)/1.,2.,3./", "DATA is of FORTRAN IV"),
+    ("NAMELIST/N/A,B", "NAMELIST"),
+    ("PROGRAM MAIN", "PROGRAM"),
+    ("ASSIGN 5 TO N", "ASSIGN is of FORTRAN II"),
+    ("GO TO N,(5,6)", "GO TO to an assigned number is of FORTRAN II"),
+    ("IF(SENSE LIGHT 1)5,6", "SENSE LIGHT is of FORTRAN II"),
+    ("SENSE LIGHT 1", "SENSE LIGHT is of FORTRAN II"),
+    ("IF ACCUMULATOR OVERFLOW 5,6", "a test of overflow"),
+    ("IF DIVIDE CHECK 5,6", "a test of overflow"),
+    ("IF(A.GT.B) GO TO 5", "a logical IF is of FORTRAN IV"),
+    ("IF(A.GT.B) X=1.", "a logical IF is of FORTRAN IV"),
+    ("IF(L) STOP", "a logical IF is of FORTRAN IV"),
+    ("IF(A.EQ.1.E5.AND.B.LT.2.)X(1)=A(2)", "a logical IF is of FORTRAN IV"),
+    ("L=A.GT.B.OR.C.LE.D", "a logical expression is of FORTRAN IV"),
+    ("FREQUENCY 30(1,2,1)", "FREQUENCY"),
+    ("ACCEPT TAPE 90,A", "input and output by paper tape"),
+    ("PUNCH TAPE 90,A", "input and output by paper tape"),
+    ("READ INPUT TAPE 5,90,A", "magnetic tape"),
+    ("WRITE OUTPUT TAPE 6,90,A", "magnetic tape"),
+    ("REWIND 3", "magnetic tape"),
+    ("END FILE 3", "magnetic tape"),
+    ("DEFINE DISK(10,100)", "the disk is of FORTRAN II-D"),
+    ("RECORD(I)A,B", "the disk is of FORTRAN II-D"),
+    ("FETCH(I)A,B", "the disk is of FORTRAN II-D"),
+    ("READ(5,90)A,(B,I=1,3)", "input and output by a unit's number is of FORTRAN IV"),
+    ("WRITE(6,90)", "input and output by a unit's number is of FORTRAN IV"),
+    ("PRINT, A, B", "input and output without a FORMAT is of GOTRAN"),
+    ("READ A, B", "input and output without a FORMAT is of GOTRAN"),
+    ("ACCEPT, A", "input and output without a FORMAT is of GOTRAN"),
+    ("PRINT *, A", "input and output without a FORMAT"),
+    ("REREAD 90,A", "REREAD"),
+    ("*LIST PRINTER", "a control card"),
+    ("$IBFTC", "a control card"),
+]
+
+
+@pytest.mark.parametrize(("line", "words"), STATEMENTS, ids=[line.strip() for line, _ in STATEMENTS])
+def test_a_statement_of_another_fortran_is_named_and_nothing_else_said(line: str, words: str) -> None:
+    message = only(line)
+    assert (message.card, message.column) == (1, len(line) - len(line.lstrip()) + 1)
+    assert words in message.message
+
+
+def test_every_statement_that_is_known_is_tried() -> None:
+    tried = {word for line, _ in STATEMENTS if (word := word_of(classify(t := line.replace(" ", "")), t))}
+    assert {word.name for word in LATER} - {word.name for word in tried} == {
+        "SUBROUTINE",
+        "FUNCTION",
+        "BLOCK DATA",
+        "ENTRY",
+    }
+
+
+@pytest.mark.parametrize("line", ["IF(A)5,6", "READ", "DO 5 I=", "X=A+", "IF=(", "GO TO", "DATA=+", "WRIT(6,90)A"])
+def test_what_is_wrong_in_this_fortran_too_is_said_as_before(line: str) -> None:
+    (message,) = errors(line, "END")
+    assert " is of " not in message.message
+
+
+@pytest.mark.parametrize(
+    "line", ["COMMON=1.", "CALL=2.", "DATA=3.", "IF=4", "REAL=5.", "DATA(1)=2.", "FIND(I)=3.", "READ=1.", "RETUR=2."]
+)
+def test_these_words_are_names_as_well(line: str) -> None:
+    """Nothing is reserved: a word of another FORTRAN is that only where no statement of this one is meant."""
+    lines = ("DIMENSION DATA(2),FIND(3)", "I=1", " " + line.replace("COMMON", "COMMN"), "END")
+    assert errors(*lines) == () if "DATA=" not in line else len(errors(*lines)) == 1
+
+
+def test_each_is_said_once_with_the_cards_of_the_others() -> None:
+    lines = ["  CALL A(X)", "Y=1.", "  CALL B", "5   CALL C(Y,Z)", "GO TO 5"]
+    message = only(*lines)
+    assert (message.card, message.message[-21:]) == (1, "(also on cards 3, 4)"[-21:].rjust(21))
+    many = only(*["  CALL A(X)"] * 9)
+    assert many.message.endswith("(also on cards 2, 3, 4, 5 and 4 more)")
+
+
+SUBPROGRAMS = [
+    "      SUBROUTINE SUB(A,N)",
+    "      DIMENSION A(N)",
+    "      COMMON /X/Q",
+    "      DO 5 I=1,N",
+    "    5 A(I)=ABSF(A(I))+",
+    "      IF(Q.LT.0.)RETURN",
+    "    7 FORMAT(A4)",
+    "      RETURN",
+    "      END",
+]
+
+
+def test_a_subprogram_is_one_finding_before_and_after_the_program() -> None:
+    program = ["5 X=1.", "GO TO 6", "6 STOP", "END"]
+    assert [d.card for d in errors(*program, *SUBPROGRAMS)] == [5]
+    assert [d.card for d in errors(*SUBPROGRAMS, *program)] == [1]
+    (message,) = errors(*program, *SUBPROGRAMS, *SUBPROGRAMS)
+    assert message.message.endswith("the cards from this one to its END are not looked at (also on card 14)")
+
+
+def test_the_cards_beside_a_subprogram_are_checked() -> None:
+    found = errors("X=A+I", "END", *SUBPROGRAMS, "Y=2.")
+    assert [(d.card, d.number) for d in found] == [(1, 5), (3, 0), (12, 0)]
+    assert found[2].message == "a card after END"
+
+
+@pytest.mark.parametrize(
+    "opening", ["FUNCTION G(X)", "REAL FUNCTION G(X)", "INTEGER FUNCTION G(X)", "      FUNCTION G(I)"]
+)
+def test_a_function_of_the_deck_may_be_used(opening: str) -> None:
+    (message,) = errors("Y=1.", "X=G(Y)+G(2.)*3.", "END", opening, "G=X", "RETURN", "END")
+    assert (message.card, "FUNCTION is of FORTRAN II" in message.message) == (4, True)
+
+
+def test_block_data_and_entry() -> None:
+    assert "BLOCK DATA is of FORTRAN IV" in only("BLOCK DATA", "DATA X/1./", "END").message
+    assert "ENTRY is of FORTRAN IV" in only("ENTRY SUB(X)").message
+
+
+def test_a_statement_function_and_what_uses_it_are_one_finding() -> None:
+    message = only("F(X)=X**2+1.", "ROOTF(A,B)=A/B", "Y=F(2.)+ROOTF(Y,F(Y))", "PUNCH 90,Y")
+    assert message.message.startswith("a statement function is of FORTRAN II; write its expression")
+    assert message.message.endswith("(also on card 2)")
+
+
+@pytest.mark.parametrize("line", ["X(I)=2.", "X(1)=2.", "X(I+1)=2."])
+def test_an_element_of_no_array_is_no_statement_function(line: str) -> None:
+    assert only("I=1", line).message == "X is not an array (no DIMENSION before this card)"
+
+
+def test_arrays_in_common_and_names_of_the_other_mode_are_not_judged() -> None:
+    found = errors("  COMMON A(10),B", "REAL I", "X=A(1)+I", "A(2)=I*2.", "C=B+J", "Z=Q(2)", F, "END")
+    assert [(d.card, d.number) for d in found] == [(1, 0), (2, 0), (5, 5), (6, 0)]
+
+
+def test_a_function_there_is_not_is_named_once_with_those_there_are() -> None:
+    first, second = errors("X=ABSF(Y)", "Z=SQR(X)+ABSF(ABSF(X))", "PUNCH 90,(X,I=1,2)", F, "END")
+    known = "; the functions are SIN, COS, ATAN, EXP, LOG and SQRT; "
+    assert first.message.startswith(f"ABSF is neither an array nor a library function{known}for ABSF write IF (X)")
+    assert first.message.endswith("(also on card 2)")
+    assert (second.card, second.column) == (2, 3)
+    assert second.message.endswith(known + "for SQR write SQRT")
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("ABS", "for ABS write IF (X) n1, n2, n2 and, at n1, X=-X"),
+        ("XABSF", "for XABSF write IF (X)"),
+        ("ALOG", "for ALOG write LOG"),
+        ("ALOG10", "for ALOG10 write LOG(X)/2.3025851"),
+        ("ARCTAN", "for ARCTAN write ATAN"),
+        ("TANF", "for TANF write SIN(X)/COS(X)"),
+        ("FLOATF", "for FLOATF write A=I"),
+        ("SQTR", "is SQRT meant?"),
+        ("SINE", "is SIN meant?"),
+        ("GAMMA", "and SQRT"),
+        ("X", "and SQRT"),
+        ("LO", "and SQRT"),
+    ],
+)
+def test_what_may_be_meant(name: str, words: str) -> None:
+    assert advice(name, LIBRARY).endswith(words) or words.endswith("IF (X)")
+    assert words in advice(name, LIBRARY)
+
+
+def test_fields_of_other_fortrans_are_said_once_each() -> None:
+    lines = ["READ 1,X", "1 FORMAT(10A4)", "2 FORMAT(I2,A1)", "3 FORMAT(1PE14.8)", "4 FORMAT('TEXT')", "5 FORMAT(3A1)"]
+    found = errors(*lines, "END")
+    assert [(d.card, d.number) for d in found] == [(2, 11), (4, 11), (5, 11)]
+    assert found[0].message == FIELDS["A"] + " (also on cards 3, 6)"
+    assert [d.message for d in found[1:]] == [FIELDS["P"], FIELDS["'"]]
+
+
+HOLLERITH = [
+    ("(4HTOTAL,I4)", 2, "4H ends within its text; 5H would fit"),
+    ("(1HX = ,F4.1)", 2, "1H ends within its text; 4H would fit"),
+    ("(7HTOTAL, K,I4)", 2, "7H ends within its text; 8H would fit"),
+    ("(2H(A),I4)", 2, "2H ends within its text; 3H would fit"),
+    ("(I4,9H DEGREES 9/)", 5, "9H ends within its text; 10H would fit"),
+    ("(4HABC)", 2, "4H takes in the parenthesis after its text; 3H would fit"),
+    ("(70HABC)", 2, "70H takes in the parenthesis after its text; 3H would fit"),
+    ("(5HABC/I4)", 2, "5H takes in the slash after its text; 3H would fit"),
+    ("(6HABC,5HDEFGH,I4)", 2, "6H takes in the comma after its text; 3H would fit"),
+    ("(2(4HA,B),I4)", 4, "4H takes in the parenthesis after its text; 3H would fit"),
+]
+
+
+@pytest.mark.parametrize(("text", "column", "words"), HOLLERITH, ids=[text for text, _, _ in HOLLERITH])
+def test_a_hollerith_count_that_does_not_fit_is_told_the_one_that_would(text: str, column: int, words: str) -> None:
+    (message,) = errors(f"5 FORMAT{text}", "END")
+    assert (message.card, message.column, message.number, message.message) == (1, 8 + column, 11, words)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("(3HABC,A4)", FIELDS["A"]),
+        ("(3HABC,I4", "the FORMAT does not end with a parenthesis"),
+        ("(3HABC,I)", "I needs a width"),
+        ("(3HABC,F4,4HDEFG)", "F4 lacks its point and decimals"),
+    ],
+)
+def test_a_count_that_fits_is_not_blamed_for_another_mistake(text: str, words: str) -> None:
+    (message,) = errors(f"5 FORMAT{text}", "END")
+    assert message.message == words
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("(4HABC,I4)", "4H takes in a comma, and none follows; 3H if it is not of the text"),
+        ("(5HABC,2I4)", "5H takes in a comma, and none follows; 3H if it is not of the text"),
+        ("(I2,4HA , F4.1)", "4H takes in a comma, and none follows; 2H if it is not of the text"),
+    ],
+)
+def test_a_count_that_swallowed_a_comma_is_warned_of(text: str, words: str) -> None:
+    (message,) = diagnostics(f"5 FORMAT{text}", "END")
+    assert (message.warning, message.number, message.message) == (True, 11, words)
+
+
+@pytest.mark.parametrize(
+    "text", ["(4HABC,,I4)", "(4HABC,)", "(4HABC,/I4)", "(1H,I4)", "(3HABCI4)", "(4HA,BCI4)", "(3H(A),I4)"]
+)
+def test_text_that_may_hold_a_comma(text: str) -> None:
+    assert diagnostics(f"5 FORMAT{text}", "END") == ()
+
+
+@pytest.mark.parametrize(
+    "line",
+    ["{n} FORMAT(I2,3HA,B,3HC,D,3HE,F,3HG,H,3HI,J,3HK,L,3HM,N,3HO,P,4HQ,RS", "X{n}=ABSF(Y)", "  CALL SUB(X)", "F(X)=Y"],
+)
+def test_many_of_them_take_little_time(line: str) -> None:
+    with within(8):
+        assert errors(*(line.format(n=n) for n in range(1, 1500)), "END")
