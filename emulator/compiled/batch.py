@@ -116,6 +116,8 @@ def _result(program: Program, deck: Deck, options: Options, run: Run) -> Result:
         statements=begun(program, run.counts),
         counts=tuple(run.counts),
         cards_read=run.cards_read,
+        cards_punched=len(lines["P"]),
+        characters_typed=sum(len(line) + 1 for line in lines["T"]),
         numbers=tuple((way, n) for way, n in zip(WAYS, run.numbers, strict=True) if n),
         errors=machine_errors(errors),
     )

@@ -21,8 +21,8 @@ from emulator.language.cards import CHARACTERS, COLUMNS, MAX_CARDS, Deck
 from emulator.language.formats import MAX_RECORD, Literal
 from emulator.language.objectcode import Flat, Program, flatten
 from emulator.machine.interpreter import AT_LIMIT, FLOATING
-from emulator.machine.machine import loaded, refuse_overlap
 from emulator.machine.result import Options
+from emulator.machine.session import loaded, refuse_overlap
 from emulator.numbers.arithmetic import powers_of_ten
 from emulator.numbers.decimal import DecimalNumbers
 from emulator.numbers.fields import Field

@@ -226,8 +226,8 @@ class _Translation:
                 self._do(body, statement, index)
             case tree.Continue():
                 pass
-            case tree.Pause():
-                emitter.emit(op.PAUSE)
+            case tree.Pause(number):
+                emitter.emit(op.PAUSE, second=int(number or 0))
             case tree.Stop():
                 emitter.emit(op.STOP)
             case tree.End():

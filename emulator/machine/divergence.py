@@ -25,9 +25,10 @@ from emulator.language.cards import Deck
 from emulator.language.objectcode import Line, Program
 from emulator.machine.endings import Ending
 from emulator.machine.interpreter import Entry, Journal
-from emulator.machine.machine import Machine
+from emulator.machine.operator import Operator, operated
 from emulator.machine.postdominators import meeting, post_dominators, successors
 from emulator.machine.result import Options, begun
+from emulator.machine.session import Session
 from emulator.numbers import Numbers
 from emulator.numbers.base import Number
 from emulator.numbers.exact import ExactNumbers
@@ -167,14 +168,15 @@ class _Run:
     def __init__(self, program: Program, deck: Deck, options: Options, values: bool) -> None:
         self.name = options.numbers.name
         self._journal = Journal(values)
-        self._machine = Machine(program, deck, options, journal=self._journal)
+        self._session = Session(program, deck, options, journal=self._journal, keep=False)
+        self._operator = Operator()
         self._program, self._limit = program, options.limit
         self.ending: Ending | None = None
         self.error: EmulatorError | None = None
 
     @property
     def statements(self) -> int:
-        return begun(self._program, self._machine.state.counts)
+        return begun(self._program, self._session.state.counts)
 
     def entries(self) -> Iterator[Entry]:
         """The journal's entries, as the run goes on."""
@@ -182,10 +184,11 @@ class _Run:
         while self.ending is None:
             goal = min(goal + _STRIDE, self._limit)
             try:
-                self.ending = self._machine.advance(goal)
+                self.ending = operated(self._session, self._operator, goal)
             except EmulatorError as error:
                 self.error, self.ending = error, Ending("input", trouble=str(error))
-            if self.ending is None and goal == self._limit:
+            if self.ending is not None and self.ending.kind == "limit":
+                # Where each was in its loop is no difference.
                 self.ending = Ending("limit", count=self._limit)
             yield from self._journal.entries
             self._journal.entries.clear()

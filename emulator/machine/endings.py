@@ -11,7 +11,18 @@ from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED
 from emulator.numbers.fields import Field, Remark
 
 Kind = Literal[
-    "hopper", "stop", "end", "limit", "bounds", "undefined", "outside", "select", "mode", "undecided", "input"
+    "hopper",
+    "stop",
+    "end",
+    "limit",
+    "bounds",
+    "undefined",
+    "outside",
+    "select",
+    "mode",
+    "undecided",
+    "input",
+    "operator",
 ]
 NORMAL: tuple[Kind, ...] = ("hopper", "stop", "end")
 
@@ -34,6 +45,7 @@ class Ending:
     - mode: the field's ``name`` and the ``mode`` of what it holds; with ``format``, the number of a FORMAT, ``field``
       is the specification it does not fit, None where the FORMAT has no field at all.
     - undecided: what the numbers cannot say, in ``trouble``.  input: in ``trouble``, what is wrong with the deck.
+      operator: the operator stopped the run, as ``trouble`` says.
     """
 
     kind: Kind

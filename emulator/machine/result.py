@@ -92,8 +92,10 @@ class Result:
     """A finished run: what the devices got, how it ended, and what was counted.
 
     ``uncut``, where it was asked for, holds for each punched card its floating-point numbers.  ``punched`` and
-    ``typed`` are lines without trailing blanks; ``statements`` how many statements began; ``counts`` how often each
-    counter of the program ran; ``numbers`` how many numbers each kind of field read (``E<``) and put out (``E>``).
+    ``typed`` are lines without trailing blanks; they and ``events`` hold nothing where events were handed out and not
+    kept.  ``characters_typed`` counts the end of a line as one; ``statements`` how many statements began; ``counts``
+    how often each counter of the program ran; ``numbers`` how many numbers each kind of field read (``E<``) and put
+    out (``E>``).
     """
 
     punched: tuple[str, ...]
@@ -104,6 +106,8 @@ class Result:
     statements: int
     counts: tuple[int, ...]
     cards_read: int
+    cards_punched: int
+    characters_typed: int
     numbers: tuple[tuple[str, int], ...]
     errors: tuple[MachineError, ...]
     uncut: tuple[tuple[Uncut, ...], ...] = ()

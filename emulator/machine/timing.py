@@ -141,10 +141,10 @@ def measure(program: Program, result: Result) -> Timing:
     processor = tuple(
         _row(cause, causes.get(cause, [])) for cause in (ARITHMETIC, FIXED, SUBSCRIPTS, CONTROL, CONVERSION)
     )
-    typed = sum(len(line) + 1 for line in result.typed)
+    punched, typed = result.cards_punched, result.characters_typed
     devices = (
         Row("card reader", result.cards_read, result.cards_read * READER_SECONDS),
-        Row("card punch", len(result.punched), len(result.punched) * PUNCH_SECONDS),
+        Row("card punch", punched, punched * PUNCH_SECONDS),
         Row("typewriter", typed, typed * TYPEWRITER_SECONDS),
     )
     statements: Tally[int] = Tally()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TextIO
 
 from emulator.language.objectcode import Line, Program
-from emulator.machine.machine import Machine
+from emulator.machine.session import Session
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED
 
 
@@ -18,16 +18,16 @@ class Tracer:
     def __init__(self, file: TextIO) -> None:
         self._file = file
         self._line: Line | None = None
-        self._machine: Machine | None = None
+        self._machine: Session | None = None
 
-    def watch(self, program: Program, machine: Machine) -> None:
+    def watch(self, program: Program, machine: Session) -> None:
         """Trace a machine from its start; a heading names its program."""
         self.close()
         self._machine = machine
         machine.tracer = self
         self._file.write(f"* {program.source}: card, number, statement, value\n")
 
-    def __call__(self, line: Line, machine: Machine) -> None:
+    def __call__(self, line: Line, machine: Session) -> None:
         self.close()
         self._line = line
 
@@ -41,7 +41,7 @@ class Tracer:
         self._file.write(text.rstrip() + "\n")
 
 
-def effect(machine: Machine, line: Line) -> str:
+def effect(machine: Session, line: Line) -> str:
     """What the statement just run did: ``X(3) = .20000000E+01``, or the value it tested."""
     state, name = machine.state, machine.program.storage.name_of
     if line.effect == "store":
@@ -55,7 +55,7 @@ def effect(machine: Machine, line: Line) -> str:
     return ""
 
 
-def contents(machine: Machine, address: int) -> str:
+def contents(machine: Session, address: int) -> str:
     """A field's contents as text."""
     value, kind = machine.state.values[address], machine.state.kinds[address]
     if kind == UNDEFINED:

@@ -4,23 +4,25 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Sequence
 from dataclasses import replace
 
-from emulator.errors import EmulatorError
+from emulator.errors import CardError, DeckError, EmulatorError
 from emulator.files import check_writable
 from emulator.language.cards import Deck, read_deck
 from emulator.machine.machine import Machine
+from emulator.machine.result import Event
 from modern.cli.shared.console import DIFFERS, OK, UsageError, say
 from modern.cli.shared.machine import (
     layers_of,
     load_program,
     machine_options,
     profile_lines,
-    put_out,
     say_notices,
+    streaming,
     tracing,
 )
-from modern.thesis.job import refusal
+from modern.thesis.job import Refusals
 
 
 def main(args: argparse.Namespace) -> int:
@@ -32,17 +34,22 @@ def main(args: argparse.Namespace) -> int:
     program = load_program(args.program, layers_of(args), args.upcase)
     deck = read_deck(args.deck) if args.deck else Deck("no deck", ())
     keyboard = () if "-" in (args.program, args.deck) or sys.stdin is None or sys.stdin.isatty() else sys.stdin
-    with tracing(args.trace) as tracer:
+    seen = Refusals()
+    bad: EmulatorError | None = None
+    with streaming(args) as stream, tracing(args.trace) as tracer:
+
+        def output(events: Sequence[Event]) -> None:
+            seen.see(events)
+            stream(events)
+
         machine = Machine(program, deck, options, keyboard)
         if tracer:
             tracer.watch(program, machine)
-        bad: EmulatorError | None = None
         try:
-            result = machine.run()
-        except EmulatorError as error:
+            result = machine.run(output=output)
+        except (CardError, DeckError) as error:
             # What was punched, typed and traced before the bad card is good work.
             bad, result = error, machine.result()
-    put_out(args, result.punched, result.typed)
     if bad is not None:
         raise bad
     say_notices(program, result)
@@ -51,4 +58,4 @@ def main(args: argparse.Namespace) -> int:
     if not result.ending.normal:
         say([f"hull1620: {result.ending.message}"])
         return DIFFERS
-    return DIFFERS if refusal(result) else OK
+    return DIFFERS if seen.stopped else OK

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 from emulator.language.cards import Deck, deck_from_lines
 from emulator.language.objectcode import Program
 from emulator.machine.machine import Machine
-from emulator.machine.result import Options, Result, Uncut
+from emulator.machine.result import Event, Options, Result, Uncut
 
 COPLANAR = "POINTS ARE COPLANAR"
 NOT_COPLANAR = "POINTS ARE NOT COPLANAR"
@@ -49,17 +49,35 @@ class HullRun:
         return not self.refusal and all(step.result.ending.normal for step in self.steps)
 
 
+class Refusals:
+    """Whether a run stopped at a refusal, from its events as they come."""
+
+    def __init__(self) -> None:
+        self._last = self._stopped = ""
+
+    def see(self, events: Iterable[Event]) -> None:
+        """Take further events, in order."""
+        for event in events:
+            if self._stopped:
+                return
+            if event.what == "type" and event.text in REFUSALS:
+                self._last = event.text
+            elif event.what == "punch":
+                self._last = ""
+            elif event.what == "begin":
+                self._stopped = self._last
+
+    @property
+    def stopped(self) -> str:
+        """The refusal typed with no card punched between it and the next data set or the end; else empty."""
+        return self._stopped or self._last
+
+
 def refusal(result: Result) -> str:
-    """The refusal a run stopped at: typed, and no card punched between it and the next data set or the end."""
-    last = ""
-    for event in result.events:
-        if event.what == "type" and event.text in REFUSALS:
-            last = event.text
-        elif event.what == "punch":
-            last = ""
-        elif event.what == "begin" and last:
-            return last
-    return last
+    """The refusal a run stopped at, from the events its result holds; else empty."""
+    seen = Refusals()
+    seen.see(result.events)
+    return seen.stopped
 
 
 def second_program(result: Result) -> int | None:

@@ -5,16 +5,20 @@ from __future__ import annotations
 import argparse
 import sys
 import textwrap
-from collections.abc import Collection, Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from itertools import groupby
+from operator import attrgetter
+from typing import TextIO
 
-from emulator.errors import LowerCaseError
-from emulator.files import write_text, writing
+from emulator.errors import FileError, LowerCaseError
+from emulator.files import reason, write_text, writing
 from emulator.language.cards import Deck, read_deck
 from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import Program
 from emulator.language.statements import capitals
-from emulator.machine.result import ERRORS, Options, Result
+from emulator.machine.operator import Output
+from emulator.machine.result import ERRORS, Event, Options, Result
 from emulator.machine.timing import Row, measure
 from emulator.machine.trace import Tracer
 from emulator.numbers import DecimalNumbers, Numbers, numbers
@@ -93,6 +97,59 @@ def say_notices(program: Program, result: Result, said: Collection[tuple[int, in
     for error in result.errors:
         times = f", {error.times} times" if error.times > 1 else ""
         say([f"note: {program.source}: {error.code} on card {error.card}: {ERRORS[error.code]}{times}"])
+
+
+class _Lost(Exception):
+    """A standard stream takes no more: not an OSError on its way, so that no named file is blamed for it."""
+
+    def __init__(self, error: OSError) -> None:
+        super().__init__()
+        self.error = error
+
+
+class _Outlet:
+    """A file, or a standard stream where ``path`` is empty, that takes lines."""
+
+    def __init__(self, path: str, file: TextIO | None) -> None:
+        self._path, self._file = path, file
+
+    def put(self, text: str) -> None:
+        """Write; a standard stream shows it at once, where there is one."""
+        if self._file is None:
+            return
+        try:
+            self._file.write(text)
+            if not self._path:
+                self._file.flush()
+        except OSError as error:
+            if self._path:
+                raise FileError(f"{self._path}: {reason(error)}") from None
+            raise _Lost(error) from None
+
+
+@contextmanager
+def streaming(args: argparse.Namespace) -> Iterator[Output]:
+    """Where a run's events go as they come: cards as ``--punch`` says, typed lines as ``--typewriter`` does.
+
+    A named file appears, whole, when the run is over; an exception leaves it as it was.  Raises FileError.
+    """
+
+    def outlet(path: str | None) -> _Outlet:
+        if path is None or path == "-":
+            return _Outlet("", sys.stdout if path else sys.stderr)
+        return _Outlet(path, stack.enter_context(writing(path)))
+
+    def put(events: Sequence[Event]) -> None:
+        for what, group in groupby(events, key=attrgetter("what")):
+            if what in outlets:
+                outlets[what].put("".join(event.text + "\n" for event in group))
+
+    try:
+        with ExitStack() as stack:
+            outlets = {"punch": outlet(args.punch), "type": outlet(args.typewriter)}
+            yield put
+    except _Lost as lost:
+        raise lost.error from None
 
 
 @contextmanager

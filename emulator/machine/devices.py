@@ -1,0 +1,257 @@
+"""Reader, punch and typewriter of a watched run: lists of numbers go through them by FORMAT.
+
+What they did is a list of events; a line that has to be typed is asked for by raising :class:`Wanted`, after which the
+same call can be made again.  :class:`emulator.machine.session.Session` drives them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from emulator.errors import CardError, DeckError
+from emulator.language.cards import COLUMNS, Card, Deck, read_line, refuse_strange
+from emulator.language.objectcode import Line, Program
+from emulator.machine.endings import Ending, Kind, Mode, Notice, decided
+from emulator.machine.forms import Input, Layout, NoField, Output
+from emulator.machine.interpreter import FLOATING, State
+from emulator.machine.result import PUNCH_COLUMNS, TYPEWRITER_COLUMNS, Event, Options, Uncut
+from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED
+from emulator.numbers.base import Number
+from emulator.numbers.fields import Field, FieldError, Remark, read_fixed, write_fixed
+
+
+class Ended(Exception):
+    """The run ends here."""
+
+    def __init__(self, ending: Ending) -> None:
+        super().__init__(ending.kind)
+        self.ending = ending
+
+
+class Wanted(Exception):
+    """A line is to be typed before the statement can go on."""
+
+
+@dataclass
+class Devices:
+    """The devices of one machine: what lies in them, and what they did.
+
+    ``state`` is the run they serve, changed in place.  ``typed_line`` is the line the operator has typed and no
+    statement has taken.  ``listed``: the fields of the last input or output statement, where ``lists`` asks for them.
+    ``punched`` counts cards, ``characters`` what the typewriter typed, the end of a line being one.
+    """
+
+    program: Program
+    deck: Deck
+    options: Options
+    state: State
+    uncut: Sequence[Sequence[Uncut]]
+    lists: bool = False
+    listed: list[int] = field(default_factory=list)
+    events: list[Event] = field(default_factory=list)
+    notices: dict[Notice, None] = field(default_factory=dict)
+    fields: dict[str, int] = field(default_factory=dict)
+    errors: dict[tuple[str, int], int] = field(default_factory=dict)
+    cut: list[tuple[Uncut, ...]] = field(default_factory=list)
+    position: int = 0
+    punched: int = 0
+    characters: int = 0
+    transfer: Input | Output | None = None
+    typed_line: str | None = None
+    verb: str = ""
+
+    def __post_init__(self) -> None:
+        self._statement_of = self.program.statement_numbers()
+        self.layouts = [Layout(spec) for _, spec in self.program.formats]
+        self._whole = {
+            (card.number, column, width): value
+            for card, beside in zip(self.deck.cards, self.uncut, strict=False)
+            for column, width, value in beside
+        }
+        self._beside: list[Uncut] = []
+        self._first_read = -1
+        self._lines = 0
+        self._format = 0
+
+    def line_at(self, pc: int) -> Line:
+        """The statement of an instruction."""
+        return self.program.statements[self._statement_of[pc]]
+
+    def begin(self, address: int) -> None:
+        """An input or output statement begins, with the verb at ``address``.  Raises Ended, Wanted, DeckError."""
+        here = self.line_at(self.state.at)
+        verb = self.program.verbs[address]
+        number = self.program.code[self.state.at].second
+        self.verb, self._format = verb, self.program.formats[number][0]
+        layout = self.layouts[number]
+        self.listed = []
+        if verb == "READ":
+            begins = self._first_read in (-1, self.state.at)
+            if begins:
+                self._first_read = self.state.at
+                self.events.append(Event("begin"))
+            card = self._take_card(here, begins or self.options.hopper == "any")
+            self.transfer = Input(layout, lambda: self._take_card(here, False), card)
+        elif verb == "ACCEPT":
+            self.transfer = Input(layout, self._take_line, self._take_line())
+        else:
+            self.transfer = Output(layout, self._punch if verb == "PUNCH" else self.type)
+
+    def item(self, address: int) -> None:
+        """One number of a list, read or put out.  Raises Ended, Wanted, CardError for what is no number, DeckError."""
+        fixed = self.program.code[self.state.at].second == 1
+        transfer = self.transfer
+        assert transfer is not None
+        try:
+            if isinstance(transfer, Output):
+                spec = transfer.next_field()
+                self._listed(address)
+                self._write(transfer, spec, address, fixed)
+            else:
+                place = transfer.next_field()
+                self._listed(address)
+                self._read(*place, address, fixed)
+        except NoField:
+            raise Ended(self.ending("mode", format=self._format)) from None
+
+    def finish(self) -> None:
+        """The list has ended.  Raises Wanted, DeckError."""
+        assert self.transfer is not None
+        self.transfer.finish()
+
+    def _listed(self, address: int) -> None:
+        self.state.work += 1
+        if self.lists:
+            self.listed.append(address)
+
+    def _take_card(self, here: Line, begins: bool) -> Card:
+        if self.position >= len(self.deck.cards):
+            if begins and self.position:
+                raise Ended(Ending("hopper"))
+            if not self.deck.cards:
+                raise DeckError(
+                    f"{self.deck.source}: the hopper is empty at the first READ ({self.program.source}, {here.name})"
+                )
+            last = self.deck.cards[-1].number
+            raise DeckError(
+                f"{self.deck.source}: card {last}, column 1: the deck ends in the middle of a data set; "
+                f"another card is read by {here.name} of {self.program.source}"
+            )
+        card = self.deck.cards[self.position]
+        if card.text.startswith("C"):
+            # What a comment of a source deck may hold is no data.
+            refuse_strange(self.deck.source, card.number, card.text)
+        self.position += 1
+        self.events.append(Event("read", card.text))
+        return card
+
+    def _take_line(self) -> Card:
+        line, self.typed_line = self.typed_line, None
+        if line is None:
+            raise Wanted
+        self.events.append(Event("accept", line))
+        self._lines += 1
+        return read_line("typewriter", self._lines, line.rstrip("\r\n")[:COLUMNS], "line")
+
+    def _check_mode(self, spec: Field, fixed: bool, address: int) -> None:
+        key = spec.kind + ("<" if isinstance(self.transfer, Input) else ">")
+        self.fields[key] = self.fields.get(key, 0) + 1
+        if (spec.kind == "I") != fixed:
+            mode: Mode = "fixed" if fixed else "floating"
+            name = self.program.storage.name_of(address)
+            raise Ended(self.ending("mode", name=name, mode=mode, format=self._format, field=spec))
+
+    def _write(self, transfer: Output, spec: Field, address: int, fixed: bool) -> None:
+        self._check_mode(spec, fixed, address)
+        value, kind = self.state.values[address], self.state.kinds[address]
+        if kind == UNDEFINED or (kind == FIXED_POINT) != fixed:
+            name = self.program.storage.name_of(address)
+            raise Ended(self.ending("undefined" if kind == UNDEFINED else "mode", name=name, put_out=True))
+        if fixed:
+            transfer.write(write_fixed(spec, value))
+            return
+        columns, overflowed = self.options.numbers.write(spec, value)
+        self._beside.append((len(transfer.line) + 1, len(columns), value))
+        transfer.write(columns)
+        if overflowed:
+            self.error("F8")
+
+    def _read(self, spec: Field, card: Card, column: int, address: int, fixed: bool) -> None:
+        self._check_mode(spec, fixed, address)
+        columns = card.columns(column, column + spec.width - 1).ljust(spec.width)
+        typed = self.verb != "READ"
+        source = "typewriter" if typed else self.deck.source
+        value: Number
+        remark: Remark | None = None
+        try:
+            if fixed:
+                read = read_fixed(columns)
+                value, remark = read.mantissa, read.remark
+            elif not typed and (card.number, column, spec.width) in self._whole:
+                value = self._whole[card.number, column, spec.width]
+            else:
+                value, remark = self.options.numbers.read(spec, columns)
+        except FieldError as error:
+            raise CardError(source, card.number, column, str(error), "line" if typed else "card") from None
+        self.state.values[address], self.state.kinds[address] = value, FIXED_POINT if fixed else FLOATING
+        if remark is not None:
+            self.note(Notice("field", source, card=card.number, column=column, typed=typed, remark=remark))
+
+    def _punch(self, line: str) -> None:
+        if self.options.uncut:
+            self.cut.append(tuple(self._beside))
+        self.events.append(Event("punch", self._record(line, PUNCH_COLUMNS)))
+        self.punched += 1
+
+    def type(self, line: str) -> None:
+        """A line for the typewriter."""
+        text = self._record(line, TYPEWRITER_COLUMNS)
+        self.characters += len(text) + 1
+        decision = self.state.decision
+        last = self.line_at(decision - 1) if decision else None
+        self.events.append(Event("type", text, self.line_at(self.state.at), last))
+
+    def _record(self, line: str, room: int) -> str:
+        """A record as its device has it; it counts as work."""
+        if len(line.rstrip()) > room:
+            self.note(Notice("record", self.program.source, format=self._format, width=len(line), kept=room))
+        self._beside.clear()
+        self.state.work += 1
+        return line[:room].rstrip()
+
+    def error(self, code: str) -> None:
+        """An error code of the arithmetic, at the present statement; typed where the arithmetic announces it."""
+        card = self.line_at(self.state.at).place.card
+        self.errors[code, card] = self.errors.get((code, card), 0) + 1
+        if self.options.numbers.announces:
+            self.type(f"ERROR {code}")
+
+    def note(self, notice: Notice) -> None:
+        """Something to be noted, once."""
+        self.notices[notice] = None
+
+    def ending(
+        self,
+        kind: Kind,
+        *,
+        name: str = "",
+        mode: Mode | None = None,
+        format: int = 0,
+        field: Field | None = None,
+        put_out: bool = False,
+        trouble: str = "",
+    ) -> Ending:
+        """An ending at the present statement."""
+        return Ending(
+            kind,
+            self.program.source,
+            self.line_at(self.state.at),
+            decided(self.program, self.state.decision),
+            name=name,
+            mode=mode,
+            format=format,
+            field=field,
+            put_out=put_out,
+            trouble=trouble,
+        )

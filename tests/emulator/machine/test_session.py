@@ -1,0 +1,182 @@
+"""A run in slices: what it asks, what it answers, and what it does not keep."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Sequence
+
+import pytest
+
+from emulator.errors import CardError, DeckError
+from emulator.language.cards import deck_from_lines
+from emulator.machine.endings import Ending
+from emulator.machine.machine import Machine
+from emulator.machine.operator import Operator, operated
+from emulator.machine.result import Event, Options
+from emulator.machine.session import Action, Halt, Session
+from tests.support.deckwork import machine, program, run
+
+GAME = ["5 TYPE 91", "6 ACCEPT 90,K,L", "PAUSE 17", "TYPE 90,K,L", "STOP", "90 FORMAT(2I4)", "91 FORMAT(4HMOVE)", "END"]
+ENDLESS = ["K=0", "1 K=K+1", "PUNCH 90,K", "TYPE 90,K", "GO TO 1", "90 FORMAT(I5)", "END"]
+
+
+def session(*lines: str, data: Sequence[str] = (), **setting: object) -> Session:
+    return Session(program(*lines), deck_from_lines("data.cards", data), Options(), **setting)  # type: ignore[arg-type]
+
+
+def texts(events: Sequence[Event]) -> list[str]:
+    return [f"{event.what} {event.text}" for event in events]
+
+
+def test_a_session_stands_until_it_is_answered() -> None:
+    made = session(*GAME)
+    halt = made.advance(1_000)
+    assert isinstance(halt, Halt)
+    assert (halt.what, halt.line.name, texts(made.take())) == ("accept", "statement 6 (card 2)", ["type MOVE"])
+    assert made.advance(1_000) is halt
+    made.act(Action("ENTER", text="   1   2"))
+    halt = made.advance(1_000)
+    assert isinstance(halt, Halt)
+    assert (halt.what, halt.number) == ("pause", 17)
+    made.act(Action("START"))
+    ending = made.advance(1_000)
+    assert isinstance(ending, Ending)
+    assert (ending.kind, texts(made.take())) == ("stop", ["accept    1   2", "type    1   2"])
+    assert made.advance(1_000) is ending
+
+
+@pytest.mark.parametrize("bad", ["   1   X", "   1   x", "99991-2-", "   *"])
+def test_a_bad_line_is_asked_for_again_and_has_no_effect(bad: str) -> None:
+    made = session("K=7", *GAME, retypes=True)
+    made.advance(1_000)
+    made.act(Action("ENTER", text=bad))
+    halt = made.advance(1_000)
+    assert isinstance(halt, Halt)
+    assert halt.what == "accept"
+    assert halt.trouble.startswith("typewriter: line 1, column ")
+    assert made.state.values[made.program.storage.entries[0].first] == 7
+    made.act(Action("ENTER", text="   3   4"))
+    assert made.advance(1_000) is made.halt
+    made.act(Action("START"))
+    made.advance(1_000)
+    assert texts(made.take())[-2:] == ["accept    3   4", "type    3   4"]
+
+
+def test_a_bad_second_line_of_a_list_is_retyped_alone() -> None:
+    lines = ["DIMENSION M(4)", "ACCEPT 90,(M(I),I=1,4)", "TYPE 91,M,I", "90 FORMAT(2I2)", "91 FORMAT(5I2)", "END"]
+    made = session(*lines, retypes=True)
+    for line in (" 1 2", " 3 +", " 3 4"):
+        assert isinstance(made.advance(1_000), Halt)
+        made.act(Action("ENTER", text=line))
+    assert made.advance(1_000) == Ending("end")
+    assert texts(made.take())[-1] == "type  1 2 3 4 5"
+
+
+def test_where_nobody_retypes_a_bad_line_is_an_error() -> None:
+    made = session(*GAME)
+    made.advance(1_000)
+    made.act(Action("ENTER", text="   X"))
+    with pytest.raises(CardError, match="'X' is not a whole number"):
+        made.advance(1_000)
+
+
+def test_single_steps_and_breakpoints() -> None:
+    made = session("I=1", "J=2", "7 K=3", "L=4", "GO TO 7", "END")
+    found = []
+    for actions in (
+        [Action("ATTN")],
+        [Action("STEP", 1)],
+        [Action("STEP", 2)],
+        [Action("BREAK", 7), Action("START")],
+        [Action("STEP", 1)],
+        [Action("CLEAR", 7), Action("BREAK", 5, card=True), Action("START")],
+        [Action("START")],
+    ):
+        for action in actions:
+            made.act(action)
+        halt = made.advance(1_000)
+        assert isinstance(halt, Halt)
+        found.append((halt.why, halt.line.place.card))
+    assert found == [
+        ("attention", 1),
+        ("step", 2),
+        ("step", 4),
+        ("breakpoint", 3),
+        ("step", 4),
+        ("breakpoint", 5),
+        ("breakpoint", 5),
+    ]
+    made.act(Action("CLEAR"))
+    made.act(Action("START"))
+    assert made.advance(1_000) is None
+
+
+@pytest.mark.parametrize(("card", "words"), [(False, "no statement 8"), (True, "no card 8")])
+def test_a_breakpoint_where_nothing_begins(card: bool, words: str) -> None:
+    with pytest.raises(DeckError, match=f"deck.f: the machine comes to {words}"):
+        session("7 K=3", "END").act(Action("BREAK", 8, card=card))
+
+
+def test_a_switch_flipped_on_the_way() -> None:
+    made = session("1 IF(SENSE SWITCH 3)2,1", "2 PUNCH 90", "90 FORMAT(2HON)", "END")
+    assert made.advance(100) is None
+    assert made.state.work == 100
+    made.act(Action("SWITCH", 3, on=True))
+    assert made.advance(200) == Ending("end")
+    assert texts(made.take()) == ["punch ON"]
+
+
+def test_stopped_by_the_operator_all_is_kept() -> None:
+    made = session(*ENDLESS)
+    made.advance(100)
+    made.act(Action("STOP"))
+    ending = made.advance(1_000)
+    assert isinstance(ending, Ending)
+    assert not ending.normal
+    assert ending.message.startswith("deck.f: card ")
+    assert "stopped by the operator" in ending.message
+    result = made.result(ending)
+    assert (result.punched[0], len(result.punched)) == ("    1", result.cards_punched)
+
+
+@pytest.mark.parametrize("stride", [1, 7, 1_000_000])
+def test_slices_do_not_change_a_run(stride: int) -> None:
+    lines = ["DO 5 I=1,40", "READ 90,K", "IF(K-20)5,4,5", "4 PAUSE", "5 PUNCH 90,K,I", "90 FORMAT(2I4)", "END"]
+    data = [f"{k:4d}" for k in range(30)]
+    whole = run(*lines, data=data)
+    assert (whole.ending.kind, whole.cards_read) == ("hopper", 30)
+    made = session(*lines, data=data)
+    while (ending := operated(made, Operator(), made.state.work + stride)) is None:
+        pass
+    assert made.result(ending) == whole
+
+
+def test_the_limit_is_that_of_a_whole_run() -> None:
+    whole = run(*ENDLESS, limit=9_000)
+    made = machine(*ENDLESS, limit=9_000)
+    while (ending := operated(made, Operator(), made.state.work + 123)) is None:
+        pass
+    assert made.result(ending) == whole
+
+
+def test_output_handed_out_is_not_kept() -> None:
+    """Neither cards, typed lines nor events stay: what is alive at any time is what came of one slice."""
+    made = Machine(program(*ENDLESS), deck_from_lines("d", ()), Options(limit=100_000))
+    found, alive = 0, []
+
+    def count(events: Sequence[Event]) -> None:
+        nonlocal found
+        found += len(events)
+        alive.append(sum(type(thing) is Event for thing in gc.get_objects()))
+
+    result = made.run(output=count)
+    assert (result.punched, result.typed, result.events) == ((), (), ())
+    assert found == result.cards_punched + result.characters_typed // 6 > 20_000
+    assert max(alive) < 1.2 * max(alive[:2]) < found / 2
+
+
+def test_an_endless_list_does_not_grow() -> None:
+    lines = ["N=9999", "PUNCH 90,(K,K=1,N)", "90 FORMAT(I5)", "END"]
+    made = Machine(program(*lines), deck_from_lines("d", ()), Options(limit=50_000))
+    made.run(output=lambda events: None)
+    assert made.listed == []
