@@ -122,7 +122,7 @@ def _loop(ending: Ending) -> str:
     span = f"card {first}" if first == last else f"cards {first} to {last}"
     word = "statement" if len(labels) == 1 else "statements"
     among = f", {word} {', '.join(labels[:12])}{' ...' if len(labels) > 12 else ''}" if labels else ""
-    return f"; {'it loops on' if ending.repeats else 'it was on'} {span}{among}"
+    return f"; the last ones {'repeat' if ending.repeats else 'are on'} {span}{among}"
 
 
 def looped(program: Program, limit: int, before: Sequence[int], counts: Sequence[int], decision: int) -> Ending:

@@ -59,18 +59,21 @@ def test_limit_names_the_loop() -> None:
     result = run("K=0", "10 K=K+1", "L=K", "GO TO 10", "END", limit=5_000)
     assert result.ending.kind == "limit"
     assert not result.ending.normal
-    assert result.ending.message == "deck.f: stopped after 5000 statements; it loops on cards 2 to 4, statement 10"
+    assert (
+        result.ending.message
+        == "deck.f: stopped after 5000 statements; the last ones repeat cards 2 to 4, statement 10"
+    )
     assert result.statements == 5_000
 
 
 def test_limit_names_only_the_loop_it_was_in_at_last() -> None:
     lines = ["DO 5 I=1,900", "5 K=I", "6 GO TO 6", "END"]
-    assert run(*lines, limit=10_000).ending.message.endswith("it loops on card 3, statement 6")
+    assert run(*lines, limit=10_000).ending.message.endswith("the last ones repeat card 3, statement 6")
 
 
 def test_a_loop_of_cards_without_numbers() -> None:
     message = run("DO 5 I=1,9999", "5 CONTINUE", "END", limit=30_000).ending.message
-    assert message.endswith("it loops on card 2, statement 5")
+    assert message.endswith("the last ones repeat card 2, statement 5")
 
 
 @pytest.mark.parametrize("limit", [2, 3, 7, 60])

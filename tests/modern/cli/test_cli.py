@@ -233,7 +233,7 @@ def test_statement_limit_keeps_the_cards_punched_so_far(capsys: pytest.CaptureFi
     deck = MACHINE_RUNS / "39_prism_n10" / "deck.cards"
     code, out, err = call(capsys, "hull", str(deck), "--limit", "100000")
     assert code == 1
-    assert "program3.f: stopped after 100000 statements; it loops on cards" in err
+    assert "program3.f: stopped after 100000 statements; the last ones repeat cards" in err
     assert "CONVEX HULL" in out
 
 

@@ -1,28 +1,236 @@
-"""Faults of the originals that KNOWN-FAULTS.md names with points: they are there, and where they are not."""
+"""KNOWN-FAULTS.md, entry by entry: a deck shows the fault, its row alone corrects it, and no other row does."""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Callable, Sequence
 from fractions import Fraction
+from functools import cache
+from itertools import product
+from random import Random
 
 import pytest
 
-from emulator.language.cards import Deck
+from emulator.language.cards import Deck, deck_from_lines, read_deck
+from emulator.language.objectcode import Line, Program
+from emulator.machine.machine import Machine
+from emulator.machine.result import Options
+from emulator.numbers.fields import Field
 from modern.edition import programs
-from modern.formats.deck import data_deck
+from modern.edition.grounds import ground_deck
+from modern.formats.deck import data_deck, with_epsilon
+from modern.formats.points import parse_input
+from modern.study import Port, Programs
+from modern.study.families.draws import Drawn
+from modern.study.outcomes import Answer
+from modern.study.routes import carry_out
+from modern.study.sample import Sample, judge
+from modern.thesis.batch import Runs
 from modern.thesis.cards import read_hull
-from modern.thesis.job import run_hull
+from modern.thesis.job import HullRun, run_hull
+from tests.support.judged import Point, distinct, faults
+from tests.support.paths import MACHINE_RUNS
 
+TEXT = programs.sources().joinpath("KNOWN-FAULTS.md").read_text(encoding="utf-8")
+ENTRIES = {int(n): words for n, words in re.findall(r"^(\d+)\. (.+(?:\n +.+)*)", TEXT, re.M)}
+CORRECTIONS = [row.id for name in programs.TEXTS for row in programs.text(name).rows if row.layer == "corrected"]
 Triple = tuple[int, int, int]
 
 
-def deck(points: list[Triple]) -> Deck:
+def sheet(name: str) -> Deck:
+    """A ground, or one of the fourteen machine runs."""
+    return ground_deck(name) or read_deck(str(MACHINE_RUNS / name / "deck.cards"))
+
+
+@cache
+def sample(name: str) -> Sample:
+    return judge(Drawn(parse_input(sheet(name).text(), name).points), name)
+
+
+@cache
+def answer(name: str, *rows: str) -> Answer:
+    """What the listing, with these rows of the layer ``corrected`` and no others, makes of a deck."""
+    (found,) = carry_out(Programs("route", rows=rows, core=60_000, limit=1_000_000), [sample(name)], Runs())
+    return found
+
+
+def exactly(name: str) -> str:
+    """What the same procedure makes of it in exact arithmetic, without cards that cut the numbers."""
+    (found,) = carry_out(Port("exact", "exact"), [sample(name)], Runs())
+    return found.outcome
+
+
+# Entry, deck, outcome, where, and the row that corrects it.
+CORRECTED = [
+    (1, "lastpair", "ERROR IN PROGRAM", "program3 147", "P3-025"),
+    (2, "04_cube8", "ERROR IN PROGRAM", "program3 170", "P3-026"),
+    (2, "39_prism_n10", "endless", "program3 157-169", "P3-026"),
+    (2, "lastplane", "endless", "program3 157-169", "P3-026"),
+    (3, "throughc", "ERROR IN PROGRAM", "program3 132+3", "P3-027"),
+    (5, "table", "table full", "program3 MM(99)", "P3-028"),
+    (14, "between", "wrong hull", "vertex missed", "P2-024"),
+    (15, "renumber", "wrong hull", "vertices of a plane wrong", "P2-025"),
+    (16, "polygon51", "out of bounds", "program2 A(52)", "P2-023"),
+]
+
+
+@pytest.mark.parametrize(("entry", "name", "outcome", "where", "row"), CORRECTED)
+def test_its_deck_shows_the_fault_and_its_row_alone_corrects_it(
+    entry: int, name: str, outcome: str, where: str, row: str
+) -> None:
+    found = answer(name)
+    assert (found.outcome, found.detail) == (outcome, where)
+    assert answer(name, row).outcome == "right"
+    assert row in ENTRIES[entry]
+    assert name in ENTRIES[entry]
+
+
+@pytest.mark.parametrize(("name", "row"), [(name, row) for _, name, _, _, row in CORRECTED])
+def test_no_other_row_corrects_it(name: str, row: str) -> None:
+    """Rows of another program than the fault's cannot; P3-029 stands on P3-027."""
+    for other in CORRECTIONS:
+        if other != row and other[:2] == row[:2]:
+            rows = ("P3-027", other) if other == "P3-029" else (other,)
+            if row not in rows:
+                assert answer(name, *rows).outcome != "right", other
+
+
+def test_the_corrections_named_are_all_there_are() -> None:
+    """P3-029 keeps a message, and is tested with entry 4."""
+    assert sorted({row for *_, row in CORRECTED} | {"P3-029"}) == sorted(CORRECTIONS)
+
+
+# What has no row of its own.
+
+
+def run(name: str | Deck, *layers: str, options: Options | None = None) -> HullRun:
+    deck = sheet(name) if isinstance(name, str) else name
+    return run_hull(deck, lambda wanted: programs.with_layers(wanted, layers), options or Options(core=60_000))
+
+
+def deck(points: Sequence[Sequence[int]]) -> Deck:
     return data_deck([list(map(str, point)) for point in points], "points")
+
+
+def ran(name: str | Deck, last: str, label: int, see: Callable[[Machine], object]) -> list[object]:
+    """What is seen of the machine each time the statement of that number of program ``last`` begins."""
+    seen: list[object] = []
+
+    def watch(program: Program, machine: Machine) -> None:
+        def begins(line: Line, machine: Machine) -> None:
+            if program.source == last and line.label == label:
+                seen.append(see(machine))
+
+        machine.tracer = begins
+
+    run_hull(sheet(name) if isinstance(name, str) else name, programs.program, watch=watch)
+    return seen
+
+
+def value(machine: Machine, name: str) -> object:
+    (entry,) = (entry for entry in machine.program.storage.entries if entry.name == name)
+    return machine.state.values[entry.first]
+
+
+def test_1_the_other_way_of_ending_it_has_none() -> None:
+    """Without end the plane table is emptied far below zero."""
+    found = run(
+        deck([(4, 5, 2), (1, 0, 7), (2, 8, 5), (2, 9, 1), (0, 8, 6), (8, 9, 3), (6, 9, 5), (3, 8, 7)]),
+        options=Options(limit=20_000),
+    )
+    assert found.final.result.ending.kind == "limit"
+    assert {142, 157} <= {line.label for line in found.final.result.ending.loop}
+
+
+def test_3_of_sixty_orders_of_the_cubes_corners_twelve_end_so_and_the_others_by_2() -> None:
+    corners = list(product((0, 1), repeat=3))
+    through_c = 0
+    for seed in range(60):
+        Random(seed).shuffle(corners)
+        found = run(deck(corners), options=Options(limit=20_000)).final.result
+        typed = [event.decision for event in found.events if event.text == "ERROR IN PROGRAM"]
+        if typed and typed[0] is not None and typed[0].text == "IF(E(I))135,133,134":
+            through_c += 1
+        else:
+            assert found.ending.kind == "limit" or (typed[0] is not None and typed[0].label == 170)
+    assert through_c == 12
+    assert "twelve" in ENTRIES[3]
+
+
+def test_4_a_plane_of_zeros_keeps_its_message() -> None:
+    """P3-027 alone would lose it; P3-029 beside it does not."""
+    assert answer("zeroplane").outcome == "ERROR IN PROGRAM"
+    assert answer("zeroplane", "P3-027").outcome == "table full"
+    assert answer("zeroplane", "P3-027", "P3-029").outcome == "ERROR IN PROGRAM"
+    assert exactly("zeroplane") == "right"
+
+
+def test_6_more_digits_correct_it_and_no_row() -> None:
+    assert answer("18_dec3_n6").outcome == "DATA NOT ACCEPTABLE"
+    for row in CORRECTIONS:
+        rows = ("P3-027", row) if row == "P3-029" else (row,)
+        assert answer("18_dec3_n6", *rows).outcome == "DATA NOT ACCEPTABLE"
+    assert exactly("18_dec3_n6") == "right"
+
+
+def circle_and(point: Triple) -> list[Sequence[int]]:
+    """Fifty points of a circle and one last."""
+    points = [[int(float(x)) for x in one] for one in sample("polygon51").drawn.points]
+    return [*points[:50], point]
+
+
+def test_7_what_stands_past_the_end_is_copied_and_never_computed_with() -> None:
+    """N = 51, the last point inside: element 52 is copied to 51."""
+    points = circle_and((0, 10, 0))
+    (seen,) = ran(deck(points), "program2.f", 119, lambda machine: (value(machine, "J"), value(machine, "N")))
+    assert seen == (51, 50)
+    assert run(deck(points)).complete
+    assert not faults([(x, y, z) for x, y, z in points])
+
+
+def test_8_the_jump_into_a_do_that_is_not_running_comes_to_nothing() -> None:
+    """K is NE or more there: the end of the DO steps it past the limit and goes on to 191."""
+    before = ran("example4", "program2.f", 191, lambda machine: (value(machine, "K"), value(machine, "NE")))
+    assert before
+    assert all(isinstance(pair, tuple) and pair[0] >= pair[1] for pair in before)
+    jumps = ran("renumber", "program2.f", 184, lambda machine: value(machine, "K"))
+    in_the_loop = ran("renumber", "program2.f", 182, lambda machine: value(machine, "K"))
+    assert len(jumps) > len(in_the_loop) > 0
+    assert answer("example4").outcome in ("right", "reordered")
+
+
+LATE = [(0, 2, 0), (1, 2, 0), (2, 2, 0), (1, 1, 0), (2, 0, 0), (2, 1, 0), (0, 1, 0)]
+LATE_3 = [(0, 3, 0), (2, 0, 2), (0, 1, 0), (1, 0, 1), (3, 3, 0), (3, 1, 0), (0, 2, 0), (3, 2, 0)]
+
+
+def test_9_the_jump_into_the_range_of_143_leaves_it_before_its_end() -> None:
+    """158 goes to 138, and 142 with NPNCH = 2 leaves for 160: 143 is not reached from there."""
+    came = ran(deck(LATE), "program2.f", 138, lambda machine: value(machine, "NPNCH"))
+    assert 2 in came
+    assert len(ran(deck(LATE), "program2.f", 143, lambda machine: 0)) == came.count(0)
+    assert len(ran(deck(LATE), "program2.f", 160, lambda machine: 0)) == came.count(2)
+    assert not faults([(x, y, z) for x, y, z in LATE])
+
+
+def test_10_with_switch_1_on_a_refused_set_goes_on() -> None:
+    off, on = (run("18_dec3_n6", options=Options(switches=frozenset(s), limit=50_000)) for s in ((), (1,)))
+    assert off.refusal == "DATA NOT ACCEPTABLE"
+    assert "DATA NOT ACCEPTABLE" in on.final.result.typed
+    assert on.final.result.statements > off.final.result.statements
+    assert on.final.result.typed.count("DATA NOT ACCEPTABLE") > 1
+
+
+def test_11_format_21_takes_fourteen_columns_for_z() -> None:
+    """The data sheet of chapter 5 (p. 59) gives it 29 to 52."""
+    widths = [part.width for part in dict(programs.program("program1").formats)[21].specs if isinstance(part, Field)]
+    assert (sum(widths[:2]) + 1, sum(widths[:3])) == (29, 42)
+    assert "29 to 52; FORMAT 21 takes 29 to 42" in ENTRIES[11]
 
 
 def ends(first: str, points: list[Triple]) -> set[tuple[Fraction, ...]]:
     """The endpoints (or vertices) the last program punches."""
-    run = run_hull(deck(points), programs.program, first=first)
-    return set(read_hull(run.final.result.punched).vertices)
+    found = run_hull(deck(points), programs.program, first=first)
+    return set(read_hull(found.final.result.punched).vertices)
 
 
 @pytest.mark.parametrize(
@@ -37,3 +245,75 @@ def test_12_the_state_of_the_examples_takes_wrong_ends(
 ) -> None:
     assert ends("program1_examples", points) == {tuple(map(Fraction, points[i])) for i in wrong}
     assert ends("program1", points) == {tuple(map(Fraction, points[i])) for i in right}
+
+
+@pytest.mark.parametrize(
+    ("exponent", "words"),
+    [
+        ("E-16", "POINTS ARE NOT COPLANAR"),
+        ("E-17", "POINTS ARE COPLANAR"),
+        ("E-49", "POINTS ARE COPLANAR"),
+        ("E-50", "POINTS ARE COLLINEAR"),
+    ],
+)
+def test_13_small_points_in_no_plane_pass_for_coplanar_and_smaller_ones_for_collinear(
+    exponent: str, words: str
+) -> None:
+    points = [(1, 2, 3), (2, 1, 5), (4, 4, 1), (3, 9, 2), (7, 1, 1)]
+    cards = ["".join(f"+.{x}0000000{exponent}" for x in point) for point in points]
+    first = run(deck_from_lines("small", [" 5", *cards])).steps[0].result
+    assert words in (*first.typed, *first.punched)
+
+
+@pytest.mark.parametrize(("points", "program"), [(LATE, "program2"), (LATE_3, "program3")])
+def test_17_the_heading_of_boundary_points_comes_twice(points: list[Triple], program: str) -> None:
+    """The points are right: the heading has no part in the hull."""
+    found = run(deck(points))
+    assert found.final.name == program
+    assert sum("BOUNDARY POINTS" in line for line in found.final.result.punched) == 2
+    assert not faults(points)
+
+
+def thirds(flat: bool) -> list[list[Point]]:
+    """Sixty sets of 5 to 20 points with integers from -9 to 9."""
+    found = []
+    for seed in range(60):
+        random = Random(seed)
+
+        def draw(random: Random = random) -> Point:
+            return random.randint(-9, 9), random.randint(-9, 9), 1 if flat else random.randint(-9, 9)
+
+        found.append(distinct(draw, random.choice((5, 8, 12, 20))))
+    return found
+
+
+@pytest.mark.parametrize(("flat", "refused", "errors"), [(True, 54, 0), (False, 1, 6)])
+def test_18_translation_costs_digits(flat: bool, refused: int, errors: int) -> None:
+    refusals = [run(deck(points), "translation", "corrected").refusal for points in thirds(flat)]
+    assert refusals.count("DATA NOT ACCEPTABLE") == refused
+    assert refusals.count("ERROR IN PROGRAM") == errors
+    words = " ".join(ENTRIES[18].split())
+    assert (f"refuse {refused} (" if flat else f"in space {refused}, with {errors} ending") in words
+    assert not any(faults(points, "corrected") for points in thirds(flat))
+
+
+def test_19_points_nearly_in_a_plane_of_constant_z_are_projected_into_a_line() -> None:
+    points = [["0", "0", "1"], ["10", "0", "1"], ["0", "10", "1"], ["10", "10", "1.01"]]
+    found = run(with_epsilon(data_deck(points, "points"), "1"), "epsilon", "corrected")
+    hull = read_hull(found.final.result.punched)
+    assert found.final.name == "program2"
+    assert (len(hull.vertices), len(hull.equations)) == (2, 1)
+
+
+def test_every_entry_has_a_test() -> None:
+    named = {entry for entry, *_ in CORRECTED}
+    named |= {int(found[1]) for name in globals() if (found := re.match(r"test_(\d+)_", name))}
+    assert named == set(ENTRIES) == set(range(1, len(ENTRIES) + 1))
+
+
+def test_the_rows_name_the_entries_they_correct() -> None:
+    for name in programs.TEXTS:
+        for row in programs.text(name).rows:
+            if row.layer == "corrected":
+                found = re.findall(r"KNOWN-FAULTS (\d+)", row.reason)
+                assert row.id in ENTRIES[int(found[0])], row.id

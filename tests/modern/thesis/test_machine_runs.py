@@ -50,11 +50,11 @@ def test_every_card_and_typed_line(folder: Path) -> None:
         else:
             assert device == "endless"
             assert steps[program].ending.kind == "limit"
-            assert "it loops on" in steps[program].ending.message
+            assert "the last ones repeat" in steps[program].ending.message
 
 
 def test_the_cube_ends_in_error_in_program() -> None:
-    """KNOWN-FAULTS 3."""
+    """KNOWN-FAULTS 2."""
     assert run(RUNS / "04_cube8").refusal == "ERROR IN PROGRAM"
 
 
