@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import tomllib
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import cache
+from importlib.resources import files
 
 
 class EmulatorError(Exception):
@@ -102,3 +105,25 @@ class CompileError(EmulatorError):
         errors = [d for d in self.diagnostics if not d.warning]
         more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
         super().__init__(errors[0].line(source) + more)
+
+
+@dataclass(frozen=True, slots=True)
+class Explanation:
+    """What an error number of the compiler (``5``) or an error code of the machine (``E3``) means.
+
+    ``example``: cards that give it when compiled or run.  ``source``: manual and page, or what was executed.
+    """
+
+    title: str
+    meaning: str
+    example: tuple[str, ...]
+    mend: str
+    source: str
+
+
+@cache
+def explanations() -> Mapping[str, Explanation]:
+    """Every error number and code with its explanation: 5 to 13 (C26-5619 p. 56), E1 to E8, F1 to F6, F8."""
+    text = files("emulator").joinpath("explanations.toml").read_text(encoding="utf-8")
+    rows = tomllib.loads(text).items()
+    return {number: Explanation(**{**row, "example": tuple(row["example"])}) for number, row in rows}

@@ -45,29 +45,13 @@ class Options:
 Uncut = tuple[int, int, Number]
 """A number punched: its first column, how many columns it takes, and the number."""
 
-ERRORS = {
-    "E1": "a sum overflows",
-    "E2": "a sum underflows",
-    "E3": "a product overflows",
-    "E4": "a product underflows",
-    "E5": "a quotient overflows",
-    "E6": "a quotient underflows",
-    "E7": "division by zero",
-    "E8": "fixed-point division by zero",
-    "F1": "an angle too large for SIN or COS",
-    "F2": "LOG of zero, or a power of zero",
-    "F3": "LOG of a negative number",
-    "F4": "EXP or a power overflows",
-    "F5": "EXP or a power underflows",
-    "F6": "a power of a negative number",
-    "F8": "a number too large for its field",
-}
-"""The error codes of the subroutines: E1 to E8 executed, F1 to F6 after GOTRAN (C26-5594 p. 28), F8 chosen."""
-
 
 @dataclass(frozen=True, slots=True)
 class MachineError:
-    """An error code of the arithmetic (:data:`ERRORS`), the card of the statement it arose in, and how often."""
+    """An error code of the arithmetic, the card of the statement it arose in, and how often.
+
+    What a code means: :func:`emulator.errors.explanations`.
+    """
 
     code: str
     card: int

@@ -254,7 +254,7 @@ def powers_of_ten(rules: Rules) -> list[int]:
 class Profile:
     """An arithmetic: how many digits, what each operation does with the digits it cannot keep, what is typed.
 
-    ``announces``: every error of the arithmetic types its code (emulator.machine.result.ERRORS).
+    ``announces``: every error of the arithmetic types its code (emulator.errors.explanations).
     """
 
     name: str

@@ -4,7 +4,7 @@ A number is whatever its system says; nothing outside looks into it.  Rules that
 
 - Input takes every digit of the columns or of the constant; output cuts the number's decimal digits to the
   field's, never rounds (C26-5619 p. 38-40).
-- What the 1620's subroutines answer with an error code is answered with the same code (emulator.machine.result.ERRORS).
+- What the 1620's subroutines answer with an error code is answered with the same code (emulator.errors.explanations).
 - What a system cannot say ends the run by :class:`Undecided`; it is never guessed.
 """
 

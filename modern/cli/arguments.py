@@ -195,6 +195,13 @@ def _program(parser: ArgumentParser) -> None:
     _upcase(parser)
 
 
+def _check(parser: ArgumentParser) -> None:
+    parser.add_argument("program", metavar="PROGRAM.f", nargs="?")
+    parser.add_argument("--explain", metavar="N", help="what error number N means, as 5 or E3; all: every one")
+    _layers(parser)
+    _upcase(parser)
+
+
 def _map(parser: ArgumentParser) -> None:
     parser.add_argument("program", metavar="PROGRAM.f")
     parser.add_argument("--core", type=int, choices=(20000, 40000, 60000), default=40000)
@@ -308,7 +315,7 @@ COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {
     "voxel-hull": ("the hull of a voxel solid by Kovalevsky and Schulz, or its filled digital hull", _voxel_hull),
     "octree-hull": ("the digital hull of a voxel solid from its octree, by Yau and Srihari", _octree_hull),
     "apparatus": ("the emendations of the listings, row by row", _apparatus),
-    "check": ("the compiler's messages for a program", _program),
+    "check": ("the compiler's messages for a program; what an error number means", _check),
     "map": ("the storage map of a program", _map),
     "compile": ("the object code of a program", _program),
     "bench": ("the speed of the engines side by side", _bench),

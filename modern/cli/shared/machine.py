@@ -11,14 +11,14 @@ from itertools import groupby
 from operator import attrgetter
 from typing import TextIO
 
-from emulator.errors import FileError, LowerCaseError
+from emulator.errors import FileError, LowerCaseError, explanations
 from emulator.files import reason, write_text, writing
 from emulator.language.cards import Deck, read_deck
 from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import Program
 from emulator.language.statements import capitals
 from emulator.machine.operator import Output
-from emulator.machine.result import ERRORS, Event, Options, Result
+from emulator.machine.result import Event, Options, Result
 from emulator.machine.timing import Row, measure
 from emulator.machine.trace import Tracer
 from emulator.numbers import DecimalNumbers, Numbers, numbers
@@ -96,7 +96,7 @@ def say_notices(program: Program, result: Result, said: Collection[tuple[int, in
     say(f"warning: {n.message}" for n in result.notices if n.kind != "field" or (n.card, n.column) not in said)
     for error in result.errors:
         times = f", {error.times} times" if error.times > 1 else ""
-        say([f"note: {program.source}: {error.code} on card {error.card}: {ERRORS[error.code]}{times}"])
+        say([f"note: {program.source}: {error.code} on card {error.card}: {explanations()[error.code].title}{times}"])
 
 
 class _Lost(Exception):

@@ -1,12 +1,20 @@
-"""A program of one's own, as its owner brings it: small letters."""
+"""A program of one's own, as its owner brings it: small letters, and error numbers explained."""
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
 
+from emulator.errors import explanations
+from emulator.language.cards import Deck, deck_from_lines
+from emulator.language.compiler import translate
+from emulator.machine.machine import Machine
+from emulator.machine.result import Options
+from emulator.numbers import numbers
 from tests.support.commands import call
+from tests.support.paths import ROOT
 
 SOURCE = "      READ 6,I\n      J=I*I\n      PUNCH 6,J\n      STOP\n    6 FORMAT(I3)\n      END\n"
 
@@ -56,3 +64,64 @@ def test_a_deck_of_data_is_never_read_as_capitals(capsys: pytest.CaptureFixture[
     code, out, err = call(capsys, "run", "small.f", "one.deck", "--upcase")
     assert (code, out) == (2, "")
     assert err == "hull1620: one.deck: card 1, column 3: 'e' is not in the card code: letters are capitals\n"
+
+
+@pytest.mark.parametrize("number", explanations())
+def test_the_example_of_an_error_gives_that_number(number: str) -> None:
+    """Compiled, or run under the arithmetic that types every code."""
+    deck = deck_from_lines("example.f", explanations()[number].example)
+    program, messages = translate(deck)
+    if number.isdecimal():
+        assert [message.number for message in messages] == [int(number)]
+        return
+    assert program is not None
+    assert messages == ()
+    for arithmetic in ("truncating", "ibm1962"):
+        result = Machine(program, Deck("no deck", ()), Options(numbers=numbers(arithmetic))).run()
+        assert [error.code for error in result.errors] == [number]
+    assert result.typed == (f"ERROR {number}",)
+
+
+def test_every_number_the_program_gives_is_explained() -> None:
+    """Numbers stand as such in the sources of the compiler, codes in those of the arithmetic."""
+    language = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "emulator" / "language").glob("*.py"))
+    given = set(re.findall(r"(?:Refused|_refused|Diagnostic|_error)\((?:[^()]|\([^()]*\))*?, (\d+)[,)]", language))
+    given |= set(re.findall(r'"(?:if_switch|do|dimension|input_output)": (\d+)', language))
+    numbers_there = {n for n in explanations() if n.isdecimal()}
+    assert given - {"0", "1"} <= numbers_there
+    rooms = [path for room in ("numbers", "machine") for path in (ROOT / "emulator" / room).glob("*.py")]
+    codes = {code for path in rooms for code in re.findall(r'"([EF]\d)"', path.read_text(encoding="utf-8"))}
+    assert codes <= set(explanations())
+
+
+@pytest.mark.parametrize("number", explanations())
+def test_an_error_is_explained_in_eighty_columns(number: str, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, err = call(capsys, "check", "--explain", number.lower())
+    assert (code, err) == (0, "")
+    found = explanations()[number]
+    assert all(card in out for card in found.example)
+    assert max(map(len, out.splitlines())) <= 80
+    words = " ".join(out.split())
+    assert words.startswith(f"error {number}: {found.title} ")
+    assert all(" ".join(text.split()) in words for text in (found.meaning, found.mend, found.source))
+
+
+def test_all_errors_are_explained_at_once(capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = call(capsys, "check", "--explain", "all")
+    assert code == 0
+    assert re.findall(r"^error (\w+):", out, re.M) == list(explanations())
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--explain", "3"), "--explain: there is no error 3; there are 5, 6, 7,"),
+        (("--explain", ""), "--explain: there is no error ; there are 5, 6, 7,"),
+        (("--explain", "5", "large.f"), "--explain: takes a number and no program"),
+        ((), "check: a program, or --explain and an error number, is missing"),
+    ],
+)
+def test_what_cannot_be_explained(arguments: tuple[str, ...], words: str, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, err = call(capsys, "check", *arguments)
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert err.startswith(f"hull1620: {words}")
