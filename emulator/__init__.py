@@ -70,3 +70,7 @@ def __getattr__(name: str) -> object:
         if name in names:
             return getattr(import_module(f"emulator.{module}"), name)
     raise AttributeError(f"module 'emulator' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -10,16 +10,26 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from modern.digital.hull import DigitalHull, digital_hull
-    from modern.geometry.hull import Face, Hull, Stage
+    from modern.geometry.hull import Face, Hull, HullRefused, Stage
     from modern.port import PointsError, RangeError, convex_hull
 
 _HOMES = {
     "modern.digital.hull": ("DigitalHull", "digital_hull"),
-    "modern.geometry.hull": ("Face", "Hull", "Stage"),
+    "modern.geometry.hull": ("Face", "Hull", "HullRefused", "Stage"),
     "modern.port": ("PointsError", "RangeError", "convex_hull"),
 }
 
-__all__ = ["DigitalHull", "Face", "Hull", "PointsError", "RangeError", "Stage", "convex_hull", "digital_hull"]
+__all__ = [
+    "DigitalHull",
+    "Face",
+    "Hull",
+    "HullRefused",
+    "PointsError",
+    "RangeError",
+    "Stage",
+    "convex_hull",
+    "digital_hull",
+]
 
 
 def __getattr__(name: str) -> object:
@@ -27,3 +37,7 @@ def __getattr__(name: str) -> object:
         if name in names:
             return getattr(import_module(module), name)
     raise AttributeError(f"module 'modern' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -89,7 +89,7 @@ def measure(count: int, say: Say = lambda line: None) -> Bench:
         except native.NoCompiler as error:
             remarks.append(str(error))
         works[PLAIN] = lambda: [Machine(program, deck_from_text("deck", text), OPTIONS).run() for text in few]
-        works[PORT] = lambda: [convex_hull(points, "float64") for points in some]
+        works[PORT] = lambda: [convex_hull(points, "float64", on_refusal="return") for points in some]
         say(f"running {', '.join(works)}, in turn")
         rows = tuple(Row(figure, sizes[figure.what]) for figure in side_by_side(works))
         agreement = None

@@ -79,7 +79,7 @@ def _routes(args: argparse.Namespace, found: Input, points: list[Vector]) -> Ite
         run = run_hull(data, programs.loader(chosen), Options(limit=_LIMIT, core=60000 if chosen else 40000))
         yield Route(from_cards(name, run, points))
     for arithmetic in ("float64", "exact"):
-        hull = convex_hull(found.points, arithmetic, epsilon=args.epsilon)
+        hull = convex_hull(found.points, arithmetic, epsilon=args.epsilon, on_refusal="return")
         yield Route(from_hull(f"port {arithmetic}", hull))
 
 

@@ -28,7 +28,7 @@ def exact_hull_of(path: str) -> Hull:
     # Imported here, so that a fault of the file is told without waiting.
     from modern.port import convex_hull
 
-    hull = convex_hull(found.points, "exact")
+    hull = convex_hull(found.points, "exact", on_refusal="return")
     for point, first in hull.duplicates:
         say([f"note: {found.source}: {found.places[point]}: the point of {found.places[first]} again"])
     return hull

@@ -10,10 +10,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import gcd, lcm
+
+import numpy as np
 
 from emulator.machine.endings import Ending
 from modern.exact_hull import ExactHull
-from modern.geometry.hull import DETERMINED, Hull
+from modern.geometry.hull import DETERMINED, Coefficients, Face, Hull
+from modern.port.arithmetic import exact_text
 from modern.thesis.cards import CardHull, read_hull
 from modern.thesis.job import HullRun
 
@@ -116,6 +120,63 @@ def from_judge(hull: ExactHull, points: Sequence[Vector]) -> Outcome:
         frozenset(hull.inside),
         tuple(equations),
     )
+
+
+def as_hull(judged: ExactHull) -> Hull:
+    """The judge's result in the form of the port's: equations as in ``from_judge``, everything as exact text.
+
+    Points are in the order of the input, where the port has that of the programs; there are no labels, no C, no stages.
+    """
+    unit = judged.scale
+    points = [tuple(Fraction(number, unit) for number in point) for point in judged.scaled]
+    if judged.dimension == 3:
+        polygons = [facet.polygon for facet in judged.facets]
+    else:
+        polygons = [*zip(judged.polygon, judged.polygon[1:] + judged.polygon[:1], strict=True)]
+    equations = from_judge(judged, points).equations
+    whole = [_whole(equation) for equation in equations]
+    faces = tuple(
+        Face(_texts(equation), integers, polygon[:3], polygon, on)
+        for equation, integers, polygon, on in zip(equations, whole, polygons, _on(judged, whole), strict=True)
+    )
+    return Hull(
+        arithmetic="exact",
+        status=DETERMINED,
+        dimension=judged.dimension,
+        points=tuple((exact_text(x), exact_text(y), exact_text(z)) for x, y, z in points),
+        vertices=judged.vertices,
+        boundary=judged.boundary,
+        inside=judged.inside,
+        duplicates=judged.duplicates,
+        faces=faces,
+        plane=None if judged.plane is None else _texts([Fraction(c) for c in judged.plane_of(judged.plane)]),
+    )
+
+
+def _on(judged: ExactHull, planes: Sequence[Sequence[int]]) -> list[tuple[int, ...]]:
+    """The boundary points on each plane or line (of the coordinates as given)."""
+    if not judged.boundary:
+        return [()] * len(planes)
+    unit = judged.scale
+    there = np.array([(*judged.scaled[index], unit) for index in judged.boundary], dtype=object)
+    found = []
+    for plane in planes:
+        zero = np.flatnonzero(there @ np.array(plane, dtype=object) == 0)
+        found.append(tuple(judged.boundary[place] for place in zero.tolist()))
+    return found
+
+
+def _whole(equation: Equation) -> tuple[int, int, int, int]:
+    """The equation in integers without common divisor."""
+    common = lcm(*(number.denominator for number in equation))
+    a, b, c, d = (number.numerator * (common // number.denominator) for number in equation)
+    divisor = gcd(a, b, c, d) or 1
+    return a // divisor, b // divisor, c // divisor, d // divisor
+
+
+def _texts(equation: Sequence[Fraction]) -> Coefficients:
+    a, b, c, d = map(exact_text, equation)
+    return a, b, c, d
 
 
 def _four(equation: Sequence[Fraction]) -> Equation:

@@ -60,8 +60,8 @@ def _polyhedron(points: Sequence[IntPoint], simplex: Sequence[int]) -> list[Face
 def exact_hull(points: Points) -> ExactHull:
     """The convex hull of at least one point, exactly, with every point classified and the result proved.
 
-    points: (x, y, z) each; a coordinate is an int, a Fraction, a decimal string (``"-.25E-3"``) or a Python float,
-    which is taken as the binary number it is; or an integer array of shape (n, 3).
+    points: (x, y, z) each; a coordinate is an int, a Fraction, a Decimal, a decimal string (``"-.25E-3"``), a fraction
+    ``"p/q"`` or a float, also one of numpy's, which is taken as the binary number it is; or an array of shape (n, 3).
     Raises PointsError for anything else, and CertificateError if the proof of the result fails.
     """
     read = read_points(points)

@@ -4,47 +4,28 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.geometry.numbers import Exact, PointsError, decimal
+from modern.geometry.numbers import Exact, PointsError, real
 
-Coordinate = int | Fraction | str | float
+Coordinate = int | float | Fraction | Decimal | str | np.integer[Any] | np.floating[Any]
 ExactPoint = tuple[Exact, Exact, Exact]
 IntPoint = tuple[int, int, int]
 Points = Iterable[Iterable[Coordinate]] | NDArray[Any]
 
 
-def exact(value: object) -> Exact:
-    """One coordinate as an exact number.
-
-    Integers (also numpy's), fractions and decimal strings are what they say; a Python float is the binary number it
-    holds.  Anything else raises ValueError: numpy floats because they are rounded already, truth values because
-    they are no coordinates.
-    """
-    if type(value) is int:
-        return value
-    if isinstance(value, str):
-        return decimal(value)
-    if isinstance(value, Fraction):
-        return value
-    if type(value) is float:
-        if not math.isfinite(value):
-            raise ValueError(f"{value} is not finite")
-        return Fraction(*value.as_integer_ratio())
-    if isinstance(value, (int, np.integer)) and not isinstance(value, bool):
-        return int(value)
-    raise ValueError(f"a {type(value).__name__} is not read; give an int, a Fraction, a decimal string or a float")
-
-
 def read_points(points: Points) -> list[ExactPoint]:
     """The exact coordinates of every point, in the order given.  Raises PointsError."""
     if isinstance(points, np.ndarray):
-        if points.dtype.kind not in "iuOU":
-            raise PointsError(f"an array of {points.dtype} is not exact; give integers, or lists of exact numbers")
+        if points.dtype.kind not in "iufOU":
+            raise PointsError(f"an array of {points.dtype} holds no real numbers")
+        if not points.size:
+            raise PointsError("there are no points")
         if points.ndim != 2:
             raise PointsError(f"an array of points has the shape (n, 3), not {points.shape}")
         points = points.tolist()
@@ -68,7 +49,7 @@ def read_points(points: Points) -> list[ExactPoint]:
         numbers: list[Exact] = []
         for axis, value in zip("xyz", row, strict=True):
             try:
-                numbers.append(exact(value))
+                numbers.append(real(value))
             except ValueError as error:
                 raise PointsError(f"point {index}, coordinate {axis}: {error}") from None
         found.append((numbers[0], numbers[1], numbers[2]))

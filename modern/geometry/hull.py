@@ -9,6 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Any
+
+from emulator.errors import EmulatorError
 
 DETERMINED = "determined"
 NOT_ACCEPTABLE = "DATA NOT ACCEPTABLE"
@@ -89,3 +92,14 @@ class Hull:
     @property
     def determined(self) -> bool:
         return self.status == DETERMINED
+
+
+class HullRefused(EmulatorError):
+    """An arithmetic in which the procedure came to no hull; ``result`` is what it came to, with its status."""
+
+    def __init__(self, result: Any) -> None:
+        super().__init__(
+            f"no hull in {result.arithmetic}: {result.status}, decided at {result.statement}; "
+            "'exact' always has one, on_refusal='return' gives the result as it is"
+        )
+        self.result = result

@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 from decimal import MAX_EMAX, MIN_EMIN, ROUND_HALF_EVEN, Context, Decimal
 from fractions import Fraction
+from numbers import Rational, Real
 
 from emulator.errors import EmulatorError
 
@@ -73,6 +74,29 @@ def number(text: str) -> Fraction:
         if len(stripped) <= _SHOWN or len(str(error)) <= 2 * _SHOWN:
             raise
         raise ValueError(f"{shown(stripped)} is not a decimal number of at most 4000 digits") from None
+
+
+def real(value: object) -> Exact:
+    """A real number of any type, exactly: a binary float, also one of numpy's, is the number it holds.
+
+    Text is a decimal or a fraction ``p/q``.  Raises ValueError for what is not finite, for truth values (they are no
+    coordinates) and for every other type.
+    """
+    if type(value) is int:
+        return value
+    if isinstance(value, str):
+        return number(value) if "/" in value else decimal(value)
+    if isinstance(value, Rational) and not isinstance(value, bool):
+        over, under = int(value.numerator), int(value.denominator)
+    elif isinstance(value, Real | Decimal) and not isinstance(value, bool):
+        try:
+            over, under = map(int, value.as_integer_ratio())  # type: ignore[union-attr]
+        except (OverflowError, ValueError):
+            raise ValueError(f"{value} is not finite") from None
+    else:
+        kind = type(value).__name__
+        raise ValueError(f"a {kind} is not read; give an int, a float, a Fraction, a Decimal or a decimal string")
+    return over if under == 1 else Fraction(over, under)
 
 
 def coordinates(point: Sequence[str]) -> tuple[Fraction, Fraction, Fraction]:

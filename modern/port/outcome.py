@@ -123,6 +123,10 @@ class PointTexts(Sequence[tuple[str, str, str]]):
     def __len__(self) -> int:
         return int(self._coordinates.shape[1])
 
+    def floats(self) -> NDArray[np.float64]:
+        """The coordinates as they are, shape (n, 3); a copy."""
+        return np.array(self._coordinates.T, np.float64, order="C")
+
     @overload
     def __getitem__(self, index: SupportsIndex) -> tuple[str, str, str]: ...
 

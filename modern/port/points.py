@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import math
-import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
+from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
@@ -12,57 +11,31 @@ import numpy as np
 from numpy.typing import NDArray
 
 from emulator.numbers.arithmetic import FAMILIES, PROFILES, profile
-from modern.geometry.numbers import PointsError
+from modern.geometry.numbers import PointsError, real
 from modern.port.arithmetic import Arithmetic, Exact, RangeError, Vector
 from modern.port.binary import MAX_BITS, MIN_BITS, FloatArithmetic, MultiprecisionArithmetic
 from modern.port.decimal import Arithmetic1620
 from modern.port.exact import exact_arithmetic
 
-Coordinate = int | Fraction | str | float
-Points = Iterable[Sequence[Coordinate]] | NDArray[Any]
+Coordinate = int | float | Fraction | Decimal | str | np.integer[Any] | np.floating[Any]
+Points = Iterable[Iterable[Coordinate]] | NDArray[Any]
 Read = tuple[Exact, bool]
 """A number, and whether it is a zero with a minus sign."""
-
-MAX_DIGITS, MAX_EXPONENT = 4000, 9999
-_DECIMAL = re.compile(r"([+-]?)([0-9]*)(?:\.([0-9]*))?(?:[eE]([+-]?[0-9]{1,6}))?")
-
-
-def read_decimal(text: str) -> Read:
-    """``12``, ``-1.5``, ``-.25E-3``: the number, without loss.  Raises ValueError."""
-    match = _DECIMAL.fullmatch(text.strip())
-    if not match or not (match[2] or match[3]):
-        raise ValueError(f"{text!r} is not a decimal number")
-    digits, places = match[2] + (match[3] or ""), len(match[3] or "")
-    exponent = int(match[4] or 0)
-    if len(digits) > MAX_DIGITS or abs(exponent) > MAX_EXPONENT:
-        raise ValueError(f"more than {MAX_DIGITS} digits or an exponent beyond {MAX_EXPONENT}")
-    number, exponent = int(match[1] + digits), exponent - places
-    value = number * 10**exponent if exponent >= 0 else Fraction(number, 10**-exponent)
-    return value, match[1] == "-" and number == 0
 
 
 def read_number(value: object) -> Read:
     """One coordinate.  Raises ValueError."""
-    if isinstance(value, str):
-        return read_decimal(value)
-    if isinstance(value, (bool, np.bool_)):
-        raise ValueError("a truth value is not a coordinate")
-    if isinstance(value, (int, np.integer)):
-        return int(value), False
-    if isinstance(value, Fraction):
-        return value, False
-    if isinstance(value, (float, np.floating)):
-        if not math.isfinite(value):
-            raise ValueError(f"{value} is not finite")
-        over, under = value.as_integer_ratio()
-        return (over if under == 1 else Fraction(over, under)), value == 0 and math.copysign(1, value) < 0
-    raise ValueError(f"{type(value).__name__}: give an int, a Fraction, a decimal string or a float")
+    found = real(value)
+    if found:
+        return found, False
+    return found, value.strip().startswith("-") if isinstance(value, str) else str(value).startswith("-")
 
 
 def read_points(points: Points) -> list[Read]:
     """The coordinates of all points, three a point, in one list.  Raises PointsError, counting points from 0."""
     if isinstance(points, np.ndarray):
-        points = points.tolist() if points.dtype.kind in "iufO" else list(points)
+        _check_shape(points)
+        points = points.tolist()
     found: list[Read] = []
     index = -1
     for index, point in enumerate(points):
@@ -127,9 +100,17 @@ def take(points: Points, name: str, wide: bool = False) -> tuple[Arithmetic, Vec
     return arithmetic, _numbers(arithmetic, read)
 
 
-def _floats(points: Vector) -> Vector:
-    if points.ndim != 2 or points.shape[1] != 3 or not len(points):
+def _check_shape(points: Vector) -> None:
+    if points.dtype.kind not in "iufOU":
+        raise PointsError(f"an array of {points.dtype} holds no real numbers")
+    if not points.size:
+        raise PointsError("there are no points")
+    if points.ndim != 2 or (points.shape[1] != 3 and points.dtype.kind != "O"):
         raise PointsError(f"an array of points has the shape (n, 3), not {points.shape}")
+
+
+def _floats(points: Vector) -> Vector:
+    _check_shape(points)
     bad = np.flatnonzero(~np.isfinite(points).all(axis=1))
     if bad.size:
         raise PointsError(f"point {bad[0]}: a coordinate is not finite")

@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass, field, replace
+from decimal import Decimal
 from fractions import Fraction
+from typing import Any, Literal
 
 import numpy as np
 
-from modern.geometry.hull import DETERMINED, ERROR, Hull
+from modern.geometry.hull import DETERMINED, ERROR, Hull, HullRefused
+from modern.geometry.numbers import real
 from modern.port.arithmetic import Arithmetic, RangeError, Scalar, Vector
 from modern.port.fast import choose
 from modern.port.formulas import at, less
 from modern.port.growth import Progress, Stopped
 from modern.port.opening import Opening, mean, open_hull, tetrahedron
 from modern.port.outcome import LINE, PLANE, Faces, Historian, coefficients, point_texts, texts
-from modern.port.points import Points, first_of_equals, read_decimal, take
+from modern.port.points import Points, first_of_equals, take
 from modern.port.polygon import Polygon, projection, strike_between
 from modern.port.polyhedron import Polyhedron, are_vertices, strike_repeats
 from modern.port.table import Equations, Places, Slack, turned
 
-Epsilon = str | int | Fraction | None
+Epsilon = str | int | float | Fraction | Decimal | np.integer[Any] | np.floating[Any] | None
+OnRefusal = Literal["raise", "return"]
 
 
 def convex_hull(
@@ -30,31 +33,40 @@ def convex_hull(
     translate: bool = False,
     history: bool = False,
     fast: bool | None = None,
+    on_refusal: OnRefusal = "raise",
 ) -> Hull:
     """The convex hull of points by Butler's procedure (thesis chapter 3; programs 1 to 3, chapter 5).
 
-    points: three coordinates each, an int, a Fraction, a decimal string or a float; or an array of shape (n, 3).
+    points: three coordinates each, real numbers of any type (a float is the binary number it holds), decimal strings
+    or fractions ``"p/q"``; or an array of shape (n, 3).
     arithmetic: ``exact``, ``float64``, ``float32``, ``mp:BITS``, ``truncating`` (the thesis's eight digits),
     ``ibm1962``, ``truncating:P``, ``guarded:P`` or ``rounding:P``.  epsilon: chapter 7's e (thesis p. 117): where a
-    given point is put into an equation a value from -e to +e counts as zero; ``"rel:E"`` takes E times the
-    equation's largest coefficient A, B or C.  translate: the origin is moved to C and the constant terms tell how
+    given point is put into an equation a value from -e to +e counts as zero; any real number, or ``"rel:E"``, E times
+    the equation's largest coefficient A, B or C.  translate: the origin is moved to C and the constant terms tell how
     equations are turned (thesis p. 118).  history: the result tells every H_j.  fast: compiled kernels (numba, the
     extra ``fast``) for ``float64`` and ``float32``; None: where they are there and points are many.  The result is
     the same.
 
     What the layer ``corrected`` changes is built in; :attr:`Hull.mended` names the rows that mattered.  Numbers
-    that are rounded may end in a status other than ``determined``, as the programs do.
+    that are rounded may end in a status other than ``determined``, as the programs do; on_refusal: ``raise`` an error
+    then, or ``return`` the result with that status.
 
-    Raises PointsError for invalid points; ValueError for an unknown arithmetic, an invalid epsilon, or kernels asked
-    for where numba is missing or cannot compile; RangeError where an intermediate result exceeds what floats hold.
+    Raises PointsError for invalid points; HullRefused where no hull was determined; ValueError for
+    an unknown arithmetic, an invalid epsilon, or kernels asked for where numba is missing or cannot compile; RangeError
+    where an intermediate result exceeds what floats hold.
     """
+    if on_refusal not in ("raise", "return"):
+        raise ValueError(f"on_refusal is 'raise' or 'return', not {on_refusal!r}")
     size = read_epsilon(epsilon)
     with np.errstate(over="raise", invalid="raise", divide="raise", under="ignore"):
         numbers, coordinates = take(points, arithmetic, wide=size is not None)
         try:
-            return _Run(numbers, coordinates, size, translate, history, fast).hull()
+            hull = _Run(numbers, coordinates, size, translate, history, fast).hull()
         except FloatingPointError:
             raise RangeError(f"{arithmetic}: a product of coordinates exceeds the largest number") from None
+    if on_refusal == "raise" and not hull.determined:
+        raise HullRefused(hull)
+    return hull
 
 
 def read_epsilon(epsilon: Epsilon) -> tuple[Fraction, bool] | None:
@@ -62,15 +74,10 @@ def read_epsilon(epsilon: Epsilon) -> tuple[Fraction, bool] | None:
     if epsilon is None:
         return None
     relative = isinstance(epsilon, str) and epsilon.startswith("rel:")
-    if isinstance(epsilon, str):
-        try:
-            value = Fraction(read_decimal(re.sub("^rel:", "", epsilon))[0])
-        except ValueError as error:
-            raise ValueError(f"epsilon: {error}") from None
-    elif isinstance(epsilon, (int, Fraction)) and not isinstance(epsilon, bool):
-        value = Fraction(epsilon)
-    else:
-        raise ValueError("epsilon: give a decimal string, 'rel:' and one, or a Fraction")
+    try:
+        value = Fraction(real(epsilon.removeprefix("rel:") if isinstance(epsilon, str) else epsilon))
+    except ValueError as error:
+        raise ValueError(f"epsilon: {error}") from None
     if value < 0:
         raise ValueError("epsilon is negative")
     return value, relative

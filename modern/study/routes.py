@@ -86,7 +86,12 @@ def _programs(route: Programs, samples: Sequence[Sample], runs: Runs) -> list[An
 def _port(route: Port, one: Sample) -> Answer:
     try:
         hull = convex_hull(
-            one.drawn.points, route.arithmetic, route.epsilon or None, route.translate, history=route.history
+            one.drawn.points,
+            route.arithmetic,
+            route.epsilon or None,
+            route.translate,
+            history=route.history,
+            on_refusal="return",
         )
     except RangeError as error:
         return Answer(OTHERWISE, str(error))

@@ -88,5 +88,5 @@ def _lengths(root: Path) -> dict[str, int]:
 
 
 def _modules(root: Path) -> list[Path]:
-    found = [path for package in ("emulator", "modern") for path in sorted((root / package).rglob("*.py"))]
+    found = [path for package in ("emulator", "modern", "hull1620") for path in sorted((root / package).rglob("*.py"))]
     return [path for path in found if path.name != "__init__.py"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from decimal import Decimal
 from fractions import Fraction
 
 import numpy as np
@@ -38,7 +39,9 @@ def test_decimal_strings(text: str, number: Fraction) -> None:
     assert decimal(text) == number
 
 
-@pytest.mark.parametrize("text", ["", " ", ".", "-", "1,5", "1/3", "0x10", "nan", "inf", "1e", "1 2", "١", "1e10000"])
+@pytest.mark.parametrize(
+    "text", ["", " ", ".", "-", "1,5", "1/0", "1/x", "0x10", "nan", "inf", "1e", "1 2", "١", "1e10000"]
+)
 def test_texts_that_are_no_decimal_number(text: str) -> None:
     with pytest.raises(PointsError, match="point 1, coordinate z: "):
         exact_hull([(0, 0, 0), (0, 0, text)])
@@ -57,7 +60,12 @@ def test_every_way_to_say_a_coordinate_gives_the_same_hull() -> None:
     assert as_halves == exact_hull([tuple(n / 2 for n in p) for p in numbers])
     assert as_halves == exact_hull([tuple(str(n / 2) for n in p) for p in numbers])
     assert (as_halves.scale, as_halves.scaled, as_halves.facets) == (2, expected.scaled, expected.facets)
-    for kind in (np.int8, np.uint16, np.int64, np.uint64, object):
+    assert as_halves == exact_hull([tuple(f"{n}/2" for n in p) for p in numbers])
+    assert as_halves == exact_hull([tuple(Decimal(n) / 2 for n in p) for p in numbers])
+    for kind in (np.float16, np.float32, np.float64, np.longdouble):
+        assert as_halves == exact_hull(np.array(numbers, dtype=kind) / kind(2))
+        assert as_halves == exact_hull([tuple(kind(n) / kind(2) for n in p) for p in numbers])
+    for kind in (np.int8, np.uint16, np.int64, np.uint64, object, str):
         assert exact_hull(np.array(numbers, dtype=kind)) == expected
     assert exact_hull([np.array(p) for p in numbers]) == expected
     assert exact_hull(iter(numbers)) == exact_hull(map(iter, numbers)) == expected
@@ -90,9 +98,14 @@ def test_numpy_integers_do_not_overflow() -> None:
         ([(1, float("-inf"), 0)], "point 0, coordinate y: -inf is not finite"),
         ([(1, True, 0)], "point 0, coordinate y: a bool is not read"),
         ([(None, 0, 0)], "point 0, coordinate x: a NoneType is not read"),
-        ([(1, 2, np.float64(1))], "point 0, coordinate z: a float64 is not read"),
-        (np.zeros((4, 3)), "an array of float64 is not exact"),
-        (np.zeros((4, 3), dtype=bool), "an array of bool is not exact"),
+        ([(1, 2, np.bool_(1))], "point 0, coordinate z: a bool is not read"),
+        ([(1, 2, 1j)], "point 0, coordinate z: a complex is not read"),
+        ([(1, 2, Decimal("inf"))], "point 0, coordinate z: Infinity is not finite"),
+        (np.array([(0.0, 0, float("nan"))]), "point 0, coordinate z: nan is not finite"),
+        (np.zeros((4, 3), dtype=bool), "an array of bool holds no real numbers"),
+        (np.zeros((4, 3), dtype=complex), "an array of complex128 holds no real numbers"),
+        (np.zeros((0, 3)), "^there are no points$"),
+        (np.zeros(0), "^there are no points$"),
         (np.zeros(3, dtype=int), r"an array of points has the shape \(n, 3\), not \(3,\)"),
         (np.zeros((4, 2), dtype=int), "point 0: 2 coordinates"),
     ],

@@ -19,9 +19,9 @@ from emulator.numbers import numbers
 from modern.edition import programs
 from modern.formats.deck import coordinate_field
 from modern.geometry.hull import DETERMINED, ERROR, NOT_ACCEPTABLE, TABLE_FULL
-from modern.port import convex_hull
 from modern.thesis.job import HullRun, run_hull
 from tests.support.paths import MACHINE_RUNS
+from tests.support.ported import convex_hull
 from tests.support.punched import differences, from_cards, from_run
 
 SETS = int(os.environ.get("HULL1620_SETS", "250"))

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import random
+from decimal import Decimal
 from fractions import Fraction
+from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from modern.geometry.hull import DETERMINED, ERROR, NOT_ACCEPTABLE, Hull
-from modern.port import convex_hull
+from tests.support.ported import convex_hull
 
 small = st.integers(-4, 4)
 sets = st.lists(st.tuples(small, small, small), min_size=1, max_size=16)
@@ -72,10 +75,17 @@ def test_epsilon_lets_three_decimals_pass() -> None:
     assert sorted(hull.vertices) == sorted(convex_hull(points).vertices)
 
 
-@pytest.mark.parametrize("epsilon", ["-1", "x", "rel:", "rel:-2", 0.5, True])
+@pytest.mark.parametrize("epsilon", ["-1", "x", "rel:", "rel:-2", float("nan"), -0.5, True, (1,)])
 def test_an_epsilon_that_is_none(epsilon: object) -> None:
     with pytest.raises(ValueError, match="epsilon"):
         convex_hull(CUBE, epsilon=epsilon)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("epsilon", ["0.5", 0.5, Fraction(1, 2), Decimal("0.5"), np.float32(0.5), "1/2"])
+def test_an_epsilon_of_any_type_of_number_is_that_number(epsilon: Any) -> None:
+    nearly = [*CUBE, (3, 3, "6.01")]
+    assert convex_hull(nearly, epsilon=epsilon) == convex_hull(nearly, epsilon="0.5")
+    assert convex_hull(nearly, epsilon=epsilon) != convex_hull(nearly)
 
 
 @given(sets)

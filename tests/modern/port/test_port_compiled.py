@@ -17,10 +17,11 @@ from numpy.typing import NDArray
 
 from emulator.compiled.jit import Compiled
 from modern.geometry.hull import DETERMINED, ERROR, NOT_ACCEPTABLE, TABLE_FULL, Hull
-from modern.port import convex_hull, fast, kernels, workspace
+from modern.port import fast, kernels, workspace
 from modern.port.binary import FloatArithmetic
 from modern.port.growth import LAST_PAIR, TABLE_OF_PLANES, THROUGH_CENTRE
 from modern.port.table import Places, Slack
+from tests.support.ported import convex_hull
 
 Points = NDArray[np.float64]
 Source = np.random.Generator

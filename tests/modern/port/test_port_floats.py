@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from modern.exact_hull import exact_hull
 from modern.geometry.hull import DETERMINED, NOT_ACCEPTABLE
-from modern.port import RangeError, convex_hull
+from modern.port import RangeError
+from tests.support.ported import convex_hull
 
 
 def ball(count: int, bits: int | None = None, seed: int = 1963) -> NDArray[np.float64]:

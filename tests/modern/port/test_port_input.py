@@ -24,11 +24,18 @@ BAD = (
     ((1, 2, "three"), "point 1, coordinate z: 'three' is not a decimal number"),
     ((1, "", 3), "point 1, coordinate y: '' is not a decimal number"),
     ((float("nan"), 2, 3), "point 1, coordinate x: nan is not finite"),
-    ((1, 2, None), "point 1, coordinate z: NoneType: give an int, a Fraction, a decimal string or a float"),
-    ((True, 2, 3), "point 1, coordinate x: a truth value is not a coordinate"),
+    (
+        (1, 2, None),
+        "point 1, coordinate z: a NoneType is not read; give an int, a float, a Fraction, "
+        "a Decimal or a decimal string",
+    ),
+    (
+        (True, 2, 3),
+        "point 1, coordinate x: a bool is not read; give an int, a float, a Fraction, a Decimal or a decimal string",
+    ),
     ("123", "point 1: str is not a point; a point has three coordinates"),
     (7, "point 1: int is not a point; a point has three coordinates"),
-    ((1, 2, "1e99999"), "point 1, coordinate z: more than 4000 digits or an exponent beyond 9999"),
+    ((1, 2, "1e99999"), "point 1, coordinate z: the exponent of '1e99999' is not within -9999 to 9999"),
 )
 
 
@@ -86,7 +93,7 @@ def test_arrays() -> None:
 @pytest.mark.parametrize("points", [[], np.empty((0, 3))])
 @pytest.mark.parametrize("arithmetic", ["exact", "float64"])
 def test_no_points(points: object, arithmetic: str) -> None:
-    with pytest.raises(PointsError):
+    with pytest.raises(PointsError, match=r"^there are no points$"):
         convex_hull(points, arithmetic)  # type: ignore[arg-type]
 
 

@@ -1,0 +1,152 @@
+"""Convex hulls in the arithmetic of 1963 and exactly, and the IBM 1620 that found them, for Python programs.
+
+Every name is loaded when it is first used, so that ``import hull1620`` costs nothing.
+
+convex_hull, exact_hull         the hull of points: Butler's procedure over any arithmetic; the exact one, proved
+Hull                            what both give: numpy arrays, exact volume and area, draw, save
+digital_hull, read_volume       the filled hull of voxels, and voxels from files
+read_points, data_deck          points from a file of any kind; points as a data deck
+read_deck, compile_deck         cards from a file; a FORTRAN program compiled
+Machine, Options, numbers       a run of a program on the 1620, how it is set up, its arithmetic
+run_hull, read_hull             the programs of 1963 over a data deck; a hull from the cards they punch
+diverge                         one program over two arithmetics in step
+Plan, Cell, run_study           thousands of sets through several routes, each judged
+reproduce                       everything printed, computed again
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from emulator.compiled.batch import run_batch
+    from emulator.errors import CardError, CompileError, DeckError, Diagnostic, EmulatorError, FileError
+    from emulator.language.cards import Card, Deck, deck_from_lines, deck_from_text, read_deck
+    from emulator.language.compiler import compile_deck, translate
+    from emulator.language.objectcode import Program
+    from emulator.machine.divergence import Divergence, diverge
+    from emulator.machine.endings import Ending
+    from emulator.machine.machine import Machine
+    from emulator.machine.result import Options, Result
+    from emulator.machine.timing import Timing, measure
+    from emulator.numbers import Numbers, numbers
+    from emulator.numbers.arithmetic import Profile, profile
+    from hull1620.hulls import Hull, convex_hull, data_deck, draw, exact_hull, read_points, reproduce, run_hull, save
+    from modern.digital.hull import DigitalHull, digital_hull
+    from modern.digital.solids import Volume, VolumeError
+    from modern.digital.volumes import read_volume
+    from modern.exact_hull.certificate import CertificateError
+    from modern.exact_hull.result import Certificate
+    from modern.geometry.hull import Face, HullRefused, Stage
+    from modern.geometry.mesh import ExportError
+    from modern.geometry.numbers import PointsError
+    from modern.port.arithmetic import RangeError
+    from modern.study.plan import Cell, Plan, PlanError, Port, Programs
+    from modern.study.run import run_study
+    from modern.thesis.cards import CardHull, read_hull
+    from modern.thesis.job import HullRun
+
+_HOMES = {
+    "emulator.compiled.batch": ("run_batch",),
+    "emulator.errors": ("CardError", "CompileError", "DeckError", "Diagnostic", "EmulatorError", "FileError"),
+    "emulator.language.cards": ("Card", "Deck", "deck_from_lines", "deck_from_text", "read_deck"),
+    "emulator.language.compiler": ("compile_deck", "translate"),
+    "emulator.language.objectcode": ("Program",),
+    "emulator.machine.divergence": ("Divergence", "diverge"),
+    "emulator.machine.endings": ("Ending",),
+    "emulator.machine.machine": ("Machine",),
+    "emulator.machine.result": ("Options", "Result"),
+    "emulator.machine.timing": ("Timing", "measure"),
+    "emulator.numbers": ("Numbers", "numbers"),
+    "emulator.numbers.arithmetic": ("Profile", "profile"),
+    "hull1620.hulls": (
+        *("Hull", "convex_hull", "data_deck", "draw", "exact_hull", "read_points", "reproduce", "run_hull", "save"),
+    ),
+    "modern.digital.hull": ("DigitalHull", "digital_hull"),
+    "modern.digital.solids": ("Volume", "VolumeError"),
+    "modern.digital.volumes": ("read_volume",),
+    "modern.exact_hull.certificate": ("CertificateError",),
+    "modern.exact_hull.result": ("Certificate",),
+    "modern.geometry.hull": ("Face", "HullRefused", "Stage"),
+    "modern.geometry.mesh": ("ExportError",),
+    "modern.geometry.numbers": ("PointsError",),
+    "modern.port.arithmetic": ("RangeError",),
+    "modern.study.plan": ("Cell", "Plan", "PlanError", "Port", "Programs"),
+    "modern.study.run": ("run_study",),
+    "modern.thesis.cards": ("CardHull", "read_hull"),
+    "modern.thesis.job": ("HullRun",),
+}
+
+__all__ = [
+    "Card",
+    "CardError",
+    "CardHull",
+    "Cell",
+    "Certificate",
+    "CertificateError",
+    "CompileError",
+    "Deck",
+    "DeckError",
+    "Diagnostic",
+    "DigitalHull",
+    "Divergence",
+    "EmulatorError",
+    "Ending",
+    "ExportError",
+    "Face",
+    "FileError",
+    "Hull",
+    "HullRefused",
+    "HullRun",
+    "Machine",
+    "Numbers",
+    "Options",
+    "Plan",
+    "PlanError",
+    "PointsError",
+    "Port",
+    "Profile",
+    "Program",
+    "Programs",
+    "RangeError",
+    "Result",
+    "Stage",
+    "Timing",
+    "Volume",
+    "VolumeError",
+    "compile_deck",
+    "convex_hull",
+    "data_deck",
+    "deck_from_lines",
+    "deck_from_text",
+    "digital_hull",
+    "diverge",
+    "draw",
+    "exact_hull",
+    "measure",
+    "numbers",
+    "profile",
+    "read_deck",
+    "read_hull",
+    "read_points",
+    "read_volume",
+    "reproduce",
+    "run_batch",
+    "run_hull",
+    "run_study",
+    "save",
+    "translate",
+]
+
+
+def __getattr__(name: str) -> object:
+    for module, names in _HOMES.items():
+        if name in names:
+            found = globals()[name] = getattr(import_module(module), name)
+            return found
+    raise AttributeError(f"module 'hull1620' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -1,0 +1,215 @@
+"""A hull for a Python program: one result of both routes, numpy arrays, exact measures, pictures and files."""
+
+from __future__ import annotations
+
+import json
+from decimal import Decimal
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial import ConvexHull
+
+from hull1620 import (
+    ExportError,
+    Hull,
+    HullRefused,
+    PointsError,
+    convex_hull,
+    data_deck,
+    draw,
+    exact_hull,
+    read_hull,
+    read_points,
+    reproduce,
+    run_hull,
+    save,
+)
+
+CUBE = [(x, y, z) for x in (0, 2) for y in (0, 2) for z in (0, 2)]
+SQUARE = [(0, 0, 1), (2, 0, 1), (2, 2, 1), (0, 2, 1), (1, 1, 1), (1, 0, 1)]
+DOUBLES = np.random.default_rng(1963).normal(size=(30, 3))
+BOTH = (convex_hull, exact_hull)
+
+small = st.integers(-6, 6)
+sets = st.lists(st.tuples(small, small, small), min_size=1, max_size=14)
+
+
+def parts(hull: Hull) -> tuple[object, ...]:
+    """What a hull says, whatever its order."""
+    faces = {(face.lowest, frozenset(face.polygon), frozenset(face.on)) for face in hull.faces}
+    groups = [frozenset(group.tolist()) for group in (hull.vertices, hull.boundary, hull.inside)]
+    return hull.dimension, *groups, faces, hull.volume, hull.area, hull.duplicates
+
+
+@settings(deadline=None, max_examples=150)
+@given(sets)
+def test_both_routes_have_one_result(points: list[tuple[int, int, int]]) -> None:
+    ours, judged = convex_hull(points), exact_hull(points)
+    if len(set(points)) > 3 or ours.dimension < 2:
+        assert parts(ours) == parts(judged)
+    assert (ours.volume, ours.area) == (judged.volume, judged.area)
+    assert judged.certificate is not None
+    assert ours.certificate is None
+    assert ours.exact_points == judged.exact_points
+
+
+@pytest.mark.parametrize("hull_of", BOTH)
+@pytest.mark.parametrize(
+    "kind", [np.int8, np.uint16, np.int64, np.float16, np.float32, np.float64, np.longdouble, object, str]
+)
+def test_arrays_of_any_real_type_are_taken_exactly(hull_of: Any, kind: Any) -> None:
+    assert parts(hull_of(np.array(CUBE).astype(kind))) == parts(hull_of(CUBE))
+
+
+@pytest.mark.parametrize("hull_of", BOTH)
+def test_a_coordinate_is_a_number_of_any_type(hull_of: Any) -> None:
+    for half in (0.5, "0.5", "1/2", Fraction(1, 2), Decimal("0.5"), np.float32(0.5), np.float16(0.5)):
+        assert hull_of([(half, 0, 0), (0, 1, 0), (0, 0, 1), (0, 0, 0)]).volume == Fraction(1, 12)
+    tenth = hull_of([(np.float64(0.1), 0, 0), (0, 1, 0), (0, 0, 1), (0, 0, 0)])
+    assert tenth.volume == Fraction(0.1) / 6
+
+
+@pytest.mark.parametrize("hull_of", BOTH)
+@pytest.mark.parametrize("nothing", [[], (), iter([]), np.empty((0, 3)), np.empty(0), np.empty((0, 3), int)])
+def test_no_points_are_refused_in_one_way(hull_of: Any, nothing: Any) -> None:
+    with pytest.raises(PointsError, match=r"^there are no points$"):
+        hull_of(nothing)
+
+
+@pytest.mark.parametrize("hull_of", BOTH)
+def test_arrays_are_those_of_qhull(hull_of: Any) -> None:
+    hull, other = hull_of(DOUBLES), ConvexHull(DOUBLES)
+    assert sorted(hull.vertices) == sorted(other.vertices)
+    assert {frozenset(row) for row in hull.simplices.tolist()} == {frozenset(row) for row in other.simplices.tolist()}
+    assert np.array_equal(hull.points, DOUBLES)
+    assert hull.equations.shape == (len(hull.simplices), 4)
+    values = DOUBLES @ hull.equations[:, :3].T + hull.equations[:, 3]
+    assert values.max() < 1e-14
+    for row, corners in enumerate(hull.simplices):
+        assert abs(values[corners, row]).max() < 1e-14
+        a, b, c = hull.points[corners]
+        assert np.cross(b - a, c - a) @ hull.equations[row, :3] > 0
+    assert float(hull.volume) == pytest.approx(other.volume, rel=1e-13)
+    assert float(hull.area) == pytest.approx(other.area, rel=1e-13)
+
+
+def test_arrays_cannot_be_written_to() -> None:
+    hull = exact_hull(CUBE)
+    for array in (hull.points, hull.vertices, hull.boundary, hull.inside, hull.simplices, hull.equations):
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = 0
+
+
+@pytest.mark.parametrize("hull_of", BOTH)
+def test_volume_and_area_are_exact(hull_of: Any) -> None:
+    cube = hull_of(CUBE)
+    assert (cube.volume, cube.area, cube.squared_areas) == (8, 24, (16,) * 6)
+    corner = hull_of([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
+    assert corner.volume == Fraction(1, 6)
+    # 3/2 and half the root of 3, whose digits are known (OEIS A002194).
+    assert corner.area == Decimal("2.3660254037844386467637231707529361834714026269052")
+    assert sorted(corner.squared_areas) == [Fraction(1, 4)] * 3 + [Fraction(3, 4)]
+    third = hull_of([("1/3", 0, 0), (0, 1, 0), (0, 0, 1), (0, 0, 0)])
+    assert third.volume == Fraction(1, 18)
+    square = hull_of(SQUARE)
+    assert (square.volume, square.area, square.simplices.shape) == (0, 4, (2, 3))
+    for flat in ([(1, 2, 3)], [(0, 0, 0), (1, 1, 1), (2, 2, 2)]):
+        hull = hull_of(flat)
+        assert (hull.volume, hull.area, hull.simplices.shape, hull.equations.shape) == (0, 0, (0, 3), (0, 4))
+
+
+def test_ordinary_doubles_in_doubles_are_refused_with_what_was_found() -> None:
+    with pytest.raises(HullRefused, match=r"^no hull in float64: DATA NOT ACCEPTABLE, decided at") as caught:
+        convex_hull(DOUBLES, "float64")
+    returned = convex_hull(DOUBLES, "float64", on_refusal="return")
+    assert isinstance(caught.value.result, Hull)
+    assert caught.value.result == returned
+    assert (returned.determined, returned.statement) == (False, "program3 119")
+    assert repr(returned) == "<no hull: DATA NOT ACCEPTABLE at program3 119; 30 points, float64>"
+    assert returned._repr_svg_() is None
+    for what in ("simplices", "equations", "volume", "area"):
+        with pytest.raises(ExportError, match="there is no hull: DATA NOT ACCEPTABLE"):
+            getattr(returned, what)
+    assert convex_hull(DOUBLES, "float64", epsilon=1e-9).determined
+    with pytest.raises(ValueError, match="on_refusal"):
+        convex_hull(CUBE, on_refusal="ignore")  # type: ignore[arg-type]
+
+
+def test_faces_that_do_not_close_have_no_volume() -> None:
+    """With a wide interval faces are taken for one another."""
+    points = np.random.default_rng(4).integers(-9, 10, (30, 3))
+    found = [convex_hull(points, "float64", epsilon=e, on_refusal="return") for e in range(0, 400, 20)]
+    refused = 0
+    for hull in found:
+        try:
+            volume = hull.volume
+        except ExportError:
+            refused += 1
+        else:
+            assert 0 <= volume <= exact_hull(points).volume * 2
+    assert 0 < refused < len(found)
+
+
+def test_a_hull_says_briefly_what_it_is() -> None:
+    assert repr(exact_hull(CUBE)) == "<hull: polyhedron, 8 vertices, 6 faces; 8 points, exact>"
+    assert repr(convex_hull(SQUARE)) == "<hull: polygon, 4 vertices, 4 lines; 6 points, exact>"
+    assert repr(exact_hull([(0, 0, 0)])) == "<hull: point, 1 vertex; 1 points, exact>"
+
+
+def test_a_picture_is_the_same_from_all_of_them() -> None:
+    hull = exact_hull(CUBE)
+    assert hull._repr_svg_() == hull.draw() == draw(CUBE) == draw(hull)
+    assert hull.draw().startswith("<svg ")
+    assert hull.draw(eye=(1, 2.5, np.float32(3)), title="a cube") == draw(CUBE, (2, 5, 6), "a cube")
+    with pytest.raises(ExportError, match="it has three"):
+        hull.draw(eye=(1, 2))
+
+
+@pytest.mark.parametrize("ending", ["off", "obj", "ply", "stl", "json", "svg"])
+def test_a_hull_is_saved_by_the_ending_of_the_name(ending: str, tmp_path: Path) -> None:
+    path = tmp_path / f"cube.{ending}"
+    exact_hull(CUBE).save(path)
+    first = path.read_text(encoding="ascii")
+    save(CUBE, str(path))
+    assert path.read_text(encoding="ascii") == first != ""
+    with pytest.raises(ExportError, match="must end with"):
+        save(CUBE, tmp_path / "cube.3ds")
+    assert [found.name for found in tmp_path.iterdir()] == [path.name]
+
+
+def test_the_record_of_an_exact_hull_is_whole(tmp_path: Path) -> None:
+    save(SQUARE, tmp_path / "square.json")
+    held = json.loads((tmp_path / "square.json").read_text(encoding="ascii"))
+    assert (held["status"], held["plane"], held["inside"]) == ("determined", ["0", "0", "1", "-1"], [4])
+    assert {tuple(face["coefficients"]) for face in held["faces"]} == {
+        ("0", "-2", "0", "0"),
+        ("2", "0", "0", "-4"),
+        ("0", "2", "0", "-4"),
+        ("-2", "0", "0", "0"),
+    }
+
+
+def test_points_go_to_cards_and_the_hull_comes_back(tmp_path: Path) -> None:
+    path = tmp_path / "points.csv"
+    path.write_text("0,0,0\n4,0,0\n0,4,0\n0,0,4\n1,1,1\n.5,1,1\n", encoding="ascii")
+    points = read_points(path)
+    deck = data_deck(points)
+    run = run_hull(deck)
+    assert run.complete
+    assert len(read_hull(run.final.result.punched).vertices) == len(exact_hull(points).vertices) == 4
+    assert data_deck([(0.5, 0, 0)]).cards[1].text.startswith("+.50000000E+00")
+    assert data_deck([(0, 0, 0)], epsilon=0.125).cards[0].text == " 1+.12500000E+00"
+    with pytest.raises(ValueError, match="55 significant digits"):
+        data_deck([(0.1, 0, 0)])
+    assert data_deck([(0.1, 0, 0)], truncate=True).cards[1].text.startswith("+.10000000E+00")
+    assert run_hull(data_deck(points, epsilon="1e-3"), layers=("epsilon",)).complete
+
+
+def test_an_example_is_reproduced(capsys: pytest.CaptureFixture[str]) -> None:
+    assert reproduce("1")
+    assert "example 1" in capsys.readouterr().out.lower()
