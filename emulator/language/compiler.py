@@ -342,7 +342,7 @@ class _Translation:
             for inner in item.items:
                 self._item(inner, statement, index, depth + 1)
             emitter.emit(op.DOTEST, address=number)
-            emitter.count(index, False, "rest of the list")
+            emitter.count(index, False, op.LIST_REST)
             return
         fixed = int(is_fixed_name(item.name))
         if item.name in emitter.arrays and not item.arguments:

@@ -135,6 +135,9 @@ class Subscript:
 LIST_PASS = "pass of the list"
 """What a COUNT counts in the body of an indexed list: it counts against the statement limit."""
 
+LIST_REST = "rest of the list"
+"""What a COUNT counts after an indexed list."""
+
 
 @dataclass(frozen=True, slots=True)
 class Counter:

@@ -202,6 +202,14 @@ def _check(parser: ArgumentParser) -> None:
     _upcase(parser)
 
 
+def _flowchart(parser: ArgumentParser) -> None:
+    _program(parser)
+    parser.add_argument("-o", "--output", metavar="FILE.svg", default="-", help="where it goes (default: '-')")
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument("--page", metavar="N", type=int, help="this page alone (default: all, one below the other)")
+    which.add_argument("--table", action="store_true", help="every way from box to box as text instead of the picture")
+
+
 def _map(parser: ArgumentParser) -> None:
     parser.add_argument("program", metavar="PROGRAM.f")
     parser.add_argument("--core", type=int, choices=(20000, 40000, 60000), default=40000)
@@ -318,6 +326,7 @@ COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {
     "check": ("the compiler's messages for a program; what an error number means", _check),
     "map": ("the storage map of a program", _map),
     "compile": ("the object code of a program", _program),
+    "flowchart": ("a program's flow of control as a flow chart, in SVG", _flowchart),
     "bench": ("the speed of the engines side by side", _bench),
 }
 """Every command, named as its module but for - instead of _: what ``--help`` says of it, and its arguments.

@@ -1,0 +1,155 @@
+"""A flow chart as SVG, in the symbols of the thesis (p. 60): direction of flow, decision, input and output, processing,
+connector or step.
+
+Text stays text, every box is a link where the caller says to what, and nothing is told by colour.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+
+from modern.drawing.svg import escape
+from modern.publication.chart import BOX, LEFT, MARGIN, RADIUS, RIGHT, ROW, SPINE, ZONE, Chart, Page, Path, Placed
+from modern.publication.flow import Box
+
+Link = Callable[[Box], str]
+"""What a box leads to: an address, or nothing."""
+
+_STYLE = (
+    "text{font:9px ui-monospace,Menlo,Consolas,'DejaVu Sans Mono',monospace;fill:#000}"
+    ".n{font-weight:bold}.c{text-anchor:middle}.e{text-anchor:end}"
+    ".b{fill:#fff;stroke:#000}.w{fill:none;stroke:#000}.r{fill:none;stroke:#000}.d{fill:#000;stroke:none}"
+)
+_SLANT = 8
+"""How far the sides of the symbol for input and output lean."""
+
+
+def chart_svg(chart: Chart, page: int | None = None, link: Link | None = None) -> str:
+    """One page of a chart, counted from 1, or all below each other.  Raises IndexError for a page it does not have."""
+    if page is not None and not 1 <= page <= len(chart.pages):
+        raise IndexError(page)
+    pages = chart.pages if page is None else chart.pages[page - 1 : page]
+    height = sum(each.height for each in pages)
+    left, right = extent(chart)
+    width = right - left
+    title = f"Flow chart of {chart.flow.source}" + ("" if page is None else f", page {page} of {len(chart.pages)}")
+    boxes = sum(len(each.boxes) for each in pages)
+    lines = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
+        f'viewBox="{left} 0 {width} {height}" role="img" aria-labelledby="title desc">',
+        f'<title id="title">{escape(title)}</title>',
+        f'<desc id="desc">{boxes} boxes in the order of the cards, made from the compiled program. Of an IF, minus '
+        "leaves to the left, zero below, plus to the right; a number in a circle is the statement gone to.</desc>",
+        f"<style>{_STYLE}</style>",
+        f'<rect x="{left}" width="{width}" height="{height}" fill="#fff"/>',
+    ]
+    top = 0
+    for number, each in enumerate(pages, page or 1):
+        lines.append(f'<g class="page" transform="translate(0 {top})">')
+        lines += _page(chart, each, link)
+        if len(chart.pages) > 1:
+            lines.append(f'<text class="e" x="{right - MARGIN}" y="{each.height - 4}">{number}</text>')
+        lines.append("</g>")
+        top += each.height
+    return "\n".join([*lines, "</svg>"]) + "\n"
+
+
+def extent(chart: Chart) -> tuple[int, int]:
+    """The left and the right end of a chart's pages: as wide as the page that needs most lanes."""
+    lines = [path.corners for page in chart.pages for path in page.paths]
+    found = [x for corners in lines for x, _ in corners] + [LEFT - ZONE, RIGHT + ZONE]
+    return min(found) - MARGIN, max(found) + MARGIN
+
+
+def short(box: Box) -> str:
+    """What a connector calls a box: the statement's number, or ``c`` and the card where it has none."""
+    return box.label or f"c{box.cards[0]}"
+
+
+def _page(chart: Chart, page: Page, link: Link | None) -> Iterator[str]:
+    boxes = chart.flow.boxes
+    for path in page.paths:
+        way = boxes[path.box].exits[path.way]
+        where = f"{boxes[path.box].name} to {boxes[way.target].name}"
+        yield f'<path class="w" d="{_line(path.corners)}"><title>{escape(where)}</title></path>'
+    for landing in page.landings:
+        yield f'<path class="w" d="{_line(landing.corners)}"/>'
+    arrived = {boxes[p.box].exits[p.way].target for p in page.paths if p.connector is None}
+    arrived |= {landing.box for landing in page.landings}
+    for placed in page.boxes:
+        box = boxes[placed.box]
+        if placed.box in arrived:
+            yield f'<path class="d" d="M{SPINE} {placed.top}l-3 -6h6z"/>'
+        address = link(box) if link else ""
+        if address:
+            yield f'<a href="{escape(address)}">'
+        yield from _symbol(box, placed)
+        if address:
+            yield "</a>"
+    for path in page.paths:
+        way = boxes[path.box].exits[path.way]
+        yield from _taken(boxes[path.box], path, page.boxes[path.box - page.boxes[0].box].middle)
+        if path.connector:
+            to = boxes[way.target]
+            yield from _connector(path.connector, short(to), f"to {to.name}, page {_page_of(chart, way.target)}")
+    for landing in page.landings:
+        yield from _connector(landing.centre, short(boxes[landing.box]), f"here {boxes[landing.box].name} is gone to")
+
+
+def _page_of(chart: Chart, box: int) -> int:
+    return next(n for n, page in enumerate(chart.pages, 1) if page.boxes[0].box <= box <= page.boxes[-1].box)
+
+
+def _line(corners: Sequence[tuple[int, int]]) -> str:
+    return "M" + "L".join(f"{x} {y}" for x, y in corners)
+
+
+def _symbol(box: Box, placed: Placed) -> Iterator[str]:
+    """A box: outline, number and lines."""
+    top, bottom, middle = placed.top, placed.bottom, placed.middle
+    if box.kind == "step":
+        yield from _connector((SPINE, middle), box.label, f"step {box.name}")
+        return
+    if box.kind == "decision":
+        yield _outline((SPINE, top), (RIGHT, middle), (SPINE, bottom), (LEFT, middle))
+    elif box.kind == "input/output":
+        yield _outline((LEFT + _SLANT, top), (RIGHT, top), (RIGHT - _SLANT, bottom), (LEFT, bottom))
+    else:
+        corner = f' rx="{placed.height // 2}"' if box.kind == "end" else ""
+        yield f'<rect class="b" x="{LEFT}" y="{top}" width="{BOX}" height="{placed.height}"{corner}/>'
+    if box.label:
+        yield f'<text class="n" x="{LEFT}" y="{top - 2}">{box.label}</text>'
+    middled = box.kind in ("decision", "end")
+    first = middle - ROW * len(placed.lines) // 2 + 9
+    for k, line in enumerate(placed.lines):
+        at = f'class="c" x="{SPINE}"' if middled else f'x="{LEFT + _SLANT + 6}"'
+        yield f'<text {at} y="{first + ROW * k}" xml:space="preserve">{escape(line)}</text>'
+
+
+def _outline(*corners: tuple[int, int]) -> str:
+    return f'<polygon class="b" points="{" ".join(f"{x},{y}" for x, y in corners)}"/>'
+
+
+def _taken(box: Box, path: Path, middle: int) -> Iterator[str]:
+    """What a way is taken for, beside its beginning; ``middle`` is its box's."""
+    way = box.exits[path.way]
+    if not way.taken:
+        return
+    words = {"-": "\u2212"}.get(way.taken, way.taken)
+    x, y = path.corners[0]
+    if way.side == "down":
+        place = f'x="{x + 4}" y="{y + 9}"'
+    elif way.side == "left":
+        place = f'x="{x + 2}" y="{y - 7}"'
+    elif x == RIGHT:
+        place = f'class="e" x="{x - 2}" y="{y - 7}"'
+    else:
+        # On the slant: above the line in the upper half, below it in the lower.
+        place = f'x="{x + 4}" y="{y - 3 if y <= middle else y + 9}"'
+    yield f"<text {place}>{escape(words)}</text>"
+
+
+def _connector(centre: tuple[int, int], words: str, title: str) -> Iterator[str]:
+    x, y = centre
+    yield f'<circle class="b" cx="{x}" cy="{y}" r="{RADIUS}"><title>{escape(title)}</title></circle>'
+    yield f'<text class="c" x="{x}" y="{y + 3}">{escape(words)}</text>'
