@@ -38,6 +38,10 @@ def _hull(parser: ArgumentParser) -> None:
         action="store_true",
         help="numbers go from program 1 to the next with all their digits, not with the eight a card holds",
     )
+    parser.add_argument(
+        "--epsilon", metavar="E", help="punch chapter 7's e after N and add the layer epsilon, which reads it there"
+    )
+    parser.add_argument("--explain", action="store_true", help="say at length why there is no hull, and what to try")
     _results(parser)
 
 
@@ -47,6 +51,7 @@ def _cards(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--truncate", action="store_true", help="cut digits a card cannot hold instead of refusing them"
     )
+    parser.add_argument("--epsilon", metavar="E", help="punch chapter 7's e after N, for the layer epsilon")
 
 
 def _diff(parser: ArgumentParser) -> None:
@@ -55,6 +60,7 @@ def _diff(parser: ArgumentParser) -> None:
         "--epsilon", metavar="E", help="chapter 7's e for layer epsilon and the port; rel:E, for the port only"
     )
     parser.add_argument("--json", metavar="FILE", help="write the comparison as JSON")
+    parser.add_argument("--explain", action="store_true", help="say at length why a program came to no hull")
     _layers(parser)
 
 

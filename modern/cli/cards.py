@@ -6,9 +6,9 @@ import argparse
 
 from emulator.errors import FileError
 from emulator.files import read_text, source_name, write_text
-from modern.cli.shared.console import OK, say
+from modern.cli.shared.console import OK, UsageError, say
 from modern.formats import csv
-from modern.formats.deck import MAX_POINTS, UnfitPoint, data_deck
+from modern.formats.deck import MAX_POINTS, UnfitPoint, data_deck, with_epsilon
 
 
 def main(args: argparse.Namespace) -> int:
@@ -23,6 +23,11 @@ def main(args: argparse.Namespace) -> int:
         raise FileError(f"{source}: line {lines[error.point - 1]}, field {error.field}: {error.why}") from None
     except ValueError as error:
         raise FileError(f"{source}: {error}") from None
+    if args.epsilon is not None:
+        try:
+            deck = with_epsilon(deck, args.epsilon)
+        except ValueError as error:
+            raise UsageError(f"--epsilon: {error}") from None
     write_text(args.output, deck.text())
     if len(points) > MAX_POINTS:
         say([f"warning: {source}: {len(points)} points; the programs as listed take at most {MAX_POINTS}"])

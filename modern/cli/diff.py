@@ -7,10 +7,12 @@ import json
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from pathlib import PurePath
 
 from emulator.files import write_text
 from emulator.language.cards import Deck
 from emulator.machine.result import Options
+from modern.cli.shared import refusals
 from modern.cli.shared.console import DIFFERS, OK, UsageError, say
 from modern.cli.shared.machine import layers_of
 from modern.comparison.difference import Disagreement, disagreement
@@ -20,7 +22,7 @@ from modern.exact_hull import exact_hull
 from modern.formats.deck import MAX_POINTS, UnfitPoint, data_deck, with_epsilon
 from modern.formats.points import Input, read_input
 from modern.port import convex_hull
-from modern.thesis.job import run_hull
+from modern.thesis.refusals import Cause, run_explained
 
 _LIMIT = 1_000_000
 _NOT_RUN = "not run"
@@ -34,6 +36,8 @@ class Route:
     outcome: Outcome
     found: Disagreement | None = None
     obstacle: str = ""
+    cause: Cause | None = None
+    layers: tuple[str, ...] = ()
 
     @property
     def status(self) -> str:
@@ -57,9 +61,22 @@ def main(args: argparse.Namespace) -> int:
     for line in _table(routes, judge, found):
         print(line)
     say(found.notes)
+    told = set()
+    for route in routes:
+        if route.cause is not None and route.cause.kind not in told:
+            told.add(route.cause.kind)
+            say([f"{route.outcome.name}:"])
+            say(refusals.lines(route.cause, _asked(args, found, route.layers)))
     if args.json:
         write_text(args.json, json.dumps(_document(routes, judge, found), indent=1) + "\n")
     return OK if all(route.fine for route in routes) else DIFFERS
+
+
+def _asked(args: argparse.Namespace, found: Input, layers: tuple[str, ...]) -> refusals.Asked:
+    is_deck = found.kind == "deck"
+    deck = args.points if is_deck else PurePath(args.points).with_suffix(".deck").name
+    epsilon = (args.epsilon or "") if "epsilon" in layers else ""
+    return refusals.Asked(deck, "" if is_deck else args.points, layers, epsilon=epsilon, explain=args.explain)
 
 
 def _routes(args: argparse.Namespace, found: Input, points: list[Vector]) -> Iterator[Route]:
@@ -76,8 +93,9 @@ def _routes(args: argparse.Namespace, found: Input, points: list[Vector]) -> Ite
             data = with_epsilon(deck, args.epsilon or "0") if "epsilon" in chosen else deck
         except ValueError as error:
             raise UsageError(f"--epsilon: {error}") from None
-        run = run_hull(data, programs.loader(chosen), Options(limit=_LIMIT, core=60000 if chosen else 40000))
-        yield Route(from_cards(name, run, points))
+        options = Options(limit=_LIMIT, core=60000 if chosen else 40000)
+        run, cause = run_explained(data, programs.loader(chosen), options)
+        yield Route(from_cards(name, run, points), cause=cause, layers=chosen)
     for arithmetic in ("float64", "exact"):
         hull = convex_hull(found.points, arithmetic, epsilon=args.epsilon, on_refusal="return")
         yield Route(from_hull(f"port {arithmetic}", hull))

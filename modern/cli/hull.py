@@ -6,10 +6,11 @@ import argparse
 from dataclasses import replace
 
 from emulator.files import check_writable
-from emulator.language.cards import read_deck
+from emulator.language.cards import Deck, read_deck
 from emulator.language.objectcode import Program
 from emulator.machine.machine import Machine
-from modern.cli.shared.console import DIFFERS, OK, say
+from modern.cli.shared import refusals
+from modern.cli.shared.console import DIFFERS, OK, UsageError, say
 from modern.cli.shared.machine import (
     card_rules,
     layers_of,
@@ -20,8 +21,9 @@ from modern.cli.shared.machine import (
     tracing,
 )
 from modern.edition import programs
-from modern.formats.deck import check
-from modern.thesis.job import HullRun, run_hull
+from modern.formats.deck import check, with_epsilon
+from modern.thesis.job import HullRun
+from modern.thesis.refusals import Cause, run_explained
 
 
 def main(args: argparse.Namespace) -> int:
@@ -29,30 +31,44 @@ def main(args: argparse.Namespace) -> int:
     options = replace(machine_options(args), uncut=args.uncut)
     check_writable(args.punch, args.typewriter, args.trace)
     layers = layers_of(args)
+    if args.epsilon is not None and "epsilon" not in layers:
+        layers = (*layers, "epsilon")
     first = "program1_examples" if args.programs == "examples" else "program1"
     checked = check(read_deck(args.deck), card_rules(options), epsilon="epsilon" in layers)
     load = programs.loader(layers)
     load(first)
-    runs: list[HullRun] = []
+    asked = refusals.Asked(args.deck, "", layers, options.numbers.name, args.epsilon or "", args.uncut, args.explain)
+    runs: list[tuple[HullRun, Cause | None]] = []
     with tracing(args.trace) as tracer:
 
         def watch(program: Program, machine: Machine) -> None:
             if tracer:
                 tracer.watch(program, machine)
 
-        runs.extend(run_hull(checked.deck(i), load, options, first, watch) for i in range(len(checked.sets)))
+        for i in range(len(checked.sets)):
+            deck = checked.deck(i) if args.epsilon is None else _with_epsilon(checked.deck(i), args.epsilon)
+            runs.append(run_explained(deck, load, options, first, watch))
     put_out(
         args,
-        [card for run in runs for card in run.final.result.punched],
-        [line for run in runs for step in run.steps for line in step.result.typed],
+        [card for run, _ in runs for card in run.final.result.punched],
+        [line for run, _ in runs for step in run.steps for line in step.result.typed],
     )
     say(f"warning: {warning.message}" for warning in checked.warnings)
     already = {(w.card, w.column) for w in checked.warnings}
-    for run in runs:
+    for run, cause in runs:
         for step in run.steps:
             say_notices(step.program, step.result, already if step is run.steps[0] else ())
             if args.profile:
                 say(profile_lines(step.program, step.result))
             if not step.result.ending.normal:
                 say([f"hull1620: {step.result.ending.message}"])
-    return OK if all(run.complete for run in runs) else DIFFERS
+        if cause is not None:
+            say(refusals.lines(cause, asked))
+    return OK if all(run.complete for run, _ in runs) else DIFFERS
+
+
+def _with_epsilon(deck: Deck, epsilon: str) -> Deck:
+    try:
+        return with_epsilon(deck, epsilon)
+    except ValueError as error:
+        raise UsageError(f"--epsilon: {error}") from None

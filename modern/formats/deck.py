@@ -120,7 +120,7 @@ def data_deck(points: Sequence[Sequence[str]], source: str, truncate: bool = Fal
 def with_epsilon(deck: Deck, epsilon: str) -> Deck:
     """The deck of one data set with e punched after N, as the layer ``epsilon`` reads it.  Raises ValueError."""
     first, *rest = (card.text for card in deck.cards)
-    return deck_from_lines(deck.source, [first.ljust(_E_FIRST - 1) + coordinate_field(epsilon), *rest])
+    return deck_from_lines(deck.source, [first[: _E_FIRST - 1].ljust(_E_FIRST - 1) + coordinate_field(epsilon), *rest])
 
 
 def read_coordinates(card: Card, rules: Rules) -> tuple[Read, Read, Read]:

@@ -35,6 +35,10 @@ RUN = ("sh", "console", "python", "toml")
 LANGUAGES = (*RUN, "text")
 
 _POINTS = ((0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4), (4, 4, 0), (1, 1, 1), (2, 2, 0))
+_OWN = (
+    *((".012", "-1.734", "2.291"), ("1.118", ".477", "-.905"), ("-2.013", "1.266", ".731"), (".55", "2.803", "1.407")),
+    *(("-.719", "-.318", "-2.64"), ("1.902", "-1.087", "-.144")),
+)
 _SOLID = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n"
 
 
@@ -68,6 +72,7 @@ def _text(text: str) -> Callable[[Path], object]:
 INPUTS: dict[str, Callable[[Path], object]] = {
     "points.csv": _text("".join(f"{x},{y},{z}\n" for x, y, z in _POINTS)),
     "points.deck": _text(f"{len(_POINTS):2d}\n" + "".join(f"{x:10d}.{y:10d}.{z:10d}.\n" for x, y, z in _POINTS)),
+    "own.deck": _text(" 6\n" + "".join(f"{x:14}{y:14}{z:14}\n" for x, y, z in _OWN)),
     "my.f": _text((PROGRAMS / "desk.f").read_text(encoding="utf-8")),
     "my.deck": _text("1\n2     2.5\n4     4.\n6\n8\n"),
     "solid.off": _text(_SOLID),
