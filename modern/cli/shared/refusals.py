@@ -11,7 +11,7 @@ from modern.thesis.refusals import MENDED, Cause, Kind
 
 _MEANS: dict[Kind, str] = {
     "miss": "this point is one of those that equation {equation} was made from, and gives {value} in it instead "
-    "of 0: its coefficients are products of coordinates, and {digits} do not hold them",
+    "of 0: {digits} do not hold the products of its coordinates",
     "centre": "equation {equation} passes through the point C in these digits, so that no side of it is outside",
     "zeros": "equation {equation} is all zeros: its three points lie on one line in these digits",
     "pair": "the search for pairs of equations inside the hull ran beyond the end of the table",

@@ -10,6 +10,7 @@ from emulator.language.cards import Deck, read_deck
 from emulator.machine.result import Options
 from modern.edition import programs
 from modern.formats.deck import check, data_deck
+from modern.port.points import fixed_arithmetic
 from modern.thesis.cards import read_intermediate
 from modern.thesis.job import run_hull
 from modern.thesis.refusals import MENDED, Cause, run_explained
@@ -81,7 +82,7 @@ def test_a_long_search_cut_short_is_no_fault() -> None:
 
 @pytest.mark.parametrize(("points", "program"), [(SOLID, 3), (FLAT, 2)])
 def test_the_point_that_misses_its_own_equation_is_named(points: list[tuple[str, str, str]], program: int) -> None:
-    """What program 1 punched for the next program, evaluated exactly, does not vanish there."""
+    """The equation that program 1 punched gives the same there in the port's eight digits, and it is not zero."""
     deck = data_deck(points, "points")
     found = cause_of(deck)
     assert (found.program, found.kind, found.fault, found.message) == (program, "miss", 6, "DATA NOT ACCEPTABLE")
@@ -91,8 +92,11 @@ def test_the_point_that_misses_its_own_equation_is_named(points: list[tuple[str,
     if program == 3:
         middle = read_intermediate(run_hull(deck, programs.loader(())).steps[0].result.punched)
         assert middle is not None
-        (a, b, c, d), _ = middle.planes[found.equation - 1]
-        assert a * place[0] + b * place[1] + c * place[2] + d != 0
+        eight = fixed_arithmetic("truncating")
+        assert eight is not None
+        a, b, c, d = (eight.number(number) for number in middle.planes[found.equation - 1][0])
+        x, y, z = (eight.number(number) for number in place)
+        assert eight.exact(a * x + b * y + c * z + d, 3) == Fraction(found.value)
 
 
 def test_four_points_none_of_which_satisfies_its_planes() -> None:
