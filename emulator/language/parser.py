@@ -16,7 +16,7 @@ from emulator.errors import Diagnostic, Refused
 from emulator.language import tree
 from emulator.language.cards import Card, Deck
 from emulator.language.foreign import STATEMENT_FUNCTION, Word, declared, word_of
-from emulator.language.statements import Source, is_comment, may_be_comment, resembles_statement, sources
+from emulator.language.statements import LAST_COLUMN, Source, is_comment, may_be_comment, resembles_statement, sources
 
 _STARTS = ("assignment go_to computed_go_to if if_switch do continue pause stop end dimension input_output").split()
 
@@ -39,6 +39,7 @@ _NUMBERS = {"if_switch": 7, "do": 8, "dimension": 9, "input_output": 13}
 """Error types of C26-5619 p. 56 by the form they belong to; an IF with a comma after its parenthesis is type 7 too."""
 
 MAX_NESTING = 60
+_EDGE = (LAST_COLUMN, LAST_COLUMN + 1)
 _FORMAT_LIKE = re.compile(r"FO[A-Z]*\(")
 
 
@@ -67,6 +68,7 @@ def parse(deck: Deck) -> Parsed:
         if elsewhere:
             elsewhere = source.kind != "end"
             continue
+        diagnostics.extend(_runs_on(card) for card in source.cards if " " not in card.columns(*_EDGE))
         try:
             statements.append(parse_statement(source))
         except Refused as refused:
@@ -91,6 +93,11 @@ def parse(deck: Deck) -> Parsed:
         if is_comment(card) and resembles_statement(card):
             diagnostics.append(_taken_as_comment(card, "it begins as a statement does"))
     return Parsed(tuple(statements), tuple(diagnostics), frozenset(labels), frozenset(strangers))
+
+
+def _runs_on(card: Card) -> Diagnostic:
+    what = f"columns {_EDGE[1]} to 80 are identification and not read, and a character stands right before them"
+    return Diagnostic(card.number, _EDGE[1], what, warning=True, about="identification")
 
 
 def _foreign(place: tree.Place, word: Word) -> Diagnostic:

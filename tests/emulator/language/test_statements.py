@@ -44,6 +44,16 @@ def test_a_format_keeps_its_columns() -> None:
     assert len(found.text) == len(found.places) == 72 - 9
 
 
+def test_a_statement_that_runs_into_the_identification_is_warned_of_once() -> None:
+    """It would lose its end without a word: a sum that ends in 12 at column 73 ends in 1."""
+    long = "JK=1" + "+2" * 33 + "+12"
+    (message,) = diagnostics(long[:70].ljust(72) + "NAME", long, "  " + long, "END")
+    assert (message.card, message.column, message.warning) == (2, 73, True)
+    assert message.message.startswith("columns 73 to 80 are identification and not read")
+    assert message.message.endswith("(also on card 3)")
+    assert diagnostics("X=1.".ljust(72) + "BUTL0010", "C" * 80, "END") == ()
+
+
 def test_places_are_card_and_column() -> None:
     found = only("C  X", " 10  A = B")
     assert found.place == Place(2, 6)
