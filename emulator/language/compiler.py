@@ -99,14 +99,12 @@ class _Translation:
         self._check_labels()
         self._check_functions()
         for statement in self.statements:
-            behind_end = self.ended
             try:
                 self._statement(statement)
             except Refused as refused:
                 if not any(reference.name in self.strangers for reference in references(statement.body)):
                     self.diagnostics.append(refused.diagnostic)
-            if not behind_end:
-                self._close_dos(statement)
+            self._close_dos(statement)
         for do in self.open_dos:
             if str(do.label) in self.refused:
                 continue
@@ -189,8 +187,6 @@ class _Translation:
 
     def _statement(self, statement: tree.Statement) -> None:
         body = statement.body
-        if self.ended:
-            raise Refused(statement.place, "a card after END")
         if statement.label:
             self.emitter.allocator.place("statement number", str(statement.label))
         if isinstance(body, tree.Format):

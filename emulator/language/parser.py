@@ -39,6 +39,7 @@ _NUMBERS = {"if_switch": 7, "do": 8, "dimension": 9, "input_output": 13}
 """Error types of C26-5619 p. 56 by the form they belong to; an IF with a comma after its parenthesis is type 7 too."""
 
 MAX_NESTING = 60
+_AFTER_END = "a card after END; what a program reads is a deck by itself"
 _EDGE = (LAST_COLUMN, LAST_COLUMN + 1)
 _FORMAT_LIKE = re.compile(r"FO[A-Z]*\(")
 
@@ -63,11 +64,15 @@ def parse(deck: Deck) -> Parsed:
     diagnostics: list[Diagnostic] = []
     labels: set[str] = set()
     strangers: set[str] = set()
-    elsewhere = False
+    elsewhere = ended = False
     for source in sources(deck):
         if elsewhere:
             elsewhere = source.kind != "end"
             continue
+        if ended and not _opens(source):
+            diagnostics.append(Diagnostic(source.place.card, source.place.column, _AFTER_END, about="END"))
+            continue
+        ended = ended or source.kind == "end"
         diagnostics.extend(_runs_on(card) for card in source.cards if " " not in card.columns(*_EDGE))
         try:
             statements.append(parse_statement(source))
@@ -93,6 +98,11 @@ def parse(deck: Deck) -> Parsed:
         if is_comment(card) and resembles_statement(card):
             diagnostics.append(_taken_as_comment(card, "it begins as a statement does"))
     return Parsed(tuple(statements), tuple(diagnostics), frozenset(labels), frozenset(strangers))
+
+
+def _opens(source: Source) -> bool:
+    word = word_of(source.kind, source.text)
+    return word is not None and word.opens
 
 
 def _runs_on(card: Card) -> Diagnostic:

@@ -134,7 +134,12 @@ def test_a_subprogram_is_one_finding_before_and_after_the_program() -> None:
 def test_the_cards_beside_a_subprogram_are_checked() -> None:
     found = errors("X=A+I", "END", *SUBPROGRAMS, "Y=2.")
     assert [(d.card, d.number) for d in found] == [(1, 5), (3, 0), (12, 0)]
-    assert found[2].message == "a card after END"
+    assert found[2].message == "a card after END; what a program reads is a deck by itself"
+
+
+def test_data_after_the_program_are_one_finding() -> None:
+    found = errors("READ 90,X", F, "END", "  1.0  2.0", "X=A+I", "5 FORMAT(A4)", "  CALL EXIT", "END")
+    assert [(d.card, d.message[-23:]) for d in found] == [(4, "(also on cards 5, 6, 7, 8)"[-23:])]
 
 
 @pytest.mark.parametrize(
