@@ -37,6 +37,10 @@ class DeckError(EmulatorError):
     """A deck that cannot be used as a whole: empty, too long or too short."""
 
 
+class OperatorError(EmulatorError):
+    """What an operator's file says and the run, as it stands, cannot take."""
+
+
 @dataclass(frozen=True, slots=True, order=True)
 class Place:
     """A place in the source deck: card number and column, both from 1."""

@@ -1,17 +1,23 @@
 """The operator of a run: one object with the same questions for everybody.
 
-Whoever it is (nobody, a file, a person at a terminal) sees what the devices do and answers every halt.  The one here is
-nobody: he presses START and types the lines that lie ready.
+Whoever it is sees what the devices do and answers every halt: :class:`Operator` is nobody, who presses START and types
+the lines that lie ready; :class:`FromFile` takes his answers from a file; a person sits at a terminal
+(modern/cli/shared/terminal.py).  :class:`Logged` writes down what any of them does, as a file that can be read again.
+The words of such a file are in emulator/machine/words.py.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import TextIO
 
-from emulator.errors import DeckError
-from emulator.machine.endings import Ending, Notice
+from emulator.errors import DeckError, FileError, OperatorError
+from emulator.machine.endings import Ending
 from emulator.machine.result import Event
 from emulator.machine.session import Action, Halt, Session
+from emulator.machine.words import read_action, standing, words_of
+
+_SETTING = ("SWITCH", "BREAK", "CLEAR", "STEP")
 
 SLICE = 20_000
 """How much work is done before the operator sees what happened: some hundredths of a second."""
@@ -49,9 +55,110 @@ class Operator:
             if line is None:
                 raise DeckError(f"{session.program.source}: nothing is typed for ACCEPT in {halt.line.name}")
             return Action("ENTER", text=line)
-        if halt.what == "pause":
-            session.devices.note(Notice("pause", session.program.source, halt.line))
-        return Action("START")
+        return Action("START", unasked=True)
+
+
+class FromFile(Operator):
+    """Answers from the lines of a file; after its last line he is nobody, and at a PAUSE for which it has no START.
+
+    Raises FileError for wrong words, and during the run OperatorError for an action that does not fit; both name file
+    and line.
+    """
+
+    retypes = True
+
+    def __init__(self, name: str, text: str) -> None:
+        super().__init__()
+        self._name = name
+        self._lines: list[tuple[int, int | None, Action]] = []
+        self._next = 0
+        self._heading = True
+        for number, line in enumerate(text.splitlines(), 1):
+            if line.strip() and not line.startswith("*"):
+                try:
+                    self._lines.append((number, *read_action(line)))
+                except ValueError as error:
+                    raise FileError(f"{name}: line {number}: {error}") from None
+
+    @property
+    def left(self) -> int:
+        """The number of the first line that was not used, 0 where all were."""
+        return self._lines[self._next][0] if self._next < len(self._lines) else 0
+
+    def attend(self, session: Session) -> Iterator[Action]:
+        """What the file says to do now; lines at its head that set the machine are done before the run."""
+        while self._next < len(self._lines):
+            _, at, action = self._lines[self._next]
+            self._heading = self._heading and at is None and action.word in _SETTING
+            if not self._heading and (at is None or at > session.state.work):
+                return
+            yield self._took(session)
+
+    def goal(self, session: Session) -> int:
+        at = self._lines[self._next][1] if self._next < len(self._lines) else None
+        return super().goal(session) if at is None else min(at, super().goal(session))
+
+    def answer(self, session: Session, halt: Halt) -> Action:
+        if self._next == len(self._lines):
+            if halt.trouble:
+                raise DeckError(halt.trouble)
+            return super().answer(session, halt)
+        number, at, action = self._lines[self._next]
+        if halt.what == "pause" and (at is not None or action.word == "ENTER"):
+            return super().answer(session, halt)
+        wrong = ("START", "ATTN") if halt.what == "accept" else ("ENTER", "ATTN")
+        if at is not None or action.word in wrong:
+            raise OperatorError(f"{self._name}: line {number}: {words_of(action, at)}, but {standing(halt)}")
+        return self._took(session)
+
+    def _took(self, session: Session) -> Action:
+        number, _, action = self._lines[self._next]
+        self._next += 1
+        if action.word in ("BREAK", "CLEAR") and action.number and not session.places(action):
+            raise OperatorError(f"{self._name}: line {number}: {session.program.source} has nothing to run there")
+        return action
+
+
+class Logged(Operator):
+    """Another operator, and a file that gets a line for everything he does; what the machine does are comments.
+
+    Read again by :class:`FromFile` with the same program and deck, the log gives the same run and the same log.
+    """
+
+    def __init__(self, operator: Operator, file: TextIO) -> None:
+        super().__init__()
+        self.retypes = operator.retypes
+        self._operator, self._file = operator, file
+        self._session: Session | None = None
+        self._halt: Halt | None = None
+
+    def happened(self, events: Sequence[Event]) -> None:
+        for event in events:
+            if event.what in ("read", "punch", "type"):
+                self._write(f"* {event.what:<6}{event.text}")
+        self._operator.happened(events)
+
+    def attend(self, session: Session) -> Iterator[Action]:
+        if session is not self._session:
+            self._session = session
+            self._write(f"* {session.program.source}, {session.deck.source}")
+        for action in self._operator.attend(session):
+            self._write(words_of(action, session.state.work))
+            yield action
+
+    def goal(self, session: Session) -> int:
+        return self._operator.goal(session)
+
+    def answer(self, session: Session, halt: Halt) -> Action:
+        if halt is not self._halt:
+            self._halt = halt
+            self._write(f"* {standing(halt)}")
+        action = self._operator.answer(session, halt)
+        self._write(words_of(action))
+        return action
+
+    def _write(self, line: str) -> None:
+        self._file.write(line.rstrip() + "\n")
 
 
 def operated(
@@ -65,8 +172,9 @@ def operated(
     goal = session.options.limit if goal is None else goal
     session.retypes = operator.retypes
     while True:
-        for action in operator.attend(session):
-            session.act(action)
+        if session.halt is None:
+            for action in operator.attend(session):
+                session.act(action)
         try:
             found = session.advance(min(goal, operator.goal(session)))
         finally:

@@ -18,7 +18,7 @@ from emulator.language.objectcode import Line, Program, code_positions, flatten
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 from emulator.machine import interpreter
 from emulator.machine.devices import Devices, Ended, Wanted
-from emulator.machine.endings import Ending, looped, out_of_bounds, stopped, unfit
+from emulator.machine.endings import Ending, Notice, looped, out_of_bounds, stopped, unfit
 from emulator.machine.interpreter import FLOATING, Journal, State
 from emulator.machine.result import LOOP_WINDOW, Event, Options, Result, Uncut, begun, machine_errors
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED
@@ -48,7 +48,8 @@ class Action:
     """What an operator does.
 
     - ENTER: types ``text`` for ACCEPT.
-    - START: lets the machine go on.  STEP: lets it do ``number`` statements.
+    - START: lets the machine go on; ``unasked`` where it is pressed because nobody is there, which a PAUSE has noted.
+    - STEP: lets it do ``number`` statements.
     - STOP: ends the run; what was done is kept.
     - ATTN: has a running machine stand before the next statement.
     - SWITCH: sets sense switch ``number`` as ``on`` says.
@@ -60,6 +61,7 @@ class Action:
     text: str = ""
     on: bool = False
     card: bool = False
+    unasked: bool = False
 
 
 Tracer = Callable[[Line, "Session"], None]
@@ -143,12 +145,15 @@ class Session:
         return events
 
     def act(self, action: Action) -> None:
-        """Do what the operator does.  Raises DeckError for a breakpoint at no statement."""
+        """Do what the operator does; what does not fit the moment has no effect."""
         match action.word:
             case "ENTER":
-                self.devices.typed_line, self.halt = action.text, None
+                if self.halt and self.halt.what == "accept":
+                    self.devices.typed_line, self.halt = action.text, None
             case "STEP" | "START":
                 self._steps, self._called = action.number, False
+                if action.unasked and self.halt and self.halt.what == "pause":
+                    self.devices.note(Notice("pause", self.program.source, self.halt.line))
                 if self.halt and self.halt.what != "accept":
                     self.halt = None
             case "ATTN":
@@ -156,23 +161,20 @@ class Session:
             case "SWITCH":
                 self.switches[action.number - 1] = int(action.on)
             case "BREAK":
-                self.breakpoints.update((index, action) for index in self._places(action))
+                self.breakpoints.update((index, action) for index in self.places(action))
             case "CLEAR":
-                for index in self._places(action) if action.number else list(self.breakpoints):
+                for index in self.places(action) if action.number else list(self.breakpoints):
                     self.breakpoints.pop(index, None)
             case "STOP":
                 self._ending = Ending("operator", self.program.source, self.here, trouble="stopped by the operator")
 
-    def _places(self, action: Action) -> list[int]:
-        found = [
+    def places(self, action: Action) -> list[int]:
+        """Where a BREAK or CLEAR is: indices into :attr:`emulator.language.objectcode.Program.statements`."""
+        return [
             line.index
             for line in self.program.statements
             if (line.place.card if action.card else line.label) == action.number
         ]
-        if not found:
-            place = f"card {action.number}" if action.card else f"statement {action.number}"
-            raise DeckError(f"{self.program.source}: the machine comes to no {place}")
-        return found
 
     def result(self, ending: Ending = BAD_INPUT) -> Result:
         """What the devices have so far; of use after :meth:`advance` raised an error for a bad card."""
@@ -199,7 +201,7 @@ class Session:
         if self._ending or self.halt:
             return self._ending or self.halt
         reason = self._again
-        self.devices.lists = self.tracer is not None
+        self.devices.lists = self.tracer is not None or self._steps > 0
         try:
             while True:
                 if reason != interpreter.AT_LIMIT:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import pytest
 
-from emulator.errors import CardError, DeckError
+from emulator.errors import CardError
 from emulator.language.cards import deck_from_lines
 from emulator.machine.endings import Ending
 from emulator.machine.machine import Machine
@@ -109,12 +109,6 @@ def test_single_steps_and_breakpoints() -> None:
     made.act(Action("CLEAR"))
     made.act(Action("START"))
     assert made.advance(1_000) is None
-
-
-@pytest.mark.parametrize(("card", "words"), [(False, "no statement 8"), (True, "no card 8")])
-def test_a_breakpoint_where_nothing_begins(card: bool, words: str) -> None:
-    with pytest.raises(DeckError, match=f"deck.f: the machine comes to {words}"):
-        session("7 K=3", "END").act(Action("BREAK", 8, card=card))
 
 
 def test_a_switch_flipped_on_the_way() -> None:

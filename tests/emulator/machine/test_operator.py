@@ -1,0 +1,171 @@
+"""An operator who answers from a file, and the log that is such a file."""
+
+from __future__ import annotations
+
+import io
+
+import pytest
+
+from emulator.errors import DeckError, FileError, OperatorError
+from emulator.machine.operator import FromFile, Logged, Operator
+from emulator.machine.result import Result
+from emulator.machine.session import Action
+from emulator.machine.words import read_action, words_of
+from tests.support.deckwork import machine
+
+ASKING = ["5 ACCEPT 90,K", "IF(K)7,6,7", "6 PAUSE 3", "STOP", "7 TYPE 90,K", "GO TO 5", "90 FORMAT(I4)", "END"]
+WAITING = ["K=0", "1 K=K+1", "IF(SENSE SWITCH 2)2,1", "2 PAUSE", "TYPE 90,K", "90 FORMAT(I4)", "END"]
+
+
+def answered(lines: list[str], text: str, **setting: object) -> Result:
+    return machine(*lines, **setting).run(FromFile("o.txt", text))  # type: ignore[arg-type]
+
+
+def logged(lines: list[str], text: str, **setting: object) -> tuple[Result, str]:
+    log = io.StringIO()
+    result = machine(*lines, **setting).run(Logged(FromFile("o.txt", text), log))  # type: ignore[arg-type]
+    return result, log.getvalue()
+
+
+def test_a_file_types_presses_start_and_is_no_warning() -> None:
+    result = answered(ASKING, "* a comment\nENTER    7\n\nENTER   -8\nENTER    0\nSTART\n")
+    assert (result.typed, result.ending.kind, result.notices) == (("   7", "  -8"), "stop", ())
+
+
+def test_after_its_last_line_start_is_pressed_and_a_line_is_missing() -> None:
+    result = answered(ASKING, "ENTER    0\n")
+    assert [notice.kind for notice in result.notices] == ["pause"]
+    with pytest.raises(DeckError, match="nothing is typed for ACCEPT in statement 5"):
+        answered(ASKING, "ENTER    1\n")
+
+
+def test_a_bad_line_is_retyped_or_is_the_error() -> None:
+    result, log = logged(ASKING, "ENTER    X\nENTER    9\nENTER    0\n")
+    assert result.typed == ("   9",)
+    assert "* typewriter: line 1, column 1: 'X' is not a whole number; the line is typed again: ACCEPT" in log
+    with pytest.raises(DeckError, match=r"^typewriter: line 1, column 1: 'X' is not a whole number"):
+        answered(ASKING, "ENTER    X\n")
+
+
+def test_switches_at_the_head_are_set_before_the_run_others_at_the_halt() -> None:
+    assert answered(WAITING, "SWITCH 2 ON\nSTART\n").typed == ("   1",)
+    assert answered(WAITING, "SWITCH 2 ON\nSWITCH 2 OFF\n", limit=500).ending.kind == "limit"
+    lines = ["1 PAUSE", "IF(SENSE SWITCH 1)2,1", "2 TYPE 90", "90 FORMAT(2HON)", "END"]
+    result = answered(lines, "START\nSTART\nSWITCH 1 ON\nSTART\n")
+    assert (result.typed, result.statements) == (("ON",), 8)
+
+
+def test_at_a_count_of_work() -> None:
+    result, log = logged(WAITING, "AT 100 SWITCH 2 ON\nSTART\n")
+    assert result.typed == ("  50",)
+    assert "AT 100 SWITCH 2 ON\n" in log
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "AT 0 ATTN\nSTEP\nSTEP 5\nBREAK 2\nBREAK CARD 3\nSTART\nCLEAR CARD 3\nSWITCH 2 ON\nSTART\nCLEAR\nSTART\n",
+        "AT 77 ATTN\nSWITCH 2 ON\nSTART\nSTOP\n",
+        "STEP 3\nSWITCH 1 ON\nSTEP\nSTOP\n",
+        "AT 200 STOP\n",
+        "SWITCH 2 ON\n",
+    ],
+)
+def test_a_log_replays_to_the_same_run_and_the_same_log(text: str) -> None:
+    first, log = logged(WAITING, text)
+    second, again = logged(WAITING, log)
+    assert (second, again) == (first, log)
+    if "STOP" in text:
+        assert (first.ending.kind, first.ending.normal) == ("operator", False)
+
+
+def test_what_a_log_says() -> None:
+    lines = ["READ 90,I", "3 ACCEPT 90,K", "PUNCH 90,K", "90 FORMAT(I4)", "END"]
+    _, log = logged(lines, "ENTER    4\n", data=["  12"])
+    assert log.splitlines() == [
+        "* deck.f, data.cards",
+        "* read    12",
+        "* ACCEPT waits for a line, statement 3 (card 2)",
+        "ENTER    4",
+        "* punch    4",
+    ]
+
+
+def test_a_log_of_nobody_has_what_was_typed() -> None:
+    log = io.StringIO()
+    machine(*ASKING).run(Logged(Operator(["   5", "   0"]), log))
+    assert [line for line in log.getvalue().splitlines() if line[0] != "*"] == ["ENTER    5", "ENTER    0"]
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("STRAT", "'STRAT' is no word of an operator; they are ENTER, START,"),
+        ("start", "'start' is no word of an operator"),
+        ("START 5", "the form is START"),
+        ("SWITCH 5 ON", "the form is SWITCH, 1 to 4, ON or OFF"),
+        ("SWITCH 1", "the form is SWITCH, 1 to 4, ON or OFF"),
+        ("SWITCH 1 ON 2", "the form is SWITCH, 1 to 4, ON or OFF"),
+        ("STEP 0", "the form is STEP, or STEP and a number"),
+        ("STEP X", "the form is STEP, or STEP and a number"),
+        ("BREAK", "the form is BREAK and a statement's number"),
+        ("BREAK CARD", "the form is BREAK and a statement's number"),
+        ("BREAK 4 CARD", "the form is BREAK and a statement's number"),
+        ("ATTN", "the form is AT, a number and ATTN"),
+        ("AT 7", "the form is AT, a number and one of STEP, STOP, ATTN,"),
+        ("AT X ATTN", "the form is AT, a number and one of"),
+        ("AT 7 ENTER 5", "the form is AT, a number and one of"),
+        ("AT 7 SWITCH ON", "the form is SWITCH, 1 to 4, ON or OFF"),
+    ],
+)
+def test_wrong_words_name_file_and_line(line: str, words: str) -> None:
+    with pytest.raises(FileError) as caught:
+        FromFile("o.txt", f"* head\nSTART\n{line}\n")
+    assert str(caught.value).startswith(f"o.txt: line 3: {words}")
+
+
+@pytest.mark.parametrize(
+    ("lines", "text", "words"),
+    [
+        (ASKING, "START\n", "line 1: START, but ACCEPT waits for a line, statement 5 (card 1)"),
+        (
+            ["3 PAUSE", "END"],
+            "STEP\nENTER 5\n",
+            "line 2: ENTER 5, but stopped (step) before statement 3 (card 1): PAUSE",
+        ),
+        (ASKING, "AT 90 ATTN\n", "line 1: AT 90 ATTN, but ACCEPT waits for a line, statement 5 (card 1)"),
+        (ASKING, "BREAK 8\n", "line 1: deck.f has nothing to run there"),
+        (ASKING, "BREAK CARD 7\n", "line 1: deck.f has nothing to run there"),
+    ],
+)
+def test_an_action_that_does_not_fit_names_file_and_line(lines: list[str], text: str, words: str) -> None:
+    with pytest.raises(OperatorError) as caught:
+        answered(lines, text)
+    assert str(caught.value) == f"o.txt: {words}"
+
+
+def test_lines_that_were_not_used_are_known() -> None:
+    operator = FromFile("o.txt", "ENTER    0\n* not this\nSTART\nSTART\n")
+    machine(*ASKING).run(operator)
+    assert operator.left == 4
+
+
+@pytest.mark.parametrize(
+    "action",
+    [
+        Action("ENTER", text="   5  -7"),
+        Action("ENTER"),
+        Action("STEP", 1),
+        Action("STEP", 12),
+        Action("SWITCH", 4, on=True),
+        Action("BREAK", 9999),
+        Action("BREAK", 12, card=True),
+        Action("CLEAR", 3, card=True),
+        Action("CLEAR"),
+        Action("STOP"),
+    ],
+)
+def test_words_are_read_as_they_are_written(action: Action) -> None:
+    assert read_action(words_of(action)) == (None, action)
+    if action.word != "ENTER":
+        assert read_action(words_of(action, 500)) == (500, action)
