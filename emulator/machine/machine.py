@@ -23,14 +23,14 @@ class Machine(Session):
 
     keyboard: Iterable[str] = ()
 
-    def run(self, operator: Operator | None = None, output: Output | None = None) -> Result:
+    def run(self, operator: Operator | None = None, output: Output | None = None, keep: bool = False) -> Result:
         """Run to an ending, with the operator of ``keyboard`` or another.
 
-        With ``output`` events are handed there as they come, and the result does not hold them: a run then takes no
-        more memory the more it puts out.  Raises CardError for a card whose field is not a number, DeckError for a
-        hopper empty in the middle of a data set or from the start, and what the operator raises.
+        With ``output`` events are handed there as they come, and the result does not hold them but with ``keep``: a
+        run then takes no more memory the more it puts out.  Raises CardError for a card whose field is not a number,
+        DeckError for a hopper empty in the middle of a data set or from the start, and what the operator raises.
         """
-        self.keep = output is None
+        self.keep = keep or output is None
         ending = operated(self, operator or Operator(self.keyboard), output=output)
         assert ending is not None, "a run has an end"
         return self.result(ending)

@@ -8,7 +8,9 @@ The words of such a file are in emulator/machine/words.py.
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import TextIO
 
 from emulator.errors import DeckError, FileError, OperatorError
@@ -26,6 +28,15 @@ Output = Callable[[Sequence[Event]], None]
 """Takes what the devices did, in order."""
 
 
+@dataclass(frozen=True, slots=True)
+class _Line:
+    """A line of an operator's file: its number, the work before it, and the action."""
+
+    number: int
+    at: int | None
+    action: Action
+
+
 class Operator:
     """Presses START and types the lines of ``keyboard``; a line that is missing is an error.
 
@@ -35,7 +46,7 @@ class Operator:
     retypes = False
 
     def __init__(self, keyboard: Iterable[str] = ()) -> None:
-        self._keys = iter(keyboard)
+        self._keyboard = iter(keyboard)
 
     def happened(self, events: Sequence[Event]) -> None:
         """See what the devices did, in order."""
@@ -51,7 +62,7 @@ class Operator:
     def answer(self, session: Session, halt: Halt) -> Action:
         """What is done about a halt; asked again while the machine stands.  Raises DeckError for a missing line."""
         if halt.what == "accept":
-            line = next(self._keys, None)
+            line = next(self._keyboard, None)
             if line is None:
                 raise DeckError(f"{session.program.source}: nothing is typed for ACCEPT in {halt.line.name}")
             return Action("ENTER", text=line)
@@ -61,62 +72,72 @@ class Operator:
 class FromFile(Operator):
     """Answers from the lines of a file; after its last line he is nobody, and at a PAUSE for which it has no START.
 
-    Raises FileError for wrong words, and during the run OperatorError for an action that does not fit; both name file
-    and line.
+    ``LOAD`` begins the lines for the next machine, where several run one after the other.  Raises FileError for wrong
+    words, and during the run OperatorError for an action that does not fit; both name file and line.
     """
 
     retypes = True
 
     def __init__(self, name: str, text: str) -> None:
         super().__init__()
-        self._name = name
-        self._lines: list[tuple[int, int | None, Action]] = []
-        self._next = 0
-        self._heading = True
+        self.name = name
+        self._parts: list[deque[_Line]] = [deque()]
         for number, line in enumerate(text.splitlines(), 1):
-            if line.strip() and not line.startswith("*"):
+            if line.split(maxsplit=1)[:1] == ["LOAD"]:
+                if self._parts != [deque()]:
+                    self._parts.append(deque())
+            elif line.strip() and not line.startswith("*"):
                 try:
-                    self._lines.append((number, *read_action(line)))
+                    self._parts[-1].append(_Line(number, *read_action(line)))
                 except ValueError as error:
                     raise FileError(f"{name}: line {number}: {error}") from None
+        self._lines = self._parts.pop(0)
+        self._heading = True
+        self._session: Session | None = None
+        self._passed = 0
 
     @property
     def left(self) -> int:
         """The number of the first line that was not used, 0 where all were."""
-        return self._lines[self._next][0] if self._next < len(self._lines) else 0
+        return self._passed or next((part[0].number for part in (self._lines, *self._parts) if part), 0)
 
     def attend(self, session: Session) -> Iterator[Action]:
         """What the file says to do now; lines at its head that set the machine are done before the run."""
-        while self._next < len(self._lines):
-            _, at, action = self._lines[self._next]
+        if session is not self._session:
+            if self._session is not None and self._parts:
+                self._passed = self._passed or (self._lines[0].number if self._lines else 0)
+                self._lines, self._heading = self._parts.pop(0), True
+            self._session = session
+        while self._lines:
+            at, action = self._lines[0].at, self._lines[0].action
             self._heading = self._heading and at is None and action.word in _SETTING
             if not self._heading and (at is None or at > session.state.work):
                 return
             yield self._took(session)
 
     def goal(self, session: Session) -> int:
-        at = self._lines[self._next][1] if self._next < len(self._lines) else None
+        at = self._lines[0].at if self._lines else None
         return super().goal(session) if at is None else min(at, super().goal(session))
 
     def answer(self, session: Session, halt: Halt) -> Action:
-        if self._next == len(self._lines):
+        if not self._lines:
             if halt.trouble:
                 raise DeckError(halt.trouble)
             return super().answer(session, halt)
-        number, at, action = self._lines[self._next]
-        if halt.what == "pause" and (at is not None or action.word == "ENTER"):
+        line = self._lines[0]
+        if halt.what == "pause" and (line.at is not None or line.action.word == "ENTER"):
             return super().answer(session, halt)
         wrong = ("START", "ATTN") if halt.what == "accept" else ("ENTER", "ATTN")
-        if at is not None or action.word in wrong:
-            raise OperatorError(f"{self._name}: line {number}: {words_of(action, at)}, but {standing(halt)}")
+        if line.at is not None or line.action.word in wrong:
+            said = words_of(line.action, line.at)
+            raise OperatorError(f"{self.name}: line {line.number}: {said}, but {standing(halt)}")
         return self._took(session)
 
     def _took(self, session: Session) -> Action:
-        number, _, action = self._lines[self._next]
-        self._next += 1
-        if action.word in ("BREAK", "CLEAR") and action.number and not session.places(action):
-            raise OperatorError(f"{self._name}: line {number}: {session.program.source} has nothing to run there")
-        return action
+        line = self._lines.popleft()
+        if line.action.word in ("BREAK", "CLEAR") and line.action.number and not session.places(line.action):
+            raise OperatorError(f"{self.name}: line {line.number}: {session.program.source} has nothing to run there")
+        return line.action
 
 
 class Logged(Operator):
@@ -141,7 +162,7 @@ class Logged(Operator):
     def attend(self, session: Session) -> Iterator[Action]:
         if session is not self._session:
             self._session = session
-            self._write(f"* {session.program.source}, {session.deck.source}")
+            self._write(f"LOAD {session.program.source}")
         for action in self._operator.attend(session):
             self._write(words_of(action, session.state.work))
             yield action

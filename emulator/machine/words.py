@@ -58,7 +58,7 @@ def action(word: str, rest: list[str]) -> Action:
             return Action("CLEAR")
     if word in _FORMS:
         raise ValueError(f"the form is {_FORMS[word]}")
-    raise ValueError(f"{word!r} is no word of an operator; they are {', '.join(WORDS)}, AT")
+    raise ValueError(f"{word!r} is no word of an operator; they are {', '.join(WORDS)}, AT, LOAD")
 
 
 def _number(text: str) -> int | None:

@@ -240,6 +240,16 @@ def _results(parser: ArgumentParser) -> None:
         help="count statements and operations, and give the time on the 1620",
     )
     parser.add_argument("--trace", metavar="FILE", help="write every statement with its card and values")
+    parser.add_argument(
+        "--operator",
+        metavar="FILE",
+        help="--operator alone: the terminal is the console; --operator=FILE: a file, or a log, answers; "
+        "--operator=none: nobody (default: the terminal, where all is one and the program has ACCEPT or PAUSE)",
+    )
+    parser.add_argument(
+        "--log", metavar="FILE", help="write down what the operator does; --operator=FILE reads it again"
+    )
+    parser.add_argument("--slow", action="store_true", help="at the terminal lines are typed ten characters a second")
     _machine(parser)
 
 

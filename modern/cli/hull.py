@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import argparse
+import sys
+from collections.abc import Sequence
 from dataclasses import replace
 
 from emulator.files import check_writable
 from emulator.language.cards import Deck, read_deck
 from emulator.language.objectcode import Program
 from emulator.machine.machine import Machine
+from emulator.machine.result import Event
 from modern.cli.shared import refusals
 from modern.cli.shared.console import DIFFERS, OK, UsageError, say
 from modern.cli.shared.machine import (
+    attended,
     card_rules,
+    is_terminal,
     layers_of,
     machine_options,
     profile_lines,
@@ -29,7 +34,7 @@ from modern.thesis.refusals import Cause, run_explained
 def main(args: argparse.Namespace) -> int:
     """Check the deck, run every data set, put out the final cards."""
     options = replace(machine_options(args), uncut=args.uncut)
-    check_writable(args.punch, args.typewriter, args.trace)
+    check_writable(args.punch, args.typewriter, args.trace, args.log)
     layers = layers_of(args)
     if args.epsilon is not None and "epsilon" not in layers:
         layers = (*layers, "epsilon")
@@ -39,20 +44,24 @@ def main(args: argparse.Namespace) -> int:
     load(first)
     asked = refusals.Asked(args.deck, "", layers, options.numbers.name, args.epsilon or "", args.uncut, args.explain)
     runs: list[tuple[HullRun, Cause | None]] = []
-    with tracing(args.trace) as tracer:
+    with attended(args) as who, tracing(args.trace) as tracer:
 
         def watch(program: Program, machine: Machine) -> None:
             if tracer:
                 tracer.watch(program, machine)
 
+        def output(events: Sequence[Event]) -> None:
+            for event in events if who.show else ():
+                if event.what == "type" and who.show:
+                    who.show(event.text)
+
         for i in range(len(checked.sets)):
             deck = checked.deck(i) if args.epsilon is None else _with_epsilon(checked.deck(i), args.epsilon)
-            runs.append(run_explained(deck, load, options, first, watch))
-    put_out(
-        args,
-        [card for run, _ in runs for card in run.final.result.punched],
-        [line for run, _ in runs for step in run.steps for line in step.result.typed],
-    )
+            runs.append(run_explained(deck, load, options, first, watch, who.operator, output))
+    typed = [line for run, _ in runs for step in run.steps for line in step.result.typed]
+    shown = who.show is not None and args.typewriter is None and is_terminal(sys.stderr)
+    put_out(args, [card for run, _ in runs for card in run.final.result.punched], () if shown else typed)
+    who.say_left()
     say(f"warning: {warning.message}" for warning in checked.warnings)
     already = {(w.card, w.column) for w in checked.warnings}
     for run, cause in runs:

@@ -17,6 +17,8 @@ from modern.cli.shared.console import BAD_INPUT, OK, Parser, complain
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; returns the exit code."""
     words = sys.argv[1:] if arguments is None else list(arguments)
+    # The option is complete by itself; what follows it is no value of it.
+    words = ["--operator=" if word == "--operator" else word for word in words]
     # A command makes many objects that live to its end: looking for unused ones after every 700 is time lost.
     gc.set_threshold(100_000)
     for stream in (sys.stdout, sys.stderr):

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from emulator.language.cards import Deck, deck_from_lines
 from emulator.language.objectcode import Program
 from emulator.machine.machine import Machine
+from emulator.machine.operator import Operator, Output
 from emulator.machine.result import Event, Options, Result, Uncut
 
 COPLANAR = "POINTS ARE COPLANAR"
@@ -97,12 +98,14 @@ def run_hull(
     options: Options | None = None,
     first: str = "program1",
     watch: Callable[[Program, Machine], None] | None = None,
+    operator: Operator | None = None,
+    output: Output | None = None,
 ) -> HullRun:
     """Run one data set through program 1 and the program its typewriter names.
 
     With ``options.uncut`` numbers go from program 1 to the next whole, not as the card's digits.  ``first`` is the
-    built-in that plays program 1; ``watch`` sees each machine before it runs.  Raises what
-    :meth:`emulator.machine.machine.Machine.run` raises.
+    built-in that plays program 1; ``watch`` sees each machine before it runs, ``operator`` serves them all and
+    ``output`` sees all events.  Raises what :meth:`emulator.machine.machine.Machine.run` raises.
     """
     options = options or Options()
 
@@ -111,7 +114,7 @@ def run_hull(
         machine = Machine(program, deck, options, uncut=uncut)
         if watch is not None:
             watch(program, machine)
-        return Step(name, number, program, deck, machine.run())
+        return Step(name, number, program, deck, machine.run(operator, output, keep=True))
 
     steps = [ran(first, 1, deck)]
     second = second_program(steps[0].result)

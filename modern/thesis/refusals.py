@@ -14,6 +14,7 @@ from typing import Literal
 from emulator.language.cards import Deck
 from emulator.language.objectcode import Line, Program
 from emulator.machine.machine import Machine
+from emulator.machine.operator import Operator, Output
 from emulator.machine.result import Options
 from emulator.machine.session import Session
 from emulator.machine.trace import contents
@@ -60,6 +61,8 @@ def run_explained(
     options: Options | None = None,
     first: str = "program1",
     watch: Callable[[Program, Machine], None] | None = None,
+    operator: Operator | None = None,
+    output: Output | None = None,
 ) -> tuple[HullRun, Cause | None]:
     """A hull run, as :func:`modern.thesis.job.run_hull` has it, and why it came to no hull, if it did not."""
     machines: list[Machine] = []
@@ -69,18 +72,18 @@ def run_explained(
         if watch is not None:
             watch(program, machine)
 
-    run = run_hull(deck, load, options, first, seen)
+    run = run_hull(deck, load, options, first, seen, operator, output)
     causes = (cause(step, machine) for step, machine in zip(run.steps, machines, strict=True))
     return run, next((found for found in causes if found is not None), None)
 
 
 def cause(step: Step, machine: Session) -> Cause | None:
-    """Why a step came to no hull; None where it ended well.  ``machine`` is the one that ran it, as it was left."""
+    """Why a step came to no hull; None where it ended well or was stopped.  ``machine`` is the one that ran it, as it was left."""
     ending, typed = step.result.ending, refusal(step.result)
     if typed:
         event = next(e for e in reversed(step.result.events) if e.what == "type" and e.text in REFUSALS)
         return _refused(step, machine, typed, event.decision)
-    if ending.normal:
+    if ending.normal or ending.kind == "operator":
         return None
     if ending.kind == "limit":
         # A search beyond the end of the table strikes what is not there, and NE falls without end.

@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 import textwrap
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
 from itertools import groupby
 from operator import attrgetter
 from typing import TextIO
 
 from emulator.errors import FileError, LowerCaseError, explanations
-from emulator.files import reason, write_text, writing
+from emulator.files import read_text, reason, source_name, write_text, writing
+from emulator.language import objectcode as op
 from emulator.language.cards import Deck, read_deck
 from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import Program
 from emulator.language.statements import capitals
-from emulator.machine.operator import Output
+from emulator.machine.operator import FromFile, Logged, Operator, Output
 from emulator.machine.result import Event, Options, Result
 from emulator.machine.timing import Row, measure
 from emulator.machine.trace import Tracer
@@ -128,10 +131,11 @@ class _Outlet:
 
 
 @contextmanager
-def streaming(args: argparse.Namespace) -> Iterator[Output]:
+def streaming(args: argparse.Namespace, show: Callable[[str], None] | None = None) -> Iterator[Output]:
     """Where a run's events go as they come: cards as ``--punch`` says, typed lines as ``--typewriter`` does.
 
-    A named file appears, whole, when the run is over; an exception leaves it as it was.  Raises FileError.
+    ``show`` is a terminal's way to show a line typed; standard error, where it is a terminal too, then shows none.  A
+    named file appears, whole, when the run is over; an exception leaves it as it was.  Raises FileError.
     """
 
     def outlet(path: str | None) -> _Outlet:
@@ -141,15 +145,79 @@ def streaming(args: argparse.Namespace) -> Iterator[Output]:
 
     def put(events: Sequence[Event]) -> None:
         for what, group in groupby(events, key=attrgetter("what")):
+            texts = [event.text for event in group]
             if what in outlets:
-                outlets[what].put("".join(event.text + "\n" for event in group))
+                outlets[what].put("".join(text + "\n" for text in texts))
+            if what == "type" and show is not None:
+                for text in texts:
+                    show(text)
 
     try:
         with ExitStack() as stack:
-            outlets = {"punch": outlet(args.punch), "type": outlet(args.typewriter)}
+            outlets = {"punch": outlet(args.punch)}
+            if show is None or args.typewriter is not None or not is_terminal(sys.stderr):
+                outlets["type"] = outlet(args.typewriter)
             yield put
     except _Lost as lost:
         raise lost.error from None
+
+
+@dataclass(frozen=True)
+class Attended:
+    """Who operates a run; ``show`` is his terminal's way to show a line typed, if he sits at one."""
+
+    operator: Operator
+    show: Callable[[str], None] | None
+    file: FromFile | None
+
+    def say_left(self) -> None:
+        """Say it where lines of an operator's file were not used."""
+        if self.file is not None and self.file.left:
+            say([f"note: {self.file.name}: line {self.file.left} and what follows it was not used"])
+
+
+@contextmanager
+def attended(args: argparse.Namespace, program: Program | None = None) -> Iterator[Attended]:
+    """The operator that ``--operator`` names, and his ``--log``; ``program`` is one that may ask for him unnamed.
+
+    A program without an operator types the lines of standard input, if that is neither a deck nor a terminal.  Raises
+    UsageError, and FileError for a file that is no operator's.
+    """
+    name: str | None = args.operator
+    inputs = [getattr(args, "program", None), args.deck]
+    with ExitStack() as stack:
+        file: FromFile | None = None
+        show: Callable[[str], None] | None = None
+        operator: Operator
+        if name == "" or (name is None and program is not None and _asks(args, program)):
+            from modern.cli.shared.terminal import terminal
+
+            person = stack.enter_context(terminal(args.slow, waits=name is not None))
+            operator, show = person, person.show
+        elif name is not None and name != "none":
+            if name == "-" and "-" in inputs:
+                raise UsageError("--operator: standard input is the program or the deck")
+            operator = file = FromFile(source_name(name), read_text(name))
+        else:
+            lies = program is not None and "-" not in inputs and sys.stdin is not None and not sys.stdin.isatty()
+            operator = Operator(sys.stdin if lies else ())
+        if args.log is not None:
+            operator = Logged(operator, stack.enter_context(writing(args.log)))
+        yield Attended(operator, show, file)
+
+
+def _asks(args: argparse.Namespace, program: Program) -> bool:
+    """Whether somebody sits at the terminal whom the program has something to ask."""
+    if not (args.deck and os.path.isfile(args.deck)):
+        return False
+    if not all(map(is_terminal, (sys.stdin, sys.stdout, sys.stderr))):
+        return False
+    return "ACCEPT" in program.verbs or any(i.operation == op.PAUSE for i in program.code)
+
+
+def is_terminal(stream: TextIO | None) -> bool:
+    """Whether a standard stream is there and goes to a terminal."""
+    return stream is not None and stream.isatty()
 
 
 @contextmanager

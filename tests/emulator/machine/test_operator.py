@@ -83,7 +83,7 @@ def test_what_a_log_says() -> None:
     lines = ["READ 90,I", "3 ACCEPT 90,K", "PUNCH 90,K", "90 FORMAT(I4)", "END"]
     _, log = logged(lines, "ENTER    4\n", data=["  12"])
     assert log.splitlines() == [
-        "* deck.f, data.cards",
+        "LOAD deck.f",
         "* read    12",
         "* ACCEPT waits for a line, statement 3 (card 2)",
         "ENTER    4",
@@ -94,7 +94,7 @@ def test_what_a_log_says() -> None:
 def test_a_log_of_nobody_has_what_was_typed() -> None:
     log = io.StringIO()
     machine(*ASKING).run(Logged(Operator(["   5", "   0"]), log))
-    assert [line for line in log.getvalue().splitlines() if line[0] != "*"] == ["ENTER    5", "ENTER    0"]
+    assert [line for line in log.getvalue().splitlines() if line[0] not in "*L"] == ["ENTER    5", "ENTER    0"]
 
 
 @pytest.mark.parametrize(
@@ -169,3 +169,19 @@ def test_words_are_read_as_they_are_written(action: Action) -> None:
     assert read_action(words_of(action)) == (None, action)
     if action.word != "ENTER":
         assert read_action(words_of(action, 500)) == (500, action)
+
+
+def test_lines_for_several_machines() -> None:
+    """LOAD parts them; without it the next machine goes on with the lines that are left."""
+    for text in (
+        "LOAD a\nENTER    0\nSTART\nLOAD b\nAT 0 ATTN\nSTEP\nENTER    0\nSTOP\n",
+        "ENTER    0\nSTART\nENTER    0\n",
+    ):
+        operator = FromFile("o.txt", text)
+        first, second = machine(*ASKING).run(operator), machine(*ASKING).run(operator)
+        assert (first.ending.kind, second.ending.kind) == ("stop", "operator" if "STOP" in text else "stop")
+        assert operator.left == 0
+    operator = FromFile("o.txt", "LOAD a\nENTER    0\nSTART\nSTART\nLOAD b\nENTER    0\n")
+    machine(*ASKING).run(operator)
+    machine(*ASKING).run(operator)
+    assert operator.left == 4

@@ -1,0 +1,332 @@
+"""A person at a terminal runs programs: through a pseudo-terminal, as he would see it."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from tests.support.commands import call
+from tests.support.paths import ROOT
+from tests.support.terminals import Person
+
+EXAMPLE4 = ROOT / "transcripts" / "chapter6" / "example4"
+PERIOD = ROOT / "tests" / "data" / "period"
+GAME = ["I TAKE 5", " 1 0 0", " 0 4 0", " 0 0 0", "YOUR MOVE"]
+REFUSED = """-.00000000E-99-.45000000E+02-.00000000E-99 .90000000E+02
+   5 2
+ .61706749E+01 .66448162E+01 .20000000E+01
+ .15433721E+01 .44751217E+01 .20000000E+01
+ .78622131E+01 .75220111E+01 .20000000E+01
+ .64349339E+01 .50709944E+01 .20000000E+01
+ .73967760E+01 .58056573E+01 .20000000E+01
+"""
+LOOP = "      K=0\n    1 K=K+1\n      A=K\n      IF(SENSE SWITCH 2)3,1\n    3 PUNCH 9,K\n    9 FORMAT(I5)\n      END\n"
+ASK = "    5 ACCEPT 90,K,L\n      TYPE 90,L,K\n      IF(K)5,6,5\n    6 STOP\n   90 FORMAT(2I4)\n      END\n"
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """A folder with the game, a loop, and a program that asks."""
+    for name in ("tictac.f", "tictac.deck"):
+        shutil.copy(PERIOD / name, tmp_path)
+    (tmp_path / "loop.f").write_text(LOOP)
+    (tmp_path / "ask.f").write_text(ASK)
+    (tmp_path / "one.deck").write_text("1\n")
+    return tmp_path
+
+
+def test_a_game_is_played_to_its_end(folder: Path) -> None:
+    """It comes to the terminal by itself: the program has ACCEPT, the deck is a file, all streams are the terminal."""
+    with Person(folder, "run", "tictac.f", "tictac.deck", "--punch", "cards", "--log", "log") as person:
+        before = person.settings()
+        person.sees("YOUR MOVE\n-- ACCEPT waits for a line, card 20\n")
+        person.types(" 1\n")
+        assert person.sees("-- ACCEPT waits").splitlines() == [" 1", *GAME, "-- ACCEPT waits"]
+        for move, answer in (("2", "I TAKE 3"), ("7", "I TAKE 4"), ("6", "I TAKE 9")):
+            person.types(f" {move}\n")
+            person.sees(answer)
+            person.sees("ACCEPT waits")
+        person.types(" 8\n")
+        person.sees("DRAW")
+        person.sees("PAUSE 77 waits for START, card 86")
+        person.types("switch 4 on\n")
+        person.sees("SWITCH 4 ON\n")
+        person.types("\n")
+        assert person.ended() == 0
+        assert person.settings() == before
+    assert (folder / "cards").read_text() == " 1 1 4\n 4 4 1\n 1 1 4\n"
+    lines = (folder / "log").read_text().splitlines()
+    assert [line for line in lines if not line.startswith(("*", "LOAD"))] == [
+        *("ENTER  1", "ENTER  2", "ENTER  7", "ENTER  6", "ENTER  8", "SWITCH 4 ON", "START")
+    ]
+
+
+def test_a_log_replays_to_the_same_bytes(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Switch, breakpoint, bad lines, STOP: the log gives the same cards, the same typed lines and the same log."""
+    with Person(folder, "run", "tictac.f", "tictac.deck", "--operator", "--punch", "cards", "--log", "log") as person:
+        person.sees("stopped (attention) before card 9")
+        person.types("\x1b1")
+        person.sees("SWITCH 1 ON")
+        person.types("break 40\n\n")
+        person.sees("stopped (breakpoint) before statement 40 (card 59)")
+        person.types("clear\n\n")
+        for keys in ("1\n", "x\n", " 1\n", " 2\n"):
+            person.sees("ACCEPT waits")
+            person.types(keys)
+        person.sees("PAUSE 77")
+        person.types("stop\n")
+        assert person.ended() == 1
+        assert "hull1620: tictac.f: card 86: stopped by the operator, in PAUSE 77" in person.seen
+    monkeypatch.chdir(folder)
+    options = ("--punch", "cards2", "--log", "log2", "--typewriter", "typed")
+    code, out, err = call(capsys, "run", "tictac.f", "tictac.deck", "--operator=log", *options)
+    assert (code, out) == (1, "")
+    assert "stopped by the operator" in err
+    assert (folder / "cards2").read_bytes() == (folder / "cards").read_bytes() != b""
+    log = (folder / "log").read_text()
+    assert (folder / "log2").read_text() == log
+    typed = [line.removeprefix("* type").strip() for line in log.splitlines() if line.startswith("* type ")]
+    assert [line.strip() for line in (folder / "typed").read_text().splitlines()] == typed
+    assert [line.strip() for line in person.seen.splitlines() if line.strip() in typed] == typed
+
+
+def test_example_4_is_stepped_a_switch_flipped_and_resumed(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Both programs stand before their first statement; program 2 asks for the switch where it refuses its data."""
+    monkeypatch.chdir(folder)
+    deck = str(EXAMPLE4 / "program1.deck")
+    with Person(folder, "hull", deck, "--operator", "--punch", "stepped", "--log", "log") as person:
+        person.sees("program1.f is loaded")
+        person.sees("stopped (attention) before statement 100 (card 4)")
+        person.types("\n")
+        person.sees("POINTS ARE COPLANAR\n")
+        person.sees("program2.f is loaded")
+        person.sees("stopped (attention) before statement 100 (card 4)")
+        person.types("step\nstep 4\n")
+        person.sees("N = 8, KPROJ = 2\n-- stopped (step) before")
+        person.types("step 20\n")
+        person.sees("stopped (step) before")
+        person.types("v\n")
+        person.sees("\nNV     3\n")
+        person.types("\x1bOP")
+        person.sees("SWITCH 1 ON")
+        person.types("switch\n")
+        person.sees("1 ON, 2 OFF, 3 OFF, 4 OFF")
+        person.types("start\n")
+        assert person.ended() == 0
+        assert person.seen.count("POINTS ARE COPLANAR") == 1
+    assert call(capsys, "hull", deck, "--punch", "plain")[0] == 0
+    assert call(capsys, "hull", deck, "--operator=log", "--punch", "again", "--log", "log2")[0] == 0
+    assert (folder / "stepped").read_text() == (folder / "again").read_text() == (folder / "plain").read_text()
+    assert (folder / "log2").read_text() == (folder / "log").read_text()
+
+
+def test_switch_1_flipped_at_a_breakpoint_has_program_2_go_on(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """After DATA NOT ACCEPTABLE it stops, or with the switch on goes on with the data it has (KNOWN-FAULTS 10)."""
+    monkeypatch.chdir(folder)
+    (folder / "refused.deck").write_text(REFUSED)
+    assert call(capsys, "run", "program2", "refused.deck", "--punch", "off")[0] == 1
+    call(capsys, "run", "program2", "refused.deck", "--punch", "on", "--switch", "1")
+    with Person(folder, "run", "program2", "refused.deck", "--operator", "--punch", "flipped") as person:
+        person.sees("stopped (attention) before")
+        person.types("break 126\n\n")
+        person.sees("stopped (breakpoint) before statement 126 (card 82): PRINT 8")
+        person.types("\x1b1")
+        person.sees("SWITCH 1 ON")
+        person.types("clear 126\nstart\n")
+        person.ended()
+    assert (folder / "flipped").read_text() == (folder / "on").read_text() != (folder / "off").read_text()
+
+
+def test_attention_in_an_endless_loop(folder: Path) -> None:
+    with Person(folder, "run", "loop.f", "one.deck", "--operator", "--log", "log", "--limit", "900000000") as person:
+        person.sees("before card 1")
+        person.types("\n")
+        time.sleep(1.0)
+        person.types("\x03")
+        person.sees("stopped (attention) before")
+        person.types("variables\n")
+        count = int(person.sees("\nA ").split("K ")[-1].split()[0])
+        assert count > 100
+        person.types("core k\n")
+        assert f"> 39879 K               {count}" in person.sees("1620> ") + person.sees("1620> ")
+        person.types("cards\n")
+        person.sees("read: 0 of 1 cards\npunched: 0\n")
+        person.types("\n\x1b2")
+        assert person.ended() == 0
+        assert person.seen.endswith("SWITCH 2 ON\n" + person.seen.rpartition("\n")[0].rpartition("\n")[2] + "\n")
+    log = (folder / "log").read_text().splitlines()
+    assert [line.split()[0] for line in log if line[0] != "*"] == ["LOAD", "AT", "START", "AT", "START", "AT"]
+
+
+def test_a_bad_entry_is_typed_again(folder: Path) -> None:
+    with Person(folder, "run", "ask.f", "--operator", "--typewriter", "typed") as person:
+        person.sees("before statement 5")
+        person.types("\n")
+        person.sees("ACCEPT waits for a line, statement 5 (card 1)\n")
+        person.types("   1  2x\n")
+        said = person.sees("ACCEPT waits").replace("\n--   ", " ")
+        assert "typewriter: line 1, column 5: '2X' is not a whole number; the line is typed again" in said
+        person.types("   15\b\x7f\x7f  12   3\x15   1   2\n")
+        person.sees("   2   1\n")
+        person.types("   0   0\n")
+        assert person.ended() == 0
+    assert (folder / "typed").read_text() == "   2   1\n   0   0\n"
+
+
+@pytest.mark.parametrize("term", ["dumb", "xterm"])
+def test_in_60_columns_with_and_without_a_clever_terminal(folder: Path, term: str) -> None:
+    """Nothing is wider than the terminal, and there is nothing in it but text, line ends and backspaces."""
+    with Person(folder, "run", "tictac.f", "tictac.deck", "--operator", columns=60, term=term) as person:
+        person.sees("before card 9")
+        for words in (
+            "help",
+            "v",
+            "v m",
+            "core m(3)",
+            "core 1",
+            "core x",
+            "cards",
+            "break 77",
+            "jump",
+            "s",
+            "switch 7",
+        ):
+            person.types(f"{words}\n")
+            person.sees("1620> ")
+        person.types("break 15\nstart\n")
+        person.sees("ACCEPT waits")
+        person.types(" 9\n")
+        person.sees("stopped (breakpoint) before statement 15")
+        person.types("step\nstep\ncards\nv l\nstop\n")
+        assert person.ended() == 1
+        lines = person.seen.splitlines()
+        assert max(len(line) for line in lines if "hull1620:" not in line) <= 60
+        assert not [c for c in person.seen if not (c.isprintable() or c in "\n\b")]
+        assert "M(9) = 1" in lines
+        assert lines.count("  HELP") == 0
+
+
+def test_lines_appear_at_the_typewriters_speed(folder: Path) -> None:
+    with Person(folder, "run", "tictac.f", "tictac.deck", "--operator", "--slow") as person:
+        person.sees("before card 9")
+        person.types("\n")
+        person.sees("TIC-")
+        start = time.monotonic()
+        person.sees("TAC-TOE\n")
+        assert time.monotonic() - start > 0.5
+        person.sees("ACCEPT waits")
+        person.types("\x04")
+        assert person.ended() == 1
+
+
+def test_attention_at_accept_goes_to_the_console_and_back(folder: Path) -> None:
+    with Person(folder, "run", "ask.f", "one.deck") as person:
+        person.sees("ACCEPT waits")
+        person.types("   1\x03")
+        person.sees("Enter: back to the line")
+        person.types("step\n")
+        person.sees("ACCEPT waits")
+        person.types("start\n   1   7\n")
+        person.sees("stopped (step) before card 2: TYPE 90,L,K")
+        person.types("\n")
+        person.sees("   7   1\n")
+        person.types("\x03")
+        person.types("stop\n")
+        assert person.ended() == 1
+
+
+def test_a_terminal_that_goes_away_stops_the_run_and_keeps_what_was_done(folder: Path) -> None:
+    options = ("--typewriter", "typed", "--log", "log")
+    with Person(folder, "run", "tictac.f", "tictac.deck", "--operator", *options) as person:
+        person.sees("before card 9")
+        person.types("\n")
+        person.sees("ACCEPT waits")
+        person.leaves()
+        assert person.ended() != 0
+    assert (folder / "typed").read_text() == "TIC-TAC-TOE\nYOUR MOVE\n"
+    assert (folder / "log").read_text().splitlines()[-1] == "STOP"
+
+
+def test_results_keep_their_streams(folder: Path) -> None:
+    """With standard output and error in files the terminal still shows the lines typed, and asks."""
+    with (
+        (folder / "out").open("w") as out,
+        (folder / "err").open("w") as err,
+        Person(folder, "run", "ask.f", "--operator", elsewhere={"stdout": out, "stderr": err}) as person,
+    ):
+        person.sees("before statement 5")
+        person.types("\n")
+        person.sees("ACCEPT waits")
+        person.types("   0   5\n")
+        person.sees("   5   0\n")
+        assert person.ended() == 0
+    assert ((folder / "out").read_text(), (folder / "err").read_text()) == ("", "   5   0\n")
+
+
+@pytest.mark.parametrize("stream", ["stdin", "stdout", "stderr"])
+def test_nobody_is_asked_unless_all_is_one_terminal(folder: Path, stream: str) -> None:
+    with (folder / "lines").open("w+") as file:
+        if stream == "stdin":
+            file.write("   0   5\n")
+            file.seek(0)
+        with Person(folder, "run", "ask.f", "one.deck", elsewhere={stream: file}) as person:
+            assert person.ended() == (0 if stream == "stdin" else 2)
+            assert "waits" not in person.seen
+
+
+@pytest.mark.parametrize("more", [["--operator=none"], []])
+def test_nobody_is_asked_without_a_deck_or_against_ones_will(folder: Path, more: list[str]) -> None:
+    with Person(folder, "run", "ask.f", *(["one.deck", *more] if more else [])) as person:
+        assert person.ended() == 2
+        assert "nothing is typed for ACCEPT" in person.seen
+
+
+def test_without_a_terminal_the_option_says_so(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "modern.cli.main", "run", str(folder / "ask.f"), "--operator"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        start_new_session=True,
+        check=False,
+    )
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("hull1620: --operator: there is no terminal to talk to (/dev/tty: ")
+    assert done.stderr.count("\n") == 1
+
+
+def test_a_file_of_wrong_words_is_one_line(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(folder)
+    (folder / "bad").write_text("ENTER  1\n\nSWITCH ONE ON\n")
+    arguments = ("run", "tictac.f", "tictac.deck")
+    code, out, err = call(capsys, *arguments, "--operator=bad", "--punch", "cards", "--log", "log")
+    assert (code, out, err) == (2, "", "hull1620: bad: line 3: the form is SWITCH, 1 to 4, ON or OFF\n")
+    assert not (folder / "cards").exists()
+    assert not (folder / "log").exists()
+    (folder / "bad").write_text("START\n")
+    code, out, err = call(capsys, *arguments, "--operator=bad")
+    assert (code, out) == (2, "")
+    assert err.splitlines()[-1] == "hull1620: bad: line 1: START, but ACCEPT waits for a line, card 20"
+    assert call(capsys, *arguments, "--operator=none.txt")[2] == "hull1620: none.txt: no such file or directory\n"
+
+
+def test_lines_left_over_are_noted(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(folder)
+    (folder / "more").write_text("ENTER    0   1\nSTART\n")
+    code, _, err = call(capsys, "run", "ask.f", "--operator=more")
+    assert (code, err) == (0, "   1   0\nnote: more: line 2 and what follows it was not used\n")
