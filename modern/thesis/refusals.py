@@ -78,7 +78,10 @@ def run_explained(
 
 
 def cause(step: Step, machine: Session) -> Cause | None:
-    """Why a step came to no hull; None where it ended well or was stopped.  ``machine`` is the one that ran it, as it was left."""
+    """Why a step came to no hull; None where it ended well or the operator stopped it.
+
+    ``machine`` is the one that ran it, as it was left.
+    """
     ending, typed = step.result.ending, refusal(step.result)
     if typed:
         event = next(e for e in reversed(step.result.events) if e.what == "type" and e.text in REFUSALS)
