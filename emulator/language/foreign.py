@@ -32,7 +32,7 @@ class Word:
 
     @property
     def message(self) -> str:
-        return f"{self.name} is of {self.of}; {self.instead}"
+        return f"{self.name} belongs to {self.of}; {self.instead}"
 
 
 _II, _IV, _II_D = "FORTRAN II", "FORTRAN IV", "FORTRAN II-D"
@@ -110,14 +110,14 @@ _INSTEAD = {
 _BY_NAME = {name: instead for instead, names in _INSTEAD.items() for name in names}
 
 FIELDS = {
-    "A": "an A field, for text, is of FORTRAN II and later; numbers alone are read here, text is punched by H",
-    "G": "a G field is of FORTRAN IV; use E or F",
-    "D": "a D field is of FORTRAN IV, for double precision; use E",
-    "O": "an O field, for octal numbers, is of FORTRAN IV; use I",
-    "L": "an L field, for true and false, is of FORTRAN IV; use I",
-    "P": "a scale factor is of FORTRAN IV; use E or F alone",
-    "T": "a T field is of FORTRAN IV; use X",
-    "'": "text in quotes is of FORTRAN IV; use H",
+    "A": "an A field, for text, belongs to FORTRAN II and later; numbers alone are read here, text is punched by H",
+    "G": "a G field belongs to FORTRAN IV; use E or F",
+    "D": "a D field belongs to FORTRAN IV, for double precision; use E",
+    "O": "an O field, for octal numbers, belongs to FORTRAN IV; use I",
+    "L": "an L field, for true and false, belongs to FORTRAN IV; use I",
+    "P": "a scale factor belongs to FORTRAN IV; use E or F alone",
+    "T": "a T field belongs to FORTRAN IV; use X",
+    "'": "text in quotes belongs to FORTRAN IV; use H",
 }
 """Letters of a FORMAT's specification that other compilers take, with what a message says of each."""
 

@@ -19,35 +19,35 @@ def only(*lines: str) -> Diagnostic:
 
 
 STATEMENTS = [
-    ("      CALL SUB(A,B)", "CALL is of FORTRAN II"),
+    ("      CALL SUB(A,B)", "CALL belongs to FORTRAN II"),
     ("      CALL EXIT", "CALL EXIT is STOP"),
-    ("      COMMON A,B(10)", "COMMON is of FORTRAN II"),
-    (" COMMON/BLOCK/A,B(10)", "COMMON is of FORTRAN II"),
-    ("EQUIVALENCE(A,B(1)),(C,D)", "EQUIVALENCE is of FORTRAN II"),
-    ("RETURN", "RETURN is of FORTRAN II"),
-    ("EXTERNAL F", "EXTERNAL is of FORTRAN IV"),
-    ("REAL I,J", "a declaration of types is of FORTRAN IV"),
-    ("INTEGER X(10)", "a declaration of types is of FORTRAN IV"),
+    ("      COMMON A,B(10)", "COMMON belongs to FORTRAN II"),
+    (" COMMON/BLOCK/A,B(10)", "COMMON belongs to FORTRAN II"),
+    ("EQUIVALENCE(A,B(1)),(C,D)", "EQUIVALENCE belongs to FORTRAN II"),
+    ("RETURN", "RETURN belongs to FORTRAN II"),
+    ("EXTERNAL F", "EXTERNAL belongs to FORTRAN IV"),
+    ("REAL I,J", "a declaration of types belongs to FORTRAN IV"),
+    ("INTEGER X(10)", "a declaration of types belongs to FORTRAN IV"),
     ("REAL*8 X", "a declaration of types"),
     ("DOUBLE PRECISION X", "a declaration of types"),
     ("LOGICAL L", "a declaration of types"),
     (" COMPLEX Z", "a declaration of types"),
-    ("IMPLICIT REAL(A-Z)", "IMPLICIT is of FORTRAN IV"),
-    ("DATA A,B/1.,2./", "DATA is of FORTRAN IV"),
-    ("DATA(A(I),I=1,3)/1.,2.,3./", "DATA is of FORTRAN IV"),
+    ("IMPLICIT REAL(A-Z)", "IMPLICIT belongs to FORTRAN IV"),
+    ("DATA A,B/1.,2./", "DATA belongs to FORTRAN IV"),
+    ("DATA(A(I),I=1,3)/1.,2.,3./", "DATA belongs to FORTRAN IV"),
     ("NAMELIST/N/A,B", "NAMELIST"),
     ("PROGRAM MAIN", "PROGRAM"),
-    ("ASSIGN 5 TO N", "ASSIGN is of FORTRAN II"),
-    ("GO TO N,(5,6)", "GO TO to an assigned number is of FORTRAN II"),
-    ("IF(SENSE LIGHT 1)5,6", "SENSE LIGHT is of FORTRAN II"),
-    ("SENSE LIGHT 1", "SENSE LIGHT is of FORTRAN II"),
+    ("ASSIGN 5 TO N", "ASSIGN belongs to FORTRAN II"),
+    ("GO TO N,(5,6)", "GO TO to an assigned number belongs to FORTRAN II"),
+    ("IF(SENSE LIGHT 1)5,6", "SENSE LIGHT belongs to FORTRAN II"),
+    ("SENSE LIGHT 1", "SENSE LIGHT belongs to FORTRAN II"),
     ("IF ACCUMULATOR OVERFLOW 5,6", "a test of overflow"),
     ("IF DIVIDE CHECK 5,6", "a test of overflow"),
-    ("IF(A.GT.B) GO TO 5", "a logical IF is of FORTRAN IV"),
-    ("IF(A.GT.B) X=1.", "a logical IF is of FORTRAN IV"),
-    ("IF(L) STOP", "a logical IF is of FORTRAN IV"),
-    ("IF(A.EQ.1.E5.AND.B.LT.2.)X(1)=A(2)", "a logical IF is of FORTRAN IV"),
-    ("L=A.GT.B.OR.C.LE.D", "a logical expression is of FORTRAN IV"),
+    ("IF(A.GT.B) GO TO 5", "a logical IF belongs to FORTRAN IV"),
+    ("IF(A.GT.B) X=1.", "a logical IF belongs to FORTRAN IV"),
+    ("IF(L) STOP", "a logical IF belongs to FORTRAN IV"),
+    ("IF(A.EQ.1.E5.AND.B.LT.2.)X(1)=A(2)", "a logical IF belongs to FORTRAN IV"),
+    ("L=A.GT.B.OR.C.LE.D", "a logical expression belongs to FORTRAN IV"),
     ("FREQUENCY 30(1,2,1)", "FREQUENCY"),
     ("ACCEPT TAPE 90,A", "input and output by paper tape"),
     ("PUNCH TAPE 90,A", "input and output by paper tape"),
@@ -55,14 +55,14 @@ STATEMENTS = [
     ("WRITE OUTPUT TAPE 6,90,A", "magnetic tape"),
     ("REWIND 3", "magnetic tape"),
     ("END FILE 3", "magnetic tape"),
-    ("DEFINE DISK(10,100)", "the disk is of FORTRAN II-D"),
-    ("RECORD(I)A,B", "the disk is of FORTRAN II-D"),
-    ("FETCH(I)A,B", "the disk is of FORTRAN II-D"),
-    ("READ(5,90)A,(B,I=1,3)", "input and output by a unit's number is of FORTRAN IV"),
-    ("WRITE(6,90)", "input and output by a unit's number is of FORTRAN IV"),
-    ("PRINT, A, B", "input and output without a FORMAT is of GOTRAN"),
-    ("READ A, B", "input and output without a FORMAT is of GOTRAN"),
-    ("ACCEPT, A", "input and output without a FORMAT is of GOTRAN"),
+    ("DEFINE DISK(10,100)", "the disk belongs to FORTRAN II-D"),
+    ("RECORD(I)A,B", "the disk belongs to FORTRAN II-D"),
+    ("FETCH(I)A,B", "the disk belongs to FORTRAN II-D"),
+    ("READ(5,90)A,(B,I=1,3)", "input and output by a unit's number belongs to FORTRAN IV"),
+    ("WRITE(6,90)", "input and output by a unit's number belongs to FORTRAN IV"),
+    ("PRINT, A, B", "input and output without a FORMAT belongs to GOTRAN"),
+    ("READ A, B", "input and output without a FORMAT belongs to GOTRAN"),
+    ("ACCEPT, A", "input and output without a FORMAT belongs to GOTRAN"),
     ("PRINT *, A", "input and output without a FORMAT"),
     ("REREAD 90,A", "REREAD"),
     ("*LIST PRINTER", "a control card"),
@@ -90,7 +90,7 @@ def test_every_statement_that_is_known_is_tried() -> None:
 @pytest.mark.parametrize("line", ["IF(A)5,6", "READ", "DO 5 I=", "X=A+", "IF=(", "GO TO", "DATA=+", "WRIT(6,90)A"])
 def test_what_is_wrong_in_this_fortran_too_is_said_as_before(line: str) -> None:
     (message,) = errors(line, "END")
-    assert " is of " not in message.message
+    assert " belongs to " not in message.message
 
 
 @pytest.mark.parametrize(
@@ -147,17 +147,17 @@ def test_data_after_the_program_are_one_finding() -> None:
 )
 def test_a_function_of_the_deck_may_be_used(opening: str) -> None:
     (message,) = errors("Y=1.", "X=G(Y)+G(2.)*3.", "END", opening, "G=X", "RETURN", "END")
-    assert (message.card, "FUNCTION is of FORTRAN II" in message.message) == (4, True)
+    assert (message.card, "FUNCTION belongs to FORTRAN II" in message.message) == (4, True)
 
 
 def test_block_data_and_entry() -> None:
-    assert "BLOCK DATA is of FORTRAN IV" in only("BLOCK DATA", "DATA X/1./", "END").message
-    assert "ENTRY is of FORTRAN IV" in only("ENTRY SUB(X)").message
+    assert "BLOCK DATA belongs to FORTRAN IV" in only("BLOCK DATA", "DATA X/1./", "END").message
+    assert "ENTRY belongs to FORTRAN IV" in only("ENTRY SUB(X)").message
 
 
 def test_a_statement_function_and_what_uses_it_are_one_finding() -> None:
     message = only("F(X)=X**2+1.", "ROOTF(A,B)=A/B", "Y=F(2.)+ROOTF(Y,F(Y))", "PUNCH 90,Y")
-    assert message.message.startswith("a statement function is of FORTRAN II; write its expression")
+    assert message.message.startswith("a statement function belongs to FORTRAN II; write its expression")
     assert message.message.endswith("(also on card 2)")
 
 

@@ -130,8 +130,8 @@ def test_format_holds_its_columns() -> None:
 
 REFUSED = [
     ("X", 1, 0, "not a statement of this FORTRAN"),
-    ("      CALL SUB(X)", 7, 0, "CALL is of FORTRAN II"),
-    ("SUBROUTINE X", 1, 0, "SUBROUTINE is of FORTRAN II"),
+    ("      CALL SUB(X)", 7, 0, "CALL belongs to FORTRAN II"),
+    ("SUBROUTINE X", 1, 0, "SUBROUTINE belongs to FORTRAN II"),
     ("X=", 2, 0, "ends too soon"),
     ("X=A+", 4, 0, "ends too soon"),
     ("X=A B)", 6, 0, "')' does not fit"),
@@ -147,7 +147,7 @@ REFUSED = [
     ("X=A+LENGTH", 5, 6, "LENGTH has more than five characters"),
     ("I=12345", 3, 0, "12345 has more than four digits"),
     ("GO TO", 5, 0, "ends too soon"),
-    ("GO TO X", 1, 0, "an assigned number is of FORTRAN II"),
+    ("GO TO X", 1, 0, "an assigned number belongs to FORTRAN II"),
     ("GO TO 0", 7, 0, "0 is not between 1 and 9999"),
     ("GO TO (1,2)", 11, 0, "ends too soon"),
     ("GO TO 10000", 7, 0, "10000 is not between 1 and 9999"),
