@@ -39,13 +39,18 @@ def read_bytes(path: str, name: str = "") -> bytes:
 
 def read_text(path: str) -> str:
     """The text of a file in UTF-8, without a byte order mark.  Raises FileError, naming the line of a wrong byte."""
-    data = read_bytes(path).removeprefix(BOM_UTF8)
+    return decoded(read_bytes(path), source_name(path))
+
+
+def decoded(data: bytes, source: str) -> str:
+    """Bytes as text in UTF-8, without a byte order mark.  Raises FileError, naming the line of a wrong byte."""
+    data = data.removeprefix(BOM_UTF8)
     try:
         return data.decode("utf-8")
     except UnicodeDecodeError as error:
         before = data[: error.start].decode("utf-8")
         line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
-        raise FileError(f"{source_name(path)}: line {line}, column {column}: not a text file in UTF-8") from None
+        raise FileError(f"{source}: line {line}, column {column}: not a text file in UTF-8") from None
 
 
 def reason(error: OSError) -> str:

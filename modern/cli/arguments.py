@@ -46,8 +46,8 @@ def _hull(parser: ArgumentParser) -> None:
 
 
 def _cards(parser: ArgumentParser) -> None:
-    parser.add_argument("points", metavar="POINTS.csv", help="three decimal numbers a line")
-    parser.add_argument("-o", "--output", metavar="DECK", default="-")
+    _points(parser)
+    parser.add_argument("-o", "--output", metavar="DECK", default="-", help="the deck (default: standard output)")
     parser.add_argument(
         "--truncate", action="store_true", help="cut digits a card cannot hold instead of refusing them"
     )

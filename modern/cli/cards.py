@@ -5,22 +5,22 @@ from __future__ import annotations
 import argparse
 
 from emulator.errors import FileError
-from emulator.files import read_text, source_name, write_text
+from emulator.files import write_text
 from modern.cli.shared.console import OK, UsageError, say
-from modern.formats import csv
 from modern.formats.deck import MAX_POINTS, UnfitPoint, data_deck, with_epsilon
+from modern.formats.points import read_input
 
 
 def main(args: argparse.Namespace) -> int:
     """Read the points, write the deck."""
-    source = source_name(args.points)
-    points, lines = csv.points(read_text(args.points), source)
-    if not points:
-        raise FileError(f"{source}: there are no points")
+    found = read_input(args.points)
+    source, points = found.source, found.points
+    say(f"note: {note}" for note in found.notes)
     try:
         deck = data_deck(points, source, args.truncate)
     except UnfitPoint as error:
-        raise FileError(f"{source}: line {lines[error.point - 1]}, field {error.field}: {error.why}") from None
+        cut = " (--truncate cuts them)" if error.digits else ""
+        raise FileError(f"{source}: {found.places[error.point - 1]}, field {error.field}: {error.why}{cut}") from None
     except ValueError as error:
         raise FileError(f"{source}: {error}") from None
     if args.epsilon is not None:

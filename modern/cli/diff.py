@@ -108,7 +108,8 @@ def _deck(found: Input) -> Deck | str:
     try:
         return data_deck(found.points, found.source)
     except UnfitPoint as error:
-        return f"{found.places[error.point - 1]}: {error.why}"
+        cut = "; diff the deck that hull1620 cards --truncate makes" if error.digits else ""
+        return f"{found.places[error.point - 1]}: {error.why}{cut}"
 
 
 def _table(routes: list[Route], judge: Outcome, found: Input) -> Iterator[str]:

@@ -9,5 +9,14 @@ MESHES = ("off", "obj", "ply", "stl")
 HULLS = (*MESHES, "json")
 """Formats of a hull."""
 
-POINTS = {"deck": "a data deck", "csv": "CSV points x,y,z", "off": "an OFF file"}
+POINTS = {
+    "deck": "a data deck",
+    "csv": "a list (x,y,z a line, or with blanks, tabs, semicolons)",
+    "off": "OFF",
+    "obj": "OBJ",
+    "ply": "PLY",
+    "stl": "STL",
+    "json": "JSON",
+    "npy": "NPY",
+}
 """Formats points are read from, and what help calls them; each has a reader in modern/formats/points.py."""

@@ -71,6 +71,10 @@ class CheckedDeck:
         return Deck(self.source, self.sets[index].cards)
 
 
+class TooLong(ValueError):
+    """A number of more digits than a card's field holds."""
+
+
 def coordinate_field(text: str, truncate: bool = False) -> str:
     """A decimal number in the 14 columns of E14.8, as the thesis's data sheet punches it: ``+.20000000E+01``.
 
@@ -82,7 +86,7 @@ def coordinate_field(text: str, truncate: bool = False) -> str:
     exponent = exponent + len(digits) - len(fraction) if digits else 0
     digits = digits.rstrip("0")
     if len(digits) > COORDINATE.decimals and not truncate:
-        raise ValueError(f"{len(digits)} significant digits; a card holds 8 (--truncate cuts them)")
+        raise TooLong(f"{len(digits)} significant digits; a card holds 8")
     if not -99 <= exponent <= 99:
         raise ValueError("out of range: the exponent of a card is -99 to 99")
     power = f"{'-' if exponent < 0 else '+'}{abs(exponent):02d}"
@@ -90,11 +94,11 @@ def coordinate_field(text: str, truncate: bool = False) -> str:
 
 
 class UnfitPoint(ValueError):
-    """A coordinate that no card holds: point and field counted from 1, and why."""
+    """A coordinate that no card holds: point and field counted from 1, why, and whether for its ``digits`` only."""
 
-    def __init__(self, point: int, field: int, why: str) -> None:
+    def __init__(self, point: int, field: int, why: str, digits: bool) -> None:
         super().__init__(f"point {point}, field {field}: {why}")
-        self.point, self.field, self.why = point, field, why
+        self.point, self.field, self.why, self.digits = point, field, why, digits
 
 
 def data_deck(points: Sequence[Sequence[str]], source: str, truncate: bool = False) -> Deck:
@@ -112,7 +116,7 @@ def data_deck(points: Sequence[Sequence[str]], source: str, truncate: bool = Fal
             try:
                 fields.append(coordinate_field(text, truncate))
             except ValueError as error:
-                raise UnfitPoint(order, k, str(error)) from None
+                raise UnfitPoint(order, k, str(error), isinstance(error, TooLong)) from None
         cards.append("".join(fields))
     return deck_from_lines(source, cards)
 

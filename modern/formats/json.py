@@ -1,7 +1,8 @@
 """A hull as JSON: everything the result holds, every number exact.
 
 Coordinates and coefficients are strings, decimals or fractions ``p/q``; the integers of the lowest terms are strings
-too, as many readers of JSON round large numbers.  Points are named by place in ``points``, from 0.
+too, as many readers of JSON round large numbers.  Points are named by place in ``points``, from 0.  Read are points:
+of a hull, of any object with ``points`` or ``vertices``, or a list; numbers and strings, exactly.
 """
 
 from __future__ import annotations
@@ -9,8 +10,9 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from emulator.errors import FileError
 from modern.geometry.hull import Face, Hull, Stage
-from modern.geometry.numbers import integer_text
+from modern.geometry.numbers import Point, integer_text, number
 
 
 def document(hull: Hull) -> dict[str, Any]:
@@ -66,3 +68,35 @@ def _stage(stage: Stage) -> dict[str, Any]:
         "struck": list(stage.struck),
         "equations": [list(equation) for equation in stage.equations],
     }
+
+
+def parse(text: str, source: str) -> tuple[Point, ...]:
+    """The points of a JSON file, as the numbers stand there.  Raises FileError, naming line or point."""
+    try:
+        found = json.loads(text, parse_float=str, parse_int=str, parse_constant=str)
+    except json.JSONDecodeError as error:
+        raise FileError(f"{source}: line {error.lineno}, column {error.colno}: not JSON: {error.msg}") from None
+    except RecursionError:
+        raise FileError(f"{source}: the JSON is nested too deeply") from None
+    if isinstance(found, dict):
+        name = next((name for name in ("points", "vertices") if isinstance(found.get(name), list)), "")
+        if not name:
+            raise FileError(f'{source}: the JSON object has no list "points"')
+        found = found[name]
+    if not isinstance(found, list):
+        raise FileError(f"{source}: points in JSON are a list of x, y, z")
+    return tuple(_point(row, order, source) for order, row in enumerate(found, 1))
+
+
+def _point(row: object, order: int, source: str) -> Point:
+    if not isinstance(row, list) or len(row) != 3:
+        raise FileError(f"{source}: point {order} is not a list of three numbers")
+    for axis, text in zip("xyz", row, strict=True):
+        if not isinstance(text, str):
+            raise FileError(f"{source}: point {order}, {axis}: {json.dumps(text)[:40]} is not a number")
+        try:
+            number(text)
+        except ValueError as error:
+            raise FileError(f"{source}: point {order}, {axis}: {error}") from None
+    x, y, z = (text.strip() for text in row)
+    return x, y, z

@@ -6,17 +6,14 @@ without a face.  Read is the plain ASCII form: one vertex a line, one face a lin
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 from emulator.errors import FileError
 from emulator.files import read_text, source_name
+from modern.formats.words import Word, count, decimal, error, last_line, point, take
+from modern.formats.words import lines as worded
 from modern.geometry.mesh import Mesh
-from modern.geometry.numbers import Point, number, shown
-
-_Word = tuple[str, int]
-_Line = tuple[int, list[_Word]]
+from modern.geometry.numbers import Point, shown
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,82 +45,45 @@ def parse_off(text: str, source: str) -> OffMesh:
     kinds of OFF (``COFF``, ``OFF BINARY``), a vertex that is not three decimals, a face of vertices that are not
     there, too few lines or too many.
     """
-    lines = _lines(text)
-    last = text.count("\n") + 1
+    lines = worded(text)
+    last = last_line(text)
     head = next(lines, None)
     if head is not None and head[1][0][0][:1].isalpha():
         line, words = head
         if words[0][0] != "OFF":
-            raise _error(source, line, words[0], f"{shown(words[0][0])} is not read, only plain OFF")
+            raise error(source, line, words[0], f"{shown(words[0][0])} is not read, only plain OFF")
         head = (line, words[1:]) if len(words) > 1 else next(lines, None)
     if head is None:
         raise FileError(f"{source}: line {last}, column 1: there are no counts of vertices and faces")
     line, words = head
     if not 2 <= len(words) <= 3:
-        raise _error(source, line, words[0], "the counts of vertices, faces and edges are due here")
-    vertices, faces = [_count(source, line, word) for word in words][:2]
+        raise error(source, line, words[0], "the counts of vertices, faces and edges are due here")
+    vertices, faces = [count(source, line, word) for word in words][:2]
     points: list[Point] = []
     places: list[int] = []
-    for line, words in _take(lines, vertices, source, last, "vertices"):
+    for line, words in take(lines, vertices, source, last, "vertices"):
         if len(words) != 3:
             wrong = words[min(3, len(words) - 1)]
-            raise _error(source, line, wrong, f"a vertex is three numbers, x y z; here are {len(words)}")
-        x, y, z = (_decimal(source, line, word) for word in words)
-        points.append((x, y, z))
+            raise error(source, line, wrong, f"a vertex is three numbers, x y z; here are {len(words)}")
+        points.append(point(source, line, words))
         places.append(line)
-    polygons = [_face(source, line, words, vertices) for line, words in _take(lines, faces, source, last, "faces")]
+    polygons = [_face(source, line, words, vertices) for line, words in take(lines, faces, source, last, "faces")]
     more = next(lines, None)
     if more is not None:
-        raise _error(source, more[0], more[1][0], "the last face has been read, and nothing is due after it")
+        raise error(source, more[0], more[1][0], "the last face has been read, and nothing is due after it")
     return OffMesh(source, tuple(points), tuple(places), tuple(polygons))
 
 
-def _lines(text: str) -> Iterator[_Line]:
-    """Lines with words in them: the number, and every word with its column."""
-    for number_, line in enumerate(text.replace("\r\n", "\n").split("\n"), 1):
-        words = [(match[0], match.start() + 1) for match in re.finditer(r"\S+", line.split("#", 1)[0])]
-        if words:
-            yield number_, words
-
-
-def _take(lines: Iterator[_Line], count: int, source: str, last: int, what: str) -> Iterator[_Line]:
-    for done in range(count):
-        line = next(lines, None)
-        if line is None:
-            raise FileError(f"{source}: line {last}, column 1: the file ends after {done} of {count} {what}")
-        yield line
-
-
-def _face(source: str, line: int, words: list[_Word], vertices: int) -> tuple[int, ...]:
-    size = _count(source, line, words[0])
+def _face(source: str, line: int, words: list[Word], vertices: int) -> tuple[int, ...]:
+    size = count(source, line, words[0])
     if size < 1:
-        raise _error(source, line, words[0], "a face has at least one vertex")
+        raise error(source, line, words[0], "a face has at least one vertex")
     if len(words) <= size:
-        raise _error(source, line, words[-1], f"the face ends after {len(words) - 1} of {size} vertices")
-    face = tuple(_count(source, line, word) for word in words[1 : size + 1])
+        raise error(source, line, words[-1], f"the face ends after {len(words) - 1} of {size} vertices")
+    face = tuple(count(source, line, word) for word in words[1 : size + 1])
     for index, word in zip(face, words[1:], strict=False):
         if index >= vertices:
-            raise _error(source, line, word, f"there is no vertex {index}; they count from 0 to {vertices - 1}")
+            raise error(source, line, word, f"there is no vertex {index}; they count from 0 to {vertices - 1}")
     for word in words[size + 1 :]:
-        _decimal(source, line, word)
+        decimal(source, line, word)
     return face
-
-
-def _count(source: str, line: int, word: _Word) -> int:
-    if not re.fullmatch(r"[0-9]{1,9}", word[0]):
-        raise _error(source, line, word, f"{shown(word[0])} is no count")
-    return int(word[0])
-
-
-def _decimal(source: str, line: int, word: _Word) -> str:
-    try:
-        if "/" in word[0]:
-            raise ValueError(f"{shown(word[0])} is not a decimal number")
-        number(word[0])
-    except ValueError as error:
-        raise _error(source, line, word, str(error)) from None
-    return word[0]
-
-
-def _error(source: str, line: int, word: _Word, message: str) -> FileError:
-    return FileError(f"{source}: line {line}, column {word[1]}: {message}")

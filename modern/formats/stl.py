@@ -2,18 +2,25 @@
 
 A face is cut into triangles from its first vertex.  Corners are exact decimal text, the same text for the same
 vertex; normals, which have no finite decimal, are cut to nine decimals.  A polygon becomes a sheet of triangles with
-one side; a segment and a point have no area and are refused.
+one side; a segment and a point have no area and are refused.  Read are the corners of triangles, in text or binary,
+each point once, in order of appearance: a format that repeats every vertex in every triangle does not mean
+duplicates.
 """
 
 from __future__ import annotations
 
 import math
+import struct
 from fractions import Fraction
 
+from emulator.errors import FileError
+from modern.formats.words import error, lines, point
 from modern.geometry.mesh import ExportError, Mesh
+from modern.geometry.numbers import Point, coordinates, float_text
 from modern.geometry.vectors import Vector, cross, dot, minus
 
 _PLACES = 9
+_HEAD, _TRIANGLE = 84, 50
 
 
 def write(mesh: Mesh, digits: int | None = None) -> str:
@@ -44,3 +51,40 @@ def _quotient(component: Fraction, square: Fraction) -> str:
     whole, fraction = divmod(size, 10**_PLACES)
     text = f"{whole}.{fraction:0{_PLACES}d}".rstrip("0").rstrip(".")
     return f"-{text}" if component < 0 and text != "0" else text
+
+
+def is_binary(data: bytes) -> bool:
+    """Whether bytes are a binary STL file, by the number of triangles they announce."""
+    return len(data) >= _HEAD and len(data) == _HEAD + _TRIANGLE * int(struct.unpack_from("<I", data, _HEAD - 4)[0])
+
+
+def parse_binary(data: bytes, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
+    """The corners of a binary STL file, singles taken exactly, and the triangle each is first met in, from 1.
+
+    Raises FileError for a coordinate that is not finite.
+    """
+    found: dict[Point, int] = {}
+    for number in range(1, (len(data) - _HEAD) // _TRIANGLE + 1):
+        values = struct.unpack_from("<9f", data, _HEAD + _TRIANGLE * (number - 1) + 12)
+        if not all(map(math.isfinite, values)):
+            raise FileError(f"{source}: triangle {number}: a coordinate is not finite")
+        texts = [float_text(value) for value in values]
+        for corner in range(0, 9, 3):
+            found.setdefault((texts[corner], texts[corner + 1], texts[corner + 2]), number)
+    return tuple(found), tuple(found.values())
+
+
+def parse(text: str, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
+    """The corners of an STL file of text, as the text that stands there, and the line each is first met in.
+
+    Raises FileError, with line and column, for a corner that is not three decimals.
+    """
+    found: dict[Vector, tuple[Point, int]] = {}
+    for line, words in lines(text, ""):
+        if words[0][0].lower() != "vertex":
+            continue
+        if len(words) != 4:
+            raise error(source, line, words[-1], f"a vertex is three numbers, x y z; here are {len(words) - 1}")
+        corner = point(source, line, words[1:])
+        found.setdefault(coordinates(corner), (corner, line))
+    return tuple(corner for corner, _ in found.values()), tuple(line for _, line in found.values())

@@ -158,3 +158,10 @@ def finite_decimal(value: Fraction) -> str | None:
         return f"{minus}0.{'0' * -exponent}{text}"
     whole, fraction = text[:exponent].ljust(exponent, "0"), text[exponent:]
     return f"{minus}{whole}.{fraction}" if fraction else f"{minus}{whole}"
+
+
+def float_text(value: float | Exact) -> str:
+    """The exact decimal of a finite binary float, or of another number that has one."""
+    text = finite_decimal(Fraction(*value.as_integer_ratio()))
+    assert text is not None
+    return text

@@ -379,8 +379,8 @@ BAD_OFF = [
     ("heading-only", "OFF\n", "line 2, column 1: there are no counts"),
     ("coff", GOOD.replace("OFF", "COFF"), "line 1, column 1: 'COFF' is not read, only plain OFF"),
     ("binary", GOOD.replace("OFF", "OFF BINARY"), "line 1, column 5: the counts of vertices, faces"),
-    ("count", GOOD.replace("3 1 3", "3 x 3"), "line 2, column 3: 'x' is no count"),
-    ("negative", GOOD.replace("3 1 3", "-3 1 3"), "line 2, column 1: '-3' is no count"),
+    ("count", GOOD.replace("3 1 3", "3 x 3"), "line 2, column 3: 'x' is not a count"),
+    ("negative", GOOD.replace("3 1 3", "-3 1 3"), "line 2, column 1: '-3' is not a count"),
     ("four-counts", GOOD.replace("3 1 3", "3 1 3 4"), "line 2, column 1: the counts of vertices, faces"),
     ("two-numbers", GOOD.replace("1 0 0", "1 0"), "line 4, column 3: a vertex is three numbers, x y z; here are 2"),
     (

@@ -129,7 +129,8 @@ BAD = [
     ("blank", "\n \n", "a.csv", "a.csv: there are no points"),
     ("heading-only", "x,y,z\n", "a.csv", "a.csv: there are no points"),
     ("no-vertices", "OFF\n0 0 0\n", "a.off", "a.off: there are no points"),
-    ("unknown", "\n1 2 3\n", "a.xyz", "a.xyz: line 2, column 1: '1 2 3' is neither the first card of a deck"),
+    ("unknown", "\nhello\n", "a.xyz", "a.xyz: line 2, column 1: 'hello' is neither the first card of a deck"),
+    ("text", "\nhello you three\n1 2\n", "a.xyz", "a.xyz: line 3, column 1: 2 fields; a point has three, x,y,z"),
     ("unknown-long", "y" * 9999, "a", f"a: line 1, column 1: '{'y' * 40}...' is neither"),
     ("two-fields", "1,2,3\n4,5\n", "a.csv", "a.csv: line 2, column 1: 2 fields; a point has three, x,y,z"),
     ("four-fields", "1,2,3,4\n", "a.csv", "a.csv: line 1, column 1: 4 fields"),
@@ -253,7 +254,7 @@ def test_a_hull_that_was_not_determined(
 
 def test_every_error_is_the_emulators() -> None:
     with pytest.raises(EmulatorError):
-        parse_input("1 2 3", "a")
+        parse_input("1 2", "a")
 
 
 @pytest.mark.parametrize(
