@@ -1,0 +1,58 @@
+C     J. DOE    NUMERICAL ANALYSIS 325    EXERCISE 4    MAY 1968
+C     ROOT OF  X**3 + P*X**2 + Q*X + R.  THE OPERATOR TYPES P, Q, R,
+C     THEN A AND B.   SENSE SWITCH 1 OFF  NEWTON FROM A
+C                                    ON   REGULA FALSI BETWEEN A AND B
+C                     SENSE SWITCH 4 ON   TYPE EVERY STEP
+      READ 90,NO
+      TYPE 91,NO
+    5 ACCEPT 92,P,Q,R
+      ACCEPT 92,A,B
+      M=0
+      PAUSE 1
+      IF (SENSE SWITCH 1) 30,10
+   10 X=A
+   12 M=M+1
+      F=((X+P)*X+Q)*X+R
+      D=(3.*X+2.*P)*X+Q
+      IF (D) 14,13,14
+   13 PRINT 95
+      GO TO 60
+   14 H=F/D
+      X=X-H
+      IF (SENSE SWITCH 4) 15,16
+   15 TYPE 93,M,X,F
+   16 IF (M-20) 17,50,50
+   17 IF (H*H-1.E-14) 50,50,12
+   30 FA=((A+P)*A+Q)*A+R
+      FB=((B+P)*B+Q)*B+R
+      IF (FA*FB) 33,33,31
+   31 PRINT 96
+      GO TO 60
+   33 X=(A*FB-B*FA)/(FB-FA)
+      M=M+1
+      F=((X+P)*X+Q)*X+R
+      IF (SENSE SWITCH 4) 34,35
+   34 TYPE 93,M,X,F
+   35 IF (F*F-1.E-10) 50,50,36
+   36 IF (M-40) 37,50,50
+   37 IF (F*FA) 38,38,39
+   38 B=X
+      FB=F
+      GO TO 33
+   39 A=X
+      FA=F
+      GO TO 33
+   50 PUNCH 94,NO,P,Q,R,X,M
+      TYPE 97,X,M
+   60 ACCEPT 90,K
+      IF (K) 5,70,5
+   70 STOP 1968
+   90 FORMAT (I4)
+   91 FORMAT (7HSTUDENT,I5/19HTYPE P,Q,R THEN A,B)
+   92 FORMAT (3F10.0)
+   93 FORMAT (I4,E16.8,E16.8)
+   94 FORMAT (I4,3F9.3,F13.7,I4)
+   95 FORMAT (16HSLOPE IS ZERO   )
+   96 FORMAT (14HNO SIGN CHANGE)
+   97 FORMAT (5HROOT ,F12.7,3X,I3,6H STEPS)
+      END
