@@ -27,7 +27,8 @@ def squeeze(columns: MutableSequence[int], width: int) -> tuple[int, int]:
 
     Leading blanks are nothing.  With a point or an E among them, trailing blanks are nothing too (after the
     point they would change nothing, after an exponent they would multiply it by ten), and blanks inside are
-    zeros, or nothing where an exponent might be meant.  Else blanks are zeros (OPEN-QUESTIONS 6).
+    zeros, or nothing where an exponent might be meant; a sign after the first character begins one as an E does.
+    Else blanks are zeros (OPEN-QUESTIONS 6).
     """
     first = 0
     while first < width and columns[first] == BLANK:
@@ -44,7 +45,7 @@ def squeeze(columns: MutableSequence[int], width: int) -> tuple[int, int]:
             blanks += 1
         elif c == POINT and point == width:
             point = k
-        elif c == LETTER_E:
+        elif c == LETTER_E or (k > first and (c == PLUS or c == MINUS)):
             last_e = k
             if first_e == width:
                 first_e = k

@@ -43,8 +43,10 @@ def dense(columns: str) -> tuple[str, bool]:
     """The text of a field without its blanks, and whether a blank was read as anything."""
     text = columns.lstrip(" ")
     body = text.rstrip(" ")
-    if "." in body or "E" in body:
-        meant = not re.search(r"[E.].* .*E|E.* ", body)
+    # A sign inside begins an exponent as an E does (p. 35, 38).
+    marks = body[:1] + re.sub(r"[+-]", "E", body[1:])
+    if "." in marks or "E" in marks:
+        meant = not re.search(r"[E.].* .*E|E.* ", marks)
         return body.replace(" ", "0" if meant else ""), " " in body
     return text.replace(" ", "0"), " " in text
 

@@ -1,0 +1,202 @@
+"""The published vectors beside the rules they are made from, their README, and rules that are slightly others."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections import Counter
+
+import pytest
+
+from emulator.numbers.arithmetic import (
+    FAMILIES,
+    KEEPS_LEFT_ZERO,
+    MAX_DIGITS,
+    MIN_DIGITS,
+    POWERS_MULTIPLY,
+    SIGNED_BY_ZERO,
+    SIGNED_SUMS,
+    SIGNED_UNDERFLOW,
+    Profile,
+    profile,
+)
+from emulator.numbers.arithmetic import PROFILES as OF_THE_TIME
+from emulator.numbers.base import Trap
+from emulator.numbers.decimal import DecimalNumbers, Pair
+from tests.support.paths import PUBLISHED, ROOT
+from tests.support.published.lines import SUFFIX, Vector, load, names, parsed
+from tests.support.published.made import OPERATIONS, PROFILES, Operation
+
+README = PUBLISHED / "README.md"
+IMPOSSIBLE = {("lost digits", "truncating:2"), ("lost digits", "rounding:2")}
+"""Of two digits the smaller operand keeps one or none."""
+
+
+@pytest.mark.parametrize("operation", OPERATIONS, ids=lambda operation: operation.name)
+def test_the_files_are_what_the_rules_make(operation: Operation) -> None:
+    assert (PUBLISHED / (operation.name + SUFFIX)).read_text(encoding="ascii") == operation.file()
+
+
+def test_there_is_a_file_for_every_operation_and_no_other() -> None:
+    assert names() == sorted(operation.name for operation in OPERATIONS)
+    others = {path.name for path in PUBLISHED.iterdir() if path.suffix != SUFFIX}
+    assert others == {"README.md", "counts.tsv"}
+
+
+def test_the_table_counts_every_class() -> None:
+    header, *lines = (PUBLISHED / "counts.tsv").read_text(encoding="ascii").splitlines()
+    operation, kind, *profiles = header.split("\t")
+    assert (operation, kind) == ("operation", "class")
+    shown = Counter[tuple[str, str, str]]()
+    for line in lines:
+        name, kind, *counts = line.split("\t")
+        shown.update({(name, profile, kind): int(count) for profile, count in zip(profiles, counts, strict=True)})
+    assert +shown == table()
+
+
+def test_the_rules_use_nothing_of_the_emulator() -> None:
+    folder = ROOT / "tests" / "support" / "published"
+    for path in folder.glob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            imported = [node.module or ""] if isinstance(node, ast.ImportFrom) else []
+            imported += [name.name for name in node.names] if isinstance(node, ast.Import) else []
+            for name in imported:
+                assert name.partition(".")[0] not in ("emulator", "modern"), f"{path.name} imports {name}"
+                own = name.startswith("tests.support.published")
+                assert own or not name.startswith("tests") or name == "tests.support.paths", f"{path.name}: {name}"
+
+
+def table() -> Counter[tuple[str, str, str]]:
+    """How many lines there are of each operation, profile and class."""
+    return Counter((v.operation, v.profile, v.kind) for name in names() for v in load(name))
+
+
+def test_no_operation_profile_and_class_is_empty() -> None:
+    found = table()
+    wanted = {(o.name, profile, kind) for o in OPERATIONS for profile in o.profiles for kind in o.classes}
+    assert {key for key in wanted if not found[key]} == {
+        (operation, profile, kind) for operation in ("add", "subtract", "subtractfrom") for kind, profile in IMPOSSIBLE
+    }
+    assert set(found) <= wanted
+
+
+def test_every_set_of_rules_is_there() -> None:
+    assert set(OF_THE_TIME) <= set(PROFILES)
+    assert {f"{name.partition(':')[0]}:P" for name in PROFILES if ":" in name} == set(FAMILIES)
+    assert {MIN_DIGITS, MAX_DIGITS} <= {profile(name).digits for name in PROFILES}
+
+
+def test_every_line_says_the_operation_of_its_file_and_every_code_occurs() -> None:
+    codes = set()
+    for name in names():
+        for vector in load(name):
+            assert vector.operation == name
+            codes.add(vector.code)
+    assert codes == {"", *(f"E{n}" for n in range(1, 9)), "F8", "INVALID", "RANGE"}
+
+
+def test_the_readme_counts_the_lines() -> None:
+    words = README.read_text(encoding="utf-8")
+    found = table()
+    rows = dict(re.findall(r"^\| `(\w+)` \|.*\| ([\d,]+) \|$", words, re.M))
+    by_operation = Counter(dict.fromkeys(names(), 0))
+    for (operation, _, _), count in found.items():
+        by_operation[operation] += count
+    assert {name: int(count.replace(",", "")) for name, count in rows.items() if name in by_operation} == by_operation
+    by_profile: Counter[str] = Counter()
+    for (_, name, _), count in found.items():
+        by_profile[name] += count
+    shown = re.findall(r"^\| `([\w:]+)` \| ([\d,]+) \|", words, re.M)
+    assert {name: int(count.replace(",", "")) for name, count in shown} == by_profile
+    assert f"{found.total():,} lines" in words
+    for operation in OPERATIONS:
+        for kind in operation.classes:
+            assert kind in " ".join(words.split()), f"the README does not say what {kind!r} is"
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "add1 add .1E+01 .1E+01",
+        "add1 add .1E+01 .1E+01 ->",
+        "add1 -> .1E+01",
+        "add1 add .1E+01 -> .1E+01 E1 E2",
+        "add0 add .1E+01 -> .1E+01",
+    ],
+)
+def test_a_line_that_is_no_vector_is_refused(line: str) -> None:
+    good = "version: 1\nprofile: truncating\ndigits: 8\nclass: plain\nadd0 add .1E+01 .1E+01 -> .2E+01\n"
+    assert len(list(parsed(good))) == 1
+    with pytest.raises(ValueError, match="line 6"):
+        list(parsed(good + line))
+    with pytest.raises(ValueError, match="line 1"):
+        list(parsed("add0 add .1E+01 .1E+01 -> .2E+01"))
+
+
+def number(text: str, digits: int) -> Pair:
+    mantissa, _, exponent = text.replace(".", "").partition("E")
+    if not int(mantissa):
+        return 0, -100 if text.startswith("-") else -99
+    return int(mantissa), int(exponent)
+
+
+def given(system: DecimalNumbers, vector: Vector) -> tuple[Pair, str]:
+    """What a number system gives for an operation on numbers."""
+    a, *rest = vector.operands
+    first = number(a, vector.digits)
+    if vector.operation == "power":
+        return system.integer_power(first, int(rest[0]))
+    if vector.operation == "squareroot":
+        return system.function("SQRT", first)
+    operation = {"subtractfrom": system.subtract_reversed}.get(vector.operation) or getattr(system, vector.operation)
+    try:
+        return operation(first, number(rest[0], vector.digits)), ""
+    except Trap as trap:
+        return trap.value, f"E{trap.event}"
+
+
+WORKED = ("add", "subtract", "subtractfrom", "multiply", "divide", "power", "squareroot")
+
+
+def noticed(changed: Profile, *operations: str) -> int:
+    """How many lines of a profile come out otherwise under rules of the same name that were changed."""
+    system = DecimalNumbers(changed)
+    vectors = (v for name in operations or WORKED for v in load(name) if v.profile == changed.name)
+    return sum(given(system, v) != (number(v.result, v.digits), v.code) for v in vectors)
+
+
+@pytest.mark.parametrize("name", PROFILES)
+def test_the_rules_as_they_are_give_every_line(name: str) -> None:
+    assert noticed(profile(name)) == 0
+
+
+GUARD, STICKY, SUMS, PRODUCTS, QUOTIENTS = range(3, 8)
+OTHERWISE = [
+    *(
+        (name, place, 1)
+        for name in ("truncating", "truncating:4", "truncating:28")
+        for place in (GUARD, PRODUCTS, QUOTIENTS)
+    ),
+    *((name, GUARD, 0) for name in ("guarded:8", "guarded:4")),
+    *(
+        (name, place, 0)
+        for name in PROFILES
+        if name.startswith("rounding")
+        for place in (STICKY, SUMS, PRODUCTS, QUOTIENTS)
+        # Of two digits the two beyond the last place lose nothing that a sum could be rounded by.
+        if (name, place) != ("rounding:2", STICKY)
+    ),
+    *((name, GUARD, 1) for name in PROFILES if name.startswith("rounding")),
+    *(("ibm1962", place, 0) for place in (PRODUCTS, KEEPS_LEFT_ZERO, SIGNED_UNDERFLOW, POWERS_MULTIPLY)),
+    *(("ibm1962", place, 1) for place in (GUARD, QUOTIENTS, SIGNED_SUMS, SIGNED_BY_ZERO)),
+    *(("truncating", place, 0) for place in (SIGNED_UNDERFLOW, SIGNED_SUMS, SIGNED_BY_ZERO)),
+    *(("truncating", place, 1) for place in (KEEPS_LEFT_ZERO, POWERS_MULTIPLY)),
+]
+
+
+@pytest.mark.parametrize(("name", "place", "value"), OTHERWISE)
+def test_a_rule_that_is_changed_is_noticed(name: str, place: int, value: int) -> None:
+    rules = list(profile(name).rules)
+    assert rules[place] != value
+    rules[place] = value
+    assert noticed(Profile(name, "changed", tuple(rules))) > 0  # type: ignore[arg-type]

@@ -1,0 +1,163 @@
+"""The published vectors (``tests/data/vectors/published``) as FORTRAN, on the interpreter and on the compiled engine.
+
+Every line is a run: the operands are read from a card, one statement does the operation, and the result is looked up in
+core, or on the card punched.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+
+import pytest
+
+from emulator.compiled import devices
+from emulator.compiled.runner import MAX_DIGITS, Runner, packed
+from emulator.errors import EmulatorError
+from emulator.language.cards import Deck, deck_from_lines
+from emulator.language.objectcode import Program
+from emulator.machine.machine import Machine
+from emulator.machine.result import Options
+from emulator.numbers import numbers
+from emulator.numbers.arithmetic import FIXED_POINT, MINUS_ZERO
+from tests.support.deckwork import pair, program
+from tests.support.published.lines import Vector, load, names
+
+Found = tuple[str, str]
+"""Result and code."""
+
+STATEMENTS = {
+    "add": "D=A+B",
+    "subtract": "D=A-B",
+    # What is computed is subtracted by FSBR: here -A, from a card with A's sign turned.
+    "subtractfrom": "D=B-(-A)",
+    "multiply": "D=A*B",
+    "divide": "D=A/B",
+    "power": "D=A**J",
+    "squareroot": "D=SQRT(A)",
+    "negate": "D=-A",
+    "fix": "M=A",
+    "float": "D=I",
+    "fixadd": "M=I+J",
+    "fixsubtract": "M=I-J",
+    "fixmultiply": "M=I*J",
+    "fixdivide": "M=I/J",
+}
+BRANCHES = {"if": "A", "compare": "A-B", "fixcompare": "I-J"}
+WAYS = ("", "negative", "zero", "positive")
+LEFT = {"power", "read", "readfixed"}
+"""Where the compiled engine leaves cases to the interpreter: powers it does not multiply out, cards with a remark."""
+FLOATING, FIXED = "E38.0", "I5"
+"""The fields operands are read by: wide enough for 28 digits."""
+
+
+@cache
+def compiled(operation: str, field: str) -> Program:
+    """The program of an operation; ``field`` is empty but for those that read or write one."""
+    if operation.startswith("read"):
+        name = "M" if operation == "readfixed" else "D"
+        return program(f"READ 1,{name}", f"1 FORMAT({field})", "END")
+    if operation.startswith("write"):
+        name, given = ("I", FIXED) if operation == "writefixed" else ("A", FLOATING)
+        return program(f"READ 1,{name}", f"PUNCH 2,{name}", f"1 FORMAT({given})", f"2 FORMAT({field})", "END")
+    if operation in BRANCHES:
+        work = [
+            f"IF({BRANCHES[operation]})11,12,13",
+            "11 M=1",
+            "GO TO 20",
+            "12 M=2",
+            "GO TO 20",
+            "13 M=3",
+            "20 CONTINUE",
+        ]
+        uses = BRANCHES[operation]
+    else:
+        work, uses = [STATEMENTS[operation]], STATEMENTS[operation].replace("SQRT", "").partition("=")[2]
+    given = [name for name in "ABIJ" if name in uses]
+    fields = ",".join(FIXED if name in "IJ" else FLOATING for name in given)
+    return program(f"READ 1,{','.join(given)}", f"1 FORMAT({fields})", *work, "END")
+
+
+def card(vector: Vector) -> Deck:
+    """The card with the operands of a vector."""
+    if vector.operation.startswith("read"):
+        return deck_from_lines("data", [vector.operands[1]])
+    given = list(vector.operands[1:] if vector.operation.startswith("write") else vector.operands)
+    if vector.operation == "subtractfrom":
+        given[0] = given[0].removeprefix("-") if given[0].startswith("-") else "-" + given[0]
+    return deck_from_lines("data", ["".join(word.rjust(38 if "." in word else 5) for word in given)])
+
+
+def address(made: Program) -> int | None:
+    """Where the result is in core; None for a program that punches it."""
+    found = [entry.first for entry in made.storage.entries if entry.kind == "variable" and entry.name in ("D", "M")]
+    return found[0] if found else None
+
+
+def written(mantissa: int, exponent: int, vector: Vector) -> str:
+    """A field of core as the vectors have it."""
+    if exponent == FIXED_POINT:
+        return WAYS[mantissa] if vector.operation in BRANCHES else str(mantissa)
+    minus = mantissa < 0 or exponent == MINUS_ZERO
+    return f"{'-' if minus else ''}.{abs(mantissa):0{vector.digits}}E{max(exponent, -99):+03}"
+
+
+def interpreted(made: Program, vector: Vector, options: Options) -> Found:
+    machine = Machine(made, card(vector), options)
+    try:
+        result = machine.run()
+    except EmulatorError as error:
+        return "?", "RANGE" if "out of range" in str(error) else "INVALID"
+    assert result.ending.kind == "end"
+    at = address(made)
+    shown = result.punched[0] if at is None else written(*pair(machine, at), vector)
+    return shown, " ".join(error.code for error in result.errors)
+
+
+def on_the_kernel(runner: Runner, made: Program, vector: Vector) -> Found | None:
+    """What the compiled engine finds; None where it leaves the deck to the interpreter."""
+    (run,) = runner.runs([packed(card(vector))])
+    if run is None:
+        return None
+    codes = [number for at, times in run.errors for number in times * [at % devices.CODES]]
+    code = " ".join("F8" if number == devices.F8 else f"E{number}" for number in codes)
+    at, core = address(made), runner.core
+    if at is None:
+        return next(line[1:] for line in run.lines() if line.startswith("P")), code
+    return written(int(core.mantissas[at]), int(core.exponents[at]), vector), code
+
+
+def runs(operation: str) -> Iterator[tuple[Program, Vector, Options]]:
+    """Every vector with its program and machine, those of one program and profile together."""
+    for vector in sorted(load(operation), key=lambda vector: (vector.profile, vector.operands[0])):
+        field = vector.operands[0] if operation.startswith(("read", "write")) else ""
+        system = numbers("truncating" if vector.profile == "any" else vector.profile)
+        yield compiled(operation, field), vector, Options(numbers=system, limit=100)
+
+
+@pytest.mark.parametrize("operation", names())
+def test_the_interpreter_gives_every_result(operation: str) -> None:
+    wrong = [
+        (vector, found)
+        for made, vector, options in runs(operation)
+        if (found := interpreted(made, vector, options)) != (vector.result, vector.code)
+    ]
+    assert not wrong, f"{len(wrong)} lines: {wrong[:5]}"
+
+
+@pytest.mark.parametrize("operation", names())
+def test_the_compiled_engine_gives_every_result_or_leaves_it_to_the_interpreter(operation: str) -> None:
+    pytest.importorskip("numba")
+    wrong, left = [], 0
+    runner, loaded = None, None
+    for made, vector, options in runs(operation):
+        if vector.digits > MAX_DIGITS:
+            continue
+        if runner is None or loaded != (made, vector.profile):
+            runner, loaded = Runner(made, options), (made, vector.profile)
+        found = on_the_kernel(runner, made, vector)
+        left += found is None
+        if found not in (None, (vector.result, vector.code)):
+            wrong.append((vector, found))
+    assert not wrong, f"{len(wrong)} lines: {wrong[:5]}"
+    assert (left > 0) == (operation in LEFT), f"{left} lines were left to the interpreter"

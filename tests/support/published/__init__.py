@@ -1,0 +1,1 @@
+"""The published vectors: rules in fractions, operands, lines. Nothing of ``emulator`` is used here."""
