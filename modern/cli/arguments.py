@@ -78,6 +78,8 @@ def _diverge(parser: ArgumentParser) -> None:
 def _study(parser: ArgumentParser) -> None:
     parser.add_argument("name", metavar="NAME", nargs="?", help="a study built in, or a plan file NAME.toml")
     parser.add_argument("--list", action="store_true", help="list the studies built in")
+    parser.add_argument("--families", action="store_true", help="list the families of point sets a plan can name")
+    parser.add_argument("--measures", action="store_true", help="list the measures a route of a plan can name")
     parser.add_argument("--samples", metavar="N", type=int, help="samples (--list: the sets they make)")
     parser.add_argument("--seed", metavar="S", type=int, help="the seed of all samples (default: 1963)")
     parser.add_argument("--workers", metavar="W", type=int, help="processes (default: one a processor)")

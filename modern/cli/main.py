@@ -6,6 +6,7 @@ import gc
 import importlib
 import io
 import os
+import signal
 import sys
 from collections.abc import Sequence
 
@@ -25,6 +26,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if isinstance(stream, io.TextIOWrapper):
             # A name or a card may hold what a terminal of few characters cannot show.
             stream.reconfigure(errors="backslashreplace")
+    # The command's own start (hull1620/__main__.py) leaves Ctrl-C to end the process; from here on it is an exception.
+    started = signal.getsignal(signal.SIGINT) is signal.SIG_DFL
+    if started:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         args = build_parser(words).parse_args(words)
         if sys.stdout is None:
@@ -50,6 +55,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except EmulatorError as error:
         complain(str(error))
         return BAD_INPUT
+    finally:
+        if started:
+            signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def build_parser(words: Sequence[str]) -> Parser:

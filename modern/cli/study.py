@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import inspect
 import sys
+import textwrap
+from collections.abc import Callable
+from pathlib import Path
 
 from modern.cli.shared.console import OK
 
@@ -11,16 +15,23 @@ from modern.cli.shared.console import OK
 def main(args: argparse.Namespace) -> int:
     """Carry out the study named, or list those there are."""
     # Here, so that its --help need not wait for all that studies import.
+    from modern.study.families import FAMILIES, given
+    from modern.study.measures import MEASURES
     from modern.study.plan import SEED, PlanError
     from modern.study.registry import entries, names, study
     from modern.study.report import spoken
-    from modern.study.run import run_study
+    from modern.study.run import check_plan, cut_lines, run_study
     from modern.study.tomlplan import is_plan_file, read_plan
 
     if args.list:
         for entry in entries():
             print(f"{entry.name:<14} {entry.title}")
             print(f"{'':<14} --samples {entry.samples} (default): sets {entry.sets:,}, cells {entry.cells}")
+        return OK
+    if args.families or args.measures:
+        families = {**FAMILIES, "file": given.file_family}
+        listed = [*(families.items() if args.families else ()), *(MEASURES.items() if args.measures else ())]
+        print("\n".join(described(name, function) for name, function in listed))
         return OK
     if args.name is None:
         raise PlanError(f"which study? There are {', '.join(names())}, or a plan file; --list says what they are")
@@ -30,6 +41,8 @@ def main(args: argparse.Namespace) -> int:
     for name, value in (("--out", args.out), ("--dask", args.dask)):
         if value == "":
             raise PlanError(f"{name} is empty")
+    if args.resume and args.out and not Path(args.out).exists():
+        raise PlanError(f"--resume: there is no study in {args.out}, as there is no such folder")
     if args.workers is not None and args.dask:
         raise PlanError("--workers and --dask are one or the other")
     options = {
@@ -42,6 +55,9 @@ def main(args: argparse.Namespace) -> int:
     try:
         if is_plan_file(args.name):
             plan = read_plan(args.name, args.samples, args.seed)
+            check_plan(plan)
+            for line in () if args.quiet else cut_lines(plan):
+                print(line, file=sys.stderr)
             report = run_study(plan, args.out or plan.name, **options)
         else:
             try:
@@ -57,3 +73,14 @@ def main(args: argparse.Namespace) -> int:
         return 130
     print(spoken(report), end="")
     return OK
+
+
+def described(name: str, function: Callable[..., object]) -> str:
+    """A family or measure as a list shows it: its name, its parameters with their defaults, and what it gives."""
+    taken = [
+        p.name if p.default is p.empty else f"{p.name} = {p.default!r}"
+        for p in inspect.signature(function).parameters.values()
+        if p.name not in ("draw", "sample", "run")
+    ]
+    words = " ".join((inspect.getdoc(function) or "").replace("``", "").split())
+    return "\n".join((f"{name:<14} {', '.join(taken)}".rstrip(), textwrap.indent(textwrap.fill(words, 76), "    ")))

@@ -6,7 +6,9 @@ import hashlib
 import json
 import platform
 from collections.abc import Mapping, Sequence
+from functools import cache
 from importlib.metadata import PackageNotFoundError, version
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +33,41 @@ def versions() -> dict[str, str]:
     return found
 
 
+_ROOMS = (
+    *("emulator", "modern/geometry", "modern/formats", "modern/exact_hull", "modern/port", "modern/thesis"),
+    *("modern/comparison", "modern/edition", "modern/study"),
+)
+"""What can change a row."""
+
+
+def code_sums(plan: Plan) -> dict[str, str]:
+    """SHA-256 of the code rows come from: hull1620's, and each module a family or measure of one's own is in."""
+    own = {cell.family for cell in plan.cells}
+    own |= {name for cell in plan.cells for route in cell.routes for name in route.measures}
+    modules = sorted({name.partition(":")[0] for name in own if ":" in name})
+    return {"hull1620": _own_sum()} | {name: _module_sum(name) for name in modules}
+
+
+@cache
+def _own_sum() -> str:
+    digest = hashlib.sha256()
+    root = Path(__file__).parents[2]
+    for room in _ROOMS:
+        for path in sorted((root / room).rglob("*")):
+            if path.suffix in (".py", ".lark"):
+                digest.update(f"{path.relative_to(root).as_posix()}\n".encode() + path.read_bytes())
+    return digest.hexdigest()
+
+
+def _module_sum(name: str) -> str:
+    """The sum of a module's file; empty where it has none that can be read."""
+    found = find_spec(name)
+    try:
+        return hashlib.sha256(Path(found.origin).read_bytes()).hexdigest() if found and found.origin else ""
+    except OSError:
+        return ""
+
+
 def manifest(plan: Plan, command: Sequence[str], made: Mapping[str, str]) -> dict[str, Any]:
     """The manifest of a study that begins."""
     programs = {
@@ -42,6 +79,7 @@ def manifest(plan: Plan, command: Sequence[str], made: Mapping[str, str]) -> dic
         "versions": dict(made),
         "plan": plan.document(),
         "programs_sha256": programs,
+        "code_sha256": code_sums(plan),
         "samples": plan.samples,
         "complete": False,
     }
@@ -83,6 +121,11 @@ def differences(there: Mapping[str, Any], here: Mapping[str, Any]) -> str:
             return f"it was begun with {package} {other or '(not installed)'}, not {wanted or '(not installed)'}"
     if there["programs_sha256"] != here["programs_sha256"]:
         return "its programs are others: the listings or their apparatus have changed"
+    if "code_sha256" not in there:
+        return "it does not say with what code it was begun"
+    for name, wanted in here["code_sha256"].items():
+        if there["code_sha256"].get(name) != wanted:
+            return "hull1620's own code has changed" if name == "hull1620" else f"the module {name} has changed"
     return ""
 
 

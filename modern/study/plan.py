@@ -10,9 +10,13 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field
 from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
 from random import Random
+from traceback import extract_tb
 from typing import Literal, TypeVar
 
 from emulator.errors import EmulatorError
@@ -56,6 +60,7 @@ class Programs:
     limit: int = DEFAULT_LIMIT
     core: int = DEFAULT_CORE
     bounds: Literal["strict", "core"] = "strict"
+    uncut: bool = False
     measures: tuple[str, ...] = ()
 
 
@@ -113,11 +118,38 @@ def named(what: str, name: str, known: Mapping[str, F]) -> F:
     module, colon, function = name.partition(":")
     if not colon:
         raise PlanError(f"no {what} is called {name!r}; there are {', '.join(known)} and module:function")
-    try:
-        found: F = getattr(import_module(module), function)
-    except (ImportError, AttributeError, TypeError, ValueError) as error:
-        raise PlanError(f"{what} {name}: {error}") from None
+    with own_code(f"{what} {name}", module):
+        loaded = import_module(module)
+    found: F | None = getattr(loaded, function, None)
+    if not callable(found):
+        raise PlanError(f"{what} {name}: {module} has no function {function!r}")
     return found
+
+
+@contextmanager
+def own_code(where: str, module: str) -> Iterator[None]:
+    """A user's module at work: what goes wrong in it becomes a PlanError with its file and line.
+
+    Errors of this project pass; they are one line already.
+    """
+    try:
+        yield
+    except EmulatorError:
+        raise
+    except Exception as error:
+        raise PlanError(f"{where}: {_words(error, module)}") from error
+
+
+def _words(error: Exception, module: str) -> str:
+    if isinstance(error, ModuleNotFoundError) and error.name in (module, module.partition(".")[0]):
+        return f"no module is called {module!r}, beside the plan or where Python looks for modules"
+    if isinstance(error, SyntaxError):
+        return f"{Path(error.filename or module).name}, line {error.lineno}: {error.msg}"
+    spec = find_spec(module)
+    lines = [frame.lineno for frame in extract_tb(error.__traceback__) if spec and frame.filename == spec.origin]
+    place = f"{Path(spec.origin or module).name}, line {lines[-1]}: " if spec and lines else ""
+    text = str(error).splitlines()
+    return f"{place}{type(error).__name__}{': ' + text[0] if text else ''}"
 
 
 def random_of(seed: str) -> Random:
@@ -175,5 +207,8 @@ class Plan:
 
 
 def document(route: Route) -> dict[str, object]:
-    """A route as JSON data, with the kind it is."""
-    return {"kind": "programs" if isinstance(route, Programs) else "port", **asdict(route)}
+    """A route as JSON data, with the kind it is; ``uncut`` stands there where it is asked for."""
+    data = {"kind": "programs" if isinstance(route, Programs) else "port", **asdict(route)}
+    if not data.get("uncut"):
+        data.pop("uncut", None)
+    return data

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import cache
 
 from emulator.errors import EmulatorError
+from emulator.language.cards import Deck
 from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import Program
 from emulator.machine.result import Options
@@ -14,12 +15,12 @@ from modern.edition import programs
 from modern.formats.deck import with_epsilon
 from modern.geometry.hull import Hull
 from modern.port import RangeError, convex_hull
-from modern.study.measures import measure_of
+from modern.study.measures import MEASURES, measure_of
 from modern.study.outcomes import OTHERWISE, Answer, Figures, answer_of_hull, answer_of_run
-from modern.study.plan import PlanError, Port, Programs, Route
+from modern.study.plan import PlanError, Port, Programs, Route, own_code
 from modern.study.sample import Sample
 from modern.thesis.batch import Runs, run_hulls
-from modern.thesis.job import HullRun, Load
+from modern.thesis.job import HullRun, Load, run_hull
 
 
 def carry_out(route: Route, samples: Sequence[Sample], runs: Runs) -> list[Answer]:
@@ -33,7 +34,7 @@ def options_of(route: Programs) -> Options:
         found = numbers(route.arithmetic)
     except ValueError as error:
         raise PlanError(f"route {route.name}: {error}") from None
-    return Options(found, core=route.core, bounds=route.bounds, limit=route.limit)
+    return Options(found, core=route.core, bounds=route.bounds, limit=route.limit, uncut=route.uncut)
 
 
 def programs_of(route: Programs) -> tuple[str, Load]:
@@ -73,7 +74,8 @@ def _programs(route: Programs, samples: Sequence[Sample], runs: Runs) -> list[An
     options, (first, load) = options_of(route), programs_of(route)
     data = [with_epsilon(one.deck, route.epsilon) if route.epsilon else one.deck for one in samples]
     found = []
-    for one, run in zip(samples, run_hulls(data, load, options, first, runs), strict=True):
+    ran = _uncut(data, load, options, first) if route.uncut else run_hulls(data, load, options, first, runs)
+    for one, run in zip(samples, ran, strict=True):
         if isinstance(run, EmulatorError):
             found.append(Answer(OTHERWISE, str(run)))
             continue
@@ -81,6 +83,15 @@ def _programs(route: Programs, samples: Sequence[Sample], runs: Runs) -> list[An
         statements = sum(step.result.statements for step in run.steps)
         found.append(_with(answer, {"statements": statements, **_measured(route, one, run)}))
     return found
+
+
+def _uncut(decks: Sequence[Deck], load: Load, options: Options, first: str) -> Iterator[HullRun | EmulatorError]:
+    """Each deck's hull run with numbers whole between the programs, or the error it raised."""
+    for deck in decks:
+        try:
+            yield run_hull(deck, load, options, first)
+        except EmulatorError as error:
+            yield error
 
 
 def _port(route: Port, one: Sample) -> Answer:
@@ -102,9 +113,17 @@ def _measured(route: Route, one: Sample, run: HullRun | Hull) -> Figures:
     figures: dict[str, int | str] = {}
     for name in route.measures:
         try:
-            figures.update(measure_of(name)(one, run))
+            if name in MEASURES:
+                found = measure_of(name)(one, run)
+            else:
+                with own_code(f"route {route.name}: measure {name}", name.partition(":")[0]):
+                    found = measure_of(name)(one, run)
         except (TypeError, ValueError) as error:
             raise PlanError(f"route {route.name}: measure {name}: {error}") from error
+        wrong = [what for what, value in found.items() if type(value) not in (int, str)]
+        if wrong:
+            raise PlanError(f"route {route.name}: measure {name}: the figure {wrong[0]} is not a whole number or text")
+        figures.update(found)
     return figures
 
 

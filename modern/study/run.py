@@ -11,17 +11,22 @@ from typing import Any
 from emulator.compiled.runner import why_plain
 from emulator.language.cards import deck_from_lines
 from emulator.machine.machine import Machine
+from emulator.numbers import numbers
+from emulator.numbers.decimal import DecimalNumbers
 from modern.edition import programs
 from modern.formats.deck import coordinate_field
 from modern.port import convex_hull
 from modern.study.families import draw_sample
+from modern.study.interrupt import Interrupt, watching
 from modern.study.manifest import NAME, differences, manifest, read_manifest, versions, write_manifest
 from modern.study.measures import measure_of
+from modern.study.parquet import write_parquet
 from modern.study.plan import Cell, Plan, PlanError, Programs, Route, StudyFileError
 from modern.study.plots import can_plot, draw
 from modern.study.progress import Progress
 from modern.study.report import Report, outcome_report, write_report
 from modern.study.routes import options_of, programs_of
+from modern.study.sample import CARD_DIGITS
 from modern.study.store import BESIDE, Store
 from modern.study.workers import connect, in_processes, on_cluster, processes
 
@@ -49,9 +54,10 @@ def run_study(
     resume: go on with a study begun in the folder; where none is, it is begun.  quiet: no progress.  command: the
     command line, for the manifest.
 
-    Interrupted in whatever way, the chunks finished are kept, and ``resume`` does the others; the rows, and so the
-    report, do not depend on interruptions, workers or machine.  Where a script calls this with more than one worker,
-    it must do so under ``if __name__ == "__main__":``, as the processes begin by importing it.
+    Interrupted in whatever way, the chunks finished are kept, and ``resume`` does the others; a first Ctrl-C lets those
+    in hand be finished, a second stops at once, both with KeyboardInterrupt.  The rows, and so the report, do not
+    depend on interruptions, workers or machine.  Where a script calls this with more than one worker, it must do so
+    under ``if __name__ == "__main__":``, as the processes begin by importing it.
 
     Raises PlanError (one line) for a plan that cannot be carried out, for a folder that holds a study and ``resume``
     is not asked for, or another one and it is, and for files that cannot be written; what is done is kept.
@@ -65,7 +71,8 @@ def run_study(
         for line in () if quiet or client else plain_lines(plan):
             print(line, file=sys.stderr)
         store = stack.enter_context(closing(Store.open(folder, plan)))
-        _complete(plan, store, client, workers or processes(), quiet)
+        with watching() as interrupt:
+            _complete(plan, store, client, workers or processes(), quiet, interrupt)
         found = report(plan, store)
         without = can_plot()
         if without and not quiet:
@@ -73,7 +80,7 @@ def run_study(
         for chart in () if without else found.charts:
             draw(chart, folder)
         write_report(folder, plan, found, not without)
-        store.parquet()
+        write_parquet(folder, plan, store)
         write_manifest(folder, {**document, "decks_sha256": store.decks_sha256(), "complete": True})
     return found
 
@@ -84,19 +91,38 @@ def plain_lines(plan: Plan) -> tuple[str, ...]:
     return tuple(line for line in dict.fromkeys(why_plain(options_of(route)) for route in routes) if line)
 
 
-def _complete(plan: Plan, store: Store, client: Any, workers: int, quiet: bool) -> None:
-    """The chunks that are not there, done and kept one by one."""
+def cut_lines(plan: Plan) -> tuple[str, ...]:
+    """Where digits beyond those of a card are lost between the programs, a line a route."""
+    routes = dict.fromkeys(route for cell in plan.cells for route in cell.routes if isinstance(route, Programs))
+    return tuple(
+        f"route {route.name}: the cards between the programs hold {CARD_DIGITS} digits of a number; "
+        "uncut = true keeps them all"
+        for route in routes
+        if not route.uncut and not _fits_cards(route)
+    )
+
+
+def _fits_cards(route: Programs) -> bool:
+    found = numbers(route.arithmetic)
+    return isinstance(found, DecimalNumbers) and found.profile.rules[0] <= CARD_DIGITS
+
+
+def _complete(plan: Plan, store: Store, client: Any, workers: int, quiet: bool, interrupt: Interrupt) -> None:
+    """The chunks that are not there, done and kept one by one.  Raises KeyboardInterrupt after a first Ctrl-C."""
     missing = store.missing()
     left = sum(chunk.stop - chunk.start for chunk in missing)
     progress = Progress(plan.samples, plan.samples - left, quiet=quiet)
-    done = on_cluster(plan, missing, client) if client else in_processes(plan, missing, workers)
+    done = on_cluster(plan, missing, client) if client else in_processes(plan, missing, workers, interrupt)
     try:
         with closing(done):
             for chunk, text in done:
                 store.add(chunk, text)
                 progress.add(chunk.stop - chunk.start)
+                interrupt.finished += 1
     finally:
         progress.close()
+    if interrupt.asked:
+        raise KeyboardInterrupt
 
 
 def _begin(plan: Plan, folder: Path, resume: bool, command: Sequence[str]) -> dict[str, object]:

@@ -13,7 +13,8 @@ from modern.exact_hull import ExactHull, exact_hull
 from modern.formats.deck import data_deck, read_coordinates
 from modern.study.families.draws import Drawn
 
-_CARD_DIGITS = 8
+CARD_DIGITS = 8
+"""Significant digits of a number on a card."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +46,7 @@ class Sample:
 
     def points_read(self, rules: Rules) -> Sequence[Vector]:
         """The points as an arithmetic of these rules reads them from the cards; below eight digits it cuts them."""
-        if rules[0] >= _CARD_DIGITS:
+        if rules[0] >= CARD_DIGITS:
             return self.points
         points = []
         for card in self.deck.cards[1:]:

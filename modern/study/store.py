@@ -10,10 +10,10 @@ import hashlib
 import json
 import os
 import sqlite3
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from itertools import islice, zip_longest
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -23,8 +23,6 @@ from modern.study.plan import Chunk, Plan, StudyFileError
 ROWS = "rows"
 BESIDE = ".beside-"
 """How the name of a file begins that is not in its place yet."""
-_BATCH = 10_000
-"""Answers that go to Parquet at once."""
 
 
 @contextmanager
@@ -155,13 +153,6 @@ class Store:
         )
         return {tuple(row[:-1]): row[-1] for row in asked}
 
-    def parquet(self) -> None:
-        """``rows.parquet``, a row for each answer, for other tools; nothing where pyarrow is not installed."""
-        try:
-            _write_parquet(self.folder / "rows.parquet", self.rows())
-        except ImportError:
-            return
-
     def query(self, sql: str, values: Sequence[Any] = ()) -> Iterator[tuple[Any, ...]]:
         """A query of one's own over the tables ``samples`` and ``runs`` (modern/study/index.py)."""
         return self.database.execute(sql, values)
@@ -211,41 +202,3 @@ def _column(name: str) -> str:
     if name in JUDGE:
         return f"samples.{name}"
     raise ValueError(f"{name!r} is not a column of the index")
-
-
-def _write_parquet(path: Path, rows: Iterable[Row]) -> None:
-    """One row for each answer, in order; tags and figures as JSON, the deck as text.
-
-    Raises StudyFileError, and ImportError without pyarrow.
-    """
-    import pyarrow
-    from pyarrow import parquet
-
-    whole, text = pyarrow.int64(), pyarrow.string()
-    schema = pyarrow.schema(
-        [
-            *((name, whole) for name in ("cell", "index")),
-            *((name, text) for name in ("seed", "tags", "deck")),
-            *((name, whole) for name in JUDGE),
-            *((name, text) for name in ("route", "outcome", "detail", "figures")),
-        ]
-    )
-    answers = _answers(rows)
-    with placing(path) as file, parquet.ParquetWriter(file, schema) as writer:
-        while batch := list(islice(answers, _BATCH)):
-            writer.write_table(pyarrow.Table.from_pylist(batch, schema=schema))
-
-
-def _answers(rows: Iterable[Row]) -> Iterator[dict[str, int | str]]:
-    for row in rows:
-        shared: dict[str, int | str] = {
-            "cell": row["cell"],
-            "index": row["index"],
-            "seed": row["seed"],
-            "tags": json.dumps(row.get("tags", {}), sort_keys=True),
-            "deck": "".join(card + "\n" for card in row["deck"]),
-            **row["judge"],
-        }
-        for route, run in row["runs"].items():
-            figures = json.dumps(run["figures"], sort_keys=True)
-            yield {**shared, "route": route, "outcome": run["outcome"], "detail": run["detail"], "figures": figures}

@@ -24,11 +24,13 @@
     parameters = { path = "mine.csv", shuffle = true }
 
 Every route serves every cell that does not name its own (``routes = ["float64"]``).  A cell without ``key`` has its
-family and parameters for one.
+family and parameters for one.  ``family = "mine:points"`` is the function ``points`` of ``mine.py`` beside the plan, or
+wherever Python looks for modules; so it is with ``measures = ["mine:spread"]``.
 """
 
 from __future__ import annotations
 
+import sys
 import tomllib
 from collections.abc import Mapping
 from dataclasses import fields
@@ -65,10 +67,24 @@ def read_plan(path: str, samples: int | None = None, seed: int | None = None) ->
         raise PlanError(f"{path}: nested too deeply") from None
     except tomllib.TOMLDecodeError as error:
         raise PlanError(f"{path}: {str(error).splitlines()[0]}") from None
+    _find_beside(data, Path(path).resolve().parent)
     try:
         return _plan(data, Path(path), samples, seed)
     except (TypeError, AttributeError) as error:
         raise PlanError(f"{path}: something is of a wrong kind: {error}") from None
+
+
+def _find_beside(data: Mapping[str, Any], folder: Path) -> None:
+    """Have Python look beside the plan too for the module of a family or measure of one's own."""
+    parts = [part for name in ("cell", "route") for part in _listed(data.get(name)) if isinstance(part, dict)]
+    names = [name for part in parts for name in (part.get("family"), *_listed(part.get("measures")))]
+    modules = {name.partition(":")[0] for name in names if isinstance(name, str) and ":" in name}
+    if any((folder / f"{module.partition('.')[0]}.py").exists() for module in modules) and str(folder) not in sys.path:
+        sys.path.append(str(folder))
+
+
+def _listed(value: Any) -> list[Any]:
+    return value if isinstance(value, list) else []
 
 
 def _plan(data: Mapping[str, Any], path: Path, samples: int | None, seed: int | None) -> Plan:

@@ -19,6 +19,7 @@ from typing import Any
 from emulator.errors import EmulatorError
 from modern.study.families import draw_sample
 from modern.study.index import Row
+from modern.study.interrupt import Interrupt
 from modern.study.manifest import versions
 from modern.study.outcomes import Answer, reordered
 from modern.study.plan import Cell, Chunk, Plan, PlanError
@@ -95,33 +96,44 @@ def processes() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def in_processes(plan: Plan, chunks: Sequence[Chunk], workers: int) -> Generator[Done]:
+def in_processes(
+    plan: Plan, chunks: Sequence[Chunk], workers: int, interrupt: Interrupt | None = None
+) -> Generator[Done]:
     """Each chunk with its rows, in whatever order they are done; one worker is this process itself.
 
-    Raises PlanError where a chunk cannot be carried out, or a worker dies.
+    ``interrupt`` is told what is in hand; once it is asked for, only that is finished.  Raises PlanError
+    where a chunk cannot be carried out, or a worker dies.
     """
+    interrupt = interrupt or Interrupt()
     if workers == 1 or len(chunks) <= 1:
+        interrupt.in_hand = 1
         for chunk in chunks:
+            if interrupt.asked:
+                return
             yield chunk, rows_or_error(*task(plan.cells[chunk.cell], plan.seed, chunk))
         return
     context = multiprocessing.get_context("spawn")
     pool = ProcessPoolExecutor(min(workers, len(chunks)), context, initializer=_begin_worker)
     try:
-        yield from _from_pool(plan, chunks, pool, workers)
+        yield from _from_pool(plan, chunks, pool, workers, interrupt)
     except BrokenProcessPool:
         raise PlanError("a worker process died (was it killed, or out of memory?); --resume goes on") from None
     finally:
         pool.shutdown(wait=True, cancel_futures=True)
 
 
-def _from_pool(plan: Plan, chunks: Sequence[Chunk], pool: ProcessPoolExecutor, workers: int) -> Generator[Done]:
+def _from_pool(
+    plan: Plan, chunks: Sequence[Chunk], pool: ProcessPoolExecutor, workers: int, interrupt: Interrupt
+) -> Generator[Done]:
     waiting = iter(chunks)
     under_way: dict[Future[tuple[str, str]], Chunk] = {}
     while True:
-        for chunk in waiting:
+        for chunk in islice(waiting, 0 if interrupt.asked else AHEAD * workers - len(under_way)):
             under_way[pool.submit(task, plan.cells[chunk.cell], plan.seed, chunk)] = chunk
-            if len(under_way) >= AHEAD * workers:
-                break
+        if interrupt.asked:
+            for future in [future for future in under_way if future.cancel()]:
+                del under_way[future]
+        interrupt.in_hand = len(under_way)
         if not under_way:
             return
         done, _ = wait(under_way, return_when=FIRST_COMPLETED)

@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 from modern.formats.deck import coordinate_field
 from modern.study.families import given, scattered, solids, thesis
 from modern.study.families.draws import Draw, Drawn, FamilyError
-from modern.study.plan import Cell, PlanError, named, random_of
+from modern.study.plan import Cell, PlanError, named, own_code, random_of
 
 Family = Callable[..., Drawn]
 
@@ -43,12 +43,19 @@ def draw_sample(cell: Cell, study: int, index: int) -> Drawn:
     Raises PlanError for parameters the family does not take, FamilyError where they give no such points.
     """
     family = family_of(cell.family)
+    draw = Draw(random_of(cell.seed(study, index)), index)
     try:
-        drawn = family(Draw(random_of(cell.seed(study, index)), index), **_keywords(cell.parameters))
+        if cell.family in FAMILIES:
+            drawn = family(draw, **_keywords(cell.parameters))
+        else:
+            with own_code(f"cell {cell.name}: family {cell.family}", cell.family.partition(":")[0]):
+                drawn = family(draw, **_keywords(cell.parameters))
     except (TypeError, ValueError) as error:
         raise PlanError(f"cell {cell.name}: family {cell.family}: {error}") from None
     except FamilyError as error:
         raise FamilyError(f"cell {cell.name}: family {cell.family}: {error}") from None
+    if not isinstance(drawn, Drawn):
+        raise PlanError(f"cell {cell.name}: family {cell.family}: it gives {type(drawn).__name__}, not Drawn")
     check_points(drawn, f"cell {cell.name}: family {cell.family}: sample {index}")
     return drawn
 

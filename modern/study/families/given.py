@@ -52,6 +52,11 @@ def points(draw: Draw, points: Sequence[Sequence[str]], n: Count = 0, shuffle: b
     return _order(draw, given, shuffle and not n, name)
 
 
+def file_family(draw: Draw, path: str, n: Count = 0, shuffle: bool = False, name: str = "") -> Drawn:
+    """The points of a file beside the plan, as ``points`` takes them; the plan that is carried out holds the points."""
+    return points(draw, file_points(path), n, shuffle, name)
+
+
 def file_points(path: str) -> list[list[str]]:
     """The points of a file (deck, CSV or OFF) for the parameter ``points``: a plan holds them, not the file's name.
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import os
+import re
 import subprocess
 import sys
 from collections import Counter
@@ -17,7 +18,11 @@ from emulator.errors import EmulatorError
 from modern.cli.main import main
 from modern.study import Plan, PlanError, Port, Programs, run_study
 from modern.study.builtin import seventy
+from modern.study.families import FAMILIES
+from modern.study.index import JUDGE, Row
+from modern.study.measures import MEASURES
 from modern.study.outcomes import DETERMINED, OUTCOMES
+from modern.study.parquet import column_types
 from modern.study.plots import can_plot, draw
 from modern.study.registry import entries, names, study
 from modern.study.report import Bars, Lines, Mark, Series, Table, percent, with_interval
@@ -261,12 +266,59 @@ def test_bad_input_is_said_in_a_line(
     assert (out, err.count("\n")) == ("", 1)
 
 
-def test_parquet_rows_are_the_rows(plan_file: Path, tmp_path: Path) -> None:
+def test_parquet_rows_are_a_flat_table_with_types(plan_file: Path, tmp_path: Path) -> None:
     parquet = pytest.importorskip("pyarrow.parquet")
-    run_study(read_plan(str(plan_file)), tmp_path / "out", workers=1, quiet=True)
-    found = parquet.read_table(tmp_path / "out/rows.parquet").to_pylist()
+    plan = read_plan(str(plan_file))
+    run_study(plan, tmp_path / "out", workers=1, quiet=True)
+    table = parquet.read_table(tmp_path / "out/rows.parquet")
+    found = table.to_pylist()
     assert len(found) == 6 * 2 + 2
     assert {row["route"] for row in found} == {"listed", "float64"}
+    types = {field.name: str(field.type) for field in table.schema}
+    assert types["key_n"] == types["figure_statements"] == types["vertices"] == "int64"
+    assert types["figure_coefficient_error"] == "double"
+    assert types["key_family"] == types["outcome"] == "string"
+    texts = [path.read_text() for path in sorted((tmp_path / "out/rows").iterdir())]
+    lines = [json.loads(line) for text in texts for line in text.splitlines()]
+    answers = [(row, name, run) for row in lines for name, run in row["runs"].items()]
+    for (row, name, run), flat in zip(answers, found, strict=True):
+        cell = plan.cells[row["cell"]]
+        assert (flat["cell"], flat["index"], flat["route"]) == (row["cell"], row["index"], name)
+        assert flat["key_n"] == cell.key.get("n")
+        assert flat["key_family"] == cell.key.get("family")
+        assert flat["figure_statements"] == run["figures"].get("statements")
+        error = run["figures"].get("coefficient_error")
+        assert flat["figure_coefficient_error"] == (None if error is None else float(error))
+
+
+@pytest.mark.parametrize(
+    ("values", "kind"),
+    [((1, 2), "whole"), ((1, "2.5"), "double"), (("1E-7",), "double"), (("a", 1), "text"), ((2**63,), "text")],
+)
+def test_a_column_is_as_wide_as_its_values_need(values: tuple[int | str, ...], kind: str) -> None:
+    plan = Plan("p", "", "", ())
+    judge = dict.fromkeys(JUDGE, 1)
+    rows: list[Row] = [
+        {
+            "cell": 0,
+            "index": 0,
+            "seed": "",
+            "deck": [],
+            "judge": judge,
+            "runs": {"r": {"outcome": "right", "detail": "", "figures": {"f": v}}},
+        }
+        for v in values
+    ]
+    assert column_types(plan, lambda: iter(rows))["figure_f"] == kind
+
+
+def test_families_and_measures_are_listed_with_their_parameters(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["study", "--families", "--measures"]) == 0
+    out = capsys.readouterr().out
+    for name in (*FAMILIES, "file", *MEASURES):
+        assert re.search(rf"^{name}\b", out, re.M), name
+    assert re.search(r"^box +most, n, centre = 0\n +Whole numbers from centre", out, re.M)
+    assert max(map(len, out.splitlines())) <= 100
 
 
 def test_the_list_into_a_closed_pipe() -> None:

@@ -255,6 +255,7 @@ def test_another_version_or_program_is_not_resumed(tmp_path: Path) -> None:
         ({"plan": {}}, "it is of the study None"),
         ({"versions": {**whole["versions"], "numpy": "0.1"}}, "begun with numpy 0.1"),
         ({"programs_sha256": {}}, "its programs are others"),
+        ({"code_sha256": {}}, "hull1620's own code has changed"),
     ):
         path.write_text(json.dumps({**whole, **change}))
         with pytest.raises(PlanError, match=words):

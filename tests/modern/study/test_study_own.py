@@ -1,0 +1,165 @@
+"""Families and measures of one's own, and arithmetics of more digits than a card: found, named, explained."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from modern.cli.main import main
+from modern.study import PlanError, Programs, run_study
+from modern.study.run import cut_lines
+from modern.study.tomlplan import read_plan
+
+PLAN = """
+name = "own"
+samples = 3
+
+[[route]]
+name = "listed"
+limit = 20000
+measures = ["{module}:spread"]
+
+[[cell]]
+family = "{module}:line"
+parameters = {{ n = 3 }}
+"""
+MODULE = """\
+from modern.study.families.draws import Drawn
+
+
+def line(draw, n):
+    return Drawn(tuple((str(k), str(draw.whole(0, 9)), "1") for k in range(n)))
+
+
+def spread(sample, run):
+    return {"spread": 5}
+"""
+
+
+@pytest.fixture
+def module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+    """A plan in a folder of its own with a module beside it; the module's name, which no other test has."""
+    name = "own_" + tmp_path.name
+    (tmp_path / "plans").mkdir()
+    (tmp_path / "plans" / f"{name}.py").write_text(MODULE)
+    (tmp_path / "plans" / "own.toml").write_text(PLAN.format(module=name))
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "path", list(sys.path))
+    return name
+
+
+def test_they_are_found_beside_the_plan(module: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["study", "plans/own.toml", "--workers", "1", "--quiet"]) == 0
+    text = next(Path("own/rows").iterdir()).read_text()
+    assert '"spread":5' in text
+    assert capsys.readouterr().err == ""
+
+
+def test_worker_processes_find_them_too(module: str) -> None:
+    assert main(["study", "plans/own.toml", "--samples", "500", "--workers", "2", "--quiet"]) == 0
+
+
+@pytest.mark.parametrize(
+    ("was", "now", "words"),
+    [
+        ("    return Drawn(", "    n / 0\n    return Drawn(", "line 5: ZeroDivisionError: division by zero"),
+        ("def spread", "def spread(\ndef x", "line 8: '(' was never closed"),
+        (
+            "def spread",
+            "import nothing_there\ndef spread",
+            "line 8: ModuleNotFoundError: No module named 'nothing_there'",
+        ),
+        ("def spread", "def other", "has no function 'spread'"),
+        ('{"spread": 5}', '{"spread": 5 / sample.nothing}', "line 9: AttributeError: 'Sample' object has no"),
+        ('{"spread": 5}', '{"spread": 0.5}', "the figure spread is not a whole number or text"),
+        ("    return Drawn(tuple(", "    return list(tuple(", "it gives list, not Drawn"),
+        ("def line(draw, n)", "def line(draw)", "unexpected keyword argument 'n'"),
+    ],
+)
+def test_a_mistake_there_is_one_line_with_file_and_line(
+    was: str, now: str, words: str, module: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = Path("plans") / f"{module}.py"
+    path.write_text(MODULE.replace(was, now))
+    assert main(["study", "plans/own.toml", "--workers", "1", "--quiet"]) == 2
+    out, err = capsys.readouterr()
+    assert (out, err.count("\n")) == ("", 1)
+    assert words in err
+    if "line " in words:
+        assert f"{module}.py, line" in err
+
+
+def test_a_module_that_is_nowhere_is_named(module: str, capsys: pytest.CaptureFixture[str]) -> None:
+    (Path("plans") / f"{module}.py").unlink()
+    assert main(["study", "plans/own.toml", "--workers", "1", "--quiet"]) == 2
+    assert f"no module is called '{module}', beside the plan or where Python looks" in capsys.readouterr().err
+
+
+def test_a_module_that_has_changed_is_not_resumed(module: str) -> None:
+    plan = read_plan("plans/own.toml")
+    run_study(plan, "own", workers=1, quiet=True)
+    run_study(plan, "own", workers=1, quiet=True, resume=True)
+    path = Path("plans") / f"{module}.py"
+    path.write_text(path.read_text() + "\n")
+    with pytest.raises(PlanError, match=f"cannot resume: the module {module} has changed"):
+        run_study(plan, "own", workers=1, quiet=True, resume=True)
+
+
+def test_a_folder_that_is_not_there_is_not_resumed(module: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["study", "plans/own.toml", "--resume", "--out", "other"]) == 2
+    assert "--resume: there is no study in other, as there is no such folder" in capsys.readouterr().err
+    assert not Path("other").exists()
+
+
+DIGITS = """
+name = "digits"
+samples = 6
+
+[[route]]
+name = "cut"
+layers = ["corrected"]
+arithmetic = "truncating:12"
+core = 60000
+
+[[route]]
+name = "whole"
+layers = ["corrected"]
+arithmetic = "truncating:12"
+core = 60000
+uncut = true
+
+[[cell]]
+family = "integers"
+parameters = { digits = 3, n = 12 }
+"""
+
+
+def test_digits_beyond_the_cards_are_kept_uncut_and_lost_with_a_word(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Twelve digits hold what coordinates of three need; cards of eight between the programs do not."""
+    monkeypatch.chdir(tmp_path)
+    Path("digits.toml").write_text(DIGITS)
+    assert main(["study", "digits.toml", "--workers", "1"]) == 0
+    err = capsys.readouterr().err
+    said = "route cut: the cards between the programs hold 8 digits of a number; uncut = true keeps them all"
+    assert err.count(said) == 1
+    assert "route whole: the cards" not in err
+    lines = Path("digits/table.csv").read_text().splitlines()
+    found = {row.split(",")[1]: row.split(",")[2:4] for row in lines[1:]}
+    assert found["whole"] == ["6", "6"], lines
+    assert found["cut"] != ["6", "6"], lines
+
+
+def test_no_word_where_the_cards_hold_all_digits() -> None:
+    plan = read_plan_of(Programs("eight"), Programs("four", arithmetic="truncating:4"))
+    assert cut_lines(plan) == ()
+    assert len(cut_lines(read_plan_of(Programs("doubles", arithmetic="float64")))) == 1
+
+
+def read_plan_of(*routes: Programs):  # type: ignore[no-untyped-def]
+    from modern.study import Cell, Plan
+
+    return Plan("p", "", "", (Cell({"n": 4}, "integers", {"digits": 1, "n": 4}, routes, 1),))
