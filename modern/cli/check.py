@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from emulator.errors import explanations
 from emulator.language.compiler import translate
-from modern.cli.shared.console import BAD_INPUT, OK, UsageError
+from modern.cli.shared.console import BAD_INPUT, OK, UsageError, counted
 from modern.cli.shared.machine import layers_of, source_deck
 
 
@@ -31,8 +31,10 @@ def main(args: argparse.Namespace) -> int:
             if message.column:
                 print("    " + " " * (message.column - 1) + "^")
     if program is None:
-        errors = sum(not message.warning for message in messages)
-        print(f"{deck.source}: {errors} error{'s' * (errors != 1)}")
+        errors = [message for message in messages if not message.warning]
+        numbers = sorted({message.number for message in errors} - {0})
+        more = f" (hull1620 check --explain {numbers[0]} says more)" if numbers else ""
+        print(f"{deck.source}: {counted(len(errors), 'error')}{more}")
         return BAD_INPUT
     statements, data = len(program.statements), program.storage.fields * 10
     print(
