@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
@@ -25,7 +25,8 @@ from emulator.language.cards import Deck
 from emulator.language.objectcode import Line, Program
 from emulator.machine.endings import Ending
 from emulator.machine.interpreter import Entry, Journal
-from emulator.machine.operator import Operator, operated
+from emulator.machine.machine import operated
+from emulator.machine.operator import Operator
 from emulator.machine.postdominators import meeting, post_dominators, successors
 from emulator.machine.result import Options, begun
 from emulator.machine.session import Session
@@ -113,15 +114,16 @@ def diverge(
     options: Options | None = None,
     *,
     values: bool = True,
+    operator: Callable[[], Operator] = Operator,
 ) -> Divergence:
     """Run a program over two arithmetics in step; ``options`` without their profile and numbers.
 
     Without ``values`` only decisions are compared, and only up to the first that differs: the way for studies of
-    many decks.  Raises CardError and DeckError where both runs find the same fault in the deck, DeckError where
-    the program does not fit the machine.
+    many decks.  ``operator`` gives each run its own.  Raises CardError and DeckError where both runs find the same
+    fault in the deck, DeckError where the program does not fit the machine.
     """
     options = options or Options()
-    runs = [_Run(program, deck, replace(options, numbers=n), values) for n in (studied, reference)]
+    runs = [_Run(program, deck, replace(options, numbers=n), values, operator()) for n in (studied, reference)]
     comparison = _Comparison(program, studied, reference)
     apart = ""
     first, second = iter(runs[0].entries()), iter(runs[1].entries())
@@ -165,11 +167,11 @@ def diverge(
 class _Run:
     """One of the two runs, some statements at a time."""
 
-    def __init__(self, program: Program, deck: Deck, options: Options, values: bool) -> None:
+    def __init__(self, program: Program, deck: Deck, options: Options, values: bool, operator: Operator) -> None:
         self.name = options.numbers.name
         self._journal = Journal(values)
         self._session = Session(program, deck, options, journal=self._journal, keep=False)
-        self._operator = Operator()
+        self._operator = operator
         self._program, self._limit = program, options.limit
         self.ending: Ending | None = None
         self.error: EmulatorError | None = None

@@ -8,9 +8,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from emulator.machine.operator import Operator, Output, operated
+from emulator.machine.endings import Ending
+from emulator.machine.operator import Operator, Output
 from emulator.machine.result import Result
-from emulator.machine.session import Session
+from emulator.machine.session import Halt, Session
 
 
 @dataclass
@@ -34,3 +35,30 @@ class Machine(Session):
         ending = operated(self, operator or Operator(self.keyboard), output=output)
         assert ending is not None, "a run has an end"
         return self.result(ending)
+
+
+def operated(
+    session: Session, operator: Operator, goal: int | None = None, output: Output | None = None
+) -> Ending | None:
+    """Run a session on until ``goal`` (None: to its end) with an operator; how it ended, None where it has not.
+
+    ``output`` is handed every event before the operator sees it.  Raises what
+    :meth:`emulator.machine.session.Session.advance` and the operator raise; what was done until then is handed out.
+    """
+    goal = session.options.limit if goal is None else goal
+    session.retypes = operator.retypes
+    while True:
+        if session.halt is None:
+            for action in operator.attend(session):
+                session.act(action)
+        try:
+            found = session.advance(min(goal, operator.goal(session)))
+        finally:
+            events = session.take()
+            if output is not None:
+                output(events)
+            operator.happened(events)
+        if isinstance(found, Halt):
+            session.act(operator.answer(session, found))
+        elif found is not None or session.state.work >= goal:
+            return found

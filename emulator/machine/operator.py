@@ -14,7 +14,6 @@ from dataclasses import dataclass
 from typing import TextIO
 
 from emulator.errors import DeckError, FileError, OperatorError
-from emulator.machine.endings import Ending
 from emulator.machine.result import Event
 from emulator.machine.session import Action, Halt, Session
 from emulator.machine.words import read_action, standing, words_of
@@ -180,30 +179,3 @@ class Logged(Operator):
 
     def _write(self, line: str) -> None:
         self._file.write(line.rstrip() + "\n")
-
-
-def operated(
-    session: Session, operator: Operator, goal: int | None = None, output: Output | None = None
-) -> Ending | None:
-    """Run a session on until ``goal`` (None: to its end) with an operator; how it ended, None where it has not.
-
-    ``output`` is handed every event before the operator sees it.  Raises what
-    :meth:`emulator.machine.session.Session.advance` and the operator raise; what was done until then is handed out.
-    """
-    goal = session.options.limit if goal is None else goal
-    session.retypes = operator.retypes
-    while True:
-        if session.halt is None:
-            for action in operator.attend(session):
-                session.act(action)
-        try:
-            found = session.advance(min(goal, operator.goal(session)))
-        finally:
-            events = session.take()
-            if output is not None:
-                output(events)
-            operator.happened(events)
-        if isinstance(found, Halt):
-            session.act(operator.answer(session, found))
-        elif found is not None or session.state.work >= goal:
-            return found

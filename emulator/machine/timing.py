@@ -159,6 +159,37 @@ def measure(program: Program, result: Result) -> Timing:
     )
 
 
+def shares(program: Program, result: Result) -> tuple[float, ...]:
+    """Processor seconds of each statement of ``program.statements``; together those of :func:`measure`.
+
+    A number of a list is booked where the list stands.  A statement the run ended in may have done less than its count
+    says: the time of all numbers of a kind is shared out by how often their lists began.
+    """
+    seconds = [0.0] * len(program.statements)
+    lists: dict[str, Tally[int]] = {}
+    times, way = 0, ""
+    for instruction, statement in zip(program.code, program.statement_numbers(), strict=True):
+        milliseconds = COSTS[op.NAMES[instruction.operation]].milliseconds
+        if instruction.operation == op.COUNT:
+            times = result.counts[instruction.address]
+        elif instruction.operation == op.BEGIN:
+            way = "<" if program.verbs[instruction.address] in ("READ", "ACCEPT") else ">"
+        elif instruction.operation == op.ITEM:
+            lists.setdefault(("I" if instruction.second == 1 else "E") + way, Tally())[statement] += times
+        if instruction.subscript >= 0:
+            two = program.subscripts[instruction.subscript].columns
+            milliseconds += (SUBSCRIPT_2 if two else SUBSCRIPT).milliseconds
+        seconds[statement] += times * milliseconds / 1000
+    took: dict[str, float] = {}
+    for kind, count in result.numbers:
+        mode = kind.replace("F", "E")
+        took[mode] = took.get(mode, 0.0) + count * FIELD_COSTS[kind].milliseconds / 1000
+    for kind, begun in lists.items():
+        for statement, count in begun.items():
+            seconds[statement] += took.get(kind, 0.0) * count / (begun.total() or 1)
+    return tuple(seconds)
+
+
 def _row(cause: str, costs: list[tuple[int, Cost]]) -> Row:
     used = [(count, cost) for count, cost in costs if count]
     count = sum(count for count, cost in used if cost.milliseconds or cause != CONVERSION)

@@ -75,6 +75,17 @@ def _diverge(parser: ArgumentParser) -> None:
     parser.set_defaults(limit=1_000_000)
 
 
+def _listing(parser: ArgumentParser) -> None:
+    parser.add_argument("program", metavar="PROGRAM.f")
+    parser.add_argument("deck", metavar="DECK", nargs="?", help="data cards; with them the program is run")
+    parser.add_argument("--against", metavar="NAME", default="exact", help="digits lost to this arithmetic, or none")
+    parser.add_argument("--operator", metavar="FILE", help="a file or a log that answers ACCEPT and PAUSE")
+    parser.add_argument("-o", "--output", metavar="FILE", default="-")
+    _machine(parser)
+    _upcase(parser)
+    parser.set_defaults(limit=1_000_000)
+
+
 def _study(parser: ArgumentParser) -> None:
     parser.add_argument("name", metavar="NAME", nargs="?", help="a study built in, or a plan file NAME.toml")
     parser.add_argument("--list", action="store_true", help="list the studies built in")
@@ -342,6 +353,7 @@ COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {
     "octree-hull": ("the digital hull of a voxel solid from its octree, by Yau and Srihari", _octree_hull),
     "apparatus": ("the emendations of the listings, row by row", _apparatus),
     "check": ("the compiler's messages for a program; what an error number means", _check),
+    "listing": ("the cards of a program, each with its count, its share of the time and the digits it lost", _listing),
     "map": ("the storage map of a program", _map),
     "compile": ("the object code of a program", _program),
     "flowchart": ("a program's flow of control as a flow chart, in SVG", _flowchart),

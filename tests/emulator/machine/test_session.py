@@ -10,8 +10,8 @@ import pytest
 from emulator.errors import CardError
 from emulator.language.cards import deck_from_lines
 from emulator.machine.endings import Ending
-from emulator.machine.machine import Machine
-from emulator.machine.operator import Operator, operated
+from emulator.machine.machine import Machine, operated
+from emulator.machine.operator import Operator
 from emulator.machine.result import Event, Options
 from emulator.machine.session import Action, Halt, Session
 from tests.support.deckwork import machine, program, run
