@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from emulator.language.formats import MAX_LITERAL, MAX_RECORD
+from emulator.language.parser import MAX_NESTING
 from tests.support.deckwork import code, diagnostics, errors, punched, run
+from tests.support.paths import ROOT
 
 FILLED = ["DIMENSION A(9),B(2,4)", "DO 5 I=1,9", "5 A(I)=I"]
 """A(k) is k."""
@@ -62,6 +65,23 @@ def test_sixty_parentheses_are_parsed_and_sixty_one_are_not() -> None:
     assert diagnostics(*cards(f"X={sixty}"), "END") == ()
     assert diagnostics(*cards(f"X={sixty}+{sixty}"), "END") == ()
     assert len(errors(*cards(f"X=({sixty})"), "END")) == 1
+
+
+@pytest.mark.parametrize(
+    ("what", "much"),
+    [
+        ("parentheses in parentheses", f"{MAX_NESTING} deep"),
+        ("loops in a list", "three, one in the other"),
+        ("groups in a FORMAT", "two, one in the other, within its own parentheses"),
+        ("fields of a FORMAT, repetitions written out", "2,000"),
+        ("width of X and H", f"{MAX_LITERAL} (p. 37, 41); more is a warning"),
+        ("a record", f"{MAX_RECORD} characters (p. 43, 56); more is a warning"),
+        ("data", "5,988 numbers in 60,000 positions"),
+    ],
+)
+def test_the_manual_has_every_limit(what: str, much: str) -> None:
+    """Those that are no numbers of the code are tried by the tests of this file and of the compiler's messages."""
+    assert f"| {what} | {much} |" in (ROOT / "docs" / "fortran.md").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(

@@ -14,8 +14,9 @@ from emulator.machine.machine import Machine
 from emulator.machine.result import Options
 from emulator.numbers import numbers
 from tests.support.commands import call
-from tests.support.paths import ROOT
+from tests.support.paths import DATA, ROOT
 
+PERIOD = DATA / "period"
 SOURCE = "      READ 6,I\n      J=I*I\n      PUNCH 6,J\n      STOP\n    6 FORMAT(I3)\n      END\n"
 
 
@@ -30,6 +31,7 @@ def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 CALLS = {
     "check": (),
     "compile": (),
+    "flowchart": (),
     "map": (),
     "run": ("one.deck",),
     "diverge": ("one.deck",),
@@ -57,6 +59,20 @@ def test_upcase_makes_it_the_program_in_capitals(command: str, capsys: pytest.Ca
     assert expected[0] == 0
     code, out, err = call(capsys, command, "small.f", *CALLS[command], "--upcase")
     assert (code, out.replace("small.f", "large.f"), err) == expected
+
+
+def test_a_period_program_in_small_letters_runs(capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, err = call(capsys, "run", str(PERIOD / "pi.f"), str(PERIOD / "pi.deck"), "--upcase")
+    assert (code, err) == (0, "")
+    assert [line[-9:] for line in out.splitlines()] == ["3.1405970", "3.1415928"]
+
+
+def test_a_period_program_is_run_by_the_operator_of_its_file(capsys: pytest.CaptureFixture[str]) -> None:
+    operator = f"--operator={PERIOD / 'job.operator'}"
+    code, out, err = call(capsys, "run", str(PERIOD / "job.f"), str(PERIOD / "job.deck"), operator)
+    assert (code, len(out.splitlines())) == (0, 2)
+    assert err.splitlines()[2:4] == ["ROOT    2.0945515     4 STEPS", "   1   .20588235E+01  -.39080030E+00"]
+    assert "PAUSE" not in err
 
 
 def test_a_deck_of_data_is_never_read_as_capitals(capsys: pytest.CaptureFixture[str]) -> None:
