@@ -229,6 +229,18 @@ def _flowchart(parser: ArgumentParser) -> None:
     which.add_argument("--table", action="store_true", help="every way from box to box as text instead of the picture")
 
 
+def _punched(parser: ArgumentParser) -> None:
+    parser.add_argument("deck", metavar="DECK", help="a deck, one card a line, or a built-in program's name")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE.svg",
+        default="-",
+        help="one picture, or one a card where the name has a place for its number: 'card-%%03d.svg' (default: '-')",
+    )
+    parser.add_argument("--across", metavar="N", type=int, default=1, help="cards side by side (default: 1)")
+
+
 def _map(parser: ArgumentParser) -> None:
     parser.add_argument("program", metavar="PROGRAM.f")
     parser.add_argument("--core", type=int, choices=(20000, 40000, 60000), default=40000)
@@ -357,6 +369,7 @@ COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {
     "map": ("the storage map of a program", _map),
     "compile": ("the object code of a program", _program),
     "flowchart": ("a program's flow of control as a flow chart, in SVG", _flowchart),
+    "punched": ("a deck drawn as punched cards, in SVG", _punched),
     "bench": ("the speed of the engines side by side", _bench),
 }
 """Every command, named as its module but for - instead of _: what ``--help`` says of it, and its arguments.

@@ -65,14 +65,16 @@ def group(name: str, attributes: str, items: Iterable[str]) -> list[str]:
     return [f'<g class="{name}"{_lead(attributes)}>', *found, "</g>"] if found else []
 
 
-def page(width: int, height: int, title: str, items: Iterable[str]) -> str:
-    """A whole file on white ground."""
+def page(width: int, height: int, title: str, items: Iterable[str], description: str = "") -> str:
+    """A whole file on white ground: a picture, or with a description a document, whose text is read out too."""
+    role = "graphics-document document" if description else "img"
     head = (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
-        f'viewBox="0 0 {width} {height}" role="img">'
+        f'viewBox="0 0 {width} {height}" role="{role}">'
     )
+    titles = [_title(title), *([f"<desc>{escape(description)}</desc>"] if description else [])]
     ground = f'<rect width="{width}" height="{height}" fill="#fff"/>'
-    return "\n".join((head, f"<title>{escape(title)}</title>", ground, *items, "</svg>")) + "\n"
+    return "\n".join((head, *titles, ground, *items, "</svg>")) + "\n"
 
 
 def _title(words: str) -> str:

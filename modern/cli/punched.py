@@ -1,0 +1,39 @@
+"""``hull1620 punched``: a deck drawn as punched cards."""
+
+from __future__ import annotations
+
+import argparse
+import re
+from dataclasses import replace
+
+from emulator.files import check_writable, write_text
+from emulator.language.cards import Deck, read_deck
+from modern.cli.shared.console import OK, UsageError
+from modern.drawing.punched import cards_svg, check_punched
+from modern.edition import programs
+
+_NUMBERED = re.compile(r"(?:[^%]|%%)*%(?:0?[1-9])?d(?:[^%]|%%)*")
+"""A name with one place for a number, as printf has it: ``card-%03d.svg``."""
+
+
+def main(args: argparse.Namespace) -> int:
+    """Read the deck, draw it: in one picture, or in one a card where the name has a place for a number."""
+    if args.across < 1:
+        raise UsageError(f"--across: {args.across} is not a number of cards")
+    deck = programs.deck(args.deck) if args.deck in programs.NAMES else read_deck(args.deck)
+    if "%" in args.output:
+        _one_a_card(deck, args.output)
+    else:
+        write_text(args.output, cards_svg(deck, args.across))
+    return OK
+
+
+def _one_a_card(deck: Deck, pattern: str) -> None:
+    """A file for each card; none where one of the cards cannot be drawn or one of the files cannot be written."""
+    if not _NUMBERED.fullmatch(pattern):
+        raise UsageError(f"--output: {pattern!r} has no place for a number as in 'card-%03d.svg'")
+    check_punched(deck)
+    names = [pattern % card.number for card in deck.cards]
+    check_writable(*names)
+    for name, card in zip(names, deck.cards, strict=True):
+        write_text(name, cards_svg(replace(deck, cards=(card,)), title=f"{deck.source}: card {card.number}"))

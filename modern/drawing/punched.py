@@ -1,0 +1,121 @@
+"""Punched cards as a picture: holes, the letters the 026 prints along the top, and what the blank form shows.
+
+The card is drawn 96 pixels an inch.  Size 7 3/8 by 3 1/4 inches, holes .055 by .125, columns .087 and rows .25 apart,
+the first ones .251 and .250 from the edges (ANSI X3.21-1967, rectangular holes in twelve-row punched cards).  Holes of
+a character: :data:`emulator.language.cards.PUNCHES`, those of the 026 with code plate H (part 362277 of the parts
+catalog of IBM's 24 and 26 card punches).  The form is that of IBM's card 5081: digits in their rows, numbers of columns
+below.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from emulator.errors import DeckError
+from emulator.language.cards import COLUMNS, PUNCHES, Card, Deck, refuse_strange
+from modern.drawing import svg
+from modern.drawing.layout import Pixel
+
+MOST_CARDS = 2000
+"""Of more cards, a full box, one picture is not drawn."""
+
+ROWS = ("12", "11", *map(str, range(10)))
+"""The rows of holes from the top edge."""
+
+_INCH = 9600
+"""Hundredths of a pixel."""
+WIDTH, HEIGHT = 708, 312
+"""A card in pixels."""
+_MARGIN = 12
+_HOLE = (528, 1200)
+_CUT = Pixel(24_00, 41_57)
+"""The upper left corner is cut a quarter of an inch along the edge, at 60 degrees to it."""
+
+_CARD = 'fill="#f2f2f2" stroke="#666" stroke-width="1"'
+_HOLES = 'fill="#222"'
+_PRINT = 'font-family="Courier New, Courier, monospace" font-size="11" font-weight="bold" fill="#000"'
+_FORM = (
+    'font-family="Helvetica, Arial, sans-serif" font-size="8" fill="#9a9a9a" text-anchor="middle" aria-hidden="true" '
+    'style="user-select:none;-webkit-user-select:none"'
+)
+
+
+def column_centre(column: int) -> int:
+    """How far a column, from 1, lies from the left edge, in hundredths of a pixel."""
+    return (251 + 87 * (column - 1)) * _INCH // 1000
+
+
+def row_centre(row: str) -> int:
+    """How far a row lies from the top edge, in hundredths of a pixel."""
+    return _INCH // 4 * (ROWS.index(row) + 1)
+
+
+def punches(card: Card) -> list[tuple[int, str]]:
+    """The holes of a card as column, from 1, and row."""
+    found = ((column, PUNCHES[char]) for column, char in enumerate(card.text, 1))
+    return [(column, row) for column, code in found if code for row in code.split("-")]
+
+
+def check_punched(deck: Deck) -> None:
+    """Raise CardError, with card and column, for the first character the 026 has no punch for."""
+    for card in deck.cards:
+        refuse_strange(deck.source, card.number, card.text)
+
+
+def cards_svg(deck: Deck, across: int = 1, title: str = "") -> str:
+    """The cards of a deck as the text of an SVG file, in rows of ``across`` cards, the first one upper left.
+
+    title: of the file (default: the deck's name).  The words of a card are text and can be marked and copied.
+    Raises CardError for a character without a punch, DeckError for more than MOST_CARDS cards.
+    """
+    if len(deck.cards) > MOST_CARDS:
+        raise DeckError(f"{deck.source}: {len(deck.cards)} cards; one picture has at most {MOST_CARDS}")
+    check_punched(deck)
+    rows = -(-len(deck.cards) // across)
+    width = _MARGIN + min(across, len(deck.cards)) * (WIDTH + _MARGIN)
+    count = f"{len(deck.cards)} card{'s' * (len(deck.cards) != 1)}"
+    said = f"{count} of 80 columns punched in the code of the IBM 026; what a card says is printed along its top edge."
+    items = ["<defs>", *_form(), "</defs>"]
+    for place, card in enumerate(deck.cards):
+        x, y = (_MARGIN + place % across * (WIDTH + _MARGIN), _MARGIN + place // across * (HEIGHT + _MARGIN))
+        items += _card(card, x, y)
+    return svg.page(width, _MARGIN + rows * (HEIGHT + _MARGIN), title or f"{deck.source}: {count}", items, said)
+
+
+def _form() -> Iterator[str]:
+    """The blank card, drawn once and used for all."""
+    corner = Pixel(WIDTH * 100, HEIGHT * 100)
+    corners = (Pixel(_CUT.x, 0), Pixel(corner.x, 0), corner, Pixel(0, corner.y), Pixel(0, _CUT.y))
+    yield f'<g id="form" {_FORM}>'
+    yield svg.polygon(corners, _CARD)
+    columns = range(1, COLUMNS + 1)
+    places = " ".join(svg.number(column_centre(column)) for column in columns)
+    for digit in ROWS[2:]:
+        yield f'<text x="{places}" y="{svg.number(row_centre(digit) + 290)}">{digit * COLUMNS}</text>'
+    for column in (1, *range(5, COLUMNS + 1, 5)):
+        yield svg.text(Pixel(column_centre(column), 308_00), str(column), 'font-size="6"')
+    yield "</g>"
+
+
+def _card(card: Card, x: int, y: int) -> Iterator[str]:
+    """One card at that place: the form, its holes as one path, its letters as one line of text."""
+    yield f'<g class="card" transform="translate({x} {y})">'
+    yield f"<title>card {card.number}</title>"
+    yield '<use href="#form"/>'
+    wide, high = _HOLE
+    holes = "".join(
+        f"M{svg.number(column_centre(column) - wide // 2)} {svg.number(row_centre(row) - high // 2)}"
+        f"h{svg.number(wide)}v{svg.number(high)}h-{svg.number(wide)}z"
+        for column, row in punches(card)
+    )
+    if holes:
+        yield f'<path class="holes" d="{holes}" {_HOLES}/>'
+        yield _printed(card.text)
+    yield "</g>"
+
+
+def _printed(text: str) -> str:
+    """The letters above their columns: one line to a reader, each with its place."""
+    # Half the width of a letter of this font: every place is that of its left edge, so that blanks keep theirs.
+    places = " ".join(svg.number(column_centre(column) - 330) for column in range(1, len(text) + 1))
+    return f'<text class="words" xml:space="preserve" x="{places}" y="15" {_PRINT}>{svg.escape(text)}</text>'

@@ -1,0 +1,212 @@
+"""Decks drawn as punched cards: holes beside a list of the 026's code, sizes beside the standard, text, errors."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from emulator.errors import CardError, DeckError
+from emulator.language.cards import COLUMNS, PUNCHES, deck_from_lines
+from modern.cli.main import main
+from modern.drawing.punched import HEIGHT, MOST_CARDS, ROWS, WIDTH, cards_svg
+from modern.edition import programs
+from tests.support.paths import DATA
+
+SVG = "{http://www.w3.org/2000/svg}"
+INCH = 96
+"""Pixels."""
+CODE = [
+    line.split("\t") for line in (DATA / "punches_026.tsv").read_text(encoding="ascii").splitlines() if line[:2] != "# "
+]
+HOLE = re.compile(r"M([\d.]+) ([\d.]+)h([\d.]+)v([\d.]+)h-([\d.]+)z")
+
+
+def cards(svg: str) -> list[ElementTree.Element]:
+    return [group for group in ElementTree.fromstring(svg).iter(f"{SVG}g") if group.get("class") == "card"]
+
+
+def holes(card: ElementTree.Element) -> list[tuple[Fraction, Fraction, Fraction, Fraction]]:
+    """Left edge, top edge, width and height of every hole, in inches."""
+    drawn = "".join(path.get("d", "") for path in card.iter(f"{SVG}path"))
+    found = HOLE.findall(drawn)
+    assert HOLE.sub("", drawn) == ""
+    assert all(wide == back for _, _, wide, _, back in found)
+    return [tuple(Fraction(number) / INCH for number in hole[:4]) for hole in found]  # type: ignore[misc]
+
+
+def read(card: ElementTree.Element) -> str:
+    """What a reader finds in the holes: a column for each .087 inch, a row for each .25."""
+    found: dict[int, set[str]] = {}
+    for left, top, width, height in holes(card):
+        column = (left + width / 2 - Fraction(251, 1000)) / Fraction(87, 1000) + 1
+        row = (top + height / 2) / Fraction(1, 4) - 1
+        assert abs(column - round(column)) < Fraction(1, 50)
+        assert row == round(row)
+        found.setdefault(round(column), set()).add(ROWS[int(row)])
+    by_holes = {frozenset(rows.split("-")): sign for sign, rows, _ in CODE}
+    return "".join(by_holes[frozenset(found[k])] if k in found else " " for k in range(1, max(found, default=0) + 1))
+
+
+def words(card: ElementTree.Element) -> list[str]:
+    return [text.text or "" for text in card.iter(f"{SVG}text")]
+
+
+def test_the_code_is_that_of_the_026() -> None:
+    """48 characters with the blank; the commercial graphic @ has the holes of the apostrophe."""
+    listed = {sign: set(rows.split("-")) for sign, rows, _ in CODE}
+    assert len(listed) == 47
+    assert {sign: set(code.split("-")) for sign, code in PUNCHES.items() if sign not in " @"} == listed
+    assert PUNCHES["@"] == PUNCHES["'"]
+    assert PUNCHES[" "] == ""
+    assert set("+-*/()=.,$") < set(listed), "the signs of FORTRAN"
+    for _, rows, column in CODE:
+        assert len(column) == 12
+        assert {ROWS[k] for k, mark in enumerate(column) if mark == "o"} == set(rows.split("-"))
+
+
+@pytest.mark.parametrize(("sign", "rows", "column"), CODE)
+def test_every_character_has_its_holes(sign: str, rows: str, column: str) -> None:
+    (card,) = cards(cards_svg(deck_from_lines("deck", [sign])))
+    assert read(card) == sign
+    assert len(holes(card)) == column.count("o")
+
+
+def test_the_card_has_its_proportions() -> None:
+    """7 3/8 by 3 1/4 inches; holes .055 by .125; margins of column 1, column 80, row 12 and row 9 (ANSI X3.21)."""
+    assert Fraction(WIDTH, INCH) == Fraction(59, 8)
+    assert Fraction(HEIGHT, INCH) == Fraction(13, 4)
+    (card,) = cards(cards_svg(deck_from_lines("deck", ["A" + " " * 78 + "9"])))
+    first, _, last = sorted(holes(card))
+    assert first[2:] == (Fraction(55, 1000), Fraction(125, 1000))
+    assert abs(first[0] + first[2] / 2 - Fraction(251, 1000)) < Fraction(1, 1000)
+    assert abs(Fraction(59, 8) - (last[0] + last[2] / 2) - Fraction(251, 1000)) < Fraction(1, 1000)
+    assert {hole[1] + hole[3] / 2 for hole in holes(card)} == {Fraction(1, 4), Fraction(1), Fraction(3)}
+
+
+def test_the_blank_form_is_cut_at_its_upper_left_corner_and_shows_its_digits() -> None:
+    root = ElementTree.fromstring(cards_svg(deck_from_lines("deck", [" ", "X"])))
+    (form,) = [group for group in root.iter(f"{SVG}g") if group.get("id") == "form"]
+    corners = [tuple(map(float, corner.split(","))) for corner in form.find(f"{SVG}polygon").get("points").split()]  # type: ignore[union-attr]
+    assert corners == [(24, 0), (708, 0), (708, 312), (0, 312), (0, 41.57)]
+    printed = words(form)
+    assert [text for text in printed if len(text) == COLUMNS] == [str(digit) * COLUMNS for digit in range(10)]
+    assert [text for text in printed if len(text) < COLUMNS] == ["1", *map(str, range(5, 81, 5))]
+    assert form.get("aria-hidden") == "true"
+    assert len(list(root.iter(f"{SVG}use"))) == 2
+
+
+@given(st.lists(st.text(st.sampled_from(sorted(set(PUNCHES) - {"@"})), max_size=COLUMNS), min_size=1, max_size=4))
+def test_the_holes_and_the_letters_say_what_the_deck_says(lines: list[str]) -> None:
+    drawn = cards(cards_svg(deck_from_lines("deck", lines)))
+    assert [read(card) for card in drawn] == [line.rstrip(" ") for line in lines]
+    assert ["".join(words(card)) for card in drawn] == [line.rstrip(" ") for line in lines]
+    for card, line in zip(drawn, lines, strict=True):
+        for text in card.iter(f"{SVG}text"):
+            assert len(text.get("x", "").split()) == len(line.rstrip(" "))
+            assert text.get("{http://www.w3.org/XML/1998/namespace}space") == "preserve"
+
+
+def test_a_letter_stands_above_its_column() -> None:
+    (card,) = cards(cards_svg(deck_from_lines("deck", ["  X " * 20])))
+    (text,) = card.iter(f"{SVG}text")
+    places = [float(x) for x in text.get("x", "").split()]
+    for left, top, width, _ in holes(card):
+        column = round((left * INCH - Fraction("24.1")) / Fraction("8.352")) + 1
+        middle = places[column - 1] + 3.3
+        assert abs(middle - float(left + width / 2) * INCH) < 0.1
+        assert float(text.get("y", "")) < float(top * INCH)
+
+
+def test_cards_lie_one_below_another_or_in_rows() -> None:
+    deck = deck_from_lines("deck", ["1", "2", "3"])
+    places = [card.get("transform") for card in cards(cards_svg(deck))]
+    assert places == ["translate(12 12)", "translate(12 336)", "translate(12 660)"]
+    assert '<svg xmlns="http://www.w3.org/2000/svg" width="732" height="984"' in cards_svg(deck)
+    places = [card.get("transform") for card in cards(cards_svg(deck, across=2))]
+    assert places == ["translate(12 12)", "translate(732 12)", "translate(12 336)"]
+    assert 'width="1452" height="660"' in cards_svg(deck, across=2)
+    assert 'width="2172" height="336"' in cards_svg(deck, across=9)
+
+
+def test_the_file_says_what_it_is() -> None:
+    root = ElementTree.fromstring(cards_svg(deck_from_lines("points.deck", ["A(B", "C"])))
+    assert root.find(f"{SVG}title").text == "points.deck: 2 cards"  # type: ignore[union-attr]
+    assert "IBM 026" in (root.find(f"{SVG}desc").text or "")  # type: ignore[union-attr]
+    assert root.get("role") == "graphics-document document"
+    assert [card.find(f"{SVG}title").text for card in cards(ElementTree.tostring(root, "unicode"))] == [  # type: ignore[union-attr]
+        "card 1",
+        "card 2",
+    ]
+
+
+def test_the_picture_is_grey() -> None:
+    """Told apart by shape and grey, never by colour."""
+    for colour in re.findall(r"#([0-9a-fA-F]+)", cards_svg(deck_from_lines("deck", ["AB"])).replace("#form", "")):
+        parts = re.findall("." if len(colour) == 3 else "..", colour)
+        assert len(set(parts)) == 1, colour
+
+
+def test_a_character_without_a_punch_is_named_with_card_and_column() -> None:
+    deck = deck_from_lines("deck.f", ["A=1", "C  what? #1"])
+    with pytest.raises(CardError, match=r"^deck\.f: card 2, column 4: 'w' is not in the card code"):
+        cards_svg(deck)
+
+
+def test_more_cards_than_a_box_are_not_one_picture() -> None:
+    with pytest.raises(DeckError, match=f"{MOST_CARDS + 1} cards"):
+        cards_svg(deck_from_lines("deck", ["1"] * (MOST_CARDS + 1)))
+
+
+@pytest.fixture
+def deck(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "my.deck"
+    path.write_text("  3\n 1.5\n\nEND\n", encoding="ascii")
+    return path
+
+
+def test_the_command_writes_one_picture(deck: Path) -> None:
+    assert main(["punched", "my.deck", "-o", "cards.svg", "--across", "2"]) == 0
+    drawn = cards(Path("cards.svg").read_text(encoding="ascii"))
+    assert [read(card) for card in drawn] == ["  3", " 1.5", "", "END"]
+
+
+def test_the_command_writes_a_picture_a_card(deck: Path) -> None:
+    assert main(["punched", "my.deck", "-o", "card-%02d.svg"]) == 0
+    names = sorted(path.name for path in Path().glob("*.svg"))
+    assert names == ["card-01.svg", "card-02.svg", "card-03.svg", "card-04.svg"]
+    text = Path("card-04.svg").read_text(encoding="ascii")
+    assert [read(card) for card in cards(text)] == ["END"]
+    assert "<title>my.deck: card 4</title>" in text
+
+
+def test_the_command_takes_a_built_in_program(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["punched", "program2"]) == 0
+    drawn = cards(capsys.readouterr().out)
+    assert [read(card) for card in drawn] == [card.text for card in programs.deck("program2").cards]
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["my.deck", "--across", "0"], "--across: 0 is not a number of cards"),
+        (["my.deck", "-o", "card-%s.svg"], "--output: 'card-%s.svg' has no place for a number as in 'card-%03d.svg'"),
+        (["my.deck", "-o", "%d-%d.svg"], "--output: '%d-%d.svg' has no place for a number as in 'card-%03d.svg'"),
+        (["my.deck", "-o", "no/%d.svg"], "no/1.svg: no such file or directory"),
+        (["small.f", "-o", "%d.svg"], "small.f: card 2, column 4: 'x' is not in the card code: letters are capitals"),
+        (["none.deck"], "none.deck: no such file or directory"),
+    ],
+)
+def test_what_cannot_be_drawn_is_one_line(
+    deck: Path, capsys: pytest.CaptureFixture[str], words: list[str], message: str
+) -> None:
+    Path("small.f").write_text("A=1\nC  x\n", encoding="ascii")
+    assert main(["punched", *words]) == 2
+    assert capsys.readouterr().err == f"hull1620: {message}\n"
+    assert list(Path().glob("**/*.svg")) == []
