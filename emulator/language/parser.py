@@ -127,8 +127,9 @@ def _taken_as_comment(card: Card, why: str) -> Diagnostic:
     return Diagnostic(card.number, 1, f"taken as a comment, for its C in column 1: {why}", warning=True)
 
 
+@lru_cache(2048)
 def parse_statement(source: Source) -> tree.Statement:
-    """Parse one statement."""
+    """Parse one statement; decks built anew with a card changed have all others from before."""
     if not source.text:
         raise Refused(source.place, f"a statement number without a statement: {source.label}")
     label = _statement_number(source.label, source.place) if source.label else 0

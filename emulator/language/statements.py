@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import lru_cache
 from string import ascii_lowercase, ascii_uppercase
 
 from emulator.language.cards import Card, Deck
@@ -48,8 +49,8 @@ class Source:
     label: str
     kind: str
     text: str
-    places: tuple[Place, ...]
-    place: Place
+    places: tuple[Place, ...] = field(hash=False)
+    place: Place = field(hash=False)
     cards: tuple[Card, ...]
 
 
@@ -129,6 +130,7 @@ def _continues(card: Card) -> bool:
     return source.kind == "assignment" and _top_level(source.text, ",") >= 0
 
 
+@lru_cache(2048)
 def _source(cards: tuple[Card, ...]) -> Source:
     raw = cards[0].columns(1, LAST_COLUMN) + "".join(card.columns(_FIRST, LAST_COLUMN) for card in cards[1:])
     before = _BEFORE.match(raw)

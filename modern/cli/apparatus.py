@@ -4,52 +4,37 @@ from __future__ import annotations
 
 import argparse
 import shutil
-import sys
 import textwrap
 from collections.abc import Iterator
 
+from emulator.files import read_text
 from modern.cli.shared.console import DIFFERS, OK, UsageError
 from modern.edition import programs
 from modern.edition.apparatus import Row
-from modern.edition.chapter6_cards import device_files, load_chapter
-from modern.edition.chapter6_checks import check_chapter
-from modern.edition.grounds import Proof, check_decks, check_row
+from modern.edition.checks import check_everything
+from modern.edition.grounds import Proof
+from modern.edition.sources import place
 
 
 def main(args: argparse.Namespace) -> int:
     """List rows, or check them."""
     rows = _rows(args)
+    if args.text and not (args.check and args.program is None and args.layer is None):
+        raise UsageError("--text goes with --check of everything")
     if not args.check:
         width = max(48, min(shutil.get_terminal_size((100, 24)).columns, 120))
         for row in rows:
             print("\n".join(show(row, width)))
         print(f"{len(rows)} rows")
         return OK
-    proofs = list(check_decks())
-    for proof in proofs:
-        print(_line(proof))
-    for number, row in enumerate(rows, 1):
-        if sys.stderr.isatty():
-            print(f"\r{number} of {len(rows)}", end="", file=sys.stderr, flush=True)
-        proofs.append(check_row(row))
-        print(_line(proofs[-1]))
-    if sys.stderr.isatty():
-        print("\r", end="", file=sys.stderr)
-    if args.program is None and args.layer is None:
-        proofs.append(check_transcripts())
-        print(_line(proofs[-1]))
+    everything = args.program is None and args.layer is None
+    proofs = []
+    for proof in check_everything(rows, everything, read_text(args.text) if args.text else ""):
+        proofs.append(proof)
+        print(_line(proof), flush=True)
     failed = sum(not proof.holds for proof in proofs)
     print(f"{len(proofs) - failed} of {len(proofs)} hold" + (f"; {failed} FAIL" if failed else ""))
     return DIFFERS if failed else OK
-
-
-def check_transcripts() -> Proof:
-    """Whether chapter 6's cards are its witness, rows and layout, and each of its rows is needed."""
-    chapter = load_chapter()
-    faults = check_chapter(chapter)
-    files, rows = len(device_files(chapter)), len(chapter.text.rows)
-    words = f"{files} device files are witness, {rows} rows and layout, each row needed"
-    return Proof("chapter6", not faults, words if not faults else faults[0])
 
 
 def _line(proof: Proof) -> str:
@@ -58,13 +43,18 @@ def _line(proof: Proof) -> str:
 
 def show(row: Row, width: int) -> Iterator[str]:
     """A row as lines of at most ``width`` columns."""
-    yield f"{row.id}  {row.text}  p. {row.page}  {row.card}  [{row.layer}, {row.kind}, {row.certainty}]"
+    yield f"{row.id}  {row.text}  p. {row.page}  {programs.cards_of(row)}  [{row.layer}, {row.kind}, {row.certainty}]"
+    where = [place(row.text, line) for change in row.changes[:1] for line in (change.line,)]
+    yield from _folded("source", f"{where[0] or f'after row {row.changes[0].line}'}; cause: {row.cause}", width)
     yield from _folded("reads", row.witness, width)
     yield from _folded("lemma", row.lemma, width)
+    for rejected in row.rejected:
+        yield from _folded("not", f"{rejected.reading}: {rejected.reason}", width)
     yield from _folded("why", row.reason, width)
     yield from _folded("evidence", row.evidence, width)
     ground = ", ".join(f"{key} {value}" for key, value in row.ground.items() if key != "kind")
     yield from _folded("ground", f"{row.ground.get('kind', '')}{': ' + ground if ground else ''}", width)
+    yield from _folded("editor", f"{row.editor}, {row.date}", width)
 
 
 def _folded(name: str, text: str, width: int) -> list[str]:

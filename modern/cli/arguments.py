@@ -204,7 +204,10 @@ def _apparatus(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--check",
         action="store_true",
-        help="prove that witness and rows build the decks, and that each row is needed",
+        help="prove that witness and rows build the decks, and that each reading is allowed and needed",
+    )
+    parser.add_argument(
+        "--text", metavar="FILE", help="with --check: a document's OCR text, to compare its excerpts with"
     )
 
 

@@ -12,15 +12,25 @@ from __future__ import annotations
 
 import re
 import tomllib
-from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from datetime import date
 from importlib.resources.abc import Traversable
-from typing import Any, Literal, get_args
+from typing import Any, Literal
 
 from emulator.errors import EmulatorError
 
 PAGE_MARK = "## page "
 LAST_COLUMN = 72
+_OURS = ("lacuna", "examples", "epsilon", "translation", "corrected")
+_LIKENESS = ("sibling",)
+_ADDS = ("lost", "lost-sign", "slip")
+"""Kinds that put in what the witness has not."""
+_CAUSES = ("ocr", "typist", "author", "editor", "undecidable")
+_CAUSE = {"ocr": "ocr", "typist": "typist", "author": "author", "print": "undecidable", "lacuna": "undecidable"}
+"""The cause of a row that names none, by layer; of the other layers it is the editor."""
+_FIELDS = ("id", "layer", "kind", "reason", "evidence", "change")
+_OPTIONAL = ("ground", "cause", "editor", "date", "rdg")
 Certainty = Literal["certain", "probable", "conjecture"]
 
 
@@ -50,20 +60,51 @@ class Change:
 
 
 @dataclass(frozen=True, slots=True)
+class Rejected:
+    """A reading considered and not accepted, and why."""
+
+    reading: str
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
 class Row:
-    """One emendation, with the fields an edition owes its reader (DESIGN, executable apparatus)."""
+    """One emendation, with the fields an edition owes its reader (DESIGN, executable apparatus).
+
+    ``cause`` says whose the departure is: of ``ocr``, ``typist``, ``author``, ``editor``, or ``undecidable``.
+    ``page`` follows from the witness lines the row touches, ``certainty`` from layer, kind and ground; neither is
+    stored.
+    """
 
     id: str
     text: str
-    page: str
-    card: str
     layer: str
     kind: str
     reason: str
     evidence: str
-    certainty: Certainty
     changes: tuple[Change, ...]
     ground: Mapping[str, Any] = field(default_factory=dict)
+    cause: str = "ocr"
+    editor: str = ""
+    date: str = ""
+    rejected: tuple[Rejected, ...] = ()
+    page: str = ""
+
+    @property
+    def certainty(self) -> Certainty:
+        """How sure the reading is, by the first rule that applies (fortran_src/README.md).
+
+        Cards of ours and what is conjectured to be missing: conjecture.  What may be the author's or the typist's, or
+        whose cause is undecidable, and what rests on likeness to another place alone: probable.  The rest: certain.
+        """
+        if self.layer in _OURS or not self.ground:
+            return "conjecture"
+        likeness = self.ground["kind"] in _LIKENESS and self.kind in _ADDS
+        whole = self.ground.get("whole", False) or self.ground.get("check") == "minus-with-point"
+        departed = self.cause not in ("ocr", "editor") and self.layer != "print"
+        if departed or likeness or whole:
+            return "probable"
+        return "certain"
 
     @property
     def witness(self) -> str:
@@ -135,7 +176,9 @@ def load(folder: Traversable, name: str) -> Text:
     witness = folder.joinpath(*str(head["witness"]).split("/")).read_text(encoding="utf-8")
     lines = read_witness(witness, tuple(head.get("furniture", ())))
     layers = tuple(head["layers"])
-    rows = tuple(_row(head["id"], raw, layers) for raw in data.get("row", ()))
+    rows = tuple(_row(head, raw) for raw in data.get("row", ()))
+    pages, origins = {line.id: line.page for line in lines}, {row.id: row for row in rows}
+    rows = tuple(_with_page(row, pages, origins) for row in rows)
     seen: set[str] = set()
     for row in rows:
         if row.id in seen:
@@ -155,26 +198,31 @@ def build(text: Text, layers: Iterable[str] | None = None, without: Collection[s
     unknown = wanted.difference(text.layers)
     if unknown:
         raise ApparatusError(f"{text.id} has no layer {', '.join(sorted(unknown))}; it has {', '.join(text.layers)}")
-    lines = list(text.witness)
+    page = _Page(text.witness)
     for layer in text.layers:
         if layer not in wanted:
             continue
         for row in text.rows:
             if row.layer == layer and row.id not in without:
-                lines = _apply(row, lines)
-    return tuple(line for line in lines if line.text.strip())
+                page.apply(row)
+    return tuple(line for line in page.lines() if line.text.strip())
 
 
 def lost_with(text: Text, row_id: str) -> frozenset[str]:
     """The row and those that cannot stand without it: they change a card it inserted, or a fragment it supplied."""
+    return built_without(text, row_id)[0]
+
+
+def built_without(text: Text, row_id: str) -> tuple[frozenset[str], tuple[Line, ...]]:
+    """:func:`lost_with`, and the text of all layers without those rows."""
     lost = {row_id}
     while True:
         try:
-            build(text, text.layers, lost)
+            lines = build(text, text.layers, lost)
         except RowMisfit as misfit:
             lost.add(misfit.row_id)
         else:
-            return frozenset(lost)
+            return frozenset(lost), lines
 
 
 class RowMisfit(ApparatusError):
@@ -185,45 +233,56 @@ class RowMisfit(ApparatusError):
         self.row_id = row_id
 
 
-def _apply(row: Row, lines: Sequence[Line]) -> list[Line]:
-    result = list(lines)
-    inserted = 0
-    for change in row.changes:
-        at = _index(row, change.line, result)
-        if change.through:
-            last = _index(row, change.through, result)
-            for i in range(at, last + 1):
-                text = _on_form(result[i].text) if change.form else ""
-                result[i] = Line(result[i].id, text, result[i].page, (*result[i].rows, row.id))
-            continue
-        line = result[at]
-        if change.after:
-            new = change.lemma.split("\n")
-            ids = [f"{row.id}.{inserted + k + 1}" for k in range(len(new))]
-            inserted += len(new)
-            result[at + 1 : at + 1] = [Line(i, t, line.page, (row.id,)) for i, t in zip(ids, new, strict=True)]
-            continue
-        if change.dense:
-            result[at] = Line(line.id, "".join(line.text.split()), line.page, (*line.rows, row.id))
-            continue
-        if line.text.count(change.witness) != 1:
-            raise RowMisfit(
-                row.id,
-                f"{change.witness!r} stands {line.text.count(change.witness)} times in line {line.id}: {line.text!r}",
-            )
-        pieces = line.text.replace(change.witness, change.lemma).split("\n")
-        first = Line(line.id, pieces[0], line.page, (*line.rows, row.id))
-        rest = [Line(f"{row.id}.{inserted + k + 1}", t, line.page, (row.id,)) for k, t in enumerate(pieces[1:])]
-        inserted += len(rest)
-        result[at : at + 1] = [first, *rest]
-    return result
+class _Page:
+    """A text in work: its lines by id, and their order."""
 
+    def __init__(self, witness: Iterable[Line]) -> None:
+        self._at = {line.id: line for line in witness}
+        self._order = list(self._at)
 
-def _index(row: Row, line_id: str, lines: Sequence[Line]) -> int:
-    for i, line in enumerate(lines):
-        if line.id == line_id:
-            return i
-    raise RowMisfit(row.id, f"there is no line {line_id}")
+    def lines(self) -> Iterator[Line]:
+        return (self._at[name] for name in self._order)
+
+    def apply(self, row: Row) -> None:
+        """Make a row's changes.  Raises RowMisfit."""
+        inserted = 0
+        for change in row.changes:
+            line = self._line(row, change.line)
+            if change.through:
+                self._line(row, change.through)
+                first, last = self._order.index(change.line), self._order.index(change.through)
+                for name in self._order[first : last + 1]:
+                    text = _on_form(self._at[name].text) if change.form else ""
+                    self._put(row, self._at[name], text)
+            elif change.after:
+                inserted = self._insert(row, line, change.lemma.split("\n"), inserted)
+            elif change.dense:
+                self._put(row, line, "".join(line.text.split()))
+            else:
+                times = line.text.count(change.witness)
+                if times != 1:
+                    raise RowMisfit(row.id, f"{change.witness!r} stands {times} times in line {line.id}: {line.text!r}")
+                first_piece, *rest = line.text.replace(change.witness, change.lemma).split("\n")
+                self._put(row, line, first_piece)
+                inserted = self._insert(row, line, rest, inserted)
+
+    def _line(self, row: Row, name: str) -> Line:
+        if name not in self._at:
+            raise RowMisfit(row.id, f"there is no line {name}")
+        return self._at[name]
+
+    def _put(self, row: Row, line: Line, text: str) -> None:
+        self._at[line.id] = Line(line.id, text, line.page, (*line.rows, row.id))
+
+    def _insert(self, row: Row, behind: Line, texts: Sequence[str], inserted: int) -> int:
+        """Lines after another, named by the row and numbered from ``inserted`` + 1; how many the row has now."""
+        if texts:
+            new = [f"{row.id}.{inserted + k}" for k in range(1, len(texts) + 1)]
+            at = self._order.index(behind.id) + 1
+            self._order[at:at] = new
+            for name, text in zip(new, texts, strict=True):
+                self._at[name] = Line(name, text, behind.page, (row.id,))
+        return inserted + len(texts)
 
 
 def _on_form(text: str) -> str:
@@ -238,17 +297,19 @@ def _on_form(text: str) -> str:
     return card if len(card) <= LAST_COLUMN else label + statement
 
 
-def _row(text_id: str, raw: Mapping[str, Any], layers: Collection[str]) -> Row:
-    name = str(raw.get("id", "(without id)"))
-    missing = [
-        k for k in ("id", "page", "card", "layer", "kind", "reason", "evidence", "certainty", "change") if k not in raw
-    ]
+def _row(head: Mapping[str, Any], raw: Mapping[str, Any]) -> Row:
+    name, text_id, layers = str(raw.get("id", "(without id)")), head["id"], head["layers"]
+    missing = [k for k in _FIELDS if k not in raw]
     if missing:
         raise ApparatusError(f"{text_id}: row {name} lacks {', '.join(missing)}")
+    strange = [k for k in raw if k not in (*_FIELDS, *_OPTIONAL)]
+    if strange:
+        raise ApparatusError(f"{text_id}: row {name} has {', '.join(strange)}, which no row stores")
     if raw["layer"] not in layers:
         raise ApparatusError(f"{text_id}: row {name} is of layer {raw['layer']!r}; the text has {', '.join(layers)}")
-    if raw["certainty"] not in get_args(Certainty):
-        raise ApparatusError(f"{text_id}: row {name}: certainty is one of {', '.join(get_args(Certainty))}")
+    cause = str(raw.get("cause", _CAUSE.get(raw["layer"], "editor")))
+    if cause not in _CAUSES:
+        raise ApparatusError(f"{text_id}: row {name}: the cause is one of {', '.join(_CAUSES)}")
     changes = tuple(
         Change(
             line=str(c["line"]),
@@ -266,19 +327,38 @@ def _row(text_id: str, raw: Mapping[str, Any], layers: Collection[str]) -> Row:
             raise ApparatusError(
                 f"{text_id}: row {name}: a change needs a witness reading, `after`, `through` or `dense`"
             )
+    rejected = tuple(Rejected(str(r.get("reading", "")), str(r.get("reason", ""))) for r in raw.get("rdg", ()))
+    if not all(r.reading and r.reason for r in rejected):
+        raise ApparatusError(f"{text_id}: row {name}: a rejected reading has a reading and a reason")
+    when = raw.get("date", head.get("date", ""))
     return Row(
         id=name,
         text=text_id,
-        page=str(raw["page"]),
-        card=str(raw["card"]),
         layer=raw["layer"],
         kind=raw["kind"],
         reason=raw["reason"],
         evidence=raw["evidence"],
-        certainty=raw["certainty"],
         changes=changes,
         ground=dict(raw.get("ground", {})),
+        cause=cause,
+        editor=str(raw.get("editor", head.get("editor", ""))),
+        date=when.isoformat() if isinstance(when, date) else str(when),
+        rejected=rejected,
     )
+
+
+def _with_page(row: Row, pages: Mapping[str, str], origins: Mapping[str, Row]) -> Row:
+    """The row with the page, or the first and the last, of the witness lines it touches."""
+
+    def page(line: str) -> str:
+        if line in pages:
+            return pages[line]
+        maker = origins.get(line.rpartition(".")[0])
+        return page(maker.changes[0].line) if maker and maker is not row else ""
+
+    touched = {page(line) for change in row.changes for line in (change.line, change.through) if line}
+    found = [name for name in dict.fromkeys(pages.values()) if name in touched]
+    return replace(row, page="-".join(found if len(found) < 2 else (found[0], found[-1])))
 
 
 def _shown(text: str) -> str:

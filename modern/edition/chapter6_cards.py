@@ -12,11 +12,11 @@ reads a run.  ``python -m modern.edition --check`` runs every check of :mod:`mod
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
-from modern.edition.apparatus import Line, Text, build, load
+from modern.edition.apparatus import Line, Text, build, built_without, load
 from modern.edition.chapter6 import CardShape, Device, DeviceLayout, Field, Layout, Role, chapter6_folder, load_layout
 
 E14 = re.compile(r"[+-]?\.\d{8}E[+-]\d\d")
@@ -64,6 +64,10 @@ class Chapter:
     layout: Layout
     layers: tuple[str, ...]
     without: frozenset[str]
+    places: Mapping[str, int] = field(default_factory=dict, compare=False)
+    """Each line's place in the print."""
+    read: dict[tuple[str, ...], tuple[Card, ...]] = field(default_factory=dict, compare=False)
+    """Cards already read, by device file and lines; a chapter and what is made of it share them."""
 
 
 def load_chapter(layers: Iterable[str] | None = None, without: Collection[str] = ()) -> Chapter:
@@ -78,7 +82,24 @@ def load_chapter(layers: Iterable[str] | None = None, without: Collection[str] =
 def rebuilt(text: Text, layout: Layout, layers: Iterable[str] | None = None, without: Collection[str] = ()) -> Chapter:
     """A chapter from a text and a layout already read; used to see what the print is without some rows."""
     wanted = tuple(text.default if layers is None else layers)
-    return Chapter(text, build(text, wanted, without), layout, wanted, frozenset(without))
+    return _chapter(text, build(text, wanted, without), layout, wanted, frozenset(without), {})
+
+
+def without_row(chapter: Chapter, row_id: str) -> Chapter:
+    """The chapter without a row and those that cannot stand without it, in all layers."""
+    gone, lines = built_without(chapter.text, row_id)
+    return _chapter(chapter.text, lines, chapter.layout, chapter.text.layers, gone, chapter.read)
+
+
+def _chapter(
+    text: Text,
+    lines: tuple[Line, ...],
+    layout: Layout,
+    layers: tuple[str, ...],
+    without: frozenset[str],
+    read: dict[tuple[str, ...], tuple[Card, ...]],
+) -> Chapter:
+    return Chapter(text, lines, layout, layers, without, {line.id: i for i, line in enumerate(lines)}, read)
 
 
 def device_files(chapter: Chapter | None = None) -> tuple[tuple[int, int, Device, str], ...]:
@@ -98,7 +119,7 @@ def printed_lines(chapter: Chapter, entry: DeviceLayout) -> tuple[Line, ...]:
     """The lines of the corrected print a device file covers; none for a typewriter."""
     if entry.span is None:
         return ()
-    places = {line.id: i for i, line in enumerate(chapter.print)}
+    places = chapter.places
     for end in entry.span:
         if end not in places:
             raise TranscriptError(f"{entry.file}: there is no line {end} in the corrected print")
@@ -113,13 +134,18 @@ def cards(chapter: Chapter, example: int, program: int, device: Device) -> tuple
     entry = device_layout(chapter, example, program, device)
     if entry.layer == "stated":
         return tuple(Card(example, program, device, i, "", "", t, ()) for i, t in enumerate(entry.typed, start=1))
-    reader = _Reader(entry.file, printed_lines(chapter, entry))
+    lines = printed_lines(chapter, entry)
+    key = (entry.file, *(text for line in lines for text in (line.id, line.text)))
+    if key in chapter.read:
+        return chapter.read[key]
+    reader = _Reader(entry.file, lines)
     result = []
     for number, (shape, role) in enumerate(entry.cards, start=1):
         tokens = tuple(reader.take(field, number, shape) for field in shape.fields)
         result.append(Card(example, program, device, number, shape.id, role, _image(tokens), tokens))
     reader.finish()
-    return tuple(result)
+    chapter.read[key] = tuple(result)
+    return chapter.read[key]
 
 
 def card_images(chapter: Chapter, example: int, program: int, device: Device) -> tuple[str, ...]:

@@ -1,6 +1,5 @@
 """Checks of the chapter 6 transcript as a whole; each returns its faults, one clear line a fault.
 
-* :func:`check_witness`    the witness is the text the apparatus names (its digest);
 * :func:`check_tie`        every character of the cards is a character of the print, in order, and all lines are used;
 * :func:`check_rows`       every row stands on its ground, and none is superfluous;
 * :func:`check_layout`     columns, blank cards and words of the cards are those of the FORMAT statements;
@@ -10,9 +9,7 @@
 
 from __future__ import annotations
 
-import hashlib
 import re
-import tomllib
 from collections.abc import Sequence
 from decimal import Decimal
 from importlib.resources.abc import Traversable
@@ -20,7 +17,6 @@ from importlib.resources.abc import Traversable
 from emulator.errors import Refused
 from emulator.language.formats import Literal, Slash, parse_format
 from emulator.language.tree import Format, Place
-from modern.edition.apparatus import PAGE_MARK
 from modern.edition.chapter6 import CardShape, DeviceLayout, Field, Role, chapter6_folder
 from modern.edition.chapter6_cards import (
     Chapter,
@@ -47,24 +43,12 @@ def check_chapter(chapter: Chapter, folder: Traversable | None = None) -> tuple[
     """Every check of this module on one chapter; no faults is an empty tuple."""
     at = folder or chapter6_folder()
     return (
-        *check_witness(at),
         *check_tie(chapter),
         *check_rows(chapter),
         *check_layout(chapter),
         *check_arithmetic(chapter),
         *check_files(chapter, at),
     )
-
-
-def check_witness(folder: Traversable) -> tuple[str, ...]:
-    """The witness without its page marks has the digest that ``chapter6.toml`` records."""
-    head = tomllib.loads(folder.joinpath("chapter6.toml").read_text(encoding="utf-8"))["text"]
-    lines = folder.joinpath(head["witness"]).read_text(encoding="utf-8").split("\n")
-    text = "\n".join(line for line in lines if not line.startswith(PAGE_MARK))
-    found = hashlib.sha256(text.encode()).hexdigest()
-    if found != head["sha256_without_marks"]:
-        return (f"{head['witness']}: its digest is {found}, the apparatus was made for another text",)
-    return ()
 
 
 def check_tie(chapter: Chapter) -> tuple[str, ...]:

@@ -23,9 +23,9 @@ from collections.abc import Callable, Mapping, Sequence
 from decimal import Decimal
 from typing import Any
 
-from modern.edition.apparatus import ApparatusError, Line, Row, build, lost_with
+from modern.edition.apparatus import ApparatusError, Line, Row, build
 from modern.edition.chapter6 import Device, Layout, Role
-from modern.edition.chapter6_cards import E14, Card, Chapter, TranscriptError, cards, printed_lines, rebuilt
+from modern.edition.chapter6_cards import E14, Card, Chapter, TranscriptError, cards, printed_lines, without_row
 
 _SIGNED = re.compile(r"[+-]\.\d{8}E[+-]\d\d")
 _STRAY = re.compile(r"\d{4}|\.\d|\d\.|(?<!\S)[.,]|[+-]\s*\d|[^A-Z0-9+\-=.,\s]")
@@ -38,8 +38,7 @@ def row_faults(chapter: Chapter, row: Row) -> tuple[str, ...]:
     """Why the row does not stand: its ground fails in the corrected print, or holds without the row too."""
     grounds = [row.ground, *([row.ground["also"]] if "also" in row.ground else [])]
     faults = []
-    gone = lost_with(chapter.text, row.id)
-    without = rebuilt(chapter.text, chapter.layout, chapter.layers, gone)
+    without = without_row(chapter, row.id)
     for ground in grounds:
         check = _CHECKS.get(str(ground.get("kind", "")))
         if check is None:
@@ -112,8 +111,7 @@ def _deck(chapter: Chapter, row: Row, ground: Ground) -> bool:
     if "field" not in ground:
         return wanted in (_values(chapter, line) for line in _touched(chapter, row))
     value = wanted[ground["field"] - 1]
-    gone = lost_with(chapter.text, row.id)
-    without = rebuilt(chapter.text, chapter.layout, chapter.layers, gone)
+    without = chapter if row.id in chapter.without else without_row(chapter, row.id)
     return _count(chapter, row, value) > _count(without, row, value)
 
 

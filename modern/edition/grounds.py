@@ -5,6 +5,8 @@ comes out no more.  ``deck``: without it a named data deck gives other cards.  `
 is a sibling card with names exchanged, and without it is not.  ``cosmetic``: with or without it the object
 code is the same.
 
+A row of several steps (:mod:`modern.edition.readings`) needs each: without any one of them the ground must fail.
+
 A row of a layer the committed decks are built without is judged with its layer switched on, in all three
 programs, and with the layers its ground names: all rows of the layer against all but this one.
 """
@@ -12,24 +14,29 @@ programs, and with the layers its ground names: all rows of the layer against al
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cache
 
 from emulator.errors import CompileError, EmulatorError
 from emulator.language.cards import Deck, deck_from_text
-from emulator.language.compiler import compile_deck
+from emulator.language.compiler import compile_deck, translate
 from emulator.language.objectcode import Program
+from emulator.language.parser import parse
 from emulator.language.statements import sources
 from emulator.machine.endings import Ending
-from emulator.machine.result import Options
+from emulator.machine.result import LOOP_WINDOW, Options
 from modern.edition import chapter6, programs
 from modern.edition.apparatus import Row, lost_with
+from modern.edition.readings import Step, steps, without_step
 from modern.edition.reproduce import EXACT, State, reproduce
 from modern.thesis.job import run_hull
 
 LISTED = Options(limit=200_000)
 LAYERED = Options(limit=1_000_000, core=60_000)
 """The later layers' tables and cards need a machine of 60,000 positions."""
+PATIENCE = 4
+"""A job that has not ended after so many times the statements it takes with the row is another."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,11 +53,13 @@ def check_decks() -> Iterator[Proof]:
     for entry in programs.BUILT_INS:
         built, committed = programs.built(entry.name), programs.committed(entry.name)
         same = built.text() == committed.text()
+        compiles = not any(not message.warning for message in translate(built)[1])
         rows = sum(row.layer in entry.layers for row in programs.text(entry.text).rows)
         yield Proof(
             f"{entry.name}.f",
-            same,
-            f"{len(built.cards)} cards {'are' if same else 'ARE NOT'} witness and {rows} rows",
+            same and compiles,
+            f"{len(built.cards)} cards {'are' if same else 'ARE NOT'} witness and {rows} rows"
+            + ("" if compiles else ", and do NOT compile"),
         )
 
 
@@ -60,8 +69,18 @@ def check_row(row: Row) -> Proof:
     test = {"parse": _parse, "print": _print, "deck": _deck, "forced": _forced, "cosmetic": _cosmetic}.get(kind)
     if test is None:
         return Proof(row.id, False, f"names no ground (it says {kind!r})")
-    holds, words = test(row)
+    holds, words = test(row, None)
+    if holds and row.layer == "ocr":
+        for step in _each(row):
+            if not test(row, step)[0]:
+                return Proof(row.id, False, f"{kind}: {step.pair.lemma!r} for {step.pair.witness!r} is not needed")
     return Proof(row.id, holds, f"{kind}: {words}")
+
+
+def _each(row: Row) -> tuple[Step, ...]:
+    """The steps of a row that has several; a single one is the row."""
+    made = steps(row) or ()
+    return made if len(made) > 1 else ()
 
 
 def _name(row: Row) -> str:
@@ -76,47 +95,66 @@ def layers_for(row: Row) -> tuple[str, ...]:
     return (row.layer, *(str(layer) for layer in row.ground.get("layers", ())))
 
 
-def _built(row: Row, left_out: Collection[str] = ()) -> Deck:
-    return programs.built(_name(row), layers_for(row), left_out)
+def _built(row: Row) -> Deck:
+    return programs.built(_name(row), layers_for(row))
+
+
+def _without(row: Row, step: Step | None) -> Deck:
+    """The deck without a row and those that cannot stand without it, or without one step of the row."""
+    if step is None:
+        return programs.built(_name(row), layers_for(row), _lost(row))
+    text = programs.text(row.text)
+    rows = tuple(without_step(row, step) if one.id == row.id else one for one in text.rows)
+    return programs.built(_name(row), layers_for(row), (), replace(text, rows=rows))
 
 
 def _lost(row: Row) -> frozenset[str]:
     return lost_with(programs.text(row.text), row.id)
 
 
-def _compiled(row: Row, left_out: Collection[str]) -> tuple[Program | None, str]:
+def _compiled(row: Row, step: Step | None) -> tuple[Program | None, str]:
+    """The program without the row, or without a step of it; or why there is none."""
     try:
-        return compile_deck(_built(row, left_out)), ""
+        return compile_deck(_without(row, step)), ""
     except CompileError as error:
         return None, error.diagnostics[0].message
     except EmulatorError as error:
         return None, str(error)
 
 
-def _parse(row: Row) -> tuple[bool, str]:
-    program, message = _compiled(row, _lost(row))
-    if program is None:
+def _whole(row: Row) -> Program:
+    """The program with the row, as it is built in where it is of a committed deck."""
+    return programs.with_layers(_name(row), layers_for(row))
+
+
+def _parse(row: Row, step: Step | None) -> tuple[bool, str]:
+    try:
+        wrong = [message for message in parse(_without(row, step)).diagnostics if not message.warning]
+        message = wrong[0].message if wrong else _compiled(row, step)[1]
+    except EmulatorError as error:
+        message = str(error)
+    if message:
         return True, f"without it: {message}"
     return False, "without it the deck still compiles"
 
 
-def _cosmetic(row: Row) -> tuple[bool, str]:
-    whole, _ = _compiled(row, ())
-    program, message = _compiled(row, _lost(row))
-    if program is None or whole is None:
+def _cosmetic(row: Row, step: Step | None) -> tuple[bool, str]:
+    whole = _whole(row)
+    program, message = _compiled(row, step)
+    if program is None:
         return False, f"without it the deck does not compile: {message}"
     same = program.code == whole.code and program.formats == whole.formats
     return same, f"the object code is {'the same with and without it' if same else 'another without it'}"
 
 
-def _print(row: Row) -> tuple[bool, str]:
+def _print(row: Row, step: Step | None) -> tuple[bool, str]:
     name = _name(row)
     number = programs.built_in(name).number
     state: State = "listing" if name == "program1" else "examples"
     seen = []
     for example in row.ground.get("examples", ()):
-        with_row = _exact(example, state, number, {})
-        program, message = _compiled(row, _lost(row))
+        with_row = _printed(example, state, number)
+        program, message = _compiled(row, step)
         if program is None:
             return False, f"without it the deck does not compile: {message}"
         without_row = _exact(example, state, number, {name: program})
@@ -129,6 +167,12 @@ def _print(row: Row) -> tuple[bool, str]:
     return True, f"example {', '.join(seen)} is exact with it, not without"
 
 
+@cache
+def _printed(example: int, state: State, number: int) -> bool:
+    """Whether an example comes out as the decks are."""
+    return _exact(example, state, number, {})
+
+
 def _exact(example: int, state: State, number: int, instead: dict[str, Program]) -> bool:
     def load(name: str) -> Program:
         return instead.get(name) or programs.program(name)
@@ -137,16 +181,17 @@ def _exact(example: int, state: State, number: int, instead: dict[str, Program])
     return bool(reports) and all(report.verdict.kind == EXACT for report in reports)
 
 
-def _deck(row: Row) -> tuple[bool, str]:
+def _deck(row: Row, step: Step | None) -> tuple[bool, str]:
     deck_name = str(row.ground.get("deck", ""))
     data = ground_deck(deck_name)
     if data is None:
         return False, f"there is no deck {deck_name!r}"
-    whole, _ = _compiled(row, ())
-    program, message = _compiled(row, _lost(row))
-    if whole is None or program is None:
+    whole = _whole(row)
+    program, message = _compiled(row, step)
+    if program is None:
         return False, f"without it the deck does not compile: {message}"
-    one, other = _outcome(row, whole, data), _outcome(row, program, data)
+    one = _outcome(row, whole, data)
+    other = _outcome(row, program, data, PATIENCE * one.longest + LOOP_WINDOW)
     if one.same_as(other):
         return False, f"deck {deck_name} gives the same cards without it"
     ends = one.trouble or "an empty hopper"
@@ -164,10 +209,14 @@ def ground_deck(name: str) -> Deck | None:
 
 @dataclass(frozen=True, slots=True)
 class _Outcome:
-    """What a data deck gave: every line punched and typed, and the last program's ending, or the error of the job."""
+    """What a data deck gave: every line punched and typed, and the last program's ending, or the error of the job.
+
+    ``longest`` counts the statements of the longer program.
+    """
 
     lines: tuple[str, ...]
     ending: Ending | EmulatorError
+    longest: int = 0
 
     @property
     def trouble(self) -> str:
@@ -183,7 +232,7 @@ class _Outcome:
         return self.lines == other.lines and str(one) == str(two)
 
 
-def _outcome(row: Row, program: Program, deck: Deck) -> _Outcome:
+def _outcome(row: Row, program: Program, deck: Deck, limit: int = 0) -> _Outcome:
     """What a data deck gives with ``program`` in the place of the built-in the row is judged by."""
     name, layers = _name(row), layers_for(row)
     first = "program1_examples" if name == "program1_examples" else "program1"
@@ -192,20 +241,21 @@ def _outcome(row: Row, program: Program, deck: Deck) -> _Outcome:
         return program if wanted == name else programs.with_layers(wanted, layers)
 
     try:
-        steps = run_hull(deck, load, LAYERED if layers else LISTED, first).steps
+        options = LAYERED if layers else LISTED
+        steps = run_hull(deck, load, replace(options, limit=limit or options.limit), first).steps
     except EmulatorError as error:
         return _Outcome((), error)
     lines = tuple(line for step in steps for line in (*step.result.punched, *step.result.typed))
-    return _Outcome(lines, steps[-1].result.ending)
+    return _Outcome(lines, steps[-1].result.ending, max(step.result.statements for step in steps))
 
 
-def _forced(row: Row) -> tuple[bool, str]:
+def _forced(row: Row, step: Step | None) -> tuple[bool, str]:
     card, sibling = str(row.ground["card"]), str(row.ground["sibling"])
     names = list(row.ground["rename"])
     exchange = dict(zip(names[::2], names[1::2], strict=True))
     with_row = _card(_built(row), card)
     other = _renamed(_card(_built(row), sibling), exchange)
-    without_row = _card(_built(row, _lost(row)), card)
+    without_row = _card(_without(row, step), card)
     if with_row != other:
         return False, f"card {card} is not card {sibling} with names exchanged"
     if without_row == other:

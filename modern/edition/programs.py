@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -12,7 +13,7 @@ from emulator.errors import DeckError
 from emulator.language.cards import Deck, deck_from_lines, deck_from_text
 from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import Program
-from modern.edition.apparatus import Text, build, load
+from modern.edition.apparatus import Row, Text, build, load
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,19 +64,61 @@ def text(name: str) -> Text:
     return load(sources(), name)
 
 
+@cache
+def _named(name: str, layers: tuple[str, ...]) -> tuple[tuple[str, frozenset[str]], ...]:
+    """For each card of a built-in with ``layers`` what an edition calls it, and the rows that touched it."""
+    entry = built_in(name)
+    lines = build(text(entry.text), (*entry.layers, *layers))
+    found: list[tuple[str, frozenset[str]]] = []
+    before: list[int] = []
+    label, steps = "", 0
+    for number, line in enumerate(lines):
+        match = re.match(r"\s*(\d+)\s*(FORMAT)?", line.text)
+        if line.text.startswith("C  "):
+            before.append(number)
+            found.append(("title", frozenset(line.rows)))
+            continue
+        if match:
+            label, steps = ("FORMAT " if match[2] else "") + match[1], 0
+        name = f"{label}+{steps}" if steps else label
+        name = name or line.text.split("(")[0].split()[0]
+        for comment in before if number > 1 else ():
+            found[comment] = (f"before {name}", found[comment][1])
+        before = []
+        steps += bool(label)
+        found.append((name, frozenset(line.rows)))
+    return tuple(found)
+
+
+def cards_of(row: Row) -> str:
+    """The cards of a listing's row as an edition calls them: ``147+1``, ``FORMAT 9``, ``before 106``, ``131 to 133``.
+
+    They are counted in the deck: a statement number, and how many statements come after it.
+    """
+    entry = next(b for b in BUILT_INS if b.text == row.text and (row.layer in b.layers or b.name == row.text))
+    if row.layer == "examples":
+        entry = built_in("program1_examples")
+    named = _named(entry.name, () if row.layer in entry.layers else (row.layer,))
+    names = [name for name, rows in named if row.id in rows]
+    if len(names) > len(named) // 2:
+        return "all cards"
+    return ", ".join(names) if len(names) < 4 else f"{names[0]} to {names[-1]}"
+
+
 def committed(name: str) -> Deck:
     """The committed deck of a built-in program."""
     return deck_from_text(f"{name}.f", sources().joinpath(f"{name}.f").read_text(encoding="ascii"))
 
 
-def built(name: str, layers: Sequence[str] = (), without: Collection[str] = ()) -> Deck:
+def built(name: str, layers: Sequence[str] = (), without: Collection[str] = (), instead: Text | None = None) -> Deck:
     """A built-in program built anew from witness and apparatus.
 
-    ``layers`` are added to its own, the rows ``without`` left out.  Raises ApparatusError where that does not
-    build, CardError where the result is no deck (a reading the OCR left, with a row switched off).
+    ``layers`` are added to its own, the rows ``without`` left out; ``instead`` is a text to take for its own.  Raises
+    ApparatusError where that does not build, CardError where the result is no deck (a reading the OCR left, with a row
+    switched off).
     """
     entry = built_in(name)
-    lines = build(text(entry.text), (*entry.layers, *layers), without)
+    lines = build(instead or text(entry.text), (*entry.layers, *layers), without)
     return deck_from_lines(f"{name}.f", (line.text for line in lines))
 
 

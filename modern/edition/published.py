@@ -66,8 +66,9 @@ class Published:
     """One published result.
 
     ``place`` is where it stands (page, figure or table); ``printed`` its lines as the witness has them, ``corrected``
-    with the apparatus; ``rows`` the emendations that touch them.  ``differs`` says why what is computed is not what is
-    printed, ``cannot`` why nothing can be computed; both empty where the print is to come out.
+    with the apparatus; ``rows`` the emendations that touch them; ``span`` the ids of its first and its last line.
+    ``differs`` says why what is computed is not what is printed, ``cannot`` why nothing can be computed; both empty
+    where the print is to come out.
     """
 
     id: str
@@ -78,6 +79,7 @@ class Published:
     rows: tuple[Row, ...]
     differs: str = ""
     cannot: str = ""
+    span: tuple[str, str] = ("", "")
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,6 +137,7 @@ def results_of(paper: Paper, folder: Traversable | None = None) -> tuple[Publish
                 _rows(text, lines),
                 entry.get("differs", ""),
                 entry.get("cannot", ""),
+                (first, last),
             )
         )
     if free:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-import hashlib
-import tomllib
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
@@ -12,13 +11,13 @@ import pytest
 from modern.edition.apparatus import Row, build
 from modern.edition.chapter4 import (
     Theorem,
-    chapter4_folder,
     load_text,
     load_theorems,
     printed_plane,
     printed_point,
     theorem_faults,
 )
+from modern.edition.checks import chapter4_faults
 
 TEXT = load_text()
 THEOREMS = {theorem.id: theorem for theorem in load_theorems()}
@@ -64,26 +63,12 @@ def test_theorem_4_8_the_last_point_is_outside_planes_3_to_8_only() -> None:
     assert [p.number for p in theorem.planes if p.at(point) > 0] == [3, 4, 5, 6, 7, 8]
 
 
-def test_witness_digest() -> None:
-    head = tomllib.loads(chapter4_folder().joinpath("chapter4.toml").read_text(encoding="utf-8"))["text"]
-    lines = chapter4_folder().joinpath("witness.txt").read_text(encoding="utf-8").split("\n")
-    text = "\n".join(line for line in lines if not line.startswith("## page "))
-    assert hashlib.sha256(text.encode()).hexdigest() == head["sha256_without_marks"]
-    assert text.isascii() is False
-
-
 @pytest.mark.parametrize("row", [r for r in TEXT.rows if r.ground["kind"] == "sibling"], ids=lambda r: r.id)
 def test_row_is_needed(row: Row) -> None:
     """The words stand in the sibling line and, only with the row, in its own."""
-    words = "".join(row.ground["words"].split())
-
-    def holds(ids: list[str], without: tuple[str, ...] = ()) -> bool:
-        lines = build(TEXT, without=without)
-        return any(words in "".join(line.text.split()) for line in lines if line.id in ids)
-
-    assert holds(row.ground["lines"], (row.id,))
-    assert holds(row.ground["own"])
-    assert not holds(row.ground["own"], (row.id,))
+    assert chapter4_faults(TEXT, row) == ()
+    wrong = replace(row, ground={**row.ground, "words": ["no such words"]})
+    assert chapter4_faults(TEXT, wrong) == (f"row {row.id}: its ground does not hold",)
 
 
 def test_two_term_conditions_of_theorem_4_2_are_a_slip() -> None:

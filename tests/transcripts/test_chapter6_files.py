@@ -29,7 +29,6 @@ from modern.edition.chapter6_checks import (
     check_chapter,
     check_files,
     check_tie,
-    check_witness,
 )
 
 CHAPTER = load_chapter()
@@ -215,16 +214,6 @@ def test_guard_an_unused_line_is_caught() -> None:
 def test_guard_a_line_used_twice_is_caught() -> None:
     layout = dataclasses.replace(CHAPTER.layout, headings=(*CHAPTER.layout.headings, "58"))
     assert check_tie(rebuilt(CHAPTER.text, layout)) == ("line 58 is used twice",)
-
-
-def test_guard_a_changed_witness_is_caught(tmp_path: Path) -> None:
-    for name in ("chapter6.toml", "witness.txt"):
-        (tmp_path / name).write_bytes(chapter6_folder().joinpath(name).read_bytes())
-    assert check_witness(tmp_path) == ()
-    text = (tmp_path / "witness.txt").read_text(encoding="utf-8")
-    (tmp_path / "witness.txt").write_text(text.replace(".65020000", ".65020001"), encoding="utf-8")
-    (fault,) = check_witness(tmp_path)
-    assert fault.startswith("witness.txt: its digest is ")
 
 
 def test_guard_a_touched_device_file_is_caught(tmp_path: Path) -> None:

@@ -18,11 +18,8 @@ default = ["ocr"]
 """
 FIELDS = {
     "id": '"T-001"',
-    "page": '"64"',
-    "card": '"101"',
     "layer": '"ocr"',
     "kind": '"misread"',
-    "certainty": '"certain"',
     "reason": '"r"',
     "evidence": '"e"',
     "change": '[{ line = "1", witness = "l", lemma = "1" }]',
@@ -38,26 +35,45 @@ def read(folder: Path, **fields: str | None) -> Text:
     return load(folder, "t")
 
 
-@pytest.mark.parametrize("certainty", ["certain", "probable", "conjecture"])
-def test_a_row_is_certain_probable_or_a_conjecture(tmp_path: Path, certainty: str) -> None:
-    """The three of fortran_src/README.md; the row keeps the word."""
-    assert read(tmp_path, certainty=f'"{certainty}"').row("T-001").certainty == certainty
+@pytest.mark.parametrize("name", ["page", "card", "certainty", "witness"])
+def test_what_is_derived_is_not_stored(tmp_path: Path, name: str) -> None:
+    """A certainty turned "certain" or a card turned 199 has no place to stand."""
+    with pytest.raises(ApparatusError, match=f"^t: row T-001 has {name}, which no row stores$"):
+        read(tmp_path, **{name: '"certain"'})
 
 
 @pytest.mark.parametrize(
-    "certainty", ["sure", "", "cert", "Certain", " certain", "certain, probable", "CONJECTURE", "conjectured"]
+    ("fields", "certainty"),
+    [
+        ({}, "conjecture"),
+        ({"ground": '{ kind = "parse" }'}, "certain"),
+        ({"ground": '{ kind = "parse" }', "cause": '"undecidable"'}, "probable"),
+        ({"ground": '{ kind = "sibling" }'}, "certain"),
+        ({"ground": '{ kind = "sibling" }', "kind": '"lost"'}, "probable"),
+        ({"ground": '{ kind = "order", whole = true }', "kind": '"lost"'}, "probable"),
+        ({"ground": '{ kind = "order" }', "kind": '"lost"'}, "certain"),
+    ],
 )
-def test_another_certainty_is_refused(tmp_path: Path, certainty: str) -> None:
-    """The message names text, row and what may stand there."""
-    with pytest.raises(ApparatusError) as caught:
-        read(tmp_path, certainty=f'"{certainty}"')
-    assert str(caught.value) == "t: row T-001: certainty is one of certain, probable, conjecture"
+def test_certainty_follows_from_layer_kind_and_ground(tmp_path: Path, fields: dict[str, str], certainty: str) -> None:
+    """The rules of fortran_src/README.md."""
+    assert read(tmp_path, **fields).row("T-001").certainty == certainty
 
 
-@pytest.mark.parametrize("certainty", ["1", "true", '["certain"]'])
-def test_a_certainty_that_is_no_word_is_refused(tmp_path: Path, certainty: str) -> None:
-    with pytest.raises(ApparatusError, match="row T-001: certainty is one of"):
-        read(tmp_path, certainty=certainty)
+def test_a_page_is_that_of_the_witness_line(tmp_path: Path) -> None:
+    assert read(tmp_path).row("T-001").page == "64"
+
+
+def test_a_cause_is_one_of_five(tmp_path: Path) -> None:
+    assert read(tmp_path).row("T-001").cause == "ocr"
+    with pytest.raises(ApparatusError, match=r"the cause is one of ocr, typist, author, editor, undecidable$"):
+        read(tmp_path, cause='"chance"')
+
+
+def test_rejected_readings_have_their_reasons(tmp_path: Path) -> None:
+    (found,) = read(tmp_path, rdg='[{ reading = "I", reason = "r" }]').row("T-001").rejected
+    assert (found.reading, found.reason) == ("I", "r")
+    with pytest.raises(ApparatusError, match="a rejected reading has a reading and a reason"):
+        read(tmp_path, rdg='[{ reading = "I" }]')
 
 
 @pytest.mark.parametrize("name", FIELDS)
@@ -69,5 +85,5 @@ def test_a_row_without_one_of_its_fields_is_refused(tmp_path: Path, name: str) -
 
 
 def test_every_field_that_is_missing_is_named(tmp_path: Path) -> None:
-    with pytest.raises(ApparatusError, match=r"^t: row T-001 lacks page, certainty$"):
-        read(tmp_path, page=None, certainty=None)
+    with pytest.raises(ApparatusError, match=r"^t: row T-001 lacks reason, evidence$"):
+        read(tmp_path, reason=None, evidence=None)

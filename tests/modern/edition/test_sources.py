@@ -1,0 +1,110 @@
+"""SOURCES.toml: every witness is a stated excerpt with its hash; a page and a line lead from any row to the text."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from modern.edition import sources
+from modern.edition.apparatus import ApparatusError
+from modern.edition.checks import check_sources, texts
+from modern.edition.sources import Stretch, digest, place, read
+from tests.support.paths import ROOT
+
+TEXTS = texts()
+TABLE = sources.sources()
+UNKNOWN = {"unknown"}
+
+
+def test_every_witness_is_an_excerpt_of_a_document() -> None:
+    witnesses = {str(path.relative_to(ROOT)) for path in ROOT.glob("*/witness/*.txt")}
+    witnesses |= {str(path.relative_to(ROOT)) for path in ROOT.glob("transcripts/*/witness.txt")}
+    assert {excerpt.file for excerpt in TABLE.excerpts} == witnesses
+    assert {excerpt.text for excerpt in TABLE.excerpts} == set(TEXTS)
+    assert {excerpt.document for excerpt in TABLE.excerpts} <= {document.id for document in TABLE.documents}
+
+
+def test_all_hashes_are_those_of_the_files() -> None:
+    assert all(proof.holds for proof in check_sources())
+
+
+def test_every_ground_deck_has_its_hash() -> None:
+    decks = {str(path.relative_to(ROOT)) for path in (ROOT / "fortran_src" / "grounds").glob("*.deck")}
+    assert {file for file, _ in TABLE.decks} == decks
+
+
+def test_a_changed_character_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In each witness and each deck, one at a time."""
+    for name in [excerpt.file for excerpt in TABLE.excerpts] + [file for file, _ in TABLE.decks]:
+
+        def changed(file: str, name: str = name) -> str:
+            text = read(file)
+            return text[:-2] + ("1" if text[-2] != "1" else "2") + text[-1:] if file == name else text
+
+        with monkeypatch.context() as patch:
+            patch.setattr(sources, "read", changed)
+            assert sum(not proof.holds for proof in check_sources()) == 1, name
+
+
+def test_page_marks_are_no_part_of_a_witness() -> None:
+    assert digest("## page 1\na\n## page 2\nb\n") == digest("a\nb\n") != digest("a\nc\n")
+
+
+def test_every_line_with_words_is_a_line_of_the_document() -> None:
+    for excerpt in TABLE.excerpts:
+        document = TABLE.document(excerpt.document)
+        lines = [line for line in read(excerpt.file).split("\n") if not line.startswith("## page ")]
+        for number, line in enumerate(lines, 1):
+            if line.strip():
+                found = excerpt.line(number)
+                assert found is not None, (excerpt.file, number)
+                assert 1 <= found <= document.lines
+
+
+def test_excerpts_of_the_later_papers_hold_no_running_text() -> None:
+    """Numbers, tables, captions and single formulas: no line has more than a dozen words in a row."""
+    for excerpt in TABLE.excerpts:
+        if excerpt.document != "butler-1963":
+            for line in read(excerpt.file).split("\n"):
+                assert len(re.findall(r"[A-Za-z]{2,}", line)) <= 14, line
+
+
+def test_a_row_leads_to_its_page_and_its_line() -> None:
+    """The first line of program 1 is line 822 of the thesis's text (page 64)."""
+    assert place("program1", "2") == "line 823 of butler-1963"
+    assert place("program1", "P1-008.16") == ""
+    for text in TEXTS.values():
+        for row in text.rows:
+            assert row.page or text.id in ("kovalevsky_schulz", "nakamae_nishita_1972")
+            assert any(place(text.id, c.line) or not c.line.isdigit() for c in row.changes)
+
+
+def test_the_whole_text_is_compared_with_its_excerpts(monkeypatch: pytest.MonkeyPatch) -> None:
+    with pytest.raises(ApparatusError, match=r"^a text with SHA-256 ca978112ca1bbdca\.\.\. is none of the documents"):
+        list(check_sources("a"))
+    whole = "first\nalpha beta gamma\n"
+    excerpt = sources.Excerpt("t", "w.txt", "d", "", (Stretch(1, 1, 2, True),))
+    names = ("id", "author", "title", "year", "kind", "institution", "volume", "extent", "doi", "held")
+    document = sources.Document(**dict.fromkeys(names, "d"), sha256=digest(whole), bytes=0, characters=0, lines=2,
+                                rights="", pages=())  # fmt: skip
+    monkeypatch.setattr(sources, "sources", lambda: sources.Sources((document,), (excerpt,), ()))
+    for witness, holds in (("alpha gamma\n", True), ("gamma alpha\n", False), ("beta gamma\n", True)):
+        monkeypatch.setattr(sources, "read", lambda file, witness=witness: witness)
+        assert [same for _, same, _ in sources.check_against(whole)] == [holds]
+
+
+def test_what_is_not_known_is_marked() -> None:
+    for document in TABLE.documents:
+        for field in ("author", "title", "year", "institution", "volume", "extent", "doi", "held", "rights"):
+            assert getattr(document, field) or (field, document.id) == ("volume", "butler-1963")
+        assert len(document.sha256) == 64
+        assert "unknown" in document.held
+
+
+def test_the_license_names_every_folder_of_a_document() -> None:
+    license_ = Path(ROOT / "LICENSE").read_text(encoding="utf-8")
+    for excerpt in TABLE.excerpts:
+        folder = str(Path(excerpt.file).parent)
+        assert folder in license_, folder

@@ -1,0 +1,70 @@
+"""Which ways out of IF, SENSE SWITCH and computed GO TO runs take: counters put on every way."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from emulator.language import objectcode as op
+from emulator.language.cards import Deck
+from emulator.language.objectcode import Counter, Instruction, Program
+from emulator.machine.result import Options
+from modern.thesis.job import Load, run_hull
+
+Arm = tuple[int, str, str]
+"""A program's number, a statement's text with its place (``146+1``), and that of the one it goes to.
+
+Two signs that go to one statement are one arm, and so are the arms that both states of program 1 have.
+"""
+
+LARGE = Options(limit=200_000, core=60_000)
+"""The counters make a program longer; the statements counted are the same."""
+
+
+def with_arms(program: Program) -> tuple[Program, dict[int, tuple[str, str]]]:
+    """The program with a COUNT on every way out, and what each counter counts: a statement, and where it goes."""
+    code, branches, counters = list(program.code), list(program.branches), list(program.counters)
+    statements, places, counted = program.statement_numbers(), _places(program), {}
+    for at, instruction in enumerate(program.code):
+        if instruction.operation in (op.IF, op.IFX, op.SWITCH):
+            table = instruction.address
+        elif instruction.operation == op.SELECT:
+            table = instruction.second
+        else:
+            continue
+        ways = []
+        for target in program.branches[table]:
+            ways.append(len(code))
+            counted[len(counters)] = (places[statements[at]], places[statements[target]])
+            code.append(Instruction(op.COUNT, len(counters), -1, 0))
+            counters.append(Counter(statements[at], False, "way out"))
+            code.append(Instruction(op.BRANCH, len(branches), -1, 0))
+            branches.append((target,))
+        branches[table] = tuple(ways)
+    return replace(program, code=tuple(code), branches=tuple(branches), counters=tuple(counters)), counted
+
+
+def _places(program: Program) -> list[str]:
+    """Each statement's number and text, or the number before it and how many statements it comes after."""
+    found, label, steps = [], 0, 0
+    for line in program.statements:
+        label, steps = (line.label, 0) if line.label else (label, steps + 1)
+        found.append(f"{label}+{steps} {''.join(line.text.split())}")
+    return found
+
+
+def arms(names: Iterable[str], load: Load) -> set[Arm]:
+    """Every arm of programs."""
+    return {(int(name[7]), *arm) for name in names for arm in with_arms(load(name))[1].values()}
+
+
+def taken(decks: Iterable[Deck], load: Load, first: str) -> set[Arm]:
+    """The arms that decks take, program 1 played by ``first``."""
+    made = {name: with_arms(load(name)) for name in (first, "program2", "program3")}
+    found: set[Arm] = set()
+    for deck in decks:
+        for step in run_hull(deck, lambda name: made[name][0], LARGE, first).steps:
+            for counter, arm in made[step.name][1].items():
+                if step.result.counts[counter]:
+                    found.add((step.number, *arm))
+    return found
