@@ -1,0 +1,94 @@
+"""Signs of zero: II-D's by its own rule, PDQ's and the thesis's by the emulator's (OPEN-QUESTIONS 16)."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from tests.support.compiler_runs import PROGRAMS, RUNS, of_pdq, of_the_compiler, punched
+from tests.support.deckwork import run
+
+
+class Signed:
+    """An exact number with the sign of its zero: what II-D does with signs, each operation where it stands."""
+
+    def __init__(self, value: Fraction, minus: bool = False) -> None:
+        self.value, self.minus = value, minus and value == 0
+
+    def __add__(self, other: Signed) -> Signed:
+        return Signed(self.value + other.value)
+
+    def __sub__(self, other: Signed) -> Signed:
+        return Signed(self.value - other.value)
+
+    def __mul__(self, other: Signed) -> Signed:
+        return Signed(self.value * other.value)
+
+    def __truediv__(self, other: Signed) -> Signed:
+        return Signed(self.value / other.value)
+
+    def __pow__(self, power: int) -> Signed:
+        return Signed(self.value**power)
+
+    def __neg__(self) -> Signed:
+        return Signed(-self.value, not self.minus)
+
+
+def zeros_of(program: Path) -> list[tuple[str, str, str]]:
+    """Each expression of which II-D prints a zero: its text, the sign by II-D's rule, and the sign printed."""
+    data = program.with_suffix(".deck").read_text(encoding="ascii").splitlines()
+    names: dict[str, Signed] = {}
+    found = []
+    cards = (card.text for card in of_the_compiler(program))
+    numbers = (Fraction(field.strip()) for card in data for field in re.findall(".{14}", card))
+    for line in program.read_text(encoding="ascii").splitlines():
+        text = line.strip()
+        if text.startswith("READ 1,"):
+            names |= {name: Signed(next(numbers)) for name in text.split(",")[1:]}
+        elif text.startswith("R="):
+            card = next(cards)
+            if not re.search("[1-9]", card.partition("E")[0]):
+                written = re.sub(r"(?<![\w.])(\d+\.\d*|\.\d+)(E-?\d+)?", r"Signed(Fraction('\g<0>'))", text[2:])
+                result = eval(written, {"Signed": Signed, "Fraction": Fraction}, names)
+                assert result.value == 0, text
+                found.append((text, "-" if result.minus else " ", card[0]))
+        elif text.startswith("N="):
+            next(cards)
+    return found
+
+
+def test_the_signs_of_fortran_ii_d_s_zeros_are_those_of_each_operation_where_it_stands() -> None:
+    """All zeros of z1 and of the 450 random expressions by one rule: only a unary minus that comes last leaves one."""
+    found = {program.stem: zeros_of(program) for program in PROGRAMS if program.stem.startswith(("z1", "expr"))}
+    assert all(rule == printed for zeros in found.values() for _, rule, printed in zeros)
+    assert [len(found[name]) for name in ("z1", "expr_101_07")] == [15, 1]
+    assert [text for text, rule, _ in found["z1"] if rule == "-"] == ["R=-0.", "R=-D"]
+
+
+def test_the_signs_of_pdq_s_zeros_are_those_of_the_emulator() -> None:
+    """z1 whole: a unary minus of a factor comes last.  PDQ alone loses the minus of -(C)**2."""
+    program = RUNS / "z1.f"
+    theirs = of_pdq(program)
+    lines = [line.strip() for line in program.read_text(encoding="ascii").splitlines() if "=" in line]
+    differ = [
+        (line, mine, other) for line, mine, other in zip(lines, punched(program), theirs, strict=True) if mine != other
+    ]
+    assert differ == [("R=-(C)**2", "-.10000000E+01", " .10000000E+01")]
+
+
+@pytest.mark.parametrize(
+    ("expression", "rule", "thesis"),
+    [("(Y)*(B)*(-Y)", " ", "-"), ("((-C))-((-C))", " ", "-"), ("A-B*C", " ", "-"), ("-D", "-", "-")],
+)
+def test_no_one_rule_has_the_zeros_of_both(expression: str, rule: str, thesis: str) -> None:
+    """The thesis prints -.00000000E-99 where its programs end a sum in minus a product; so does the emulator."""
+    names = {
+        name: Signed(Fraction(n)) for name, n in zip("ABCDY", (2, 0 if "Y" in expression else 1, 2, 0, 1), strict=True)
+    }
+    assert (" ", "-")[eval(expression, {}, names).minus] == rule
+    lines = [f"{name}={number.value}." for name, number in names.items()]
+    (card,) = run(*lines, f"R={expression}", "PUNCH 1,R", "1 FORMAT(E14.8)", "END").punched
+    assert card == f"{thesis}.00000000E-99"
