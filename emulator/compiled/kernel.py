@@ -85,7 +85,6 @@ class Core(NamedTuple):
     line: Row
     field: Row
     switches: Row
-    powers: Row
 
 
 def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit: int, strict: int) -> int:
@@ -166,11 +165,11 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
             if o == FMP:
                 fm, fe, event = multiply(fm, fe, m, e, rules)
             elif o == FAD:
-                fm, fe, event = add(fm, fe, m, e, rules, core.powers)
+                fm, fe, event = add(fm, fe, m, e, rules)
             elif o == FSB:
-                fm, fe, event = subtract(fm, fe, m, e, rules, core.powers)
+                fm, fe, event = subtract(fm, fe, m, e, rules)
             elif o == FSBR:
-                fm, fe, event = subtract_reversed(fm, fe, m, e, rules, core.powers)
+                fm, fe, event = subtract_reversed(fm, fe, m, e, rules)
             elif o == FDV:
                 fm, fe, event = divide(fm, fe, m, e, rules)
             else:
@@ -253,7 +252,7 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
             fm, fe = from_integer(fixed, rules)
             pc += 1
         elif o == FIX:
-            fixed = to_integer(fm, fe, rules, core.powers)
+            fixed = to_integer(fm, fe, rules)
             pc += 1
         elif o == SELECT:
             if exponents[a] != FIXED_POINT:

@@ -10,8 +10,6 @@ The functions use only what a compiler of integer loops accepts.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from emulator.numbers.arithmetic import (
     KEEPS_LEFT_ZERO,
     MAX_EXPONENT,
@@ -43,7 +41,7 @@ State = tuple[int, int, int]
 """Mantissa, exponent and event."""
 
 
-def add(ma: int, ea: int, mb: int, eb: int, rules: Rules, powers: Sequence[int]) -> State:
+def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
     """FAC + number.  A zero added changes nothing, but that two zeros give a plus zero where the profile says so."""
     if mb == 0:
         if ma == 0 and not rules[KEEPS_LEFT_ZERO]:
@@ -51,7 +49,7 @@ def add(ma: int, ea: int, mb: int, eb: int, rules: Rules, powers: Sequence[int])
         return ma, ea, 0
     if ma == 0:
         return mb, eb, 0
-    m, e = add_digits(ma, ea, mb, eb, rules, powers)
+    m, e = add_digits(ma, ea, mb, eb, rules)
     if e > MAX_EXPONENT:
         return largest(m, rules), MAX_EXPONENT, SUM_OVER
     if e < MIN_EXPONENT and m != 0:
@@ -59,14 +57,14 @@ def add(ma: int, ea: int, mb: int, eb: int, rules: Rules, powers: Sequence[int])
     return m, e, 0
 
 
-def subtract(ma: int, ea: int, mb: int, eb: int, rules: Rules, powers: Sequence[int]) -> State:
+def subtract(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
     """FAC - number: the number is added with its sign reversed, a zero as it is."""
-    return add(ma, ea, -mb, eb, rules, powers)
+    return add(ma, ea, -mb, eb, rules)
 
 
-def subtract_reversed(ma: int, ea: int, mb: int, eb: int, rules: Rules, powers: Sequence[int]) -> State:
+def subtract_reversed(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
     """Number - FAC, as the subroutine FSBR does it: FAC - number, then the sign reversed."""
-    m, e, event = add(ma, ea, -mb, eb, rules, powers)
+    m, e, event = add(ma, ea, -mb, eb, rules)
     m, e = negate(m, e)
     return m, e, event
 

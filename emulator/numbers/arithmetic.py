@@ -12,7 +12,6 @@ Where each rule was obtained stands with :data:`PROFILES`.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 ZERO = -99
@@ -32,21 +31,21 @@ KEEPS_LEFT_ZERO, SIGNED_UNDERFLOW, SIGNED_SUMS, SIGNED_BY_ZERO, POWERS_MULTIPLY 
 a number divided by zero keeps its sign; a whole power is multiplied out, each product cut, not the exact power cut."""
 
 
-def add(ma: int, ea: int, mb: int, eb: int, rules: Rules, powers: Sequence[int]) -> tuple[int, int]:
+def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
     """Sum of two numbers, neither zero.
 
     The operand of smaller exponent is moved right and its digits drop off *before* the addition, all of them or, in
     :func:`add_guarded`, those beyond some more.
     """
     if rules[3]:
-        return add_guarded(ma, ea, mb, eb, rules, powers)
+        return add_guarded(ma, ea, mb, eb, rules)
     if ea < eb:
         ma, ea, mb, eb = mb, eb, ma, ea
     shift = ea - eb
     if shift >= rules[0]:
         return ma, ea
     if shift:
-        mb = mb // powers[shift] if mb > 0 else -(-mb // powers[shift])
+        mb = mb // 10**shift if mb > 0 else -(-mb // 10**shift)
     total = ma + mb
     if total == 0:
         return 0, ZERO
@@ -60,7 +59,7 @@ def add(ma: int, ea: int, mb: int, eb: int, rules: Rules, powers: Sequence[int])
     return (size if total > 0 else -size), ea
 
 
-def add_guarded(ma: int, ea: int, mb: int, eb: int, rules: Rules, powers: Sequence[int]) -> tuple[int, int]:
+def add_guarded(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
     """The same where of the digits beyond P ``guard`` survive the addition (rounding a sum needs one).
 
     With ``sticky`` the lost part still counts as a fraction, so that the rounding which follows is that of the exact
@@ -72,16 +71,16 @@ def add_guarded(ma: int, ea: int, mb: int, eb: int, rules: Rules, powers: Sequen
     shift = ea - eb
     negative = ma < 0
     same = (mb < 0) == negative
-    size = (-ma if negative else ma) * powers[guard]
+    size = (-ma if negative else ma) * 10**guard
     other = -mb if mb < 0 else mb
     lost = 0
     if shift <= guard:
-        other = other * powers[guard - shift]
+        other = other * 10 ** (guard - shift)
     elif shift - guard > digits:
         lost = 1
         other = 0
     else:
-        unit = powers[shift - guard]
+        unit = 10 ** (shift - guard)
         lost = 1 if other % unit else 0
         other = other // unit
     if same:
@@ -95,11 +94,11 @@ def add_guarded(ma: int, ea: int, mb: int, eb: int, rules: Rules, powers: Sequen
     if size < 0:
         size = -size
         negative = not negative
-    wide = base * powers[guard]
+    wide = base * 10**guard
     while size < wide // 10:
         size *= 10
         ea -= 1
-    unit = powers[guard]
+    unit = 10**guard
     if size >= wide:
         unit *= 10
         ea += 1
@@ -164,16 +163,16 @@ def from_integer(value: int, rules: Rules) -> tuple[int, int]:
     return (size if value > 0 else -size), exponent
 
 
-def to_integer(mantissa: int, exponent: int, rules: Rules, powers: Sequence[int]) -> int:
+def to_integer(mantissa: int, exponent: int, rules: Rules) -> int:
     """Floating point to fixed: the four digits just left of the point, with the sign (C26-5619 p. 21)."""
     if exponent <= 0:
         return 0
-    size = mantissa if mantissa > 0 else -mantissa
+    size: int = mantissa if mantissa > 0 else -mantissa
     digits = rules[0]
     if exponent <= digits:
-        size = size // powers[digits - exponent]
+        size = size // 10 ** (digits - exponent)
     elif exponent - digits < 4:
-        size = size * powers[exponent - digits]
+        size = size * 10 ** (exponent - digits)
     else:
         return 0
     size = size % 10000
@@ -243,11 +242,6 @@ def whole_power(mantissa: int, exponent: int, count: int, rules: Rules) -> tuple
     if e < MIN_EXPONENT:
         return 0, (MINUS_ZERO if rules[SIGNED_UNDERFLOW] and m < 0 else ZERO), 4
     return m, e, 0
-
-
-def powers_of_ten(rules: Rules) -> list[int]:
-    """The table of powers the functions above index."""
-    return [10**k for k in range(rules[0] + rules[3] + 2)]
 
 
 @dataclass(frozen=True, slots=True)

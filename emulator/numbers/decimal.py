@@ -10,7 +10,7 @@ from fractions import Fraction
 from functools import cached_property
 
 from emulator.numbers import accumulator, arithmetic, functions
-from emulator.numbers.arithmetic import MINUS_ZERO, ZERO, Profile, Rules, powers_of_ten
+from emulator.numbers.arithmetic import MINUS_ZERO, ZERO, Profile, Rules
 from emulator.numbers.base import Numbers, Trap, cut_decimal
 from emulator.numbers.fields import FALLBACK, Field, Remark, read_floating, write_floating
 
@@ -35,25 +35,21 @@ class DecimalNumbers(Numbers):
     def _rules(self) -> Rules:
         return self.profile.rules
 
-    @cached_property
-    def _powers(self) -> list[int]:
-        return powers_of_ten(self.profile.rules)
-
     def decimal(self, whole: int, power: int, minus: bool = False) -> Pair:
         if whole == 0:
             return 0, MINUS_ZERO if minus else ZERO
         return cut_decimal(whole, power, self._rules[0])
 
     def add(self, first: Pair, second: Pair) -> Pair:
-        m, e, event = accumulator.add(first[0], first[1], second[0], second[1], self._rules, self._powers)
+        m, e, event = accumulator.add(first[0], first[1], second[0], second[1], self._rules)
         return self._trapped(m, e, event) if event else (m, e)
 
     def subtract(self, first: Pair, second: Pair) -> Pair:
-        m, e, event = accumulator.subtract(first[0], first[1], second[0], second[1], self._rules, self._powers)
+        m, e, event = accumulator.subtract(first[0], first[1], second[0], second[1], self._rules)
         return self._trapped(m, e, event) if event else (m, e)
 
     def subtract_reversed(self, first: Pair, second: Pair) -> Pair:
-        m, e, event = accumulator.subtract_reversed(*first, *second, self._rules, self._powers)
+        m, e, event = accumulator.subtract_reversed(*first, *second, self._rules)
         return self._trapped(m, e, event) if event else (m, e)
 
     def multiply(self, first: Pair, second: Pair) -> Pair:
@@ -77,7 +73,7 @@ class DecimalNumbers(Numbers):
         return arithmetic.from_integer(value, self._rules)
 
     def to_integer(self, value: Pair) -> int:
-        return arithmetic.to_integer(*value, self._rules, self._powers)
+        return arithmetic.to_integer(*value, self._rules)
 
     def function(self, name: str, value: Pair) -> tuple[Pair, str]:
         return _given(functions.function(name, *value, self._rules))

@@ -23,19 +23,10 @@ from emulator.numbers.arithmetic import (
     Profile,
     Rules,
     from_integer,
-    powers_of_ten,
 )
 from emulator.numbers.base import decimal_length
 from emulator.numbers.functions import function
 from modern.port.arithmetic import Arithmetic, Exact, RangeError, Vector, scaled_decimal
-
-
-@dataclass(frozen=True, slots=True)
-class Rules1620:
-    """A profile's rules, with the table of powers that additions look into."""
-
-    rules: Rules
-    powers: list[int]
 
 
 class Number1620:
@@ -43,7 +34,7 @@ class Number1620:
 
     __slots__ = ("by", "e", "m")
 
-    def __init__(self, m: int, e: int, by: Rules1620) -> None:
+    def __init__(self, m: int, e: int, by: Rules) -> None:
         self.m = m
         self.e = e
         self.by = by
@@ -52,24 +43,24 @@ class Number1620:
         if not isinstance(other, Number1620):
             return NotImplemented  # a vector takes the operation over, element by element
         by = self.by
-        m, e, _ = accumulator.add(self.m, self.e, other.m, other.e, by.rules, by.powers)
+        m, e, _ = accumulator.add(self.m, self.e, other.m, other.e, by)
         return Number1620(m, e, by)
 
     def __sub__(self, other: Number1620) -> Number1620:
         if not isinstance(other, Number1620):
             return NotImplemented
         by = self.by
-        m, e, _ = accumulator.subtract(self.m, self.e, other.m, other.e, by.rules, by.powers)
+        m, e, _ = accumulator.subtract(self.m, self.e, other.m, other.e, by)
         return Number1620(m, e, by)
 
     def __mul__(self, other: Number1620) -> Number1620:
         if not isinstance(other, Number1620):
             return NotImplemented
-        m, e, _ = accumulator.multiply(self.m, self.e, other.m, other.e, self.by.rules)
+        m, e, _ = accumulator.multiply(self.m, self.e, other.m, other.e, self.by)
         return Number1620(m, e, self.by)
 
     def __truediv__(self, other: Number1620) -> Number1620:
-        m, e, _ = accumulator.divide(self.m, self.e, other.m, other.e, self.by.rules)
+        m, e, _ = accumulator.divide(self.m, self.e, other.m, other.e, self.by)
         return Number1620(m, e, self.by)
 
     def __neg__(self) -> Number1620:
@@ -93,8 +84,8 @@ class Arithmetic1620(Arithmetic):
         return self.profile.name
 
     @cached_property
-    def rules(self) -> Rules1620:
-        return Rules1620(self.profile.rules, powers_of_ten(self.profile.rules))
+    def rules(self) -> Rules:
+        return self.profile.rules
 
     def number(self, value: Exact, minus: bool = False) -> Number1620:
         """The first P digits of a number, as a READ takes them; ``minus``: a zero with a minus sign.
