@@ -46,7 +46,7 @@ def operated(
     :meth:`emulator.machine.session.Session.advance` and the operator raise; what was done until then is handed out.
     """
     goal = session.options.limit if goal is None else goal
-    session.retypes = operator.retypes
+    session.retypes = session.by_lines = operator.present
     while True:
         if session.halt is None:
             for action in operator.attend(session):

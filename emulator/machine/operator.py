@@ -39,10 +39,11 @@ class _Line:
 class Operator:
     """Presses START and types the lines of ``keyboard``; a line that is missing is an error.
 
-    ``retypes`` is as of :class:`emulator.machine.session.Session`.
+    ``present``: somebody sits there, who can type a bad line again and sees each line as it is typed
+    (:class:`emulator.machine.session.Session`).
     """
 
-    retypes = False
+    present = False
 
     def __init__(self, keyboard: Iterable[str] = ()) -> None:
         self._keyboard = iter(keyboard)
@@ -75,7 +76,7 @@ class FromFile(Operator):
     words, and during the run OperatorError for an action that does not fit; both name file and line.
     """
 
-    retypes = True
+    present = True
 
     def __init__(self, name: str, text: str) -> None:
         super().__init__()
@@ -147,7 +148,7 @@ class Logged(Operator):
 
     def __init__(self, operator: Operator, file: TextIO) -> None:
         super().__init__()
-        self.retypes = operator.retypes
+        self.present = operator.present
         self._operator, self._file = operator, file
         self._session: Session | None = None
         self._halt: Halt | None = None

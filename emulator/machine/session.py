@@ -51,7 +51,7 @@ class Action:
     - START: lets the machine go on; ``unasked`` where it is pressed because nobody is there, which a PAUSE has noted.
     - STEP: lets it do ``number`` statements.
     - STOP: ends the run; what was done is kept.
-    - ATTN: has a running machine stand before the next statement.
+    - ATTN: has a running machine stand before the next statement; a second time, where it is, in a list.
     - SWITCH: sets sense switch ``number`` as ``on`` says.
     - BREAK, CLEAR: sets or takes away a breakpoint at statement ``number``, or at what begins on that ``card``.
     """
@@ -74,8 +74,8 @@ class Session:
     ``uncut`` holds numbers that go with the deck's cards, in their order
     (:attr:`emulator.machine.result.Result.uncut`), and are read in place of the columns.  ``journal`` is where a run
     over ``options.numbers`` is written down.  ``keep``: events stay for the result after they were taken.
-    ``retypes``: a bad line typed is asked for again; else it is an error.  Raises DeckError when the program does not
-    fit the machine's core.
+    ``retypes``: a bad line typed is asked for again; else it is an error.  ``by_lines``: the session comes back after
+    every line it types.  Raises DeckError when the program does not fit the machine's core.
     """
 
     program: Program
@@ -86,6 +86,7 @@ class Session:
     uncut: Sequence[Sequence[Uncut]] = field(default=(), kw_only=True)
     keep: bool = field(default=True, kw_only=True)
     retypes: bool = field(default=False, kw_only=True)
+    by_lines: bool = field(default=False, kw_only=True)
 
     def __post_init__(self) -> None:
         program = self.program
@@ -103,7 +104,7 @@ class Session:
         self._before: list[int] | None = None
         self._taken = 0
         self._steps = 0
-        self._called = False
+        self._called = self._came_back = False
         self._again = interpreter.AT_LIMIT
         self._checkpoint: _Checkpoint | None = None
 
@@ -127,11 +128,11 @@ class Session:
         window = limit - min(LOOP_WINDOW, limit // 2)
         if self._before is None:
             found = self._advance(min(goal, window))
-            if found is not None or goal < window:
+            if found is not None or goal < window or self._came_back:
                 return found
             self._before = list(self.state.counts)
         found = self._advance(min(goal, limit))
-        if found is None and goal >= limit:
+        if found is None and goal >= limit and not self._came_back:
             self._ending = looped(self.program, limit, self._before, self.state.counts, self.state.decision)
         return found or self._ending
 
@@ -156,6 +157,9 @@ class Session:
                     self.devices.note(Notice("pause", self.program.source, self.halt.line))
                 if self.halt and self.halt.what != "accept":
                     self.halt = None
+            case "ATTN" if self._called and self._steps and not self.halt:
+                # No statement has begun since: an endless list.
+                self.halt = Halt("stop", self.here, why="attention")
             case "ATTN":
                 self._steps, self._called = 1, True
             case "SWITCH":
@@ -200,16 +204,19 @@ class Session:
         """As :meth:`advance`, at a goal that is not beyond the limit."""
         if self._ending or self.halt:
             return self._ending or self.halt
-        reason = self._again
+        reason, self._came_back = self._again, False
         self.devices.lists = self.tracer is not None or self._steps > 0
         try:
             while True:
                 if reason != interpreter.AT_LIMIT:
-                    self._again = reason
+                    self._again, typed = reason, self.devices.characters
                     self._serve(reason)
                     self._again = interpreter.AT_LIMIT
                     if self.halt:
                         return self.halt
+                    self._came_back = self.by_lines and self.devices.characters != typed
+                    if self._came_back:
+                        return None
                 reason = self._interpret(goal)
                 if reason == interpreter.AT_LIMIT:
                     return None

@@ -201,6 +201,8 @@ def attended(args: argparse.Namespace, program: Program | None = None) -> Iterat
         else:
             lies = program is not None and "-" not in inputs and sys.stdin is not None and not sys.stdin.isatty()
             operator = Operator(sys.stdin if lies else ())
+        if args.slow and show is None:
+            raise UsageError("--slow: nobody sits at a terminal; --operator has the run talk to it")
         if args.log is not None:
             operator = Logged(operator, stack.enter_context(writing(args.log)))
         yield Attended(operator, show, file)

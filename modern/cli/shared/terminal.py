@@ -34,6 +34,7 @@ _SWITCH_KEYS = {
     **{f"\x1b[[{letter}": n for n, letter in enumerate("ABCD", 1)},
 }
 """Escape and a digit (Alt with it), and what terminals send for F1 to F4."""
+_ATTENTIONS = (ATTENTION, "\x1ba", "\x1bA")
 
 
 class Keys:
@@ -42,6 +43,7 @@ class Keys:
     def __init__(self, handle: int) -> None:
         self._handle = handle
         self.gone = False
+        self.called = False
 
     @property
     def width(self) -> int:
@@ -63,17 +65,25 @@ class Keys:
 
     def waiting(self, seconds: float = 0.0) -> bool:
         """Whether a key has been pressed."""
-        return self.gone or bool(select.select([self._handle], [], [], seconds)[0])
+        return self.gone or self.called or bool(select.select([self._handle], [], [], seconds)[0])
 
     def key(self) -> str:
-        """The next key, with all that follows an escape; empty when the terminal has gone."""
+        """The next key, with all that follows an escape; empty when the terminal has gone.
+
+        ATTN is one key, whatever it was; ``called``, set at any time, counts as that key.
+        """
+        while not self.waiting(0.2):
+            pass
+        if self.called:
+            self.called = False
+            return ATTENTION
         found = self._byte()
         if found == "\x1b":
-            while self.waiting(1.0) and not self.gone and len(found) < 6:
+            while self.waiting(1.0) and not (self.gone or self.called) and len(found) < 6:
                 found += self._byte()
                 if found[-1] == "~" or (found[-1].isalpha() and found[-1] != "O") or found[1] not in "O[":
                     break
-        return found
+        return ATTENTION if found in _ATTENTIONS else found
 
     def _byte(self) -> str:
         try:
@@ -90,7 +100,7 @@ class Terminal(Operator):
     ``slow``: lines appear at the typewriter's speed.  ``waits``: a machine just loaded waits for START.
     """
 
-    retypes = True
+    present = True
 
     def __init__(self, keys: Keys, slow: bool = False, waits: bool = True) -> None:
         super().__init__()
@@ -121,7 +131,7 @@ class Terminal(Operator):
     def attend(self, session: Session) -> Iterator[Action]:
         if session is not self._session:
             self._session, self._cards, self._last = session, Cards(), -1
-            self._say(f"{session.program.source} is loaded; Ctrl-C: ATTN; F1 to F4, or Esc 1 to Esc 4: sense switches")
+            self._say(f"{session.program.source} is loaded; Ctrl-C or Esc A: ATTN; F1 to F4, or Esc 1 to 4: switches")
             if self._waits:
                 yield Action("ATTN")
                 return
@@ -242,15 +252,21 @@ def terminal(slow: bool = False, waits: bool = True) -> Iterator[Terminal]:
             with suppress(termios.error):
                 termios.tcsetattr(handle, termios.TCSANOW, keyed)
 
+        def interrupted(number: int, frame: FrameType | None) -> None:
+            keys.called = True
+
+        keys = Keys(handle)
         continued = signal.signal(signal.SIGCONT, resumed)
+        called = signal.signal(signal.SIGINT, interrupted)
         # A terminal that goes away is found gone at the next key, and the run stopped, what it did being kept.
         hung_up = signal.signal(signal.SIGHUP, signal.SIG_IGN)
         try:
             termios.tcsetattr(handle, termios.TCSADRAIN, keyed)
-            yield Terminal(Keys(handle), slow, waits)
+            yield Terminal(keys, slow, waits)
         finally:
             signal.signal(signal.SIGCONT, continued)
             signal.signal(signal.SIGHUP, hung_up)
+            signal.signal(signal.SIGINT, called)
             with suppress(termios.error):
                 termios.tcsetattr(handle, termios.TCSADRAIN, before)
     finally:

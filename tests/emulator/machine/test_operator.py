@@ -185,3 +185,12 @@ def test_lines_for_several_machines() -> None:
     machine(*ASKING).run(operator)
     machine(*ASKING).run(operator)
     assert operator.left == 4
+
+
+@pytest.mark.parametrize("work", range(1, 30))
+def test_a_log_replays_what_was_done_between_two_lines_of_a_list(work: int) -> None:
+    """A session comes back after each line typed, in the middle of a statement too."""
+    lines = ["1 TYPE 90,(K,K=1,5)", "IF(SENSE SWITCH 3)2,1", "2 TYPE 91", "90 FORMAT(2I4)", "91 FORMAT(1HA/1HB)", "END"]
+    first, log = logged(lines, f"AT {work} SWITCH 3 ON\nAT {work + 3} ATTN\nSTEP 2\nSTART\n", limit=80)
+    second, again = logged(lines, log, limit=80)
+    assert (second, again) == (first, log)

@@ -11,7 +11,7 @@ from emulator.errors import CardError
 from emulator.language.cards import deck_from_lines
 from emulator.machine.endings import Ending
 from emulator.machine.machine import Machine, operated
-from emulator.machine.operator import Operator
+from emulator.machine.operator import FromFile, Operator
 from emulator.machine.result import Event, Options
 from emulator.machine.session import Action, Halt, Session
 from tests.support.deckwork import machine, program, run
@@ -145,6 +145,14 @@ def test_slices_do_not_change_a_run(stride: int) -> None:
     assert made.result(ending) == whole
 
 
+@pytest.mark.parametrize("limit", [*range(1, 40), 2_500])
+def test_coming_back_after_every_line_does_not_change_a_run(limit: int) -> None:
+    lines = ["1 TYPE 90,(K,K=1,5)", "IF(SENSE SWITCH 3)2,1", "2 TYPE 91", "90 FORMAT(2I4)", "91 FORMAT(1HA/1HB)", "END"]
+    for switches in ((), (3,)):
+        made = machine(*lines, limit=limit, switches=switches)
+        assert made.run(FromFile("o", "")) == run(*lines, limit=limit, switches=switches)
+
+
 def test_the_limit_is_that_of_a_whole_run() -> None:
     whole = run(*ENDLESS, limit=9_000)
     made = machine(*ENDLESS, limit=9_000)
@@ -174,3 +182,17 @@ def test_an_endless_list_does_not_grow() -> None:
     made = Machine(program(*lines), deck_from_lines("d", ()), Options(limit=50_000))
     made.run(output=lambda events: None)
     assert made.listed == []
+
+
+def test_attention_twice_in_a_list_that_does_not_end() -> None:
+    made = session("N=9999", "5 TYPE 90,(K,K=1,N)", "90 FORMAT(I5)", "END")
+    for _ in range(2):
+        assert made.advance(made.state.work + 500) is None
+        made.act(Action("ATTN"))
+    halt = made.advance(10_000)
+    assert isinstance(halt, Halt)
+    assert (halt.what, halt.why, halt.line.name) == ("stop", "attention", "statement 5 (card 2)")
+    made.act(Action("START"))
+    assert made.advance(made.state.work + 500) is None
+    typed = [int(event.text) for event in made.take()]
+    assert typed == list(range(1, len(typed) + 1))

@@ -169,6 +169,33 @@ def test_attention_in_an_endless_loop(folder: Path) -> None:
     assert [line.split()[0] for line in log if line[0] != "*"] == ["LOAD", "AT", "START", "AT", "START", "AT"]
 
 
+def test_attention_by_other_ways_and_at_a_slow_typewriter(folder: Path) -> None:
+    """Esc A, SIGINT, and Ctrl-C while a line is typed slowly: it is finished at once."""
+    with Person(folder, "run", "loop.f", "one.deck", "--operator") as person:
+        for call_on in (lambda: person.types("\x1bA"), person.interrupts, lambda: person.types("\x1ba")):
+            person.sees("1620> ")
+            person.types("\n")
+            time.sleep(0.3)
+            call_on()
+            person.sees("stopped (attention) before")
+        person.sees("1620> ")
+        person.interrupts()
+        person.sees("1620> ")
+        person.types("stop\n")
+        assert person.ended() == 1
+    (folder / "long.f").write_text(f"      TYPE 9\n    9 FORMAT(49H{'A' * 49})\n      X=1.\n      END\n")
+    with Person(folder, "run", "long.f", "--operator", "--slow") as person:
+        person.sees("1620> ")
+        person.types("\n")
+        person.sees("AAA")
+        person.types("\x03")
+        start = time.monotonic()
+        person.sees("A\n-- stopped (attention) before card 3: X=1.")
+        assert time.monotonic() - start < 3
+        person.types("\n")
+        assert person.ended() == 0
+
+
 def test_a_bad_entry_is_typed_again(folder: Path) -> None:
     with Person(folder, "run", "ask.f", "--operator", "--typewriter", "typed") as person:
         person.sees("before statement 5")
@@ -330,3 +357,9 @@ def test_lines_left_over_are_noted(
     (folder / "more").write_text("ENTER    0   1\nSTART\n")
     code, _, err = call(capsys, "run", "ask.f", "--operator=more")
     assert (code, err) == (0, "   1   0\nnote: more: line 2 and what follows it was not used\n")
+
+
+def test_slow_is_for_a_terminal(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, err = call(capsys, "run", str(folder / "loop.f"), "--slow", "--operator=none")
+    assert (code, out) == (2, "")
+    assert err == "hull1620: --slow: nobody sits at a terminal; --operator has the run talk to it\n"
