@@ -45,14 +45,14 @@ def operated(
     ``output`` is handed every event before the operator sees it.  Raises what
     :meth:`emulator.machine.session.Session.advance` and the operator raise; what was done until then is handed out.
     """
-    goal = session.options.limit if goal is None else goal
+    last = session.options.limit if goal is None else goal
     session.retypes = session.by_lines = operator.present
     while True:
         if session.halt is None:
             for action in operator.attend(session):
                 session.act(action)
         try:
-            found = session.advance(min(goal, operator.goal(session)))
+            found = session.advance(min(last, operator.goal(session)))
         finally:
             events = session.take()
             if output is not None:
@@ -60,5 +60,5 @@ def operated(
             operator.happened(events)
         if isinstance(found, Halt):
             session.act(operator.answer(session, found))
-        elif found is not None or session.state.work >= goal:
+        elif found is not None or (goal is not None and session.state.work >= goal):
             return found
