@@ -157,7 +157,6 @@ def test_attention_in_an_endless_loop(folder: Path) -> None:
         person.sees("stopped (attention) before")
         person.types("variables\n")
         count = int(person.sees("\nA ").split("K ")[-1].split()[0])
-        assert count > 100
         person.types("core k\n")
         assert f"> 39879 K               {count}" in person.sees("1620> ") + person.sees("1620> ")
         person.types("cards\n")
@@ -166,7 +165,9 @@ def test_attention_in_an_endless_loop(folder: Path) -> None:
         assert person.ended() == 0
         assert person.seen.endswith("SWITCH 2 ON\n" + person.seen.rpartition("\n")[0].rpartition("\n")[2] + "\n")
     log = (folder / "log").read_text().splitlines()
-    assert [line.split()[0] for line in log if line[0] != "*"] == ["LOAD", "AT", "START", "AT", "START", "AT"]
+    done = [line.split() for line in log if line[0] != "*"]
+    assert 1_000 < int(done[3][1]) < int(done[5][1])
+    assert [words[0] for words in done] == ["LOAD", "AT", "START", "AT", "START", "AT"]
 
 
 def test_attention_by_other_ways_and_at_a_slow_typewriter(folder: Path) -> None:
