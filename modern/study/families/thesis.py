@@ -17,6 +17,11 @@ plane and points   6        example 4 and two points off its plane
 
 The four larger examples have 9, 8, 15 and 10 points; here the number is drawn from 4 to 17, whose mean is theirs,
 10.5.  Points are in the order drawn.
+
+Chapter 5 prints one more set, in part: of the data sheet (p. 58-59) the first point, 12, 3, .0146, and the last of 8,
+0, .0261, 6.  Two of its six coordinates are decimals of three figures below .1, which no example of chapter 6 has.  The
+kind ``data sheet`` is modelled on it and is drawn only where it is asked for: 8 points of whole numbers from -12 to 12,
+of whose coordinates a share is such decimals, from .0100 to .0999.
 """
 
 from __future__ import annotations
@@ -27,20 +32,47 @@ from modern.study.families.draws import Count, Draw, Drawn, FamilyError, Whole, 
 
 N = (4, 17)
 _LARGE, _SMALL, _WIDE, _MULTIPLE = 200, 9, 20, 3000
+SHEET = "data sheet"
+FORMS = ("alone", "added")
+_SHEET_N, _SHEET_SIZE, _PLACES, _UNIT = 8, 12, 4, 10_000
 
 
-def thesis(draw: Draw, kinds: Mapping[str, int] | None = None, n: Count = N) -> Drawn:
-    """A set of a kind drawn by weight (default: all kinds alike), of ``n`` points where the kind does not say."""
+def thesis(
+    draw: Draw, kinds: Mapping[str, int] | None = None, n: Count = N, decimals: int = 0, form: str = "alone"
+) -> Drawn:
+    """A set of a kind drawn by weight (default: chapter 6's, all alike), of ``n`` points where the kind does not say.
+
+    decimals: of the data sheet, how many of 1,000 coordinates are decimals.  form: ``alone``, such a decimal stands in
+    the place of a whole number, as printed; ``added``, it is added to the whole number (12.0146).
+    """
     weights = dict.fromkeys(KINDS, 1) if kinds is None else dict(kinds)
-    unknown = [kind for kind in weights if kind not in KINDS]
+    unknown = [kind for kind in weights if kind not in (*KINDS, SHEET)]
     if unknown or not weights or min(weights.values()) < 0 or not any(weights.values()):
-        raise FamilyError(f"kinds are {', '.join(KINDS)}, each with a weight of 0 or more")
+        raise FamilyError(f"kinds are {', '.join((*KINDS, SHEET))}, each with a weight of 0 or more")
+    if not isinstance(decimals, int) or not 0 <= decimals <= 1000:
+        raise FamilyError(f"decimals is {decimals}; it is a whole number of thousandths, 0 to 1000")
+    if form not in FORMS:
+        raise FamilyError(f"form is {form!r}; it is {' or '.join(FORMS)}")
     pick = draw.whole(1, sum(weights.values()))
     for kind, weight in weights.items():
         pick -= weight
         if pick <= 0:
+            if kind == SHEET:
+                return drawn(data_sheet(draw, decimals, form), _PLACES, kind=kind)
             return drawn(KINDS[kind](draw, draw.count(n)), kind=kind)
     raise AssertionError
+
+
+def data_sheet(draw: Draw, decimals: int, form: str) -> list[Whole]:
+    """Eight points like those of the data sheet, times 10^4."""
+
+    def coordinate() -> int:
+        whole = draw.whole(-_SHEET_SIZE, _SHEET_SIZE) * _UNIT
+        if draw.whole(1, 1000) > decimals:
+            return whole
+        return draw.whole(100, 999) + (whole if form == "added" else 0)
+
+    return draw.distinct(_SHEET_N, lambda: (coordinate(), coordinate(), coordinate()))
 
 
 def three_points(draw: Draw, _: int) -> list[Whole]:

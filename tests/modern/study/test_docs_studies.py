@@ -51,6 +51,11 @@ def column(study: str, table: str, name: str) -> list[str]:
         return [line[name] for line in csv.DictReader(file)]
 
 
+def table_rows(study: str, table: str) -> list[dict[str, str]]:
+    with open(DOCS / study / f"{table}.csv", encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
 def quoted() -> list[tuple[str, str]]:
     """Sentences of docs/studies.md with their figures taken from the tables, by section."""
     lost = sum(int(n) for n in column("seventy", "causes", "as listed"))
@@ -62,6 +67,7 @@ def quoted() -> list[tuple[str, str]]:
         if outcome == "DATA NOT ACCEPTABLE"
     )
     assert refused == 0
+    third, added = (row for row in table_rows("seventy", "decimals") if row["decimals"] == "33.3 %")
     sizes = {way: cell("rounding", "table", way, "whole numbers up to") for way in column("rounding", "table", "way")}
     (decimal,) = {size for way, size in sizes.items() if not way.startswith("float")}
     tenth = "near a plane with a gap of .1"
@@ -77,6 +83,9 @@ def quoted() -> list[tuple[str, str]]:
         ("seventy", f"and {cell('seventy', 'table', 'as listed', '70s with 2 or more')} of the seventies have two or"),
         ("seventy", f"P3-025 there are {cell('seventy', 'table', 'last pair mended', 'failures in 70')}."),
         ("seventy", f"Of the {lost} failures none is DATA NOT ACCEPTABLE."),
+        ("seventy", f"with the sheet's third {third['refused']} are, or {added['refused']}"),
+        ("seventy", f"if {third['sheets in 70 for two']} of the seventy are such sheets"),
+        ("seventy", f"fail otherwise ({third['failed otherwise']} of {third['sets']})"),
         ("rounding", f"up to {decimal} failed in any decimal way, up to {sizes['float32']} with float32"),
         ("rounding", f"and up to {sizes['float64']} with float64."),
         ("rounding", f"of .1 truncation finds {cell('rounding', 'exact', tenth, 'truncating')} of the hulls"),

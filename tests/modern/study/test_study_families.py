@@ -16,7 +16,7 @@ from modern.study import Cell, PlanError
 from modern.study.families import FAMILIES, draw_sample
 from modern.study.families.draws import Draw, Drawn, FamilyError
 from modern.study.families.given import published_sets
-from modern.study.families.thesis import KINDS
+from modern.study.families.thesis import KINDS, SHEET
 from modern.study.plan import random_of
 
 DRAWN: dict[str, dict[str, Any]] = {
@@ -136,6 +136,25 @@ def test_kinds_are_drawn_alike() -> None:
     assert all(abs(seen.count(kind) - 200) < 6 * 13 for kind in KINDS)
 
 
+@given(seeds, st.integers(0, 1000))
+def test_a_data_sheet_has_eight_points_of_whole_numbers_and_decimals(seed: int, share: int) -> None:
+    parameters = {"kinds": {SHEET: 1}, "decimals": share}
+    alone, added = (numbers(draw("thesis", seed, **parameters, form=form)) for form in ("alone", "added"))
+    assert len(alone) == len(added) == 8
+    for point in alone:
+        assert all(abs(x) <= 12 if x.denominator == 1 else Fraction(1, 100) <= x < Fraction(1, 10) for x in point)
+    assert all(abs(x) <= 12 or x.denominator > 1 for point in added for x in point)
+    for fixed, whole in ((0, True), (1000, False)):
+        points = numbers(draw("thesis", seed, kinds={SHEET: 1}, decimals=fixed))
+        assert all((x.denominator == 1) is whole for point in points for x in point)
+
+
+def test_a_third_of_a_data_sheets_coordinates_are_decimals() -> None:
+    found = [x for k in range(200) for p in numbers(draw("thesis", 1, k, kinds={SHEET: 1}, decimals=333)) for x in p]
+    # Binomial of 4,800 and .333: 1,598 with a standard deviation of 33.
+    assert abs(sum(x.denominator > 1 for x in found) - 1598) < 6 * 33
+
+
 def test_published_sets_are_those_of_the_thesis_in_turn() -> None:
     names = list(published_sets())
     assert names[:6] == [f"example {k}" for k in range(1, 7)]
@@ -166,6 +185,10 @@ def test_published_sets_are_those_of_the_thesis_in_turn() -> None:
         ("near-coplanar", {"digits": 2, "n": 5, "gap": -1}, "gap is -1"),
         ("thesis", {"kinds": {"star": 1}}, "kinds are"),
         ("thesis", {"kinds": {"line": 0}}, "kinds are"),
+        ("thesis", {"decimals": 1001}, "decimals is 1001"),
+        ("thesis", {"decimals": -1}, "decimals is -1"),
+        ("thesis", {"decimals": 0.5}, "decimals is 0.5"),
+        ("thesis", {"form": "both"}, "form is 'both'"),
         ("published", {"sets": ["example 9"]}, "'example 9'"),
         ("points", {"points": [["1", "2", "x"]]}, "'x' is not a decimal number"),
         ("points", {"points": [["1", "2", "3.123456789"]]}, "significant digits"),

@@ -16,7 +16,8 @@ import pytest
 
 from emulator.errors import EmulatorError
 from modern.cli.main import main
-from modern.study import Plan, PlanError, Port, Programs, run_study
+from modern.geometry.hull import NOT_ACCEPTABLE
+from modern.study import Plan, PlanError, Port, Programs, refusals, run_study
 from modern.study.builtin import seventy
 from modern.study.families import FAMILIES
 from modern.study.index import JUDGE, Row
@@ -117,7 +118,13 @@ def test_seventy_counts_what_its_rows_say(tmp_path: Path) -> None:
     folder = tmp_path / "seventy"
     report = run_study(seventy.plan(280, 11), folder, seventy.report, workers=1, quiet=True)
     rows = [json.loads(line) for path in sorted(folder.glob("rows/*")) for line in path.read_text().splitlines()]
+    sheets, rows = [row for row in rows if row["cell"]], [row for row in rows if not row["cell"]]
     assert len(rows) == 280
+    assert len(sheets) == 4 * (2 * len(refusals.SHARES) - 1)
+    refused = Counter(row["cell"] for row in sheets if row["runs"]["as listed"]["outcome"] == NOT_ACCEPTABLE)
+    assert [row["refused"] for row in read(folder / "decimals.csv")] == [
+        percent(wilson(refused[cell], 4)) for cell in range(1, 2 * len(refusals.SHARES))
+    ]
     table = {row["program"]: row for row in read(folder / "table.csv")}
     for route in ("as listed", "last pair mended"):
         groups = [0] * 4
@@ -146,6 +153,19 @@ def test_one_seventy_tells_little(tmp_path: Path) -> None:
     words = " ".join(report.words)
     assert "inf" not in words + " ".join(report.tables[0].rows[0])
     assert "not to be judged from so few seventies" in words
+
+
+def test_the_shares_that_make_two_refusals_likely_lie_where_the_lines_pass_the_bounds() -> None:
+    """Two is the most probable number of 70 from 2/71 to 3/71 (the mode of a binomial distribution)."""
+    low, high = refusals.TWO_LIKELIEST
+    assert (low * 71, high * 71) == pytest.approx((2, 3))
+    assert refusals.likely_shares(((0, 0.0), (71, 1.0))) == pytest.approx((2, 3))
+    assert refusals.likely_shares(((0, 0.0), (10, low), (20, high), (30, 1.0))) == pytest.approx((10, 20))
+    assert refusals.likely_shares(((0, 0.0), (10, 0.03))) is None
+    assert refusals.likely_shares(((0, 0.0), (10, 0.0))) is None
+    sheets = refusals.Sheets(333, "alone", 100, 71, 0)
+    assert refusals.needed(sheets) == "2.8 to 4.2"
+    assert refusals.needed(refusals.Sheets(2, "alone", 100, 2, 0)) == "-"
 
 
 @pytest.mark.parametrize("samples", [0, 69, 71])
