@@ -271,7 +271,7 @@ def test_the_command_line(plan_file: Path, capsys: pytest.CaptureFixture[str]) -
         (["seventy", "--workers", "-1"], "--workers: -1"),
         (["seventy", "--out", ""], "--out is empty"),
         (["seventy", "--dask", ""], "--dask is empty"),
-        (["seventy", "--samples", "70000000000"], "333,333,334 files of rows"),
+        (["seventy", "--samples", "70000000000"], "418,333,334 files of rows"),
         (["seventy", "--workers", "1", "--dask", "tcp://h:1"], "one or the other"),
         (["seventy", "--samples", "70", "--out", "three.toml"], "three.toml: is there"),
         (["seventy", "--samples", "70", "--out", "three.toml/in"], "not a directory"),
