@@ -15,8 +15,8 @@ from emulator.compiled.jit import NotInstalled
 from emulator.compiled.runner import BLOCK, INSTEAD, WAYS, Run, Runner, packed, packed_text, why_plain
 from emulator.language.cards import Deck, deck_from_text
 from emulator.language.objectcode import Program
-from emulator.machine.endings import Ending, Notice, decided, looped, out_of_bounds, stopped, unfit
-from emulator.machine.interpreter import AT_BOUNDS, AT_LIMIT, AT_OUTSIDE, AT_STOP, AT_UNDEFINED
+from emulator.machine.endings import Ending, Notice, decided, looped, out_of_bounds, stopped, too_costly, unfit
+from emulator.machine.interpreter import AT_BOUNDS, AT_COSTLY, AT_LIMIT, AT_OUTSIDE, AT_STOP, AT_UNDEFINED
 from emulator.machine.machine import Machine
 from emulator.machine.result import Event, Options, Result, begun, machine_errors
 
@@ -130,7 +130,9 @@ def _ending(program: Program, options: Options, run: Run) -> Ending:
     if run.reason == devices.AT_HOPPER:
         return Ending("hopper")
     if run.reason == AT_LIMIT:
-        return looped(program, options.limit, run.before, run.counts, decision)
+        return looped(program, options.limit, run.before, run.counts, decision, registers[kernel.COSTLY])
+    if run.reason == AT_COSTLY:
+        return too_costly(program, options.limit, at, decision, registers[kernel.COSTLY])
     if run.reason == AT_STOP:
         return Ending("stop" if program.code[registers[kernel.PC]].second == 0 else "end")
     if run.reason == AT_UNDEFINED:

@@ -41,9 +41,10 @@ from emulator.compiled.devices import (
     item,
     to_field,
 )
-from emulator.compiled.kernel import ADDRESS, AT, CHARACTERISTIC, EVENT, FAC, Core, Row, run
+from emulator.compiled.kernel import ADDRESS, AT, CHARACTERISTIC, EVENT, FAC, WORK, Core, Row, owe, run
 from emulator.machine.interpreter import (
     AT_BEGIN,
+    AT_COSTLY,
     AT_EVENT,
     AT_FINISH,
     AT_FUNCTION,
@@ -52,9 +53,11 @@ from emulator.machine.interpreter import (
     AT_PAUSE,
     AT_POWER,
     AT_POWERX,
+    SLACK,
 )
 from emulator.machine.result import LOOP_WINDOW
 from emulator.numbers.arithmetic import POWERS_MULTIPLY, ZERO, Rules, square_root, whole_power
+from emulator.numbers.work import multiplied
 
 
 class Start(NamedTuple):
@@ -129,7 +132,7 @@ def run_deck(
     now = limit - min(LOOP_WINDOW, limit // 2)
     last = False
     while True:
-        reason = run(code.flat, core, counts, registers, rules, now, strict)
+        reason = run(code.flat, core, counts, registers, rules, now, limit, strict)
         pc = registers[AT]
         address = registers[ADDRESS]
         status = GO_ON
@@ -144,6 +147,10 @@ def run_deck(
         elif reason == AT_EVENT:
             status = error(registers[EVENT], code, core, report, d, announces)
         elif reason == AT_POWERX and (rules[POWERS_MULTIPLY] or -1 <= core.mantissas[address] <= 2):
+            if registers[FAC] != 0 and not -1 <= core.mantissas[address] <= 2:
+                owe(registers, multiplied(core.mantissas[address]))
+                if registers[WORK] > limit + SLACK:
+                    return AT_COSTLY
             m, e, event = whole_power(registers[FAC], registers[CHARACTERISTIC], core.mantissas[address], rules)
             registers[FAC] = m
             registers[CHARACTERISTIC] = e

@@ -13,12 +13,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from emulator.compiled.kernel import ADDRESS, AT, DECISION, WORK, Core, Row
+from emulator.compiled.kernel import ADDRESS, AT, DECISION, WORK, Core, Row, owe
 from emulator.language.cards import COLUMNS
 from emulator.language.objectcode import Flat
 from emulator.machine.result import PUNCH_COLUMNS, TYPEWRITER_COLUMNS
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, Rules
 from emulator.numbers.columns import BLANK, DIGIT, FINE, read_fixed, read_floating, write_fixed, write_floating
+from emulator.numbers.work import ERROR
 
 # Endings besides the kernel's reasons to return; GO_ON says that the run goes on.
 GO_ON, AT_HOPPER, NOT_HERE, LOG_FULL = -1, 100, 101, 102
@@ -60,8 +61,8 @@ class Code(NamedTuple):
 
 
 class Forms(NamedTuple):
-    """All FORMATs, one after the other: of each its bounds, where a longer list goes on, and whether it has fields; of
-    each specification what it is.
+    """All FORMATs, one after the other: of each its bounds, where a longer list goes on, whether it has fields, and
+    what going through it once counts as; of each specification what it is.
 
     ``places`` is where the text of an H or X begins in ``texts``, ``widths`` its length.
     """
@@ -70,6 +71,7 @@ class Forms(NamedTuple):
     last: Row
     again: Row
     fields: Row
+    charges: Row
     kinds: Row
     widths: Row
     decimals: Row
@@ -107,6 +109,7 @@ def begin(code: Code, forms: Forms, cards: Cards, core: Core, report: Report, d:
     devices[SPEC] = forms.first[number]
     devices[LAST_SPEC] = forms.last[number]
     devices[COLUMN] = 0
+    report.registers[d][WORK] += forms.charges[number]
     if verb == ACCEPT:
         return NOT_HERE
     if verb != READ:
@@ -137,6 +140,7 @@ def to_field(code: Code, forms: Forms, cards: Cards, core: Core, report: Report,
                 return NOT_HERE
             status = end_record(code, cards, core, report, d)
             devices[SPEC] = forms.again[devices[FORMAT]]
+            report.registers[d][WORK] += forms.charges[devices[FORMAT]]
         elif forms.kinds[spec] == SLASH:
             status = end_record(code, cards, core, report, d)
             devices[SPEC] = spec + 1
@@ -235,6 +239,7 @@ def error(number: int, code: Code, core: Core, report: Report, d: int, announces
     """Count an error code and, if the profile does, type it."""
     registers = report.registers[d]
     report.errors[d][CODES * code.statements[registers[AT]] + number] += 1
+    owe(registers, ERROR)
     if not announces:
         return GO_ON
     field = core.field
@@ -262,7 +267,7 @@ def item(
     spec, address = devices[SPEC], registers[ADDRESS]
     devices[SPEC] += 1
     kind, width, decimals = forms.kinds[spec], forms.widths[spec], forms.decimals[spec]
-    fixed = code.flat.seconds[registers[AT]] == 1
+    fixed = code.flat.seconds[registers[AT]] < 0
     column = devices[COLUMN]
     if (kind == I_FIELD) != fixed:
         return NOT_HERE

@@ -52,6 +52,7 @@ from emulator.language.objectcode import (
 from emulator.machine.interpreter import (
     AT_BEGIN,
     AT_BOUNDS,
+    AT_COSTLY,
     AT_EVENT,
     AT_FINISH,
     AT_FUNCTION,
@@ -64,13 +65,18 @@ from emulator.machine.interpreter import (
     AT_SELECT,
     AT_STOP,
     AT_UNDEFINED,
+    SLACK,
 )
 from emulator.numbers.accumulator import add, divide, divide_fixed, multiply, negate, subtract, subtract_reversed
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, Rules, from_integer, to_integer, wrap_integer
+from emulator.numbers.work import STEPS
 
-# Registers kept between calls.  DECISION is the last IF or computed GO TO, its instruction counted from 1.
-PC, FAC, CHARACTERISTIC, FIXED, WORK, SENT, SENT_EXPONENT, EVENT, ADDRESS, INDEX, INDEX2, AT, DECISION = range(13)
-REGISTERS = 13
+# Registers kept between calls.  DECISION is the last IF or computed GO TO, its instruction counted from 1; ELEMENT is
+# how many elements of an array have gone through the ITEM that comes next; COSTLY and OWED are as of
+# emulator.machine.state.State.
+PC, FAC, CHARACTERISTIC, FIXED, WORK, SENT, SENT_EXPONENT, EVENT, ADDRESS, INDEX, INDEX2 = range(11)
+AT, DECISION, ELEMENT, COSTLY, OWED = range(11, 16)
+REGISTERS = 16
 
 Row = MutableSequence[int]
 
@@ -87,18 +93,27 @@ class Core(NamedTuple):
     switches: Row
 
 
-def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit: int, strict: int) -> int:
+def owe(registers: Row, steps: int) -> None:
+    """Count steps that an operation takes beyond a plain one's, as units of work when they make one."""
+    steps += registers[OWED]
+    registers[OWED] = steps % STEPS
+    registers[COSTLY] += steps // STEPS
+    registers[WORK] += steps // STEPS
+
+
+def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit: int, most: int, strict: int) -> int:
     """Run until a reason to return; registers and storage are changed in place.
 
-    ``limit`` is how much work may be done in all, ``strict`` stops at a subscript outside its array.
+    ``limit``, ``most`` and ``strict`` are those of :func:`emulator.machine.interpreter.run`.
     """
-    operations, addresses, subscripts, seconds, table, targets, loops, begins = code
+    operations, addresses, subscripts, seconds, table, targets, loops, _, charges = code
     mantissas, exponents = core.mantissas, core.exponents
     size = len(mantissas)
     pc = registers[PC]
     fm, fe, fixed = registers[FAC], registers[CHARACTERISTIC], registers[FIXED]
     work, decision = registers[WORK], registers[DECISION]
     sm, se = registers[SENT], registers[SENT_EXPONENT]
+    element = registers[ELEMENT]
     event = 0
     a = 0
     while True:
@@ -178,11 +193,11 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
                 reason = AT_EVENT
                 break
         elif o == COUNT:
-            if begins[a]:
+            if charges[a] > 0:
                 if work >= limit:
                     reason = AT_LIMIT
                     break
-                work += 1
+                work += charges[a]
             counts[a] += 1
             pc += 1
         elif o == IF:
@@ -269,7 +284,14 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
         elif o == SWITCH:
             pc = targets[a] if core.switches[seconds[pc] - 1] else targets[a + 1]
         elif o == ITEM:
-            pc += 1
+            if work > most + SLACK:
+                reason = AT_COSTLY
+                break
+            a += element
+            element += 1
+            if element == abs(seconds[pc]):
+                element = 0
+                pc += 1
             reason = AT_ITEM
             break
         elif o == BEGIN:
@@ -298,7 +320,9 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
         else:
             reason = AT_STOP
             break
-    registers[AT] = pc if reason in (AT_UNDEFINED, AT_BOUNDS, AT_OUTSIDE, AT_SELECT, AT_LIMIT, AT_STOP) else pc - 1
+    stays = reason in (AT_UNDEFINED, AT_BOUNDS, AT_OUTSIDE, AT_SELECT, AT_LIMIT, AT_STOP, AT_COSTLY)
+    registers[AT] = pc if stays or element > 0 else pc - 1
+    registers[ELEMENT] = element
     registers[PC] = pc
     registers[FAC] = fm
     registers[CHARACTERISTIC] = fe

@@ -20,9 +20,10 @@ from emulator.compiled.jit import Compiled, NotInstalled
 from emulator.language.cards import CHARACTERS, COLUMNS, MAX_CARDS, Deck
 from emulator.language.formats import MAX_RECORD, Literal
 from emulator.language.objectcode import Flat, Program, flatten
-from emulator.machine.interpreter import AT_LIMIT, FLOATING
+from emulator.machine.interpreter import AT_LIMIT
 from emulator.machine.result import Options
 from emulator.machine.session import loaded, refuse_overlap
+from emulator.machine.state import FLOATING
 from emulator.numbers.decimal import DecimalNumbers
 from emulator.numbers.fields import Field
 
@@ -221,11 +222,11 @@ def _code(program: Program) -> devices.Code:
     roots = [int(name == "SQRT") for name in program.functions]
     verbs = [_VERBS.get(verb, devices.TYPE) for verb in program.verbs]
     flat = Flat._make(map(_short, flatten(program)))
-    return devices.Code(flat, *map(_short, (program.statement_numbers(), roots, verbs)))
+    return devices.Code(flat, *map(_short, (program.statement_numbers, roots, verbs)))
 
 
 def _forms(program: Program) -> devices.Forms:
-    first, last, again, fields, texts = [], [], [], [], ""
+    first, last, again, fields, charges, texts = [], [], [], [], [], ""
     rows: list[tuple[int, int, int, int]] = []
     for _, spec in program.formats:
         first.append(len(rows))
@@ -240,5 +241,8 @@ def _forms(program: Program) -> devices.Forms:
                 rows.append((devices.SLASH, 0, 0, 0))
         last.append(len(rows))
         fields.append(int(spec.has_fields))
+        charges.append(spec.charge)
     columns = ([row[k] for row in rows] for k in range(4))
-    return devices.Forms._make([*map(_row, (first, last, again, fields, *columns)), _codes(texts.encode("ascii"))])
+    return devices.Forms._make(
+        [*map(_row, (first, last, again, fields, charges, *columns)), _codes(texts.encode("ascii"))]
+    )

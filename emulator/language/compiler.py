@@ -8,6 +8,7 @@ value past its limit.
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
@@ -87,8 +88,11 @@ class _Translation:
     jumps: list[tuple[int, tree.Place]] = field(default_factory=list)
     loops: list[tuple[int, int, int, int]] = field(default_factory=list)
     formats: dict[int, FormatSpec] = field(default_factory=dict)
+    format_places: dict[int, int] = field(default_factory=dict)
     targets: dict[int, int] = field(default_factory=dict)
     open_dos: list[_OpenDo] = field(default_factory=list)
+    opened: Counter[int] = field(default_factory=Counter)
+    labels: dict[int, tree.Place] = field(default_factory=dict)
     lines: list[Line] = field(default_factory=list)
     refused: frozenset[str] = frozenset()
     strangers: frozenset[str] = frozenset()
@@ -144,9 +148,14 @@ class _Translation:
         self.diagnostics.append(Diagnostic(place.card, place.column, message, number))
 
     def _collect_formats(self) -> None:
+        positions = 0
         for statement in self.statements:
             if not isinstance(statement.body, tree.Format):
                 continue
+            if positions > CORES[-1]:
+                message = f"OVERLAP: the FORMATs before this one need {positions} positions; no more are read"
+                self._error(statement.place, message)
+                break
             if not statement.label:
                 self._error(statement.place, "a FORMAT needs a statement number", 10)
                 continue
@@ -157,15 +166,16 @@ class _Translation:
                 spec = FormatSpec(())
             else:
                 self.diagnostics.extend(warnings)
+            positions += spec.positions
             self.formats.setdefault(statement.label, spec)
+        self.format_places = {label: place for place, label in enumerate(self.formats)}
 
     def _check_labels(self) -> None:
-        seen: dict[int, tree.Place] = {}
         for statement in self.statements:
-            if statement.label in seen and statement.label:
-                first = seen[statement.label].card
+            if statement.label in self.labels and statement.label:
+                first = self.labels[statement.label].card
                 self._error(statement.place, f"statement number {statement.label} stands on card {first} already")
-            seen.setdefault(statement.label, statement.place)
+            self.labels.setdefault(statement.label, statement.place)
 
     def _check_functions(self) -> None:
         """Every function there is not, also beside another mistake of its statement."""
@@ -181,7 +191,7 @@ class _Translation:
     def _why_no_target(self, label: int) -> str:
         if label in self.formats:
             return f"statement {label} is a FORMAT; a program cannot go there"
-        if any(s.label == label for s in self.statements):
+        if label in self.labels:
             return f"statement {label} cannot be executed"
         return f"there is no statement number {label}"
 
@@ -199,6 +209,7 @@ class _Translation:
         if statement.label:
             self.targets.setdefault(statement.label, len(self.emitter.code))
         self.emitter.temporaries = 0
+        self.emitter.modes.clear()
         self.emitter.count(index, True, "statement")
         self._body(body, statement, index)
         self.lines[index] = replace(self.lines[index], effect=_EFFECTS.get(self.emitter.code[-1].operation, ""))
@@ -291,20 +302,22 @@ class _Translation:
         return variable.address, step.address, last.address
 
     def _do(self, body: tree.Do, statement: tree.Statement, index: int) -> None:
-        if any(s.label == body.label and s.place <= statement.place for s in self.statements):
+        if body.label in self.labels and self.labels[body.label] <= statement.place:
             raise Refused(statement.place, f"the last statement of this DO, number {body.label}, stands before it")
         variable, step, limit = self._loop(body, statement.place)
         self.emitter.allocator.place("statement number", str(body.label))
         self.loops.append((variable, step, limit, len(self.emitter.code)))
         self.open_dos.append(_OpenDo(body.label, len(self.loops) - 1, index, statement.place))
+        self.opened[body.label] += 1
 
     def _close_dos(self, statement: tree.Statement) -> None:
-        if not statement.label or all(do.label != statement.label for do in self.open_dos):
+        if not statement.label or not self.opened[statement.label]:
             return
         if isinstance(statement.body, _NO_DO_END):
             self._error(statement.place, "a DO cannot end with this statement; use CONTINUE")
-        while any(do.label == statement.label for do in self.open_dos):
+        while self.opened[statement.label]:
             do = self.open_dos.pop()
+            self.opened[do.label] -= 1
             if do.label != statement.label:
                 self._error(
                     do.place,
@@ -320,8 +333,7 @@ class _Translation:
             raise Refused(statement.place, f"there is no FORMAT number {body.format}", 13)
         if body.items and not spec.has_fields and spec.specs:
             raise Refused(statement.place, f"FORMAT {body.format} has no field for the list", 13)
-        number = list(self.formats).index(body.format)
-        self.emitter.emit(op.BEGIN, address=VERBS.index(body.verb), second=number)
+        self.emitter.emit(op.BEGIN, address=VERBS.index(body.verb), second=self.format_places[body.format])
         for item in body.items:
             self._item(item, statement, index)
         self.emitter.emit(op.FINISH)
@@ -340,13 +352,12 @@ class _Translation:
             emitter.emit(op.DOTEST, address=number)
             emitter.count(index, False, op.LIST_REST)
             return
-        fixed = int(is_fixed_name(item.name))
+        sign = -1 if is_fixed_name(item.name) else 1
         if item.name in emitter.arrays and not item.arguments:
             entry = emitter.allocator.place("array", item.name)
-            for address in range(entry.first, entry.first + entry.size):
-                emitter.emit(op.ITEM, Operand(address), second=fixed)
+            emitter.emit(op.ITEM, Operand(entry.first), second=sign * entry.size)
             return
-        emitter.emit(op.ITEM, emitter.variable(item), second=fixed)
+        emitter.emit(op.ITEM, emitter.variable(item), second=sign)
 
 
 def _words(statement: tree.Statement) -> str:

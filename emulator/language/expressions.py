@@ -60,10 +60,12 @@ class Emitter:
 
     allocator: Allocator = field(default_factory=Allocator)
     code: list[Instruction] = field(default_factory=list)
-    subscripts: list[Subscript] = field(default_factory=list)
+    subscripts: dict[Subscript, int] = field(default_factory=dict)
     arrays: dict[str, tuple[int, ...]] = field(default_factory=dict)
     counters: list[Counter] = field(default_factory=list)
     temporaries: int = 0
+    modes: dict[int, bool] = field(default_factory=dict)
+    """Of expressions of the present statement, by identity: fixed point or not."""
 
     def emit(self, operation: int, operand: Operand | None = None, address: int = 0, second: int = 0) -> None:
         if operand is None:
@@ -112,9 +114,7 @@ class Emitter:
         v2, c2, o2 = parts[1] if len(parts) > 1 else (-1, 0, 1)
         columns = shape[1] if len(shape) > 1 else 0
         description = Subscript(entry.first, v1, c1, o1, rows, v2, c2, o2, columns)
-        if description not in self.subscripts:
-            self.subscripts.append(description)
-        return Operand(entry.first, self.subscripts.index(description))
+        return Operand(entry.first, self.subscripts.setdefault(description, len(self.subscripts)))
 
     def subscript(self, argument: Expression) -> tuple[int, int, int]:
         """(variable's field or -1, factor, addend) of a subscript c*v+k (C26-5619 p. 18).  Raises Refused."""
@@ -148,6 +148,13 @@ class Emitter:
 
     def fixed(self, expression: Expression) -> bool:
         """Whether an expression is fixed point.  Raises Refused (error 5) where the modes are mixed."""
+        # Asked at every level of parentheses again: remembered, so that a deep expression takes no longer than a long.
+        found = self.modes.get(id(expression))
+        if found is None:
+            found = self.modes[id(expression)] = self._mode(expression)
+        return found
+
+    def _mode(self, expression: Expression) -> bool:
         if isinstance(expression, Number):
             return not expression.floating
         if isinstance(expression, Reference):

@@ -76,7 +76,6 @@ _STATEMENTS: tuple[tuple[str, Word], ...] = (
     ),
     ("DEFINE(DISK|FILE)|RECORD|FETCH|FIND", Word("the disk", _II_D, _DISK)),
     (r"(READ|WRITE|PRINT|PUNCH|TYPE)\(|WRITE", Word("input and output by a unit's number", _IV, _DEVICE)),
-    (r"PLOT[(,]", Word("PLOT", "GOTRAN", "type a line by a FORMAT with X and H for each place of the curve")),
     ("REREAD", Word("REREAD", "later compilers", "read the card once, by a FORMAT that fits it")),
     (
         "(READ|ACCEPT|PUNCH|PRINT|TYPE)[,*A-Z]",
@@ -89,9 +88,7 @@ _KINDS = {"unknown", "input_output", "go_to", "if", "assignment"}
 _COMPILED = tuple((re.compile(pattern), word) for pattern, word in _STATEMENTS)
 _LOGIC = re.compile(r"\.(EQ|NE|LT|LE|GT|GE|AND|OR|NOT|TRUE|FALSE)\.")
 _LOGICAL = Word("a logical expression", _IV, "write IF (A-B) n1, n2, n3 for less, equal, greater")
-_HOLLERITH = re.compile(r"[=(,]\d+H[A-Z0-9]")
-_TEXT = Word("text in an expression", _IV, "text stands in FORMATs alone, as in 5 FORMAT(4HTEXT)")
-LATER = (*(word for _, word in _STATEMENTS), _LOGICAL, _TEXT)
+LATER = (*(word for _, word in _STATEMENTS), _LOGICAL)
 """Every statement that :func:`word_of` knows."""
 STATEMENT_FUNCTION = Word("a statement function", _II, "write its expression where it is used")
 
@@ -133,7 +130,7 @@ def word_of(kind: str, text: str) -> Word | None:
     if kind not in _KINDS:
         return None
     if kind == "assignment" and not text.startswith("IF("):
-        return _LOGICAL if _LOGIC.search(text) else _TEXT if _HOLLERITH.search(text) else None
+        return _LOGICAL if _LOGIC.search(text) else None
     for pattern, word in _COMPILED:
         if pattern.match(text):
             return word if word.name != "a logical IF" or _is_logical(text) else None

@@ -14,12 +14,14 @@ from emulator.errors import Diagnostic, Refused
 from emulator.language.foreign import FIELDS
 from emulator.language.tree import Format, Place
 from emulator.numbers.fields import Field, FieldKind
+from emulator.numbers.work import STEPS
 
 MAX_LITERAL = 49
 MAX_RECORD = 87
 _ENDS = {",": "comma", "/": "slash", ")": "parenthesis"}
 _SWALLOWED = re.compile(r",\s*\d*$")
 _TRIES = 3
+_COLUMNS_A_UNIT = 40_000
 _KINDS: dict[str, FieldKind] = {"E": "E", "F": "F", "I": "I"}
 
 
@@ -53,6 +55,18 @@ class FormatSpec:
     @property
     def has_fields(self) -> bool:
         return any(isinstance(spec, Field) for spec in self.specs)
+
+    @property
+    def charge(self) -> int:
+        """What going through it once counts as against the limit: nothing but where it is very long."""
+        columns = sum(len(spec.text) for spec in self.specs if isinstance(spec, Literal))
+        return len(self.specs) // STEPS + columns // _COLUMNS_A_UNIT
+
+    @property
+    def positions(self) -> int:
+        """What it takes of core, about: two positions a character of text, six a field."""
+        texts = (2 * len(s.text) + 4 for s in self.specs if isinstance(s, Literal) and not s.skip)
+        return sum(texts) + 6 * sum(not isinstance(s, Literal) or s.skip for s in self.specs)
 
     def widths(self) -> Iterator[int]:
         """The width of each record the specification describes, in columns."""
@@ -195,7 +209,10 @@ class _Reader:
         count = self.number()
         letter = self.peek()
         if letter == "(":
-            return self.group(depth + 1) * self.repeat(count, start), False
+            specs, times = self.group(depth + 1), self.repeat(count, start)
+            if len(specs) * times > self.MAX_FIELDS:
+                raise _refused(self.place(), f"a FORMAT of more than {self.MAX_FIELDS} fields")
+            return specs * times, False
         if letter in ("X", "H"):
             if not count:
                 raise _refused(start, f"{letter} needs its width before it")

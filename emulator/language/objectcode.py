@@ -3,18 +3,21 @@
 Operations bear the names of IBM's subroutine set (C26-5619 p. 60-69).  An instruction is four integers:
 operation, address or table index, subscript (index into :attr:`Program.subscripts`, or -1), second operand.
 An address is a field number of the storage map (emulator/language/storage.py), counting from 0 downward from the top
-of core.
+of core.  The second operand of an ITEM is how many fields from its address on go through the list one after the other,
+one or all of an array, with a minus sign for fixed point.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
-from emulator.language.formats import FormatSpec, Literal
+from emulator.language.formats import FormatSpec
 from emulator.language.storage import Storage
 from emulator.language.tree import Place
+from emulator.numbers.work import STEPS
 
 # Operations with an address come first: the engine resolves a subscript before it looks at them.
 (
@@ -83,7 +86,7 @@ MEANINGS: Mapping[str, str] = {
     "RSGX": "reverse the sign, fixed",
     "SEND": "field to be transmitted as it stands",
     "TRANSMIT": "transmit field",
-    "ITEM": "one number of an input or output list",
+    "ITEM": "one number of an input or output list, or all of an array",
     "COUNT": "a statement begins",
     "BRANCH": "go to",
     "IF": "branch on FAC negative, zero, positive",
@@ -132,6 +135,11 @@ class Subscript:
     columns: int = 0
 
 
+def repeats(instruction: Instruction) -> int:
+    """How many numbers go through the list at an ITEM, where every element of an array counts; else 1."""
+    return abs(instruction.second) if instruction.operation == ITEM else 1
+
+
 LIST_PASS = "pass of the list"
 """What a COUNT counts in the body of an indexed list: it counts against the statement limit."""
 
@@ -176,7 +184,7 @@ class Line:
         )
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Program:
     """A compiled program: everything the engine needs, as plain data."""
 
@@ -194,9 +202,10 @@ class Program:
 
     def line_at(self, pc: int) -> Line:
         """The statement the instruction at ``pc`` belongs to."""
-        return self.statements[self.statement_numbers()[min(pc, len(self.code) - 1)]]
+        return self.statements[self.statement_numbers[min(pc, len(self.code) - 1)]]
 
-    def statement_numbers(self) -> list[int]:
+    @cached_property
+    def statement_numbers(self) -> tuple[int, ...]:
         """For each instruction the index of the statement it belongs to."""
         found: list[int] = []
         statement = 0
@@ -204,7 +213,7 @@ class Program:
             if instruction.operation == COUNT:
                 statement = self.counters[instruction.address].statement
             found.append(statement)
-        return found
+        return tuple(found)
 
 
 SUBSCRIPT = 8
@@ -217,7 +226,8 @@ class Flat(NamedTuple):
     The first four hold an entry an instruction: operation, address, place in ``table`` (-1 without a subscript), second
     operand.  ``table`` holds for each subscript v1, c1, o1, rows, v2, c2, o2, columns; ``targets`` the branch tables,
     each after its length; ``loops`` four numbers a loop: variable, step, limit, first instruction; ``begins`` for each
-    counter 1 where a statement begins, 2 at a pass of an indexed list, else 0.
+    counter 1 where a statement begins, 2 at a pass of an indexed list, else 0; ``charges`` what it counts as against
+    the limit: 1 there, and 1 more for every STEPS operations up to the next counter (emulator/numbers/work.py).
     """
 
     operations: Sequence[int]
@@ -228,6 +238,7 @@ class Flat(NamedTuple):
     targets: Sequence[int]
     loops: Sequence[int]
     begins: Sequence[int]
+    charges: Sequence[int]
 
 
 def flatten(program: Program) -> Flat:
@@ -254,7 +265,15 @@ def flatten(program: Program) -> Flat:
     table = [n for s in program.subscripts for n in (s.v1, s.c1, s.o1, s.rows, s.v2, s.c2, s.o2, s.columns)]
     loops = [n for loop in program.loops for n in loop]
     begins = [1 if c.begins else 2 if c.what == LIST_PASS else 0 for c in program.counters]
-    return Flat(operations, addresses, subscripts, seconds, table, targets, loops, begins)
+    lengths = [0] * len(program.counters)
+    counter = 0
+    for instruction in program.code:
+        if instruction.operation == COUNT:
+            counter = instruction.address
+        elif instruction.operation != ITEM:
+            lengths[counter] += 1
+    charges = [int(begun > 0) + length // STEPS for begun, length in zip(begins, lengths, strict=True)]
+    return Flat(operations, addresses, subscripts, seconds, table, targets, loops, begins, charges)
 
 
 _INSTRUCTION, _SUBSCRIPT = 12, 30
@@ -280,12 +299,9 @@ def code_positions(program: Program) -> int:
     """
     length = 0
     for instruction in program.code:
-        length += _INSTRUCTION * _LENGTHS.get(instruction.operation, 1)
+        length += _INSTRUCTION * _LENGTHS.get(instruction.operation, 1) * repeats(instruction)
         if instruction.operation == SELECT:
             length += 5 * len(program.branches[instruction.second])
         if instruction.subscript >= 0:
             length += _SUBSCRIPT * (2 if program.subscripts[instruction.subscript].columns else 1)
-    for _, spec in program.formats:
-        for part in spec.specs:
-            length += 2 * len(part.text) + 4 if isinstance(part, Literal) and not part.skip else 6
-    return length
+    return length + sum(spec.positions for _, spec in program.formats)

@@ -8,7 +8,7 @@ Continuation cards and blank cards: OPEN-QUESTIONS 1 and 2.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from string import ascii_lowercase, ascii_uppercase
@@ -38,6 +38,23 @@ _PREFIXES = (
 
 
 @dataclass(frozen=True, slots=True)
+class Columns:
+    """Where the characters of a statement stand, each place made when it is asked for.
+
+    ``kept`` counts the characters of the statement's cards: all of the first, of each other from column 7 on.
+    """
+
+    cards: tuple[Card, ...]
+    kept: Sequence[int]
+
+    def __len__(self) -> int:
+        return len(self.kept)
+
+    def __getitem__(self, index: int) -> Place:
+        return _place(self.cards, self.kept[index])
+
+
+@dataclass(frozen=True, slots=True)
 class Source:
     """A statement before parsing.
 
@@ -49,7 +66,7 @@ class Source:
     label: str
     kind: str
     text: str
-    places: tuple[Place, ...] = field(hash=False)
+    places: Columns = field(hash=False)
     place: Place = field(hash=False)
     cards: tuple[Card, ...]
 
@@ -140,10 +157,10 @@ def _source(cards: tuple[Card, ...]) -> Source:
     match = _FORMAT.match(raw, start)
     if match:
         kept = range(match.end() - 1, len(raw))
-        return Source(label, "format", raw[kept.start :], tuple(_place(cards, i) for i in kept), place, cards)
+        return Source(label, "format", raw[kept.start :], Columns(cards, kept), place, cards)
     text = raw[start:].replace(" ", "")
-    places = tuple(_place(cards, i) for i in range(start, len(raw)) if raw[i] != " ")
-    return Source(label, classify(text), text, places, place, cards)
+    dense = [i for i, char in enumerate(raw) if char != " " and i >= start]
+    return Source(label, classify(text), text, Columns(cards, dense), place, cards)
 
 
 def _place(cards: tuple[Card, ...], index: int) -> Place:

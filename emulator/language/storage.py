@@ -8,8 +8,10 @@ names of the library functions; the object program begins at 08300 (p. 67).
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from operator import attrgetter
 
 FIELD = 10
 FUNCTION_NAMES = 120
@@ -52,10 +54,9 @@ class Storage:
 
     def entry_of(self, address: int) -> Entry:
         """The entry that holds a field.  Raises KeyError for an address outside the data."""
-        for entry in self.entries:
-            if entry.first <= address < entry.first + entry.size:
-                return entry
-        raise KeyError(address)
+        if not 0 <= address < self.fields:
+            raise KeyError(address)
+        return self.entries[bisect_right(self.entries, address, key=attrgetter("first")) - 1]
 
     def name_of(self, address: int) -> str:
         """What a field is called: ``NE``, ``X(3)``, ``constant 4.``."""

@@ -6,6 +6,7 @@ Statement forms: IBM 1620 FORTRAN (with FORMAT), C26-5619; the page stands with 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 from emulator.errors import Place as Place
 
@@ -166,6 +167,14 @@ class InputOutput:
     items: tuple[Item, ...]
 
 
+class Columns(Protocol):
+    """The place of each character of a text."""
+
+    def __len__(self) -> int: ...
+
+    def __getitem__(self, index: int, /) -> Place: ...
+
+
 @dataclass(frozen=True, slots=True)
 class Format:
     """``FORMAT (specification)``; ``text`` holds the specification's columns untouched, blanks included.
@@ -174,7 +183,7 @@ class Format:
     """
 
     text: str
-    places: tuple[Place, ...]
+    places: Columns
 
 
 Body = (

@@ -14,11 +14,12 @@ from emulator.language.cards import COLUMNS, Card, Deck, read_line, refuse_stran
 from emulator.language.objectcode import Line, Program
 from emulator.machine.endings import Ending, Kind, Mode, Notice, decided
 from emulator.machine.forms import Input, Layout, NoField, Output
-from emulator.machine.interpreter import FLOATING, State
 from emulator.machine.result import PUNCH_COLUMNS, TYPEWRITER_COLUMNS, Event, Options, Uncut
+from emulator.machine.state import FLOATING, State
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED
 from emulator.numbers.base import Number
 from emulator.numbers.fields import Field, FieldError, Remark, read_fixed, write_fixed
+from emulator.numbers.work import ERROR
 
 
 class Ended(Exception):
@@ -62,7 +63,7 @@ class Devices:
     verb: str = ""
 
     def __post_init__(self) -> None:
-        self._statement_of = self.program.statement_numbers()
+        self._statement_of = self.program.statement_numbers
         self.layouts = [Layout(spec) for _, spec in self.program.formats]
         self._whole = {
             (card.number, column, width): value
@@ -70,6 +71,8 @@ class Devices:
             for column, width, value in beside
         }
         self._beside: list[Uncut] = []
+        self._charges = [spec.charge for _, spec in self.program.formats]
+        self._charge = 0
         self._first_read = -1
         self._lines = 0
         self._format = 0
@@ -85,6 +88,7 @@ class Devices:
         number = self.program.code[self.state.at].second
         self.verb, self._format = verb, self.program.formats[number][0]
         layout = self.layouts[number]
+        self._charge = self._charges[number]
         self.listed = []
         if verb == "READ":
             begins = self._first_read in (-1, self.state.at)
@@ -97,10 +101,11 @@ class Devices:
             self.transfer = Input(layout, self._take_line, self._take_line())
         else:
             self.transfer = Output(layout, self._punch if verb == "PUNCH" else self.type)
+        self.state.work += self._charge
 
     def item(self, address: int) -> None:
         """One number of a list, read or put out.  Raises Ended, Wanted, CardError for what is no number, DeckError."""
-        fixed = self.program.code[self.state.at].second == 1
+        fixed = self.program.code[self.state.at].second < 0
         transfer = self.transfer
         assert transfer is not None
         try:
@@ -121,7 +126,12 @@ class Devices:
         self.transfer.finish()
 
     def _listed(self, address: int) -> None:
-        self.state.work += 1
+        transfer, numbers = self.transfer, self.options.numbers
+        assert transfer is not None
+        self.state.work += 1 + self._charge * transfer.again
+        transfer.again = 0
+        if numbers.weighs and self.state.kinds[address] == FLOATING:
+            self.state.work += self.state.owe(numbers.work("card", self.state.values[address]))
         if self.lists:
             self.listed.append(address)
 
@@ -172,7 +182,7 @@ class Devices:
             transfer.write(write_fixed(spec, value))
             return
         columns, overflowed = self.options.numbers.write(spec, value)
-        self._beside.append((len(transfer.line) + 1, len(columns), value))
+        self._beside.append((transfer.width + 1, len(columns), value))
         transfer.write(columns)
         if overflowed:
             self.error("F8")
@@ -224,6 +234,7 @@ class Devices:
         """An error code of the arithmetic, at the present statement; typed where the arithmetic announces it."""
         card = self.line_at(self.state.at).place.card
         self.errors[code, card] = self.errors.get((code, card), 0) + 1
+        self.state.work += self.state.owe(ERROR)
         if self.options.numbers.announces:
             self.type(f"ERROR {code}")
 

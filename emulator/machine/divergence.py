@@ -24,12 +24,12 @@ from emulator.language import objectcode as op
 from emulator.language.cards import Deck
 from emulator.language.objectcode import Line, Program
 from emulator.machine.endings import Ending
-from emulator.machine.interpreter import Entry, Journal
 from emulator.machine.machine import operated
 from emulator.machine.operator import Operator
 from emulator.machine.postdominators import meeting, post_dominators, successors
 from emulator.machine.result import Options, begun
 from emulator.machine.session import Session
+from emulator.machine.state import Entry, Journal
 from emulator.numbers import Numbers
 from emulator.numbers.base import Number
 from emulator.numbers.exact import ExactNumbers
@@ -230,10 +230,11 @@ class _Comparison:
 
     def __init__(self, program: Program, studied: Numbers, reference: Numbers) -> None:
         self._program, self._studied, self._reference = program, studied, reference
-        self._statement_of = program.statement_numbers()
+        self._statement_of = program.statement_numbers
         self._decides = [i.operation in _DECISIONS for i in program.code]
         self._counts = [i.operation == op.COUNT for i in program.code]
-        self._times: Counter[int] = Counter()
+        self._times: Counter[tuple[int, int]] = Counter()
+        self._whole = [op.repeats(i) > 1 for i in program.code]
         self._tallies: dict[int, _Tally] = {}
         poorer = min(studied.digits, reference.digits)
         self.digits = poorer if math.isfinite(poorer) else 0.0
@@ -247,9 +248,11 @@ class _Comparison:
         pc = mine[0]
         if self._counts[pc]:
             return False
-        self._times[pc] += 1
+        # Each element of an array that is read whole is counted by itself.
+        place = pc, mine[1] if self._whole[pc] else 0
+        self._times[place] += 1
         if not self._decides[pc]:
-            self._store(mine, other)
+            self._store(mine, other, self._times[place])
             return False
         self.tested += 1
         if mine[1] == other[1]:
@@ -258,13 +261,13 @@ class _Comparison:
         if self.first_decision is None:
             self.first_decision = Decision(
                 self._line(pc),
-                self._times[pc],
+                self._times[place],
                 self._texts(mine[2], other[2], tested=True),
                 (self._target(mine[1]), self._target(other[1])),
             )
         return True
 
-    def _store(self, mine: Entry, other: Entry) -> None:
+    def _store(self, mine: Entry, other: Entry, time: int) -> None:
         pc = mine[0]
         self.compared += 1
         lost, relative = self._lost(mine, other)
@@ -274,7 +277,7 @@ class _Comparison:
                 name = self._program.storage.name_of
                 self.first_value = Difference(
                     self._line(pc),
-                    self._times[pc],
+                    time,
                     (name(mine[1]), name(other[1])),
                     self._texts(mine[2], other[2]),
                     relative,

@@ -37,8 +37,9 @@ class Ending:
     before it, where there was one.  What the other fields hold depends on the kind:
 
     - hopper, stop, end: nothing; the end is normal.
-    - limit: ``count`` is the limit; ``loop`` the statements begun last, in order, ``repeats`` says that each was begun
-      more than once.
+    - limit: ``count`` is the limit, ``costly`` the work counted for operations that take longer than plain ones; with
+      ``line``, the limit does not allow an operation there; ``loop`` the statements begun last, in order, ``repeats``
+      says that each was begun more than once.
     - bounds: the array in ``name``, its ``shape``, and the ``subscripts`` asked for.  outside: nothing.
     - undefined: the field's ``name``; ``put_out`` where a list asked for it.
     - select: the value of a computed GO TO in ``subscripts``.
@@ -58,6 +59,7 @@ class Ending:
     count: int = 0
     loop: tuple[Line, ...] = ()
     repeats: bool = False
+    costly: int = 0
     mode: Mode | None = None
     format: int = 0
     field: Field | None = None
@@ -83,6 +85,9 @@ class Ending:
             return self.trouble
         source = f"{self.source}: " if self.source else ""
         if self.line is None:
+            if self.costly:
+                done = f"work as of {self.count} statements, {self.costly} of it for costly operations"
+                return f"{source}stopped after {done}{_loop(self)}"
             return f"{source}stopped after {self.count} statements{_loop(self)}"
         return f"{source}card {self.line.place.card}: {_what(self, self.line)}"
 
@@ -91,6 +96,11 @@ def _what(ending: Ending, line: Line) -> str:
     """What is wrong in a statement."""
     there = f"in {line.label} {line.text}" if line.label else f"in {line.text}"
     match ending.kind:
+        case "limit":
+            more = "a larger --limit or numbers of fewer digits would let it go on"
+            return (
+                f"the limit of work, {ending.count} statements or what takes their time, ends the run {there}; {more}"
+            )
         case "bounds":
             asked, shape = (",".join(map(str, numbers)) for numbers in (ending.subscripts, ending.shape))
             return f"{ending.name}({asked}) is outside {ending.name}({shape}), {there}"
@@ -125,7 +135,15 @@ def _loop(ending: Ending) -> str:
     return f"; the last ones {'repeat' if ending.repeats else 'are on'} {span}{among}"
 
 
-def looped(program: Program, limit: int, before: Sequence[int], counts: Sequence[int], decision: int) -> Ending:
+def too_costly(program: Program, limit: int, at: int, decision: int, costly: int) -> Ending:
+    """The ending at an operation that takes more work than the limit leaves."""
+    line, last = program.line_at(at), decided(program, decision)
+    return Ending("limit", program.source, line, last, count=limit, costly=costly)
+
+
+def looped(
+    program: Program, limit: int, before: Sequence[int], counts: Sequence[int], decision: int, costly: int = 0
+) -> Ending:
     """The ending at the limit: which statements were begun last, from the counts before and after them."""
     ran = [
         (program.statements[counter.statement], new - old)
@@ -139,6 +157,7 @@ def looped(program: Program, limit: int, before: Sequence[int], counts: Sequence
         count=limit,
         loop=tuple(sorted((line for line, _ in ran), key=lambda line: line.index)),
         repeats=all(times > 1 for _, times in ran),
+        costly=costly,
     )
 
 

@@ -39,6 +39,8 @@ class _Walk(ABC):
 
     layout: Layout
     at: int = field(default=0, init=False)
+    again: int = field(default=0, init=False)
+    """How often the FORMAT was taken again, since somebody counted."""
 
     def _to_field(self) -> Field:
         """Go on to the next field and past it, taking the FORMAT again where it ends.  Raises NoField."""
@@ -48,6 +50,7 @@ class _Walk(ABC):
                 raise NoField
             self._end_record()
             self.at = self.layout.spec.again
+            self.again += 1
             found = self._advance()
         self.at += 1
         return found
@@ -81,25 +84,29 @@ class Output(_Walk):
     """One output statement in progress; ``emit`` takes each finished record."""
 
     emit: Callable[[str], None]
-    line: str = ""
+    width: int = 0
+    _parts: list[str] = field(default_factory=list)
 
     def next_field(self) -> Field:
         """Write literals and end records up to the next field, and return it.  Raises NoField."""
         return self._to_field()
 
     def write(self, columns: str) -> None:
-        self.line += columns
+        self._parts.append(columns)
+        self.width += len(columns)
 
     def finish(self) -> None:
         super().finish()
         self._end_record()
 
     def _literal(self, width: int) -> None:
-        self.line += self.layout.literals[self.at]
+        self.write(self.layout.literals[self.at])
 
     def _end_record(self) -> None:
-        self.emit(self.line)
-        self.line = ""
+        line = "".join(self._parts)
+        self._parts.clear()
+        self.width = 0
+        self.emit(line)
 
 
 @dataclass

@@ -1,16 +1,13 @@
 """The interpreter: one loop over object code and storage, with the numbers of any arithmetic.
 
-A field's number is in ``values`` and what it is in ``kinds``: FIXED_POINT, UNDEFINED, or FLOATING for a number of
-the system.  The loop runs until something outside the arithmetic is needed (input, output, a library function, a
-message, the end) and returns a reason; the machine (emulator/machine/machine.py) sees to that and calls it again.
-What two runs are compared by goes into a :class:`Journal`: every decision, and with ``stores`` every statement begun
-and every field changed, so that a run need not be stopped for it.
+The loop runs over a :class:`emulator.machine.state.State` until something outside the arithmetic is needed (input,
+output, a library function, a message, the end) and returns a reason; the session (emulator/machine/session.py) sees to
+that and calls it again.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 
 from emulator.language.objectcode import (
     BEGIN,
@@ -39,7 +36,6 @@ from emulator.language.objectcode import (
     RSGX,
     SELECT,
     SEND,
-    SUBSCRIPT,
     SWITCH,
     TOFAC,
     TOFIX,
@@ -50,11 +46,11 @@ from emulator.language.objectcode import (
     XSB,
     XSBR,
     Flat,
-    Program,
 )
+from emulator.machine.state import FLOATING, Journal, State, Table
 from emulator.numbers.accumulator import divide_fixed
-from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, ZERO, wrap_integer
-from emulator.numbers.base import Number, Numbers, Trap
+from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, wrap_integer
+from emulator.numbers.base import Numbers, Trap
 
 # Reasons to return.
 (
@@ -73,16 +69,25 @@ from emulator.numbers.base import Number, Numbers, Trap
     AT_BOUNDS,
     AT_OUTSIDE,
     AT_SELECT,
-) = range(15)
+    AT_COSTLY,
+) = range(16)
 
-FLOATING = ZERO
-"""The kind of a field that holds a number of the system."""
+SLACK = 6_000
+"""How much work a statement may do beyond the limit, which is looked at where one begins; the list of any array may."""
 
-Entry = tuple[int, int, Number]
-"""(instruction, field changed or instruction gone to, value stored or tested); at a COUNT (instruction, 0, None)."""
+_WORDS = {
+    FAD: "add",
+    FSB: "subtract",
+    FSBR: "subtract",
+    FMP: "multiply",
+    FDV: "divide",
+    FDVR: "divide",
+    IF: "sign",
+    FIX: "to_integer",
+}
+"""Operations whose costs the numbers say, where they weigh."""
 
 _SERVED = {
-    ITEM: AT_ITEM,
     BEGIN: AT_BEGIN,
     FINISH: AT_FINISH,
     FUNCTION: AT_FUNCTION,
@@ -93,71 +98,6 @@ _SERVED = {
 """What the machine sees to, not this loop: operation and reason to return."""
 
 
-@dataclass
-class Journal:
-    """What a run did, in order.
-
-    ``stores``: fields changed and statements begun are entered too, not only decisions; a field that is only
-    copied while undefined is entered with the value None.
-    """
-
-    stores: bool
-    entries: list[Entry] = field(default_factory=list)
-
-
-def entered(program: Program) -> list[bool]:
-    """For each instruction whether a journal enters it: stores into fields with a name, and numbers read."""
-    found = []
-    reading = False
-    variables = [e for e in program.storage.entries if e.kind in ("variable", "array")]
-    named = {address for e in variables for address in range(e.first, e.first + e.size)}
-    for instruction in program.code:
-        operation = instruction.operation
-        if operation == BEGIN:
-            reading = program.verbs[instruction.address] in ("READ", "ACCEPT")
-        if operation == ITEM:
-            found.append(reading)
-        else:
-            stores = operation in (FMFAC, FMFIX, TRANSMIT)
-            found.append(stores and (instruction.subscript >= 0 or instruction.address in named))
-    return found
-
-
-@dataclass
-class State:
-    """A run between two calls of :func:`run`: storage, counts, and the registers.
-
-    ``pc`` is the next instruction, ``at`` the one a reason to return arose in, ``address`` the field it is about and
-    ``index`` its subscripts; ``fac`` and ``fixed`` are the accumulators, ``sent`` and ``sent_kind`` a field on its way,
-    ``stored`` the field last stored into.  ``work`` is what counts against the limit, ``event`` the number of an error
-    code, and ``decision`` the last IF or computed GO TO, its instruction counted from 1.
-    """
-
-    values: list[Number]
-    kinds: list[int]
-    counts: list[int]
-    fac: Number
-    pc: int = 0
-    at: int = 0
-    fixed: int = 0
-    sent: Number = 0
-    sent_kind: int = UNDEFINED
-    stored: int = 0
-    address: int = 0
-    index: tuple[int, ...] = ()
-    event: int = 0
-    decision: int = 0
-    work: int = 0
-
-
-Table = dict[int, Sequence[int]]
-
-
-def subscript_table(code: Flat) -> Table:
-    """The subscripts of a program by their place in :attr:`Flat.table`."""
-    return {k: code.table[k : k + SUBSCRIPT] for k in range(0, len(code.table), SUBSCRIPT)}
-
-
 def run(
     code: Flat,
     table: Table,
@@ -165,6 +105,7 @@ def run(
     switches: Sequence[int],
     numbers: Numbers,
     limit: int,
+    most: int,
     strict: bool,
     traced: bool,
     journal: Journal | None = None,
@@ -172,15 +113,17 @@ def run(
 ) -> int:
     """Run until a reason to return; the state is changed in place.
 
-    ``table`` is that of :func:`subscript_table`.  ``strict`` stops at a subscript outside its array, ``traced`` at each
-    statement.  ``enters`` says which instructions a journal enters.  Raises Undecided where the numbers cannot say; the
-    state then tells where.
+    ``table`` is that of :func:`emulator.machine.state.subscript_table`.  A statement is not begun once the work has
+    come to ``limit``; an operation that would take it SLACK beyond ``most``, the run's limit, is not done.  ``strict``
+    stops at a subscript outside its array, ``traced`` at each statement.  ``enters`` says which instructions a journal
+    enters.  Raises Undecided where the numbers cannot say; the state then tells where.
     """
-    operations, addresses, subscripts, seconds, _, targets, loops, begins = code
+    operations, addresses, subscripts, seconds, _, targets, loops, begins, charges = code
     values, kinds, counts = state.values, state.kinds, state.counts
     size = len(values)
     pc, fac, fixed, work, stored, decision = state.pc, state.fac, state.fixed, state.work, state.stored, state.decision
     sent, sent_kind = state.sent, state.sent_kind
+    element = state.element
     event = 0
     a = 0
     reason = AT_EVENT
@@ -191,10 +134,13 @@ def run(
         numbers.sign,
         numbers.checked,
     )
+    weigh = numbers.work if numbers.weighs else None
     decide = journal.entries.append if journal else None
     enter = journal.entries.append if journal and journal.stores else None
-    if enter and pc and operations[pc - 1] == ITEM and enters[pc - 1]:
-        enter((pc - 1, state.address, values[state.address]))
+    if enter and state.listed:
+        if enters[state.at]:
+            enter((state.at, state.address, values[state.address]))
+        state.listed = False
     try:
         while True:
             o = operations[pc]
@@ -246,6 +192,11 @@ def run(
                     reason = AT_UNDEFINED
                     break
                 value = values[a]
+                if weigh and o != TOFAC:
+                    work += state.owe(weigh(_WORDS[o], fac, value))
+                    if work > most + SLACK:
+                        reason = AT_COSTLY
+                        break
                 pc += 1
                 if o == TOFAC:
                     fac = value
@@ -262,23 +213,22 @@ def run(
                 else:
                     fac = numbers.divide(value, fac)
             elif o == COUNT:
-                if begins[a]:
+                charge = charges[a]
+                if charge:
                     if work >= limit:
                         reason = AT_LIMIT
                         break
-                    work += 1
-                    counts[a] += 1
-                    if enter:
-                        enter((pc, 0, None))
-                    pc += 1
-                    if traced and begins[a] == 1:
-                        reason = AT_STATEMENT
-                        break
-                else:
-                    counts[a] += 1
-                    if enter:
-                        enter((pc, 0, None))
-                    pc += 1
+                    work += charge
+                counts[a] += 1
+                if enter:
+                    enter((pc, 0, None))
+                pc += 1
+                if traced and begins[a] == 1:
+                    reason = AT_STATEMENT
+                    break
+            elif weigh and o in _WORDS and (work := work + state.owe(weigh(_WORDS[o], fac))) > most + SLACK:
+                reason = AT_COSTLY
+                break
             elif o == IF:
                 target = targets[a + 1 + sign(fac)]
                 decision = pc + 1
@@ -374,6 +324,18 @@ def run(
                 pc = target
             elif o == SWITCH:
                 pc = targets[a] if switches[seconds[pc] - 1] else targets[a + 1]
+            elif o == ITEM:
+                if work > most + SLACK:
+                    reason = AT_COSTLY
+                    break
+                a += element
+                element += 1
+                if element == abs(seconds[pc]):
+                    element = 0
+                    pc += 1
+                state.listed = True
+                reason = AT_ITEM
+                break
             elif o in _SERVED:
                 if o in (POWER, POWERX) and (kinds[a] == UNDEFINED or (kinds[a] == FIXED_POINT) != (o == POWERX)):
                     reason = AT_UNDEFINED
@@ -387,8 +349,9 @@ def run(
     except Trap as trap:
         fac, event, reason = trap.value, trap.event, AT_EVENT
     finally:
-        stays = reason in (AT_UNDEFINED, AT_BOUNDS, AT_OUTSIDE, AT_SELECT, AT_LIMIT, AT_STOP)
-        state.at = pc if stays else pc - 1
+        stays = reason in (AT_UNDEFINED, AT_BOUNDS, AT_OUTSIDE, AT_SELECT, AT_LIMIT, AT_STOP, AT_COSTLY)
+        state.at = pc if stays or element else pc - 1
         state.pc, state.fac, state.fixed, state.work, state.stored = pc, fac, fixed, work, stored
         state.sent, state.sent_kind, state.event, state.address, state.decision = sent, sent_kind, event, a, decision
+        state.element = element
     return reason

@@ -29,7 +29,8 @@ class Options:
     that a data set begins with, the first of the run.
 
     ``bounds``: strict stops at a subscript outside its array, core does as the machine did.  ``limit``: how much work a
-    run may do: statements begun, passes of indexed lists, numbers read or put out, lines.  ``uncut``: the numbers
+    run may do: statements begun, passes of indexed lists, numbers read or put out, lines, and for costly operations as
+    many as would take their time (:mod:`emulator.numbers.work`).  ``uncut``: the numbers
     punched are kept as they were before the card's field cut them (:attr:`Result.uncut`).
     """
 

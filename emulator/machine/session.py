@@ -18,9 +18,9 @@ from emulator.language.objectcode import Line, Program, code_positions, flatten
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 from emulator.machine import interpreter
 from emulator.machine.devices import Devices, Ended, Wanted
-from emulator.machine.endings import Ending, Notice, looped, out_of_bounds, stopped, unfit
-from emulator.machine.interpreter import FLOATING, Journal, State
+from emulator.machine.endings import Ending, Notice, looped, out_of_bounds, stopped, too_costly, unfit
 from emulator.machine.result import LOOP_WINDOW, Event, Options, Result, Uncut, begun, machine_errors
+from emulator.machine.state import FLOATING, Journal, State, entered, subscript_table
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED
 from emulator.numbers.base import Number, Numbers, Undecided
 
@@ -98,8 +98,8 @@ class Session:
         self.breakpoints: dict[int, Action] = {}
         self.halt: Halt | None = None
         self._code = flatten(program)
-        self._table = interpreter.subscript_table(self._code)
-        self._enters = interpreter.entered(program) if self.journal else []
+        self._table = subscript_table(self._code)
+        self._enters = entered(program) if self.journal else []
         self._ending: Ending | None = None
         self._before: list[int] | None = None
         self._taken = 0
@@ -133,7 +133,8 @@ class Session:
             self._before = list(self.state.counts)
         found = self._advance(min(goal, limit))
         if found is None and goal >= limit and not self._came_back:
-            self._ending = looped(self.program, limit, self._before, self.state.counts, self.state.decision)
+            state = self.state
+            self._ending = looped(self.program, limit, self._before, state.counts, state.decision, state.costly)
         return found or self._ending
 
     def take(self) -> list[Event]:
@@ -246,6 +247,7 @@ class Session:
             self.switches,
             self.options.numbers,
             goal,
+            self.options.limit,
             self.options.bounds == "strict",
             self.tracer is not None or self._steps > 0 or bool(self.breakpoints),
             self.journal,
@@ -264,10 +266,14 @@ class Session:
         elif reason == interpreter.AT_STATEMENT:
             self._watch(self.devices.line_at(state.at))
         elif reason == interpreter.AT_FUNCTION:
-            self._to_fac(*numbers.function(self.program.functions[address], state.fac))
+            name = self.program.functions[address]
+            self._pay(name, state.fac)
+            self._to_fac(*numbers.function(name, state.fac))
         elif reason == interpreter.AT_POWER:
+            self._pay("power", state.values[address], state.fac)
             self._to_fac(*numbers.power(state.values[address], state.fac))
         elif reason == interpreter.AT_POWERX:
+            self._pay("integer_power", state.fac, state.values[address])
             self._to_fac(*numbers.integer_power(state.fac, state.values[address]))
         elif reason == interpreter.AT_EVENT:
             self.devices.error(f"E{state.event}")
@@ -292,6 +298,8 @@ class Session:
         state = self.state
         if reason == interpreter.AT_STOP:
             return Ending("stop" if self.program.code[state.pc].second == 0 else "end")
+        if reason == interpreter.AT_COSTLY:
+            return too_costly(self.program, self.options.limit, state.at, state.decision, state.costly)
         if reason == interpreter.AT_UNDEFINED:
             return unfit(self.program, state.at, state.decision, address, state.kinds[address])
         if reason == interpreter.AT_BOUNDS:
@@ -299,6 +307,13 @@ class Session:
         if reason == interpreter.AT_OUTSIDE:
             return stopped(self.program, "outside", state.at, state.decision)
         return stopped(self.program, "select", state.at, state.decision, state.index)
+
+    def _pay(self, operation: str, first: Number, second: Number = 0) -> None:
+        """Count what an operation costs, before it is done.  Raises Ended where that is far beyond the limit."""
+        state = self.state
+        state.work += state.owe(self.options.numbers.work(operation, first, second))
+        if state.work > self.options.limit + interpreter.SLACK:
+            raise Ended(self._stopped(interpreter.AT_COSTLY, state.address))
 
     def _to_fac(self, value: Number, code: str) -> None:
         self.state.fac = value

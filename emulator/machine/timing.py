@@ -128,7 +128,7 @@ def measure(program: Program, result: Result) -> Timing:
     for instruction in program.code:
         if instruction.operation == op.COUNT:
             times = result.counts[instruction.address]
-        operations[op.NAMES[instruction.operation]] += times
+        operations[op.NAMES[instruction.operation]] += times * op.repeats(instruction)
         if instruction.subscript >= 0:
             subscripts[2 if program.subscripts[instruction.subscript].columns else 1] += times
     operations.pop("COUNT")
@@ -168,14 +168,15 @@ def shares(program: Program, result: Result) -> tuple[float, ...]:
     seconds = [0.0] * len(program.statements)
     lists: dict[str, Tally[int]] = {}
     times, way = 0, ""
-    for instruction, statement in zip(program.code, program.statement_numbers(), strict=True):
+    for instruction, statement in zip(program.code, program.statement_numbers, strict=True):
         milliseconds = COSTS[op.NAMES[instruction.operation]].milliseconds
         if instruction.operation == op.COUNT:
             times = result.counts[instruction.address]
         elif instruction.operation == op.BEGIN:
             way = "<" if program.verbs[instruction.address] in ("READ", "ACCEPT") else ">"
         elif instruction.operation == op.ITEM:
-            lists.setdefault(("I" if instruction.second == 1 else "E") + way, Tally())[statement] += times
+            mode = "I" if instruction.second < 0 else "E"
+            lists.setdefault(mode + way, Tally())[statement] += times * op.repeats(instruction)
         if instruction.subscript >= 0:
             two = program.subscripts[instruction.subscript].columns
             milliseconds += (SUBSCRIPT_2 if two else SUBSCRIPT).milliseconds

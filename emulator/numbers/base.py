@@ -143,6 +143,20 @@ class Numbers(ABC):
         return self.text(value)
 
     @property
+    def weighs(self) -> bool:
+        """Whether an operation on FAC, a test or a card can take longer than with the decimal numbers."""
+        return False
+
+    def work(self, operation: str, first: Number, second: Number = 0) -> int:
+        """Steps an operation takes beyond that of a plain one, estimated (:mod:`emulator.numbers.work`).
+
+        ``operation`` is ``add``, ``subtract``, ``multiply``, ``divide``, ``sign``, ``to_integer``, ``card``, a library
+        function's name, ``power`` or ``integer_power``; only for the last two and functions is it asked where the
+        numbers do not weigh.
+        """
+        return 0
+
+    @property
     def announces(self) -> bool:
         """Whether every error of the arithmetic types its code."""
         return False

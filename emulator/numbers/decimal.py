@@ -8,8 +8,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from typing import Any
 
-from emulator.numbers import accumulator, arithmetic, functions
+from emulator.numbers import accumulator, arithmetic, functions, work
 from emulator.numbers.arithmetic import MINUS_ZERO, ZERO, Profile, Rules
 from emulator.numbers.base import Numbers, Trap, cut_decimal
 from emulator.numbers.fields import FALLBACK, Field, Remark, read_floating, write_floating
@@ -83,6 +84,13 @@ class DecimalNumbers(Numbers):
 
     def integer_power(self, base: Pair, count: int) -> tuple[Pair, str]:
         return _given(functions.integer_power(*base, count, self._rules))
+
+    def work(self, operation: str, first: Any, second: Any = 0) -> int:
+        if operation == "integer_power":
+            return functions.integer_power_steps(first[0], first[1], second, self._rules)
+        if operation == "power":
+            return work.decimal_power(second[1])
+        return 0 if operation == "SQRT" else work.decimal_function(first[1])
 
     def exact(self, value: Pair, digits: int) -> Fraction | int:
         mantissa, power = value[0], value[1] - self._rules[0]

@@ -11,9 +11,10 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
+from emulator.numbers import work
 from emulator.numbers.arithmetic import MINUS_ZERO, ZERO
 from emulator.numbers.base import Numbers, Undecided, cut_decimal, decimal_length
-from emulator.numbers.roots import Rational, RootSum, quotient, square_root
+from emulator.numbers.roots import MAX_ROOTS, Rational, RootSum, quotient, square_root
 
 Exact = Rational | RootSum
 
@@ -25,7 +26,9 @@ class _SignedZero(int):
 _MINUS = _SignedZero(0)
 
 MAX_BITS = 100_000
-"""No number stored has a part longer than this: a program that squares in a loop would fill the memory."""
+"""No number stored is longer than this, its parts together: a program that squares in a loop would fill the memory."""
+
+_TOO_LONG = f"exact arithmetic does not hold a number of more than {MAX_BITS} bits"
 
 _KNOWN: dict[tuple[str, Rational], int] = {("SIN", 0): 0, ("ATAN", 0): 0, ("COS", 0): 1, ("EXP", 0): 1, ("LOG", 1): 0}
 
@@ -78,12 +81,31 @@ class ExactNumbers(Numbers):
         return (over > 0) - (over < 0)
 
     def checked(self, value: Exact) -> Exact:
-        parts = value.terms if isinstance(value, RootSum) else ((1, value),)
-        for radicand, coefficient in parts:
-            long = radicand.bit_length() + coefficient.numerator.bit_length() + coefficient.denominator.bit_length()
-            if long > MAX_BITS:
-                raise Undecided(f"exact arithmetic does not hold a number of more than {MAX_BITS} bits")
+        if _length(value) > MAX_BITS:
+            raise Undecided(_TOO_LONG)
         return value
+
+    @property
+    def weighs(self) -> bool:
+        return True
+
+    def work(self, operation: str, first: Exact, second: Exact = 0) -> int:
+        a, b = _longest(first), _longest(second)
+        if operation == "integer_power":
+            assert isinstance(second, int)
+            return _power_steps(first, second)
+        if operation == "power":
+            return _power_steps(first, second.numerator) if not isinstance(second, RootSum) else 0
+        if isinstance(first, RootSum) or isinstance(second, RootSum):
+            return _root_steps(operation, first, second)
+        if operation in ("add", "subtract", "multiply", "divide"):
+            if isinstance(first, int) and isinstance(second, int) and operation != "divide":
+                return work.product(a, b) if operation == "multiply" else max(a, b) // 10_000
+            return work.fractions(a, b)
+        if operation == "SQRT":
+            return 5 + work.quotient(2 * a, 2 * a)
+        # A test looks at the sign alone; the whole part and a card take a division.
+        return 0 if operation == "sign" else 2 + 4 * work.product(a, a) + work.quotient(a, a)
 
     def to_integer(self, value: Exact) -> int:
         size = _floor(self._size(value)) % 10000
@@ -111,6 +133,8 @@ class ExactNumbers(Numbers):
     def integer_power(self, base: Exact, count: int) -> tuple[Exact, str]:
         if base in (1, -1):
             return (base if count % 2 else 1), ""
+        if _too_long(base, count):
+            raise Undecided(_TOO_LONG)
         result: Exact = 1
         for bit in bin(abs(count))[2:] if base else ("1" if count else ""):
             result = self.checked(result * result * base if bit == "1" else result * result)
@@ -136,6 +160,53 @@ class ExactNumbers(Numbers):
             scale = max(decimal_length(size.denominator) - decimal_length(size.numerator) + digits + 1, 0)
             mantissa, exponent = cut_decimal(size.numerator * 10**scale // size.denominator, -scale, digits)
         return (mantissa if self.sign(value) > 0 else -mantissa), exponent
+
+
+def _too_long(base: Exact, count: int) -> bool:
+    """Whether a power of a rational number is surely not held: a part of n bits is at least 2 to the n - 1."""
+    return not isinstance(base, RootSum) and (_longest(base) - 1) * abs(count) > MAX_BITS
+
+
+def _parts(value: Exact) -> tuple[tuple[int, Rational], ...]:
+    return value.terms if isinstance(value, RootSum) else ((1, value),)
+
+
+def _length(value: Exact) -> int:
+    """All bits of a number's parts."""
+    return sum(n.bit_length() + c.numerator.bit_length() + c.denominator.bit_length() for n, c in _parts(value))
+
+
+def _longest(value: Exact) -> int:
+    """The bits of a number's longest numerator or denominator."""
+    return max(max(c.numerator.bit_length(), c.denominator.bit_length()) for _, c in _parts(value))
+
+
+def _root_steps(operation: str, first: Exact, second: Exact) -> int:
+    """Steps of an operation with a sum of roots: each term with each other, and each with all that are kept."""
+    a, b, left, right = _longest(first), _longest(second), len(_parts(first)), len(_parts(second))
+    radicands = [n.bit_length() for n, _ in (*_parts(first), *_parts(second))]
+    roots = 2 + work.quotient(2 * max(radicands), 2 * max(radicands))
+    if operation in ("add", "subtract"):
+        return (left + right) * (left + right) * roots + left * work.fractions(a, b)
+    if operation in ("multiply", "divide"):
+        terms, times = left * right, (1 if operation == "multiply" else 6)
+        return times * terms * (min(terms, MAX_ROOTS) * roots + work.fractions(times * a, times * b))
+    # Signs, whole parts and digits come from bounds of twice the coefficients' length and more.
+    bits = 2 * a + 2 * max(radicands) + 64
+    return left * (3 + work.quotient(2 * bits, bits)) * (6 if operation in ("card", "to_integer") else 1)
+
+
+def _power_steps(base: Exact, count: int) -> int:
+    """Steps of a power by squaring, whose last products are the longest; none stored is longer than MAX_BITS."""
+    bits = min(_longest(base) * abs(count), 2 * MAX_BITS)
+    if base in (0, 1, -1) or _too_long(base, count):
+        return 0
+    if not isinstance(base, RootSum):
+        return 2 * (work.product(bits, bits) if isinstance(base, int) and count > 0 else work.fractions(bits, bits))
+    terms = min(int(len(base.terms) ** min(abs(count), 5)), MAX_ROOTS)
+    size = min(max(n.bit_length() for n, _ in base.terms) * abs(count), 2 * MAX_BITS)
+    roots = 2 + work.quotient(2 * size, 2 * size)
+    return 3 * terms * terms * (terms * roots + work.fractions(bits, bits))
 
 
 def _floor(value: Exact) -> int:

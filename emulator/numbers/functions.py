@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
+from emulator.numbers import work
 from emulator.numbers.arithmetic import (
     MAX_EXPONENT,
     MIN_EXPONENT,
@@ -75,16 +76,33 @@ def integer_power(mantissa: int, exponent: int, count: int, rules: Rules) -> Val
         return Value(m, e, f"E{code}" if code else "")
     size, times = abs(mantissa), abs(count)
     minus = mantissa < 0 and times % 2 == 1
-    # What is far out of range is not computed: the power may have a million digits.
-    decades = count * (math.log10(size) + exponent - rules[0])
-    if decades > MAX_EXPONENT + 1:
+    far = _far(size, exponent, count, rules)
+    if far > 0:
         m, e = 1, MAX_EXPONENT + 1
-    elif decades < MIN_EXPONENT - 2:
+    elif far < 0:
         m, e = 1, MIN_EXPONENT - 1
     else:
         m, e = _exact_power(size, exponent - rules[0], count, rules)
     value = _in_range(-m if minus else m, e, rules, "E3", "E4")
     return Value(0, MINUS_ZERO, "E4") if value.code == "E4" and minus else value
+
+
+def integer_power_steps(mantissa: int, exponent: int, count: int, rules: Rules) -> int:
+    """Steps of :func:`integer_power` (:mod:`emulator.numbers.work`)."""
+    if mantissa == 0 or -1 <= count <= 2:
+        return 0
+    if rules[POWERS_MULTIPLY]:
+        return work.multiplied(count)
+    if _far(abs(mantissa), exponent, count, rules):
+        return 0
+    bits = mantissa.bit_length() * abs(count)
+    return work.product(bits, bits)
+
+
+def _far(size: int, exponent: int, count: int, rules: Rules) -> int:
+    """1 for a power far beyond the largest number, -1 for one far below the least: it may have a million digits."""
+    decades = count * (math.log10(size) + exponent - rules[0])
+    return (decades > MAX_EXPONENT + 1) - (decades < MIN_EXPONENT - 2)
 
 
 def _exact_power(size: int, power_of_ten: int, count: int, rules: Rules) -> tuple[int, int]:

@@ -15,7 +15,7 @@ from typing import Any
 from mpmath import MPContext
 from mpmath.libmp import from_rational, round_nearest
 
-from emulator.numbers import accumulator
+from emulator.numbers import accumulator, work
 from emulator.numbers.arithmetic import ZERO
 from emulator.numbers.base import SHOWN, Numbers, Trap, Undecided, cut_decimal, decimal_length, decimal_text
 
@@ -132,6 +132,30 @@ class MultiprecisionNumbers(Numbers):
         if base == 0 or not context.isfinite(base):
             return base**count, ""
         return self._coded(base**count, "E3", "E4")
+
+    @property
+    def weighs(self) -> bool:
+        return True
+
+    def work(self, operation: str, first: Any, second: Any = 0) -> int:
+        bits = self.bits
+        if operation == "multiply":
+            return 2 + work.product(bits, bits)
+        if operation == "divide":
+            return 4 + work.quotient(bits, bits)
+        if operation == "SQRT":
+            return 8 + work.quotient(bits, bits)
+        if operation == "integer_power":
+            least = 2 * int(abs(second)).bit_length() * (1 + work.product(bits, bits))
+            return least + (work.quotient(bits, bits) if second < 0 else 0)
+        if operation in ("add", "subtract", "sign", "to_integer"):
+            return 3 + bits // 5000
+        # Digits before the point are lost when an angle is reduced; all of a number beyond or below 1 are put out.
+        _, mantissa, exponent, size = first._mpf_
+        reach = abs(int(exponent + size)) if mantissa else 0
+        if operation == "card":
+            return work.decimal(bits + reach)
+        return 4 * work.series(bits) if operation == "power" else work.series(bits + reach)
 
     def exact(self, value: Any, digits: int) -> Fraction | int | None:
         if not self._context.isfinite(value):

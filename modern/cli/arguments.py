@@ -308,7 +308,11 @@ def _machine(parser: ArgumentParser) -> None:
         help="a subscript out of bounds: stop, or use the neighbour's place as the machine did",
     )
     parser.add_argument(
-        "--limit", metavar="N", type=int, default=5_000_000, help="stop after N statements (default: %(default)s)"
+        "--limit",
+        metavar="N",
+        type=int,
+        default=5_000_000,
+        help="stop after N statements, or costly operations that take their time (default: %(default)s)",
     )
     _layers(parser)
 

@@ -8,8 +8,11 @@ from collections.abc import Iterator
 
 from emulator.errors import explanations
 from emulator.language.compiler import translate
-from modern.cli.shared.console import BAD_INPUT, OK, UsageError, counted
+from modern.cli.shared.console import BAD_INPUT, OK, UsageError
 from modern.cli.shared.machine import layers_of, source_deck
+
+_MOST = 100
+"""Messages that are shown of one deck."""
 
 
 def main(args: argparse.Namespace) -> int:
@@ -24,17 +27,17 @@ def main(args: argparse.Namespace) -> int:
     deck = source_deck(args.program, layers_of(args), args.upcase)
     program, messages = translate(deck)
     cards = {card.number: card.text for card in deck.cards}
-    for message in messages:
+    for message in messages[:_MOST]:
         print(message.line(deck.source))
         if message.card in cards:
             print(f"    {cards[message.card]}")
             if message.column:
                 print("    " + " " * (message.column - 1) + "^")
+    if len(messages) > _MOST:
+        print(f"{deck.source}: ... and {len(messages) - _MOST} more")
     if program is None:
-        errors = [message for message in messages if not message.warning]
-        numbers = sorted({message.number for message in errors} - {0})
-        more = f" (hull1620 check --explain {numbers[0]} says more)" if numbers else ""
-        print(f"{deck.source}: {counted(len(errors), 'error')}{more}")
+        errors = sum(not message.warning for message in messages)
+        print(f"{deck.source}: {errors} error{'s' * (errors != 1)}")
         return BAD_INPUT
     statements, data = len(program.statements), program.storage.fields * 10
     print(

@@ -37,6 +37,8 @@ def listing(program: Program) -> Iterator[str]:
 
 def _operand(program: Program, instruction: Instruction) -> str:
     operation = instruction.operation
+    if op.repeats(instruction) > 1:
+        return f"{program.storage.entry_of(instruction.address).name}, {op.repeats(instruction)} elements"
     if operation <= op.ITEM or operation in (op.POWER, op.POWERX):
         return _field(program, instruction)
     if operation in (op.BRANCH, op.IF, op.IFX):

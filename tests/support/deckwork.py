@@ -15,9 +15,9 @@ from emulator.language import objectcode as op
 from emulator.language.cards import Deck, deck_from_lines
 from emulator.language.compiler import compile_deck, translate
 from emulator.language.objectcode import Program
-from emulator.machine.interpreter import FLOATING
 from emulator.machine.machine import Machine
 from emulator.machine.result import Options, Result
+from emulator.machine.state import FLOATING
 from emulator.numbers import numbers
 from emulator.numbers.arithmetic import FIXED_POINT, MINUS_ZERO, UNDEFINED, ZERO
 

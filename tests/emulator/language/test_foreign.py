@@ -65,9 +65,6 @@ STATEMENTS = [
     ("ACCEPT, A", "input and output without a FORMAT belongs to GOTRAN"),
     ("PRINT *, A", "input and output without a FORMAT"),
     ("REREAD 90,A", "REREAD"),
-    ("PLOT (Y,+)", "PLOT belongs to GOTRAN"),
-    ("N=4HTEXT", "text in an expression belongs to FORTRAN IV"),
-    ("X(1)=6H IS IT", "text in an expression belongs to FORTRAN IV"),
     ("*LIST PRINTER", "a control card"),
     ("$IBFTC", "a control card"),
 ]

@@ -57,7 +57,7 @@ def test_a_statement_that_runs_into_the_identification_is_warned_of_once() -> No
 def test_places_are_card_and_column() -> None:
     found = only("C  X", " 10  A = B")
     assert found.place == Place(2, 6)
-    assert found.places == (Place(2, 6), Place(2, 8), Place(2, 10))
+    assert [found.places[k] for k in range(len(found.places))] == [Place(2, 6), Place(2, 8), Place(2, 10)]
 
 
 def test_columns_73_to_80_are_identification() -> None:

@@ -51,6 +51,8 @@ def test_double_precision_twice(cards: list[str], data: list[str]) -> None:
         return
     one, other = (outcome for outcome, _ in runs)
     if isinstance(one, Result) and isinstance(other, Result):
+        if "limit" in (one.ending.kind, other.ending.kind):
+            return  # mpmath's operations count as more work
         assert one.counts == other.counts
         assert one.ending.kind == other.ending.kind
         assert [unsigned(card) for card in one.punched] == [unsigned(card) for card in other.punched]
@@ -76,7 +78,12 @@ def test_long_decimals_exactly(cards: list[str], data: list[str]) -> None:
         )
     ]
     one, other = runs
-    if isinstance(one, Result) and isinstance(other, Result) and one.ending.kind != "undecided" and not other.errors:
+    if (
+        isinstance(one, Result)
+        and isinstance(other, Result)
+        and one.ending.kind not in ("undecided", "limit")
+        and not other.errors
+    ):
         assert one.punched == other.punched
         assert one.counts == other.counts
 

@@ -122,13 +122,6 @@ def test_an_error_is_explained_in_eighty_columns(number: str, capsys: pytest.Cap
     assert all(" ".join(text.split()) in words for text in (found.meaning, found.mend, found.source))
 
 
-def test_check_says_how_a_number_is_explained(capsys: pytest.CaptureFixture[str]) -> None:
-    Path("bad.f").write_text("      READ 5,X\n      Y=X+I\n    5 FORMAT(A4)\n      END\n")
-    assert call(capsys, "check", "bad.f")[1].endswith("bad.f: 2 errors (hull1620 check --explain 5 says more)\n")
-    Path("bad.f").write_text("      GO TO 5\n      END\n")
-    assert call(capsys, "check", "bad.f")[1].endswith("bad.f: 1 error\n")
-
-
 def test_all_errors_are_explained_at_once(capsys: pytest.CaptureFixture[str]) -> None:
     code, out, _ = call(capsys, "check", "--explain", "all")
     assert code == 0

@@ -1,0 +1,173 @@
+"""What the limit counts: plain programs a statement as 1, costly operations as the statements that take their time."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
+
+import pytest
+
+from emulator.language.cards import deck_from_lines
+from emulator.machine.machine import Machine
+from emulator.machine.result import Options
+from emulator.numbers import numbers, work
+from tests.support.deckwork import agreed, machine, program
+
+DEFAULTS = ("truncating", "ibm1962", "truncating:28", "rounding:28", "float64", "float32")
+SHORT_POWERS = "B=A**3*A**(-1)*A**J"
+PLAIN: dict[str, tuple[list[str], int]] = {
+    "statements": (["A=1.", "B=A", "IF(A)1,1,2", "1 STOP", "2 CONTINUE"], 5),
+    "a loop": (["DO 1 I=1,10", "1 A=I"], 12),
+    "a card full of operations": (["B=1.", "A=" + "+".join("B" * 32)], 3),
+    "roots": (["A=2.", "DO 1 I=1,9", "1 B=SQRT(A)+SQRT(A)"], 12),
+    "small powers": (["A=2.", "J=4", SHORT_POWERS], 4),
+    "a list": (["A=1.", "PUNCH 1,(A,I=1,3),A", "1 FORMAT(2E14.8)"], 3 + 3 + 4 + 2),
+    "an array": (["DIMENSION M(4)", "DO 2 I=1,4", "2 M(I)=I", "PUNCH 1,M", "1 FORMAT(I5)"], 7 + 4 + 4),
+    "an error": (["Z=0.", "A=1./Z"], 3),
+}
+
+
+def worked(lines: Sequence[str], arithmetic: str, limit: int = 10_000_000) -> Machine:
+    """A machine that has run."""
+    found = machine(*lines, "END", arithmetic=arithmetic, limit=limit)
+    found.run()
+    return found
+
+
+@pytest.mark.parametrize("name", PLAIN)
+@pytest.mark.parametrize("arithmetic", DEFAULTS)
+def test_plain_programs_count_statements_passes_numbers_and_lines(arithmetic: str, name: str) -> None:
+    """Nothing else; a profile that types its errors types a line."""
+    lines, count = PLAIN[name]
+    announced = arithmetic == "ibm1962" and name == "an error"
+    state = worked(lines, arithmetic).state
+    assert (state.work, state.costly) == (count + announced, 0)
+
+
+COSTLY = [
+    ("truncating", "B=SIN(A)", 1, 4),
+    ("truncating", "B=A**.3", 5, 8),
+    ("truncating", "B=A**9999", 300, 600),
+    ("truncating:28", "B=A**9999", 2_000, 5_000),
+    ("ibm1962", "B=A**9999", 140, 160),
+    ("truncating", "B=A" + "*A" * 199, 4, 6),
+    ("float64", "B=A**9999", 0, 0),
+    ("mp:53", "B=A*A", 0, 0),
+    ("mp:10000", "B=A*A", 3, 4),
+    ("mp:100000", "B=A*A", 110, 130),
+    ("mp:100000", "B=A/3.", 400, 500),
+    ("mp:100000", "B=EXP(A)", 20_000, 30_000),
+    ("mp:20000", "B=A**.3", 3_500, 4_500),
+    ("mp:100000", "B=A**9999", 3_000, 4_500),
+    ("exact", "B=A*A", 0, 0),
+    ("exact", "B=A**999", 20, 300),
+]
+
+
+@pytest.mark.parametrize(("arithmetic", "statement", "least", "most"), COSTLY)
+def test_costly_operations_count_in_proportion(arithmetic: str, statement: str, least: int, most: int) -> None:
+    """Beyond the statement's own 1, with or without the time of the operation being spent: the estimate is asked."""
+    lines = ["A=1.0000123", *[statement[k : k + 66] for k in range(0, len(statement), 66)]]
+    lines[2:] = ["     1" + line for line in lines[2:]]
+    state = worked(lines, arithmetic).state
+    assert least <= state.work - 3 <= most
+
+
+@pytest.mark.parametrize("statement", ["B=A**9999", "B=EXP(A)", "B=A**A"])
+def test_an_operation_far_beyond_the_limit_is_not_done(statement: str) -> None:
+    """It would take seconds; the message names its statement and what to do."""
+    found = machine("A=1.0000123", f"7 {statement}", "GO TO 7", "END", arithmetic="mp:100000", limit=50)
+    begun = time.process_time()
+    found.options.numbers.decimal(1, 0)
+    ending = found.run().ending
+    if statement == "B=A**9999":
+        return  # less than the slack: done, and the run ends at the next statement
+    assert time.process_time() - begun < 0.5
+    assert (ending.kind, ending.line and ending.line.label, ending.normal) == ("limit", 7, False)
+    assert ending.message == (
+        f"deck.f: card 2: the limit of work, 50 statements or what takes their time, ends the run in 7 {statement}; "
+        "a larger --limit or numbers of fewer digits would let it go on"
+    )
+
+
+def test_a_loop_of_costly_operations_says_what_was_counted() -> None:
+    ending = machine("A=.5", "1 B=EXP(A)", "GO TO 1", "END", limit=1_000).run().ending
+    assert ending.message == (
+        "deck.f: stopped after work as of 1000 statements, 469 of it for costly operations; the last ones repeat "
+        "cards 2 to 3, statement 1"
+    )
+
+
+ENDLESS = [
+    ["A=1.0000123", "J=9999", "1 B=A**J", "GO TO 1"],
+    ["A=.5", "1 A=EXP(A)-A", "GO TO 1"],
+    ["A=0.", "B=1.", "1 A=A+1./B", "B=B+1.", "GO TO 1"],
+    ["A=1.1", "1 A=A*1.01-.1", "GO TO 1"],
+    ["A=2.", "S=0.", "1 S=S+SQRT(A)", "A=A+1.", "IF(S)2,1,1", "2 STOP"],
+    ["A=1.", "Z=0.", "1 B=A" + "/Z" * 30, "GO TO 1"],
+    ["A=1.", "3 A=A/3.", "1 PUNCH 2,A,A,A", "2 FORMAT(3E14.8)", "IF(A)3,1,1"],
+    ["DIMENSION X(999)", "DO 3 I=1,999", "3 X(I)=1.", "1 PUNCH 2,X", "2 FORMAT(200(9X),E14.8)", "GO TO 1"],
+]
+
+
+@pytest.mark.parametrize("arithmetic", [*DEFAULTS, "mp:53", "mp:1000", "mp:20000", "mp:100000", "exact"])
+def test_a_unit_of_work_takes_no_longer_than_any_other(arithmetic: str) -> None:
+    """So long that 5,000,000 of them are five minutes, and twice that, as other processes may be at work."""
+    for lines in ENDLESS:
+        found = machine(*lines, "END", arithmetic=arithmetic, limit=3_000)
+        begun = time.process_time()
+        found.run(output=lambda _: None)
+        seconds = time.process_time() - begun
+        assert seconds < 0.2 + 2 * 60e-6 * max(found.state.work, 3_000), (lines, found.state.work)
+
+
+GROWING = [
+    ["A=1.5", "1 A=A*A", "GO TO 1"],
+    ["A=SQRT(2.)+1.", "1 A=A*A", "GO TO 1"],
+    ["A=1./3.", "B=SQRT(A)", "1 B=B+B*A+SQRT(A)", "A=A/7.", "GO TO 1"],
+    ["A=1.5", "1 A=A**97", "GO TO 1"],
+]
+
+
+@pytest.mark.parametrize("lines", GROWING)
+def test_exact_numbers_that_grow_end_before_memory_does(lines: list[str]) -> None:
+    """In a process with half a gigabyte of addresses."""
+    script = (
+        "import resource, sys\n"
+        "resource.setrlimit(resource.RLIMIT_AS, (1 << 29, 1 << 29))\n"
+        "from emulator import numbers\n"
+        "from emulator.language.cards import deck_from_lines\n"
+        "from emulator.language.compiler import compile_deck\n"
+        "from emulator.machine.machine import Machine\n"
+        "from emulator.machine.result import Options\n"
+        "from emulator.numbers import numbers\n"
+        "program = compile_deck(deck_from_lines('deck.f', sys.stdin.read().split('\\n')))\n"
+        "options = Options(numbers=numbers('exact'), limit=100_000)\n"
+        "print(Machine(program, deck_from_lines('d', []), options).run().ending.kind)\n"
+    ).replace("from emulator import numbers\n", "")
+    text = "\n".join([*lines, "END"])
+    run = subprocess.run([sys.executable, "-c", script], input=text, text=True, capture_output=True, check=False)
+    assert (run.stdout.strip() in ("limit", "undecided"), run.stderr) == (True, "")
+
+
+@pytest.mark.parametrize("arithmetic", ["truncating", "ibm1962", "rounding:9"])
+@pytest.mark.parametrize("limit", [1, 7, 100, 101, 102, 103, 5_000, 12_345])
+def test_both_executors_count_the_same(arithmetic: str, limit: int) -> None:
+    """Long statements, errors, powers multiplied out, long FORMATs, arrays: the run ends at the same place."""
+    lines = ["DIMENSION X(60)", "A=1.0001", "J=999", "Z=0.", "DO 1 I=1,60", "1 X(I)=A"]
+    lines += [
+        "5 B=A" + "*A" * 33,
+        "     1" + "*A" * 30,
+        "C=A/Z/Z/Z",
+        f"D={'A**J' if arithmetic == 'ibm1962' else 'A**2'}",
+    ]
+    lines += ["PUNCH 3,X,A", "PUNCH 4", "A=A+.0001", "GO TO 5", "3 FORMAT(40(1X),2F5.2)", "4 FORMAT(35(1X),1HA)", "END"]
+    options = Options(numbers=numbers(arithmetic), limit=limit)
+    assert agreed(program(*lines), [deck_from_lines("deck", ["1"])], options) == 1
+
+
+def test_a_step_is_an_operation_and_a_unit_a_card_of_them() -> None:
+    assert (work.STEPS, work.product(10_000, 10_000), work.quotient(10_000, 10_000)) == (34, 125, 153)
+    assert (work.series(10_000), work.decimal(10_000)) == (8358, 2590)
