@@ -111,9 +111,24 @@ def _export(parser: ArgumentParser) -> None:
 
 def _draw(parser: ArgumentParser) -> None:
     _points(parser)
-    parser.add_argument("-o", "--output", metavar="FILE.svg", default="-")
+    parser.add_argument("-o", "--output", metavar="FILE.svg", default="-", help="where it goes (default: '-')")
     parser.add_argument("--eye", metavar="X,Y,Z", help="the direction to the eye; write --eye=-1,2,3 before a minus")
     parser.add_argument("--title", metavar="TEXT", help="the line below the picture (default: the name of the file)")
+    parser.add_argument("--width", metavar="PIXELS", type=int, help="320 to 4000 (default: 640, for many points 1000)")
+    parser.add_argument(
+        "--labels",
+        choices=("programs", "input", "none"),
+        default="programs",
+        help="number the vertices as the programs do, by their places in the input, or not (default: programs)",
+    )
+    parser.add_argument("--no-hidden", action="store_true", help="leave out what is behind the faces seen")
+    parser.add_argument("--no-points", action="store_true", help="leave out points that are no vertices")
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument(
+        "--against", metavar="CARDS", help="show in colour what the cards that hull punched say differently"
+    )
+    which.add_argument("--stages", action="store_true", help="the construction H1 to Hf, picture by picture")
+    which.add_argument("--animate", action="store_true", help="the construction H1 to Hf, played in one picture")
 
 
 def _appel_will(parser: ArgumentParser) -> None:

@@ -21,14 +21,14 @@ def main(args: argparse.Namespace) -> int:
     return OK if hull.determined else DIFFERS
 
 
-def exact_hull_of(path: str) -> Hull:
-    """The hull of a file's points in exact arithmetic; notes on the file go to standard error."""
+def exact_hull_of(path: str, history: bool = False) -> Hull:
+    """The hull of a file's points in exact arithmetic, with its stages if asked; notes go to standard error."""
     found = read_input(path)
     say(f"note: {note}" for note in found.notes)
     # Imported here, so that a fault of the file is told without waiting.
     from modern.port import convex_hull
 
-    hull = convex_hull(found.points, "exact", on_refusal="return")
+    hull = convex_hull(found.points, "exact", history=history, on_refusal="return")
     for point, first in hull.duplicates:
         say([f"note: {found.source}: {found.places[point]}: the point of {found.places[first]} again"])
     return hull

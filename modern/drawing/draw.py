@@ -8,7 +8,9 @@ floating point only chooses where numbers are put.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import Literal
 
 from modern.drawing import svg
 from modern.drawing.labels import HEIGHT, Label, place_labels
@@ -18,46 +20,98 @@ from modern.drawing.scene import Mark, Scene, scene
 from modern.geometry.hull import Hull
 from modern.geometry.mesh import ExportError
 
-MOST_NUMBERS = 200
+MOST_NUMBERS = 400
 """Beyond this many vertices they are not numbered; nobody could read it."""
 
-_WIDTH, _NARROWEST, _WIDEST = 640, 320, 4000
+_WIDTH, _WIDER, _NARROWEST, _WIDEST = 640, 1000, 320, 4000
+_MANY, _CROWD = 60, 120
+"""Points beyond which marks and numbers are smaller, and beyond which hidden vertices have no number."""
 _FONT = f'font-family="{svg.FONT}" font-size="13" fill="#000"'
 _DARKEST, _RANGE = 196, 56
 
+Labels = Literal["none", "programs", "input"]
+"""What numbers vertices bear: none, their place in ``Hull.vertices`` as the programs number them, or in the input."""
 
-def draw_svg(hull: Hull, eye: Sequence[Fraction | int] | None = None, title: str = "", width: int = _WIDTH) -> str:
+
+@dataclass(frozen=True, slots=True)
+class Show:
+    """What a picture shows: which numbers, hidden edges and what is behind, and points that are no vertices."""
+
+    labels: Labels = "programs"
+    hidden: bool = True
+    points: bool = True
+
+
+def draw_svg(
+    hull: Hull,
+    eye: Sequence[Fraction | int] | None = None,
+    title: str = "",
+    width: int | None = None,
+    show: Show | None = None,
+) -> str:
     """A picture of a hull as the text of an SVG file.
 
     eye: the direction from the hull to the eye.  None chooses: of a polyhedron one from a fixed list in which no face
     is edge-on and no two vertices fall together, of a polygon or a segment one at right angles to it.
-    title: a line below the picture.  width: of the file in pixels, 320 to 4000; the height follows.
+    title: a line below the picture.  width: of the file in pixels, 320 to 4000, by default 640, and 1000 for more than
+    120 points; the height follows.
 
-    Numbers are places in ``Hull.vertices``, from 1; vertices less than 2.5 pixels apart share a label.  Faces that are
-    seen are shaded.  An edge with a face edge-on and none seen is on the outline and drawn as seen.  Two faces in one
-    plane have no edge between them.  The same hull gives the same text everywhere.
+    Vertices less than 2.5 pixels apart share a number.  Of more than 120 points only vertices that are seen are
+    numbered, of more than 400 vertices none.  Faces that are seen are shaded.  An edge with a face edge-on and none
+    seen is on the outline and drawn as seen.  Two faces in one plane have no edge between them.  The same hull gives
+    the same text everywhere.
 
     Raises ExportError where there is no hull, for a direction 0,0,0 or one that shows a polygon or segment edge-on, and
     for a width out of range.
     """
-    if not _NARROWEST <= width <= _WIDEST:
-        raise ExportError(f"a picture {width} pixels wide is not drawn; {_NARROWEST} to {_WIDEST} are")
-    picture = scene(hull, None if eye is None else [Fraction(number) for number in eye])
+    show = show or Show()
+    picture = seen(scene(hull, None if eye is None else [Fraction(number) for number in eye]), show)
+    width = width_of(picture, width)
     layout = lay_out(picture, width)
-    numbered = len(picture.images) <= MOST_NUMBERS
+    numbered = show.labels != "none" and len(picture.images) <= MOST_NUMBERS
     items = [
-        *_faces(picture, layout),
-        *_edges(picture, layout, hidden=True),
-        *_points(hull, picture.inside, layout.inside, svg.INSIDE, "inside point"),
-        *_points(hull, picture.boundary, layout.boundary, svg.BOUNDARY_HIDDEN, "boundary point", hidden=True),
-        *_vertices(hull, picture, layout, hidden=True),
-        *_edges(picture, layout, hidden=False),
-        *_points(hull, picture.boundary, layout.boundary, svg.BOUNDARY, "boundary point"),
-        *_vertices(hull, picture, layout, hidden=False),
-        *(_numbers(picture, layout) if numbered else ()),
-        *svg.group("legend", _FONT, band(picture, width, layout.height, title, numbered)),
+        *marked(hull, picture, layout),
+        *(numbers(hull, picture, layout, show.labels) if numbered else ()),
+        *svg.group("legend", _FONT, band(picture, width, layout.height, title, numbered or show.labels == "none")),
     ]
     return svg.page(width, layout.height + band_height(picture, width, title), title or caption(picture), items)
+
+
+def seen(picture: Scene, show: Show) -> Scene:
+    """The picture without what it is not to show."""
+    if not show.points:
+        picture = replace(picture, boundary=(), inside=())
+    if not show.hidden:
+        picture = replace(picture, boundary=tuple(mark for mark in picture.boundary if not mark.hidden))
+    return replace(picture, behind=show.hidden)
+
+
+def width_of(picture: Scene, width: int | None) -> int:
+    """The width asked for, or what the number of points calls for.  Raises ExportError."""
+    if width is None:
+        return _WIDTH if _points(picture) <= _CROWD else _WIDER
+    if not _NARROWEST <= width <= _WIDEST:
+        raise ExportError(f"a picture {width} pixels wide is not drawn; {_NARROWEST} to {_WIDEST} are")
+    return width
+
+
+def _points(picture: Scene) -> int:
+    return len(picture.images) + len(picture.boundary) + len(picture.inside)
+
+
+def marked(hull: Hull, picture: Scene, layout: Layout) -> list[str]:
+    """Faces, edges and marks, what is behind first."""
+    small = _points(picture) > _MANY
+    return [
+        *_faces(picture, layout),
+        *(_edges(picture, layout, hidden=True) if picture.behind else ()),
+        *_marks(hull, picture.inside, layout.inside, svg.INSIDE, "inside point", small),
+        *_marks(hull, picture.boundary, layout.boundary, svg.BOUNDARY_HIDDEN, "boundary point", small, hidden=True),
+        *(_vertices(hull, picture, layout, small, hidden=True) if picture.behind else ()),
+        *_edges(picture, layout, hidden=False),
+        *_marks(hull, picture.boundary, layout.boundary, svg.BOUNDARY, "boundary point", small),
+        *_vertices(hull, picture, layout, small, hidden=False),
+    ]
 
 
 def _faces(picture: Scene, layout: Layout) -> list[str]:
@@ -86,27 +140,33 @@ def _edges(picture: Scene, layout: Layout, hidden: bool) -> list[str]:
     )
 
 
-def _vertices(hull: Hull, picture: Scene, layout: Layout, hidden: bool) -> list[str]:
+def _vertices(hull: Hull, picture: Scene, layout: Layout, small: bool, hidden: bool) -> list[str]:
     style = svg.VERTEX_HIDDEN if hidden else svg.VERTEX
     return svg.group(
         style.key,
         style.attributes,
         (
-            svg.point_mark(style, layout.vertices[place], _title(hull, index, f"vertex {place + 1}"))
+            svg.point_mark(style, layout.vertices[place], _title(hull, index, f"vertex {place + 1}"), small=small)
             for place, index in enumerate(hull.vertices)
             if picture.hidden[place] == hidden
         ),
     )
 
 
-def _points(
-    hull: Hull, points: Sequence[Mark], places: Sequence[Pixel], style: svg.Style, name: str, hidden: bool = False
+def _marks(
+    hull: Hull,
+    points: Sequence[Mark],
+    places: Sequence[Pixel],
+    style: svg.Style,
+    name: str,
+    small: bool,
+    hidden: bool = False,
 ) -> list[str]:
     return svg.group(
         style.key,
         style.attributes,
         (
-            svg.point_mark(style, place, _title(hull, mark.index, name))
+            svg.point_mark(style, place, _title(hull, mark.index, name), small=small)
             for mark, place in zip(points, places, strict=True)
             if mark.hidden == hidden
         ),
@@ -117,18 +177,30 @@ def _title(hull: Hull, index: int, name: str) -> str:
     return f"{name}: point {index + 1} ({', '.join(hull.points[index])})"
 
 
-def _numbers(picture: Scene, layout: Layout) -> list[str]:
+def numbers(hull: Hull, picture: Scene, layout: Layout, which: Labels) -> list[str]:
     """The numbers of the vertices; grey where all vertices of the label are hidden."""
-    labels = [
-        Label(*layout.vertices[group[0]].place, ",".join(str(place + 1) for place in group)) for group in layout.groups
+    count = _points(picture)
+    size = HEIGHT if count <= _MANY else 10.0 if count <= _CROWD else 9.0
+    behind = picture.behind and count <= _CROWD
+    shown = [tuple(place for place in group if behind or not picture.hidden[place]) for group in layout.groups]
+    groups = [group for group in shown if group]
+
+    def name(place: int) -> str:
+        return str(hull.vertices[place] + 1 if which == "input" else place + 1)
+
+    labels = [Label(*layout.vertices[group[0]].place, ",".join(map(name, group)), size) for group in groups]
+    lines = [
+        (layout.vertices[edge.start].place, layout.vertices[edge.end].place)
+        for edge in picture.edges
+        if picture.behind or not edge.hidden
     ]
-    lines = [(layout.vertices[edge.start].place, layout.vertices[edge.end].place) for edge in picture.edges]
     others = [pixel.place for pixel in (*layout.boundary, *layout.inside)]
     centres = place_labels(labels, lines, others, (float(layout.width), float(layout.height)))
 
     def items() -> Iterator[str]:
-        for label, group, (x, y) in zip(labels, layout.groups, centres, strict=True):
+        for label, group, (x, y) in zip(labels, groups, centres, strict=True):
             grey = 'fill="#666"' if all(picture.hidden[place] for place in group) else ""
-            yield svg.text(Pixel(round(100 * x), round(100 * (y + HEIGHT / 2)) - 200), label.text, grey)
+            yield svg.text(Pixel(round(100 * x), round(100 * (y + size * 0.35))), label.text, grey)
 
-    return svg.group("numbers", f'{_FONT} text-anchor="middle"', items())
+    font = _FONT if size == HEIGHT else _FONT.replace('"13"', f'"{size:g}"')
+    return svg.group("numbers", f'{font} text-anchor="middle"', items())

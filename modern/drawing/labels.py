@@ -34,11 +34,13 @@ class Label:
     x: float
     y: float
     text: str
+    size: float = HEIGHT
+    """The height of its type."""
 
     @property
     def half(self) -> Place:
         """Half the width and height of the text, as near as can be said without the font."""
-        return len(self.text) * _WIDTH / 2, HEIGHT / 2
+        return len(self.text) * self.size * _WIDTH / HEIGHT / 2, self.size / 2
 
 
 def place_labels(

@@ -40,9 +40,11 @@ class Layout:
 
 
 def lay_out(picture: Scene, width: int) -> Layout:
-    """Fit a scene into ``width`` pixels, and at most 460 high, true to scale."""
+    """Fit a scene into ``width`` pixels, and at most 460 high or some seven tenths of the width, true to scale."""
     marks = (*picture.boundary, *picture.inside)
-    pixel, height = fit([*picture.images, *(mark.image for mark in marks)], width, _HIGHEST)
+    pixel, height = fit(
+        [*picture.images, *(mark.image for mark in marks)], width, max(_HIGHEST, width * _HIGHEST // 640)
+    )
     vertices = tuple(pixel(image) for image in picture.images)
     return Layout(
         width,

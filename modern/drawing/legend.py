@@ -63,12 +63,12 @@ def _many(count: int, one: str, more: str) -> str:
 
 def _styles(picture: Scene) -> list[Style]:
     """The marks that occur and do not speak for themselves."""
-    hidden = any(edge.hidden for edge in picture.edges)
+    hidden = picture.behind and any(edge.hidden for edge in picture.edges)
     behind = [mark.hidden for mark in picture.boundary]
     present = (
         (VISIBLE, hidden),
         (HIDDEN, hidden),
-        (VERTEX_HIDDEN, any(picture.hidden)),
+        (VERTEX_HIDDEN, picture.behind and any(picture.hidden)),
         (BOUNDARY, not all(behind)),
         (BOUNDARY_HIDDEN, any(behind)),
         (INSIDE, bool(picture.inside)),

@@ -60,6 +60,8 @@ class Scene:
     boundary: tuple[Mark, ...]
     inside: tuple[Mark, ...]
     faces: int
+    behind: bool = True
+    """Whether what is hidden is shown."""
 
 
 def scene(hull: Hull, eye: Sequence[Fraction] | None = None) -> Scene:

@@ -46,6 +46,13 @@ def circle(centre: Pixel, radius: str, title: str = "", more: str = "") -> str:
     return f"{start}>{_title(title)}</circle>" if title else f"{start}/>"
 
 
+def square(centre: Pixel, half: int, title: str = "", more: str = "") -> str:
+    """A square, its sides ``half`` hundredths away, with a title where the reader points at it."""
+    x, y, size = number(centre.x - half), number(centre.y - half), number(2 * half)
+    start = f'<rect x="{x}" y="{y}" width="{size}" height="{size}"{_lead(more)}'
+    return f"{start}>{_title(title)}</rect>" if title else f"{start}/>"
+
+
 def saltire(centre: Pixel, arm: int, title: str = "", more: str = "") -> str:
     """A cross of two slanting lines, each end ``arm`` hundredths away along both axes."""
     ends = [(centre.x + dx * arm, centre.y + dy * arm) for dx, dy in ((-1, -1), (1, 1), (-1, 1), (1, -1))]
@@ -85,8 +92,8 @@ def _lead(more: str) -> str:
     return f" {more}" if more else ""
 
 
-RADIUS = "3.2"
-_ARM = 320
+RADIUS, SMALL = "3.2", "2"
+_ARM, _SMALL_ARM = 320, 200
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,11 +117,11 @@ BOUNDARY_HIDDEN = Style(
 INSIDE = Style("inside", "inside point", "cross", 'fill="none" stroke="#333" stroke-width="1.2"')
 
 
-def point_mark(style: Style, at: Pixel, title: str = "", more: str = "") -> str:
-    """A dot or a cross."""
+def point_mark(style: Style, at: Pixel, title: str = "", more: str = "", small: bool = False) -> str:
+    """A dot or a cross; small where there are many."""
     if style.shape == "cross":
-        return saltire(at, _ARM, title, more)
-    return circle(at, RADIUS, title, more)
+        return saltire(at, _SMALL_ARM if small else _ARM, title, more)
+    return circle(at, SMALL if small else RADIUS, title, more)
 
 
 def sample(style: Style, at: Pixel) -> str:

@@ -6,8 +6,8 @@ Here are their names only: the command line shows them in its help before it nee
 MESHES = ("off", "obj", "ply", "stl")
 """Formats of a surface: each is a module here with ``write(mesh, digits)``, and the ending of a file's name."""
 
-HULLS = (*MESHES, "json")
-"""Formats of a hull."""
+HULLS = (*MESHES, "json", "html")
+"""Formats of a hull: the surfaces, all of its data, and a page that turns it."""
 
 POINTS = {
     "deck": "a data deck",

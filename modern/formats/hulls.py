@@ -10,7 +10,7 @@ from importlib import import_module
 from typing import Any
 
 from emulator.files import write_text
-from modern.formats import HULLS, MESHES, json
+from modern.formats import HULLS, MESHES, html, json
 from modern.geometry.hull import Hull
 from modern.geometry.mesh import ExportError, Mesh, mesh
 
@@ -21,7 +21,9 @@ def export_text(hull: Hull, form: str, digits: int | None = None) -> str:
     digits: significant digits to round those coordinates to that have no finite decimal; None refuses them.  All
     other coordinates stay exact, and JSON keeps fractions.  Raises ExportError.
     """
-    return json.write(hull) if form == "json" else mesh_text(mesh(hull), form, digits)
+    if form == "json":
+        return json.write(hull)
+    return html.write(mesh(hull), digits) if form == "html" else mesh_text(mesh(hull), form, digits)
 
 
 def mesh_text(surface: Mesh, form: str, digits: int | None = None) -> str:

@@ -333,7 +333,7 @@ def test_format_of_a_name() -> None:
         "json",
     ]
     for name in ("a", "a.txt", "off", "a.off/"):
-        with pytest.raises(ExportError, match=r"must end with one of .off, .obj, .ply, .stl, .json$"):
+        with pytest.raises(ExportError, match=r"must end with one of .off, .obj, .ply, .stl, .json, .html$"):
             format_of(name)
     with pytest.raises(ExportError, match="'dxf' is not a format"):
         export_text(convex_hull(CUBE), "dxf")

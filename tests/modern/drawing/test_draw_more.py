@@ -1,0 +1,232 @@
+"""What a picture shows when asked: numbers, hidden parts, differences from a punched result, the construction."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from modern.comparison.claims import Claim, StrangeCards, claim_of
+from modern.drawing.against import draw_against
+from modern.drawing.draw import Show, draw_svg
+from modern.drawing.stages import frames, played, strip
+from modern.edition.programs import loader
+from modern.formats.hulls import export_text
+from modern.geometry.hull import Hull
+from modern.geometry.mesh import ExportError
+from modern.port import convex_hull
+from modern.thesis.cards import read_hull
+from modern.thesis.job import run_hull
+from tests.support.commands import call
+from tests.support.judged import deck_of
+
+SVG = "{http://www.w3.org/2000/svg}"
+BOX = [(4 * x, 4 * y, 4 * z) for x in (0, 1) for y in (0, 1) for z in (0, 1)] + [(2, 2, 2), (2, 0, 2), (1, 2, 2)]
+SOLID = [(9, -3, 4), (-8, 2, 7), (5, 8, -9), (-7, -9, -2), (3, 6, 8), (-2, 7, -6), (1, 0, 1), (6, -8, -7)]
+
+
+def groups(text: str) -> dict[str, list[ElementTree.Element]]:
+    """The marks of a picture by their class, wherever they stand."""
+    found: dict[str, list[ElementTree.Element]] = {}
+    for group in ElementTree.fromstring(text).iter(f"{SVG}g"):
+        found.setdefault(group.get("class", ""), []).extend(group)
+    return found
+
+
+def numbers(text: str) -> set[str]:
+    return {name for element in groups(text).get("numbers", []) for name in str(element.text).split(",")}
+
+
+def test_numbers_are_the_programs_the_inputs_or_none() -> None:
+    hull = convex_hull(SOLID)
+    assert hull.vertices != tuple(sorted(hull.vertices))
+    count = len(hull.vertices)
+    assert numbers(draw_svg(hull)) == {str(k) for k in range(1, count + 1)}
+    assert numbers(draw_svg(hull, show=Show("input"))) == {str(index + 1) for index in hull.vertices}
+    assert numbers(draw_svg(hull, show=Show("none"))) == set()
+    assert "not numbered" not in draw_svg(hull, show=Show("none"))
+
+
+def test_what_is_behind_and_what_is_no_vertex_can_be_left_out() -> None:
+    hull = convex_hull(BOX)
+    whole = groups(draw_svg(hull))
+    assert {"hidden", "vertices-hidden", "inside"} <= whole.keys()
+    front = groups(draw_svg(hull, show=Show(hidden=False)))
+    assert not {"hidden", "vertices-hidden", "boundary-hidden"} & front.keys()
+    assert len(front["seen"]) == len(whole["seen"])
+    assert len(numbers(draw_svg(hull, show=Show(hidden=False)))) == 7
+    bare = groups(draw_svg(hull, show=Show(points=False)))
+    assert not {"inside", "boundary", "boundary-hidden"} & bare.keys()
+    assert "hidden" in bare
+
+
+def test_three_hundred_points_are_wider_with_smaller_type_and_no_numbers_behind() -> None:
+    ring = [(x, y, x * x + y * y) for x in range(-9, 10) for y in range(-8, 9)]
+    hull = convex_hull(ring)
+    assert len(ring) > 300
+    text = draw_svg(hull)
+    root = ElementTree.fromstring(text)
+    assert root.get("width") == "1000"
+    assert 'font-size="9"' in text
+    hidden = len(groups(text)["vertices-hidden"])
+    assert hidden
+    assert len(numbers(text)) <= len(hull.vertices) - hidden
+    assert ElementTree.fromstring(draw_svg(hull, width=700)).get("width") == "700"
+
+
+# --- beside a punched result
+
+
+def punched(points: Sequence[tuple[int, int, int]]) -> list[str]:
+    return list(run_hull(deck_of(points), loader(())).final.result.punched)
+
+
+@pytest.mark.parametrize("points", [SOLID, [(0, 0, 1), (4, 0, 1), (4, 5, 1), (0, 5, 1), (1, 1, 1), (2, 0, 1)]])
+def test_a_right_result_differs_in_nothing(points: list[tuple[int, int, int]]) -> None:
+    hull = convex_hull(points)
+    claim = claim_of(read_hull(punched(points)), hull, "cards")
+    assert claim == Claim()
+    assert "nothing differs" in draw_against(hull, claim)
+
+
+def test_a_vertex_taken_from_the_cards_is_missed_and_a_face_turned_is_none() -> None:
+    hull, cards = convex_hull(SOLID), punched(SOLID)
+    first = cards.index(next(card for card in cards if card.startswith("  1 ")))
+    seen = read_hull(cards)
+    gone = read_hull([card for k, card in enumerate(cards) if k != first])
+    claim = claim_of(gone, hull, "cards")
+    index = next(i for i, p in enumerate(hull.points) if tuple(map(float, p)) == tuple(map(float, seen.vertices[0])))
+    assert claim.missed == (index,)
+    equation = next(k for k, card in enumerate(cards) if k > first + len(seen.vertices) and card.startswith("  1 "))
+    turned = list(cards)
+    turned[equation] = turned[equation][:4] + "   .10000000E+01   .10000000E+01   .10000000E+01  -.90000000E+02"
+    claim = claim_of(read_hull(turned), hull, "cards")
+    assert len(claim.not_found) == len(claim.polygons) == 1
+    assert set(claim.polygons[0]) == set(hull.faces[claim.not_found[0]].polygon)
+    text = draw_against(hull, claim)
+    found = groups(text)
+    assert len(found["not-found"]) == len(found["no-face"]) == 1
+    assert "face not found: 1" in text
+    assert "no face, called one: 1" in text
+
+
+def test_marks_of_points_and_their_legend() -> None:
+    hull = convex_hull(BOX)
+    claim = Claim(missed=hull.vertices[:2], added=hull.inside[:1], others=3)
+    text = draw_against(hull, claim, show=Show(points=False))
+    found = groups(text)
+    assert [str(ring[0].text).split(":")[0] for ring in found["missed"]] == ["vertex missed"] * 2
+    assert f"point {hull.inside[0] + 1}" in str(found["added"][0][0].text)
+    assert "not drawn: 3" in text
+
+
+def test_cards_of_other_points_are_refused() -> None:
+    hull = convex_hull(BOX)
+    with pytest.raises(StrangeCards, match=r"x.punch: there are no vertices on these cards"):
+        claim_of(read_hull(["", "N=  3"]), hull, "x.punch")
+    with pytest.raises(StrangeCards, match=r"x.punch: \d of the points on these cards are not among the points"):
+        claim_of(read_hull(punched(SOLID)), hull, "x.punch")
+
+
+# --- the construction
+
+
+def staged(points: Sequence[tuple[int, int, int]]) -> Hull:
+    return convex_hull(points, history=True)
+
+
+def test_every_stage_shows_the_hull_of_the_vertices_so_far() -> None:
+    hull = staged(SOLID)
+    found = frames(hull)
+    assert len(found) == len(hull.history) > 2
+    assert set(found[-1].hull.points) == {hull.points[index] for index in hull.vertices}
+    for frame, stage in zip(found, hull.history, strict=True):
+        assert len(frame.hull.faces) <= len(stage.equations)
+        assert len(frame.added) == len(stage.added)
+        assert frame.words[0].startswith(f"H{stage.number}: point")
+    assert len({frame.picture.view.eye for frame in found}) == 1
+    assert found[-1].waiting == ()
+
+
+def test_a_strip_and_a_picture_that_plays_have_all_stages() -> None:
+    found = frames(staged(SOLID))
+    text = strip(found, "solid")
+    assert len(groups(text)["words"]) >= len(found)
+    assert ElementTree.fromstring(text).find(f"{SVG}title").text == "solid"  # type: ignore[union-attr]
+    moving = played(found)
+    stages = [g for g in ElementTree.fromstring(moving).iter(f"{SVG}g") if "stage" in g.get("class", "").split()]
+    assert len(stages) == len(found)
+    assert stages[-1].get("class") == "stage end"
+    delays = [float(re.findall(r"([\d.]+)s", g.get("style", ""))[0]) for g in stages]
+    assert delays == sorted(set(delays))
+    assert "prefers-reduced-motion" in moving
+
+
+def test_a_polygon_is_built_too_and_a_segment_is_not() -> None:
+    assert len(frames(staged([(0, 0, 0), (5, 0, 0), (6, 4, 0), (2, 7, 0), (-3, 4, 0), (2, 2, 0)]))) > 1
+    with pytest.raises(ExportError, match="no stages"):
+        frames(staged([(0, 0, 0), (1, 1, 1), (2, 2, 2)]))
+
+
+# --- the command
+
+
+def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("s.csv").write_text("".join(f"{x},{y},{z}\n" for x, y, z in SOLID))
+    assert call(capsys, "cards", "s.csv", "-o", "s.deck")[0] == 0
+    assert call(capsys, "hull", "s.deck", "--punch", "s.punch", "--typewriter", "s.typed")[0] == 0
+    code, out, err = call(capsys, "draw", "s.csv", "--against", "s.punch", "--labels", "input", "--width", "800")
+    assert (code, err) == (0, "")
+    assert "nothing differs" in out
+    assert 'width="800"' in out
+    for option in ("--stages", "--animate"):
+        code, out, err = call(capsys, "draw", "s.csv", option)
+        assert (code, err) == (0, "")
+        assert "H2: point" in out
+    assert call(capsys, "draw", "s.csv", "--no-hidden", "--no-points")[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["s.csv", "--stages", "--width", "400"], "--stages and --animate have one form"),
+        (["-", "--against", "-"], "points and cards cannot both come from standard input"),
+        (["s.csv", "--against", "s.csv"], "there are no vertices on these cards"),
+        (["s.csv", "--width", "10"], "a picture 10 pixels wide is not drawn"),
+    ],
+)
+def test_what_cannot_be_drawn_is_a_line(
+    arguments: list[str],
+    words: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("s.csv").write_text("0,0,0\n1,0,0\n0,1,0\n0,0,1\n")
+    code, out, err = call(capsys, "draw", *arguments)
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert words in err
+
+
+# --- the page that turns
+
+
+def test_the_page_holds_the_solid_and_fetches_nothing() -> None:
+    hull = convex_hull(BOX)
+    text = export_text(hull, "html")
+    data = json.loads(text.split('id="hull">')[1].split("</script>")[0])
+    assert len(data["points"]) == 8
+    assert {frozenset(face) for face in data["faces"]} == {
+        frozenset(hull.vertices.index(i) for i in face.polygon) for face in hull.faces
+    }
+    assert all(abs(x) <= 0.5 for point in data["points"] for x in point)
+    assert "http" not in text.replace("http://www.w3.org/2000/svg", "")
+    assert "<td>1</td><td>" in text
+    with pytest.raises(ExportError, match="too large"):
+        export_text(convex_hull([("1e400", "0", "0"), ("0", "1", "0")]), "html")
