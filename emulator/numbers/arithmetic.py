@@ -293,7 +293,23 @@ IBM1962 = Profile(
     announces=True,
 )
 PROFILES = {profile.name: profile for profile in (TRUNCATING, IBM1962)}
-FAMILIES = ("truncating:P", "guarded:P", "rounding:P")
+
+
+def _truncating(name: str, digits: int) -> Profile:
+    return Profile(name, TRUNCATING.source, rules_of(digits))
+
+
+def _guarded(name: str, digits: int) -> Profile:
+    return Profile(name, "truncating, with a guard digit in sums", rules_of(digits, guard=1))
+
+
+def _rounding(name: str, digits: int) -> Profile:
+    rules = rules_of(digits, guard=2, sticky=1, sums=1, products=1, quotients=1)
+    return Profile(name, "exact result, rounded half up", rules)
+
+
+_FAMILIES = {"truncating": _truncating, "guarded": _guarded, "rounding": _rounding}
+FAMILIES = tuple(f"{family}:P" for family in _FAMILIES)
 
 
 def profile(name: str) -> Profile:
@@ -306,13 +322,8 @@ def profile(name: str) -> Profile:
     if name in PROFILES:
         return PROFILES[name]
     family, colon, count = name.partition(":")
-    if colon and f"{family}:P" in FAMILIES and count.isdecimal() and count.isascii():
-        digits = int(count)
-        if MIN_DIGITS <= digits <= MAX_DIGITS:
-            if family == "truncating":
-                return Profile(name, TRUNCATING.source, rules_of(digits))
-            if family == "guarded":
-                return Profile(name, "truncating, with a guard digit in sums", rules_of(digits, guard=1))
-            return Profile(name, "exact result, rounded half up", rules_of(digits, 2, 1, 1, 1, 1))
+    if not (colon and family in _FAMILIES and count.isdecimal() and count.isascii()):
+        raise ValueError(f"no arithmetic is called {name!r}; there are {', '.join((*PROFILES, *FAMILIES))}")
+    if len(count) > 9 or not MIN_DIGITS <= int(count) <= MAX_DIGITS:
         raise ValueError(f"{name}: the number of digits is {MIN_DIGITS} to {MAX_DIGITS}")
-    raise ValueError(f"no arithmetic is called {name!r}; there are {', '.join((*PROFILES, *FAMILIES))}")
+    return _FAMILIES[family](name, int(count))

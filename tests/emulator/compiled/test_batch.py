@@ -19,22 +19,13 @@ from emulator.machine.result import Options
 from emulator.numbers import numbers
 from tests.support.decks_at_random import ALL_FUNCTIONS, DATA, programs
 from tests.support.deckwork import agreed, program, source, within
+from tests.support.systems import COMPILED
 
 pytest.importorskip("numba")
 
-PROFILES = [
-    "truncating",
-    "ibm1962",
-    "truncating:2",
-    "truncating:9",
-    "guarded:5",
-    "guarded:9",
-    "rounding:5",
-    "rounding:9",
-]
 OPTIONS = st.builds(
     Options,
-    numbers=st.sampled_from(PROFILES).map(numbers),
+    numbers=st.sampled_from(COMPILED).map(numbers),
     switches=st.frozensets(st.integers(1, 4)),
     bounds=st.sampled_from(["strict", "core"]),
     limit=st.sampled_from([1, 2, 7, 300, 1_000, 1_001]),
@@ -135,7 +126,7 @@ def test_any_format_either_way() -> None:
     assert sum(found) > len(found) / 4
 
 
-@pytest.mark.parametrize("name", PROFILES)
+@pytest.mark.parametrize("name", COMPILED)
 def test_error_codes(name: str) -> None:
     """Counted, and typed where the profile does; F8 in the middle of a line, E3 and E7 of whole powers."""
     lines = ["A=1.E60", "B=A*A", "C=1./B/A/A", "Z=0.", "D=A/Z", "K=5/0", "X=Z**(-1)", "Y=A*A*A", "W=(-A)**2"]
@@ -143,7 +134,7 @@ def test_error_codes(name: str) -> None:
     assert alone([*lines, "END"], ["1"], options=Options(numbers=numbers(name))) == 1
 
 
-@pytest.mark.parametrize("name", PROFILES)
+@pytest.mark.parametrize("name", COMPILED)
 def test_roots_and_whole_powers(name: str) -> None:
     lines = ["1 READ 2,A,I", "B=SQRT(A)", "C=A**I", "PUNCH 3,B,C", "GO TO 1", "2 FORMAT(E14.8,I4)", "3 FORMAT(2E14.8)"]
     data = [
@@ -153,7 +144,7 @@ def test_roots_and_whole_powers(name: str) -> None:
     assert alone([*lines, "END"], data, options=Options(numbers=numbers(name))) <= 1
 
 
-@pytest.mark.parametrize("name", PROFILES)
+@pytest.mark.parametrize("name", COMPILED)
 def test_whole_powers_beyond_a_product(name: str) -> None:
     """The exact power of a number has more digits than the kernel's; where it is multiplied out, it runs there."""
     lines = ["READ 1,A", "B=A**3", "C=A**(-2)", "PUNCH 1,B,C", "1 FORMAT(2E14.8)", "END"]

@@ -20,8 +20,9 @@ from emulator.machine.result import Options
 from emulator.numbers import numbers
 from tests.support.decks_at_random import DATA, programs
 from tests.support.deckwork import program, source, within
+from tests.support.systems import SYSTEMS
 
-SYSTEMS = st.sampled_from(["truncating", "truncating:3", "rounding:5", "float64", "float32", "mp:80", "exact"])
+NAMES = st.sampled_from(SYSTEMS)
 
 
 def compared(*lines: str, data: Sequence[str] = (), names: tuple[str, str] = ("truncating", "exact")) -> Divergence:
@@ -205,7 +206,7 @@ def tried(cards: list[str], data: list[str], one: str, other: str, values: bool 
 
 
 @settings(max_examples=30)
-@given(programs(), DATA, SYSTEMS)
+@given(programs(), DATA, NAMES)
 def test_an_arithmetic_does_not_differ_from_itself(cards: list[str], data: list[str], name: str) -> None:
     found = tried(cards, data, name, name)
     if found is not None:
@@ -214,7 +215,7 @@ def test_an_arithmetic_does_not_differ_from_itself(cards: list[str], data: list[
 
 
 @settings(max_examples=30)
-@given(programs(), DATA, SYSTEMS, SYSTEMS)
+@given(programs(), DATA, NAMES, NAMES)
 def test_turned_about(cards: list[str], data: list[str], one: str, other: str) -> None:
     """What differs does not depend on which of the two is the reference; without values the decision is the same."""
     found, turned = tried(cards, data, one, other), tried(cards, data, other, one)
@@ -243,7 +244,7 @@ def statements_of(made: Program, data: list[str], name: str) -> list[Line]:
 
 
 @settings(max_examples=40)
-@given(programs(), DATA, SYSTEMS, SYSTEMS)
+@given(programs(), DATA, NAMES, NAMES)
 def test_the_first_decision_by_tracing_both(cards: list[str], data: list[str], one: str, other: str) -> None:
     """The first decision that differs is where the statements two tracers see first differ."""
     found = tried(cards, data, one, other)

@@ -16,10 +16,11 @@ from emulator.machine.timing import measure
 from emulator.numbers import numbers
 from tests.support.decks_at_random import ALL_FUNCTIONS, CARD, CARD_TEXT, DATA, programs, spoilt_programs
 from tests.support.deckwork import source, within
+from tests.support.systems import DECIMAL
 
 OPTIONS = st.builds(
     Options,
-    numbers=st.sampled_from(["truncating", "ibm1962", "truncating:2", "rounding:8", "rounding:28"]).map(numbers),
+    numbers=st.sampled_from(DECIMAL).map(numbers),
     switches=st.frozensets(st.integers(1, 4)),
     core=st.sampled_from([20_000, 40_000, 60_000]),
     bounds=st.sampled_from(["strict", "core"]),

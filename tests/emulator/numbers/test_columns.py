@@ -14,12 +14,11 @@ from hypothesis import strategies as st
 
 from emulator.numbers.arithmetic import MINUS_ZERO, ZERO, profile
 from emulator.numbers.fields import Field, FieldError, read_fixed, read_floating, write_fixed, write_floating
+from tests.support.systems import DECIMAL
 
 FLOATING = re.compile(r"([+-]?)(\d*)(?:(\.)(\d*))?(?:E([+-]?)(\d+)|([+-])(\d+))?")
 FIXED = re.compile(r"([+-]?)(\d+)")
-RULES = st.sampled_from(["truncating", "truncating:2", "rounding:5", "truncating:9", "truncating:28"]).map(
-    lambda name: profile(name).rules
-)
+RULES = st.sampled_from(DECIMAL).map(lambda name: profile(name).rules)
 
 SCRAPS = st.text(st.sampled_from("0123456789 0 0 .E+-X"), max_size=18)
 BLANKS = st.sampled_from(["", "", " ", "  "])

@@ -13,8 +13,8 @@ import pytest
 
 from emulator.numbers import Trap, numbers
 from emulator.numbers.base import Numbers
+from tests.support.systems import BINARY
 
-SYSTEMS = ("float64", "float32")
 OPERATIONS: dict[str, Callable[[Numbers, float, float], float]] = {
     "+": lambda system, x, y: system.add(x, y),
     "-": lambda system, x, y: system.subtract(x, y),
@@ -24,7 +24,7 @@ OPERATIONS: dict[str, Callable[[Numbers, float, float], float]] = {
 }
 
 
-@pytest.mark.parametrize("name", SYSTEMS)
+@pytest.mark.parametrize("name", BINARY)
 @pytest.mark.parametrize(
     ("operation", "first", "second", "result"),
     [
@@ -53,7 +53,7 @@ def test_an_infinite_operand_is_no_overflow(
     assert OPERATIONS[operation](numbers(name), first, second) == result
 
 
-@pytest.mark.parametrize("name", SYSTEMS)
+@pytest.mark.parametrize("name", BINARY)
 @pytest.mark.parametrize(
     ("operation", "first", "second"),
     [

@@ -20,6 +20,7 @@ from emulator.numbers import Numbers, Trap, Undecided, numbers
 from emulator.numbers.fields import FALLBACK, Field
 from emulator.numbers.roots import MAX_ROOTS, RootSum, square_root
 from tests.support.deckwork import program
+from tests.support.systems import BINARY, SYSTEMS
 
 EXACT, DOUBLE, SINGLE = numbers("exact"), numbers("float64"), numbers("float32")
 CONTEXT = MPContext()
@@ -94,9 +95,6 @@ def test_a_number_of_many_bits_is_written_as_it_was_read(x: float, bits: int) ->
         assert Fraction(mantissa) * Fraction(10) ** (exponent - 6) == whole * Fraction(10) ** power
 
 
-SYSTEMS = ("float64", "float32", "mp:24", "exact", "truncating:8", "rounding:12")
-
-
 @pytest.mark.parametrize("name", SYSTEMS)
 @pytest.mark.parametrize(("base", "count"), [(2, 1), (2, 5), (3, 4), (-2, 3), (-2, 4), (-3, 5), (2, -2), (-2, -3)])
 def test_a_whole_power(name: str, base: int, count: int) -> None:
@@ -118,7 +116,7 @@ def test_the_exact_value_of_zero_is_zero(name: str) -> None:
     assert numbers(name).exact(numbers(name).decimal(0, 0), 30) == 0
 
 
-@pytest.mark.parametrize("name", [name for name in SYSTEMS if not name.startswith("float")])
+@pytest.mark.parametrize("name", [name for name in SYSTEMS if name not in BINARY])
 def test_a_power_of_ten_for_a_reader_has_no_point(name: str) -> None:
     """Digits as they are up to twenty, beyond them an exponent."""
     system = numbers(name)

@@ -22,6 +22,7 @@ import pytest
 from modern.study import Plan, PlanError, Port, Programs, run_study
 from modern.study import store as study_store
 from modern.study.index import NAME as INDEX
+from modern.study.measures import MEASURES
 from modern.study.progress import Progress
 from modern.study.run import plain_lines
 from modern.study.store import BESIDE, Store, StudyFileError
@@ -29,6 +30,7 @@ from modern.study.workers import in_processes
 from tests.support.paths import ROOT
 from tests.support.studied import PLAN, ROUTES
 
+LISTED = Programs("listed", limit=20_000)
 SCRIPT = """
 import sys
 from modern.study import run_study
@@ -319,6 +321,33 @@ def test_a_route_that_cannot_be_gone_is_refused_before_it_begins(
         run_study(plan, tmp_path / "no", quiet=True)
     assert "\n" not in str(refused.value)
     assert not (tmp_path / "no").exists()
+
+
+MEASURED: dict[str, tuple[Programs | Port, set[str]]] = {
+    "machine_time": (LISTED, {f"seconds_{name}" for name in ("processor", "reader", "punch", "typewriter")}),
+    "operations": (LISTED, {"additions", "products", "quotients"}),
+    "plane_table": (Port("exact", history=True), {"planes_at_once"}),
+    "divergence": (LISTED, {"diverges"}),
+}
+"""Every measure: a route whose run it takes, and the figures it gives."""
+
+
+def test_every_measure_is_tried() -> None:
+    assert MEASURED.keys() == MEASURES.keys()
+
+
+@pytest.mark.parametrize("name", sorted(MEASURED))
+def test_a_measure_gives_its_figures(name: str, tmp_path: Path) -> None:
+    """Of a run it takes; of one of the other kind none."""
+    route, keys = MEASURED[name]
+    other = Port("exact") if isinstance(route, Programs) else LISTED
+    routes = replace(route, name="taken", measures=(name,)), replace(other, name="other", measures=(name,))
+    plan = replace(PLAN, cells=(replace(PLAN.cells[0], routes=routes, samples=1),))
+    run_study(plan, tmp_path / "m", workers=1, quiet=True)
+    for line in (tmp_path / "m/rows/0000-000000000.jsonl").read_text().splitlines():
+        runs = json.loads(line)["runs"]
+        assert keys <= runs["taken"]["figures"].keys()
+        assert not keys & runs["other"]["figures"].keys()
 
 
 def test_measures_become_figures(tmp_path: Path) -> None:
