@@ -11,6 +11,7 @@ import math
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from typing import assert_never
 
 from emulator.errors import CompileError, DeckError, Diagnostic, Refused, said_once
 from emulator.language import objectcode as op
@@ -231,7 +232,7 @@ class _Translation:
                 emitter.emit(op.SWITCH, address=self._branch(labels, statement.place), second=switch)
             case tree.Do():
                 self._do(body, statement, index)
-            case tree.Continue():
+            case tree.Continue() | tree.Dimension() | tree.Format():
                 pass
             case tree.Pause(number):
                 emitter.emit(op.PAUSE, second=int(number or 0))
@@ -242,6 +243,8 @@ class _Translation:
                 emitter.emit(op.STOP, second=1)
             case tree.InputOutput():
                 self._input_output(body, statement, index)
+            case _:
+                assert_never(body)
 
     def _assignment(self, body: tree.Assignment) -> None:
         emitter, target = self.emitter, body.target

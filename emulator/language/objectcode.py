@@ -9,7 +9,7 @@ one or all of an array, with a minus sign for fixed point.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
@@ -20,6 +20,49 @@ from emulator.language.tree import Place
 from emulator.numbers.work import STEPS
 
 # Operations with an address come first: the engine resolves a subscript before it looks at them.
+MEANINGS = {
+    "TOFAC": "field to FAC",
+    "FMFAC": "FAC to field",
+    "FAD": "FAC + field",
+    "FSB": "FAC - field",
+    "FSBR": "field - FAC: subtract, then reverse the sign",
+    "FMP": "FAC * field",
+    "FDV": "FAC / field",
+    "FDVR": "field / FAC",
+    "TOFIX": "field to fixed accumulator",
+    "FMFIX": "fixed accumulator to field",
+    "XAD": "fixed add",
+    "XSB": "fixed subtract",
+    "XSBR": "fixed subtract, reversed",
+    "XMP": "fixed multiply",
+    "XDV": "fixed divide",
+    "XDVR": "fixed divide, reversed",
+    "SEND": "field to be transmitted as it stands",
+    "TRANSMIT": "transmit field",
+    "ITEM": "one number of an input or output list, or all of an array",
+    "COUNT": "a statement begins",
+    "BRANCH": "go to",
+    "IF": "branch on FAC negative, zero, positive",
+    "IFX": "branch on the fixed accumulator",
+    "RSGN": "reverse the sign of FAC, of a zero too",
+    "RSGX": "reverse the sign, fixed",
+    "DOTEST": "step the variable of a DO, back if not past the limit",
+    "SELECT": "computed go to",
+    "SWITCH": "branch on a sense switch",
+    "FLOAT": "fixed to floating",
+    "FIX": "floating to fixed",
+    "FUNCTION": "library function of FAC",
+    "POWER": "field ** FAC",
+    "POWERX": "FAC ** fixed field",
+    "BEGIN": "input or output begins",
+    "FINISH": "the list ends",
+    "PAUSE": "halt until START",
+    "STOP": "end of the run",
+}
+"""Every operation and what it does; an operation is its place here, and the names below stand in the same order."""
+
+NAMES = tuple(MEANINGS)
+
 (
     TOFAC,
     FMFAC,
@@ -58,52 +101,7 @@ from emulator.numbers.work import STEPS
     FINISH,
     PAUSE,
     STOP,
-) = range(37)
-
-NAMES = (
-    "TOFAC FMFAC FAD FSB FSBR FMP FDV FDVR TOFIX FMFIX XAD XSB XSBR XMP XDV XDVR SEND TRANSMIT ITEM COUNT BRANCH "
-    "IF IFX RSGN RSGX DOTEST SELECT SWITCH FLOAT FIX FUNCTION POWER POWERX BEGIN FINISH PAUSE STOP"
-).split()
-
-MEANINGS: Mapping[str, str] = {
-    "TOFAC": "field to FAC",
-    "FMFAC": "FAC to field",
-    "FAD": "FAC + field",
-    "FSB": "FAC - field",
-    "FSBR": "field - FAC: subtract, then reverse the sign",
-    "FMP": "FAC * field",
-    "FDV": "FAC / field",
-    "FDVR": "field / FAC",
-    "RSGN": "reverse the sign of FAC, of a zero too",
-    "TOFIX": "field to fixed accumulator",
-    "FMFIX": "fixed accumulator to field",
-    "XAD": "fixed add",
-    "XSB": "fixed subtract",
-    "XSBR": "fixed subtract, reversed",
-    "XMP": "fixed multiply",
-    "XDV": "fixed divide",
-    "XDVR": "fixed divide, reversed",
-    "RSGX": "reverse the sign, fixed",
-    "SEND": "field to be transmitted as it stands",
-    "TRANSMIT": "transmit field",
-    "ITEM": "one number of an input or output list, or all of an array",
-    "COUNT": "a statement begins",
-    "BRANCH": "go to",
-    "IF": "branch on FAC negative, zero, positive",
-    "IFX": "branch on the fixed accumulator",
-    "DOTEST": "step the variable of a DO, back if not past the limit",
-    "SELECT": "computed go to",
-    "SWITCH": "branch on a sense switch",
-    "FLOAT": "fixed to floating",
-    "FIX": "floating to fixed",
-    "FUNCTION": "library function of FAC",
-    "POWER": "field ** FAC",
-    "POWERX": "FAC ** fixed field",
-    "BEGIN": "input or output begins",
-    "FINISH": "the list ends",
-    "PAUSE": "halt until START",
-    "STOP": "end of the run",
-}
+) = range(len(NAMES))
 
 
 @dataclass(frozen=True, slots=True)

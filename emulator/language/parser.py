@@ -25,25 +25,24 @@ from emulator.language.statements import (
     sources,
 )
 
-_STARTS = ("assignment go_to computed_go_to if if_switch do continue pause stop end dimension input_output").split()
-
 _FORMS = {
-    "assignment": "variable = expression",
-    "go_to": "GO TO n",
-    "computed_go_to": "GO TO (n1, n2, ...), i",
-    "if": "IF (expression) n1, n2, n3",
-    "if_switch": "IF (SENSE SWITCH n) n1, n2",
-    "do": "DO n i = m1, m2, m3",
-    "continue": "CONTINUE",
-    "pause": "PAUSE",
-    "stop": "STOP",
-    "end": "END",
-    "dimension": "DIMENSION v(d), v(d1, d2), ...",
-    "input_output": "READ n, list (or PUNCH, PRINT, TYPE, ACCEPT)",
+    "assignment": ("variable = expression", 0),
+    "go_to": ("GO TO n", 0),
+    "computed_go_to": ("GO TO (n1, n2, ...), i", 0),
+    "if": ("IF (expression) n1, n2, n3", 0),
+    "if_switch": ("IF (SENSE SWITCH n) n1, n2", 7),
+    "do": ("DO n i = m1, m2, m3", 8),
+    "continue": ("CONTINUE", 0),
+    "pause": ("PAUSE", 0),
+    "stop": ("STOP", 0),
+    "end": ("END", 0),
+    "dimension": ("DIMENSION v(d), v(d1, d2), ...", 9),
+    "input_output": ("READ n, list (or PUNCH, PRINT, TYPE, ACCEPT)", 13),
 }
+"""The grammar's rule for each kind of statement: its form in messages, and its error type of C26-5619 p. 56, or 0.
 
-_NUMBERS = {"if_switch": 7, "do": 8, "dimension": 9, "input_output": 13}
-"""Error types of C26-5619 p. 56 by the form they belong to; an IF with a comma after its parenthesis is type 7 too."""
+An IF with a comma after its parenthesis is type 7 too.
+"""
 
 MAX_NESTING = 60
 MAX_LENGTH = 20_000
@@ -156,18 +155,18 @@ def parse_statement(source: Source) -> tree.Statement:
         raise Refused(source.place, f"not a statement of this FORTRAN: {source.text[:40]}")
     if _depth(source.text) > MAX_NESTING:
         raise Refused(source.place, f"parentheses are nested more than {MAX_NESTING} deep")
-    number = _NUMBERS.get(source.kind, 0)
+    form, number = _FORMS[source.kind]
     try:
         body = _Builder(source.places).build(_tree(source.text, source.kind))
     except UnexpectedCharacters as error:
         at = source.places[error.pos_in_stream or 0]
-        raise Refused(at, f"{error.char!r} does not fit here; the form is {_FORMS[source.kind]}", number) from None
+        raise Refused(at, f"{error.char!r} does not fit here; the form is {form}", number) from None
     except UnexpectedToken as error:
         if source.kind == "if" and error.token == "," and source.text[(error.token.start_pos or 1) - 1] == ")":
             number = 7
         raise Refused(*_token_message(error, source), number) from None
     except UnexpectedInput:
-        raise Refused(source.place, f"does not parse; the form is {_FORMS[source.kind]}", number) from None
+        raise Refused(source.place, f"does not parse; the form is {form}", number) from None
     return tree.Statement(label, source.place, text, body)
 
 
@@ -178,7 +177,7 @@ def _statement_number(digits: str, place: tree.Place) -> int:
 
 
 def _token_message(error: UnexpectedToken, source: Source) -> tuple[tree.Place, str]:
-    form = _FORMS[source.kind]
+    form, _ = _FORMS[source.kind]
     token = error.token
     if token.type == "$END":
         return source.places[-1], f"the statement ends too soon; the form is {form}"
@@ -207,7 +206,7 @@ def _short_tree(text: str, kind: str) -> Tree[Token]:
 @cache
 def _grammar() -> Lark:
     source = files("emulator.language").joinpath("dialect.lark").read_text(encoding="utf-8")
-    return Lark(source, parser="lalr", start=_STARTS, maybe_placeholders=True)
+    return Lark(source, parser="lalr", start=list(_FORMS), maybe_placeholders=True)
 
 
 class _Builder:
@@ -314,8 +313,3 @@ class _Builder:
 
     def input_output(self, children: list[Any]) -> tree.InputOutput:
         return tree.InputOutput(str(children[0]), self._label(children[1]), tuple(children[2:]))
-
-
-# `if` and `continue` are words of Python; the grammar keeps their FORTRAN names.
-setattr(_Builder, "if", _Builder.if_)
-setattr(_Builder, "continue", _Builder.continue_)

@@ -17,6 +17,7 @@ Whole numbers are the compiler's, not four digits modulo 10000; ACCEPT has no co
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
+from typing import assert_never
 
 from emulator.errors import DeckError
 from emulator.language import tree
@@ -105,7 +106,11 @@ class _Writer:
                 return self.transfer(body, statement)
             case tree.Format():
                 return self.format(statement, body)
-        return "continue"
+            case tree.Continue() | tree.Pause():
+                return "continue"
+            case tree.Do() | tree.Dimension() | tree.End():
+                raise AssertionError(f"{type(body).__name__} is not one line")
+        assert_never(body)
 
     def transfer(self, body: tree.InputOutput, statement: tree.Statement) -> str:
         if body.verb == "ACCEPT":
