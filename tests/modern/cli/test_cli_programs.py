@@ -13,6 +13,7 @@ from emulator.language.compiler import translate
 from emulator.machine.machine import Machine
 from emulator.machine.result import Options
 from emulator.numbers import numbers
+from modern.cli.arguments import COMMANDS
 from tests.support.commands import call
 from tests.support.paths import DATA, ROOT
 
@@ -32,11 +33,17 @@ CALLS = {
     "check": (),
     "compile": (),
     "flowchart": (),
+    "listing": ("one.deck",),
     "map": (),
     "run": ("one.deck",),
     "diverge": ("one.deck",),
 }
 """Every command that reads a program of one's own, and the rest of its call."""
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_that_takes_a_program_is_here(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert ("PROGRAM.f" in call(capsys, command, "--help")[1].split("options:")[0]) == (command in CALLS)
 
 
 @pytest.mark.parametrize("command", CALLS)
@@ -53,8 +60,8 @@ def test_small_letters_are_named_once_with_the_option_that_reads_them(
 
 @pytest.mark.parametrize("command", CALLS)
 def test_upcase_makes_it_the_program_in_capitals(command: str, capsys: pytest.CaptureFixture[str]) -> None:
-    """All that is put out is the same, the number of the cards apart: the comment is one card more."""
-    Path("large.f").write_text("C\n" + SOURCE)
+    """All that is put out is the same; the comment, in small letters, may stand in both."""
+    Path("large.f").write_text("C  Squares\n" + SOURCE)
     expected = call(capsys, command, "large.f", *CALLS[command])
     assert expected[0] == 0
     code, out, err = call(capsys, command, "small.f", *CALLS[command], "--upcase")
