@@ -140,8 +140,8 @@ def _appel_will(parser: ArgumentParser) -> None:
     )
     parser.add_argument(
         "--star",
-        choices=("printed", "mended"),
-        help="the star polygon test, whatever the other rules (default: mended; with --literal: printed)",
+        choices=("printed", "corrected"),
+        help="the star polygon test, whatever the other rules (default: corrected; with --literal: printed)",
     )
     parser.add_argument(
         "--inside-corners",
@@ -170,9 +170,9 @@ def _hidden_line(parser: ArgumentParser) -> None:
     parser.add_argument("--tables", action="store_true", help="print contours, PL and LP tables with d, and indices")
     parser.add_argument(
         "--without",
-        metavar="MEND,...",
+        metavar="CORRECTION,...",
         default="",
-        help="leave out mends of the paper's gaps: enclosed, touching, ends; or its own ghosts",
+        help="leave out corrections of the paper's gaps: enclosed, touching, ends; or its own ghosts",
     )
     parser.add_argument("--title", metavar="TEXT", help="the line below the picture (default: the scene's)")
     parser.add_argument("--width", metavar="PIXELS", type=int, default=640, help="of the SVG (default: 640)")

@@ -32,7 +32,7 @@ def document(hull: Hull) -> dict[str, Any]:
         "plane": None if hull.plane is None else list(hull.plane),
         "lines": [list(line) for line in hull.lines],
         "centre": None if hull.centre is None else list(hull.centre),
-        "mended": list(hull.mended),
+        "corrected": list(hull.corrected),
         "history": [_stage(stage) for stage in hull.history],
     }
 

@@ -85,8 +85,8 @@ class Hull:
     lines: tuple[Coefficients, ...] = ()
     centre: tuple[str, str, str] | None = None
     statement: str = ""
-    mended: tuple[str, ...] = ()
-    """Mends of the layer ``corrected`` that took a branch other than the listing's."""
+    corrected: tuple[str, ...] = ()
+    """Corrections of the layer ``corrected`` that took a branch other than the listing's."""
     history: tuple[Stage, ...] = field(default=(), repr=False)
 
     @property

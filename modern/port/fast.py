@@ -18,7 +18,7 @@ from modern.port.polyhedron import LISTED_PLANES, PLANES, Polyhedron
 from modern.port.table import Equations, Places, Slack
 from modern.port.workspace import Cloud, Rules, Slots
 
-_MENDS = {THROUGH_CENTRE: workspace.THROUGH, TABLE_OF_PLANES: workspace.TABLE, LAST_PAIR: workspace.PAIR}
+_CORRECTIONS = {THROUGH_CENTRE: workspace.THROUGH, TABLE_OF_PLANES: workspace.TABLE, LAST_PAIR: workspace.PAIR}
 
 _FIRST = 4
 """Vertices of H_1."""
@@ -141,7 +141,7 @@ def _state(hull: Polyhedron) -> NDArray[np.int64]:
     state[workspace.MADE] = state[workspace.ALIVE] = len(hull.table)
     state[workspace.TRIED] = np.searchsorted(hull.table.serial, hull.remaining.tried)
     state[workspace.STRUCK] = hull.remaining.struck
-    state[workspace.KNOWN] = sum(bit for name, bit in _MENDS.items() if name in hull.progress.mended)
+    state[workspace.KNOWN] = sum(bit for name, bit in _CORRECTIONS.items() if name in hull.progress.corrected)
     return state
 
 

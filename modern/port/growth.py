@@ -78,14 +78,14 @@ class Stopped(Exception):
 
 @dataclass
 class Progress:
-    """What is known so far: points of the input struck as inside or as boundary points, and mends that mattered."""
+    """What is known so far: points struck as inside or as boundary points, and corrections that mattered."""
 
     inside: list[int] = field(default_factory=list)
     boundary: list[int] = field(default_factory=list)
-    mended: dict[str, None] = field(default_factory=dict)
+    corrected: dict[str, None] = field(default_factory=dict)
 
-    def mend(self, name: str) -> None:
-        self.mended[name] = None
+    def correct(self, name: str) -> None:
+        self.corrected[name] = None
 
 
 Watcher = Callable[[Equations, tuple[int, ...], int, int, list[int]], None]

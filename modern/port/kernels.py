@@ -2,7 +2,7 @@
 
 The steps are those of :mod:`modern.port.growth`, :mod:`modern.port.polyhedron` and :mod:`modern.port.growth`, and so
 are the decisions and the numbers, which come from the formulas those use.  What is not ordinary is left to them: a
-stage that stops, that meets a mend not yet noted, or that takes back a vertex returns UNUSUAL with nothing
+stage that stops, that meets a correction not yet noted, or that takes back a vertex returns UNUSUAL with nothing
 changed but the equation to check.
 """
 
@@ -144,8 +144,8 @@ def replaced(point: Any, slots: Any, state: NDArray[np.int64]) -> NDArray[np.int
 
 
 def three_planes(order: NDArray[np.int64], place: int, cloud: Any, slots: Any, state: Any, rules: Any) -> int:
-    """``Polyhedron.three_planes`` into the slots after those used; the bits of mends, -1 if the stage is to stop."""
-    new, slot, mends = state[VERTICES], state[MADE], 0
+    """``Polyhedron.three_planes`` into the slots after those used; the bits of corrections, -1 to stop the stage."""
+    new, slot, corrections = state[VERTICES], state[MADE], 0
     point = corner(cloud.coordinates, place)
     for old in order:
         for turn in range(3):
@@ -161,7 +161,7 @@ def three_planes(order: NDArray[np.int64], place: int, cloud: Any, slots: Any, s
                 found = (-found[0], -found[1], -found[2], -found[3])
             e = tolerance(found, rules)
             if value == 0:
-                mends |= THROUGH
+                corrections |= THROUGH
                 if found[0] * found[0] == 0 and found[1] * found[1] == 0 and found[2] * found[2] == 0:
                     return -1
             if is_outside(at(found, point), e):
@@ -170,7 +170,7 @@ def three_planes(order: NDArray[np.int64], place: int, cloud: Any, slots: Any, s
                 slots.coefficients[i, slot] = found[i]
             slots.tolerances[slot] = e
             slot += 1
-    return mends
+    return corrections
 
 
 def doubles(defining: NDArray[np.int64], first: int, last: int) -> NDArray[np.int64]:
@@ -227,15 +227,15 @@ def expand(place: int, cloud: Any, slots: Any, state: NDArray[np.int64], rules: 
     if last > len(slots.alive):
         return FULL
     peak = state[ALIVE] + 2 * len(order) + 1
-    mends = three_planes(order, place, cloud, slots, state, rules)
-    if mends < 0 or peak > max(rules.room, 4 * state[COUNT] - 11):
+    corrections = three_planes(order, place, cloud, slots, state, rules)
+    if corrections < 0 or peak > max(rules.room, 4 * state[COUNT] - 11):
         return UNUSUAL
     if peak > rules.listed:
-        mends |= TABLE
+        corrections |= TABLE
     partner = doubles(slots.defining, made, last)
     if len(order) > 1 and takes_last_pair(partner):
-        mends |= PAIR
-    if mends & ~state[KNOWN]:
+        corrections |= PAIR
+    if corrections & ~state[KNOWN]:
         return UNUSUAL
     for slot in order:
         slots.alive[slot] = False

@@ -88,7 +88,7 @@ class Polygon:
         kept[self.to_check] = False
         self.table.replace(kept, self.turn(both, ends, both), np.stack([ends, both]), np.ones(2, np.bool_))
         if len(self.table) + 1 > _LISTED_LINES:
-            self.progress.mend(TABLE_OF_LINES)
+            self.progress.correct(TABLE_OF_LINES)
         return 1
 
 
@@ -120,7 +120,7 @@ def strike_between(
                 raise Stopped(ERROR, "program2 112")
         k += 1
     if listed_numbers(ends, gone) != lowered(ends, gone):
-        progress.mend(NUMBERING)
+        progress.correct(NUMBERING)
     return ends, gone
 
 
@@ -161,7 +161,7 @@ def middle(arithmetic: Arithmetic, places: Places, three: tuple[int, int, int], 
     # The listing compares the distances themselves, which are roots and need not add up.
     listed = 0 if arithmetic.distances_add_up(a, b, c) else 1 if arithmetic.distances_add_up(a, c, b) else 2
     if found != listed:
-        progress.mend(BETWEEN)
+        progress.correct(BETWEEN)
     return three[found]
 
 

@@ -117,9 +117,9 @@ class Polyhedron:
     def note(self, fresh: Fresh, size: int) -> None:
         """What the listing would have stopped at: planes through C, more planes than it has places for."""
         if fresh.through:
-            self.progress.mend(THROUGH_CENTRE)
+            self.progress.correct(THROUGH_CENTRE)
         if size > LISTED_PLANES:
-            self.progress.mend(TABLE_OF_PLANES)
+            self.progress.correct(TABLE_OF_PLANES)
 
     def signs(self, fresh: Fresh, point: tuple[Scalar, ...]) -> NDArray[np.int8]:
         return self.arithmetic.sign(self.table.values(fresh.coefficients, point))
@@ -143,7 +143,7 @@ class Polyhedron:
             wanted[[one, other]] = False
             # The listing goes on with the plane in the struck one's place and looks at those after it.
             if wanted[one:].sum() <= 1:
-                self.progress.mend(LAST_PAIR)
+                self.progress.correct(LAST_PAIR)
         return wanted
 
     def stop(self, first: int, above: dict[int, Scalar], new: int) -> None:
@@ -196,7 +196,7 @@ def strike_repeats(table: Equations, on: On, places: int, progress: Progress) ->
     # The listing looks beyond the table when an equation has struck the last of those after it.
     last = np.flatnonzero(wanted)[-1]
     if (struck_by == last).any():
-        progress.mend(LAST_REPEAT)
+        progress.correct(LAST_REPEAT)
     table.keep(wanted)
     return [points for k, points in enumerate(on) if wanted[k]]
 

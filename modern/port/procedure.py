@@ -47,7 +47,7 @@ def convex_hull(
     extra ``fast``) for ``float64`` and ``float32``; None: where they are there and points are many.  The result is
     the same.
 
-    What the layer ``corrected`` changes is built in; :attr:`Hull.mended` names the rows that mattered.  Numbers
+    What the layer ``corrected`` changes is built in; :attr:`Hull.corrected` names the rows that mattered.  Numbers
     that are rounded may end in a status other than ``determined``, as the programs do; on_refusal: ``raise`` an error
     then, or ``return`` the result with that status.
 
@@ -202,7 +202,7 @@ class _Run:
             statement=label,
             boundary=tuple(self.progress.boundary),
             inside=tuple(self.progress.inside),
-            mended=tuple(self.progress.mended),
+            corrected=tuple(self.progress.corrected),
             history=tuple(self.watcher.stages) if self.watcher else (),
         )
 

@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 COUNT, VERTICES, CHECK, CHECKED, MADE, ALIVE, TRIED, STRUCK, GONE, STAGES, ADDED, OUTSIDE, KNOWN = range(13)
 """Places of the state: points left, vertices among them; slot to check and how many equations stand before it; slots
 used and planes in them; slots used when the points were last looked at, whether that struck any, and points struck so
-far; stages so far, of the last one the point added and how many equations it lay outside of; mends noted already, a
+far; stages so far, of the last one the point added and how many equations it lay outside of; corrections known, a
 bit each."""
 STATE_SIZE = 13
 
 THROUGH, TABLE, PAIR = 1, 2, 4
-"""Bits of mends: a plane through C, more planes than the listing has places for, the last pair of equal planes."""
+"""Bits of corrections: a plane through C, more planes than the listing has room for, the last pair of equal planes."""
 
 
 class Cloud(NamedTuple):

@@ -31,8 +31,8 @@ Kind = Literal["miss", "centre", "zeros", "pair", "repeat", "room", "endless", "
 - other: none of these.
 """
 
-MENDED = {1: "P3-025", 2: "P3-026", 3: "P3-027", 5: "P3-028", 16: "P2-023"}
-"""The rows of the layer ``corrected`` that mend known faults."""
+CORRECTED = {1: "P3-025", 2: "P3-026", 3: "P3-027", 5: "P3-028", 16: "P2-023"}
+"""The rows of the layer ``corrected`` that correct known faults."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ import textwrap
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from modern.thesis.refusals import MENDED, Cause, Kind
+from modern.thesis.refusals import CORRECTED, Cause, Kind
 
 _MEANS: dict[Kind, str] = {
     "miss": "this point is one of those that equation {equation} was made from, and gives {value} in it instead "
@@ -77,7 +77,7 @@ def lines(cause: Cause, asked: Asked) -> Iterator[str]:
     if asked.explain:
         yield from _wrapped(_LONGER[cause.kind].format(**values), "  ")
         if cause.fault:
-            row = f"; row {MENDED[cause.fault]} of layer corrected mends it" if cause.fault in MENDED else ""
+            row = f"; row {CORRECTED[cause.fault]} of layer corrected corrects it" if cause.fault in CORRECTED else ""
             yield from _wrapped(f"fortran_src/KNOWN-FAULTS.md has it under {cause.fault}{row}.", "  ")
     for k, (command, why) in enumerate(_tries(cause, asked)):
         yield f"  {'    ' if k else 'try:'} {command}"
@@ -89,12 +89,12 @@ def lines(cause: Cause, asked: Asked) -> Iterator[str]:
 
 def _tries(cause: Cause, asked: Asked) -> Iterator[tuple[str, str]]:
     """Commands that help further, and what each is for."""
-    deck, mended = shlex.quote(asked.deck), "corrected" in asked.layers
+    deck, corrected = shlex.quote(asked.deck), "corrected" in asked.layers
     if asked.points:
         yield f"hull1620 cards {shlex.quote(asked.points)} -o {deck}", "The deck that the next commands take."
-    if cause.fault in MENDED and not mended:
-        yield _again(asked, "corrected"), "The programs with what is known to be wrong in them mended."
-    if not (asked.arithmetic == "exact" and asked.uncut and mended):
+    if cause.fault in CORRECTED and not corrected:
+        yield _again(asked, "corrected"), "The programs with what is known to be wrong in them corrected."
+    if not (asked.arithmetic == "exact" and asked.uncut and corrected):
         yield (
             f"{_again(asked, 'corrected', 'exact')} --uncut",
             "The same programs where no digit is lost, neither in a number nor on the cards between two programs.",

@@ -72,7 +72,7 @@ def test_a_document(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_layers(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """The mended cards do not ask for the roots."""
+    """The corrected cards do not ask for the roots."""
     code, out, _ = call(capsys, "diverge", "program2", "side.cards", "--layers", "corrected")
     assert code == 0
     assert "none differs" in out

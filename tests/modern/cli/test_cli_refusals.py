@@ -66,14 +66,14 @@ def test_diff_proposes_the_deck_first_and_explains_once(own: Path, capsys: pytes
 
 
 @pytest.mark.parametrize(("name", "fault"), [("lastpair", 1), ("throughc", 3)])
-def test_a_fault_of_the_original_is_named_and_its_mend_works(
+def test_a_fault_of_the_original_is_named_and_its_correction_works(
     name: str, fault: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     deck = str(GROUNDS / f"{name}.deck")
     code, _, err = call(capsys, "hull", deck, "--explain")
     assert code == 1
     assert f"(known fault {fault})" in " ".join(err.split())
-    assert f"row P3-0{24 + fault} of layer corrected mends it" in " ".join(err.split())
+    assert f"row P3-0{24 + fault} of layer corrected corrects it" in " ".join(err.split())
     assert call(capsys, *tried(err)[0])[0] == 0
 
 

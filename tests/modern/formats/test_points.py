@@ -216,7 +216,7 @@ def test_draw(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
 # arguments, words of the message
 BAD_ARGUMENTS = [
     (("export", "t.csv"), "export: give a file with -o, or a --format for standard output"),
-    (("export", "t.csv", "-o", "t.dxf"), "t.dxf: the name must end with one of .off, .obj, .ply, .stl, .json"),
+    (("export", "t.csv", "-o", "t.dxf"), "t.dxf: the name must end with one of .off, .obj, .ply, .stl, .json, .html"),
     (("export", "t.csv", "-o", "none/t.off"), "none/t.off: no such file or directory"),
     (("export", "none.csv", "-o", "t.off"), "none.csv: no such file or directory"),
     (("export", "s.csv", "-o", "s.stl"), "STL holds triangles; the hull is a segment and has no area"),

@@ -99,7 +99,7 @@ def test_literal_says_which_edges_are_none(room: Path, capsys: pytest.CaptureFix
     assert "edges are none, by images on one ray" in out
     assert out.splitlines()[-1].startswith("no hull: ")
     assert "The surfaces given" not in out
-    code, out, err = call(capsys, "fig4.off", "--literal", "--star", "mended")
+    code, out, err = call(capsys, "fig4.off", "--literal", "--star", "corrected")
     assert (code, err) == (1, "note: taken as printed: star, step3, step5, step7, step9, step10\n")
     assert "edges are none" not in out
     assert out.splitlines()[-1] == "no hull: the loop begun with lines 3 and 1 does not come back to its start"

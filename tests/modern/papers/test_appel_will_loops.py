@@ -92,9 +92,9 @@ def test_step_9_by_the_letter_takes_a_line_again_and_does_not_come_back() -> Non
 def test_step_7_by_the_letter_begins_loops_elsewhere() -> None:
     """An L2 that makes no plane of the hull costs its L1 the turn, so loops come in another order."""
     points = [(0, 0, 2), (1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, -2)]
-    letter, mended = entries(points, printed("step7").rules), entries(points, Rules())
-    assert sorted(sorted(map(abs, loop)) for loop in letter) == sorted(sorted(map(abs, loop)) for loop in mended)
-    assert letter != mended
+    letter, corrected = entries(points, printed("step7").rules), entries(points, Rules())
+    assert sorted(sorted(map(abs, loop)) for loop in letter) == sorted(sorted(map(abs, loop)) for loop in corrected)
+    assert letter != corrected
 
 
 def test_step_10_by_the_letter_finds_every_loop_and_forgets_its_counts() -> None:

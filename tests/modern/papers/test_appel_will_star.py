@@ -37,7 +37,7 @@ images_far = st.tuples(st.integers(-(10**12), 10**12), st.integers(-(10**12), 10
 
 
 @given(st.lists(st.one_of(images_near, images_far), max_size=9))
-def test_mended_test_and_one_pass_are_the_judges_corner(images: list[Image]) -> None:
+def test_corrected_test_and_one_pass_are_the_judges_corner(images: list[Image]) -> None:
     assert as_corrected(images) == in_one_pass(images) == is_corner(images)
 
 
@@ -59,7 +59,7 @@ def test_star_polygon_goes_around_once(images: list[Image]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("images", "printed", "mended"),
+    ("images", "printed", "corrected"),
     [
         ([(1, 0), (2, 0), (-1, 2), (-1, -2)], True, False),
         ([(1, 0), (1, 0), (-1, 2), (-1, -2)], True, False),
@@ -71,20 +71,20 @@ def test_star_polygon_goes_around_once(images: list[Image]) -> None:
     ],
     ids=["I", "II", "I, C outside", "III", "all on one ray", "III alone", "nothing else"],
 )
-def test_collinear_possibilities_of_fig_12(images: list[Image], printed: bool, mended: bool) -> None:
+def test_collinear_possibilities_of_fig_12(images: list[Image], printed: bool, corrected: bool) -> None:
     assert as_printed(images) == printed
-    assert as_corrected(images) == in_one_pass(images) == mended
+    assert as_corrected(images) == in_one_pass(images) == corrected
 
 
 def test_printed_form_makes_edges_of_the_diagonals_of_a_cube() -> None:
-    printed, mended = appel_will(CUBE, method=PRINTED), appel_will(CUBE, method=CORRECTED)
-    assert len(mended.edges) == 12
-    false = set(printed.edges) - set(mended.edges)
+    printed, corrected = appel_will(CUBE, method=PRINTED), appel_will(CUBE, method=CORRECTED)
+    assert len(corrected.edges) == 12
+    false = set(printed.edges) - set(corrected.edges)
     assert len(false) == 12
     for i, j in false:
         assert sum(a != b for a, b in zip(CUBE[i], CUBE[j], strict=True)) == 2, "a diagonal of a face"
     assert printed.fault
-    assert not mended.fault
+    assert not corrected.fault
 
 
 def test_printed_form_on_fig_4() -> None:

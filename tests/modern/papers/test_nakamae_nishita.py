@@ -1,4 +1,4 @@
-"""Formulas (1) to (6) of Nakamae and Nishita, each by a route of its own, and the mends of the paper's gaps."""
+"""Formulas (1) to (6) of Nakamae and Nishita, each by a route of its own, and the corrections of the paper's gaps."""
 
 from __future__ import annotations
 
@@ -273,7 +273,7 @@ def test_a_plate_edge_on_is_not_drawn() -> None:
     assert draw([plate("a", [vector(0, 0, 0), vector(1, 0, 0), vector(1, 1, 0)])], parallel((1, 2, 0))).pieces == ()
 
 
-# --- the mends
+# --- the corrections
 
 
 def difference(polyhedra: list[Polyhedron], eye: tuple[int, int, int], *without: str) -> int:
@@ -288,15 +288,15 @@ DIVIDED = [box((0, 0, 0), (1, 2, 1), "wall"), box((1, 0, 0), (3, 2, 1), "wall"),
 
 
 @pytest.mark.parametrize(
-    ("mend", "polyhedra"), [(ENCLOSED, BEHIND), (TOUCHING, STACKED), (ENDS, BESIDE), (GHOSTS, DIVIDED)]
+    ("correction", "polyhedra"), [(ENCLOSED, BEHIND), (TOUCHING, STACKED), (ENDS, BESIDE), (GHOSTS, DIVIDED)]
 )
-def test_each_mend_is_needed(mend: str, polyhedra: list[Polyhedron]) -> None:
+def test_each_correction_is_needed(correction: str, polyhedra: list[Polyhedron]) -> None:
     eye = (2, -3, 2)
     assert difference(polyhedra, eye) == 0
-    assert difference(polyhedra, eye, mend) > 0
+    assert difference(polyhedra, eye, correction) > 0
 
 
-def test_no_mend_has_another_name() -> None:
+def test_no_correction_has_another_name() -> None:
     with pytest.raises(SceneError, match=r"^'end' is not one of enclosed, touching, ends, ghosts$"):
         draw(BEHIND, parallel((1, 1, 1)), ("end",))
 

@@ -126,17 +126,17 @@ def test_the_cards_of_layer_corrected(arithmetic: str) -> None:
     assert {DETERMINED, NOT_ACCEPTABLE, ERROR} <= statuses
 
 
-def test_the_cards_of_the_listing_where_no_mend_mattered() -> None:
-    plain = mended = 0
+def test_the_cards_of_the_listing_where_no_correction_mattered() -> None:
+    plain = corrected = 0
     for seed in range(SETS):
         points = points_of(seed, "truncating")
         hull = convex_hull(points, "truncating")
-        if hull.mended:
-            mended += 1
+        if hull.corrected:
+            corrected += 1
         elif hull.status != TABLE_FULL:
             plain += 1
             assert differences(hull, from_run(run(deck(points), "truncating"))) == [], (seed, points)
-    assert plain > mended > 0
+    assert plain > corrected > 0
 
 
 def test_the_cards_of_layer_epsilon() -> None:
@@ -158,12 +158,12 @@ def test_the_cards_of_layer_translation() -> None:
         assert differences(hull, cards) == [], (seed, points)
 
 
-def test_every_mend_is_met() -> None:
+def test_every_correction_is_met() -> None:
     """Each row that can change a result, on the deck the apparatus names for it."""
     met = {}
     for row in (row for name in programs.TEXTS for row in programs.text(name).rows if row.layer == "corrected"):
         cards = read_ground(row.ground["deck"])
-        met[row.id] = set(convex_hull(cards, "truncating").mended)
+        met[row.id] = set(convex_hull(cards, "truncating").corrected)
     for name in ("P2-023", "P2-024", "P2-025", "P3-025", "P3-026", "P3-027", "P3-028"):
         assert name in met[name], met
 
@@ -183,10 +183,10 @@ FOLDERS = sorted(path for path in RUNS.iterdir() if path.is_dir())
 
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
 def test_the_cards_of_the_compilers_of_the_time(folder: Path) -> None:
-    """tests/data/machine_runs: punched by IBM's and another compiler's object programs, without any mend."""
+    """tests/data/machine_runs: punched by IBM's and another compiler's object programs, without any correction."""
     hull = convex_hull(card_points((folder / "deck.cards").read_text().splitlines()), "truncating")
     typed = "".join(path.read_text() for path in sorted(folder.glob("program[123].typewriter")))
-    if hull.mended:
+    if hull.corrected:
         assert ERROR in typed or list(folder.glob("*.endless"))
         return
     last = max(folder.glob("program[123].cards"))

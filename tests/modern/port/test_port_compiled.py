@@ -112,7 +112,7 @@ def test_compiled_is_numpy_to_the_last_bit(family: Callable[[Source, int], Point
 
 
 def test_the_sets_end_in_every_way() -> None:
-    """The comparison above would say little if no set were refused, or none of the mends noted."""
+    """The comparison above would say little if no set were refused, or none of the corrections noted."""
     pytest.importorskip("numba")
     found = [
         same(family(np.random.default_rng(seed), 40).astype(arithmetic), arithmetic, epsilon=epsilon)
@@ -122,7 +122,7 @@ def test_the_sets_end_in_every_way() -> None:
         for epsilon in (None, "rel:1e-6", "0.5")
     ]
     assert {hull.status for hull in found} == {DETERMINED, NOT_ACCEPTABLE, ERROR, TABLE_FULL}
-    assert {name for hull in found for name in hull.mended} >= {LAST_PAIR, THROUGH_CENTRE}
+    assert {name for hull in found for name in hull.corrected} >= {LAST_PAIR, THROUGH_CENTRE}
 
 
 def test_many_points_and_many_stages() -> None:
@@ -130,7 +130,7 @@ def test_many_points_and_many_stages() -> None:
     pytest.importorskip("numba")
     hull = same(whole_ball(np.random.default_rng(1), 4000), "float64")
     assert hull.status == DETERMINED
-    assert TABLE_OF_PLANES in hull.mended
+    assert TABLE_OF_PLANES in hull.corrected
     assert same(sphere(np.random.default_rng(3), 500), "float64", epsilon="rel:1e-11").status == DETERMINED
 
 

@@ -112,7 +112,7 @@ def test_tiny_grids(family: Callable[[random.Random, int], Triples]) -> None:
 
 
 def test_tiny_grids_in_the_arithmetics_that_hold_them() -> None:
-    """Small integers are exact in eight digits, in floats and in sixty bits, and the mends hold there too."""
+    """Small integers are exact in eight digits, in floats and in sixty bits, and the corrections hold there too."""
     for seed in range(SETS // 4):
         r = random.Random(seed)
         points = r.choice((lattice, flat, tilted))(r, r.randint(1, 14))

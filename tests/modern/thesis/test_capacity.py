@@ -14,7 +14,7 @@ def test_51_points_fit_40000_positions_and_not_many_more() -> None:
     assert 51 <= points <= 56
 
 
-def test_the_mended_tables_need_60000() -> None:
+def test_the_corrected_tables_need_60000() -> None:
     program = programs.with_layers("program3", ("corrected",))
     assert largest(program, 40_000) < 51 <= largest(program, 60_000)
     assert array_lengths(program)[-1] == "4N-11"

@@ -45,7 +45,7 @@ def test_blank_e_changes_nothing(name: str) -> None:
         assert one.final.result.ending.kind == other.final.result.ending.kind
 
 
-def test_e_of_zero_on_top_of_the_mends_changes_nothing() -> None:
+def test_e_of_zero_on_top_of_the_corrections_changes_nothing() -> None:
     for name, points in sets(60, 26):
         one, other = run(points, "corrected"), run(points, "epsilon", "corrected", e="0")
         assert one.final.result.punched == other.final.result.punched, name

@@ -66,7 +66,7 @@ def test_the_examples_exactly(example: int) -> None:
     assert not found.added
 
 
-def test_whole_points_exactly_and_mended() -> None:
+def test_whole_points_exactly_and_corrected() -> None:
     """Exact numbers and the layer ``corrected``: what the judge says, on sets of every family."""
     for name, points in sets(60, 7):
         if len(points) > 17:

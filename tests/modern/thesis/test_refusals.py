@@ -13,7 +13,7 @@ from modern.formats.deck import check, data_deck
 from modern.port.points import fixed_arithmetic
 from modern.thesis.cards import read_intermediate
 from modern.thesis.job import run_hull
-from modern.thesis.refusals import MENDED, Cause, run_explained
+from modern.thesis.refusals import CORRECTED, Cause, run_explained
 from tests.support.paths import ROOT
 
 SOLID = [
@@ -69,10 +69,10 @@ def test_a_table_without_room_is_known(name: str, fault: int) -> None:
 
 
 @pytest.mark.parametrize("name", ["lastpair", "lastplane", "throughc"])
-def test_what_is_said_to_mend_a_fault_does(name: str) -> None:
-    assert cause_of(ground(name)).fault in MENDED
-    mended = programs.loader(("corrected",))
-    assert run_explained(ground(name), mended, Options(core=60_000))[1] is None
+def test_what_is_said_to_correct_a_fault_does(name: str) -> None:
+    assert cause_of(ground(name)).fault in CORRECTED
+    corrected = programs.loader(("corrected",))
+    assert run_explained(ground(name), corrected, Options(core=60_000))[1] is None
 
 
 def test_a_long_search_cut_short_is_no_fault() -> None:
