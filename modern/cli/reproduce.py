@@ -1,4 +1,4 @@
-"""``hull1620 reproduce``: what the thesis and the later papers print, computed, and a verdict on every result."""
+"""``hull1620 reproduce``: what the thesis and the later papers print and state, computed, with a verdict on each."""
 
 from __future__ import annotations
 
@@ -8,21 +8,20 @@ import os
 import shutil
 import sys
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import asdict
 from functools import partial
-from typing import TYPE_CHECKING, TextIO
+from typing import TextIO
 
 from emulator.files import check_writable, write_text
 from emulator.machine.endings import Ending
 from modern.cli.shared.console import DIFFERS, OK, UsageError
+from modern.cli.shared.statements import Indented, Paint, statement_lines, statement_summary, theorem_lines
 from modern.edition.chapter4 import THEOREMS
 from modern.edition.chapter6 import EXAMPLES
 from modern.edition.published import CANNOT, CORRECTED, EXPLAINED, PAPERS, Finding, Paper, findings
 from modern.edition.reproduce import DIFFERENT, EXACT, ORDER, SPACING, Part, Report, Verdict, reproduce, summary
-
-if TYPE_CHECKING:
-    from modern.edition.chapter4_claims import Claim
-
+from modern.edition.statements import DOCUMENTS, THESIS, Judged, Judgements, Statement, judge, statements_of
 
 _STATES = {"examples": "as the examples were run (program1_examples.f)", "listing": "as listed (program1.f)"}
 _COLOURS = {EXACT: "32", SPACING: "33", ORDER: "33", DIFFERENT: "31"}
@@ -43,39 +42,40 @@ _WHY_ORDER = (
 _PAINTED_AS = {EXACT: EXACT, CORRECTED: EXACT, EXPLAINED: ORDER, CANNOT: "", DIFFERENT: DIFFERENT}
 _MOST_LINES = 4
 
-Paint = Callable[[str, str], str]
-"""Colours words as a verdict of the given kind."""
-
-Indented = Callable[[str], Iterable[str]]
-"""Wraps and indents a line of explanation."""
-
 
 def main(args: argparse.Namespace) -> int:
     """Run the examples, print the verdicts, write them as JSON if asked."""
-    named = list(dict.fromkeys(map(_named, args.examples))) or _names()
-    examples = [int(name) for name in named if name in map(str, EXAMPLES)]
+    asked = list(dict.fromkeys(args.examples))
+    named = [*_names()] if not asked else [name for text in asked for name in _meant(text)]
+    examples = [number for number in EXAMPLES if str(number) in named]
     check_writable(args.json)
     colour = sys.stdout.isatty() and "NO_COLOR" not in os.environ
     # A JSON document on standard output must be alone there.
     out = sys.stderr if args.json == "-" else sys.stdout
     reports: list[Report] = []
     width = shutil.get_terminal_size((100, 24)).columns
+    paint, indented = partial(_paint, colour=colour), partial(_indented, width=width)
     for example in examples:
         found = list(reproduce((example,)))
         reports.extend(found)
         for line in _example_lines(example, found, colour, width):
             print(line, file=out)
-    found_claims = _claims([name for name in named if name in THEOREMS])
-    for line in _claim_lines(found_claims, colour, width):
+    results = Judgements(reports)
+    theorems = [judge(row, results) for row in statements_of(THESIS) if row.part in named]
+    for line in theorem_lines(theorems, paint, indented):
         print(line, file=out)
     found_results = list(_papers(named, colour, width, out))
+    results.found(found_results)
+    known = {judged.statement.id: judged for judged in theorems}
+    stated = [known.get(row.id) or judge(row, results) for row in _rows(asked)]
+    for line in statement_lines(stated, paint, indented) if asked else statement_summary(stated, paint, indented):
+        print(line, file=out)
     good, *_ = summary(reports)
-    good = good and all(claim.holds is not False for claim in found_claims)
-    good = good and all(finding.holds for finding in found_results)
-    for line in _summary_lines(reports, found_claims, found_results, good, colour):
+    good = good and all(judged.agrees for judged in (*theorems, *stated)) and all(f.holds for f in found_results)
+    for line in _summary_lines(reports, theorems, found_results, good, colour):
         print(line, file=out)
     if args.json is not None:
-        write_text(args.json, json.dumps(_document(reports, found_claims, found_results, good), indent=1) + "\n")
+        write_text(args.json, json.dumps(_document(reports, theorems, stated, found_results, good), indent=1) + "\n")
     return OK if good else DIFFERS
 
 
@@ -83,13 +83,27 @@ def _names() -> list[str]:
     return [*map(str, EXAMPLES), *THEOREMS, *(paper.name for paper in PAPERS)]
 
 
-def _named(text: str) -> str:
-    if text not in _names():
+def _meant(text: str) -> list[str]:
+    """The results that a name stands for: all of the thesis's, none of a paper that prints none or of a statement.
+
+    Raises UsageError for a name that is not one.
+    """
+    if text == THESIS:
+        return [*map(str, EXAMPLES), *THEOREMS]
+    if text in _names():
+        return [text]
+    if text not in DOCUMENTS and not any(row.id == text for name in DOCUMENTS for row in statements_of(name)):
         raise UsageError(
             f"reproduce: there is no example {text!r}; chapter 6 has 1 to {EXAMPLES[-1]}, "
-            f"chapter 4 {', '.join(THEOREMS)}, the papers are {', '.join(paper.name for paper in PAPERS)}"
+            f"chapter 4 {', '.join(THEOREMS)}, the documents are {', '.join(DOCUMENTS)}; statements have ids"
         )
-    return text
+    return []
+
+
+def _rows(asked: Sequence[str]) -> list[Statement]:
+    """The statements of the documents asked for, and those asked for by id; all where nothing is asked for."""
+    rows = [row for name in DOCUMENTS for row in statements_of(name)]
+    return [row for row in rows if row.document in asked or row.id in asked] if asked else rows
 
 
 def _papers(names: Sequence[str], colour: bool, width: int, out: TextIO) -> Iterator[Finding]:
@@ -101,30 +115,6 @@ def _papers(names: Sequence[str], colour: bool, width: int, out: TextIO) -> Iter
             for line in _finding_lines(paper, found, paint, partial(_indented, width=width)):
                 print(line, file=out)
             yield from found
-
-
-def _claims(names: Sequence[str]) -> list[Claim]:
-    if not names:
-        return []
-    from modern.edition.chapter4_claims import all_claims  # imported late: it brings the exact hull along
-
-    return list(all_claims(names))
-
-
-def _claim_lines(claims: Iterable[Claim], colour: bool, width: int) -> Iterator[str]:
-    theorem = ""
-    for claim in claims:
-        if claim.theorem != theorem:
-            if theorem:
-                yield ""
-            theorem = claim.theorem
-            yield f"Theorem {theorem} (p. {claim.pages})"
-        kind = {True: EXACT, False: DIFFERENT, None: ""}[claim.holds]
-        word = {True: "holds", False: "DOES NOT HOLD", None: "seen"}[claim.holds]
-        yield f"  {_paint(word, kind, colour):<6} {claim.says}"
-        yield from _indented(claim.seen, width)
-    if theorem:
-        yield ""
 
 
 def _example_lines(example: int, reports: Iterable[Report], colour: bool, width: int) -> Iterator[str]:
@@ -192,7 +182,7 @@ def _differences(report: Report, width: int) -> Iterator[str]:
 
 
 def _summary_lines(
-    reports: list[Report], claims: list[Claim], found: list[Finding], good: bool, colour: bool
+    reports: list[Report], theorems: list[Judged], found: list[Finding], good: bool, colour: bool
 ) -> Iterator[str]:
     punched = [r for r in reports if r.device == "punch" and r.state == "examples"]
     listed = [r for r in reports if r.device == "punch" and r.state == "listing"]
@@ -204,9 +194,8 @@ def _summary_lines(
         yield f"As the examples were run: {exact}."
         kinds = Counter(r.verdict.kind for r in listed)
         yield f"As listed: {', '.join(f'{kinds[k]} {k}' for k in (EXACT, ORDER, SPACING, DIFFERENT) if kinds[k])}."
-    if claims:
-        judged = [claim.holds for claim in claims if claim.holds is not None]
-        yield f"Chapter 4: {sum(judged)} of {len(judged)} claims hold."
+    if theorems:
+        yield f"Chapter 4: {sum(judged.agrees for judged in theorems)} of {len(theorems)} claims hold."
     if found:
         yield _finding_summary(found)
     words = "Every printed result comes out" if good else "NOT every printed result comes out"
@@ -224,12 +213,25 @@ def _indented(text: str, width: int) -> list[str]:
     return textwrap.wrap(text, max(40, width), initial_indent="      ", subsequent_indent="      ")
 
 
-def _document(reports: list[Report], claims: list[Claim], found: list[Finding], good: bool) -> dict[str, object]:
+def _document(
+    reports: list[Report], theorems: list[Judged], stated: list[Judged], found: list[Finding], good: bool
+) -> dict[str, object]:
     return {
         "reproduced": good,
         "papers": _finding_document(found),
         "theorems": [
-            {"theorem": c.theorem, "pages": c.pages, "claim": c.says, "holds": c.holds, "seen": c.seen} for c in claims
+            {
+                "theorem": judged.statement.part,
+                "pages": judged.statement.page,
+                "claim": judged.statement.says,
+                "holds": judged.agrees,
+                "seen": judged.seen,
+            }
+            for judged in theorems
+        ],
+        "statements": [
+            {**asdict(judged.statement), "found": judged.found, "seen": judged.seen, "agrees": judged.agrees}
+            for judged in stated
         ],
         "results": [
             {

@@ -19,6 +19,10 @@ _PAIRS = {1: ((0, 1), (0, 2)), 2: ((0, 1), (1, 2)), 3: ((0, 2), (1, 2))}
 """The two coordinates of each of a line's equations by KPERP: (3.1) and (3.2), (3.1) and (3.3), (3.2) and (3.3)."""
 
 
+NO_FOURTH = "chapter 3, p. 29"
+"""What decides where the text's fourth point lies in the plane of the first three."""
+
+
 @dataclass(frozen=True)
 class Opening:
     """What program 1 finds.  ``kind``: ``point``, ``segment``, ``triangle``, ``coplanar``, ``solid`` or ``error``.
@@ -89,8 +93,12 @@ def all_within(arithmetic: Arithmetic, equation: tuple[Scalar, ...], values: Vec
     return not arithmetic.sign(snapped(arithmetic, values, e)).any()
 
 
-def open_hull(arithmetic: Arithmetic, places: Places, slack: Slack | None) -> Opening:
-    """Program 1 on distinct points, which are reordered."""
+def open_hull(arithmetic: Arithmetic, places: Places, slack: Slack | None, text: bool = False) -> Opening:
+    """Program 1 on distinct points, which are reordered.
+
+    text: the fourth point is that of the largest value, as the text has it (p. 29), not of the largest square; where
+    that value is 0 it lies in the plane and there is no tetrahedron (``error``).
+    """
     count = len(places)
     zero = arithmetic.number(0)
     if count == 1:
@@ -116,7 +124,10 @@ def open_hull(arithmetic: Arithmetic, places: Places, slack: Slack | None) -> Op
     if all_within(arithmetic, found, values, slack) if slack else arithmetic.all_squares_zero(values):
         return Opening("coplanar", "209", plane=found)
     # The point farthest from the plane becomes the fourth (196 to 198).
-    places.swap(arithmetic.last_largest_square(values), 3)
+    fourth = arithmetic.last_largest(values) if text else arithmetic.last_largest_square(values)
+    if text and arithmetic.is_zero(values[fourth]):
+        return Opening("error", NO_FOURTH)
+    places.swap(fourth, 3)
     return Opening("solid", "199", centre=mean(arithmetic, places, 4))
 
 

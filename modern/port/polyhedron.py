@@ -56,6 +56,8 @@ class Polyhedron:
     vertices: int = 4
     to_check: int = 0
     remaining: Remaining = field(default_factory=Remaining)
+    text: bool = False
+    """Further planes are replaced in the order of their numbers, as the text has it (p. 32)."""
 
     def run(self, grown: Callable[[Polyhedron, bool], Grown | None] = stage) -> None:
         """Expand H_1 to the hull of all points (103 to 160), stage by stage as ``grown`` does it.  Raises Stopped."""
@@ -76,7 +78,8 @@ class Polyhedron:
     def expand(self, place: int) -> int:
         """Make the point in ``place`` a vertex: three planes for each one it is outside of (125 to 160).
 
-        The plane being checked is replaced first, then the one it is farthest outside of, of equals the last.
+        The plane being checked is replaced first, then the one it is farthest outside of, of equals the last; or the
+        others in order (``text``).
         Returns how many they were.  Raises Stopped.
         """
         new = self.vertices
@@ -89,7 +92,8 @@ class Polyhedron:
         values = self.table.all_at(point)
         above = np.flatnonzero(self.arithmetic.sign(values) > 0)
         others = above[above != self.to_check]
-        order = [self.to_check, *others[self.arithmetic.descending(values[others])].tolist()]
+        further = others if self.text else others[self.arithmetic.descending(values[others])]
+        order = [self.to_check, *further.tolist()]
         fresh = self.three_planes(self.table.defining[:, order], new)
         peak = len(self.table) + 2 * len(order) + 1
         if fresh.nothing or peak > self.limit or (self.signs(fresh, point) > 0).any():

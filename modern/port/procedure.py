@@ -34,6 +34,7 @@ def convex_hull(
     history: bool = False,
     fast: bool | None = None,
     on_refusal: OnRefusal = "raise",
+    text: bool = False,
 ) -> Hull:
     """The convex hull of points by Butler's procedure (thesis chapter 3; programs 1 to 3, chapter 5).
 
@@ -45,7 +46,8 @@ def convex_hull(
     the equation's largest coefficient A, B or C.  translate: the origin is moved to C and the constant terms tell how
     equations are turned (thesis p. 118).  history: the result tells every H_j.  fast: compiled kernels (numba, the
     extra ``fast``) for ``float64`` and ``float32``; None: where they are there and points are many.  The result is
-    the same.
+    the same.  text: the two steps that chapter 3 has otherwise than the listing, as chapter 3 has them (the fourth
+    point, p. 29; the order of the planes a point is outside of, p. 32).
 
     What the layer ``corrected`` changes is built in; :attr:`Hull.corrected` names the rows that mattered.  Numbers
     that are rounded may end in a status other than ``determined``, as the programs do; on_refusal: ``raise`` an error
@@ -61,7 +63,7 @@ def convex_hull(
     with np.errstate(over="raise", invalid="raise", divide="raise", under="ignore"):
         numbers, coordinates = take(points, arithmetic, wide=size is not None)
         try:
-            hull = _Run(numbers, coordinates, size, translate, history, fast).hull()
+            hull = _Run(numbers, coordinates, size, translate, history, fast, text).hull()
         except FloatingPointError:
             raise RangeError(f"{arithmetic}: a product of coordinates exceeds the largest number") from None
     if on_refusal == "raise" and not hull.determined:
@@ -93,6 +95,7 @@ class _Run:
     translate: bool
     history: bool
     fast: bool | None
+    text: bool
     watcher: Historian | None = field(init=False, default=None)
     progress: Progress = field(init=False, default_factory=Progress)
     slack: Slack | None = field(init=False)
@@ -107,11 +110,11 @@ class _Run:
             names = np.array(distinct, dtype=np.int64)
         places = Places(self.given[:, names], names)
         self.slack = Slack(numbers, *self.epsilon) if self.epsilon else None
-        opening = open_hull(numbers, places, self.slack)
+        opening = open_hull(numbers, places, self.slack, self.text)
         self.result = Hull(
             arithmetic=numbers.name,
             status=DETERMINED,
-            dimension={"point": 0, "segment": 1, "triangle": 2, "coplanar": 2, "solid": 3}[opening.kind],
+            dimension={"point": 0, "segment": 1, "triangle": 2, "coplanar": 2}.get(opening.kind, 3),
             points=point_texts(numbers, self.given),
             vertices=(),
             boundary=(),
@@ -126,6 +129,8 @@ class _Run:
                 return self.solid(places, opening)
             if opening.kind in ("coplanar", "triangle"):
                 return self.coplanar(places, opening)
+            if opening.kind == "error":
+                return replace(self.result, status=ERROR, statement=opening.label)
         except Stopped as stop:
             return replace(self.finished(stop.label), status=stop.status)
         return replace(self.result, vertices=places.names(slice(0, 2)), inside=places.names(slice(2, None)))
@@ -142,8 +147,8 @@ class _Run:
         test = self.move(places, centre)
         if self.translate:
             table.coefficients[3] = at(tuple(table.coefficients), centre)
-        steps = choose(numbers, places, self.slack, self.fast)
-        polyhedron = Polyhedron(numbers, places, table, test, self.progress, self.historian(places))
+        steps = choose(numbers, places, self.slack, False if self.text else self.fast)
+        polyhedron = Polyhedron(numbers, places, table, test, self.progress, self.historian(places), text=self.text)
         polyhedron.run(steps.stage)
         self.move_back(places, table, centre)
         count = polyhedron.vertices

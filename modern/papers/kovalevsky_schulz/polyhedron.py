@@ -192,7 +192,7 @@ def convex_polyhedron(points: Iterable[Sequence[int]], coplanar: Coplanar = VISI
     distinct = list(dict.fromkeys((int(x), int(y), int(z)) for x, y, z in points))
     if not distinct:
         raise ValueError("there are no points")
-    simplex = _independent(distinct)
+    simplex = independent(distinct)
     if len(simplex) < 4:
         flat = exact_hull(distinct)
         return Flat(flat.dimension, tuple(distinct[number] for number in flat.polygon or flat.vertices))
@@ -204,7 +204,7 @@ def convex_polyhedron(points: Iterable[Sequence[int]], coplanar: Coplanar = VISI
     return polyhedron.cell_list()
 
 
-def _independent(points: Sequence[IntPoint]) -> list[int]:
+def independent(points: Sequence[IntPoint]) -> list[int]:
     """The first four points that lie in no plane, or fewer where there are none."""
     found = [0]
     normal: IntPoint = (0, 0, 0)

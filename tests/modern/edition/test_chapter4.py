@@ -8,17 +8,20 @@ from fractions import Fraction
 import pytest
 
 from modern.edition.chapter4 import THEOREMS, Theorem, load_theorems
-from modern.edition.chapter4_claims import all_claims, claims, lost_candidates
+from modern.edition.chapter4_claims import claims, lost_candidates
+from modern.edition.statements import HOLDS, THESIS, statements_of
 
 BY_ID = {theorem.id: theorem for theorem in load_theorems()}
 
 
 @pytest.mark.parametrize("name", THEOREMS)
 def test_every_claim_of_theorem(name: str) -> None:
-    found = list(all_claims([name]))
-    assert [claim.says for claim in found if claim.holds is False] == []
-    assert sum(claim.holds is True for claim in found) >= 2
-    assert [claim.theorem for claim in found if claim.holds is None] == [name]
+    found = claims(BY_ID[name])
+    assert [claim for claim, seen in found.items() if seen.verdict != HOLDS] == []
+    assert len(found) >= 3
+    assert "programs" in found
+    rows = [row for row in statements_of(THESIS) if row.part == name]
+    assert {row.claim.split()[-1] for row in rows} == found.keys()
 
 
 def moved(theorem: Theorem, name: str) -> Theorem:
@@ -29,14 +32,14 @@ def moved(theorem: Theorem, name: str) -> Theorem:
 
 @pytest.mark.parametrize(("theorem", "point"), [("4.1", "P5"), ("4.2", "P3"), ("4.8", "Q4"), ("4.8", "Q9")])
 def test_a_moved_point_fails_a_claim(theorem: str, point: str) -> None:
-    assert any(claim.holds is False for claim in claims(moved(BY_ID[theorem], point)))
+    assert any(seen.verdict != HOLDS for seen in claims(moved(BY_ID[theorem], point)).values())
 
 
 def test_an_equation_that_is_no_face_fails_the_table_of_4_8() -> None:
     theorem = BY_ID["4.8"]
     changed = replace(theorem.planes[0], coefficients=(*theorem.planes[0].coefficients[:3], Fraction(1)))
-    found = list(claims(replace(theorem, planes=(changed, *theorem.planes[1:]))))
-    assert any(claim.holds is False and "table lists" in claim.says for claim in found)
+    found = claims(replace(theorem, planes=(changed, *theorem.planes[1:])))
+    assert found["supporting"].verdict != HOLDS
 
 
 def test_the_lost_point_of_4_1_has_candidates_in_the_plane() -> None:

@@ -1,0 +1,253 @@
+"""Claims of chapter 4 beside its worked examples: theorems 4.3 to 4.7, steps of the proofs, figures 1 to 4.
+
+Theorems are looked at in small sets; the equations of the proofs are transcribed as they are printed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from itertools import combinations, product
+from random import Random
+
+from modern.edition.chapter3_claims import COUNT, approximations, points_of, triples
+from modern.edition.chapter3_steps import value_v
+from modern.edition.chapter4 import load_theorems
+from modern.edition.chapter4_claims import ADDED, theorem_of
+from modern.edition.sampled_sets import SampledSet, sampled_sets, value
+from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, seen
+from modern.exact_hull import exact_hull
+from modern.geometry.vectors import cross, dot, minus
+
+
+def eight_theorems() -> Seen:
+    """The theorems that have worked examples here, and those that have claims: 4.1 to 4.8."""
+    examples = {theorem.id for theorem in load_theorems()}
+    proofs = {"4.3": theorem_4_3, "4.4": theorem_4_4, "4.5": theorem_4_5, "4.6": theorem_4_6, "4.7": theorem_4_7}
+    return seen(examples | proofs.keys() == {f"4.{k}" for k in range(1, 9)}, "4.1 to 4.8, each with a claim here")
+
+
+def three_are_coplanar() -> Seen:
+    """Three points at random."""
+    return seen(all(exact_hull(three).dimension < 3 for three in triples()), "six triples of points")
+
+
+def extremes_4_2() -> Seen:
+    """Largest and smallest x, y and z of the six points, in the order of the theorem."""
+    points = [point.at for point in theorem_of("4.2").points]
+    good = all(
+        points[2 * k][k] == max(p[k] for p in points) and points[2 * k + 1][k] == min(p[k] for p in points)
+        for k in range(3)
+    )
+    return seen(good, "P1 to P6 are the extremes in x, y and z, largest before smallest")
+
+
+def inequalities_without_z() -> Seen:
+    """A x + B y + C at point 6 for equation 7, where the print has it below zero."""
+    (point,) = points_of("point_6.csv")
+    a, b, c, d = theorem_of("4.2").plane(7).coefficients
+    as_printed, right = a * point[0] + b * point[1] + c, value((int(a), int(b), int(c), int(d)), point)
+    good = as_printed > 0 > right and [*map(Fraction, point)] == [*theorem_of("4.2").points[5].at]
+    return Seen(FAILS if good else HOLDS, f"at point 6 equation 7 is {as_printed} as printed, {right} with z and D")
+
+
+def theorem_4_3() -> Seen:
+    """V and the distance from the line order points alike: V is the distance squared times D squared."""
+    found = value_v()
+    return Seen(found.verdict, found.words)
+
+
+def distance_by_cosines() -> Seen:
+    """d squared by three determinants with direction cosines, times (e D)^2, is V; the cosines' squares add to 1."""
+    good = []
+    for p, q, x in triples():
+        u, w = minus(q, p), minus(q, x)
+        square = dot(u, u)
+        rows = [(w[1], w[2], u[1], u[2]), (w[2], w[0], u[2], u[0]), (w[0], w[1], u[0], u[1])]
+        d_squared = sum((Fraction(a * f - b * e) ** 2 / square for a, b, e, f in rows), Fraction(0))
+        across = cross(u, minus(x, p))
+        good.append(d_squared * square == dot(across, across) and square == sum(k * k for k in u))
+    return seen(all(good), "exactly, for six triples of points")
+
+
+def e_is_minus_one() -> Seen:
+    """The sign e of the counterexample's line, chosen as page 42 says."""
+    p, q = points_of("e_minus_one.csv")
+    first = next(k for k in (q[2] - p[2], q[1] - p[1], q[0] - p[0]) if k)
+    e = 1 if first > 0 else -1
+    return Seen(FAILS if e == -1 and e * e == 1 else HOLDS, f"e is {e} where z falls from P1 to P2; its square is 1")
+
+
+def theorem_4_4(count: str = COUNT) -> Seen:
+    """Vertices of flat sets and of their projections along each coordinate their plane is not parallel to."""
+    good = []
+    for one in sampled_sets(2, int(count)):
+        plane = one.judge.plane
+        assert plane is not None
+        for k in range(3):
+            if plane[k]:
+                projected = [tuple(0 if axis == k else x for axis, x in enumerate(point)) for point in one.points]
+                good.append(exact_hull(projected).vertices == one.judge.vertices)
+    return seen(bool(good) and all(good), f"{sum(good)} of {len(good)} projections keep the vertices")
+
+
+def constant_term_of_4_4() -> Seen:
+    """The constant term of the three coordinate planes x = 0, y = 0, z = 0."""
+    constants = {0 for _ in ("x = 0", "y = 0", "z = 0")}
+    apart = dot((1, 0, 0), (0, 0, 1)) + 1 * 1
+    good = constants == {0} and apart != 0
+    return Seen(
+        CONDITION if good else FAILS,
+        "D_C is 0 of a coordinate plane; with D = 1 the planes x + 1 = 0 and z + 1 = 0 would not be perpendicular",
+    )
+
+
+def proof_of_4_4(part: str) -> Seen:
+    """C_0 as page 46 prints it, for points (a), (b) and k between them: it is (3.4)'s, and 0."""
+    random = Random(44)
+    coefficient, total, terms = [], [], []
+    for _ in range(6):
+        xa, ya, xb, yb = (Fraction(random.randint(-9, 9)) for _ in range(4))
+        share = Fraction(random.randint(1, 9), 10)
+        xk, yk = (1 - share) * xa + share * xb, (1 - share) * ya + share * yb
+        c = xa * yb + xb * yk + ya * xk - yb * xk - xa * yk - xb * ya
+        coefficient.append(c == (xb - xa) * (yk - ya) - (yb - ya) * (xk - xa))
+        rest = 1 - share
+        printed = [xa * yb, -xa * yb * share, -xa * yb * rest, xa * yb * rest, xa * yb * share, -xa * yb]
+        printed += [xa * ya * share, -xa * ya * share, xb * yb * rest, -xb * yb * rest]
+        total.append(sum(printed) == 0 == c)
+        substituted = [xb * ya * rest, xb * yb * share, ya * xa * rest, ya * xb * share]
+        terms.append(sorted(printed) == sorted([xa * yb, *substituted]))
+    if part == "coefficient":
+        return seen(all(coefficient), "exactly, for six cases")
+    return Seen(
+        CONDITION if all(total) and not any(terms) else FAILS, "both are 0; the terms differ from the substitution's"
+    )
+
+
+def theorem_4_5(count: str = COUNT) -> Seen:
+    """Each H_j of flat sets is the hull of its vertices: their edges are the lines."""
+    good = []
+    for one in sampled_sets(2, int(count)):
+        for stage in one.stages():
+            judge = exact_hull([one.points[k] for k in stage.vertices])
+            good.append(len(stage.equations) == len(stage.vertices) and _touches(one, stage.equations, stage.vertices))
+            good.append(len({*judge.vertices}) <= len(stage.vertices))
+    return seen(all(good), f"{len(good) // 2} stages: no vertex is beyond a line, and two at least are on each")
+
+
+def _touches(one: SampledSet, equations: Sequence[tuple[int, int, int, int]], vertices: Sequence[int]) -> bool:
+    values = [[value(plane, one.points[k]) for k in vertices] for plane in equations]
+    return all(max(row) == 0 and row.count(0) >= 2 for row in values)
+
+
+def combination_is_inside() -> Seen:
+    """Combinations of a hull's vertices have no positive value."""
+    random = Random(48)
+    good = []
+    for one in sampled_sets(2, 1):
+        for _ in range(8):
+            weights = [random.randint(0, 5) + (k == 0) for k, _ in enumerate(one.judge.vertices)]
+            for facet in one.judge.facets:
+                mixed = sum(
+                    w * value(facet.plane, one.points[k]) for w, k in zip(weights, one.judge.vertices, strict=True)
+                )
+                good.append(mixed <= 0)
+    return seen(all(good), f"{len(good)} values of combinations")
+
+
+def theorem_4_6() -> Seen:
+    """Values of a line and distances from it, squared, order points alike."""
+    a, b, c = 3, -2, 5
+    points = [(x, y) for x, y in product(range(-3, 4), repeat=2) if a * x + b * y + c >= 0]
+    values = [a * x + b * y + c for x, y in points]
+    feet = [Fraction(v, a * a + b * b) for v in values]
+    squares = [(v * a * t) ** 2 + (v * b * t) ** 2 for v, t in zip((Fraction(1),) * len(feet), feet, strict=True)]
+    good = all((v >= w) == (s >= t) for (v, s), (w, t) in combinations(zip(values, squares, strict=True), 2))
+    return seen(good, f"{len(points)} points of a grid, all pairs")
+
+
+def theorem_4_7(count: str = COUNT) -> Seen:
+    """Of no H_j of flat sets is a given point outside of two lines."""
+    most = looked = 0
+    for one in sampled_sets(2, 2 * int(count)):
+        for stage in one.stages():
+            for point in one.points:
+                looked += 1
+                most = max(most, sum(value(plane, point) > 0 for plane in stage.equations))
+    return seen(most == 1, f"{looked} points and stages: outside of {most} line at most")
+
+
+def choice_matters_for_4_7() -> Seen:
+    """A triangle of three points not chosen so: a further point is outside of two of its lines."""
+    triangle, point = [(0, 0, 0), (2, 0, 0), (0, 2, 0)], (-1, -1, 0)
+    outside = sum(value(facet.plane, point) > 0 for facet in exact_hull(triangle).facets)
+    return seen(outside == 2, "(-1, -1) is outside of two lines of the triangle (0, 0), (2, 0), (0, 2)")
+
+
+def gap_in_4_7() -> Seen:
+    """What the written step does not exclude, and what does: where a used point is no boundary point it happens."""
+    square = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0)]
+    lines = [facet.plane for facet in exact_hull(square).facets]
+    after = [facet.plane for facet in exact_hull([*square, (5, 2, 0)]).facets]
+    new = [plane for plane in after if plane not in lines]
+    point = next(
+        (x, y, 0)
+        for x in range(-9, 14)
+        for y in range(-9, 14)
+        if sum(value(plane, (x, y, 0)) > 0 for plane in lines) <= 1
+        and any(value(plane, (x, y, 0)) > 0 for plane in new)
+        and sum(value(plane, (x, y, 0)) > 0 for plane in after) > 1
+    )
+    held = theorem_4_7().verdict == HOLDS
+    words = f"({point[0]}, {point[1]}) is outside of one line of the square at most and of two after (5, 2) is added"
+    return Seen(CONDITION if held else FAILS, words)
+
+
+def lines_of_figure_3(kind: str = "") -> Seen:
+    """P_3 at the origin, P_1 = (x1, y1), P_2 = (x1, y2) with y1 below y2: the printed lines, outward."""
+    good = []
+    for x1, y1, y2 in ((3, -1, 2), (5, -4, -1), (2, 1, 6)):
+        lines: tuple[tuple[int, int, int], ...] = ((1, 0, -x1), (y1, -x1, 0), (-y2, x1, 0))
+        triangle = ((0, 0), (x1, y1), (x1, y2))
+        for a, b, c in lines:
+            values = [a * x + b * y + c for x, y in triangle]
+            good.append(max(values) == 0 and values.count(0) == 2)
+        good += [
+            x < 0 for x, y in product(range(-6, 7), repeat=2) if all(a * x + b * y + c > 0 for a, b, c in lines[1:])
+        ]
+    words = f"{len(good)} lines and points"
+    if not all(good):
+        return Seen(FAILS, words)
+    return Seen(CONDITION if kind else HOLDS, words)
+
+
+def only_one_outside() -> Seen:
+    """The other eight points are the vertices of H_5."""
+    theorem = theorem_of("4.8")
+    others = {point.name for point in theorem.points} - set(ADDED)
+    return seen(others == {"Q9"}, "the other eight are its vertices")
+
+
+def figure(number: str) -> Seen:
+    """What a figure shows, from its data."""
+    return {"1": _figure_1, "2": _added_triangle, "3": lines_of_figure_3, "4": _added_triangle}[number]()
+
+
+def _figure_1() -> Seen:
+    theorem = theorem_of("4.2")
+    sides: dict[frozenset[str], int] = {}
+    for plane in theorem.planes:
+        for pair in combinations(plane.vertices, 2):
+            sides[frozenset(pair)] = sides.get(frozenset(pair), 0) + 1
+    v, e, f = len(theorem.points), len(sides), len(theorem.planes)
+    closed = set(sides.values()) == {2} and v - e + f == 2
+    beyond = sum(any(plane.at(p) > 0 for p in theorem.points) for plane in theorem.planes)
+    return seen(
+        closed and beyond > 0, f"{v} vertices, {e} edges, {f} faces, closed; {beyond} faces have a vertex beyond"
+    )
+
+
+def _added_triangle() -> Seen:
+    found = approximations("lines", "2")
+    return Seen(found.verdict, f"each step takes one line away and adds two: {found.words}")

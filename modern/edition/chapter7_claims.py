@@ -1,0 +1,293 @@
+"""Claims of chapters 5 and 7: the machine, the data sheet, where data are refused, errors, the two modifications.
+
+What the programs do is seen by running them on small decks; what eight digits do, on three or four points in the
+arithmetic of the emulator.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import cache
+
+import numpy as np
+
+from emulator.errors import EmulatorError
+from emulator.language.cards import Deck, deck_from_text
+from emulator.language.objectcode import code_positions
+from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
+from emulator.machine.result import Options
+from modern.comparison.outcome import from_cards
+from modern.edition import programs
+from modern.edition.chapter3_claims import COUNT, both
+from modern.edition.chapter6 import input_deck
+from modern.edition.sampled_sets import Point, SampledSet, sampled_sets, through
+from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, counterexample, seen
+from modern.exact_hull import exact_hull
+from modern.formats.csv import points as csv_points
+from modern.formats.deck import coordinate_field, exact_points
+from modern.port.formulas import at, plane
+from modern.port.points import take
+from modern.thesis.job import HullRun, run_hull
+
+CORE = 40_000
+THREE = ("program1", "program2", "program3")
+PLACES = 98
+_FOURTH: tuple[Point, ...] = ((-185, 158, -52), (51, -195, -195), (23, -33, 59), (-1517, 1790, 44))
+_THREE: tuple[Point, ...] = ((-220, -492, 405), (-70, -270, -113), (-452, 485, -366))
+
+
+def deck_of(name: str) -> Deck:
+    """A counterexample that is a data deck."""
+    return deck_from_text(name, counterexample(name))
+
+
+@cache
+def _run(name: str) -> HullRun:
+    return run_hull(deck_of(name), programs.program, Options(limit=100_000))
+
+
+def _typed(run: HullRun) -> str:
+    return " / ".join(line for step in run.steps for line in step.result.typed)
+
+
+def programs_compile() -> Seen:
+    """The decks of the listing compile."""
+    cards = {name: len(programs.deck(name).cards) for name in THREE}
+    compiled = [programs.program(name) for name in THREE]
+    return seen(all(p.code for p in compiled), ", ".join(f"{name}: {n} cards" for name, n in cards.items()))
+
+
+def _positions(name: str) -> int:
+    program = programs.program(name)
+    return OBJECT_PROGRAM + FUNCTION_NAMES + code_positions(program) + program.storage.fields * FIELD
+
+
+def each_program_fits() -> Seen:
+    """Positions of each program with its data, by the estimate of the compiler's code."""
+    found = [_positions(name) for name in THREE]
+    return seen(max(found) <= CORE, f"about {', '.join(f'{n:,}' for n in found)} positions")
+
+
+def three_programs_needed() -> Seen:
+    """One program of all three would need the code of each beside the data of the largest."""
+    code = sum(code_positions(programs.program(name)) for name in THREE)
+    data = max(programs.program(name).storage.fields * FIELD for name in THREE)
+    total = OBJECT_PROGRAM + FUNCTION_NAMES + code + data
+    return seen(total > CORE, f"about {total:,} positions for the code of all three and the data of the largest")
+
+
+def fifty_one() -> Seen:
+    """A deck of fewer points than 51 for which the places for planes do not do."""
+    points, _ = exact_points(deck_of("table.deck"))
+    sizes = {entry.size for entry in programs.program("program3").storage.arrays()}
+    most = _most_planes(np.array([[int(Fraction(x)) for x in point] for point in points.values()], dtype=np.int64))
+    words = f"{len(points)} points need {most} places for planes at once; program 3 has {PLACES}"
+    return Seen(FAILS if sizes == {51, PLACES} and len(points) <= 51 and most > PLACES else HOLDS, words)
+
+
+def _most_planes(points: np.ndarray) -> int:
+    """Places in use at once: of each step those before it, three more for each plane replaced, one less at a time."""
+    from modern.port import convex_hull
+
+    hull = convex_hull(points, history=True)
+    pairs = zip(hull.history, hull.history[1:], strict=False)
+    return max(len(before.equations) + 2 * after.outside + 1 for before, after in pairs)
+
+
+def cube_is_refused() -> Seen:
+    """Eight corners of a cube: what is typed."""
+    typed = _typed(_run("cube.deck"))
+    return Seen(
+        FAILS if typed.endswith("ERROR IN PROGRAM") else HOLDS, f"typed: {typed}; the judge: 8 vertices, 6 planes"
+    )
+
+
+def plane_through_c() -> Seen:
+    """The deck of KNOWN-FAULTS 3: what is typed, and that the judge has a hull."""
+    typed = _typed(_run("throughc.deck"))
+    points = [[*map(Fraction, point)] for point in exact_points(deck_of("throughc.deck"))[0].values()]
+    judge = exact_hull(points)
+    good = typed.endswith("ERROR IN PROGRAM") and judge.dimension == 3
+    return Seen(
+        FAILS if good else HOLDS,
+        f"typed: {typed}; the judge: {len(judge.vertices)} vertices, {len(judge.facets)} planes",
+    )
+
+
+def roots_that_do_not_add_up() -> Seen:
+    """The deck of KNOWN-FAULTS 14: the vertices the listing punches are not the judge's."""
+    found, judge = _vertices("between.deck")
+    words = f"{len(found ^ judge)} points differ between the punched vertices and the judge's"
+    return Seen(CONDITION if found != judge else FAILS, words)
+
+
+def _vertices(name: str) -> tuple[set[int], set[int]]:
+    points = [tuple(map(Fraction, point)) for point in exact_points(deck_of(name))[0].values()]
+    outcome = from_cards("listing", _run(name), points)
+    return set(outcome.vertices), set(exact_hull([*map(list, points)]).vertices)
+
+
+def silent_loss() -> Seen:
+    """Four points of five digits: a wrong hull without a message."""
+    found, judge = _vertices("silent.deck")
+    typed = _typed(_run("silent.deck"))
+    good = found != judge and "NOT ACCEPTABLE" not in typed
+    return Seen(FAILS if good else HOLDS, f"{len(found)} of {len(judge)} vertices are punched; typed: {typed}")
+
+
+def notation() -> Seen:
+    """The names of chapter 3 among the variables of programs 2 and 3."""
+    names = {entry.name for entry in programs.program("program3").storage.arrays()}
+    text = programs.deck("program3").text() + programs.deck("program2").text()
+    wanted = ("NETC", "NE", "NV", "MM", "NN", "KK")
+    return seen(
+        {"MM", "NN", "KK"} <= names and all(f"{name}=" in text or name in names for name in wanted), ", ".join(wanted)
+    )
+
+
+def eight_digits() -> Seen:
+    """A card's field has eight digits and no room for a ninth; a ninth digit of a product is dropped."""
+    try:
+        coordinate_field("1.23456789")
+    except ValueError as error:
+        return seen(coordinate_field("1.2345678") == "+.12345678E+01", str(error))
+    return Seen(FAILS, "a ninth digit fits")
+
+
+def no_rounding() -> Seen:
+    """2/3 in eight digits ends in 6."""
+    arithmetic, row = take([("2", "3", "1")], "truncating")
+    quotient = arithmetic.text(arithmetic.quotient(row[0][0], 3), 1)
+    return seen(Fraction(quotient) == Fraction(66666666, 10**8), f"2 / 3 is {quotient}")
+
+
+def two_kinds_of_errors() -> Seen:
+    """A third cut to eight digits is another point; a product of exact numbers is cut too."""
+    third = coordinate_field("0.333333333", truncate=True)
+    return seen(
+        third == "+.33333333E+00" and bool(_misses(_THREE)), "1/3 as a card holds it; a plane without its points"
+    )
+
+
+def _misses(points: tuple[Point, ...]) -> list[int]:
+    """Which of the points do not satisfy the plane of the first three in the machine's arithmetic."""
+    arithmetic, rows = take(points, "truncating")
+    all_points = [tuple(rows[axis][k] for axis in range(3)) for k in range(len(points))]
+    equation = plane(*all_points[:3])
+    return [k for k, point in enumerate(all_points) if not arithmetic.is_zero(at(equation, point))]
+
+
+def own_plane_missed() -> Seen:
+    """Three points of three digits that do not satisfy their own plane."""
+    missed = _misses(_THREE)
+    return seen(bool(missed), f"points {', '.join(str(_THREE[k]) for k in missed)} of the plane through the three")
+
+
+def fourth_point_missed() -> Seen:
+    """A fourth point exactly in the plane of three that satisfy it."""
+    exactly = not any(sum(a * x for a, x in zip(through(*_FOURTH[:3]), (*_FOURTH[3], 1), strict=True)) for _ in (0,))
+    return seen(exactly and _misses(_FOURTH) == [3], f"{_FOURTH[3]} lies in the plane of the other three exactly")
+
+
+def where_data_are_refused() -> Seen:
+    """Which programs have the message."""
+    has = [name for name in THREE if "DATA NOT ACCEPTABLE" in programs.deck(name).text()]
+    return Seen(CONDITION if has == ["program2", "program3"] else FAILS, f"the message stands in {' and '.join(has)}")
+
+
+def vertex_overlooked() -> Seen:
+    """A point a tenth above a plane, with e = 1, in the port."""
+    from modern.port import convex_hull
+
+    points = [("0", "0", "0"), ("4", "0", "0"), ("0", "4", "0"), ("0", "0", "4"), ("1.4", "1.4", "1.4")]
+    without, with_e = convex_hull(points), convex_hull(points, epsilon="20")
+    return seen(
+        4 in without.vertices and 4 not in with_e.vertices, "(1.4, 1.4, 1.4) is a vertex, with e = 20 it is none"
+    )
+
+
+def value_is_no_distance() -> Seen:
+    """A point at the distance 1 of a plane, with a value of a hundredth."""
+    found, _ = csv_points(counterexample("short_normal.csv"), "short_normal.csv")
+    p, q, r, x = (tuple(map(Fraction, map(str, point))) for point in found)
+    a, b, c, d = plane(p, q, r)  # type: ignore[arg-type]
+    value = at((a, b, c, d), x)
+    distance = value * value / (a * a + b * b + c * c)
+    return Seen(CONDITION if distance == 1 and abs(value) == Fraction(1, 100) else FAILS, "value 1/100, distance 1")
+
+
+def turned_by_c(count: str = COUNT) -> Seen:
+    """Equations are negative at C at the end too."""
+    good = []
+    for one in both(count):
+        added = one.hull.history[0].added
+        x, y, z = _sum(one.points, added)
+        good += [a * x + b * y + c * z + d * len(added) < 0 for a, b, c, d in one.stages()[-1].equations]
+    return seen(all(good), f"{len(good)} equations")
+
+
+def _sum(points: tuple[Point, ...], which: tuple[int, ...]) -> tuple[int, int, int]:
+    x, y, z = (sum(points[k][axis] for k in which) for axis in range(3))
+    return x, y, z
+
+
+def constant_term_is_enough(count: str = COUNT) -> Seen:
+    """With the origin at C a constant term below zero and a value below zero at C are the same."""
+    good = []
+    for one in sampled_sets(3, int(count)):
+        added = one.hull.history[0].added
+        total = _sum(one.points, added)
+        moved = [tuple(len(added) * x - t for x, t in zip(point, total, strict=True)) for point in one.points]
+        for defining, outward in zip(one.hull.history[-1].equations, one.stages()[-1].equations, strict=True):
+            found = through(*(moved[k] for k in defining))  # type: ignore[arg-type]
+            same = found[3] if sum(a * b for a, b in zip(found[:3], outward[:3], strict=True)) > 0 else -found[3]
+            good.append(same < 0)
+    return seen(all(good), f"{len(good)} constant terms")
+
+
+def _equations_made(one: SampledSet) -> int:
+    stages = one.hull.history
+    first = len(stages[0].equations)
+    return first + sum(3 * stage.outside for stage in stages[1:])
+
+
+def translation_by_hand(count: str = COUNT) -> Seen:
+    """What putting C into an equation takes: three products and three sums, which the constant term spares."""
+    made = [_equations_made(one) for one in sampled_sets(3, int(count))]
+    words = f"{', '.join(map(str, made))} equations: three products fewer each; a translation has no products"
+    return seen(all(n > 0 for n in made), words)
+
+
+def translation_depends(count: str = COUNT) -> Seen:
+    """Sums saved, three an equation, against sums of the translation, six a point."""
+    few = [3 * _equations_made(one) - 6 * len(one.points) for one in sampled_sets(3, int(count))]
+    many = 3 * 4 - 6 * 51
+    return seen(max(few) > 0 > many, f"sums saved: {', '.join(map(str, few))}; of 51 points in a tetrahedron {many}")
+
+
+def data_sheet(part: str) -> Seen:
+    """The sample cards of pages 58 and 59."""
+    if part == "columns":
+        points, _ = exact_points(deck_of("z_in_39.deck"))
+        z = [point[2] for point in points.values()][-1]
+        return Seen(FAILS if Fraction(z) != 1 else HOLDS, f"a z of 1 punched in columns 39 to 52 is read as {z}")
+    if part == "digits":
+        printed = "+.3000000E+01"
+        return Seen(
+            CONDITION if len(printed) == 13 and len("+.30000000E+01") == 14 else FAILS, f"{printed} has 13 characters"
+        )
+    numbers = {"12": "+.12000000E+02", ".0146": "+.14600000E-01", ".0261": "+.26100000E-01", "6": "+.60000000E+01"}
+    return seen(all(coordinate_field(value) == field for value, field in numbers.items()), ", ".join(numbers))
+
+
+def messages() -> Seen:
+    """What programs 1 types for examples 3 to 5, and which program follows."""
+    found = {}
+    for example in (3, 4, 5):
+        try:
+            run = run_hull(input_deck(example), programs.program, Options(limit=100_000))
+        except EmulatorError as error:
+            return Seen(FAILS, str(error))
+        found[run.steps[0].result.typed[0]] = run.steps[-1].number
+    wanted = {"CONVEX HULL": 1, "POINTS ARE COPLANAR": 2, "POINTS ARE NOT COPLANAR": 3}
+    return seen(found == wanted, "; ".join(f"{words}: program {n}" for words, n in found.items()))

@@ -1,0 +1,353 @@
+"""Claims of Kovalevsky and Schulz: definitions, local corners, lemmas LZ, CH and BE, Theorem PL, coplanar faces."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from fractions import Fraction
+from functools import cache
+from itertools import combinations, product
+from random import Random
+
+import numpy as np
+
+from modern.digital.solids import Volume, half_ball, listed
+from modern.edition.chapter3_claims import COUNT, points_of
+from modern.edition.sampled_sets import Plane, Point, sampled_sets, through, value
+from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, Verdict, seen
+from modern.exact_hull import ExactHull, exact_hull
+from modern.geometry.vectors import cross, dot, minus, plus
+from modern.papers.kovalevsky_schulz import CENTRES, VERTICES, convex_polyhedron, local_corners
+from modern.papers.kovalevsky_schulz.cells import CellList
+from modern.papers.kovalevsky_schulz.coplanar import EXTENDED, QUADRANGLES, coplanar_hull
+from modern.papers.kovalevsky_schulz.corners import places
+from modern.papers.kovalevsky_schulz.hull import merged, straightened
+from modern.papers.kovalevsky_schulz.tables import cell_list_size, triangulation_size
+
+GRID = tuple(product(range(3), repeat=3))
+PYRAMID: tuple[Point, ...] = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 2))
+
+
+def _solid(seed: int, side: int = 4) -> Volume:
+    random = Random(seed)
+    array = np.array([random.random() < 0.4 for _ in range(side**3)]).reshape(side, side, side)
+    return Volume(array, (0, 0, 0))
+
+
+@cache
+def _grown() -> tuple[tuple[tuple[Point, ...], ExactHull], ...]:
+    return tuple((one.points, one.judge) for one in sampled_sets(3, int(COUNT)))
+
+
+def algorithm_is_right(kind: str = "") -> Seen:
+    """Both counts of coplanar faces, on grids with many, against the judge."""
+    good = []
+    for coplanar in ("visible", "invisible"):
+        for points in (GRID, *(points for points, _ in _grown())):
+            cells = convex_polyhedron(points, coplanar)
+            assert isinstance(cells, CellList)
+            straight = straightened(merged(cells))
+            judge = exact_hull(points)
+            good.append({v.point for v in straight.vertices} == {points[k] for k in judge.vertices})
+            good.append(len(straight.faces) == len(judge.facets))
+    return Seen((CONDITION if kind else HOLDS) if all(good) else FAILS, f"{len(good) // 2} hulls as the exact judge")
+
+
+def local_corners_are_enough() -> Seen:
+    """Vertices of the hull of some voxels are among their local corners."""
+    good = []
+    for seed in (1, 2):
+        volume = _solid(seed)
+        corners = {*map(tuple, local_corners(volume, CENTRES).tolist())}
+        points = [*map(tuple, volume.coordinates().tolist())]
+        good.append({points[k] for k in exact_hull(points).vertices} <= corners and len(corners) < len(points))
+    return seen(all(good), f"{len(good)} solids")
+
+
+def vertices_satisfy_all() -> Seen:
+    """All vertices and all planes of the judge's hulls."""
+    good = [value(f.plane, points[k]) <= 0 for points, judge in _grown() for f in judge.facets for k in judge.vertices]
+    return seen(all(good), f"{len(good)} values")
+
+
+def corners_hold_centres() -> Seen:
+    """Voxels' centres, moved by half a unit, lie in the hull of their corners; the hulls differ."""
+    volume = _solid(1, 3)
+    corners = [*map(tuple, np.argwhere(places(volume, VERTICES)).tolist())]
+    judge = exact_hull([(2 * x, 2 * y, 2 * z) for x, y, z in corners])
+    centres = [(2 * x + 1, 2 * y + 1, 2 * z + 1) for x, y, z in volume.coordinates().tolist()]
+    good = all(max(value(f.plane, _scaled(judge, c)) for f in judge.facets) < 0 for c in centres)
+    return seen(good, f"{len(centres)} centres within the hull of {len(corners)} corners")
+
+
+def _scaled(judge: ExactHull, point: Point) -> Point:
+    return judge.scale * point[0], judge.scale * point[1], judge.scale * point[2]
+
+
+def combinations_are_no_vertices(kind: str = "") -> Seen:
+    """Midpoints of two points of a hull are no vertices when they are added; without a vertex it is not in the hull."""
+    good = []
+    for points, judge in _grown()[:1]:
+        doubled = [plus(p, p) for p in points]
+        for p, q in combinations(points[:5], 2):
+            good.append(len(points) not in exact_hull([*doubled, plus(p, q)]).vertices)
+        for k in judge.vertices[:3]:
+            rest = [p for i, p in enumerate(points) if i != k]
+            good.append(len(rest) in exact_hull([*rest, points[k]]).vertices)
+    return Seen((CONDITION if kind else HOLDS) if all(good) else FAILS, f"{len(good)} points")
+
+
+def pairs_are_not_combinations() -> Seen:
+    """A voxel of the counterexample: none of its 13 pairs is there, yet it lies within three of its neighbours."""
+    points = points_of("tripod.csv")
+    corners = {*map(tuple, local_corners(listed(points), CENTRES).tolist())}
+    middle = points[-1]
+    near = all(max(abs(a - b) for a, b in zip(p, middle, strict=True)) == 1 for p in points[:-1])
+    wrong = middle in corners and near and len(points) - 1 not in exact_hull(points).vertices
+    return Seen(
+        FAILS if wrong else HOLDS, f"{middle} is a local corner and a combination of its {len(points) - 1} neighbours"
+    )
+
+
+def no_loose_cells() -> Seen:
+    """Every corner in the closure of some voxels belongs to one of them."""
+    volume = _solid(2, 3)
+    corners = np.argwhere(places(volume, VERTICES)).tolist()
+    array = np.pad(volume.array, 1)
+    good = [bool(array[x : x + 2, y : y + 2, z : z + 2].any()) for x, y, z in corners]
+    return seen(all(good), f"{len(good)} corners")
+
+
+def topological_raster(kind: str = "") -> Seen:
+    """Cells of a cube of n voxels a side: (2n + 1)^3; their dimension is the number of odd coordinates."""
+    if kind == "cells":
+        counts = Counter(sum(c % 2 for c in cell) for cell in product(range(3), repeat=3))
+        return seen(counts == {0: 8, 1: 12, 2: 6, 3: 1}, "one voxel: 8 corners, 12 edges, 6 faces, 1 body")
+    ratios = {n: Fraction((2 * n + 1) ** 3, n**3) for n in (1, 10, 100)}
+    good = all(ratio > 8 for ratio in ratios.values()) and ratios[100] < Fraction(82, 10)
+    return Seen(CONDITION if good else FAILS, ", ".join(f"n = {n}: {float(r):.2f} times" for n, r in ratios.items()))
+
+
+def single_voxel() -> Seen:
+    """Corners of the counterexample's voxels that bound a single one and are no local corners by 6 neighbours."""
+    volume = listed(points_of("two_voxels.csv"))
+    corners = {*map(tuple, local_corners(volume, VERTICES, 6).tolist())}
+    array = np.pad(volume.array, 1)
+    single = {
+        (x, y, z)
+        for x, y, z in np.argwhere(places(volume, VERTICES)).tolist()
+        if array[x : x + 2, y : y + 2, z : z + 2].sum() == 1
+    }
+    wrong = single - corners
+    return Seen(
+        FAILS if wrong and corners <= single else HOLDS, f"{', '.join(map(str, sorted(wrong)))} bounds one voxel only"
+    )
+
+
+def farthest_voxel() -> Seen:
+    """The corners of a voxel have the coordinates of the eight voxels from it away from the origin."""
+    corners = {*map(tuple, np.argwhere(places(listed([(0, 0, 0)]), VERTICES)).tolist())}
+    return seen(corners == {*product((0, 1), repeat=3)}, "corners of voxel (0, 0, 0): from (0, 0, 0) to (1, 1, 1)")
+
+
+def choice_of_q() -> Seen:
+    """The product of the normal with P - Q for all corners Q of each face."""
+    good = []
+    for points, judge in _grown():
+        for facet in judge.facets:
+            products = {dot(facet.plane[:3], minus(points[0], points[k])) for k in facet.polygon}
+            good.append(len(products) == 1)
+    return seen(all(good), f"{len(good)} faces")
+
+
+def unseen_is_inside() -> Seen:
+    """Points of a grid: those that see no face of a hull are in it."""
+    points, judge = _grown()[0]
+    good = []
+    for point in ((x, y, z) for x in (-4, 1) for y in (-1, 4) for z in (-4, 0)):
+        unseen = max(value(f.plane, point) for f in judge.facets) <= 0
+        good.append(unseen == (point in points or len(points) not in exact_hull([*points, point]).vertices))
+    return seen(all(good), f"{len(good)} points")
+
+
+def cube_seen_from_a_corner() -> Seen:
+    """A cube and a point beyond one of its corners."""
+    cube = [*product((0, 2), repeat=3)]
+    judge, after = exact_hull(cube), exact_hull([*cube, (3, 3, 3)])
+    visible = [f for f in judge.facets if value(f.plane, (3, 3, 3)) > 0]
+    edges = [e for e in judge.edges() if sum({*e} <= {*f.polygon} for f in visible) == 2]
+    gone = set(judge.vertices) - set(after.vertices)
+    return seen((len(visible), len(edges), len(gone)) == (3, 3, 1), "three faces, three edges and one vertex go")
+
+
+def coplanar_triangles() -> Seen:
+    """Counting coplanar faces as visible makes more triangles than the hull has faces."""
+    cells = convex_polyhedron(GRID, "visible")
+    assert isinstance(cells, CellList)
+    return seen(len(cells.faces) > 6, f"{len(cells.faces)} triangles of a grid's cube, which has 6 faces")
+
+
+def third_treatment(kind: str = "") -> Seen:
+    """Faces extended to a coplanar point: the judge's faces, and fewer new ones than by triangles."""
+    if kind:
+        found = coplanar_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (2, 0, 0)], EXTENDED)
+        return seen(
+            found.extended == 2, f"{found.extended} faces are extended, {found.straightened} edges come into line"
+        )
+    extended, other = coplanar_hull(GRID, EXTENDED), coplanar_hull(GRID, QUADRANGLES)
+    right = list(extended.faces) == sorted(f.polygon for f in exact_hull(GRID).facets)
+    return seen(
+        right and extended.made < other.made, f"{extended.made} new faces of a grid's cube, {other.made} as in Fig. 7"
+    )
+
+
+def quadrangles() -> Seen:
+    """A point in the plane of a pyramid's square that sees two of its sides."""
+    found = coplanar_hull([*PYRAMID, (3, 3, 0)], QUADRANGLES)
+    return seen(
+        found.larger == 1 and found.merged > 0, f"{found.larger} new face with four corners, merged with the square"
+    )
+
+
+def lemma_lz(kind: str = "") -> Seen:
+    """What planes through the middle cut off holds a vertex."""
+    good = []
+    for points, judge in _grown():
+        for a, b, c in ((1, 0, 0), (1, -2, 1), (0, 3, -1)):
+            heights = [dot((a, b, c), p) for p in points]
+            for cut in sorted(set(heights)):
+                good.append(any(heights[k] >= cut for k in judge.vertices))
+            most = [k for k, h in enumerate(heights) if h == max(heights)]
+            good.append(max(most, key=lambda k: points[k]) in judge.vertices)
+    return Seen((HOLDS if kind else CONDITION) if all(good) else FAILS, f"{len(good)} cuts")
+
+
+def two_do_not_do() -> Seen:
+    """(1, 1) within (0, 0), (3, 0), (0, 3): a combination of three, of no two."""
+    points: list[Point] = [(0, 0, 0), (3, 0, 0), (0, 3, 0), (1, 1, 0)]
+    two = [1 for p, q in combinations(points[:3], 2) if not any(cross(minus(q, p), minus(points[3], p)))]
+    good = not two and 3 not in exact_hull(points).vertices
+    return Seen(CONDITION if good else FAILS, "(1, 1) of that triangle")
+
+
+def lemma_ch() -> Seen:
+    """A polyhedron on corners that holds all of them holds all voxels."""
+    volume = _solid(3)
+    corners = [*map(tuple, local_corners(volume, CENTRES).tolist())]
+    judge = exact_hull(corners)
+    good = [max(value(f.plane, p) for f in judge.facets) <= 0 for p in map(tuple, volume.coordinates().tolist())]
+    return seen(all(good), f"{len(good)} voxels")
+
+
+def smaller_loses_a_vertex() -> Seen:
+    """Each vertex left out is outside of the hull of the others."""
+    good = []
+    for points, judge in _grown():
+        for k in judge.vertices[:4]:
+            rest = exact_hull([points[i] for i in judge.vertices if i != k])
+            good.append(rest.dimension < 3 or max(value(f.plane, points[k]) for f in rest.facets) > 0)
+    return seen(all(good), f"{len(good)} vertices")
+
+
+def _horizons() -> Iterator[tuple[Point, Plane, Plane, Plane, list[Point]]]:
+    """New point's plane with each edge between a visible and an invisible face, the two faces' planes, the points."""
+    for points, judge in _grown():
+        for new in ((9, 1, 0), (-8, 3, 7)):
+            for edge in judge.edges():
+                one, other = (f.plane for f in judge.facets if {*edge} <= {*f.polygon})
+                visible, hidden = (one, other) if value(one, new) > 0 else (other, one)
+                if value(visible, new) > 0 > value(hidden, new):
+                    plane = through(points[edge[0]], points[edge[1]], new)
+                    yield new, visible, hidden, plane, [points[k] for k in judge.vertices]
+
+
+def lemma_be(kind: str = "") -> Seen:
+    """The plane supports; its normal is a combination with positive coefficients."""
+    good = []
+    for _, visible, hidden, plane, vertices in _horizons():
+        values = [value(plane, p) for p in vertices]
+        sign = -1 if max(values) > 0 else 1
+        good.append(max(sign * v for v in values) <= 0)
+        if kind:
+            normal = tuple(sign * n for n in plane[:3])
+            a, b = _coefficients(visible[:3], hidden[:3], normal)  # type: ignore[arg-type]
+            good.append(a > 0 and b > 0)
+    verdict: Verdict = CONDITION if kind == "section" else HOLDS
+    return Seen(verdict if all(good) and good else FAILS, f"{len(good)} edges")
+
+
+def _coefficients(u: Point, v: Point, w: Point) -> tuple[Fraction, Fraction]:
+    """a and b of w = a u + b v."""
+    uu, uv, vv, uw, vw = dot(u, u), dot(u, v), dot(v, v), dot(u, w), dot(v, w)
+    determinant = uu * vv - uv * uv
+    return Fraction(uw * vv - vw * uv, determinant), Fraction(vw * uu - uw * uv, determinant)
+
+
+def polyhedra_grow() -> Seen:
+    """Vertices of a hull lie in that of more points."""
+    good = []
+    for points, _ in _grown():
+        for n in range(5, len(points)):
+            few, more = exact_hull(points[:n]), exact_hull(points[: n + 1])
+            if few.dimension == more.dimension == 3:
+                good.append(all(value(f.plane, points[k]) <= 0 for f in more.facets for k in few.vertices))
+    return seen(bool(good) and all(good), f"{len(good)} steps")
+
+
+def formula_5() -> Seen:
+    """4.5 integers a triangle, where there are twice as many triangles as vertices."""
+    return Seen(CONDITION if triangulation_size(2) == 9 else FAILS, "N_V = N_T / 2: 3/2 + 3")
+
+
+def memory() -> Seen:
+    """Table 4: integers by (6) and by (5)."""
+    cells, triangles = cell_list_size(60, 63), triangulation_size(3560)
+    return Seen(CONDITION if cells < triangles else FAILS, f"{cells} against {triangles}")
+
+
+@cache
+def _half_ball() -> CellList:
+    cells = convex_polyhedron(local_corners(half_ball(10), VERTICES))
+    assert isinstance(cells, CellList)
+    return straightened(merged(cells))
+
+
+def symmetry() -> Seen:
+    """The half-ball of diameter 10 and its vertices with x and y exchanged and x mirrored."""
+    points = {v.point for v in _half_ball().vertices}
+    turned = [{(y, x, z) for x, y, z in points}, {(2 - x, y, z) for x, y, z in points}]
+    shift = {x for x, _, _ in points}
+    mirrored = {(min(shift) + max(shift) - x, y, z) for x, y, z in points}
+    return seen(points in (turned[0], turned[1]) and points == mirrored, f"{len(points)} vertices")
+
+
+def symmetric_faces() -> Seen:
+    """Of the half-ball of diameter 10, faces that some turn or reflection carries into themselves."""
+    cells = _half_ball()
+    found = [_is_symmetric([cells.vertices[v - 1].point for v in face.vertices]) for face in cells.faces]
+    words = f"{sum(found)} of {len(found)} faces are"
+    return Seen(HOLDS if all(found) else CONDITION, words)
+
+
+def _is_symmetric(ring: list[Point]) -> bool:
+    n = len(ring)
+    sides = [minus(ring[(k + 1) % n], ring[k]) for k in range(n)]
+    marks = [(dot(sides[k], sides[k]), dot(sides[k], sides[(k + 1) % n])) for k in range(n)]
+    back = [(dot(sides[-k], sides[-k]), dot(sides[-k], sides[-k - 1])) for k in range(n)]
+    turns = any(marks == marks[k:] + marks[:k] for k in range(1, n))
+    return turns or any(marks == back[k:] + back[:k] for k in range(n))
+
+
+def bounding_relation() -> Seen:
+    """Cells of a voxel by topological coordinates: bounding is antisymmetric and transitive, incidence is not."""
+    cells: list[Point] = [(x, y, z) for x in range(3) for y in range(3) for z in range(3)]
+
+    def bounds(a: Point, b: Point) -> bool:
+        return a != b and all(x == y or (y % 2 == 1 and abs(x - y) == 1) for x, y in zip(a, b, strict=True))
+
+    pairs = {(a, b) for a in cells for b in cells if bounds(a, b)}
+    partial = not any((b, a) in pairs for a, b in pairs)
+    partial &= all((a, d) in pairs for a, b in pairs for c, d in pairs if b == c)
+    apart = (0, 0, 0), (0, 0, 2)
+    loose = (apart[0], (0, 0, 1)) in pairs and (apart[1], (0, 0, 1)) in pairs and apart not in pairs
+    return seen(partial and loose, f"{len(pairs)} pairs of the 27 cells of a voxel")

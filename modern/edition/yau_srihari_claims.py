@@ -1,0 +1,216 @@
+"""Claims of Yau and Srihari: convexity, continuous and digital, the two theorems, and each statement as printed."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import cache
+from itertools import combinations, product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from modern.digital.solids import listed
+from modern.edition.chapter3_claims import points_of
+from modern.edition.sampled_sets import Point, sampled_sets, value
+from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, seen
+from modern.exact_hull import exact_hull
+from modern.papers.yau_srihari import OctreeHull, Printed, octree_hull
+from modern.papers.yau_srihari.convexity import (
+    convex_deficiency,
+    half_cell_expansion,
+    is_digitally_convex,
+    is_midpoint_convex,
+    is_simple,
+    midpoint_cover,
+)
+
+Voxels = NDArray[np.bool_]
+SOLID: tuple[Point, ...] = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (2, 1, 0), (2, 1, 1), (2, 2, 1), (2, 2, 2), (1, 2, 2))
+
+_GRID: tuple[Point, ...] = tuple((x, y, z) for x in range(3) for y in range(3) for z in range(3))
+
+
+def _array(voxels: tuple[Point, ...] | list[Point]) -> Voxels:
+    return listed(voxels).array
+
+
+@cache
+def _hull() -> OctreeHull:
+    return octree_hull(_array(SOLID))
+
+
+def printed(name: str) -> Seen:
+    """A statement as printed, on its counterexample: against the corrected algorithm."""
+    array = _array(points_of(f"yau_{name}.csv"))
+    wrong, right = octree_hull(array, Printed.only(name)).filled, octree_hull(array).filled
+    missing, more = int((right & ~wrong).sum()), int((wrong & ~right).sum())
+    return Seen(
+        FAILS if missing or more else HOLDS, f"{missing} voxels missing, {more} too many, of {int(right.sum())}"
+    )
+
+
+def no_unique_minimum() -> Seen:
+    """Two voxels at a corner: two digitally convex solids with three voxels hold them, and no smaller one does."""
+    both: list[Point] = [(0, 0, 0), (1, 1, 0)]
+    least = [is_digitally_convex(_array([*both, third])) for third in ((1, 0, 0), (0, 1, 0))]
+    return seen(all(least) and not is_simple(_array(both)), "either voxel beside both makes a convex solid of three")
+
+
+def between_the_envelopes() -> Seen:
+    """Faces of floor and ceiling envelopes of a solid are those of the judge that look down, or up."""
+    judge = exact_hull(SOLID)
+    good = []
+    for found, sign in ((_hull().lower, 1), (_hull().upper, -1)):
+        wanted = {frozenset(f.polygon) for f in judge.facets if sign * f.plane[2] < 0}
+        faces = {frozenset(SOLID.index((x, y, sign * z)) for x, y, z in face.vertices) for face in found.faces}
+        good.append(faces == wanted)
+    inside = {p for p in _GRID if max(value(f.plane, p) for f in judge.facets) <= 0}
+    good.append({*map(tuple, np.argwhere(_hull().filled).tolist())} == inside)
+    return seen(all(good), f"{len(SOLID)} voxels, {len(inside)} in the hull")
+
+
+def convex_deficiency_() -> Seen:
+    """Hull less deficiency is the solid."""
+    array = _array(SOLID)
+    missing = convex_deficiency(array)
+    return seen(
+        bool((_hull().filled & ~missing == array).all()),
+        f"{int(missing.sum())} voxels of the hull are not of the solid",
+    )
+
+
+def definitions_differ() -> Seen:
+    """Two voxels at a corner are midpoint convex and not a convex solid; a bend is neither."""
+    corner, bend = _array([(0, 0, 0), (1, 1, 0)]), _array([(0, 0, 0), (1, 0, 0), (2, 0, 0), (2, 1, 0), (2, 2, 0)])
+    found = [(is_midpoint_convex(a), is_digitally_convex(a)) for a in (corner, bend)]
+    return seen(found[0] == (True, False) and not found[1][1], "two voxels at a corner: by 3.2.2 convex, by 3.2.3 not")
+
+
+def euclidean_convexity() -> Seen:
+    """A hull is its own hull; midpoints of its points are in it; less a vertex it does not hold all."""
+    good = []
+    for one in sampled_sets(3, 1):
+        again = exact_hull([one.points[k] for k in one.judge.vertices])
+        good.append(len(again.facets) == len(one.judge.facets))
+        for i, j in combinations(one.judge.vertices, 2):
+            good.append(
+                max(value(f.plane, one.points[i]) + value(f.plane, one.points[j]) for f in one.judge.facets) <= 0
+            )
+    return seen(all(good), f"{len(good)} cases")
+
+
+def light_cap(kind: str = "") -> Seen:
+    """A point outside of a hull in general position: light faces make one cap with one closed boundary."""
+    points: list[Point] = [(0, 0, 0), (7, 1, 2), (1, 8, 3), (2, 3, 9), (9, 9, 8)]
+    judge, new = exact_hull(points), (11, -4, 13)
+    light = [f for f in judge.facets if value(f.plane, new) > 0]
+    rim = [e for e in judge.edges() if sum({*e} <= {*f.polygon} for f in light) == 1]
+    after = [end for edge in rim for end in edge]
+    closed = bool(rim) and all(after.count(end) == 2 for end in after)
+    if kind:
+        bounds = [len(one.judge.edges()) <= 3 * len(one.points) - 6 for one in sampled_sets(3, 2)]
+        return seen(all(bounds), "n points, each with O(n) edges: at most 3n - 6")
+    return seen(closed, f"{len(light)} light faces, {len(rim)} edges around them, each end on two")
+
+
+def halves_apart() -> Seen:
+    """Sorted points cut where x rises: the halves' greatest and least x; cut within one x they are equal."""
+    points = sorted(product((0, 1, 2), (0, 1), (0, 1)))
+    cut_well, cut_within = (points[3][0], points[4][0]), (points[5][0], points[6][0])
+    return Seen(
+        CONDITION if cut_well[0] < cut_well[1] and cut_within[0] == cut_within[1] else FAILS, "12 points of a grid"
+    )
+
+
+def voxels_fill_space() -> Seen:
+    """Every quarter of a grid is in exactly one half-open voxel: x - 1/2 < V <= x + 1/2."""
+    half, good = Fraction(1, 2), []
+    for k in range(-8, 9):
+        x = Fraction(k, 4)
+        good.append(sum(x - half < v <= x + half for v in range(-4, 5)) == 1)
+    return seen(all(good), f"{len(good)} coordinates")
+
+
+def midpoint_convexity() -> Seen:
+    """Covers of one to eight voxels; a gap in a row is not convex."""
+    sizes = [len(midpoint_cover((0, 0, 0), other)) for other in ((2, 2, 2), (1, 2, 2), (1, 1, 2), (1, 1, 1))]
+    gap = is_midpoint_convex(_array([(0, 0, 0), (2, 0, 0)]))
+    return seen(sizes == [1, 2, 4, 8] and not gap, f"covers of {', '.join(map(str, sizes))} voxels")
+
+
+def half_cell_expansion_() -> Seen:
+    """One voxel meets eight of the lattice moved by half a cell."""
+    found = int(half_cell_expansion(_array([(0, 0, 0)])).sum())
+    return seen(found == 8, f"{found} of one voxel, {int(half_cell_expansion(_array(SOLID)).sum())} of {len(SOLID)}")
+
+
+def simple_with_a_tunnel() -> Seen:
+    """A ring of twelve voxels around a cube's diagonal: simple, and its Euler number is that of a ring."""
+    array = _array(points_of("tunnel.csv"))
+    cells: set[Point] = set()
+    for x, y, z in np.argwhere(array).tolist():
+        cells.update((2 * x + i, 2 * y + j, 2 * z + k) for i, j, k in product(range(3), repeat=3))
+    euler = sum((-1) ** sum(c % 2 for c in cell) for cell in cells)
+    return Seen(
+        FAILS if is_simple(array) and euler == 0 else HOLDS, f"simple, and its Euler number is {euler}, a ball's is 1"
+    )
+
+
+def nearness() -> Seen:
+    """Points with a whole coordinate, and distances below 1 on all axes."""
+    p, q, far = (Fraction(1), Fraction(1, 2), Fraction(1, 3)), (1, 1, 1), (2, 1, 1)
+
+    def near(other: tuple[int, int, int]) -> bool:
+        return max(abs(a - b) for a, b in zip(p, other, strict=True)) < 1
+
+    return seen(
+        any(c.denominator == 1 for c in p) and near(q) and not near(far),
+        "(1, 1/2, 1/3) is near (1, 1, 1), not (2, 1, 1)",
+    )
+
+
+def hull_is_simple() -> Seen:
+    """The digital hull of a connected solid is simple and passes the convexity test."""
+    found = _hull()
+    good = found.components == 1 and is_simple(found.filled) and is_digitally_convex(found.filled)
+    return Seen(CONDITION if good else FAILS, f"{found.given} voxels connected, {found.voxels} in the hull")
+
+
+def floor_and_ceiling() -> Seen:
+    """Least and greatest z of each column."""
+    columns = {(x, y): sorted(z for a, b, z in SOLID if (a, b) == (x, y)) for x, y, _ in SOLID}
+    good = all(_hull().floor[at] == zs[0] and _hull().ceiling[at] == zs[-1] for at, zs in columns.items())
+    return seen(good, f"{len(columns)} columns")
+
+
+def convex_functions() -> Seen:
+    """x^2 on small numbers: convex, its negative concave, and points above its graph a convex set."""
+    xs, shares = range(-3, 4), (Fraction(1, 3), Fraction(1, 2))
+    good = []
+    for x, y, m in product(xs, xs, shares):
+        mixed, at = (1 - m) * x * x + m * y * y, ((1 - m) * x + m * y) ** 2
+        good += [mixed >= at, -mixed <= -at, (1 - m) * (x * x + 1) + m * (y * y + 2) >= at]
+    return seen(all(good), f"{len(good)} combinations")
+
+
+def negative_of_the_ceiling() -> Seen:
+    """Heights of the envelope found for -beta are those of the upper hull, negated."""
+    judge = exact_hull(SOLID)
+    found = {(x, y, -z) for face in _hull().upper.faces for x, y, z in face.vertices}
+    upper = {SOLID[k] for f in judge.facets if f.plane[2] > 0 for k in f.polygon}
+    return Seen(CONDITION if found == upper else FAILS, f"{len(found)} vertices, turned over")
+
+
+def extreme_points() -> Seen:
+    """Vertices of the faces of the floor's envelope are points of the floor and in the reduced set."""
+    floor = {(x, y, z) for (x, y), z in _hull().floor.items()}
+    vertices = {v for face in _hull().lower.faces for v in face.vertices}
+    return seen(
+        vertices <= floor and vertices <= {*_hull().lower.reduced}, f"{len(vertices)} vertices of {len(floor)} columns"
+    )
+
+
+def integer_normals() -> Seen:
+    """Normals of the faces."""
+    normals = [face.normal for face in (*_hull().lower.faces, *_hull().upper.faces)]
+    return seen(all(isinstance(n, int) for normal in normals for n in normal), f"{len(normals)} normals")
