@@ -12,13 +12,10 @@ from modern.formats import HULLS, MESHES, POINTS
 
 
 def _reproduce(parser: ArgumentParser) -> None:
-    parser.add_argument(
-        "examples",
-        metavar="NAME",
-        nargs="*",
-        help="an example (1 to 6), a theorem (4.1, 4.2, 4.8), a document (thesis, appel-will, kovalevsky-schulz, "
-        "nakamae-nishita, yau-srihari) or a statement by its id (default: all results, and the statements summed up)",
+    words = (
+        "an example (1 to 6), a theorem (4.1), a document (thesis, yau-srihari, ...), a statement's id (default: all)"
     )
+    parser.add_argument("examples", metavar="NAME", nargs="*", help=words)
     parser.add_argument("--json", metavar="FILE", help="write the verdicts as JSON")
 
 
