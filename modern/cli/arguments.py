@@ -12,9 +12,7 @@ from modern.formats import HULLS, MESHES, POINTS
 
 
 def _reproduce(parser: ArgumentParser) -> None:
-    words = (
-        "an example (1 to 6), a theorem (4.1), a document (thesis, yau-srihari, ...), a statement's id (default: all)"
-    )
+    words = "1 to 6, a theorem (4.1), a document (thesis, yau-srihari, ...) or a statement's id (default: all)"
     parser.add_argument("examples", metavar="NAME", nargs="*", help=words)
     parser.add_argument("--json", metavar="FILE", help="write the verdicts as JSON")
 
