@@ -35,7 +35,7 @@ class Compiled:
         try:
             import numba
         except ImportError as error:
-            raise NotInstalled(f"compiled code needs numba (extra fast): {error}") from None
+            raise NotInstalled(f"compiled code needs numba: pip install 'hull1620[fast]' ({error})") from None
         config: Any = numba.config
         if config.DISABLE_JIT:
             raise NotInstalled("compiled code is turned off by NUMBA_DISABLE_JIT")

@@ -82,7 +82,11 @@ def read_deck(path: str, change: Callable[[str], str] | None = None) -> Deck:
 
     Raises FileError when it cannot be read, DeckError when it is empty, CardError for a bad card.
     """
-    name, data = source_name(path), read_bytes(path)
+    return deck_from_bytes(source_name(path), read_bytes(path), change)
+
+
+def deck_from_bytes(name: str, data: bytes, change: Callable[[str], str] | None = None) -> Deck:
+    """A deck from the bytes of its file; as ``read_deck``, but for FileError."""
     try:
         text = data.decode("utf-8")
     except UnicodeDecodeError:

@@ -15,7 +15,7 @@ from typing import Literal
 from emulator.errors import CardError, DeckError
 from emulator.language.cards import Deck
 from emulator.language.objectcode import Line, Program, code_positions, flatten
-from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
+from emulator.language.storage import CORES, FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 from emulator.machine import interpreter
 from emulator.machine.devices import Devices, Ended, Wanted
 from emulator.machine.endings import Ending, Notice, looped, out_of_bounds, stopped, too_costly, unfit
@@ -356,8 +356,13 @@ def refuse_overlap(program: Program, core: int) -> None:
     if need > room:
         raise DeckError(
             f"{program.source}: OVERLAP: program and data need about {need} positions; "
-            f"a machine of {core} has {room} for them"
+            f"a machine of {core} has {room} for them{_larger(need)}"
         )
+
+
+def _larger(need: int) -> str:
+    core = next((core for core in CORES if core - OBJECT_PROGRAM - FUNCTION_NAMES >= need), 0)
+    return f"; --core {core} has room" if core else ""
 
 
 def loaded(program: Program, numbers: Numbers) -> tuple[list[Number], list[int]]:

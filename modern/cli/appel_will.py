@@ -8,11 +8,12 @@ import sys
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
-from emulator.files import check_writable, read_text, source_name, write_text
+from emulator.files import check_writable, decoded, source_name, write_text
 from modern.cli.shared.console import DIFFERS, OK, UsageError, counted, say
+from modern.cli.shared.inputs import read_given
 from modern.formats import off
 from modern.formats.off import parse_off
-from modern.formats.points import Input, parse_input
+from modern.formats.points import Input, parse_bytes
 from modern.geometry.mesh import Mesh
 from modern.papers.appel_will import PRINTED, Assembled, MapError, Method, appel_will, printed
 from modern.papers.appel_will.corners import Preprocessing, Rule
@@ -32,9 +33,9 @@ RELIED_ON: dict[Rule, str] = {
 def main(args: argparse.Namespace) -> int:
     """Read points and map, find the hull, print the tables."""
     check_writable(args.output)
-    name, text = source_name(args.points), read_text(args.points)
-    found = parse_input(text, name)
-    given = parse_off(text, name).faces if found.kind == "off" else ()
+    data, name = read_given(args.points), source_name(args.points)
+    found = parse_bytes(data, name)
+    given = parse_off(decoded(data, name), name).faces if found.kind == "off" else ()
     if args.inside_corners and not given:
         raise UsageError(f"{found.source}: --inside-corners needs the surfaces of the polyhedron, in an OFF file")
     method = _method(args)

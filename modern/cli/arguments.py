@@ -6,9 +6,20 @@ Nothing here imports what a command needs to run, so that ``--help`` is quick.
 from __future__ import annotations
 
 from argparse import ArgumentParser
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 
-from modern.formats import HULLS, MESHES, POINTS
+from modern.cli.shared.arguments import (
+    core_argument,
+    eye_argument,
+    layers_argument,
+    listed,
+    machine_arguments,
+    points_argument,
+    result_arguments,
+    upcase_argument,
+    volume_arguments,
+)
+from modern.formats import HULLS, MESHES
 
 
 def _reproduce(parser: ArgumentParser) -> None:
@@ -20,12 +31,14 @@ def _reproduce(parser: ArgumentParser) -> None:
 def _run(parser: ArgumentParser) -> None:
     parser.add_argument("program", metavar="PROGRAM.f")
     parser.add_argument("deck", metavar="DECK", nargs="?", help="data cards, one a line")
-    _results(parser)
-    _upcase(parser)
+    result_arguments(parser)
+    upcase_argument(parser)
 
 
 def _hull(parser: ArgumentParser) -> None:
-    parser.add_argument("deck", metavar="DECK")
+    parser.add_argument(
+        "deck", metavar="DECK", help="a data deck, or example1 to example6, or a study's set: seventy/17"
+    )
     parser.add_argument(
         "--programs",
         choices=("listing", "examples"),
@@ -41,11 +54,11 @@ def _hull(parser: ArgumentParser) -> None:
         "--epsilon", metavar="E", help="punch chapter 7's e after N and add the layer epsilon, which reads it there"
     )
     parser.add_argument("--explain", action="store_true", help="say at length why there is no hull, and what to try")
-    _results(parser)
+    result_arguments(parser)
 
 
 def _cards(parser: ArgumentParser) -> None:
-    _points(parser)
+    points_argument(parser)
     parser.add_argument("-o", "--output", metavar="DECK", default="-", help="the deck (default: standard output)")
     parser.add_argument(
         "--truncate", action="store_true", help="cut digits a card cannot hold instead of refusing them"
@@ -54,13 +67,13 @@ def _cards(parser: ArgumentParser) -> None:
 
 
 def _diff(parser: ArgumentParser) -> None:
-    _points(parser)
+    points_argument(parser)
     parser.add_argument(
         "--epsilon", metavar="E", help="chapter 7's e for layer epsilon and the port; rel:E, for the port only"
     )
     parser.add_argument("--json", metavar="FILE", help="write the comparison as JSON")
     parser.add_argument("--explain", action="store_true", help="say at length why a program came to no hull")
-    _layers(parser)
+    layers_argument(parser)
 
 
 def _diverge(parser: ArgumentParser) -> None:
@@ -69,19 +82,20 @@ def _diverge(parser: ArgumentParser) -> None:
     parser.add_argument("--against", metavar="NAME", default="exact", help="the reference (default: exact)")
     parser.add_argument("--first", action="store_true", help="stop at the first decision that differs; no values")
     parser.add_argument("--json", metavar="FILE", help="write the comparison as JSON")
-    _machine(parser)
-    _upcase(parser)
+    machine_arguments(parser)
+    upcase_argument(parser)
     parser.set_defaults(limit=1_000_000)
 
 
 def _listing(parser: ArgumentParser) -> None:
     parser.add_argument("program", metavar="PROGRAM.f")
     parser.add_argument("deck", metavar="DECK", nargs="?", help="data cards; with them the program is run")
-    parser.add_argument("--against", metavar="NAME", default="exact", help="digits lost to this arithmetic, or none")
+    words = "digits lost to this arithmetic, or none (default: %(default)s)"
+    parser.add_argument("--against", metavar="NAME", default="exact", help=words)
     parser.add_argument("--operator", metavar="FILE", help="a file or a log that answers ACCEPT and PAUSE")
-    parser.add_argument("-o", "--output", metavar="FILE", default="-")
-    _machine(parser)
-    _upcase(parser)
+    parser.add_argument("-o", "--output", metavar="FILE", default="-", help="where it goes (default: '-')")
+    machine_arguments(parser)
+    upcase_argument(parser)
     parser.set_defaults(limit=1_000_000)
 
 
@@ -90,7 +104,7 @@ def _study(parser: ArgumentParser) -> None:
     parser.add_argument("--list", action="store_true", help="list the studies built in")
     parser.add_argument("--families", action="store_true", help="list the families of point sets a plan can name")
     parser.add_argument("--measures", action="store_true", help="list the measures a route of a plan can name")
-    parser.add_argument("--samples", metavar="N", type=int, help="samples (--list: the sets they make)")
+    parser.add_argument("--samples", metavar="N", type=int, help="samples (default: the study's, which --list shows)")
     parser.add_argument("--seed", metavar="S", type=int, help="the seed of all samples (default: 1963)")
     parser.add_argument("--workers", metavar="W", type=int, help="processes (default: one a processor)")
     parser.add_argument(
@@ -102,16 +116,19 @@ def _study(parser: ArgumentParser) -> None:
 
 
 def _export(parser: ArgumentParser) -> None:
-    _points(parser)
-    endings = _listed(f".{name}" for name in HULLS)
-    parser.add_argument("-o", "--output", metavar="FILE", default="-", help=f"a name ending {endings}")
+    points_argument(parser)
+    endings = listed(f".{name}" for name in HULLS)
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", default="-", help=f"a name ending {endings} (default: '-', with --format)"
+    )
     parser.add_argument("--format", choices=tuple(HULLS), help="the format, where the name does not say it")
 
 
 def _draw(parser: ArgumentParser) -> None:
-    _points(parser)
+    points_argument(parser)
     parser.add_argument("-o", "--output", metavar="FILE.svg", default="-", help="where it goes (default: '-')")
-    parser.add_argument("--eye", metavar="X,Y,Z", help="the direction to the eye; write --eye=-1,2,3 before a minus")
+    parser.set_defaults(endings=(".svg",))
+    eye_argument(parser)
     parser.add_argument("--title", metavar="TEXT", help="the line below the picture (default: the name of the file)")
     parser.add_argument("--width", metavar="PIXELS", type=int, help="320 to 4000 (default: 640, for many points 1000)")
     parser.add_argument(
@@ -131,7 +148,7 @@ def _draw(parser: ArgumentParser) -> None:
 
 
 def _appel_will(parser: ArgumentParser) -> None:
-    _points(parser, "FILE", " (points and surfaces)")
+    points_argument(parser, "FILE", " (points and surfaces)")
     which = parser.add_mutually_exclusive_group()
     which.add_argument("--literal", action="store_true", help="every rule of the paper as printed")
     which.add_argument(
@@ -151,6 +168,7 @@ def _appel_will(parser: ArgumentParser) -> None:
     )
     parser.add_argument("--trace", action="store_true", help="the use of every edge after each loop")
     parser.add_argument("-o", "--output", metavar="FILE.off", help="write the hull as an OFF file too")
+    parser.set_defaults(endings=(".off",))
 
 
 def _hidden_line(parser: ArgumentParser) -> None:
@@ -160,9 +178,10 @@ def _hidden_line(parser: ArgumentParser) -> None:
         help="a scene file .toml, a convex polyhedron .off, points to take the hull of, or cuboids, columns, house",
     )
     parser.add_argument(
-        "-o", "--output", metavar="FILE", help="SVG, or HPGL with a name ending .hpgl or .plt (default: SVG to '-')"
+        "-o", "--output", metavar="FILE", help="SVG (.svg), or HPGL (.hpgl or .plt) (default: SVG to '-')"
     )
-    parser.add_argument("--eye", metavar="X,Y,Z", help="the direction to the eye; write --eye=-1,2,3 before a minus")
+    parser.set_defaults(endings=(".svg", ".hpgl", ".plt"))
+    eye_argument(parser)
     parser.add_argument("--perspective", action="store_true", help="--eye is the observation point itself")
     parser.add_argument("--towards", metavar="X,Y,Z", help="in perspective: the point looked at (default: the middle)")
     parser.add_argument("--hidden", action="store_true", help="draw hidden lines too, dashed")
@@ -171,14 +190,14 @@ def _hidden_line(parser: ArgumentParser) -> None:
         "--without",
         metavar="CORRECTION,...",
         default="",
-        help="leave out corrections of the paper's gaps: enclosed, touching, ends; or its own ghosts",
+        help="leave out corrections of the paper's gaps: enclosed, touching, ends; or its own ghosts (default: none)",
     )
     parser.add_argument("--title", metavar="TEXT", help="the line below the picture (default: the scene's)")
     parser.add_argument("--width", metavar="PIXELS", type=int, default=640, help="of the SVG (default: 640)")
 
 
 def _voxel_hull(parser: ArgumentParser) -> None:
-    _volume(parser)
+    volume_arguments(parser)
     which = parser.add_mutually_exclusive_group()
     which.add_argument("--centres", action="store_true", help="the hull of the voxels' centres")
     which.add_argument(
@@ -200,7 +219,7 @@ def _voxel_hull(parser: ArgumentParser) -> None:
 
 
 def _octree_hull(parser: ArgumentParser) -> None:
-    _volume(parser)
+    volume_arguments(parser)
     which = parser.add_mutually_exclusive_group()
     which.add_argument("--literal", action="store_true", help="every statement of the paper as printed")
     which.add_argument(
@@ -214,7 +233,7 @@ def _octree_hull(parser: ArgumentParser) -> None:
 
 def _apparatus(parser: ArgumentParser) -> None:
     parser.add_argument("--program", metavar="N", help="1, 2 or 3")
-    parser.add_argument("--layer", metavar="L")
+    parser.add_argument("--layer", metavar="L", help="of this layer only (default: all)")
     parser.add_argument(
         "--check",
         action="store_true",
@@ -227,15 +246,15 @@ def _apparatus(parser: ArgumentParser) -> None:
 
 def _program(parser: ArgumentParser) -> None:
     parser.add_argument("program", metavar="PROGRAM.f")
-    _layers(parser)
-    _upcase(parser)
+    layers_argument(parser)
+    upcase_argument(parser)
 
 
 def _check(parser: ArgumentParser) -> None:
     parser.add_argument("program", metavar="PROGRAM.f", nargs="?")
     parser.add_argument("--explain", metavar="N", help="what error number N means, as 5 or E3; all: every one")
-    _layers(parser)
-    _upcase(parser)
+    layers_argument(parser)
+    upcase_argument(parser)
 
 
 def _flowchart(parser: ArgumentParser) -> None:
@@ -260,111 +279,14 @@ def _punched(parser: ArgumentParser) -> None:
 
 def _map(parser: ArgumentParser) -> None:
     parser.add_argument("program", metavar="PROGRAM.f")
-    parser.add_argument("--core", type=int, choices=(20000, 40000, 60000), default=40000)
-    _layers(parser)
-    _upcase(parser)
+    core_argument(parser)
+    layers_argument(parser)
+    upcase_argument(parser)
 
 
 def _bench(parser: ArgumentParser) -> None:
     parser.add_argument("--decks", metavar="N", type=int, default=1000, help="decks of 51 points (default: 1000)")
     parser.add_argument("--json", metavar="FILE", help="write the figures as JSON")
-
-
-def _results(parser: ArgumentParser) -> None:
-    """Where the results of a run go, and those of ``_machine``."""
-    parser.add_argument(
-        "--punch", metavar="FILE", default="-", help="where punched cards go (default: standard output)"
-    )
-    parser.add_argument("--typewriter", metavar="FILE", help="where typed lines go (default: standard error)")
-    parser.add_argument(
-        "--profile",
-        action="store_true",
-        help="count statements and operations, and give the time on the 1620",
-    )
-    parser.add_argument("--trace", metavar="FILE", help="write every statement with its card and values")
-    parser.add_argument(
-        "--operator",
-        metavar="FILE",
-        help="--operator alone: the terminal is the console; --operator=FILE: a file, or a log, answers; "
-        "--operator=none: nobody (default: the terminal, where all is one and the program has ACCEPT or PAUSE)",
-    )
-    parser.add_argument(
-        "--log", metavar="FILE", help="write down what the operator does; --operator=FILE reads it again"
-    )
-    parser.add_argument("--slow", action="store_true", help="at the terminal lines are typed ten characters a second")
-    _machine(parser)
-
-
-def _machine(parser: ArgumentParser) -> None:
-    """The machine a program runs on, and ``--layers``."""
-    parser.add_argument(
-        "--switch",
-        metavar="N",
-        type=int,
-        action="append",
-        choices=(1, 2, 3, 4),
-        default=[],
-        help="sense switch N on",
-    )
-    parser.add_argument(
-        "--arithmetic",
-        metavar="NAME",
-        default="truncating",
-        help="truncating, ibm1962, truncating:P, guarded:P, rounding:P, float64, float32, mp:BITS or exact",
-    )
-    parser.add_argument(
-        "--core", type=int, choices=(20000, 40000, 60000), default=40000, help="positions of core storage"
-    )
-    parser.add_argument(
-        "--bounds",
-        choices=("strict", "core"),
-        default="strict",
-        help="a subscript out of bounds: stop, or use the neighbour's place as the machine did",
-    )
-    parser.add_argument(
-        "--limit",
-        metavar="N",
-        type=int,
-        default=5_000_000,
-        help="stop after N statements, or costly operations that take their time (default: %(default)s)",
-    )
-    _layers(parser)
-
-
-def _layers(parser: ArgumentParser) -> None:
-    """``--layers``."""
-    parser.add_argument(
-        "--layers",
-        metavar="LAYER,...",
-        default="",
-        help="layers of the apparatus added to a built-in program",
-    )
-
-
-def _upcase(parser: ArgumentParser) -> None:
-    """``--upcase``."""
-    parser.add_argument("--upcase", action="store_true", help="read small letters of the program as capitals")
-
-
-def _points(parser: ArgumentParser, metavar: str = "POINTS", more: str = "") -> None:
-    """A file of points, of any format that is read."""
-    parser.add_argument("points", metavar=metavar, help=_listed(POINTS.values()) + more)
-
-
-def _volume(parser: ArgumentParser) -> None:
-    """VOLUME, ``--shape`` and ``--dtype``."""
-    parser.add_argument(
-        "volume",
-        metavar="VOLUME",
-        help="an NPY, NRRD or raw array, CSV voxels x,y,z, or ball:32, ball:32:vertex, half-ball:18",
-    )
-    parser.add_argument("--shape", metavar="NX,NY,NZ", help="of a raw array, x fastest")
-    parser.add_argument("--dtype", metavar="TYPE", help="of a raw array's numbers (default: uint8)")
-
-
-def _listed(names: Iterable[str]) -> str:
-    *others, last = names
-    return f"{', '.join(others)} or {last}"
 
 
 COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {

@@ -7,15 +7,14 @@ import argparse
 from emulator.errors import FileError
 from emulator.files import write_text
 from modern.cli.shared.console import OK, UsageError, say
+from modern.cli.shared.inputs import points_of
 from modern.formats.deck import MAX_POINTS, UnfitPoint, data_deck, with_epsilon
-from modern.formats.points import read_input
 
 
 def main(args: argparse.Namespace) -> int:
     """Read the points, write the deck."""
-    found = read_input(args.points)
+    found = points_of(args.points)
     source, points = found.source, found.points
-    say(f"note: {note}" for note in found.notes)
     try:
         deck = data_deck(points, source, args.truncate)
     except UnfitPoint as error:
@@ -29,6 +28,7 @@ def main(args: argparse.Namespace) -> int:
         except ValueError as error:
             raise UsageError(f"--epsilon: {error}") from None
     write_text(args.output, deck.text())
+    say(f"note: {note}" for note in found.notes)
     if len(points) > MAX_POINTS:
         say([f"warning: {source}: {len(points)} points; the programs as listed take at most {MAX_POINTS}"])
     return OK

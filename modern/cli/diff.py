@@ -14,13 +14,14 @@ from emulator.language.cards import Deck
 from emulator.machine.result import Options
 from modern.cli.shared import refusals
 from modern.cli.shared.console import DIFFERS, OK, UsageError, say
+from modern.cli.shared.inputs import points_of
 from modern.cli.shared.machine import layers_of
 from modern.comparison.difference import Disagreement, disagreement
 from modern.comparison.outcome import Outcome, Vector, from_cards, from_hull, from_judge
 from modern.edition import programs
 from modern.exact_hull import exact_hull
 from modern.formats.deck import MAX_POINTS, UnfitPoint, data_deck, with_epsilon
-from modern.formats.points import Input, read_input
+from modern.formats.points import Input
 from modern.port import convex_hull
 from modern.thesis.refusals import Cause, run_explained
 
@@ -51,7 +52,7 @@ class Route:
 
 def main(args: argparse.Namespace) -> int:
     """Run every route, print the table, say which points are concerned."""
-    found = read_input(args.points)
+    found = points_of(args.points)
     points: list[Vector] = [tuple(Fraction(x) for x in point) for point in found.points]
     judge = from_judge(exact_hull(found.points), points)
     routes = [
@@ -65,7 +66,7 @@ def main(args: argparse.Namespace) -> int:
     for route in routes:
         if route.cause is not None and route.cause.kind not in told:
             told.add(route.cause.kind)
-            say([f"{route.outcome.name}:"])
+            say([f"{route.outcome.name}: {route.outcome.status}"])
             say(refusals.lines(route.cause, _asked(args, found, route.layers)))
     if args.json:
         write_text(args.json, json.dumps(_document(routes, judge, found), indent=1) + "\n")

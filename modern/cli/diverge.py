@@ -10,10 +10,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from emulator.files import check_writable, write_text
-from emulator.language.cards import read_deck
 from emulator.language.objectcode import Line
 from emulator.machine.divergence import Divergence, Loss, diverge
 from modern.cli.shared.console import DIFFERS, OK, UsageError
+from modern.cli.shared.inputs import deck_of
 from modern.cli.shared.machine import (
     layers_of,
     load_program,
@@ -37,7 +37,14 @@ def main(args: argparse.Namespace) -> int:
         # Of its own decks the thesis's programs want whole data sets.
         options = replace(options, hopper="any")
     program = load_program(args.program, layers_of(args), args.upcase)
-    found = diverge(program, read_deck(args.deck), studied, reference, options, values=not args.first)
+    found = diverge(
+        program,
+        deck_of(args.deck, args.program.startswith("program1")),
+        studied,
+        reference,
+        options,
+        values=not args.first,
+    )
     width = max(_NARROWEST, min(shutil.get_terminal_size((100, 24)).columns, _WIDEST))
     for line in _report(found, width, values=not args.first):
         print(line)

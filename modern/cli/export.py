@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 
 from modern.cli.shared.console import DIFFERS, OK, UsageError, say
+from modern.cli.shared.inputs import points_of
 from modern.formats.hulls import format_of, write_hull
-from modern.formats.points import read_input
 from modern.geometry.hull import Hull
 
 
@@ -23,7 +23,7 @@ def main(args: argparse.Namespace) -> int:
 
 def exact_hull_of(path: str, history: bool = False) -> Hull:
     """The hull of a file's points in exact arithmetic, with its stages if asked; notes go to standard error."""
-    found = read_input(path)
+    found = points_of(path)
     say(f"note: {note}" for note in found.notes)
     # Imported here, so that a fault of the file is told without waiting.
     from modern.port import convex_hull

@@ -8,12 +8,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from emulator.files import check_writable
-from emulator.language.cards import Deck, read_deck
+from emulator.language.cards import Deck
 from emulator.language.objectcode import Program
 from emulator.machine.machine import Machine
 from emulator.machine.result import Event
 from modern.cli.shared import refusals
 from modern.cli.shared.console import DIFFERS, OK, UsageError, say
+from modern.cli.shared.inputs import deck_of
 from modern.cli.shared.machine import (
     attended,
     card_rules,
@@ -39,7 +40,7 @@ def main(args: argparse.Namespace) -> int:
     if args.epsilon is not None and "epsilon" not in layers:
         layers = (*layers, "epsilon")
     first = "program1_examples" if args.programs == "examples" else "program1"
-    checked = check(read_deck(args.deck), card_rules(options), epsilon="epsilon" in layers)
+    checked = check(deck_of(args.deck, points=True), card_rules(options), epsilon="epsilon" in layers)
     load = programs.loader(layers)
     load(first)
     asked = refusals.Asked(args.deck, "", layers, options.numbers.name, args.epsilon or "", args.uncut, args.explain)

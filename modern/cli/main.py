@@ -12,7 +12,7 @@ from collections.abc import Sequence
 
 from emulator.errors import EmulatorError
 from modern.cli.arguments import COMMANDS
-from modern.cli.shared.console import BAD_INPUT, OK, Parser, complain
+from modern.cli.shared.console import BAD_INPUT, OK, Parser, check_outputs, complain
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -35,6 +35,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if sys.stdout is None:
             complain("standard output is closed")
             return BAD_INPUT
+        check_outputs(args)
         code: int = importlib.import_module(f"modern.cli.{args.command.replace('-', '_')}").main(args)
         sys.stdout.flush()
         return code

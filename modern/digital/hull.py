@@ -9,6 +9,7 @@ voxel centres contains.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any, Literal, get_args
 
 import numpy as np
@@ -44,6 +45,11 @@ class DigitalHull:
     def kind(self) -> Kind:
         """``empty``, ``point``, ``segment``, ``polygon`` or ``polyhedron``."""
         return KINDS[self.dimension + 1]
+
+    @property
+    def solidity(self) -> Fraction:
+        """The share of the hull that the volume fills, in voxels; 1 of a volume without voxels."""
+        return Fraction(self.given, self.voxels) if self.given else Fraction(1)
 
     @property
     def voxels(self) -> int:

@@ -129,13 +129,19 @@ def half_ball(diameter: int, centre: str = VERTEX) -> Volume:
     return _ball(f"half-ball:{diameter}:{centre}", diameter, centre, half=True)
 
 
+def _widest() -> int:
+    """The largest diameter whose box has no more than ``MAX_CELLS`` voxels."""
+    size = round(MAX_CELLS ** (1 / 3)) + 1
+    return next(d for d in range(size, 0, -1) if (d + 1) ** 3 <= MAX_CELLS)
+
+
 def _ball(name: str, diameter: int, centre: str, half: bool) -> Volume:
     if centre not in (VOXEL, VERTEX):
         raise VolumeError(f"{name}: the centre is {VOXEL} or {VERTEX}")
     if diameter < 1:
         raise VolumeError(f"{name}: the diameter is a whole number from 1 on")
     if (diameter + 1) ** 3 > MAX_CELLS:
-        raise VolumeError(f"{name}: a box of more than {MAX_CELLS} voxels is not made")
+        raise VolumeError(f"{name}: the diameter is at most {_widest()}, for a box of {MAX_CELLS} voxels")
     # Twice the distance from the ball's centre is a whole number: even for a centre in a voxel, else odd.
     shift = 0 if centre == VOXEL else 1
     first = -((diameter - shift) // 2)

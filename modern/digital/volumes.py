@@ -35,8 +35,9 @@ __all__ = [
     "write_npy",
 ]
 
-_BALL = re.compile(r"(half-)?ball:([0-9]{1,5})(?::(voxel|vertex))?", re.ASCII)
+_BALL = re.compile(r"(half-)?ball:([0-9]{1,9})(?::(voxel|vertex))?", re.ASCII)
 _WHOLE = re.compile(r"[+-]?[0-9]+", re.ASCII)
+_LOOKED_AT = 1 << 16
 _NPY = b"\x93NUMPY"
 
 
@@ -65,6 +66,8 @@ def parse_volume(data: bytes, source: str, shape: Sequence[int] | None = None, d
         return _of_array(_npy(data, source), source)
     if data.startswith(MAGIC):
         return _of_array(parse_nrrd(data, source), source)
+    if b"\0" in data[:_LOOKED_AT]:
+        raise VolumeError(f"{source}: neither NPY nor NRRD nor text in UTF-8; bare numbers need --shape NX,NY,NZ")
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:

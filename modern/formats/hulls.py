@@ -66,7 +66,7 @@ def to_trimesh(hull: Hull) -> Any:
     try:
         trimesh = import_module("trimesh")
     except ImportError:
-        raise ExportError("to_trimesh needs the package trimesh, which is not installed") from None
+        raise ExportError("to_trimesh needs trimesh: pip install 'hull1620[mesh]'") from None
     import numpy as np  # here, so that no other format waits for it
 
     try:

@@ -21,6 +21,7 @@ from hull1620 import (
     PointsError,
     convex_hull,
     data_deck,
+    digital_hull,
     draw,
     exact_hull,
     read_hull,
@@ -213,3 +214,12 @@ def test_points_go_to_cards_and_the_hull_comes_back(tmp_path: Path) -> None:
 def test_an_example_is_reproduced(capsys: pytest.CaptureFixture[str]) -> None:
     assert reproduce("1")
     assert "example 1" in capsys.readouterr().out.lower()
+
+
+def test_the_solidity_of_voxels_is_a_fraction() -> None:
+    solid = np.zeros((3, 3, 3), bool)
+    solid[[0, 2, 1], [0, 0, 1], [0, 0, 0]] = True
+    hull = digital_hull(solid)
+    assert (hull.voxels, hull.solidity) == (4, Fraction(3, 4))
+    assert digital_hull(np.ones((2, 2, 2))).solidity == 1
+    assert digital_hull(np.zeros((2, 2, 2))).solidity == 1

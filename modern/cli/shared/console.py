@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import os
 import sys
 from collections.abc import Iterable
 
@@ -18,6 +19,10 @@ OK, DIFFERS, BAD_INPUT = 0, 1, 2
 
 class UsageError(EmulatorError):
     """Options or arguments that cannot be carried out; the message names the option."""
+
+
+_INPUTS = ("program", "deck", "points", "volume", "scene", "name")
+_OUTPUTS = ("output", "punch", "typewriter", "trace", "json", "log")
 
 
 class Parser(argparse.ArgumentParser):
@@ -45,3 +50,20 @@ def say(lines: Iterable[str]) -> None:
 def counted(count: int, what: str) -> str:
     """``1 voxel``, ``2 voxels``."""
     return f"{count} {what}{'s' * (count != 1)}"
+
+
+def check_outputs(args: argparse.Namespace) -> None:
+    """Refuse an output that is an input, and an ending that the command does not write.  Raises UsageError."""
+    given = vars(args)
+    inputs = [given[name] for name in _INPUTS if isinstance(given.get(name), str)]
+    outputs = [given[name] for name in _OUTPUTS if isinstance(given.get(name), str)]
+    real = {os.path.realpath(name) for name in inputs if name != "-" and os.path.isfile(name)}
+    for name in outputs:
+        if name != "-" and os.path.realpath(name) in real:
+            raise UsageError(f"{name}: is the input too; an output never overwrites it")
+    endings: tuple[str, ...] = given.get("endings", ())
+    output = given.get("output")
+    if endings and output not in (None, "-") and not str(output).lower().endswith(endings):
+        raise UsageError(
+            f"{output}: the name must end with {' or '.join(endings)}, which is what {args.command} writes"
+        )

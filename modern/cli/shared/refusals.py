@@ -71,7 +71,7 @@ def lines(cause: Cause, asked: Asked) -> Iterator[str]:
         label = f"{cause.decision.label} " if cause.decision.label else ""
         at = f" at the point {', '.join(cause.point)}" if cause.point else ""
         words.append(f"card {cause.decision.place.card}, {label}{cause.decision.text}, decided{at}")
-    yield from _wrapped(f"{cause.message or 'no hull'}: {', '.join(words)}", "")
+    yield from _wrapped(f"no hull: {', '.join(words)}", "")
     known = f" (known fault {cause.fault})" if cause.fault else ""
     yield from _wrapped(_MEANS[cause.kind].format(**values) + known, "  ")
     if asked.explain:

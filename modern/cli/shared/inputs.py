@@ -1,0 +1,96 @@
+"""What a command is given: a file, standard input, or an example by name.
+
+``example1`` to ``example6`` are the data decks of chapter 6; ``appel-will/fig18`` is an object of a figure of Appel and
+Will's paper; ``seventy/17`` is set 17, from 0, of the study ``seventy``, and ``digits/2/17`` that of its cell 2.  A
+file of that name is taken first.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+
+from emulator.errors import EmulatorError
+from emulator.files import read_bytes, source_name
+from emulator.language.cards import Deck, deck_from_bytes
+from modern.cli.shared.console import UsageError
+from modern.formats import POINTS
+from modern.formats.deck import data_deck
+from modern.formats.points import Input, parse_bytes
+
+_EXAMPLE = re.compile(r"example([1-6])")
+_FIGURE = re.compile(r"appel-will/(fig[0-9]{1,2})")
+_SAMPLE = re.compile(r"([a-z]+(?:-[a-z]+)*)(?:/([0-9]{1,6}))?/([0-9]{1,9})")
+
+
+def read_given(name: str) -> bytes:
+    """The bytes of a file (``-``: standard input), or of an example by name.  Raises EmulatorError."""
+    text = None if name == "-" or os.path.exists(name) else _example(name)
+    return read_bytes(name) if text is None else text.encode("ascii")
+
+
+def points_of(name: str) -> Input:
+    """The points of a file of any kind, or of an example by name.  Raises EmulatorError."""
+    return parse_bytes(read_given(name), source_name(name))
+
+
+def deck_of(name: str, points: bool = False) -> Deck:
+    """A deck from a file, or an example by name.  Raises EmulatorError.
+
+    points: it is to hold points; a file of points that is no deck is told from one, and the command that makes one is
+    named.
+    """
+    data, source = read_given(name), source_name(name)
+    if points or _FIGURE.fullmatch(name):
+        try:
+            found = parse_bytes(data, source)
+        except EmulatorError:
+            found = None  # what is wrong with the deck, its own reader says
+        if found is not None and found.kind != "deck":
+            if _FIGURE.fullmatch(name) and not os.path.exists(name):
+                return data_deck(found.points, name)
+            made = f"hull1620 cards {name} -o points.deck makes a deck of it"
+            raise UsageError(f"{source}: {POINTS[found.kind]}, not a data deck; {made}")
+    return deck_from_bytes(source, data)
+
+
+def _example(name: str) -> str | None:
+    """The text of an example by name, None where no example has it."""
+    if found := _EXAMPLE.fullmatch(name):
+        from modern.edition.chapter6 import input_deck  # each is imported where it is named: a file waits for none
+
+        return input_deck(int(found[1])).text()
+    if found := _FIGURE.fullmatch(name):
+        return _figure(found[1])
+    if found := _SAMPLE.fullmatch(name):
+        return _sample(found[1], int(found[2] or 0), int(found[3]))
+    return None
+
+
+def _figure(name: str) -> str | None:
+    from modern.formats.off import write
+    from modern.geometry.mesh import Mesh
+    from modern.papers.appel_will.results import found_solid
+
+    try:
+        solid = found_solid(name)
+    except KeyError:
+        return None
+    points = tuple((str(x), str(y), str(z)) for x, y, z in solid.points)
+    return write(Mesh(3, points, solid.surfaces))
+
+
+def _sample(study: str, cell: int, index: int) -> str | None:
+    from modern.study import registry
+    from modern.study.families import draw_sample
+    from modern.study.plan import SEED
+
+    if study not in registry.names():
+        return None
+    found = registry.study(study)
+    plan = found.plan(found.SAMPLES, SEED)
+    if cell >= len(plan.cells) or index >= plan.cells[cell].samples:
+        most = f"cells 0 to {len(plan.cells) - 1}"
+        most += f", sets 0 to {plan.cells[cell].samples - 1}" if cell < len(plan.cells) else ""
+        raise UsageError(f"{study}/{cell}/{index}: study {study} has {most}")
+    return data_deck(draw_sample(plan.cells[cell], plan.seed, index).points, study).text()

@@ -1,0 +1,184 @@
+"""What a command is given: examples by name, wrong kinds of file, names of outputs; and what its help says."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from modern.cli.arguments import COMMANDS
+from modern.cli.main import build_parser
+from modern.edition import programs
+from tests.support.commands import call
+from tests.support.paths import ROOT
+
+CSV = "x,y,z\n0,0,0\n4,0,0\n0,4,0\n0,0,4\n1,1,1\n"
+CHAPTER6 = ROOT / "transcripts" / "chapter6"
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    (tmp_path / "points.csv").write_text(CSV, encoding="ascii")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.mark.parametrize("number", range(1, 7))
+def test_an_example_has_a_name_wherever_its_deck_is_taken(
+    number: int, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = str(CHAPTER6 / f"example{number}" / "program1.deck")
+    for words in (["run", "program1"], ["hull", "--programs", "examples"], ["diverge", "program1"], ["diff"]):
+        by_path, by_name = call(capsys, *words, path), call(capsys, *words, f"example{number}")
+        assert by_name[0] == by_path[0]
+        assert by_name[1].replace(f"example{number}", "") == by_path[1].replace(path, "")
+
+
+def test_examples_are_points_too(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = call(capsys, "export", "example5", "--format", "off")
+    assert (code, out.splitlines()[0]) == (0, "OFF")
+    for words in (["draw", "-o", "a.svg"], ["hidden-line", "-o", "b.svg"], ["appel-will", "-o", "c.off"]):
+        assert call(capsys, words[0], "example6", *words[1:])[0] == 0
+    assert call(capsys, "cards", "example5", "-o", "again.deck")[0] == 0
+    assert (
+        call(capsys, "diff", "again.deck")[1].splitlines()[1:] == call(capsys, "diff", "example5")[1].splitlines()[1:]
+    )
+
+
+def test_a_figure_and_a_set_of_a_study_have_names(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = call(capsys, "appel-will", "appel-will/fig18", "--inside-corners", "concave")
+    assert (code, out.splitlines()[0]) == (0, "appel-will/fig18: 12 points, 8 surfaces")
+    assert call(capsys, "hull", "appel-will/fig18", "--layers", "corrected", "--core", "60000")[0] == 0
+    first, again, other = (call(capsys, "cards", name)[1] for name in ("seventy/17", "seventy/0/17", "seventy/18"))
+    assert first == again != other
+    assert call(capsys, "hull", "seventy/17")[0] in (0, 1)
+    code, _, err = call(capsys, "draw", "seventy/1/0")
+    assert (code, err) == (2, "hull1620: seventy/1/0: study seventy has cells 0 to 0\n")
+    code, _, err = call(capsys, "draw", "seventy/999999999")
+    assert (code, err) == (2, "hull1620: seventy/0/999999999: study seventy has cells 0 to 0, sets 0 to 139999\n")
+
+
+@pytest.mark.parametrize("name", ["example7", "example", "appel-will/fig99", "sixty/1", "seventy"])
+def test_a_name_of_no_example_is_a_file_that_is_not_there(
+    name: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    code, _, err = call(capsys, "draw", name, "-o", "a.svg")
+    assert (code, err) == (2, f"hull1620: {name}: no such file or directory\n")
+
+
+def test_a_file_comes_before_an_example_of_its_name(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (folder / "example5").write_text(CSV, encoding="ascii")
+    assert call(capsys, "diff", "example5")[1].startswith("example5: 5 points\n")
+
+
+@pytest.mark.parametrize("command", [["hull"], ["diverge", "program1"], ["diverge", "program1_examples"]])
+def test_points_given_for_a_deck_name_the_command_that_makes_one(
+    command: list[str], folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    np.save(folder / "points.npy", np.eye(3))
+    for name, kind in (("points.csv", "a list"), ("points.npy", "NPY")):
+        code, _, err = call(capsys, *command, name)
+        assert (code, err.count("\n")) == (2, 1)
+        assert err.startswith(f"hull1620: {name}: {kind}")
+        assert f"hull1620 cards {name} -o points.deck makes a deck of it" in err
+
+
+def test_too_many_digits_name_a_remedy_that_exists(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (folder / "long.csv").write_text("0.123456789,0,0\n1,0,0\n0,1,0\n0,0,1\n", encoding="ascii")
+    assert "hull1620 cards --truncate" in call(capsys, "diff", "long.csv")[1]
+    code, _, err = call(capsys, "cards", "long.csv", "-o", "long.deck")
+    assert (code, err) == (
+        2,
+        "hull1620: long.csv: line 1, field 1: 9 significant digits; a card holds 8 (--truncate cuts them)\n",
+    )
+    assert call(capsys, "cards", "--truncate", "long.csv", "-o", "long.deck")[0] == 0
+    assert "not run" not in call(capsys, "diff", "long.deck")[1]
+
+
+def test_an_overlap_names_the_core_that_has_room(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, _, err = call(capsys, "hull", "example5", "--layers", "corrected")
+    assert code == 2
+    assert "OVERLAP" in err
+    assert err.endswith("; --core 60000 has room\n")
+
+
+def test_a_raw_volume_without_a_shape_asks_for_it(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (folder / "a.raw").write_bytes(bytes(100) + b"\x01" * 25)
+    for command in ("voxel-hull", "octree-hull"):
+        code, _, err = call(capsys, command, "a.raw")
+        assert code == 2
+        assert "bare numbers need --shape NX,NY,NZ" in err
+    assert call(capsys, "voxel-hull", "a.raw", "--shape", "5,5,5")[0] == 0
+
+
+@pytest.mark.parametrize("diameter", ["1290", "100000", "999999999"])
+def test_a_ball_too_large_names_the_limit(diameter: str, capsys: pytest.CaptureFixture[str]) -> None:
+    code, _, err = call(capsys, "voxel-hull", f"ball:{diameter}")
+    assert (code, "the diameter is at most 1289" in err) == (2, True)
+
+
+@pytest.mark.parametrize(
+    ("words", "endings"),
+    [
+        (["draw", "points.csv", "-o", "a.png"], ".svg"),
+        (["appel-will", "points.csv", "-o", "a.stl"], ".off"),
+        (["hidden-line", "house", "-o", "a.pdf"], ".svg or .hpgl or .plt"),
+        (["export", "points.csv", "-o", "a.3ds"], ".off, .obj, .ply, .stl, .json"),
+        (["voxel-hull", "ball:3", "-o", "a.json"], ".off, .obj, .ply, .stl"),
+        (["octree-hull", "ball:3", "-o", "a.off"], ".npy"),
+    ],
+)
+def test_an_ending_that_is_not_written_is_refused(
+    words: list[str], endings: str, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    code, _, err = call(capsys, *words)
+    assert (code, err.count("\n")) == (2, 1)
+    assert f"must end with {endings}" in err or f"must end with one of {endings}" in err
+    assert [path.name for path in folder.iterdir()] == ["points.csv"]
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["cards", "points.csv", "-o", "points.csv"],
+        ["cards", "points.csv", "-o", "./points.csv"],
+        ["export", "points.csv", "--format", "off", "-o", "points.csv"],
+        ["diff", "points.csv", "--json", "points.csv"],
+        ["hull", "points.csv", "--punch", "points.csv"],
+        ["hull", "points.csv", "--trace", "link"],
+        ["run", "points.csv", "--typewriter", "points.csv"],
+        ["voxel-hull", "points.csv", "-o", "points.csv"],
+    ],
+)
+def test_an_output_never_overwrites_an_input(
+    words: list[str], folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (folder / "link").symlink_to("points.csv")
+    code, _, err = call(capsys, *words)
+    assert (code, err.count("\n")) == (2, 1)
+    assert "an output never overwrites it" in err
+    assert (folder / "points.csv").read_text(encoding="ascii") == CSV
+
+
+def options(command: str) -> list[argparse.Action]:
+    parser = build_parser([command])
+    found = next(a for a in parser._actions if isinstance(a, argparse._SubParsersAction))
+    return [action for action in found.choices[command]._actions if action.dest != "help"]
+
+
+@pytest.mark.parametrize("command", sorted(COMMANDS))
+def test_every_argument_has_a_help_and_every_default_stands_there(command: str) -> None:
+    for action in options(command):
+        name = "/".join(action.option_strings) or action.dest
+        assert action.help or action.metavar == "PROGRAM.f", f"{command} {name} has no help"
+        if action.option_strings and action.default not in (None, False):
+            assert "default" in str(action.help), f"{command} {name}: {action.help}"
+
+
+def test_the_layers_are_listed() -> None:
+    (layers,) = (action for action in options("hull") if action.dest == "layers")
+    base = {"ocr", "print", "lacuna", "cosmetic"}
+    every = {row.layer for name in programs.TEXTS for row in programs.text(name).rows} - base
+    assert [layer for layer in every if layer not in str(layers.help)] == []
