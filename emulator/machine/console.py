@@ -10,11 +10,12 @@ import textwrap
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from emulator.language.objectcode import Line
 from emulator.language.storage import FIELD, FUNCTION_NAMES, Entry, core_address
 from emulator.machine.result import Event
 from emulator.machine.session import Action, Session
 from emulator.machine.trace import contents, effect
-from emulator.machine.words import action
+from emulator.machine.words import action, place_of
 from emulator.numbers.arithmetic import UNDEFINED
 
 COMMANDS = {
@@ -87,9 +88,9 @@ def flipped(session: Session, number: int) -> Action:
     return Action("SWITCH", number, on=not session.switches[number - 1])
 
 
-def done(session: Session, index: int, width: int) -> list[str]:
-    """What the statement with this index just did; nothing for one that has nothing to show."""
-    text = effect(session, session.program.statements[index])
+def done(session: Session, line: Line, width: int) -> list[str]:
+    """What the statement just done did; nothing for one that has nothing to show."""
+    text = effect(session, line)
     return wrapped(text, width) if text else []
 
 
@@ -180,4 +181,4 @@ def _switches(session: Session) -> str:
 
 def _breakpoints(session: Session) -> str:
     lines = [session.program.statements[index] for index in sorted(session.breakpoints)]
-    return ", ".join(line.name.removeprefix("the statement on ") for line in lines) or "no breakpoints"
+    return ", ".join(place_of(line) for line in lines) or "no breakpoints"

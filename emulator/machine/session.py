@@ -74,8 +74,9 @@ class Session:
     ``uncut`` holds numbers that go with the deck's cards, in their order
     (:attr:`emulator.machine.result.Result.uncut`), and are read in place of the columns.  ``journal`` is where a run
     over ``options.numbers`` is written down.  ``keep``: events stay for the result after they were taken.
-    ``retypes``: a bad line typed is asked for again; else it is an error.  ``by_lines``: the session comes back after
-    every line it types.  Raises DeckError when the program does not fit the machine's core.
+    ``last`` is the statement done last, where one after the other was watched.  ``retypes``: a bad line typed is asked
+    for again; else it is an error.  ``by_lines``: the session comes back after every line it types.  Raises DeckError
+    when the program does not fit the machine's core.
     """
 
     program: Program
@@ -97,6 +98,8 @@ class Session:
         self.switches = [int(n in self.options.switches) for n in (1, 2, 3, 4)]
         self.breakpoints: dict[int, Action] = {}
         self.halt: Halt | None = None
+        self.last: Line | None = None
+        self._begun: Line | None = None
         self._code = flatten(program)
         self._table = subscript_table(self._code)
         self._enters = entered(program) if self.journal else []
@@ -206,7 +209,10 @@ class Session:
         if self._ending or self.halt:
             return self._ending or self.halt
         reason, self._came_back = self._again, False
-        self.devices.lists = self.tracer is not None or self._steps > 0
+        watched = self.tracer is not None or self._steps > 0
+        self.devices.lists = watched
+        if not watched:
+            self.last = self._begun = None
         try:
             while True:
                 if reason != interpreter.AT_LIMIT:
@@ -284,6 +290,7 @@ class Session:
 
     def _watch(self, line: Line) -> None:
         """A statement begins that a tracer, single steps or breakpoints wait for."""
+        self.last, self._begun = self._begun, line
         if self.tracer is not None:
             self.tracer(line, self)
         stepped = self._steps == 1

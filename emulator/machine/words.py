@@ -7,6 +7,7 @@ machine, when n of work has been done (what ``--limit`` counts).  Of ENTER the l
 
 from __future__ import annotations
 
+from emulator.language.objectcode import Line
 from emulator.machine.session import Action, Halt
 
 WORDS = ("ENTER", "START", "STEP", "STOP", "ATTN", "SWITCH", "BREAK", "CLEAR")
@@ -84,7 +85,7 @@ def words_of(action: Action, at: int | None = None) -> str:
 
 def standing(halt: Halt) -> str:
     """Where a machine stands and why, in one line."""
-    where = halt.line.name.removeprefix("the statement on ")
+    where = place_of(halt.line)
     match halt.what:
         case "accept":
             again = f"{halt.trouble}; the line is typed again: " if halt.trouble else ""
@@ -92,3 +93,9 @@ def standing(halt: Halt) -> str:
         case "pause":
             return f"PAUSE{f' {halt.number}' if halt.number else ''} waits for START, {where}"
     return f"stopped ({halt.why}) before {where}: {halt.line.text}"
+
+
+def place_of(line: Line) -> str:
+    """A statement by its number, if it has one, and its card."""
+    card = f"card {line.place.card}"
+    return f"statement {line.label} ({card})" if line.label else card

@@ -111,7 +111,6 @@ class Terminal(Operator):
         self._halt: Halt | None = None
         self._commands = False
         self._line = ""
-        self._last = -1
 
     def happened(self, events: Sequence[Event]) -> None:
         self._cards.see(events)
@@ -130,7 +129,7 @@ class Terminal(Operator):
 
     def attend(self, session: Session) -> Iterator[Action]:
         if session is not self._session:
-            self._session, self._cards, self._last = session, Cards(), -1
+            self._session, self._cards = session, Cards()
             self._say(f"{session.program.source} is loaded; Ctrl-C or Esc A: ATTN; F1 to F4, or Esc 1 to 4: switches")
             if self._waits:
                 yield Action("ATTN")
@@ -177,9 +176,9 @@ class Terminal(Operator):
 
     def _stand(self, session: Session, halt: Halt) -> None:
         """The machine has come to stand: say why."""
-        if halt.what == "stop" and halt.why == "step" and self._last >= 0:
-            self._keys.write("".join(text + "\n" for text in done(session, self._last, self._keys.width)))
-        self._halt, self._last = halt, halt.line.index
+        if halt.why == "step" and session.last is not None:
+            self._keys.write("".join(text + "\n" for text in done(session, session.last, self._keys.width)))
+        self._halt = halt
         self._commands = halt.what != "accept"
         self._say(standing(halt))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -110,8 +111,10 @@ def test_example_4_is_stepped_a_switch_flipped_and_resumed(
         person.sees("POINTS ARE COPLANAR\n")
         person.sees("program2.f is loaded")
         person.sees("stopped (attention) before statement 100 (card 4)")
-        person.types("step\nstep 4\n")
+        person.types("step\nstep\n")
         person.sees("N = 8, KPROJ = 2\n-- stopped (step) before")
+        person.types("step 3\n")
+        person.sees("E(2) = .00000000E-99\n-- stopped (step) before statement 101")
         person.types("step 20\n")
         person.sees("stopped (step) before")
         person.types("v\n")
@@ -364,3 +367,21 @@ def test_slow_is_for_a_terminal(folder: Path, capsys: pytest.CaptureFixture[str]
     code, out, err = call(capsys, "run", str(folder / "loop.f"), "--slow", "--operator=none")
     assert (code, out) == (2, "")
     assert err == "hull1620: --slow: nobody sits at a terminal; --operator has the run talk to it\n"
+
+
+def test_cards_come_as_they_are_punched_and_a_named_file_only_whole(folder: Path) -> None:
+    (folder / "endless.f").write_text("    1 PUNCH 9\n      TYPE 9\n      GO TO 1\n    9 FORMAT(5HAGAIN)\n      END\n")
+    command = [sys.executable, "-m", "modern.cli.main", "run", str(folder / "endless.f"), "--limit", "900000000"]
+    for more in ([], ["--punch", str(folder / "cards")], ["--typewriter", str(folder / "typed")]):
+        pipe = subprocess.Popen([*command, *more], cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        with pipe:
+            stream = pipe.stderr if "--punch" in more else pipe.stdout
+            assert stream is not None
+            assert [stream.readline() for _ in range(3)] == ["AGAIN\n"] * 3
+            pipe.send_signal(signal.SIGINT)
+            assert pipe.stdout is not None
+            assert pipe.stderr is not None
+            pipe.stdout.close()
+            pipe.stderr.close()
+        assert pipe.returncode != 1
+    assert sorted(path.name for path in folder.iterdir() if path.suffix not in (".f", ".deck")) == []
