@@ -168,7 +168,7 @@ def test_bad_points(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path(name).write_bytes(data if isinstance(data, bytes) else data.encode())
-    code, out, err = call(capsys, command, name, "-o", "out.off")
+    code, out, err = call(capsys, command, name, "-o", "out.svg" if command == "draw" else "out.off")
     assert (code, out) == (2, "")
     assert err.startswith(f"hull1620: {words}")
     assert err.count("\n") == 1
@@ -243,8 +243,8 @@ def test_a_hull_that_was_not_determined(
 ) -> None:
     """Exact arithmetic gives none by itself, so the hull is made here."""
     broken = Hull("exact", ERROR, 3, (("0", "0", "0"),), (), (), ())
-    monkeypatch.setattr(export_command, "exact_hull_of", lambda path: broken)
-    monkeypatch.setattr("modern.cli.draw.exact_hull_of", lambda path: broken)
+    monkeypatch.setattr(export_command, "exact_hull_of", lambda path, history=False: broken)
+    monkeypatch.setattr("modern.cli.draw.exact_hull_of", lambda path, history=False: broken)
     assert call(capsys, "export", "t.csv", "-o", "t.off") == (1, "", "hull1620: t.csv: ERROR IN PROGRAM\n")
     assert call(capsys, "draw", "t.csv", "-o", "t.svg") == (1, "", "hull1620: t.csv: ERROR IN PROGRAM\n")
     assert [path.name for path in room.iterdir()] == ["t.csv"]

@@ -179,7 +179,7 @@ def test_every_study_built_in_has_a_plan_that_can_be_read() -> None:
     for entry in entries():
         found = study(entry.name)
         plan = found.plan(found.SAMPLES, 1)
-        assert plan.name == entry.name
+        assert plan.name == entry.name, "a study's plan is named as its file, with - for _"
         assert plan.seed == 1
         assert plan.document() == json.loads(json.dumps(plan.document()))
     with pytest.raises(KeyError):
