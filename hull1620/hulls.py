@@ -19,7 +19,7 @@ from emulator.machine.result import Options
 from modern import exact_hull as judge
 from modern import port
 from modern.comparison.outcome import as_hull
-from modern.drawing.draw import draw_svg
+from modern.drawing.draw import Labels, Show, draw_svg
 from modern.edition import programs
 from modern.exact_hull.coordinates import Points
 from modern.exact_hull.coordinates import read_points as exact_points
@@ -101,6 +101,11 @@ class Hull:
     def history(self) -> tuple[Stage, ...]:
         """The approximations H1, H2, ..., where ``convex_hull`` was asked for them."""
         return self.record.history
+
+    @property
+    def corrected(self) -> tuple[str, ...]:
+        """Rows of the layer ``corrected`` that took a branch other than the listing's."""
+        return self.record.corrected
 
     @cached_property
     def points(self) -> Floats:
@@ -193,15 +198,25 @@ class Hull:
         normals = (area_vector(points, face) for face in self._closed.faces)
         return tuple(dot(normal, normal) / 4 for normal in normals)
 
-    def draw(self, eye: Sequence[Any] | None = None, title: str = "", width: int = 640) -> str:
+    def draw(
+        self,
+        eye: Sequence[Any] | None = None,
+        title: str = "",
+        width: int | None = None,
+        labels: Labels = "programs",
+        hidden: bool = True,
+        others: bool = True,
+    ) -> str:
         """A picture as the text of an SVG file, hidden edges dashed; see :func:`modern.drawing.draw.draw_svg`.
 
-        eye: the direction to the eye, three numbers.  Raises ExportError, and ValueError for an eye of no numbers.
+        eye: the direction to the eye, three numbers.  labels: number the vertices as the ``programs`` do, by their
+        places in the ``input``, or ``none``.  hidden: draw hidden edges.  others: draw points that are no vertices.
+        Raises ExportError, and ValueError for an eye of no numbers.
         """
         direction = None if eye is None else [Fraction(real(number)) for number in eye]
         if direction is not None and len(direction) != 3:
             raise ExportError(f"the direction of view is {len(direction)} numbers; it has three")
-        return draw_svg(self.record, direction, title, width)
+        return draw_svg(self.record, direction, title, width, Show(labels, hidden, others))
 
     def save(self, path: Path, digits: int | None = None) -> None:
         """Write the hull to a file, by the ending of its name: .off .obj .ply .stl .json, or .svg for the picture.
@@ -252,6 +267,7 @@ def convex_hull(
     history: bool = False,
     fast: bool | None = None,
     on_refusal: OnRefusal = "raise",
+    text: bool = False,
 ) -> Hull:
     """The convex hull of points by Butler's procedure of 1963, in any arithmetic.
 
@@ -264,7 +280,7 @@ def convex_hull(
     Raises PointsError (a ValueError) for invalid points and for none at all, HullRefused, ValueError, RangeError.
     """
     try:
-        return Hull(port.convex_hull(points, arithmetic, epsilon, translate, history, fast, on_refusal))
+        return Hull(port.convex_hull(points, arithmetic, epsilon, translate, history, fast, on_refusal, text))
     except HullRefused as error:
         raise HullRefused(Hull(error.result)) from None
 
@@ -278,9 +294,17 @@ def exact_hull(points: Points) -> Hull:
     return Hull(as_hull(found), found.certificate)
 
 
-def draw(points: Points | Hull, eye: Sequence[Any] | None = None, title: str = "", width: int = 640) -> str:
+def draw(
+    points: Points | Hull,
+    eye: Sequence[Any] | None = None,
+    title: str = "",
+    width: int | None = None,
+    labels: Labels = "programs",
+    hidden: bool = True,
+    others: bool = True,
+) -> str:
     """A picture of points' exact hull, or of a hull, as the text of an SVG file; see ``Hull.draw``."""
-    return _hull(points).draw(eye, title, width)
+    return _hull(points).draw(eye, title, width, labels, hidden, others)
 
 
 def save(points: Points | Hull, path: Path, digits: int | None = None) -> None:

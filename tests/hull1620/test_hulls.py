@@ -171,6 +171,21 @@ def test_a_picture_is_the_same_from_all_of_them() -> None:
         hull.draw(eye=(1, 2))
 
 
+def test_a_picture_shows_what_is_asked_for() -> None:
+    points = [*CUBE, (1, 1, 1)]
+    whole, without = draw(points), draw(points, labels="none", hidden=False, others=False)
+    assert ('class="inside"' in whole, 'class="inside"' in without) == (True, False)
+    assert ('class="numbers"' in whole, 'class="numbers"' in without) == (True, False)
+    assert exact_hull(points).draw(width=900).startswith('<svg xmlns="http://www.w3.org/2000/svg" width="900"')
+
+
+def test_the_text_of_chapter_3_may_be_followed() -> None:
+    points = np.random.default_rng(7).integers(-9, 10, (14, 3))
+    hull = convex_hull(points, text=True)
+    assert hull.volume == exact_hull(points).volume
+    assert hull.corrected == hull.record.corrected
+
+
 @pytest.mark.parametrize("ending", ["off", "obj", "ply", "stl", "json", "svg"])
 def test_a_hull_is_saved_by_the_ending_of_the_name(ending: str, tmp_path: Path) -> None:
     path = tmp_path / f"cube.{ending}"
