@@ -6,6 +6,7 @@ import argparse
 import shutil
 import textwrap
 from collections.abc import Iterator
+from pathlib import Path
 
 from emulator.files import read_text
 from modern.cli.shared.console import DIFFERS, OK, UsageError
@@ -17,7 +18,14 @@ from modern.edition.sources import place
 
 
 def main(args: argparse.Namespace) -> int:
-    """List rows, or check them."""
+    """List rows, check them, or weigh them."""
+    if args.weigh:
+        from modern.study.weight import weigh
+        from modern.study.weight_report import write_weight
+
+        answers = weigh(Path(args.weigh), args.runs or "", max(args.workers, 1), args.most)
+        print(write_weight(Path(args.weigh), answers), end="")
+        return OK
     rows = _rows(args)
     if args.text and not (args.check and args.program is None and args.layer is None):
         raise UsageError("--text goes with --check of everything")

@@ -242,6 +242,14 @@ def _apparatus(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--text", metavar="FILE", help="with --check: a document's OCR text, to compare its excerpts with"
     )
+    parser.add_argument(
+        "--weigh",
+        metavar="FOLDER",
+        help="alter every token of the listings and record what notices it; goes on where the folder ends",
+    )
+    parser.add_argument("--runs", metavar="FOLDER", help="with --weigh: folders with a deck.cards each, known decks")
+    parser.add_argument("--workers", metavar="N", type=int, default=1, help="with --weigh: processes")
+    parser.add_argument("--most", metavar="N", type=int, default=0, help="with --weigh: only the first N variants")
 
 
 def _program(parser: ArgumentParser) -> None:

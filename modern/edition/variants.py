@@ -1,0 +1,216 @@
+"""What an OCR or a typist might have made of a card: each token of a listing altered in turn, as data.
+
+Tokens are altered one at a time: a statement number in every digit, and exchanged with the others of its statement; a
+name for every other of its statement and mode; an operator for every other; a constant up and down in every digit; a
+character for one it is confused with (``fortran_src/apparatus/confusables.toml``, both ways); a FORMAT's counts, signs
+and one letter of every text; and each card is left out once.  What a variant does is found out in
+:mod:`modern.study.weight`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+
+from emulator.language.cards import CHARACTERS, Deck, deck_from_lines
+from emulator.language.statements import Source, sources
+from modern.edition import programs
+from modern.edition.readings import table
+
+_NAME = re.compile(r"[A-Z][A-Z0-9]*")
+_NUMBER = re.compile(r"\d+")
+_LABELS = {
+    "if": re.compile(r"\)(\d+(?:,\d+)*)$"),
+    "if_switch": re.compile(r"\)(\d+(?:,\d+)*)$"),
+    "go_to": re.compile(r"^GOTO(\d+)$"),
+    "computed_go_to": re.compile(r"^GOTO\((\d+(?:,\d+)*)\)"),
+    "do": re.compile(r"^DO(\d+)(?=[A-Z])"),
+    "input_output": re.compile(r"^(?:READ|PUNCH|PRINT)(\d+)"),
+}
+"""Where a kind of statement has the numbers of others."""
+_WORDS = {
+    "if": "IF",
+    "if_switch": "IF(SENSESWITCH",
+    "go_to": "GOTO",
+    "computed_go_to": "GOTO",
+    "dimension": "DIMENSION",
+    "continue": "CONTINUE",
+    "end": "END",
+}
+_OPERATORS = "+-*/"
+FUNCTIONS = ("SQRT",)
+
+
+@dataclass(frozen=True, slots=True)
+class Variant:
+    """A card of a listing read otherwise.
+
+    ``card`` counts the deck's cards from 1, ``place`` is what an edition calls it; ``how`` one of ``number``, ``name``,
+    ``operator``, ``constant``, ``character``, ``format``, ``card``; ``was`` and ``reads`` the statement without blanks,
+    ``reads`` empty where the card is left out.
+    """
+
+    program: str
+    card: int
+    place: str
+    how: str
+    was: str
+    reads: str
+
+    @property
+    def key(self) -> str:
+        """What tells it from all others."""
+        return f"{self.program} {self.card} {self.reads}"
+
+
+@dataclass(frozen=True, slots=True)
+class Statement:
+    """A statement of a listing with its place, and the spans of its text that are numbers of other statements."""
+
+    source: Source
+    place: str
+    labels: tuple[tuple[int, int], ...]
+
+    @property
+    def card(self) -> int:
+        return self.source.cards[0].number
+
+
+@cache
+def statements(name: str) -> tuple[Statement, ...]:
+    """The statements of a built-in program, comments left out."""
+    found, label, steps = [], "", 0
+    for source in sources(programs.committed(name)):
+        word = "FORMAT " if source.kind == "format" else ""
+        label, steps = (word + source.label, 0) if source.label else (label, steps + 1)
+        place = f"{label}+{steps}" if steps and label else label or source.text.split("(")[0]
+        pattern = _LABELS.get(source.kind)
+        match = pattern.search(source.text) if pattern else None
+        spans = (
+            [(n.start() + match.start(1), n.end() + match.start(1)) for n in _NUMBER.finditer(match[1])]
+            if match
+            else []
+        )
+        found.append(Statement(source, place, tuple(spans)))
+    return tuple(found)
+
+
+@cache
+def variants(name: str) -> tuple[Variant, ...]:
+    """Every variant of a built-in program, each once, in the order of its cards."""
+    found: dict[str, Variant] = {}
+    for statement in statements(name):
+        for how, reads in _of(statement):
+            variant = Variant(name, statement.card, statement.place, how, statement.source.text, reads)
+            if reads != statement.source.text:
+                found.setdefault(variant.key, variant)
+    return tuple(found.values())
+
+
+def _of(statement: Statement) -> Iterator[tuple[str, str]]:
+    source, text = statement.source, statement.source.text
+    if source.kind != "end":
+        yield "card", ""
+    if source.kind == "format":
+        yield from (("format", reads) for reads in _formats(text))
+        return
+    start = len(_WORDS.get(source.kind, ""))
+    numbers = [text[a:b] for a, b in statement.labels]
+    for a, b in statement.labels:
+        for new in (*_digits(text[a:b]), *numbers):
+            yield "number", text[:a] + new + text[b:]
+    held = [range(a, b) for a, b in statement.labels]
+    if source.kind in ("do", "input_output"):
+        start = statement.labels[0][1] if statement.labels else len(text)
+    names = [match for match in _NAME.finditer(text, start) if match[0] not in FUNCTIONS]
+    for match in names:
+        for new in sorted({other[0] for other in names} | _alike(match[0])):
+            if (new[0] in "IJKLMN") is (match[0][0] in "IJKLMN"):
+                yield "name", text[: match.start()] + new + text[match.end() :]
+    for at in range(start, len(text)):
+        if any(at in span for span in held):
+            continue
+        if text[at] in _OPERATORS and "**" not in text[at - 1 : at + 2]:
+            yield from (("operator", text[:at] + new + text[at + 1 :]) for new in _OPERATORS)
+        for new in _confused(text[at]):
+            yield "character", text[:at] + new + text[at + 1 :]
+    for match in _NUMBER.finditer(text, start):
+        in_name = match.start() and text[match.start() - 1].isalpha()
+        if not in_name and not any(match.start() in span for span in held):
+            yield from (("constant", text[: match.start()] + new + text[match.end() :]) for new in _steps(match[0]))
+
+
+def _digits(number: str) -> Iterator[str]:
+    """The number with one digit another."""
+    for at, digit in enumerate(number):
+        yield from (number[:at] + new + number[at + 1 :] for new in "0123456789" if new != digit)
+
+
+def _steps(number: str) -> Iterator[str]:
+    """The number with one digit up or down by one."""
+    for at, digit in enumerate(number):
+        yield from (number[:at] + str((int(digit) + by) % 10) + number[at + 1 :] for by in (1, -1))
+
+
+def _alike(name: str) -> set[str]:
+    """Names of the listings of two characters or more that differ from one in a single character."""
+    if len(name) < 2:
+        return set()
+    return {other for other in _names() if len(other) == len(name) and sum(map(str.__ne__, name, other)) == 1}
+
+
+@cache
+def _names() -> frozenset[str]:
+    """All names of fixed and floating variables of the listings."""
+    return frozenset(
+        entry.name for n in programs.TEXTS for entry in programs.program(n).storage.entries if entry.name[:1].isalpha()
+    )
+
+
+@cache
+def _confused(char: str) -> tuple[str, ...]:
+    """The card characters one is confused with, either way."""
+    pairs = [(p.witness, p.lemma) for p in table() if p.cls == "confusable" and len(p.witness) == len(p.lemma) == 1]
+    found = [b for a, b in (*pairs, *((b, a) for a, b in pairs)) if a == char]
+    return tuple(dict.fromkeys(c for c in found if c in CHARACTERS))
+
+
+def _formats(text: str) -> Iterator[str]:
+    """A FORMAT with a count up or down, a text's first letter another, a comma a point, a stroke more or less."""
+    at = 0
+    while at < len(text):
+        count = re.compile(r"(\d+)H").match(text, at)
+        if count:
+            first, last = count.end(), count.end() + int(count[1])
+            words = text[first:last]
+            letter = next((n for n, c in enumerate(words) if c.isalpha()), None)
+            if letter is not None:
+                new = "X" if words[letter] != "X" else "Y"
+                yield text[: first + letter] + new + text[first + letter + 1 :]
+            yield from (text[:at] + new + text[count.end() - 1 :] for new in _steps(count[1]))
+            at = last
+        elif number := _NUMBER.match(text, at):
+            yield from (text[:at] + new + text[number.end() :] for new in _steps(number[0]))
+            at = number.end()
+        else:
+            if text[at] == ",":
+                yield text[:at] + "." + text[at + 1 :]
+            elif text[at] == "/":
+                yield text[:at] + text[at + 1 :]
+                yield text[:at] + "/" + text[at:]
+            elif text[at] in "EIX":
+                yield from (text[:at] + new + text[at + 1 :] for new in "EFIX")
+            at += 1
+
+
+def deck_with(name: str, card: int, reads: str) -> Deck:
+    """The deck of a built-in program with one card reading otherwise; without the card where nothing is read."""
+    deck = programs.committed(name)
+    old = next(s.source for s in statements(name) if s.card == card)
+    word = "FORMAT " if old.kind == "format" else ""
+    new = f"{old.label:>5} {word}{reads}"
+    new = new if len(new) <= 72 else f"{old.label}{word}{reads}"
+    lines = [new if c.number == card else c.text for c in deck.cards if reads or c.number != card]
+    return deck_from_lines(deck.source, lines)

@@ -1,0 +1,108 @@
+"""The weight of evidence: variants are made, judged, kept and reported; the misreads that README names are silent."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+
+from modern.edition import programs
+from modern.edition.variants import Variant, deck_with, statements, variants
+from modern.study.plan import StudyFileError
+from modern.study.weight import Bench, benches, equation_of, judged, ordered, weigh
+from modern.study.weight_report import report, unvouched, write_weight
+from tests.support.paths import MACHINE_RUNS, ROOT
+
+COMMITTED = ROOT / "docs" / "weight"
+
+
+@pytest.fixture(scope="module")
+def known() -> dict[str, Bench]:
+    return benches(str(MACHINE_RUNS))
+
+
+def variant(program: str, place: str, reads: str) -> Variant:
+    """The variant of a card that reads so."""
+    (found,) = [v for v in variants(program) if v.place == place and v.reads == reads]
+    return found
+
+
+def test_misreads_that_pass_every_test(known: dict[str, Bench]) -> None:
+    """fortran_src/README.md names them."""
+    for program, place, reads in (
+        ("program1", "101+6", "IF(N-2)102,105,134"),
+        ("program2", "180+1", "IF(MM(K)-I)183,181,181"),
+        ("program3", "153", "IF(ID3-3)155,156,133"),
+    ):
+        assert judged(variant(program, place, reads), known) == "nothing", place
+
+
+@pytest.mark.parametrize(
+    ("program", "place", "reads", "answer"),
+    [
+        ("program1", "131+1", "", "machine or print"),
+        ("program1", "200+3", "DD=X(K)*Y(J)*Z(I)+Y(K)*Z(J)*X(I)-X(J)*Y(I)*Z(K)", "print"),
+        ("program1", "192", "E(I)=A3*Y(I)+B3*Z(I)*C3", "equation"),
+        ("program1", "146", "", "compiler"),
+        ("program2", "112+1", "GOTO104", "nothing"),
+        ("program3", "135+1", "DO136L=1,NV", "print"),
+    ],
+)
+def test_what_notices_a_variant(known: dict[str, Bench], program: str, place: str, reads: str, answer: str) -> None:
+    assert judged(variant(program, place, reads), known) in answer
+
+
+def test_variants_are_other_cards_each_once() -> None:
+    for name in programs.TEXTS:
+        found = variants(name)
+        assert len({v.key for v in found}) == len(found) > 4_000
+        assert all(v.was != v.reads for v in found)
+        assert {v.how for v in found} == {"number", "name", "operator", "constant", "character", "format", "card"}
+        assert len({v.card for v in found if v.how == "card"}) == len(statements(name)) - 1
+
+
+def test_a_deck_with_its_own_reading_is_the_deck() -> None:
+    """But for blanks: the card is set out anew."""
+    for name in programs.TEXTS:
+        text = programs.committed(name).text()
+        for statement in statements(name)[::7]:
+            if statement.source.kind != "format":
+                again = deck_with(name, statement.card, statement.source.text).text()
+                assert "".join(again.split()) == "".join(text.split())
+
+
+def test_formulas_of_chapter_3() -> None:
+    assert equation_of("program1", "113+1") == "(3.1)"
+    assert equation_of("program1", "226") == "the formula for V"
+    assert equation_of("program3", "130+9") == "(3.4)"
+    assert equation_of("program3", "131") == ""
+
+
+def test_answers_are_kept_and_a_run_goes_on(tmp_path: Path) -> None:
+    first = weigh(tmp_path, "", most=6)
+    path = tmp_path / "variants.jsonl"
+    kept = path.read_text()
+    path.write_text(kept[:-9])
+    assert weigh(tmp_path, "", most=6) == first
+    assert path.read_text() == kept
+    assert set(first) == {v.key for v in ordered()[:6]}
+    text = write_weight(tmp_path, first)
+    assert "6 of " in text
+    assert {p.name for p in tmp_path.iterdir()} == {"variants.jsonl", "report.md", "cards.csv", "silent.csv"}
+    path.write_text('{"decks": "others"}\n')
+    with pytest.raises(StudyFileError, match="holds answers of other listings"):
+        weigh(tmp_path, "", most=6)
+
+
+def test_the_committed_report_is_that_of_the_committed_answers() -> None:
+    """Answers are kept beside the report; the report and its tables are made from them alone."""
+    lines = (COMMITTED / "variants.jsonl").read_text(encoding="utf-8").splitlines()
+    answers = dict(json.loads(line) for line in lines[1:])
+    assert (COMMITTED / "report.md").read_text(encoding="utf-8") == report(answers)
+    with (COMMITTED / "silent.csv").open(encoding="utf-8") as file:
+        assert len(list(csv.reader(file))) - 1 == sum(answer == "nothing" for answer in answers.values())
+    assert set(answers) <= {v.key for v in ordered()}
+    named = report(answers).partition("## Cards nothing vouches for")[2]
+    assert all(f"{v.place} `{v.was}`" in named for v in unvouched(answers))
