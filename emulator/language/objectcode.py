@@ -39,7 +39,7 @@ MEANINGS = {
     "XDVR": "fixed divide, reversed",
     "SEND": "field to be transmitted as it stands",
     "TRANSMIT": "transmit field",
-    "ITEM": "one number of an input or output list, or all of an array",
+    "ITEM": "one number of an input or output list",
     "COUNT": "a statement begins",
     "BRANCH": "go to",
     "IF": "branch on FAC negative, zero, positive",

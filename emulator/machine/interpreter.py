@@ -82,10 +82,8 @@ _WORDS = {
     FMP: "multiply",
     FDV: "divide",
     FDVR: "divide",
-    IF: "sign",
-    FIX: "to_integer",
 }
-"""Operations whose costs the numbers say, where they weigh."""
+"""Operations of two numbers, as :meth:`emulator.numbers.base.Numbers.work` calls them."""
 
 _SERVED = {
     BEGIN: AT_BEGIN,
@@ -192,15 +190,17 @@ def run(
                     reason = AT_UNDEFINED
                     break
                 value = values[a]
-                if weigh and o != TOFAC:
+                if o == TOFAC:
+                    fac = value
+                    pc += 1
+                    continue
+                if weigh:
                     work += state.owe(weigh(_WORDS[o], fac, value))
                     if work > most + SLACK:
                         reason = AT_COSTLY
                         break
                 pc += 1
-                if o == TOFAC:
-                    fac = value
-                elif o == FMP:
+                if o == FMP:
                     fac = multiply(fac, value)
                 elif o == FAD:
                     fac = add(fac, value)
@@ -226,10 +226,10 @@ def run(
                 if traced and begins[a] == 1:
                     reason = AT_STATEMENT
                     break
-            elif weigh and o in _WORDS and (work := work + state.owe(weigh(_WORDS[o], fac))) > most + SLACK:
-                reason = AT_COSTLY
-                break
             elif o == IF:
+                if weigh and (work := work + state.owe(weigh("sign", fac))) > most + SLACK:
+                    reason = AT_COSTLY
+                    break
                 target = targets[a + 1 + sign(fac)]
                 decision = pc + 1
                 if decide:
@@ -305,6 +305,9 @@ def run(
                 fac = numbers.from_integer(fixed)
                 pc += 1
             elif o == FIX:
+                if weigh and (work := work + state.owe(weigh("to_integer", fac))) > most + SLACK:
+                    reason = AT_COSTLY
+                    break
                 fixed = numbers.to_integer(fac)
                 pc += 1
             elif o == SELECT:

@@ -32,7 +32,13 @@ def listing(program: Program) -> Iterator[str]:
             continue
         mark = "*" if pc in starts else " "
         name = op.NAMES[instruction.operation]
-        yield f"{mark}{pc:>7}  {name:<9}{_operand(program, instruction):<28}{op.MEANINGS[name]}".rstrip()
+        yield f"{mark}{pc:>7}  {name:<9}{_operand(program, instruction):<28}{_meaning(instruction)}".rstrip()
+
+
+def _meaning(instruction: Instruction) -> str:
+    if op.repeats(instruction) > 1:
+        return "all of an array, one number after the other"
+    return op.MEANINGS[op.NAMES[instruction.operation]]
 
 
 def _operand(program: Program, instruction: Instruction) -> str:

@@ -32,7 +32,7 @@ def floating(functions: tuple[str, ...]) -> st.SearchStrategy[str]:
         return st.one_of(
             _sums(parts),
             st.builds("{}({})".format, st.sampled_from(functions), parts),
-            st.builds("({})**{}".format, parts, st.sampled_from(["2", "3", "J", "(-2)"])),
+            st.builds("({})**{}".format, parts, st.sampled_from(["2", "3", "J", "(-2)", "0", "1", "(-1)", "K"])),
         )
 
     return st.recursive(FLOATING_NAMES | FLOATING_CONSTANTS.filter(lambda c: c[0] != "-"), wider, max_leaves=6)

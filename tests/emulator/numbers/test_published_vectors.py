@@ -132,7 +132,7 @@ def runs(operation: str) -> Iterator[tuple[Program, Vector, Options]]:
     for vector in sorted(load(operation), key=lambda vector: (vector.profile, vector.operands[0])):
         field = vector.operands[0] if operation.startswith(("read", "write")) else ""
         system = numbers("truncating" if vector.profile == "any" else vector.profile)
-        yield compiled(operation, field), vector, Options(numbers=system, limit=100)
+        yield compiled(operation, field), vector, Options(numbers=system, limit=20_000)
 
 
 @pytest.mark.parametrize("operation", names())
