@@ -15,7 +15,7 @@ from emulator.language.storage import FIELD, FUNCTION_NAMES, Entry, core_address
 from emulator.machine.result import Event
 from emulator.machine.session import Action, Session
 from emulator.machine.trace import contents, effect
-from emulator.machine.words import action, place_of
+from emulator.machine.words import WORDS, action, place_of
 from emulator.numbers.arithmetic import UNDEFINED
 
 COMMANDS = {
@@ -74,6 +74,8 @@ def command(session: Session, text: str, cards: Cards, width: int) -> Action | l
             return flipped(session, int(number))
         case "BREAK", []:
             return wrapped(_breakpoints(session), width)
+    if word not in WORDS:
+        return wrapped(COMMANDS[word], width)
     try:
         done = action(word, rest)
     except ValueError as error:
