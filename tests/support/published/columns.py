@@ -108,7 +108,7 @@ WRITE_E_FIELDS = {
     "fewer digits": ("E13.7", "E10.4", "E8.2", "E7.1"),
     "more columns": ("E16.8", "E20.8"),
     "point moved": ("E14.7", "E16.5", "E20.2", "E14.0", "E12.5", "E10.3", "E9.2"),
-    "too small": ("E6.1", "E9.4", "E14.9", "E12.7"),
+    "too small": ("E6.0", "E6.1", "E9.4", "E14.9", "E12.7"),
 }
 WRITE_F = (
     "plain",

@@ -80,6 +80,10 @@ def sum_bounds(by: Arithmetic) -> Iterator[Pair]:
     for a, b in product((low, low + 1, high), repeat=2):
         for first, second in ((1, 1), (1, -1), (-1, 1)):
             yield number(first * a, -99, by), number(second * b, -99, by)
+    # Sums that are just a power of ten.
+    for sign in (1, -1):
+        yield number(sign * 5 * low, 1, by), number(sign * 5 * low, 1, by)
+        yield number(sign * high, 1, by), number(sign * low, 2 - p, by)
     yield number(high, 1, by), number(6 * low, 1 - p, by)
     yield number(-6 * low, 1 - p, by), number(-high, 1, by)
     yield number(low, -98, by), number(-high, -99, by)
@@ -105,6 +109,9 @@ def product_bounds(by: Arithmetic) -> Iterator[Pair]:
     exponents = (50, 49), (50, 50), (99, 1), (1, 99), (-50, -49), (-49, -49), (-99, 0), (-99, 1)
     for a, b in ((low, low), (high, -high), (-low - 1, high - 9)):
         yield from ((number(a, e, by), number(b, f, by)) for e, f in exponents)
+    # A product that is just a power of ten.
+    yield number(2 * low, 1, by), number(5 * low, 1, by)
+    yield number(-4 * low, 3, by), number(25 * low // 10, -1, by)
     # With two digits .12 * .83 is the only product that rounding carries; with more it is exact.
     yield number(12 * low // 10, 1, by), number(83 * low // 10, 0, by)
     yield number(low + 1, 1, by), number(high - 9, 0, by)
