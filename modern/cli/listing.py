@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 from emulator.errors import DeckError, Diagnostic
 from emulator.files import check_writable, read_text, source_name, write_text
-from emulator.language.cards import Deck, read_deck
+from emulator.language.cards import Deck
 from emulator.language.compiler import translate
 from emulator.language.objectcode import Program
 from emulator.machine.divergence import Divergence, diverge
@@ -19,6 +19,7 @@ from emulator.machine.operator import FromFile, Operator
 from emulator.machine.result import Options, Result
 from emulator.machine.timing import measure, shares
 from modern.cli.shared.console import BAD_INPUT, DIFFERS, OK, UsageError, say
+from modern.cli.shared.inputs import deck_of
 from modern.cli.shared.machine import (
     is_terminal,
     layers_of,
@@ -55,7 +56,7 @@ def main(args: argparse.Namespace) -> int:
     if args.program not in programs.NAMES:
         # Of its own decks the thesis's programs want whole data sets.
         options = replace(options, hopper="any")
-    deck = read_deck(args.deck)
+    deck = deck_of(args.deck, args.program.startswith("program1"))
     answers = _answers(args.operator)
     result = Machine(program, deck, options).run(_operator(answers), output=lambda events: None)
     found = _compared(args, program, deck, options, answers)

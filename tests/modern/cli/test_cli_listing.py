@@ -116,3 +116,11 @@ def test_a_compiled_built_in_is_what_is_listed(capsys: pytest.CaptureFixture[str
     lines = call(capsys, "listing", "program1")[1].splitlines()[1:]
     assert [line[7:] for line in lines] == [card.text for card in programs.deck("program1").cards]
     assert compile_deck(deck_from_lines("again", [line[7:] for line in lines])).statements
+
+
+def test_a_deck_may_be_an_example_by_name(capsys: pytest.CaptureFixture[str]) -> None:
+    named = call(capsys, "listing", "program1", "example4", "--against", "none")
+    assert named == call(
+        capsys, "listing", "program1", str(EXAMPLES / "example4" / "program1.deck"), "--against", "none"
+    )
+    assert named[0] == 0
