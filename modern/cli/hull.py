@@ -65,7 +65,7 @@ def main(args: argparse.Namespace) -> int:
     who.say_left()
     say(f"warning: {warning.message}" for warning in checked.warnings)
     already = {(w.card, w.column) for w in checked.warnings}
-    for run, cause in runs:
+    for number, (run, cause) in enumerate(runs, 1):
         for step in run.steps:
             say_notices(step.program, step.result, already if step is run.steps[0] else ())
             if args.profile:
@@ -73,6 +73,7 @@ def main(args: argparse.Namespace) -> int:
             if not step.result.ending.normal:
                 say([f"hull1620: {step.result.ending.message}"])
         if cause is not None:
+            say([f"data set {number}:"] if len(runs) > 1 else ())
             say(refusals.lines(cause, asked))
     return OK if all(run.complete for run, _ in runs) else DIFFERS
 

@@ -20,7 +20,7 @@ from emulator.machine.session import Session
 from emulator.machine.trace import contents
 from modern.thesis.job import REFUSALS, HullRun, Load, Step, refusal, run_hull
 
-Kind = Literal["miss", "centre", "zeros", "pair", "repeat", "room", "endless", "unmet", "other"]
+Kind = Literal["miss", "centre", "zeros", "pair", "repeat", "room", "endless", "unmet", "stopped", "other"]
 """What happened.
 
 - miss: a point that defines an equation does not satisfy it in the machine's digits.
@@ -28,7 +28,7 @@ Kind = Literal["miss", "centre", "zeros", "pair", "repeat", "room", "endless", "
 - pair: the search for pairs of planes inside the hull ran beyond the table.  repeat: that for repeated planes did.
 - unmet: no point satisfies three equations, so that none is taken for a vertex.
 - room: a table has no more places.  endless: the statement limit was reached.
-- other: none of these.
+- stopped: the run met a value or a place it could not go on with.  other: none of these.
 """
 
 CORRECTED = {1: "P3-025", 2: "P3-026", 3: "P3-027", 5: "P3-028", 16: "P2-023"}
@@ -86,7 +86,7 @@ def cause(step: Step, machine: Session) -> Cause | None:
     if typed:
         event = next(e for e in reversed(step.result.events) if e.what == "type" and e.text in REFUSALS)
         return _refused(step, machine, typed, event.decision)
-    if ending.normal or ending.kind == "operator":
+    if ending.normal or ending.kind in ("operator", "input"):
         return None
     if ending.kind == "limit":
         # A search beyond the end of the table strikes what is not there, and NE falls without end.
@@ -95,7 +95,7 @@ def cause(step: Step, machine: Session) -> Cause | None:
         return Cause(step.number, "endless", "", ending.decision, searches[0] if beyond and searches else 0)
     if ending.kind == "bounds":
         return Cause(step.number, "room", "", ending.decision, {2: 16, 3: 5}.get(step.number, 0))
-    return Cause(step.number, "other", "", ending.decision)
+    return Cause(step.number, "stopped", "", ending.decision)
 
 
 _SEARCHES = {"pair": 1, "repeat": 2}

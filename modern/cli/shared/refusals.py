@@ -19,6 +19,7 @@ _MEANS: dict[Kind, str] = {
     "unmet": "no point satisfies three equations exactly, so that none counts as a vertex: {digits} do not hold them",
     "room": "the table of equations has no more places",
     "endless": "the statement limit ended it; more statements (--limit) help only a run that goes on",
+    "stopped": "the run met a value or a place it could not go on with",
     "other": "the program takes it for impossible",
 }
 _LONGER: dict[Kind, str] = {
@@ -41,6 +42,8 @@ _LONGER: dict[Kind, str] = {
     "a while than the hull has faces. The machine would have overwritten the next array (--bounds core).",
     "endless": "A search that ran beyond the end of the table never comes to an end; so does a rounded value that "
     "decides now one way and now the other.",
+    "stopped": "What a program asked for was not there: a number never given, an element beyond an array, a value "
+    "that the arithmetic cannot decide.",
     "other": "A sum, a difference or a count came out as it cannot in exact numbers.",
 }
 

@@ -77,6 +77,13 @@ def test_a_fault_of_the_original_is_named_and_its_correction_works(
     assert call(capsys, *tried(err)[0])[0] == 0
 
 
+def test_of_several_data_sets_each_is_named(own: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = Path("points.deck").read_text(encoding="ascii")
+    Path("two.deck").write_text(text + " 1\n.1E+01        .1E+01        .1E+01\n" + text, encoding="ascii")
+    err = call(capsys, "hull", "two.deck")[2]
+    assert [line for line in err.splitlines() if line.startswith("data set")] == ["data set 1:", "data set 3:"]
+
+
 def test_a_known_fault_has_its_number_in_the_list() -> None:
     numbers = re.findall(r"^(\d+)\. ", (GROUNDS.parent / "KNOWN-FAULTS.md").read_text(encoding="utf-8"), re.MULTILINE)
     assert {"1", "2", "3", "4", "5", "6", "16"} <= set(numbers)
