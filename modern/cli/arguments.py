@@ -92,7 +92,7 @@ def _listing(parser: ArgumentParser) -> None:
     parser.add_argument("deck", metavar="DECK", nargs="?", help="data cards; with them the program is run")
     words = "digits lost to this arithmetic, or none (default: %(default)s)"
     parser.add_argument("--against", metavar="NAME", default="exact", help=words)
-    parser.add_argument("--operator", metavar="FILE", help="a file or a log that answers ACCEPT and PAUSE")
+    parser.add_argument("--operator", metavar="=FILE", help="a file or a log that answers ACCEPT and PAUSE")
     parser.add_argument("-o", "--output", metavar="FILE", default="-", help="where it goes (default: '-')")
     machine_arguments(parser)
     upcase_argument(parser)

@@ -25,7 +25,7 @@ def result_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("--trace", metavar="FILE", help="write every statement with its card and values")
     parser.add_argument(
         "--operator",
-        metavar="FILE",
+        metavar="=FILE",
         help="--operator alone: the terminal is the console; --operator=FILE: a file, or a log, answers; "
         "--operator=none: nobody (default: the terminal, where all is one and the program has ACCEPT or PAUSE)",
     )
