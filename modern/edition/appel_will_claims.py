@@ -74,6 +74,16 @@ def deleting_passes() -> Seen:
     return Seen(CONDITION if all(good) else FAILS, f"{sum(good)} of {len(good)} polygons")
 
 
+def deleting_makes_nonconvex() -> Seen:
+    """A polygon with a convex point that is none after a nonconvex one beside it has gone."""
+    ring = [(0, 0), (10, 0), (10, 10), (6, 1), (5, 5), (4, 1), (0, 10)]
+    before = {p for k, p in enumerate(ring) if _area(ring[k - 1], p, ring[(k + 1) % len(ring)]) > 0}
+    left = [p for p in ring if p in before]
+    after = {p for k, p in enumerate(left) if _area(left[k - 1], p, left[(k + 1) % len(left)]) > 0}
+    lost = sorted(before - after)
+    return seen(bool(lost), f"{', '.join(map(str, lost))} is convex at first and not afterwards")
+
+
 def _passed(ring: Sequence[Flat]) -> list[Flat]:
     left = [p for k, p in enumerate(ring) if _area(ring[k - 1], p, ring[(k + 1) % len(ring)]) > 0]
     return left if len(left) in (len(ring), 2) else _passed(left)

@@ -226,7 +226,7 @@ def _separated(points: tuple[Point, ...], before: Grown, i: int, m: int, edge: s
 
 def _order(count: str) -> Seen:
     same = reordered = sets = 0
-    for one in sampled_sets(3, 2 * int(count)):
+    for one in sampled_sets(3, int(count)):
         text = convex_hull(one.points, text=True, on_refusal="return")
         if text.determined:
             sets += 1

@@ -11,7 +11,6 @@ from functools import cache
 
 import numpy as np
 
-from emulator.errors import EmulatorError
 from emulator.language.cards import Deck, deck_from_text
 from emulator.language.objectcode import code_positions
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
@@ -19,7 +18,6 @@ from emulator.machine.result import Options
 from modern.comparison.outcome import from_cards
 from modern.edition import programs
 from modern.edition.chapter3_claims import COUNT, both
-from modern.edition.chapter6 import input_deck
 from modern.edition.sampled_sets import Point, SampledSet, sampled_sets, through
 from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, counterexample, seen
 from modern.exact_hull import exact_hull
@@ -271,6 +269,9 @@ def data_sheet(part: str) -> Seen:
         points, _ = exact_points(deck_of("z_in_39.deck"))
         z = [point[2] for point in points.values()][-1]
         return Seen(FAILS if Fraction(z) != 1 else HOLDS, f"a z of 1 punched in columns 39 to 52 is read as {z}")
+    if part == "blank":
+        last = 3 * len("+.30000000E+01")
+        return Seen(CONDITION if last == 42 else FAILS, f"three fields of 14 columns end in column {last}")
     if part == "digits":
         printed = "+.3000000E+01"
         return Seen(
@@ -278,16 +279,3 @@ def data_sheet(part: str) -> Seen:
         )
     numbers = {"12": "+.12000000E+02", ".0146": "+.14600000E-01", ".0261": "+.26100000E-01", "6": "+.60000000E+01"}
     return seen(all(coordinate_field(value) == field for value, field in numbers.items()), ", ".join(numbers))
-
-
-def messages() -> Seen:
-    """What programs 1 types for examples 3 to 5, and which program follows."""
-    found = {}
-    for example in (3, 4, 5):
-        try:
-            run = run_hull(input_deck(example), programs.program, Options(limit=100_000))
-        except EmulatorError as error:
-            return Seen(FAILS, str(error))
-        found[run.steps[0].result.typed[0]] = run.steps[-1].number
-    wanted = {"CONVEX HULL": 1, "POINTS ARE COPLANAR": 2, "POINTS ARE NOT COPLANAR": 3}
-    return seen(found == wanted, "; ".join(f"{words}: program {n}" for words, n in found.items()))

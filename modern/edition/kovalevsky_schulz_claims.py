@@ -41,6 +41,12 @@ def _grown() -> tuple[tuple[tuple[Point, ...], ExactHull], ...]:
 
 def algorithm_is_right(kind: str = "") -> Seen:
     """Both counts of coplanar faces, on grids with many, against the judge."""
+    good = _right_hulls()
+    return Seen((CONDITION if kind else HOLDS) if all(good) else FAILS, f"{len(good) // 2} hulls as the exact judge")
+
+
+@cache
+def _right_hulls() -> tuple[bool, ...]:
     good = []
     for coplanar in ("visible", "invisible"):
         for points in (GRID, *(points for points, _ in _grown())):
@@ -50,7 +56,7 @@ def algorithm_is_right(kind: str = "") -> Seen:
             judge = exact_hull(points)
             good.append({v.point for v in straight.vertices} == {points[k] for k in judge.vertices})
             good.append(len(straight.faces) == len(judge.facets))
-    return Seen((CONDITION if kind else HOLDS) if all(good) else FAILS, f"{len(good) // 2} hulls as the exact judge")
+    return tuple(good)
 
 
 def local_corners_are_enough() -> Seen:
@@ -86,6 +92,12 @@ def _scaled(judge: ExactHull, point: Point) -> Point:
 
 def combinations_are_no_vertices(kind: str = "") -> Seen:
     """Midpoints of two points of a hull are no vertices when they are added; without a vertex it is not in the hull."""
+    good = _combined()
+    return Seen((CONDITION if kind else HOLDS) if all(good) else FAILS, f"{len(good)} points")
+
+
+@cache
+def _combined() -> tuple[bool, ...]:
     good = []
     for points, judge in _grown()[:1]:
         doubled = [plus(p, p) for p in points]
@@ -94,7 +106,7 @@ def combinations_are_no_vertices(kind: str = "") -> Seen:
         for k in judge.vertices[:3]:
             rest = [p for i, p in enumerate(points) if i != k]
             good.append(len(rest) in exact_hull([*rest, points[k]]).vertices)
-    return Seen((CONDITION if kind else HOLDS) if all(good) else FAILS, f"{len(good)} points")
+    return tuple(good)
 
 
 def pairs_are_not_combinations() -> Seen:

@@ -63,7 +63,11 @@ class Surface:
 
     triangles: CellList
     faces: CellList
-    straight: CellList
+
+    @property
+    def straight(self) -> CellList:
+        """Made when it is asked for."""
+        return straightened(self.faces)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -112,5 +116,4 @@ def voxel_hull(
 
 
 def _surface(triangles: CellList) -> Surface:
-    faces = merged(triangles)
-    return Surface(triangles, faces, straightened(faces))
+    return Surface(triangles, merged(triangles))
