@@ -29,7 +29,7 @@ def _area(p: Flat, q: Flat, r: Flat) -> int:
 
 
 def method_is_right(kind: str = "", count: str = COUNT) -> Seen:
-    """Edges and faces by the mended method, against the judge's."""
+    """Edges and faces by the corrected method, against the judge's."""
     good = []
     for one in sampled_sets(3, int(count)):
         hull = appel_will(one.points)
@@ -318,8 +318,8 @@ def step_by_the_letter(step: str) -> Seen:
     name = {"step5": "fig14.csv", "step7": "octahedron.csv", "step9": "pentagon.csv", "step10": "fig14.csv"}[step]
     points = points_of(name)
     also = ("step3",) if step == "step9" else ()
-    letter, mended = appel_will(points, method=printed(step, *also)), appel_will(points, method=printed(*also))
-    same = [loop.entries for loop in letter.table.loops] == [loop.entries for loop in mended.table.loops]
+    letter, corrected = appel_will(points, method=printed(step, *also)), appel_will(points, method=printed(*also))
+    same = [loop.entries for loop in letter.table.loops] == [loop.entries for loop in corrected.table.loops]
     words = letter.fault or ("the same loops" if same else "the loops come in another order than the printed ones")
     return Seen(FAILS if letter.fault or not same else HOLDS, words)
 

@@ -206,7 +206,7 @@ def overlap_in_a_line() -> Seen:
 
 
 def touching_is_undecided(kind: str = "") -> Seen:
-    """Two boxes that touch: by which rule it was found out which is nearer, and what is hidden without the mend."""
+    """Two boxes that touch: by which rule it was found out which is nearer, and what is hidden without the correction."""
     (relation,) = _scene("stacked.toml").relations
     without = _scene("stacked.toml", "touching")
     less = _hidden(without, INNER) + _hidden(without, CONTOUR) < _hidden(_scene("stacked.toml"), INNER) + _hidden(
@@ -244,9 +244,9 @@ def sense() -> Seen:
 
 def wholly_behind() -> Seen:
     """A box behind a wall: passages without an intersection."""
-    with_mend, without = _scene("enclosed.toml"), _scene("enclosed.toml", "enclosed")
-    alone = any(passage == ENCLOSED for found in with_mend.passages for _, passage in found.behind)
-    seen_now = sum(p.seen for p in without.pieces) - sum(p.seen for p in with_mend.pieces)
+    corrected, without = _scene("enclosed.toml"), _scene("enclosed.toml", "enclosed")
+    alone = any(passage == ENCLOSED for found in corrected.passages for _, passage in found.behind)
+    seen_now = sum(p.seen for p in without.pieces) - sum(p.seen for p in corrected.pieces)
     return Seen(
         FAILS if alone and seen_now > 0 else HOLDS, f"{seen_now} edges of the box would be seen through the wall"
     )
