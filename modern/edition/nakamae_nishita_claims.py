@@ -206,7 +206,7 @@ def overlap_in_a_line() -> Seen:
 
 
 def touching_is_undecided(kind: str = "") -> Seen:
-    """Two boxes that touch: by which rule it was found out which is nearer, and what is hidden without the correction."""
+    """Two boxes that touch: by which rule it was found out which is nearer, and what is hidden without that rule."""
     (relation,) = _scene("stacked.toml").relations
     without = _scene("stacked.toml", "touching")
     less = _hidden(without, INNER) + _hidden(without, CONTOUR) < _hidden(_scene("stacked.toml"), INNER) + _hidden(
