@@ -157,5 +157,6 @@ def loader(layers: tuple[str, ...]) -> Callable[[str], Program]:
     present = {row.layer for name in TEXTS for row in text(name).rows}
     for layer in layers:
         if layer not in present:
-            raise DeckError(f"no program has rows of a layer {layer!r}")
+            further = sorted(present - set(_BASE))
+            raise DeckError(f"no program has rows of a layer {layer!r}; the layers are {', '.join(further)}")
     return lambda name: with_layers(name, layers)

@@ -119,7 +119,10 @@ MISUSE = [
     (["run", "good.f", "x.deck", "--trace", "."], ".: is a directory"),
     (["run", "good.f", "x.deck", "--layers", "lacuna"], "--layers is for the built-in programs"),
     (["run", "program1", "good.deck", "--layers", "nosuch"], "no rows of a layer 'nosuch'"),
-    (["hull", "good.deck", "--layers", "nosuch"], "no program has rows of a layer 'nosuch'"),
+    (
+        ["hull", "good.deck", "--layers", "nosuch"],
+        "no program has rows of a layer 'nosuch'; the layers are corrected, ",
+    ),
     (["hull", "good.deck", "--core", "20000"], "OVERLAP"),
     (["run", "-", "-"], "cannot both come from standard input"),
     (["run", "program1"], "the hopper is empty at the first READ"),
