@@ -22,7 +22,9 @@ _ROOM, _WIDE = 30, 320
 
 def figure(number: str) -> str:
     """A figure as SVG.  Raises KeyError."""
-    return {"1": _polyhedron, "2": lambda: _added(1), "3": _triangle, "4": lambda: _added(2)}[number]()
+    if number in ("2", "4"):
+        return _added(int(number) // 2)
+    return {"1": _polyhedron, "3": _triangle}[number]()
 
 
 def _polyhedron() -> str:
