@@ -190,12 +190,23 @@ def _deck(row: Row, step: Step | None) -> tuple[bool, str]:
     program, message = _compiled(row, step)
     if program is None:
         return False, f"without it the deck does not compile: {message}"
+    if whole.storage != program.storage and len(whole.code) == len(program.code):
+        # Only sizes differ: a run that leaves an array without the row and not with it is another.
+        stopped = _outcome(row, program, data).ending
+        if isinstance(stopped, Ending) and stopped.kind == "bounds" and _has_room(whole, stopped):
+            return True, f"deck {deck_name} needs the room; without it: {stopped.message}"
     one = _outcome(row, whole, data)
     other = _outcome(row, program, data, PATIENCE * one.longest + LOOP_WINDOW)
     if one.same_as(other):
         return False, f"deck {deck_name} gives the same cards without it"
     ends = one.trouble or "an empty hopper"
     return True, f"deck {deck_name} ends with {ends}; without it: {other.trouble or 'other cards'}"
+
+
+def _has_room(program: Program, ending: Ending) -> bool:
+    """Whether the element at which a run stopped is one of the program's array."""
+    shape = next(entry.shape for entry in program.storage.entries if entry.name == ending.name)
+    return all(1 <= n <= size for n, size in zip(ending.subscripts, shape, strict=True))
 
 
 def ground_deck(name: str) -> Deck | None:
