@@ -92,7 +92,7 @@ def report(answers: Mapping[str, str]) -> str:
     ]
     found = unvouched(answers)
     for name in programs.TEXTS:
-        cards = [f"{v.place} `{v.was}`" for v in found if v.program == name]
+        cards = [f"{v.place} `{v.was.strip()}`" for v in found if v.program == name]
         lines.append(f"- {name} ({len(cards)}): " + ("; ".join(cards) if cards else "none"))
     lines += [
         "",
