@@ -7,9 +7,10 @@ import re
 import pytest
 
 from emulator.errors import CardError, DeckError
-from emulator.language.cards import deck_from_lines
+from emulator.language.cards import Deck, deck_from_lines
 from emulator.machine.machine import Machine
 from emulator.machine.result import Ending, MachineError, Options
+from emulator.machine.session import Halt, Session
 from tests.support.deckwork import errors, machine, number, program, punched, run, source, within
 
 OUT = "PUNCH 90,K"
@@ -171,6 +172,14 @@ def test_sense_switches(on: set[int]) -> None:
         lines += [f"1{switch} CONTINUE"]
     result = punched(*lines, OUT, F, "END", switches=on)
     assert result == (f"{sum(10 ** (4 - s) for s in on):4d}",)
+
+
+@pytest.mark.parametrize(("words", "number"), [("PAUSE", 0), ("PAUSE 25", 25)])
+def test_pause_stands_with_its_number(words: str, number: int) -> None:
+    session = Session(program(words, "END"), Deck("none", ()))
+    halt = session.advance(100)
+    assert isinstance(halt, Halt)
+    assert (halt.what, halt.number) == ("pause", number)
 
 
 def test_pause_goes_on_with_a_warning() -> None:
