@@ -122,14 +122,6 @@ def test_no_facets() -> None:
     refused(GRID, replace(exact_hull(GRID), facets=()), "there are no facets")
 
 
-def test_a_segment_with_a_third_end() -> None:
-    points = [(0, 0, 0), (1, 1, 1), (3, 3, 3)]
-    hull = exact_hull(points)
-    third = Facet((1, 1, 1, -99), (hull.vertices[0],))
-    facets = sorted((*hull.facets, third), key=lambda facet: facet.plane)
-    refused(points, replace(hull, facets=tuple(facets)), "a segment with 3 ends")
-
-
 def test_a_face_seen_from_inside() -> None:
     hull = exact_hull(GRID)
     number = facet_with(hull, TOP)
