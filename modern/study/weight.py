@@ -256,8 +256,11 @@ def _judge(some: Sequence[Variant]) -> list[str]:
 def weigh(folder: Path, runs: str, workers: int = 1, most: int = 0, chunk: int = 20) -> dict[str, str]:
     """Judge every variant (or the first ``most``), keeping each answer in ``folder/variants.jsonl``; key to answer.
 
-    Raises StudyFileError where the folder holds answers of other listings or cannot be written.
+    Raises StudyFileError where ``runs`` holds no deck, and where the folder holds answers of other listings or cannot
+    be written.
     """
+    if runs and not any(Path(runs).glob("*/deck.cards")):
+        raise StudyFileError(f"{runs}: no folder in it has a deck.cards")
     wanted = ordered()[: most or None]
     print_of = hashlib.sha256("".join(programs.committed(n).text() for n in programs.NAMES).encode()).hexdigest()
     path = folder / "variants.jsonl"

@@ -96,6 +96,12 @@ def test_answers_are_kept_and_a_run_goes_on(tmp_path: Path) -> None:
         weigh(tmp_path, "", most=6)
 
 
+def test_a_folder_without_decks_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(StudyFileError, match=r"no folder in it has a deck\.cards$"):
+        weigh(tmp_path / "out", str(tmp_path), most=1)
+    assert not (tmp_path / "out").exists()
+
+
 def test_the_committed_report_is_that_of_the_committed_answers() -> None:
     """Answers are kept beside the report; the report and its tables are made from them alone."""
     lines = (COMMITTED / "variants.jsonl").read_text(encoding="utf-8").splitlines()
