@@ -198,7 +198,8 @@ def _summary_lines(
         yield f"Chapter 4: {sum(judged.agrees for judged in theorems)} of {len(theorems)} claims hold."
     if found:
         yield _finding_summary(found)
-    words = "Every printed result comes out" if good else "NOT every printed result comes out"
+    what = "printed result comes out" if reports or theorems or found else "statement has the verdict of its row"
+    words = f"Every {what}" if good else f"NOT every {what}"
     words += ", or it is said why it does not." if good and any(finding.excused for finding in found) else "."
     yield _paint(words, EXACT if good else DIFFERENT, colour)
 

@@ -13,6 +13,7 @@ Paint = Callable[[str, str], str]
 Indented = Callable[[str], Iterable[str]]
 """Wraps and indents a line of explanation."""
 
+_WHY = {CONDITION: "condition", HOLDS: "note"}
 _STATED_AS = {HOLDS: EXACT, CONDITION: ORDER, FAILS: DIFFERENT, UNTESTABLE: ""}
 _PLURAL = {HOLDS: "hold", CONDITION: "with a condition", FAILS: "do not hold", UNTESTABLE: "not testable"}
 
@@ -45,7 +46,7 @@ def statement_lines(found: Sequence[Judged], paint: Paint, indented: Indented) -
         yield f"  {row.id} ({row.page}, {row.kind}): {paint(row.verdict, _STATED_AS[row.verdict])}"
         yield from indented(f"{row.says} [{row.words}]")
         if row.why:
-            yield from indented(f"{'why' if row.verdict != CONDITION else 'condition'}: {row.why}")
+            yield from indented(f"{_WHY.get(row.verdict, 'why')}: {row.why}")
         if judged.seen:
             yield from indented(judged.seen)
         if row.run:
