@@ -63,7 +63,12 @@ def check_outputs(args: argparse.Namespace) -> None:
             raise UsageError(f"{name}: is the input too; an output never overwrites it")
     endings: tuple[str, ...] = given.get("endings", ())
     output = given.get("output")
-    if endings and output not in (None, "-") and not str(output).lower().endswith(endings):
+    if (
+        endings
+        and output not in (None, "-")
+        and not os.path.isdir(output)
+        and not str(output).lower().endswith(endings)
+    ):
         raise UsageError(
             f"{output}: the name must end with {' or '.join(endings)}, which is what {args.command} writes"
         )
