@@ -145,7 +145,10 @@ def _words(error: Exception, module: str) -> str:
         return f"no module is called {module!r}, beside the plan or where Python looks for modules"
     if isinstance(error, SyntaxError):
         return f"{Path(error.filename or module).name}, line {error.lineno}: {error.msg}"
-    spec = find_spec(module)
+    try:
+        spec = find_spec(module)
+    except (ImportError, ValueError):  # a name that no module can have
+        spec = None
     lines = [frame.lineno for frame in extract_tb(error.__traceback__) if spec and frame.filename == spec.origin]
     place = f"{Path(spec.origin or module).name}, line {lines[-1]}: " if spec and lines else ""
     text = str(error).splitlines()
