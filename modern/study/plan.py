@@ -118,6 +118,8 @@ def named(what: str, name: str, known: Mapping[str, F]) -> F:
     module, colon, function = name.partition(":")
     if not colon:
         raise PlanError(f"no {what} is called {name!r}; there are {', '.join(known)} and module:function")
+    if not all(part.isidentifier() for part in module.split(".")):
+        raise PlanError(f"{what} {name}: {module!r} is not a module's name")
     with own_code(f"{what} {name}", module):
         loaded = import_module(module)
     found: F | None = getattr(loaded, function, None)
