@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import shutil
 import textwrap
 from collections.abc import Iterator
@@ -15,6 +16,9 @@ from modern.edition.apparatus import Row
 from modern.edition.checks import check_everything
 from modern.edition.grounds import Proof
 from modern.edition.sources import place
+
+_MOST = 4
+"""Processes beyond which a check is no quicker."""
 
 
 def main(args: argparse.Namespace) -> int:
@@ -36,8 +40,9 @@ def main(args: argparse.Namespace) -> int:
         print(f"{len(rows)} rows")
         return OK
     everything = args.program is None and args.layer is None
+    workers = min(len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1, _MOST)
     proofs = []
-    for proof in check_everything(rows, everything, read_text(args.text) if args.text else ""):
+    for proof in check_everything(rows, everything, read_text(args.text) if args.text else "", workers):
         proofs.append(proof)
         print(_line(proof), flush=True)
     failed = sum(not proof.holds for proof in proofs)

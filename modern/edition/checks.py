@@ -11,8 +11,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 from functools import cache
+from itertools import repeat
+from multiprocessing import get_context
+from signal import SIG_IGN, SIGINT, signal
 
 from modern.edition import chapter4, programs, published, sources
 from modern.edition.apparatus import Line, Row, Text, build
@@ -153,16 +157,33 @@ def spans(paper: published.Paper) -> tuple[tuple[str, str, published.Published],
     return tuple((*result.span, result) for result in published.results_of(paper))
 
 
-def check_everything(rows: list[Row], transcripts: bool, whole: str = "") -> Iterator[Proof]:
+def check_everything(rows: list[Row], transcripts: bool, whole: str = "", workers: int = 1) -> Iterator[Proof]:
     """All of it, in the order it is printed: ``rows`` of the listings, and the ``transcripts`` too.
 
-    Raises ApparatusError for a ``whole`` text that is no document's.
+    workers: processes; with 1 nothing but this process works.  Raises ApparatusError for a ``whole`` text that is no
+    document's.
     """
     places = places_of_pairs(texts())
     if transcripts:
         yield from check_sources(whole)
     yield from check_decks()
-    for row in rows:
-        yield check_listing(row, places)
-    if transcripts:
-        yield from check_transcripts(places)
+    if workers == 1 or len(rows) < _MANY:
+        yield from (check_listing(row, places) for row in rows)
+        yield from check_transcripts(places) if transcripts else ()
+        return
+    pool = ProcessPoolExecutor(workers, get_context("spawn"), initializer=signal, initargs=(SIGINT, SIG_IGN))
+    try:
+        # The transcripts take longest, and are begun first.
+        others = pool.submit(_listed_transcripts, places) if transcripts else None
+        yield from pool.map(check_listing, rows, repeat(places), chunksize=4)
+        yield from others.result() if others else ()
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+_MANY = 20
+"""Rows for which it pays to begin further processes."""
+
+
+def _listed_transcripts(places: Mapping[tuple[str, str], int]) -> list[Proof]:
+    return list(check_transcripts(places))

@@ -192,11 +192,11 @@ def _deck(row: Row, step: Step | None) -> tuple[bool, str]:
         return False, f"without it the deck does not compile: {message}"
     if whole.storage != program.storage and len(whole.code) == len(program.code):
         # Only sizes differ: a run that leaves an array without the row and not with it is another.
-        stopped = _outcome(row, program, data).ending
+        stopped = _outcome(_name(row), layers_for(row), program, data).ending
         if isinstance(stopped, Ending) and stopped.kind == "bounds" and _has_room(whole, stopped):
             return True, f"deck {deck_name} needs the room; without it: {stopped.message}"
-    one = _outcome(row, whole, data)
-    other = _outcome(row, program, data, PATIENCE * one.longest + LOOP_WINDOW)
+    one = _with_row(_name(row), layers_for(row), deck_name)
+    other = _outcome(_name(row), layers_for(row), program, data, PATIENCE * one.longest + LOOP_WINDOW)
     if one.same_as(other):
         return False, f"deck {deck_name} gives the same cards without it"
     ends = one.trouble or "an empty hopper"
@@ -243,9 +243,16 @@ class _Outcome:
         return self.lines == other.lines and str(one) == str(two)
 
 
-def _outcome(row: Row, program: Program, deck: Deck, limit: int = 0) -> _Outcome:
-    """What a data deck gives with ``program`` in the place of the built-in the row is judged by."""
-    name, layers = _name(row), layers_for(row)
+@cache
+def _with_row(name: str, layers: tuple[str, ...], deck_name: str) -> _Outcome:
+    """What a deck gives with the rows of these layers as they are: many rows are judged by one deck."""
+    data = ground_deck(deck_name)
+    assert data is not None
+    return _outcome(name, layers, programs.with_layers(name, layers), data)
+
+
+def _outcome(name: str, layers: tuple[str, ...], program: Program, deck: Deck, limit: int = 0) -> _Outcome:
+    """What a data deck gives with ``program`` in the place of the built-in ``name``, the others with ``layers``."""
     first = "program1_examples" if name == "program1_examples" else "program1"
 
     def load(wanted: str) -> Program:
