@@ -136,7 +136,7 @@ def test_a_true_ground_says_what_was_seen(row_id: str, words: str) -> None:
 
 
 def test_outcomes_are_the_same_by_cards_and_ending() -> None:
-    job = grounds._outcome(programs.text("program1").rows[0], programs.program("program1"), chapter6.input_deck(1))
+    job = grounds._outcome("program1", (), programs.program("program1"), chapter6.input_deck(1))
     assert job.same_as(job)
     assert not job.same_as(replace(job, lines=job.lines[1:]))
     refused = replace(job, ending=DeckError("x"))

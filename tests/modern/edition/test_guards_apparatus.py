@@ -6,7 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from modern.edition import programs
 from modern.edition.apparatus import ApparatusError, Text, load
+from modern.edition.checks import check_everything
 
 TEXT = """
 [text]
@@ -87,3 +89,13 @@ def test_a_row_without_one_of_its_fields_is_refused(tmp_path: Path, name: str) -
 def test_every_field_that_is_missing_is_named(tmp_path: Path) -> None:
     with pytest.raises(ApparatusError, match=r"^t: row T-001 lacks reason, evidence$"):
         read(tmp_path, reason=None, evidence=None)
+
+
+def test_processes_prove_what_one_does_in_the_same_order() -> None:
+    rows = [row for name in programs.TEXTS for row in programs.text(name).rows if row.ground.get("kind") == "parse"][
+        :24
+    ]
+    alone = list(check_everything(rows, False))
+    assert len(rows) == 24
+    assert [proof.subject for proof in alone[-24:]] == [row.id for row in rows]
+    assert list(check_everything(rows, False, workers=2)) == alone
