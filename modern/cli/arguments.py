@@ -248,8 +248,10 @@ def _apparatus(parser: ArgumentParser) -> None:
         help="alter every token of the listings and record what notices it; goes on where the folder ends",
     )
     parser.add_argument("--runs", metavar="FOLDER", help="with --weigh: folders with a deck.cards each, known decks")
-    parser.add_argument("--workers", metavar="N", type=int, default=1, help="with --weigh: processes")
-    parser.add_argument("--most", metavar="N", type=int, default=0, help="with --weigh: only the first N variants")
+    parser.add_argument("--workers", metavar="N", type=int, default=1, help="with --weigh: processes (default: 1)")
+    parser.add_argument(
+        "--most", metavar="N", type=int, default=0, help="with --weigh: only the first N variants (default: 0, all)"
+    )
 
 
 def _program(parser: ArgumentParser) -> None:

@@ -13,7 +13,7 @@ from decimal import Decimal
 from itertools import pairwise
 
 from emulator.machine.divergence import diverge
-from emulator.machine.result import Options
+from emulator.machine.result import DEFAULT_LIMIT, Options
 from emulator.machine.timing import measure
 from emulator.numbers import numbers
 from modern.geometry.hull import Hull
@@ -81,7 +81,7 @@ def divergence(sample: Sample, run: Run) -> Figures:
         middle = read_intermediate([card.text for card in step.deck.cards]) if step is not run.steps[0] else None
         if middle is not None and not planes_hold(middle):
             return {"diverges": f"cards to {step.name}"}
-        options = Options(core=60_000, limit=step.result.statements + 1)
+        options = Options(core=60_000, limit=DEFAULT_LIMIT)
         found = diverge(step.program, step.deck, studied, exact, options, values=False)
         if found.first_decision is not None:
             return {"diverges": f"{step.name} {place(step.program, found.first_decision.line)}"}

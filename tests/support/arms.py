@@ -24,7 +24,7 @@ LARGE = Options(limit=200_000, core=60_000)
 def with_arms(program: Program) -> tuple[Program, dict[int, tuple[str, str]]]:
     """The program with a COUNT on every way out, and what each counter counts: a statement, and where it goes."""
     code, branches, counters = list(program.code), list(program.branches), list(program.counters)
-    statements, places, counted = program.statement_numbers(), _places(program), {}
+    statements, places, counted = program.statement_numbers, _places(program), {}
     for at, instruction in enumerate(program.code):
         if instruction.operation in (op.IF, op.IFX, op.SWITCH):
             table = instruction.address

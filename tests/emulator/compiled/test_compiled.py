@@ -48,7 +48,7 @@ def test_without_numba(monkeypatch: pytest.MonkeyPatch) -> None:
     (result,) = run_batch(program(*LINES), [DECK], None, notes.append)
     assert result == Machine(program(*LINES), DECK).run()
     (note,) = notes
-    assert note.startswith("compiled code needs numba (extra fast): ")
+    assert note.startswith("compiled code needs numba: pip install 'hull1620[fast]' (")
     assert note.endswith(": the plain engine runs instead")
 
 

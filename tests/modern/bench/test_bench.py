@@ -223,7 +223,7 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeyp
     assert main(["bench", "--decks", "1", "--json", str(place)]) == 0
     out, err = capsys.readouterr()
     assert "no Fortran compiler is found" in out
-    assert "needs numba (extra fast)" in out
+    assert "needs numba: pip install 'hull1620[fast]'" in out
     assert err.startswith("making 1 decks")
     found = json.loads(place.read_text())
     assert [engine["what"] for engine in found["engines"]] == [PLAIN, PORT]

@@ -34,7 +34,9 @@ def test_an_example_has_a_name_wherever_its_deck_is_taken(
     for words in (["run", "program1"], ["hull", "--programs", "examples"], ["diverge", "program1"], ["diff"]):
         by_path, by_name = call(capsys, *words, path), call(capsys, *words, f"example{number}")
         assert by_name[0] == by_path[0]
-        assert by_name[1].replace(f"example{number}", "") == by_path[1].replace(path, "")
+        # Lines are folded by their length, the name's or the path's.
+        name_less, path_less = by_name[1].replace(f"example{number}", ""), by_path[1].replace(path, "")
+        assert name_less.split() == path_less.split()
 
 
 def test_examples_are_points_too(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -213,7 +213,9 @@ def test_names_of_documents_and_statements(capsys: pytest.CaptureFixture[str]) -
     assert main(["reproduce", "yau-srihari"]) == 0
     out = capsys.readouterr().out
     assert out.count("\n  yau-srihari.") == len(statements_of("yau-srihari"))
-    assert "run: hull1620 octree-hull transcripts/counterexamples/yau_angle.csv --printed angle" in out
+    assert "run: hull1620 octree-hull transcripts/counterexamples/yau_angle.csv --printed angle" in " ".join(
+        out.split()
+    )
     assert main(["reproduce", "4.1", "thesis.1"]) == 0
     out = capsys.readouterr().out
     assert "Theorem 4.1 (p. 37-38)" in out

@@ -439,7 +439,7 @@ def test_what_trimesh_cannot_hold(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(ExportError, match="the hull has dimension 1 and no area"):
         to_trimesh(convex_hull(SEGMENT))
     monkeypatch.setitem(sys.modules, "trimesh", None)
-    with pytest.raises(ExportError, match=r"^to_trimesh needs the package trimesh, which is not installed$"):
+    with pytest.raises(ExportError, match=r"^to_trimesh needs trimesh: pip install 'hull1620\[mesh\]'$"):
         to_trimesh(convex_hull(CUBE))
     monkeypatch.undo()
     pytest.importorskip("trimesh")

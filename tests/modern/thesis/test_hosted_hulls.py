@@ -26,8 +26,11 @@ DECIMAL = {"18_dec3_n6", "23_dec2_n15"}
 """Decks whose points are not whole."""
 
 
-def hull(deck: Deck, name: str = "", layers: tuple[str, ...] = (), uncut: bool = False) -> HullRun:
-    options = replace(OPTIONS, limit=60_000, uncut=uncut, numbers=numbers(name or "truncating"))
+LIMIT = 60_000
+
+
+def hull(deck: Deck, name: str = "", layers: tuple[str, ...] = (), uncut: bool = False, limit: int = LIMIT) -> HullRun:
+    options = replace(OPTIONS, limit=limit, uncut=uncut, numbers=numbers(name or "truncating"))
     return run_hull(deck, lambda program: programs.with_layers(program, layers), options)
 
 
@@ -41,7 +44,12 @@ def test_the_decks_of_whole_numbers(folder: Path, name: str) -> None:
     """On whole coordinates of two digits eight decimal digits decide as exact numbers do: same points, planes, end."""
     if folder.name in DECIMAL:
         pytest.skip("not whole")
-    plain, other = hull(deck_of_folder(folder)), hull(deck_of_folder(folder), name)
+    plain = hull(deck_of_folder(folder))
+    if plain.final.result.ending.kind == "limit":
+        # What costs more than a statement of eight digits counts for more, so the other stops elsewhere.
+        assert hull(deck_of_folder(folder), name).final.result.ending.kind == "limit"
+        return
+    other = hull(deck_of_folder(folder), name, limit=100 * LIMIT)
     assert [step.result.counts for step in other.steps] == [step.result.counts for step in plain.steps]
     assert [step.result.ending for step in other.steps] == [step.result.ending for step in plain.steps]
     if name == "exact":
