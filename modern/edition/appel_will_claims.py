@@ -11,7 +11,7 @@ from random import Random
 
 from modern.edition.chapter3_claims import COUNT, points_of, triples
 from modern.edition.sampled_sets import Point, sampled_sets, through, value
-from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, counterexample, seen
+from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, Verdict, counterexample, seen
 from modern.exact_hull import ExactHull, exact_hull
 from modern.formats.off import parse_off
 from modern.geometry.vectors import cross, dot, minus
@@ -212,16 +212,14 @@ def numbers_of_combinations(kind: str) -> Seen:
     )
 
 
-def inside_corner_at_a_vertex(kind: str = "") -> Seen:
+def inside_corner_at_a_vertex(kind: str) -> Seen:
     """A crown: rule ``any`` deletes a vertex of the hull."""
     mesh = parse_off(counterexample("crown.off"), "crown.off")
     points = [(int(x), int(y), int(z)) for x, y, z in mesh.points]
     deleted = preprocess(points, mesh.faces, "any").deleted
     lost = [k + 1 for k in deleted if k in exact_hull(points).vertices]
-    return Seen(
-        (HOLDS if kind else FAILS) if lost else (FAILS if kind else HOLDS),
-        f"point {', '.join(map(str, lost))} is deleted",
-    )
+    verdict: Verdict = HOLDS if kind == "figure" else CONDITION
+    return Seen(verdict if lost else FAILS, f"point {', '.join(map(str, lost))} is deleted")
 
 
 def outside_of_the_others() -> Seen:
@@ -325,6 +323,34 @@ def step_by_the_letter(step: str) -> Seen:
 
 
 def planar_graph() -> Seen:
-    """V - E + F = 2, as of a planar graph."""
-    good = [len(h.vertices) - len(h.edges()) + len(h.facets) == 2 for _, h in _hulls()]
-    return seen(all(good), f"{len(good)} hulls")
+    """The faces put the graph on a surface without crossings: each edge once in each sense, one ring of faces around
+    each vertex; connected and with V - E + F = 2 that surface is a sphere."""
+    good = []
+    for _, hull in _hulls():
+        rings = [f.polygon for f in hull.facets]
+        sides = Counter(side for ring in rings for side in zip(ring, (*ring[1:], ring[0]), strict=True))
+        good.append(set(sides.values()) == {1} and {*sides} == {(b, a) for a, b in sides})
+        for vertex in hull.vertices:
+            after = {
+                ring[k - 1]: ring[(k + 1) % len(ring)] for ring in rings for k, v in enumerate(ring) if v == vertex
+            }
+            first = at = next(iter(after))
+            turns = [at := after[at] for _ in after]
+            good.append(turns[-1] == first and len({*turns}) == len(after))
+        reached, waiting = {hull.vertices[0]}, [hull.vertices[0]]
+        while waiting:
+            here = waiting.pop()
+            new = {b for a, b in sides if a == here} - reached
+            reached |= new
+            waiting += new
+        good.append(reached == {*hull.vertices})
+        good.append(len(hull.vertices) - len(hull.edges()) + len(hull.facets) == 2)
+    return seen(all(good), f"{len(good)} conditions of faces, vertices and hulls")
+
+
+def complex_object_simple_hull() -> Seen:
+    """A pit of 27 points in a cube's top, and the cube has its eight vertices and six faces still."""
+    cube = [(8 * x, 8 * y, 8 * z) for x, y, z in CUBE]
+    pit = [(x, y, 7 - (x + y) % 3) for x in range(1, 8, 1) for y in range(1, 8, 2)][:27]
+    hull = exact_hull([*cube, *pit])
+    return seen(hull.vertices == tuple(range(8)) and len(hull.facets) == 6, f"{8 + len(pit)} points, 8 vertices")

@@ -82,16 +82,38 @@ def opening_is_shared(count: str = COUNT) -> Seen:
 
 
 def perpendicular_projection() -> Seen:
-    """A square in an upright plane, seen from above."""
-    above = exact_hull([(x, x, 0) for x in (0, 1, 2)])
-    return seen(above.dimension == 1, "points of the plane x = y project to a segment of the x-y plane")
+    """Three points in planes of small normals: in line on the coordinate plane just if the coefficient is 0."""
+    found = [(_image_area(normal, axis) == 0) == (normal[axis] == 0) for normal in _normals() for axis in range(3)]
+    return _all(found, "planes and coordinate planes: a segment if and only if they are perpendicular")
+
+
+def _normals() -> list[Point]:
+    return [(a, b, c) for a in (-1, 0, 2) for b in (-1, 0, 2) for c in (-1, 0, 2) if (a, b, c) != (0, 0, 0)]
+
+
+def _image_area(normal: Point, axis: int) -> int:
+    """Twice the area of the image of a triangle in a plane of the normal, where one coordinate is made 0."""
+    one = cross(normal, (1, 0, 0)) if any(normal[1:]) else cross(normal, (0, 1, 0))
+    other = cross(normal, one)
+    u, v = (tuple(0 if k == axis else x for k, x in enumerate(side)) for side in (one, other))
+    return cross(u, v)[axis]  # type: ignore[arg-type]
+
+
+def projection_leaves_one_coordinate_out() -> Seen:
+    """The foot of a point on a coordinate plane: the point less a multiple of the plane's normal, one coordinate 0."""
+    found = []
+    for point in (p for triple in triples() for p in triple):
+        for axis in range(3):
+            foot = tuple(0 if k == axis else x for k, x in enumerate(point))
+            unit = tuple(int(k == axis) for k in range(3))
+            found.append(not any(cross(minus(point, foot), unit)))  # type: ignore[arg-type]
+    return _all(found, "feet: the way to the point is at right angles to the plane")
 
 
 def choice_of_projection() -> Seen:
-    """For every small normal the coordinate chosen is one the plane is not parallel to."""
-    normals = [(a, b, c) for a in (-1, 0, 2) for b in (-1, 0, 2) for c in (-1, 0, 2) if (a, b, c) != (0, 0, 0)]
-    chosen = [a or b or c for a, b, c in normals]
-    return _all([bool(x) for x in chosen], "normals: the coefficient of the coordinate left out is not 0")
+    """For every small normal a triangle in its plane keeps an area on the coordinate plane that the rule chooses."""
+    chosen = [(normal, 0 if normal[0] else 1 if normal[1] else 2) for normal in _normals()]
+    return _all([_image_area(normal, axis) != 0 for normal, axis in chosen], "normals: the image is no segment")
 
 
 def three_parts(count: str = COUNT) -> Seen:
@@ -183,7 +205,7 @@ def fourth_point_by_largest() -> Seen:
 
 
 def visible_planes(kind: str, count: str = COUNT) -> Seen:
-    """What happens to the planes a new point is outside of: ``counts``, ``pairs``, ``names``, ``order``."""
+    """What happens to the planes a new point is outside of: ``counts``, ``pairs``, ``letter``, ``names``, ``order``."""
     if kind == "order":
         return _order(count)
     found: list[bool] = []
@@ -203,6 +225,8 @@ def visible_planes(kind: str, count: str = COUNT) -> Seen:
     if kind == "names":
         words = f"{same_places} of {pairs} pairs have their two common points in the same places of MM, NN and KK"
         return Seen(CONDITION if same_places < pairs else HOLDS, words)
+    if kind == "letter":
+        return Seen(CONDITION if all(found) else FAILS, f"{len(found)} pairs of planes i and m")
     return _all(found, "stages" if kind == "counts" else "pairs")
 
 

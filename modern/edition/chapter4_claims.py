@@ -7,6 +7,7 @@ them as cards hold them, cut to eight digits.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from decimal import ROUND_DOWN, Context
 from fractions import Fraction
 from functools import cache
@@ -17,7 +18,7 @@ from modern.comparison.difference import disagreement
 from modern.comparison.outcome import Outcome, Vector, from_cards, from_judge
 from modern.edition import programs
 from modern.edition.chapter4 import Point, Theorem, load_text, load_theorems, theorem_faults
-from modern.edition.statements import Seen, seen
+from modern.edition.statements import CONDITION, HOLDS, Seen, seen
 from modern.exact_hull import exact_hull
 from modern.formats.deck import data_deck
 from modern.geometry.hull import NOT_ACCEPTABLE
@@ -48,9 +49,28 @@ def _computed(theorem: str) -> Mapping[str, Seen]:
     return claims(theorem_of(theorem))
 
 
-def worked_example(theorem: str, claim: str) -> Seen:
-    """A claim of a worked example: ``4.1 six_extremes``.  Raises KeyError."""
-    return _computed(theorem)[claim]
+def worked_example(theorem: str, claim: str, kind: str = "") -> Seen:
+    """A claim of a worked example: ``4.1 six_extremes``, with a condition if ``kind`` is given.  Raises KeyError."""
+    found = _computed(theorem)[claim]
+    return replace(found, verdict=CONDITION) if kind and found.verdict == HOLDS else found
+
+
+def extremes_of_any_number() -> Seen:
+    """Theorem 4.1 for three to six distinct extreme points: each set coplanar, with one more point in space."""
+    sets: tuple[tuple[tuple[int, int, int], ...], ...] = (
+        ((0, 3, 3), (2, 4, 2), (4, 1, -3), (1, 2, -2)),
+        ((0, 2, -2), (3, 0, -3), (4, 2, -6), (1, 4, -5), (1, 1, -5)),
+        ((1, 0, 2), (0, 3, -6), (2, 4, -4), (4, 3, 2), (3, 1, 4), (1, 1, -5)),
+        ((0, 1, -1), (3, 1, 2), (4, 3, 1), (3, 4, -1), (1, 3, -2), (1, 0, 1), (1, 1, -1)),
+    )
+    good = []
+    for points in sets:
+        extreme = {f(points, key=lambda p, k=k: p[k]) for f in (min, max) for k in range(3)}  # type: ignore[misc]
+        good.append(extreme == {*points[:-1]})
+        good.append((exact_hull(points[:-1]).dimension, exact_hull(points).dimension) == (2, 3))
+    example = worked_example("4.1", "six_extremes")
+    words = f"three to six distinct extreme points; the example: {example.words}"
+    return seen(all(good) and example.verdict == HOLDS, words)
 
 
 def _equations(theorem: Theorem) -> Seen:

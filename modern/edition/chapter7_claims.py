@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from functools import cache
+from itertools import combinations
 
 import numpy as np
 
@@ -17,12 +18,13 @@ from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 from emulator.machine.result import Options
 from modern.comparison.outcome import from_cards
 from modern.edition import programs
-from modern.edition.chapter3_claims import COUNT, both
+from modern.edition.chapter3_claims import COUNT
 from modern.edition.sampled_sets import Point, SampledSet, sampled_sets, through
 from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, counterexample, seen
 from modern.exact_hull import exact_hull
 from modern.formats.csv import points as csv_points
 from modern.formats.deck import coordinate_field, exact_points
+from modern.geometry.vectors import dot
 from modern.port.formulas import at, plane
 from modern.port.points import take
 from modern.thesis.job import HullRun, run_hull
@@ -71,7 +73,10 @@ def three_programs_needed() -> Seen:
     code = sum(code_positions(programs.program(name)) for name in THREE)
     data = max(programs.program(name).storage.fields * FIELD for name in THREE)
     total = OBJECT_PROGRAM + FUNCTION_NAMES + code + data
-    return seen(total > CORE, f"about {total:,} positions for the code of all three and the data of the largest")
+    return Seen(
+        CONDITION if total > CORE else FAILS,
+        f"about {total:,} positions for the code of all three and the data of the largest",
+    )
 
 
 def fifty_one() -> Seen:
@@ -215,13 +220,16 @@ def value_is_no_distance() -> Seen:
 
 
 def turned_by_c(count: str = COUNT) -> Seen:
-    """Equations are negative at C at the end too."""
+    """The judge's planes of each H_j, which are outward, are negative at C; one that is struck may pass through C."""
     good = []
-    for one in both(count):
+    for one in sampled_sets(3, int(count)):
         added = one.hull.history[0].added
-        x, y, z = _sum(one.points, added)
-        good += [a * x + b * y + c * z + d * len(added) < 0 for a, b, c, d in one.stages()[-1].equations]
-    return seen(all(good), f"{len(good)} equations")
+        total = _sum(one.points, added)
+        for stage in one.stages():
+            planes = [f.plane for f in exact_hull([one.points[k] for k in stage.vertices]).facets]
+            good += [dot(plane[:3], total) + plane[3] * len(added) < 0 for plane in planes]
+    through_c = plane_through_c().verdict == FAILS
+    return Seen(CONDITION if all(good) and through_c else FAILS, f"{len(good)} planes of all H_j")
 
 
 def _sum(points: tuple[Point, ...], which: tuple[int, ...]) -> tuple[int, int, int]:
@@ -230,17 +238,20 @@ def _sum(points: tuple[Point, ...], which: tuple[int, ...]) -> tuple[int, int, i
 
 
 def constant_term_is_enough(count: str = COUNT) -> Seen:
-    """With the origin at C a constant term below zero and a value below zero at C are the same."""
+    """With the origin at C the constant term has the sign of the value at C, in the planes of all H_j, turned or not.
+
+    Of any three points of the set too: where the plane passes through C both are 0.
+    """
     good = []
     for one in sampled_sets(3, int(count)):
         added = one.hull.history[0].added
-        total = _sum(one.points, added)
+        x, y, z = total = _sum(one.points, added)
         moved = [tuple(len(added) * x - t for x, t in zip(point, total, strict=True)) for point in one.points]
-        for defining, outward in zip(one.hull.history[-1].equations, one.stages()[-1].equations, strict=True):
-            found = through(*(moved[k] for k in defining))  # type: ignore[arg-type]
-            same = found[3] if sum(a * b for a, b in zip(found[:3], outward[:3], strict=True)) > 0 else -found[3]
-            good.append(same < 0)
-    return seen(all(good), f"{len(good)} constant terms")
+        for defining in {*combinations(range(5), 3), *(d for stage in one.stages() for d in stage.defining)}:
+            a, b, c, d = through(*(one.points[k] for k in defining))
+            there, constant = a * x + b * y + c * z + d * len(added), through(*(moved[k] for k in defining))[3]  # type: ignore[arg-type]
+            good.append((constant > 0, constant < 0) == (there > 0, there < 0))
+    return Seen(CONDITION if all(good) and plane_through_c().verdict == FAILS else FAILS, f"{len(good)} constant terms")
 
 
 def _equations_made(one: SampledSet) -> int:
@@ -249,11 +260,22 @@ def _equations_made(one: SampledSet) -> int:
     return first + sum(3 * stage.outside for stage in stages[1:])
 
 
-def translation_by_hand(count: str = COUNT) -> Seen:
-    """What putting C into an equation takes: three products and three sums, which the constant term spares."""
-    made = [_equations_made(one) for one in sampled_sets(3, int(count))]
-    words = f"{', '.join(map(str, made))} equations: three products fewer each; a translation has no products"
-    return seen(all(n > 0 for n in made), words)
+def normalizing_an_equation() -> Seen:
+    """Operations of the formula that puts C into an equation; the constant term is there and takes none."""
+    done: list[str] = []
+
+    class Counted(int):
+        def __mul__(self, other: int) -> Counted:
+            done.append("product")
+            return Counted(int(self) * int(other))
+
+        def __add__(self, other: int) -> Counted:
+            done.append("sum")
+            return Counted(int(self) + int(other))
+
+    at(tuple(map(Counted, (1, -2, 3, -4))), tuple(map(Counted, (5, 6, 7))))
+    products, sums = done.count("product"), done.count("sum")
+    return seen(products > 0 < sums, f"{products} products and {sums} sums an equation; none with the origin at C")
 
 
 def translation_depends(count: str = COUNT) -> Seen:

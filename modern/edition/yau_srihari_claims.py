@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from modern.digital.solids import listed
 from modern.edition.chapter3_claims import points_of
-from modern.edition.sampled_sets import Point, sampled_sets, value
+from modern.edition.sampled_sets import Point, sampled_sets, through, value
 from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, seen
 from modern.exact_hull import exact_hull
 from modern.papers.yau_srihari import OctreeHull, Printed, octree_hull
@@ -23,6 +23,7 @@ from modern.papers.yau_srihari.convexity import (
     is_simple,
     midpoint_cover,
 )
+from modern.papers.yau_srihari.search import normal_of
 
 Voxels = NDArray[np.bool_]
 SOLID: tuple[Point, ...] = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (2, 1, 0), (2, 1, 1), (2, 2, 1), (2, 2, 2), (1, 2, 2))
@@ -176,11 +177,11 @@ def hull_is_simple() -> Seen:
     return Seen(CONDITION if good else FAILS, f"{found.given} voxels connected, {found.voxels} in the hull")
 
 
-def floor_and_ceiling() -> Seen:
-    """Least and greatest z of each column."""
+def floor_and_ceiling(kind: str = "") -> Seen:
+    """Least and greatest z of each column; as alpha and beta they are named in this order."""
     columns = {(x, y): sorted(z for a, b, z in SOLID if (a, b) == (x, y)) for x, y, _ in SOLID}
     good = all(_hull().floor[at] == zs[0] and _hull().ceiling[at] == zs[-1] for at, zs in columns.items())
-    return seen(good, f"{len(columns)} columns")
+    return Seen((CONDITION if kind else HOLDS) if good else FAILS, f"{len(columns)} columns")
 
 
 def convex_functions() -> Seen:
@@ -190,7 +191,10 @@ def convex_functions() -> Seen:
     for x, y, m in product(xs, xs, shares):
         mixed, at = (1 - m) * x * x + m * y * y, ((1 - m) * x + m * y) ** 2
         good += [mixed >= at, -mixed <= -at, (1 - m) * (x * x + 1) + m * (y * y + 2) >= at]
-    return seen(all(good), f"{len(good)} combinations")
+        good.append((1 - m) * (-x * x - 1) + m * (-y * y - 2) <= -at)
+    ends, top = [-x * x for x in (-1, 1)], 0
+    above = 2 * top <= sum(ends)
+    return seen(all(good) and not above, f"{len(good)} combinations; what is above -x^2 is no convex set")
 
 
 def negative_of_the_ceiling() -> Seen:
@@ -214,3 +218,34 @@ def integer_normals() -> Seen:
     """Normals of the faces."""
     normals = [face.normal for face in (*_hull().lower.faces, *_hull().upper.faces)]
     return seen(all(isinstance(n, int) for normal in normals for n in normal), f"{len(normals)} normals")
+
+
+def supporting_is_no_face() -> Seen:
+    """The counterexample: a plane that supports, of which three corners make a triangle that is not all of it."""
+    points = points_of("yau_triangles.csv")
+    judge = exact_hull(points)
+    larger = [f for f in judge.facets if f.plane[2] < 0 and len(f.polygon) > 3]
+    support = all(max(value(f.plane, p) for p in points) == 0 for f in larger)
+    words = ", ".join(str(len(f.polygon)) for f in larger)
+    return Seen(FAILS if larger and support else HOLDS, f"supporting planes that look down with {words} corners")
+
+
+def opposite_sides() -> Seen:
+    """Planes of an edge of the floor's envelope and a further point: whether they support, and what lies opposite."""
+    good = []
+    floor = [(x, y, z) for (x, y), z in _hull().floor.items()]
+    for face in _hull().lower.faces:
+        v1, v2, v3 = face.vertices[:3]
+        for plane in (through(v3, v2, other) for other in floor):
+            if any(plane[:3]):
+                values = [value(plane, p) for p in floor]
+                opposite = any(v * value(plane, v1) < 0 for v in values)
+                good.append((max(values) <= 0 or min(values) >= 0) == (not opposite))
+    return seen(all(good) and bool(good), f"{len(good)} planes")
+
+
+def another_vertex() -> Seen:
+    """Faces of the floor's envelope: turned over, as v3 v2 v1, their normals point up; the neighbours' point down."""
+    normals = [normal_of(*reversed(face.vertices[:3])) for face in _hull().lower.faces]
+    good = all(n[2] > 0 for n in normals) and all(face.normal[2] < 0 for face in _hull().lower.faces)
+    return Seen(CONDITION if good else FAILS, f"{len(normals)} faces turned over")

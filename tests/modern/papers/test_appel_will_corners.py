@@ -109,18 +109,22 @@ def test_safe_rules_never_delete_a_vertex_of_the_hull() -> None:
 
 def test_all_rules_are_right_where_three_planes_meet() -> None:
     source = random.Random(15)
+    concave = 0
     for _ in range(30):
         points, surfaces = extruded(source)
         judge = exact_hull(points)
-        lost = {}
+        lost: dict[str, set[int]] = {}
         for rule in RULES:
             hull = appel_will(points, surfaces, Method(inside_corners=rule))
             assert hull.preprocessing is not None
             assert hull.preprocessing.crowded == ()
             assert (hull.edges, hull.fault) == (judge.edges(), "")
             lost[rule] = set(hull.preprocessing.deleted)
+            assert lost[rule].isdisjoint(judge.vertices)
         assert lost["any"] >= lost["concave"] >= lost["two"]
         assert lost["any"]
+        concave += len(lost["concave"])
+    assert concave > 20, "points that are concave on a face"
 
 
 def test_sense_of_the_given_surfaces_does_not_matter() -> None:

@@ -30,7 +30,7 @@ from modern.papers.yau_srihari.quadtree import (
     sons_of,
     written,
 )
-from modern.papers.yau_srihari.search import Search
+from modern.papers.yau_srihari.search import Search, normal_of
 from tests.support.digital_judge import random_solid, solid_of
 
 ARRAYS = arrays.arrays(np.bool_, st.tuples(*[st.integers(1, 9)] * 3))
@@ -204,6 +204,52 @@ def test_no_square_breaks_its_bounds(seed: int) -> None:
     assert broken(array, Printed())[1:] == (0, 0)
     # Theorem 2 as printed asks for the greatest angle, and z = max goes with it.
     assert broken(array, Printed(angle=True))[1:] == (0, 0)
+
+
+@given(st.integers(0, 10**9))
+def test_no_face_stands_over_a_square_on_the_known_side(seed: int) -> None:
+    """Rule 1: there n_3(r) >= 0, and the next face has no corner there."""
+    array = random_solid(random.Random(seed), side=9, steps=60)
+    hull = octree_hull(array)
+    cube = np.zeros((hull.side,) * 3, dtype=np.bool_)
+    cube[tuple(slice(length) for length in array.shape)] = array
+    tree = reduced_tree(floor(octree(cube), hull.side), hull.side)
+    for step in hull.lower.steps:
+        start, end = step.edge
+        search = Search(start, end, step.normal, Printed())
+        for face in hull.lower.faces:
+            if face.normal == step.normal and {start, end} <= {*face.vertices}:
+                assert not any(search.beyond(x, y) for x, y, _ in face.vertices), "the known face's side"
+        for part, x, y, side in squares(tree, hull.side):
+            if any(search.beyond(x + i * (side - 1), y + j * (side - 1)) for i, j in QUADRANTS):
+                continue
+            points = [(x + i, y + j, z) for (i, j), z in heights(part, side).items()]
+            assert all(normal_of(start, end, point)[2] >= 0 for point in points)
+            if step.face:
+                assert {*points} & {*step.face.vertices} <= {start, end}
+
+
+def test_a_starting_face_has_no_side_of_its_own() -> None:
+    """Its third corner is above the edge, on u^3 u^2 itself: rule 1 takes the side where faces look up."""
+    first = octree_hull(solid_of([(0, 0, 0), (1, 0, 0), (0, 1, 0)])).lower.steps[0]
+    assert first.normal[2] == 0
+
+
+@given(st.integers(0, 10**9))
+def test_a_square_below_the_bound_or_empty_has_no_point_of_the_next_face(seed: int) -> None:
+    """Rule 2, with the least angle: the search looks at few squares, and finds what all points together give."""
+    array = random_solid(random.Random(seed), side=9, steps=60)
+    hull = octree_hull(array)
+    cube = np.zeros((hull.side,) * 3, dtype=np.bool_)
+    cube[tuple(slice(length) for length in array.shape)] = array
+    tree = reduced_tree(floor(octree(cube), hull.side), hull.side)
+    for step in hull.lower.steps:
+        search = Search(*step.edge, step.normal, Printed())
+        every = [(x, y, z) for (x, y), z in heights(tree, hull.side).items() if search.beyond(x, y)]
+        scores = {point: score for point in every if (score := search.score(point)) is not None}
+        best = max(scores.values(), default=None)
+        assert {*search.run(tree, hull.side)} == {point for point, score in scores.items() if score == best}
+        assert Search(*step.edge, step.normal, Printed()).run(None, hull.side) == []
 
 
 def test_z_max_does_not_bound_the_least_angle() -> None:
