@@ -55,8 +55,8 @@ def worked_example(theorem: str, claim: str, kind: str = "") -> Seen:
     return replace(found, verdict=CONDITION) if kind and found.verdict == HOLDS else found
 
 
-def extremes_of_any_number() -> Seen:
-    """Theorem 4.1 for three to six distinct extreme points: each set coplanar, with one more point in space."""
+def extremes_of_any_number(claim: str) -> Seen:
+    """Theorem 4.1 for three to six distinct extreme points, coplanar with one more point beside; and its example."""
     sets: tuple[tuple[tuple[int, int, int], ...], ...] = (
         ((0, 3, 3), (2, 4, 2), (4, 1, -3), (1, 2, -2)),
         ((0, 2, -2), (3, 0, -3), (4, 2, -6), (1, 4, -5), (1, 1, -5)),
@@ -68,7 +68,7 @@ def extremes_of_any_number() -> Seen:
         extreme = {f(points, key=lambda p, k=k: p[k]) for f in (min, max) for k in range(3)}  # type: ignore[misc]
         good.append(extreme == {*points[:-1]})
         good.append((exact_hull(points[:-1]).dimension, exact_hull(points).dimension) == (2, 3))
-    example = worked_example("4.1", "six_extremes")
+    example = worked_example("4.1", claim)
     words = f"three to six distinct extreme points; the example: {example.words}"
     return seen(all(good) and example.verdict == HOLDS, words)
 

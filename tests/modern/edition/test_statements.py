@@ -202,6 +202,8 @@ def test_claims_and_results_that_do_not_exist_are_named() -> None:
         "chapter4_proofs.theorem_4_4",
         "chapter4_proofs.theorem_4_5",
         "chapter4_proofs.theorem_4_7",
+        "chapter7_claims.turned_by_c",
+        "chapter7_claims.constant_term_is_enough",
     ],
 )
 def test_more_sets_than_the_command_takes(claim: str) -> None:
