@@ -9,7 +9,7 @@ import pytest
 from tests.support import documents
 from tests.support.paths import ROOT
 
-LEFT_OUT = {"README.md": 1, "CONTRIBUTING.md": 1, "docs/studies.md": 2}
+LEFT_OUT = {"README.md": 1, "CONTRIBUTING.md": 1, "docs/explanation/studies.md": 2}
 """How many blocks of a document are not run; each says why."""
 
 
@@ -42,6 +42,20 @@ def test_every_file_that_is_named_is_there(path: Path) -> None:
     assert sorted(link for link in documents.links(path) if not (path.parent / link).exists()) == []
 
 
+@pytest.mark.parametrize("path", documents.DOCUMENTS, ids=name)
+def test_every_heading_that_is_linked_to_is_there(path: Path) -> None:
+    lost = [f"{name(page)}#{head}" for page, head in documents.places(path) if head not in documents.anchors(page)]
+    assert lost == []
+
+
+@pytest.mark.parametrize("folder", [folder for folder in documents.PROSE if folder])
+def test_every_page_of_a_folder_is_in_its_order(folder: str) -> None:
+    """Of what ``index.md`` lists, and nothing twice."""
+    pages = {path.stem for path in documents.PAGES if path.parent.name == folder} - {"index"}
+    listed = documents.listed(documents.ROOT / "docs" / folder / "index.md")
+    assert sorted(name for name in listed if "/" not in name) == sorted(pages)
+
+
 @pytest.mark.parametrize(
     ("block", "told"),
     [
@@ -68,6 +82,13 @@ def test_a_name_without_a_file_and_a_link_are_found(tmp_path: Path) -> None:
     page.write_text("`attic/a.py`, `NAME.py`, [x](docs/b.md#part), [y](https://c.org/d.md)\n", encoding="utf-8")
     assert documents.files_named(page) == {"attic/a.py"}
     assert documents.links(page) == {"docs/b.md"}
+
+
+def test_a_heading_is_named_as_forge_and_site_name_it(tmp_path: Path) -> None:
+    page = tmp_path / "page.md"
+    page.write_text("# Nobody's `A*B`, twice\n```sh\n# none\n```\n[a](#here) [b](x.md#one-two)\n", encoding="utf-8")
+    assert documents.anchors(page) == {"nobodys-ab-twice"}
+    assert documents.places(page) == [(page, "here"), (tmp_path / "x.md", "one-two")]
 
 
 def test_blocks_share_a_folder_and_one_is_left_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

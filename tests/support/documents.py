@@ -4,7 +4,7 @@
 ``console``  commands after ``$ ``, each followed by what it prints
 ``python``   one namespace for the blocks of a document
 ``toml``     saved under the name in its first line, ``# scene.toml``
-``text``     not run
+``text``     not run, as is ``{toctree}``, the order of a folder's pages
 
 ``<!-- skip: next "why" -->`` before a block leaves it out.  Blocks run in one folder a document, which holds
 ``INPUTS`` at first.
@@ -26,13 +26,12 @@ from sybil.parsers.markdown import CodeBlockParser, PythonCodeBlockParser, SkipP
 
 from tests.support.paths import PROGRAMS, ROOT
 
-DOCUMENTS = (
-    *(ROOT / "README.md", ROOT / "CONTRIBUTING.md"),
-    *sorted((ROOT / "docs").glob("*.md")),
-    *sorted((ROOT / "docs" / "papers").glob("*.md")),
-)
+PROSE = ("", "tutorial", "how-to", "reference", "explanation", "papers")
+"""The folders of ``docs`` whose pages are written by hand; the others hold results."""
+PAGES = tuple(path for folder in PROSE for path in sorted((ROOT / "docs" / folder).glob("*.md")))
+DOCUMENTS = (ROOT / "README.md", ROOT / "CONTRIBUTING.md", *PAGES)
 RUN = ("sh", "console", "python", "toml")
-LANGUAGES = (*RUN, "text")
+LANGUAGES = (*RUN, "text", "{toctree}")
 
 _POINTS = ((0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4), (4, 4, 0), (1, 1, 1), (2, 2, 0))
 _OWN = (
@@ -144,6 +143,27 @@ def links(path: Path) -> set[str]:
     """Files that the text links to, from its own folder."""
     found = re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", path.read_text(encoding="utf-8"))
     return {link for link in found if "://" not in link}
+
+
+def listed(path: Path) -> list[str]:
+    """The pages that the ``{toctree}`` blocks of an index name, in their order."""
+    blocks = re.findall(r"^```{toctree}\n(.*?)^```", path.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+    lines = [line.strip() for block in blocks for line in block.splitlines()]
+    return [line for line in lines if line and not line.startswith((":", "<"))]
+
+
+def anchors(path: Path) -> set[str]:
+    """The headings of a text as links name them: small letters, ``-`` for blanks, no other signs."""
+    outside = re.sub(r"^```.*?^```", "", path.read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)
+    heads = re.findall(r"^#+ (.*?) *$", outside, re.MULTILINE)
+    plain = [re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", head) for head in heads]
+    return {re.sub(r"[^\w\- ]", "", head.lower()).replace(" ", "-") for head in plain}
+
+
+def places(path: Path) -> list[tuple[Path, str]]:
+    """What the text links to within documents: the document, and the heading there."""
+    found = re.findall(r"\]\(([^)#]*)#([^)]+)\)", path.read_text(encoding="utf-8"))
+    return [((path.parent / link).resolve() if link else path, anchor) for link, anchor in found if "://" not in link]
 
 
 def _sh(example: Example) -> None:

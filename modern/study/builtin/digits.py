@@ -2,7 +2,7 @@
 
 Sets of ten points with whole coordinates of d digits go through the programs, as listed and with the layer
 ``corrected``, and through the port with P digits, truncating, for P from 4 to 28.  ``samples`` counts the sets of
-each d.  docs/studies.md derives the digits that decide every zero, and those that are always enough.
+each d.  docs/explanation/studies.md derives the digits that decide every zero, and those that are always enough.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def exact_zeros(digits: int) -> int:
 
 
 def enough(digits: int) -> int:
-    """Working digits that are always enough for whole coordinates of ``digits`` digits (docs/studies.md)."""
+    """Working digits that are always enough for whole coordinates of ``digits`` digits (docs/explanation/studies.md)."""
     return 3 * digits + 4
 
 

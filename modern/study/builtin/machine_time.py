@@ -1,7 +1,7 @@
 """Hours on the 1620: reader, punch, typewriter and processor against the number of points.
 
 The corrected programs, which lose no set to the listing's faults; the times of emulator/machine/timing.py, which were
-measured and in part estimated (docs/emulator.md).  ``samples`` counts the sets of each family and N.
+measured and in part estimated (docs/reference/machine.md).  ``samples`` counts the sets of each family and N.
 """
 
 from __future__ import annotations

@@ -81,7 +81,7 @@ def test_sixty_parentheses_are_parsed_and_sixty_one_are_not() -> None:
 )
 def test_the_manual_has_every_limit(what: str, much: str) -> None:
     """Those that are no numbers of the code are tried by the tests of this file and of the compiler's messages."""
-    assert f"| {what} | {much} |" in (ROOT / "docs" / "fortran.md").read_text(encoding="utf-8")
+    assert f"| {what} | {much} |" in (ROOT / "docs" / "reference" / "fortran.md").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Digits lost are those of the poorer of two arithmetics, whichever is the reference (docs/emulator.md)."""
+"""Digits lost are those of the poorer of two arithmetics, whichever is the reference (docs/reference/machine.md)."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def test_no_more_digits_are_lost_than_there_are() -> None:
 
 
 def test_a_value_where_the_reference_is_zero_has_lost_every_digit() -> None:
-    """No difference is relative to zero (docs/emulator.md): all eight of 1 - .33333333 * 3."""
+    """No difference is relative to zero (docs/reference/machine.md): all eight of 1 - .33333333 * 3."""
     found = compared("truncating", "exact", ["A=1./3.", "B=1.-A*3."])
     assert {loss.line.place.card: loss.worst for loss in found.losses} == {1: 0.0, 2: 8.0}
 

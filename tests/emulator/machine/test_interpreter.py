@@ -125,7 +125,7 @@ def test_output_cuts_and_does_not_round(name: str) -> None:
 
 @pytest.mark.parametrize("name", ["exact", "float64", "float32", "truncating"])
 def test_the_sign_of_a_zero_follows_from_the_object_code(name: str) -> None:
-    """``A-B*C`` is B*C minus A, reversed: a cancellation gives minus zero (docs/emulator.md)."""
+    """``A-B*C`` is B*C minus A, reversed: a cancellation gives minus zero (docs/reference/machine.md)."""
     lines = ["A=6.", "B=2.", "C=3.", "D=A-B*C", "E=B*C-A", "F=-D", "PUNCH 1,D,E,F", "1 FORMAT(3E14.8)", "END"]
     assert results(name, *lines).punched == ("-.00000000E-99 .00000000E-99 .00000000E-99",)
 

@@ -12,7 +12,7 @@ from modern.cli.main import main
 from tests.support.commands import call
 
 SIDE = ((-6, -9), (-1, -2), (-6, 8), (-6, -6.875))
-"""Three vertices and a point between the first and the third (docs/emulator.md)."""
+"""Three vertices and a point between the first and the third (docs/reference/machine.md)."""
 
 
 def card(x: float, y: float, z: float) -> str:

@@ -1,4 +1,4 @@
-"""docs/concordance.md: labels and functions exist; the text's two steps as a variant of the port."""
+"""docs/reference/concordance.md: labels and functions exist; the text's two steps as a variant of the port."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from modern.edition import programs
 from modern.port import convex_hull
 from tests.support.paths import ROOT
 
-TEXT = Path(ROOT, "docs", "concordance.md").read_text(encoding="utf-8")
+TEXT = Path(ROOT, "docs", "reference", "concordance.md").read_text(encoding="utf-8")
 ROWS = [
     [cell.strip() for cell in line.strip("|").split("|")]
     for line in TEXT.splitlines()

@@ -57,7 +57,7 @@ def table_rows(study: str, table: str) -> list[dict[str, str]]:
 
 
 def quoted() -> list[tuple[str, str]]:
-    """Sentences of docs/studies.md with their figures taken from the tables, by section."""
+    """Sentences of docs/explanation/studies.md with their figures taken from the tables, by section."""
     lost = sum(int(n) for n in column("seventy", "causes", "as listed"))
     refused = sum(
         int(n)
@@ -125,7 +125,7 @@ def quoted() -> list[tuple[str, str]]:
 
 @pytest.mark.parametrize(("section", "words"), quoted())
 def test_every_figure_quoted_is_that_of_a_table(section: str, words: str) -> None:
-    text = (ROOT / "docs" / "studies.md").read_text(encoding="utf-8")
+    text = (ROOT / "docs" / "explanation" / "studies.md").read_text(encoding="utf-8")
     (found,) = [part for part in text.split("\n## ") if part.startswith(f"{section}\n")]
     assert words in " ".join(found.split())
 

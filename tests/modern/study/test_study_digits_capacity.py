@@ -87,7 +87,7 @@ def test_cards_whose_planes_miss_their_points_are_named() -> None:
 
 
 def test_the_greatest_intermediate_of_the_formulas_is_within_the_digits_derived() -> None:
-    """docs/studies.md: with 3d + 1 digits every test for zero at whole points of d digits is exact."""
+    """docs/explanation/studies.md: with 3d + 1 digits every test for zero at whole points of d digits is exact."""
     size = 10**3 - 1
     assert 8 * size**3 < 10 ** digits.exact_zeros(3)
     assert 4 * (16 * size**3) < 10 ** digits.enough(3)
@@ -220,7 +220,7 @@ def test_no_failure_among_so_many_bounds_the_share() -> None:
 
 @pytest.mark.parametrize("d", [1, 2, 3])
 def test_3d_plus_4_digits_are_enough_for_nearly_flat_sets_too(d: int) -> None:
-    """docs/studies.md, digits: sets a unit off a plane have the least values at C that whole numbers can have."""
+    """docs/explanation/studies.md, digits: sets a unit off a plane have the least values at C that whole numbers can have."""
     source = random.Random(d)
     size = 10**d - 1
     for _ in range(60):
