@@ -145,7 +145,8 @@ def _core(peaks: dict[int, _Peak]) -> Table:
     )
     head = ("table", "places", "positions, about", "smallest core")
     notes = (
-        "Program 3 as listed with longer arrays; the length of its object code is an estimate (docs/reference/machine.md).",
+        "Program 3 as listed with longer arrays; the length of its object code is an estimate "
+        "(docs/reference/machine.md).",
     )
     return Table("storage", "Positions of core for so many places", head, rows, notes)
 

@@ -37,7 +37,7 @@ def exact_zeros(digits: int) -> int:
 
 
 def enough(digits: int) -> int:
-    """Working digits that are always enough for whole coordinates of ``digits`` digits (docs/explanation/studies.md)."""
+    """Working digits that are always enough for whole coordinates of ``digits`` digits (docs/explanation)."""
     return 3 * digits + 4
 
 

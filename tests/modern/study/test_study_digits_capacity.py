@@ -220,7 +220,7 @@ def test_no_failure_among_so_many_bounds_the_share() -> None:
 
 @pytest.mark.parametrize("d", [1, 2, 3])
 def test_3d_plus_4_digits_are_enough_for_nearly_flat_sets_too(d: int) -> None:
-    """docs/explanation/studies.md, digits: sets a unit off a plane have the least values at C that whole numbers can have."""
+    """docs/explanation, digits: sets a unit off a plane have the least values at C that whole numbers can have."""
     source = random.Random(d)
     size = 10**d - 1
     for _ in range(60):
