@@ -275,6 +275,26 @@ def _flowchart(parser: ArgumentParser) -> None:
     which.add_argument("--table", action="store_true", help="every way from box to box as text instead of the picture")
 
 
+def _tei(parser: ArgumentParser) -> None:
+    parser.add_argument("text", metavar="TEXT", nargs="?", help="program1, chapter6, ... (default: name them all)")
+    parser.add_argument("-o", "--output", metavar="FILE", default="-", help="where it goes (default: '-')")
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument("--all", metavar="FOLDER", help="every text, as FOLDER/TEXT.xml")
+    which.add_argument("--schema", action="store_true", help="the RELAX NG schema of these documents instead")
+    which.add_argument(
+        "--check",
+        metavar="SCHEMA",
+        nargs="?",
+        const="",
+        help="validate TEXT, or every text, against a RELAX NG schema in XML (default: the project's own)",
+    )
+    which.add_argument("--read", metavar="FILE.xml", help="from a document alone: its corrected text, or deck")
+    parser.add_argument("--layers", metavar="L,...", help="with --read: the layers applied (default: the edition's)")
+    parser.add_argument("--witness", action="store_true", help="with --read: the witness instead")
+    parser.add_argument("--part", metavar="NAME", help="with --read: a device file, as example1/program1.deck")
+    parser.set_defaults(endings=(".xml", ".f", ".txt", ".deck", ".punch", ".typewriter", ".rng"))
+
+
 def _punched(parser: ArgumentParser) -> None:
     parser.add_argument("deck", metavar="DECK", help="a deck, one card a line, or a built-in program's name")
     parser.add_argument(
@@ -323,6 +343,7 @@ COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {
     "compile": ("the object code of a program", _program),
     "flowchart": ("a program's flow of control as a flow chart, in SVG", _flowchart),
     "punched": ("a deck drawn as punched cards, in SVG", _punched),
+    "tei": ("listings and prints with their apparatus as TEI P5; and back to decks", _tei),
     "bench": ("the speed of the engines side by side", _bench),
 }
 """Every command, named as its module but for - instead of _: what ``--help`` says of it, and its arguments.

@@ -252,7 +252,7 @@ class _Page:
                 self._line(row, change.through)
                 first, last = self._order.index(change.line), self._order.index(change.through)
                 for name in self._order[first : last + 1]:
-                    text = _on_form(self._at[name].text) if change.form else ""
+                    text = on_form(self._at[name].text) if change.form else ""
                     self._put(row, self._at[name], text)
             elif change.after:
                 inserted = self._insert(row, line, change.lemma.split("\n"), inserted)
@@ -285,7 +285,7 @@ class _Page:
         return inserted + len(texts)
 
 
-def _on_form(text: str) -> str:
+def on_form(text: str) -> str:
     """A statement in the columns of the coding form (C26-5619 p. 12); a comment keeps its own."""
     if text.startswith("C  "):
         return text

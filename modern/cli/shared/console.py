@@ -21,7 +21,7 @@ class UsageError(EmulatorError):
     """Options or arguments that cannot be carried out; the message names the option."""
 
 
-_INPUTS = ("program", "deck", "points", "volume", "scene", "name")
+_INPUTS = ("program", "deck", "points", "volume", "scene", "name", "read")
 _OUTPUTS = ("output", "punch", "typewriter", "trace", "json", "log")
 
 

@@ -1,0 +1,210 @@
+"""The TEI documents: valid, complete, and enough by themselves for witness, decks and cards, byte for byte."""
+
+from __future__ import annotations
+
+import random
+import re
+from functools import cache
+from pathlib import Path
+from xml.etree.ElementTree import Element, fromstring
+
+import pytest
+from lxml import etree
+
+from modern.edition.chapter6_cards import device_files, load_chapter
+from modern.edition.checks import texts
+from modern.edition.programs import BUILT_INS, TEXTS
+from modern.edition.sources import read, sources
+from modern.publication import tei_reading as reading
+from modern.publication.tei import CERTAINTY, names, schema, tei
+from tests.support.commands import call
+
+TEI = "{http://www.tei-c.org/ns/1.0}"
+NAMES = tuple(names())
+
+
+@cache
+def written(name: str) -> str:
+    return tei(name, "0.0")
+
+
+@cache
+def own() -> etree.RelaxNG:
+    return etree.RelaxNG(etree.fromstring(schema().encode()))
+
+
+def root(name: str) -> Element:
+    return reading.parsed(name, written(name))
+
+
+def test_there_is_a_document_of_every_text() -> None:
+    assert set(NAMES) == set(texts())
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_it_is_valid(name: str) -> None:
+    own().assertValid(etree.fromstring(written(name).encode()))
+
+
+@pytest.mark.parametrize(
+    ("what", "instead"),
+    [
+        (' resp="#ed" cert="high"', ' resp="#ed" cert="certain"'),
+        (' wit="#ocr"', ""),
+        ("<lem ", "<lemma "),
+        ('<div type="listing">', '<div type="list">'),
+        (' method="parallel-segmentation"', ' method="double-end-point"'),
+        ('xml:id="P1-002"', 'xml:id="P1-001"'),
+        (' xml:space="preserve"', ""),
+    ],
+)
+def test_the_schema_refuses_what_is_no_document_of_ours(what: str, instead: str) -> None:
+    assert what in written("program1")
+    changed = (
+        written("program1")
+        .replace(what, instead, 1)
+        .replace("</lem>", "</lemma>" if "lemma" in instead else "</lem>", 1)
+    )
+    try:
+        document = etree.fromstring(changed.encode())
+    except etree.XMLSyntaxError:
+        assert "lemma" in instead or "xml:id" in instead
+        return
+    assert not own().validate(document)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_witness_comes_back(name: str) -> None:
+    assert reading.witness(root(name)) == read(sources().excerpt(name).file)
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_the_deck_comes_back(name: str) -> None:
+    assert reading.corrected(root(name)) == read(f"fortran_src/{name}.f")
+
+
+def test_the_state_of_the_examples_comes_back() -> None:
+    layers = next(b.layers for b in BUILT_INS if b.name == "program1_examples")
+    assert reading.corrected(root("program1"), layers) == read("fortran_src/program1_examples.f")
+
+
+def test_the_cards_of_chapter_6_come_back() -> None:
+    files = [file for _, _, _, file in device_files(load_chapter())]
+    assert list(reading.parts(root("chapter6"))) == files
+    for file in files:
+        assert reading.part(root("chapter6"), file) == read(f"transcripts/chapter6/{file}")
+
+
+def test_what_a_card_is_tied_to_is_a_line_of_the_print() -> None:
+    document = fromstring(written("chapter6"))
+    lines = {ab.get("{http://www.w3.org/XML/1998/namespace}id") for ab in document.iter(TEI + "ab")}
+    ties = [seg.get("corresp", "") for seg in document.iter(TEI + "seg")]
+    assert len(ties) > 1000
+    assert {tie.removeprefix("#") for tie in ties} <= lines
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_row_is_there_with_what_an_edition_owes(name: str) -> None:
+    document = fromstring(written(name))
+    first = {app.get("{http://www.w3.org/XML/1998/namespace}id"): app for app in document.iter(TEI + "app")}
+    for row in texts()[name].rows:
+        app = first[row.id]
+        notes = {note.get("type"): note.text for note in app.iterfind(TEI + "note")}
+        assert (notes["reason"], notes["evidence"]) == (row.reason, row.evidence)
+        ours = next(one for one in app if one.get("cert"))
+        assert (ours.get("cert"), ours.get("cause")) == (CERTAINTY[row.certainty], row.cause)
+        rejected = [one.text for one in app.iterfind(TEI + "rdg") if one.get("type") == "rejected"]
+        assert rejected == [one.reading for one in row.rejected]
+
+
+def test_one_changed_character_of_the_document_is_one_of_the_deck() -> None:
+    changed = written("program2").replace("GO TO", "GO TQ", 1)
+    decks = [reading.corrected(reading.parsed("x", source)) for source in (written("program2"), changed)]
+    assert sum(a != b for a, b in zip(*decks, strict=True)) == 1
+
+
+def test_a_rejected_reading_is_no_reading_of_the_text() -> None:
+    source = written("program1")
+    assert re.search('<rdg type="rejected"', "".join(map(written, NAMES)))
+    before = reading.corrected(reading.parsed("x", source))
+    after = reading.corrected(reading.parsed("x", re.sub(r'(<rdg type="rejected"[^>]*>)[^<]*', r"\1NOT", source)))
+    assert before == after
+
+
+def test_the_command_writes_reads_and_validates(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder = tmp_path / "tei"
+    assert call(capsys, "tei", "--all", str(folder)) == (0, "", "")
+    assert {path.stem for path in folder.iterdir()} == set(NAMES)
+    deck = read("fortran_src/program3.f")
+    assert call(capsys, "tei", "--read", str(folder / "program3.xml")) == (0, deck, "")
+    assert call(capsys, "tei", "--read", str(folder / "program3.xml"), "--witness")[1] == read(
+        "fortran_src/witness/program3.txt"
+    )
+    card = read("transcripts/chapter6/example4/program1.deck")
+    asked = ("tei", "--read", str(folder / "chapter6.xml"), "--part", "example4/program1.deck")
+    assert call(capsys, *asked) == (0, card, "")
+    assert call(capsys, "tei", "--schema") == (0, schema(), "")
+    assert call(capsys, "tei", "nakamae_nishita_1972", "--check") == (0, "nakamae_nishita_1972: valid\n", "")
+
+
+def test_another_schema_refuses_in_a_line_a_document(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    other = tmp_path / "other.rng"
+    other.write_text(schema().replace('<element name="ab">', '<element name="p">'))
+    code, out, err = call(capsys, "tei", "program1", "--check", str(other))
+    assert (code, err) == (1, "")
+    assert re.fullmatch(r"program1: line \d+: .+\n", out)
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("tei",), "name a text, or a folder with --all; there are program1,"),
+        (("tei", "program4"), "there is no text 'program4'; there are program1,"),
+        (("tei", "program1", "--witness"), "--witness goes with --read"),
+        (("tei", "program1", "--schema"), "program1: no text is named with --all, --schema or --read"),
+        (("tei", "--read", "x.xml", "--witness", "--layers", "ocr"), "choose one"),
+        (("tei", "--read", "no.xml"), "no.xml"),
+        (("tei", "--check", "bad.rng"), "bad.rng: no RELAX NG schema"),
+        (("tei", "--read", "bad.xml"), "bad.xml, line 1, column 1: no XML"),
+        (("tei", "--read", "other.xml"), "other.xml: no TEI document with a text"),
+        (("tei", "--read", "good.xml", "--layers", "ocr,nosuch"), "good.xml: there is no layer 'nosuch'"),
+        (("tei", "--read", "good.xml", "--part", "x"), "good.xml: there is no part 'x'; the document has none"),
+        (("tei", "--read", "good.xml", "-o", "good.xml"), "an output never overwrites it"),
+        (("tei", "--all", "good.xml"), "good.xml: file exists"),
+    ],
+)
+def test_wrong_use_is_one_line(
+    words: tuple[str, ...],
+    message: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("bad.rng").write_text("<x")
+    Path("bad.xml").write_text("")
+    Path("other.xml").write_text("<TEI/>")
+    Path("good.xml").write_text(written("program2"))
+    code, out, err = call(capsys, *words)
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert message in err
+
+
+def test_a_damaged_document_is_refused_in_a_line_or_read(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    draw = random.Random(1963)
+    source = written("chapter6")
+    seen = set()
+    for _ in range(12):
+        at = draw.randrange(len(source))
+        damaged = tmp_path / "damaged.xml"
+        damaged.write_text(
+            source[:at] + draw.choice(["", "<", "&", "9", '"', "</ab>"]) + source[at + draw.randrange(40) :]
+        )
+        code, _, err = call(capsys, "tei", "--read", str(damaged), "--part", "example1/program1.deck")
+        assert (code, err.count("\n")) in ((0, 0), (2, 1)), err
+        seen.add(code)
+    assert 2 in seen
+    wide = tmp_path / "wide.xml"
+    wide.write_text(re.sub(r'quantity="\d+"', 'quantity="81"', source))
+    code, _, err = call(capsys, "tei", "--read", str(wide), "--part", "example1/program1.deck")
+    assert (code, err) == (2, f"hull1620: {wide}: a space of '81' characters; a card has 80 columns\n")
