@@ -27,6 +27,7 @@ from modern.exact_hull.result import Certificate
 from modern.formats import deck as decks
 from modern.formats.hulls import to_trimesh, write_hull
 from modern.formats.points import read_input
+from modern.geometry.coplanar import coplanar
 from modern.geometry.hull import Face, HullRefused, Stage
 from modern.geometry.hull import Hull as Record
 from modern.geometry.mesh import ExportError, Mesh, mesh, sides
@@ -198,6 +199,19 @@ class Hull:
         normals = (area_vector(points, face) for face in self._closed.faces)
         return tuple(dot(normal, normal) / 4 for normal in normals)
 
+    def coplanar(self, within: Any) -> Hull:
+        """A reading of the hull with faces joined whose vertices lie within a distance of one plane.
+
+        within: the distance, any real number, decimal text or a fraction ``"p/q"``; ``modern.geometry.coplanar`` says
+        which faces are joined.  ``record.coplanar`` of the result says how many there were, how far a vertex is off its
+        plane at the most, and from which distance on more would be joined.  What is flat is given back as it is.
+
+        The hull itself stays exact.  Of the reading ``equations`` are those of the largest face of each joined one, and
+        ``volume`` and ``area`` are those of the reading, cut into triangles.  Raises ExportError for a distance that is
+        none, or too large for this solid.
+        """
+        return Hull(coplanar(self.record, within)[0])
+
     def draw(
         self,
         eye: Sequence[Any] | None = None,
@@ -240,7 +254,9 @@ class Hull:
             return f"<no hull: {self.status} at {self.statement}; {count} points, {arithmetic}>"
         faces = f", {len(self.faces)} {'faces' if self.dimension == 3 else 'lines'}" if self.faces else ""
         vertices = f"{len(self.record.vertices)} {'vertices' if self.dimension else 'vertex'}"
-        return f"<hull: {_KINDS[self.dimension]}, {vertices}{faces}; {count} points, {arithmetic}>"
+        read = self.record.coplanar
+        within = "" if read is None else f", coplanar within {read.within}"
+        return f"<hull: {_KINDS[self.dimension]}, {vertices}{faces}; {count} points, {arithmetic}{within}>"
 
     def _repr_svg_(self) -> str | None:
         return self.draw() if self.determined else None

@@ -9,6 +9,7 @@ from argparse import ArgumentParser
 from collections.abc import Callable
 
 from modern.cli.shared.arguments import (
+    coplanar_argument,
     core_argument,
     eye_argument,
     layers_argument,
@@ -122,6 +123,7 @@ def _export(parser: ArgumentParser) -> None:
         "-o", "--output", metavar="FILE", default="-", help=f"a name ending {endings} (default: '-', with --format)"
     )
     parser.add_argument("--format", choices=tuple(HULLS), help="the format, where the name does not say it")
+    coplanar_argument(parser)
 
 
 def _draw(parser: ArgumentParser) -> None:
@@ -139,6 +141,7 @@ def _draw(parser: ArgumentParser) -> None:
     )
     parser.add_argument("--no-hidden", action="store_true", help="leave out what is behind the faces seen")
     parser.add_argument("--no-points", action="store_true", help="leave out points that are no vertices")
+    coplanar_argument(parser)
     which = parser.add_mutually_exclusive_group()
     which.add_argument(
         "--against", metavar="CARDS", help="show in colour what the cards that hull punched say differently"

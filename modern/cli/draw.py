@@ -23,9 +23,11 @@ def main(args: argparse.Namespace) -> int:
     staged = args.stages or args.animate
     if staged and (args.width is not None or args.labels != "programs" or args.no_hidden or args.no_points):
         raise UsageError("--stages and --animate have one form: no --width, --labels, --no-hidden, --no-points")
+    if args.coplanar_within is not None and (staged or args.against is not None):
+        raise UsageError("--coplanar-within reads the hull alone: not with --stages, --animate or --against")
     if args.points == "-" == args.against:
         raise UsageError("points and cards cannot both come from standard input")
-    hull = exact_hull_of(args.points, history=staged)
+    hull = exact_hull_of(args.points, history=staged, within=args.coplanar_within)
     if not hull.determined:
         say([f"hull1620: {args.points}: {hull.status}"])
         return DIFFERS

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import argparse
+from fractions import Fraction
 
 from modern.cli.shared.console import DIFFERS, OK, UsageError, say
 from modern.cli.shared.inputs import points_of
 from modern.formats.hulls import format_of, write_hull
+from modern.geometry.coplanar import FLAT, CoplanarError, Joined, coplanar, described, distance
 from modern.geometry.hull import Hull
 
 
 def main(args: argparse.Namespace) -> int:
     """Read the points, find the hull, write the file."""
     form = args.format or _form(args.output)
-    hull = exact_hull_of(args.points)
+    hull = exact_hull_of(args.points, within=args.coplanar_within)
     if not hull.determined and form != "json":
         say([f"hull1620: {args.points}: {hull.status}"])
         return DIFFERS
@@ -21,8 +23,12 @@ def main(args: argparse.Namespace) -> int:
     return OK if hull.determined else DIFFERS
 
 
-def exact_hull_of(path: str, history: bool = False) -> Hull:
-    """The hull of a file's points in exact arithmetic, with its stages if asked; notes go to standard error."""
+def exact_hull_of(path: str, history: bool = False, within: str | None = None) -> Hull:
+    """The hull of a file's points in exact arithmetic, with its stages if asked; notes go to standard error.
+
+    within: read faces as one whose vertices lie within this distance of a plane.
+    """
+    limit = None if within is None else distance(within)
     found = points_of(path)
     say(f"note: {note}" for note in found.notes)
     # Imported here, so that a fault of the file is told without waiting.
@@ -31,7 +37,19 @@ def exact_hull_of(path: str, history: bool = False) -> Hull:
     hull = convex_hull(found.points, "exact", history=history, on_refusal="return")
     for point, first in hull.duplicates:
         say([f"note: {found.source}: {found.places[point]}: the point of {found.places[first]} again"])
-    return hull
+    if limit is None or not hull.determined:
+        return hull
+    reading, joined = read_coplanar(hull, limit, found.source)
+    say([f"note: {found.source}: {described(joined) if joined else FLAT}"])
+    return reading
+
+
+def read_coplanar(hull: Hull, limit: Fraction, source: str) -> tuple[Hull, Joined | None]:
+    """``coplanar``, its refusal naming the source."""
+    try:
+        return coplanar(hull, limit)
+    except CoplanarError as error:
+        raise CoplanarError(f"{source}: --coplanar-within: {error}") from None
 
 
 def _form(path: str) -> str:

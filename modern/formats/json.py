@@ -8,6 +8,7 @@ of a hull, of any object with ``points`` or ``vertices``, or a list; numbers and
 from __future__ import annotations
 
 import json
+from dataclasses import asdict
 from typing import Any
 
 from emulator.errors import FileError
@@ -34,6 +35,7 @@ def document(hull: Hull) -> dict[str, Any]:
         "centre": None if hull.centre is None else list(hull.centre),
         "corrected": list(hull.corrected),
         "history": [_stage(stage) for stage in hull.history],
+        "coplanar": None if hull.coplanar is None else asdict(hull.coplanar),
     }
 
 

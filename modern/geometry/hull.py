@@ -59,6 +59,21 @@ class Stage:
 
 
 @dataclass(frozen=True, slots=True)
+class Coplanar:
+    """How faces of a hull were read as one (``modern.geometry.coplanar``).
+
+    ``within``: the distance E.  ``faces``: how many the hull itself has.  ``deviation``: the largest distance of a
+    vertex from the plane of the face it was joined to; ``beyond``: the distance from which on one more face would be
+    joined, None where none could be.  Decimals, the last two to three digits, rounded up.
+    """
+
+    within: str
+    faces: int
+    deviation: str
+    beyond: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Hull:
     """A convex hull as a procedure determined it in some arithmetic.
 
@@ -88,6 +103,8 @@ class Hull:
     corrected: tuple[str, ...] = ()
     """Corrections of the layer ``corrected`` that took a branch other than the listing's."""
     history: tuple[Stage, ...] = field(default=(), repr=False)
+    coplanar: Coplanar | None = None
+    """Where this is a reading of a hull with faces joined: how they were.  A face's vertices lie near to its plane."""
 
     @property
     def determined(self) -> bool:

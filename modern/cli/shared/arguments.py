@@ -83,6 +83,12 @@ def eye_argument(parser: ArgumentParser) -> None:
     parser.add_argument("--eye", metavar="X,Y,Z", help=words)
 
 
+def coplanar_argument(parser: ArgumentParser) -> None:
+    """``--coplanar-within``."""
+    words = "read neighbouring faces as one whose vertices lie within this distance of a plane (default: exactly in it)"
+    parser.add_argument("--coplanar-within", metavar="E", help=words)
+
+
 def layers_argument(parser: ArgumentParser) -> None:
     """``--layers``."""
     parser.add_argument(

@@ -1,0 +1,64 @@
+"""Solids in doubles, and the rule for joining their faces once more, in fractions and without haste."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+from modern.geometry.mesh import Mesh
+
+Vector = tuple[Fraction, ...]
+
+
+def dodecahedron() -> list[tuple[float, float, float]]:
+    """A regular dodecahedron about the origin, turned so that no coordinate is a short number."""
+    golden = (1 + math.sqrt(5)) / 2
+    points = [(a, b, c) for a in (-1.0, 1.0) for b in (-1.0, 1.0) for c in (-1.0, 1.0)]
+    for a in (-1, 1):
+        for b in (-1, 1):
+            points += [(0, a / golden, b * golden), (a / golden, b * golden, 0), (a * golden, 0, b / golden)]
+    turned = [(x * math.cos(0.3) - y * math.sin(0.3), x * math.sin(0.3) + y * math.cos(0.3), z) for x, y, z in points]
+    return [(x, y * math.cos(0.7) - z * math.sin(0.7), y * math.sin(0.7) + z * math.cos(0.7)) for x, y, z in turned]
+
+
+def joined_faces(surface: Mesh, within: Fraction) -> tuple[list[list[int]], Fraction]:
+    """The faces of a convex surface that are read as one, and the square of the largest distance from a plane."""
+    points = surface.numbers()
+    corners = [[points[place] for place in face] for face in surface.faces]
+    normals = [_normal(face) for face in corners]
+    left = sorted(range(len(corners)), key=lambda k: (-_dot(normals[k], normals[k]), k))
+    groups, greatest = [], Fraction(0)
+    while left:
+        leader = left[0]
+        group = [leader]
+        changed = True
+        while changed:
+            changed = False
+            for face in left:
+                near = any(len(set(surface.faces[face]) & set(surface.faces[other])) >= 2 for other in group)
+                if face in group or not near or _dot(normals[face], normals[leader]) <= 0:
+                    continue
+                square = max(_square(normals[leader], corners[leader][0], point) for point in corners[face])
+                if square <= within**2:
+                    group.append(face)
+                    greatest = max(greatest, square)
+                    changed = True
+        groups.append(sorted(group))
+        left = [face for face in left if face not in group]
+    return sorted(groups), greatest
+
+
+def _normal(corners: list[Vector]) -> Vector:
+    """The sum of the cross products of neighbouring corners."""
+    total = [Fraction(0)] * 3
+    for (a, b, c), (d, e, f) in zip(corners, [*corners[1:], corners[0]], strict=True):
+        total = [old + new for old, new in zip(total, (b * f - c * e, c * d - a * f, a * e - b * d), strict=True)]
+    return tuple(total)
+
+
+def _dot(u: Vector, v: Vector) -> Fraction:
+    return sum((a * b for a, b in zip(u, v, strict=True)), Fraction(0))
+
+
+def _square(normal: Vector, base: Vector, point: Vector) -> Fraction:
+    return _dot(normal, tuple(a - b for a, b in zip(point, base, strict=True))) ** 2 / _dot(normal, normal)
