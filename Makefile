@@ -5,7 +5,7 @@ BIN = $(VENV)/bin
 JOBS ?= 2
 PIP = $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: reproduce test lint format coverage wheel benchmark mutants tei-check upgrade hooks clean
+.PHONY: reproduce test lint format coverage wheel benchmark mutants tei-check edition upgrade hooks clean
 
 reproduce: $(VENV)/.run
 	$(BIN)/hull1620 reproduce
@@ -39,6 +39,9 @@ mutants: $(VENV)/.dev
 # The TEI documents against a schema: SCHEMA=tei_all.rng, or the project's own.
 tei-check: $(VENV)/.dev
 	$(BIN)/hull1620 tei --check $(SCHEMA)
+
+edition: $(VENV)/.dev
+	$(BIN)/python -m modern.publication.site.build dist/edition
 
 # The newest versions that pyproject.toml allows, for every platform, with hashes: locks/run.lock what the command needs, dev.lock all.
 LOCK = $(BIN)/uv pip compile --quiet --upgrade --universal --python-version 3.11 --fork-strategy fewest --generate-hashes \

@@ -1,0 +1,22 @@
+"""Sphinx's settings for the edition; what makes its pages is ``modern/publication/site``."""
+
+from modern.publication.site.colours import DARK, LIGHT
+
+project = "hull1620"
+author = "The hull1620 developers"
+copyright = "2026, The hull1620 developers. MIT licence; the thesis's listings and prints as the objects restored"
+
+extensions = ["myst_parser", "modern.publication.site.extension"]
+exclude_patterns = ["console", "**/node_modules"]
+myst_enable_extensions = ["colon_fence", "deflist", "attrs_inline", "attrs_block"]
+myst_heading_anchors = 4
+nitpicky = True
+
+html_theme = "furo"
+html_title = "The hull programs of 1963"
+html_static_path = ["_static"]
+html_css_files = ["edition.css"]
+html_js_files = ["edition.js"]
+html_copy_source = False
+html_show_sphinx = False
+html_theme_options = {"navigation_with_keys": False, "light_css_variables": LIGHT, "dark_css_variables": DARK}

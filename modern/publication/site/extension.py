@@ -1,0 +1,145 @@
+"""The Sphinx extension: the directive ``made``, the roles that point at data, and links to files that are no pages."""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from docutils import nodes
+from sphinx import addnodes
+from sphinx.application import Sphinx
+from sphinx.domains.std import StandardDomain
+from sphinx.environment import BuildEnvironment
+from sphinx.util.docutils import SphinxDirective
+
+from modern.publication.site.made import Made, Part, make
+from modern.publication.site.markup import shifted
+
+ROLES = {"card": "{}", "row": "{}", "name": "name {}", "error": "error {}"}
+"""A role, and the label of what it points at; ``{name}`program3 KELEQ``` is the label ``name program3 keleq``."""
+HOLDERS = {
+    "fortran_src/README.md": "text",
+    "fortran_src/KNOWN-FAULTS.md": "known-faults",
+    "fortran_src/OPEN-QUESTIONS.md": "open-questions",
+    "transcripts/README.md": "transcripts",
+    "README.md": "index",
+    "CHANGELOG.md": "changes",
+}
+"""Files of the project that are no pages themselves, and the pages that hold or replace them."""
+
+
+class MadeDirective(SphinxDirective):
+    """``:::{made} NAME ARGUMENT``: what a maker makes, as sections of the page."""
+
+    required_arguments = 1
+    optional_arguments = 1
+    final_argument_whitespace = True
+
+    def run(self) -> list[nodes.Node]:
+        """The nodes; an error of the build where the maker refuses."""
+        name, argument = self.arguments[0], "".join(self.arguments[1:])
+        try:
+            found = make(name, argument)
+        except ValueError as error:
+            raise self.error(f"made: {error}") from None
+        _note(self.env, found)
+        top: list[nodes.Node] = []
+        stack: list[tuple[int, nodes.Element]] = []
+        for part in found.parts:
+            while part.heading and stack and stack[-1][0] >= part.level:
+                stack.pop()
+            inner = self._inner(part)
+            if part.heading:
+                section = nodes.section("", nodes.title("", part.heading), *inner, ids=[part.id], names=[part.id])
+                _add(stack, top, section)
+                stack.append((part.level, section))
+            else:
+                for node in inner:
+                    _add(stack, top, node)
+        return top
+
+    def _inner(self, part: Part) -> list[nodes.Node]:
+        found: list[nodes.Node] = []
+        if part.text:
+            found += self.parse_text_to_nodes(part.text, allow_section_headings=False)
+        if part.html:
+            html = shifted(part.html, self.env.docname.count("/"))
+            found.append(nodes.raw("", html, format="html"))
+        return found
+
+
+def _add(stack: Sequence[tuple[int, nodes.Element]], top: list[nodes.Node], node: nodes.Node) -> None:
+    if stack:
+        stack[-1][1].append(node)
+    else:
+        top.append(node)
+
+
+def _note(env: BuildEnvironment, found: Made) -> None:
+    """Make the addresses known to references and to the general index."""
+    standard = env.get_domain("std")
+    assert isinstance(standard, StandardDomain)
+    entries = env.get_domain("index").data["entries"].setdefault(env.docname, [])
+    for target in found.targets:
+        label = target.label.lower()
+        standard.anonlabels[label] = (env.docname, target.id)
+        standard.labels[label] = (env.docname, target.id, target.title)
+        if target.index:
+            entries.append(("single", target.index, target.id, "", None))
+
+
+def _role(kind: str) -> Any:
+    """A role that points at a label made from its words; ``words <label>`` says other words."""
+
+    def role(
+        name: str, rawtext: str, text: str, lineno: int, inliner: Any, options: Any = None, content: Any = ()
+    ) -> tuple[list[nodes.Node], list[nodes.system_message]]:
+        words, _, rest = text.partition(" <")
+        label = ROLES.get(kind, "{}").format(rest.rstrip(">") if rest else text).lower()
+        shown = words if rest else text.rpartition(" ")[2] if kind in ("card", "name") else text
+        reference = addnodes.pending_xref(
+            rawtext, refdomain="std", reftype="ref", reftarget=label, refexplicit=True, refwarn=True, classes=[kind]
+        )
+        reference += nodes.inline("", shown, classes=["std", "std-ref"])
+        env = inliner.document.settings.env
+        reference["refdoc"] = env.docname
+        return [reference], []
+
+    return role
+
+
+_LINK = re.compile(r"\[([^\]\[]*)\]\(([\w./-]+)(#[\w-]*)?\)")
+
+
+def _project_files(app: Sphinx, docname: str, source: list[str]) -> None:
+    """Links to files that are no pages, in a page's text: to the page that holds the file, or the words alone."""
+    root, folder = Path(app.srcdir).parent, posixpath.dirname(docname)
+
+    def page(match: re.Match[str]) -> str:
+        words, target, part = match.groups()
+        file = posixpath.normpath(posixpath.join("docs", folder, target))
+        holder = HOLDERS.get(file, "")
+        if holder in app.env.found_docs:
+            return f"[{words}]({posixpath.relpath(holder, folder or '.')}.md{part or ''})"
+        inside = posixpath.relpath(file, "docs")
+        is_page = inside.removesuffix(".md") in app.env.found_docs
+        return words if not is_page and (root / file).exists() and not _copied(file) else match[0]
+
+    source[0] = _LINK.sub(page, source[0])
+
+
+def _copied(file: str) -> bool:
+    """Whether a link to a file makes Sphinx lay it beside the pages: a picture or a table within docs."""
+    return file.startswith("docs/") and not file.endswith((".md", "/")) and "." in posixpath.basename(file)
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    """Sphinx calls this."""
+    app.add_directive("made", MadeDirective)
+    for kind in (*ROLES, "at"):
+        app.add_role(kind, _role(kind))
+    app.connect("source-read", _project_files)
+    return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

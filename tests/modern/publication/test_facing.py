@@ -1,0 +1,167 @@
+"""The facing text: the deck is on it whole, every line of the witness and every row once, and places that hold."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections import Counter
+
+import pytest
+
+from modern.edition import programs
+from modern.edition.apparatus import build
+from modern.publication.facing import Card, facing
+from modern.publication.measured import TABLE, runs, weights
+from modern.publication.uses import uses
+
+
+def card(program: str, place: str) -> Card:
+    return next(each for each in facing(program).cards if each.place == place)
+
+
+def shown(card: Card) -> list[str]:
+    return [piece.text[a:b] for piece in card.witness for a, b in piece.changed]
+
+
+@pytest.mark.parametrize("name", programs.NAMES)
+def test_the_cards_are_the_committed_deck(name: str) -> None:
+    text = "".join(each.text + "\n" for each in facing(name).cards)
+    committed = programs.sources().joinpath(f"{name}.f").read_bytes()
+    assert hashlib.sha256(text.encode()).digest() == hashlib.sha256(committed).digest()
+    assert [each.number for each in facing(name).cards] == list(range(1, len(text.splitlines()) + 1))
+
+
+@pytest.mark.parametrize("name", programs.NAMES)
+def test_places_are_different_and_count_from_the_number_before(name: str) -> None:
+    cards = facing(name).cards
+    assert len({each.place for each in cards}) == len(cards)
+    last, steps = 0, 0
+    for each in cards:
+        if each.kind in ("comment", "title"):
+            assert each.place == "title" or each.place.startswith("before-")
+            continue
+        number = re.match(r"\s*(\d+)", each.text)
+        last, steps = (int(number[1]), 0) if number else (last, steps + 1)
+        assert each.place == (f"{last}+{steps}" if steps else f"{last}")
+
+
+def test_places_of_program_3() -> None:
+    places = [each.place for each in facing("program3").cards[:6]]
+    assert places == ["title", "0+1", "0+2", "100", "before-100+1", "100+1"]
+    assert card("program3", "147").text == "  147 IF (NE-K) 133, 154, 148"
+
+
+@pytest.mark.parametrize("name", programs.NAMES)
+def test_every_line_of_the_witness_is_shown_once(name: str) -> None:
+    """A line that makes several cards is shown in parts, which together are the line."""
+    found = facing(name)
+    parts: dict[int, list[str]] = {}
+    for each in found.cards:
+        for piece in each.witness:
+            parts.setdefault(piece.line, []).append(piece.text)
+            assert piece.part == (Counter(p.line for c in found.cards for p in c.witness)[piece.line] > 1)
+    for _, pieces in found.dropped:
+        for piece in pieces:
+            parts.setdefault(piece.line, []).append(piece.text)
+    assert {line: "".join(texts) for line, texts in parts.items()} == {
+        int(line.id): line.text for line in found.text.witness
+    }
+
+
+@pytest.mark.parametrize("name", programs.NAMES)
+def test_unmarked_characters_are_the_same_on_both_sides(name: str) -> None:
+    for each in facing(name).cards:
+        if not each.witness:
+            assert each.changed == ((0, len(each.text)),)
+            continue
+        left = "".join(unmarked(piece.text, piece.changed) for piece in each.witness)
+        assert left == unmarked(each.text, each.changed)
+        if left and "".join("".join(p.text for p in each.witness).split()) != "".join(each.text.split()):
+            assert each.rows, each
+
+
+def unmarked(text: str, spans: tuple[tuple[int, int], ...]) -> str:
+    return "".join(c for at, c in enumerate(text) if not c.isspace() and not any(a <= at < b for a, b in spans))
+
+
+def test_every_row_is_on_a_page() -> None:
+    named = {row.id for name in programs.NAMES for row in facing(name).rows()}
+    assert named == {row.id for name in programs.TEXTS for row in programs.text(name).rows}
+
+
+@pytest.mark.parametrize(
+    ("program", "place", "witness", "deck"),
+    [
+        ("program3", "105+3", ["_"], ["-"]),
+        ("program3", "143", ["\\text{", "}"], []),
+        ("program1", "125+1", ["0", "1", "1"], ["O", "I", "I"]),
+        ("program1", "128", ["."], [","]),
+        ("program1", "title", [], []),
+    ],
+)
+def test_changed_characters(program: str, place: str, witness: list[str], deck: list[str]) -> None:
+    found = card(program, place)
+    assert shown(found) == witness
+    assert [found.text[a:b] for a, b in found.changed] == deck
+
+
+def test_a_line_of_many_cards_is_cut_where_they_begin() -> None:
+    parts = [
+        (each.place, piece.text.strip())
+        for each in facing("program1").cards
+        for piece in each.witness
+        if piece.line == 68
+    ]
+    assert len(parts) == 28
+    assert parts[1] == ("122", "122 PUNCH 15, NUMB1, A1, B1, ZERO, C1")
+    assert parts[-1] == ("133+2", "NUMB1=NUMB1+2")
+
+
+def test_a_card_of_ours_has_no_witness() -> None:
+    assert card("program1", "131+1").witness == ()
+    assert card("program1", "131+1").rows == ("P1-039",)
+
+
+@pytest.mark.parametrize("name", programs.NAMES)
+def test_what_stands_otherwise_with_a_layer_gives_the_deck_of_that_layer(name: str) -> None:
+    found = facing(name)
+    base = programs.built_in(name).layers
+    for layer in {other.layer for each in found.cards for other in each.otherwise}:
+        lines = []
+        for each in found.cards:
+            here = [other for other in each.otherwise if other.layer == layer]
+            lines += here[0].cards if here else (each.text,)
+            assert all(other.rows for other in here), each
+        assert lines == [line.text for line in build(found.text, (*base, layer))]
+
+
+def test_jumps_of_program_3() -> None:
+    known = uses("program3")
+    place = {each.number: each.place for each in facing("program3").cards}
+    came = {(place[jump.card], jump.taken) for jump in known.to(known.labels[133]) if jump.kind == "jump"}
+    assert ("103", "\u2212") in came
+    assert all(jump.target in place and jump.card in place for jump in known.jumps)
+
+
+def test_names_of_program_3() -> None:
+    names = {name.name: name for name in uses("program3").names}
+    place = {each.number: each.place for each in facing("program3").cards}
+    kelec = names["KELEQ"]
+    assert (kelec.floating, kelec.shape) == (False, ())
+    assert place[kelec.set[0]] == "100"
+    assert names["A"].shape == (98,)
+    assert [place[n] for n in names["A"].declared] == ["0+1"]
+
+
+@pytest.mark.parametrize("name", programs.NAMES)
+def test_executions_add_up_to_the_statements_of_a_run(name: str) -> None:
+    for run in runs(name):
+        assert run.executions.keys() <= {each.number for each in facing(name).cards if each.kind == "statement"}
+        assert abs(sum(run.times.values()) - run.seconds) < 1e-6
+    assert [run.example for run in runs("program3")] == [5, 6]
+
+
+def test_weights_are_those_of_the_table() -> None:
+    rows = TABLE.read_text(encoding="utf-8").splitlines()[1:]
+    assert sum(len(weights(name)) for name in programs.TEXTS) == len(rows)
+    assert weights("program1")[4].noticed == (9, 2, 0, 0, 0, 0)
