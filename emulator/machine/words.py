@@ -1,5 +1,7 @@
 """What an operator does, as lines of a file, and where a machine stands, as one line: the words of the console.
 
+And what is to be noted of a run when it is over.
+
 One action a line, in capitals: ``ENTER 5``, ``START``, ``STEP 3``, ``STOP``, ``ATTN``, ``SWITCH 1 ON``, ``BREAK 40``,
 ``BREAK CARD 12``, ``CLEAR``.  ``AT n`` before one of them, but for ENTER and START, says that it is done to a running
 machine, when n of work has been done (what ``--limit`` counts).  Of ENTER the line typed is all that follows one blank.
@@ -7,7 +9,11 @@ machine, when n of work has been done (what ``--limit`` counts).  Of ENTER the l
 
 from __future__ import annotations
 
-from emulator.language.objectcode import Line
+from collections.abc import Collection, Iterator
+
+from emulator.errors import explanations
+from emulator.language.objectcode import Line, Program
+from emulator.machine.result import Result
 from emulator.machine.session import Action, Halt
 
 WORDS = ("ENTER", "START", "STEP", "STOP", "ATTN", "SWITCH", "BREAK", "CLEAR")
@@ -99,3 +105,13 @@ def place_of(line: Line) -> str:
     """A statement by its number, if it has one, and its card."""
     card = f"card {line.place.card}"
     return f"statement {line.label} ({card})" if line.label else card
+
+
+def notes(program: Program, result: Result, said: Collection[tuple[int, int]] = ()) -> Iterator[str]:
+    """What is to be noted of a run, but for fields (card and column) said before, and its arithmetic's error codes."""
+    for notice in result.notices:
+        if notice.kind != "field" or (notice.card, notice.column) not in said:
+            yield f"warning: {notice.message}"
+    for error in result.errors:
+        times = f", {error.times} times" if error.times > 1 else ""
+        yield f"note: {program.source}: {error.code} on card {error.card}: {explanations()[error.code].title}{times}"

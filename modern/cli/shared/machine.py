@@ -13,7 +13,7 @@ from itertools import groupby
 from operator import attrgetter
 from typing import TextIO
 
-from emulator.errors import FileError, LowerCaseError, explanations
+from emulator.errors import FileError, LowerCaseError
 from emulator.files import read_text, reason, source_name, write_text, writing
 from emulator.language import objectcode as op
 from emulator.language.cards import Deck, read_deck
@@ -24,6 +24,7 @@ from emulator.machine.operator import FromFile, Logged, Operator, Output
 from emulator.machine.result import Event, Options, Result
 from emulator.machine.timing import Row, measure
 from emulator.machine.trace import Tracer
+from emulator.machine.words import notes
 from emulator.numbers import DecimalNumbers, Numbers, numbers
 from emulator.numbers.arithmetic import Rules
 from emulator.numbers.base import cutting_rules
@@ -96,10 +97,7 @@ def put_out(args: argparse.Namespace, punched: Iterable[str], typed: Iterable[st
 
 def say_notices(program: Program, result: Result, said: Collection[tuple[int, int]] = ()) -> None:
     """What is to be noted of a run, but for fields (card and column) said before, and its arithmetic's error codes."""
-    say(f"warning: {n.message}" for n in result.notices if n.kind != "field" or (n.card, n.column) not in said)
-    for error in result.errors:
-        times = f", {error.times} times" if error.times > 1 else ""
-        say([f"note: {program.source}: {error.code} on card {error.card}: {explanations()[error.code].title}{times}"])
+    say(notes(program, result, said))
 
 
 class _Lost(Exception):
