@@ -1,22 +1,19 @@
-"""Claims of chapters 1 to 3: definitions, the equations (3.1) to (3.5) and V, and the steps of the procedure.
+"""Claims of chapters 1 and 3: what the procedure finds, few points, and the equations (3.1) to (3.5).
 
-Equations are transcribed as they are printed and compared with what they are to be, over integers.  What is said of
-the approximations H_j is looked at in every stage of the construction of small sets (``count`` of them).
+Equations are transcribed as they are printed and compared with what they are to be, over integers.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from fractions import Fraction
-from itertools import combinations, pairwise, product
 from random import Random
 
-from modern.edition.sampled_sets import Plane, Point, SampledSet, sampled_sets, through, value
-from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, counterexample, seen
+from modern.edition.sampled_sets import Plane, Point, SampledSet, sampled_sets, through
+from modern.edition.statements import CONDITION, FAILS, Seen, counterexample, seen
 from modern.exact_hull import exact_hull
 from modern.formats.csv import points as csv_points
-from modern.geometry.vectors import cross, dot, minus
+from modern.geometry.vectors import dot
 from modern.port import convex_hull
 
 COUNT = "2"
@@ -52,77 +49,7 @@ def procedure_is_right(count: str = COUNT) -> Seen:
     return Seen(CONDITION if right == sets else FAILS, f"{right} of {sets} sets as the exact judge, in exact numbers")
 
 
-def approximations(kind: str, count: str = COUNT) -> Seen:
-    """One property of H_1, H_2, ... in every stage of some sets: ``contain``, ``hulls``, ``struck``, ..."""
-    looked = good = 0
-    for one in sampled_sets(2, int(count)) if kind == "lines" else both(count):
-        for right in _PROPERTIES[kind](one):
-            looked += 1
-            good += right
-    words = f"{good} of {looked} cases in the construction of {'the' if kind != 'lines' else 'the flat'} sets"
-    if good < looked or not looked:
-        return Seen(FAILS, words)
-    return Seen(CONDITION if kind in _WITH_CONDITION else HOLDS, words)
-
-
-def _contain(one: SampledSet) -> Iterator[bool]:
-    stages = one.stages()
-    for before, after in pairwise(stages):
-        yield all(value(plane, one.points[k]) <= 0 for plane in after.equations for k in before.vertices)
-
-
-def _hulls(one: SampledSet) -> Iterator[bool]:
-    for stage in one.stages():
-        judge = exact_hull([one.points[k] for k in stage.vertices])
-        planes = {_lowest(plane) for plane in stage.equations}
-        yield planes == {facet.plane for facet in judge.facets}
-
-
-def _struck(one: SampledSet) -> Iterator[bool]:
-    for stage in one.hull.history:
-        yield not set(stage.struck) & {*one.judge.vertices}
-
-
-def _finite(one: SampledSet) -> Iterator[bool]:
-    yield len(one.hull.history) - 1 <= len(one.points) - one.judge.dimension - 1
-
-
-def _settled(one: SampledSet) -> Iterator[bool]:
-    stages = one.stages()
-    for before, after in zip(stages, one.hull.history[1:], strict=False):
-        for plane in before.equations[: after.checked - 1]:
-            yield all(value(plane, point) <= 0 for point in one.points)
-
-
-def _outside(one: SampledSet) -> Iterator[bool]:
-    gone: set[int] = set()
-    for before, news, after in zip(one.stages(), one.hull.history, one.hull.history[1:], strict=False):
-        gone.update(news.struck)
-        plane = before.equations[after.checked - 1]
-        most = max(value(plane, point) for k, point in enumerate(one.points) if k not in gone)
-        yield value(plane, one.points[after.added[0]]) == most > 0
-
-
-def _one_more(one: SampledSet) -> Iterator[bool]:
-    for before, after in pairwise(one.hull.history):
-        if after.outside == 1:
-            yield len(after.equations) - len(before.equations) == one.judge.dimension - 1
-
-
-_PROPERTIES = {
-    "contain": _contain,
-    "hulls": _hulls,
-    "struck": _struck,
-    "finite": _finite,
-    "settled": _settled,
-    "outside": _outside,
-    "lines": _one_more,
-    "planes": _one_more,
-}
-_WITH_CONDITION = ("planes",)
-
-
-def _lowest(plane: Plane) -> Plane:
+def lowest_terms(plane: Plane) -> Plane:
     divisor = math.gcd(*plane)
     a, b, c, d = (number // divisor for number in plane)
     return a, b, c, d
@@ -150,117 +77,28 @@ def collinear_ends() -> Seen:
     return seen(good == 2 * len(lines), f"{good // 2} of {len(lines)} lines")
 
 
-def weights_not_negative() -> Seen:
-    """2 P_1 - P_2 is a combination with sum 1, outside of the segment."""
-    hull = exact_hull([(0, 0, 0), (1, 0, 0), (-1, 0, 0)])
-    return Seen(CONDITION if 0 not in hull.vertices else FAILS, "2 P - Q, with weights 2 and -1, lies beyond P")
-
-
-def hull_is_the_combinations() -> Seen:
-    """Every grid point of a triangle is a combination of its corners, and no other is."""
-    p, q, r = (0, 0), (4, 1), (1, 5)
-    good = looked = 0
-    for x, y in product((-1, 1, 2, 4), repeat=2):
-        area = _area(p, q, r)
-        weights = [Fraction(_area(*three), area) for three in (((x, y), q, r), (p, (x, y), r), (p, q, (x, y)))]
-        inside = not set(exact_hull([(*t, 0) for t in (p, q, r)]).vertices) ^ set(
-            exact_hull([(*t, 0) for t in (p, q, r, (x, y))]).vertices
-        )
-        looked += 1
-        good += (min(weights) >= 0) == inside and sum(weights) == 1
-    return seen(good == looked, f"{good} of {looked} grid points")
-
-
-def _area(p: tuple[int, int], q: tuple[int, int], r: tuple[int, int]) -> int:
-    return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
-
-
-def supporting_planes(count: str = COUNT) -> Seen:
-    """The judge's planes meet the definition."""
-    return _supporting(sampled_sets(3, int(count)), 3)
-
-
-def supporting_lines(count: str = COUNT) -> Seen:
-    """The judge's lines meet the definition."""
-    return _supporting(sampled_sets(2, int(count)), 2)
-
-
-def _supporting(sets: tuple[SampledSet, ...], least: int) -> Seen:
-    good = looked = 0
-    for one in sets:
-        for facet in one.judge.facets:
-            values = [value(facet.plane, point) for point in one.points]
-            looked += 1
-            good += max(values) == 0 and values.count(0) >= least
-    return seen(good == looked > 0, f"{good} of {looked} have {least} points on them and none beyond")
-
-
-def vertex_with_minus() -> Seen:
-    """The middle of three points in line, by the print: no two points give it, so it would be a vertex."""
-    points = points_of("middle.csv")
-    middle = points[1]
-    half = Fraction(1, 2)
-    found = [
-        (p, q)
-        for p in points
-        for q in points
-        if [half * p[0] + half * q[0], *(half * p[k] - half * q[k] for k in (1, 2))] == [*map(Fraction, middle)]
-    ]
-    vertices = exact_hull(points).vertices
-    wrong = 1 not in vertices and (points[0], points[2]) not in found
-    return Seen(FAILS if wrong else HOLDS, "by the printed signs the ends do not give the middle point")
-
-
-def vertex_of_the_hull() -> Seen:
-    """(1, 1) in the triangle (0, 0), (3, 0), (0, 3): between no two of the four points, yet no vertex."""
-    points = [(0, 0, 0), (3, 0, 0), (0, 3, 0), (1, 1, 0)]
-    between = [(p, q) for p, q in combinations(points[:3], 2) if not any(cross(minus(q, p), minus(points[3], p)))]
-    good = not between and 3 not in exact_hull(points).vertices
-    return Seen(CONDITION if good else FAILS, "(1, 1) of that triangle is on no line of two of the others")
-
-
-def all_triples(count: str = COUNT) -> Seen:
-    """Planes of all triples that support, against the judge's."""
-    good = 0
-    sets = sampled_sets(3, int(count))
-    for one in sets:
-        planes = set()
-        for three in combinations(one.points, 3):
-            plane = through(*three)
-            values = [value(plane, point) for point in one.points]
-            if any(plane[:3]) and (max(values) <= 0 or min(values) >= 0):
-                planes.add(_lowest(plane if max(values) <= 0 else tuple(-x for x in plane)))  # type: ignore[arg-type]
-        good += planes == {facet.plane for facet in one.judge.facets}
-    return seen(good == len(sets), f"{good} of {len(sets)} sets")
-
-
-def all_pairs(count: str = COUNT) -> Seen:
-    """Lines of all pairs that support, against the judge's edges."""
-    good = 0
-    sets = sampled_sets(2, int(count))
-    for one in sets:
-        lines = set()
-        flat = [(x, y) for x, y, _ in one.points]
-        for p, q in combinations(flat, 2):
-            sides = [_area(p, q, r) for r in flat]
-            if max(sides) <= 0 or min(sides) >= 0:
-                lines.add(frozenset(k for k, side in enumerate(sides) if not side))
-        good += len(lines) == len(one.judge.facets)
-    return seen(good == len(sets), f"{good} of {len(sets)} sets")
-
-
-def all_triples_cost() -> Seen:
-    """C(N, 3) planes with N substitutions each."""
-    cost = {n: math.comb(n, 3) * n for n in (8, 16, 51)}
-    words = ", ".join(f"{n} points: {math.comb(n, 3):,} planes, {cost[n]:,} substitutions" for n in cost)
-    return seen(cost[16] > 2**3 * cost[8], words)
-
-
 def few_points() -> Seen:
     """One, two and three points."""
     hulls = [convex_hull([(1, 2, 3), (4, 0, 1), (0, 5, 5)][:n]) for n in (1, 2, 3)]
     good = [(h.status, h.dimension, len(h.vertices)) for h in hulls]
     return seen(good == [("determined", k, k + 1) for k in range(3)], "a point, a segment, a triangle")
+
+
+def first_two() -> Seen:
+    """Sets whose points differ in x, in y but not in x, in z alone: the largest and the smallest come first."""
+    base = [(3, 1), (-2, 5), (4, 0), (0, 2), (4, 4)]
+    sets = {
+        0: [(a, b, (3 * a + b) % 5) for a, b in base],
+        1: [(7, b, (2 * a + b) % 7) for a, b in base],
+        2: [(7, -1, a + 5 * b) for a, b in base],
+    }
+    good = []
+    for axis, points in sets.items():
+        hull = convex_hull(points, history=True)
+        first, second, *_ = hull.history[0].added if hull.history else hull.vertices
+        values = [point[axis] for point in points]
+        good.append((points[first][axis], points[second][axis]) == (max(values), min(values)))
+    return seen(all(good), "by x, where all x are equal by y, where all y are too by z")
 
 
 def equation(number: str) -> Seen:

@@ -289,3 +289,41 @@ def planes_of_a_vertex(kind: str = "", count: str = COUNT) -> Seen:
     if not all(found):
         return Seen(FAILS, words)
     return Seen(CONDITION if kind else HOLDS, words)
+
+
+def taken_out() -> Seen:
+    """A triangle with a used point on a side: three vertices and three equations stay of four and four."""
+    hull = convex_hull([(3, 0, 0), (4, 4, 0), (4, 2, 0), (4, 3, 0)], history=True)
+    used = [k for stage in hull.history for k in stage.added]
+    made, stay = len(hull.history[-1].equations), [face.lowest for face in hull.faces]
+    good = len(used) > len(hull.vertices) == 3 == len(set(stay)) == len(stay) < made
+    return seen(good, f"{len(used)} points used, {len(hull.vertices)} stay; {made} equations made, {len(stay)} stay")
+
+
+_TWO_PLANES: list[Point] = [(2, 1, 1), (1, 1, 3), (0, 1, 3), (0, 0, 0), (0, 2, 3), (0, 0, 2), (0, 1, 2)]
+"""A set in space of which the procedure uses a point that is no vertex of the last hull."""
+
+
+def used_in_two_planes() -> Seen:
+    """Used points of that set that are no vertices, with the number of planes of the last hull each is in."""
+    hull, judge = convex_hull(_TWO_PLANES, history=True), exact_hull(_TWO_PLANES)
+    used = {k for stage in hull.history for k in stage.added} - {*judge.vertices}
+    planes = {_TWO_PLANES[k]: sum(not value(f.plane, _TWO_PLANES[k]) for f in judge.facets) for k in sorted(used)}
+    good = bool(planes) and {*planes.values()} <= {1, 2} and {*hull.vertices} == {*judge.vertices}
+    return seen(good, ", ".join(f"{point} is in {n}" for point, n in planes.items()))
+
+
+def between_the_ends() -> Seen:
+    """Lattice points of a pyramid's surface: those in two planes lie between the ends of the edge the planes share."""
+    points = [(x, y, 0) for x in (0, 2, 4) for y in (0, 2, 4)] + [(2, 2, 4), (1, 1, 2)]
+    judge = exact_hull(points)
+    good, one_plane = [], 0
+    for k, point in enumerate(points):
+        on = [f for f in judge.facets if not value(f.plane, point)]
+        one_plane += len(on) == 1
+        if len(on) == 2:
+            p, q = (points[j] for j in {*on[0].polygon} & {*on[1].polygon})
+            good.append(not any(cross(minus(point, p), minus(q, p))) and dot(minus(point, p), minus(point, q)) < 0)
+            good.append(k not in judge.vertices)
+    words = f"{len(good) // 2} points in two planes; {one_plane} in one, which is between no two ends of an edge"
+    return Seen(CONDITION if good and all(good) and one_plane else FAILS, words)

@@ -18,10 +18,12 @@ from modern.comparison.difference import disagreement
 from modern.comparison.outcome import Outcome, Vector, from_cards, from_judge
 from modern.edition import programs
 from modern.edition.chapter4 import Point, Theorem, load_text, load_theorems, theorem_faults
-from modern.edition.statements import CONDITION, HOLDS, Seen, seen
+from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, counterexample, seen
 from modern.exact_hull import exact_hull
+from modern.formats.csv import points as csv_points
 from modern.formats.deck import data_deck
 from modern.geometry.hull import NOT_ACCEPTABLE
+from modern.port import convex_hull
 from modern.thesis.cards import scaled
 from modern.thesis.job import Load, run_hull
 
@@ -177,6 +179,42 @@ def _programs(theorem: Theorem, load: Load) -> Seen:
     missing = f", {', '.join(theorem.lost)} left out" if theorem.lost else ""
     fine = agrees if exactly else outcome.status == NOT_ACCEPTABLE
     return seen(fine, f"{taken}{missing}: {_seen(outcome, agrees, judge)}")
+
+
+def procedure_of_4_8(kind: str = "") -> Seen:
+    """The procedure on the nine points: H_1, H_2 and H_5 are the text's; by the letter of page 29 there is no H_1.
+
+    In between the procedure takes the points in another order.  The last point is then outside of six planes, which is
+    what the ``theorem`` needs.
+    """
+    theorem = theorem_of("4.8")
+    points = [point.at for point in theorem.points]
+    hull = convex_hull(points, history=True)
+    used = [theorem.points[k].name for stage in hull.history for k in stage.added]
+    same = [set(used[:n]) == set(ADDED[:n]) for n in range(4, 9)]
+    letter = convex_hull(points, text=True, on_refusal="return")
+    six = same[-1] and used[8:] == ["Q9"] and hull.history[-1].outside == 6
+    if kind:
+        return seen(six, "H_5 as the procedure makes it has six planes that the last point is outside of")
+    good = six and same == [True, True, False, False, True] and not letter.determined
+    words = "H_1, H_2 and H_5 are made, H_3 and H_4 of other points; the last point is outside of six planes"
+    return Seen(CONDITION if good else FAILS, words)
+
+
+def slips_of_4_8(which: str) -> Seen:
+    """The two points as page 56 prints them: in the list (-4, -4, 2), in the table (3, 4, -1)."""
+    theorem = theorem_of("4.8")
+    found, _ = csv_points(counterexample("slips_4_8.csv"), "slips_4_8.csv")
+    listed, in_table = (Point("", tuple(map(Fraction, map(str, p))), "", "") for p in found)
+    if which == "list":
+        off = [plane.number for plane in theorem.planes if "Q1" in plane.vertices and plane.at(listed)]
+        return Seen(
+            FAILS if off == [1, 2, 7] else HOLDS, f"equations {', '.join(map(str, off))} are not 0 at (-4, -4, 2)"
+        )
+    off = [plane.number for plane in theorem.planes if "Q6" in plane.vertices and plane.at(in_table)]
+    none = in_table.at not in [point.at for point in theorem.points]
+    words = f"(3, 4, -1) is none of the nine points; equations {', '.join(map(str, off))} of (3, 4, 1) are not 0 there"
+    return Seen(FAILS if none and off == [1, 6] else HOLDS, words)
 
 
 def _seen(outcome: Outcome, agrees: bool, judge: Outcome) -> str:

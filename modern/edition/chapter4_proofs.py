@@ -10,7 +10,8 @@ from fractions import Fraction
 from itertools import combinations, product
 from random import Random
 
-from modern.edition.chapter3_claims import COUNT, approximations, points_of, triples
+from modern.edition.chapter3_claims import COUNT, points_of, triples
+from modern.edition.chapter3_stages import approximations
 from modern.edition.chapter3_steps import value_v
 from modern.edition.chapter4 import load_theorems
 from modern.edition.chapter4_claims import ADDED, theorem_of
@@ -52,14 +53,26 @@ def inequalities_without_z() -> Seen:
 
 
 def theorem_4_3() -> Seen:
-    """V and the distance from the line order points alike: V is the distance squared times D squared."""
+    """V and the distance from the line order points alike: V is the distance squared times D squared.
+
+    By our text of the theorem's own display, in which each i is a 1, V is 0 of every point and tells nothing.
+    """
     found = value_v()
-    return Seen(found.verdict, found.words)
+    as_text = []
+    for (x1, y1, z1), (x2, y2, z2), _ in triples():
+        one = (y2 - y1) * (z2 - z1) - (z2 - z1) * (y2 - y1)
+        as_text.append(one**2 + ((z2 - z1) * (x2 - x1) - (x2 - x1) * (z2 - z1)) ** 2)
+    return Seen(
+        found.verdict if not any(as_text) else FAILS, f"{found.words}; as our text of p. 41 has it 0 of every point"
+    )
 
 
-def distance_by_cosines() -> Seen:
-    """d squared by three determinants with direction cosines, times (e D)^2, is V; the cosines' squares add to 1."""
-    good = []
+def distance_by_cosines(kind: str = "") -> Seen:
+    """d squared by three determinants with direction cosines, times (e D)^2, is V; the cosines' squares add to 1.
+
+    ``substituted``: with the cosines put in, and by our text of that display, which has lost signs and indices.
+    """
+    good, as_text = [], []
     for p, q, x in triples():
         u, w = minus(q, p), minus(q, x)
         square = dot(u, u)
@@ -67,6 +80,11 @@ def distance_by_cosines() -> Seen:
         d_squared = sum((Fraction(a * f - b * e) ** 2 / square for a, b, e, f in rows), Fraction(0))
         across = cross(u, minus(x, p))
         good.append(d_squared * square == dot(across, across) and square == sum(k * k for k in u))
+        garbled = (w[1] * u[2] - u[2] * u[1]) ** 2 + 2 * (u[0] * u[1] - u[1] * u[2]) ** 2
+        as_text.append(Fraction(garbled, square) == d_squared)
+    if kind:
+        fine = all(good) and not any(as_text)
+        return Seen(CONDITION if fine else FAILS, "exactly, for six triples of points; none as our text has it")
     return seen(all(good), "exactly, for six triples of points")
 
 
@@ -156,15 +174,21 @@ def combination_is_inside() -> Seen:
     return seen(all(good), f"{len(good)} values of combinations")
 
 
-def theorem_4_6() -> Seen:
-    """Values of a line and distances from it, squared, order points alike."""
+def theorem_4_6(kind: str = "") -> Seen:
+    """Values of a line and distances from it, squared, order points alike; ``bars``: with those of our text."""
     a, b, c = 3, -2, 5
     points = [(x, y) for x, y in product(range(-3, 4), repeat=2) if a * x + b * y + c >= 0]
     values = [a * x + b * y + c for x, y in points]
     feet = [Fraction(v, a * a + b * b) for v in values]
-    squares = [(v * a * t) ** 2 + (v * b * t) ** 2 for v, t in zip((Fraction(1),) * len(feet), feet, strict=True)]
+    squares = [(a * t) ** 2 + (b * t) ** 2 for t in feet]
     good = all((v >= w) == (s >= t) for (v, s), (w, t) in combinations(zip(values, squares, strict=True), 2))
-    return seen(good, f"{len(points)} points of a grid, all pairs")
+    words = f"{len(points)} points of a grid, all pairs"
+    if kind:
+        as_text = all(
+            (abs(a * x) + b * y + c) ** 2 == s * (a * a + b * b) for (x, y), s in zip(points, squares, strict=True)
+        )
+        return Seen(CONDITION if good and not as_text else FAILS, words)
+    return seen(good, words)
 
 
 def theorem_4_7(count: str = COUNT) -> Seen:
@@ -220,6 +244,19 @@ def lines_of_figure_3(kind: str = "") -> Seen:
     if not all(good):
         return Seen(FAILS, words)
     return Seen(CONDITION if kind else HOLDS, words)
+
+
+def none_below_the_origin(count: str = COUNT) -> Seen:
+    """With P_3 at the origin and P_1 P_2 upright no point has a negative x: none is farther to P_3's side than P_3."""
+    good = []
+    for one in sampled_sets(2, int(count)):
+        p, q, r = one.hull.history[0].added
+        (line,) = (
+            e for e, d in zip(one.stages()[0].equations, one.hull.history[0].equations, strict=True) if r not in d
+        )
+        good += [value(line, point) >= value(line, one.points[r]) for point in one.points]
+        good.append(value(line, one.points[p]) == value(line, one.points[q]) == 0 > value(line, one.points[r]))
+    return seen(all(good), f"{len(good)} points")
 
 
 def only_one_outside() -> Seen:

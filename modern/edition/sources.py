@@ -21,7 +21,8 @@ from modern.edition.apparatus import PAGE_MARK, ApparatusError
 class Document:
     """A document and what is held of it: its OCR text by SHA-256 and length.
 
-    ``pages`` says of lines of that text (first, last) what pages they are; "unknown" stands where a fact is.
+    ``lines`` counts the last one too, which has no line end; ``pages`` says of lines of that text (first, last) what
+    pages they are; "unknown" stands where a fact is.
     """
 
     id: str
@@ -146,7 +147,7 @@ def check_files() -> Iterator[tuple[str, bool, str]]:
 
 
 def check_against(text: str) -> Iterator[tuple[str, bool, str]]:
-    """Each excerpt of the document whose whole text this is, compared with it line by line.
+    """The length of the document whose whole text this is, and each of its excerpts, compared line by line.
 
     Raises ApparatusError for a text that is none of the documents'.
     """
@@ -156,12 +157,17 @@ def check_against(text: str) -> Iterator[tuple[str, bool, str]]:
     if not known:
         raise ApparatusError(f"a text with SHA-256 {sha[:16]}... is none of the documents in SOURCES.toml")
     whole = text.split("\n")
+    document = known[0]
+    found = (len(text.encode()), len(text), len(whole))
+    same = found == (document.bytes, document.characters, document.lines)
+    words = "{} bytes, {} characters, {} lines".format(*found)
+    yield document.id, same, words if same else f"it has {words}, NOT as SOURCES.toml says"
     for excerpt in table.excerpts:
-        if excerpt.document != known[0].id:
+        if excerpt.document != document.id:
             continue
         lines = [line for line in read(excerpt.file).split("\n") if not line.startswith(PAGE_MARK)]
         wrong = [n for s in excerpt.stretches for n in range(s.first, s.last + 1) if not _same(lines, whole, s, n)]
-        words = f"its lines are those of {excerpt.document}" if not wrong else f"line {wrong[0]} is NOT the text's"
+        words = f"its lines are those of {document.id}" if not wrong else f"line {wrong[0]} is NOT the text's"
         yield excerpt.file, not wrong, words
 
 

@@ -27,6 +27,7 @@ FAILS: Final = "does not hold"
 UNTESTABLE: Final = "not testable"
 Verdict = Literal["holds", "holds with a condition", "does not hold", "not testable"]
 VERDICTS: tuple[Verdict, ...] = (HOLDS, CONDITION, FAILS, UNTESTABLE)
+_FROM_BEST: tuple[Verdict, ...] = (HOLDS, CONDITION, UNTESTABLE, FAILS)
 
 THESIS: Final = "thesis"
 DOCUMENTS = (THESIS, "appel-will", "kovalevsky-schulz", "nakamae-nishita", "yau-srihari")
@@ -149,16 +150,22 @@ def _several(value: str | Iterable[str]) -> tuple[str, ...]:
 
 
 def judge(statement: Statement, results: Results) -> Judged:
-    """Compute what a row rests on.  Raises StatementError for a claim or result that does not exist."""
+    """Compute what a row rests on; of several the worst.  Raises StatementError for one that does not exist."""
+    verdicts: list[Verdict] = []
+    words: list[str] = []
     if statement.claim:
         found = claimed(statement.claim)
-        return Judged(statement, found.verdict, found.words)
+        verdicts.append(found.verdict)
+        words.append(found.words)
+    for name in statement.results:
+        verdict = results(statement.document, name)
+        if verdict is None:
+            raise StatementError(f"{statement.document}: {statement.id}: there is no result {name}")
+        verdicts.append(verdict)
     if statement.results:
-        verdicts = {name: results(statement.document, name) for name in statement.results}
-        if None in verdicts.values():
-            raise StatementError(f"{statement.document}: {statement.id}: there is no result {statement.results}")
-        worst = max((verdict for verdict in verdicts.values() if verdict), key=VERDICTS.index)
-        return Judged(statement, worst, f"judged above: {', '.join(statement.results)}")
+        words.append(f"judged above: {', '.join(statement.results)}")
+    if verdicts:
+        return Judged(statement, max(verdicts, key=_FROM_BEST.index), "; ".join(words))
     if statement.tests:
         return Judged(statement, None, f"held by {', '.join(statement.tests)}")
     return Judged(statement, None, "")

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -84,15 +86,27 @@ def test_a_row_leads_to_its_page_and_its_line() -> None:
 def test_the_whole_text_is_compared_with_its_excerpts(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(ApparatusError, match=r"^a text with SHA-256 ca978112ca1bbdca\.\.\. is none of the documents"):
         list(check_sources("a"))
-    whole = "first\nalpha beta gamma\n"
+    whole = "first\nalpha beta gamma"
     excerpt = sources.Excerpt("t", "w.txt", "d", "", (Stretch(1, 1, 2, True),))
     names = ("id", "author", "title", "year", "kind", "institution", "volume", "extent", "doi", "held")
-    document = sources.Document(**dict.fromkeys(names, "d"), sha256=digest(whole), bytes=0, characters=0, lines=2,
+    document = sources.Document(**dict.fromkeys(names, "d"), sha256=digest(whole), bytes=22, characters=22, lines=2,
                                 rights="", pages=())  # fmt: skip
     monkeypatch.setattr(sources, "sources", lambda: sources.Sources((document,), (excerpt,), ()))
     for witness, holds in (("alpha gamma\n", True), ("gamma alpha\n", False), ("beta gamma\n", True)):
         monkeypatch.setattr(sources, "read", lambda file, witness=witness: witness)
-        assert [same for _, same, _ in sources.check_against(whole)] == [holds]
+        assert [same for _, same, _ in sources.check_against(whole)] == [True, holds]
+    for wrong in ({"lines": 1}, {"bytes": 21}, {"characters": 23}):
+        table = sources.Sources((replace(document, **wrong),), (), ())  # type: ignore[arg-type]
+        monkeypatch.setattr(sources, "sources", lambda table=table: table)
+        assert [same for _, same, _ in sources.check_against(whole)] == [False]
+
+
+def test_pages_of_lines_end_where_the_text_ends() -> None:
+    """The last line of each text carries words and no line end; it is counted, and is some page's."""
+    for document in TABLE.documents:
+        assert document.pages[-1][2] == document.lines
+        for (_, first, last), (_, after, _) in pairwise(document.pages):
+            assert first <= last < after
 
 
 def test_what_is_not_known_is_marked() -> None:

@@ -13,7 +13,9 @@ from pathlib import Path
 import pytest
 
 from modern.cli.main import main
+from modern.edition.chapter3_stages import KINDS
 from modern.edition.statements import (
+    CONDITION,
     DOCUMENTS,
     FAILS,
     HOLDS,
@@ -24,6 +26,7 @@ from modern.edition.statements import (
     Seen,
     Statement,
     StatementError,
+    Verdict,
     claimed,
     judge,
     read_rows,
@@ -77,6 +80,33 @@ def test_rows_have_distinct_ids_of_their_document_and_say_where_they_stand() -> 
         assert row.verdict in VERDICTS
         assert row.verdict == HOLDS or row.why
         assert row.says.endswith(".")
+
+
+def test_no_two_rows_of_a_document_stand_at_the_same_words() -> None:
+    assert {place: n for place, n in Counter((row.document, row.words) for row in ROWS).items() if n > 1} == {}
+
+
+def test_of_a_claim_and_its_results_the_worst_counts() -> None:
+    """Each alone spoils the verdict; a result that cannot be tested does not hide one that fails."""
+    row = replace(statements_of("thesis")[0], claim="chapter3_claims.few_points", results=("one", "other"), tests=())
+    known: dict[str, Verdict] = {}
+
+    def results(_: str, name: str) -> Verdict | None:
+        return known.get(name)
+
+    for one, other, worst in (
+        (HOLDS, HOLDS, HOLDS),
+        (HOLDS, CONDITION, CONDITION),
+        (FAILS, HOLDS, FAILS),
+        (UNTESTABLE, CONDITION, UNTESTABLE),
+        (UNTESTABLE, FAILS, FAILS),
+    ):
+        known.update(one=one, other=other)
+        assert judge(row, results).found == worst
+    assert judge(row, results).seen.startswith("a point, a segment, a triangle; judged above: one, other")
+    known.update(one=HOLDS, other=HOLDS)
+    wrong = replace(row, claim="chapter2_claims.vertex_with_minus")
+    assert judge(wrong, results).found == FAILS
 
 
 def test_what_is_computed_needs_no_stored_verdict() -> None:
@@ -188,12 +218,14 @@ def test_claims_and_results_that_do_not_exist_are_named() -> None:
     "claim",
     [
         "chapter3_claims.procedure_is_right",
-        *(
-            f"chapter3_claims.approximations {kind}"
-            for kind in ("contain", "hulls", "struck", "finite", "settled", "outside")
-        ),
-        "chapter3_claims.all_triples",
-        "chapter3_claims.all_pairs",
+        *(f"chapter3_stages.approximations {kind}" for kind in KINDS),
+        "chapter3_stages.eliminated",
+        "chapter2_claims.all_triples",
+        "chapter2_claims.all_pairs",
+        "chapter2_claims.vertex_in_space",
+        "chapter2_claims.rotations planes",
+        "chapter2_claims.rotations lines",
+        "chapter4_proofs.none_below_the_origin",
         "chapter3_steps.third_point",
         "chapter3_steps.mean_is_inside",
         "chapter3_steps.left_over",
