@@ -38,7 +38,11 @@ sys.path.insert(0, "/packages")
 from modern.publication.desk import Desk
 desk = Desk()
 def ask(name, words):
-    return json.dumps(getattr(desk, name)(*json.loads(words)))
+    if name == "part":
+        from modern.publication.parting import parted as does
+    else:
+        does = getattr(desk, name)
+    return json.dumps(does(*json.loads(words)))
 `);
   const ask = python.globals.get("ask");
   desk = (name, ...words) => JSON.parse(ask(name, JSON.stringify(words)));
@@ -83,6 +87,7 @@ const does = {
   },
   show: ({ words }) => desk("show", words),
   log: () => desk("log"),
+  part: ({ text }) => desk("part", text),
   pace({ value }) {
     pace = value;
   },

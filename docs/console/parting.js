@@ -1,0 +1,204 @@
+// Where 1963 and exact numbers part: points typed or dragged, both answers drawn (modern/publication/parting.py).
+"use strict";
+(() => {
+  const at = (id) => document.getElementById(`parting-${id}`);
+  const here = document.currentScript.src.replace(/[^/]*$/, "");
+  const sets = JSON.parse(at("sets-data").textContent);
+  const picture = at("picture");
+  const SVG = "http://www.w3.org/2000/svg";
+  const LATEST = 60000; // milliseconds a set may take
+  let answer = JSON.parse(at("first").textContent);
+  let worker = null;
+  let busy = false;
+  let turn = 0.5;
+  let tilt = 0.35;
+  let held = -1;
+
+  for (const name of Object.keys(sets)) at("sets").add(new Option(name, name));
+  at("sets").addEventListener("change", () => {
+    at("points").value = sets[at("sets").value];
+    at("answer").replaceChildren();
+    answer = null;
+    draw();
+    if (worker) go();
+  });
+
+  const typed = () =>
+    at("points").value.split("\n").map((line) => line.trim().split(/[\s,;]+/).map(Number))
+      .filter((point) => point.length === 3 && point.every(Number.isFinite));
+  const level = (points) => new Set(points.map((point) => point[2])).size < 2;
+
+  // Where a point is in the picture; the plane is seen from above, a solid from the side it is turned to.
+  function frame(points) {
+    const flat = level(points);
+    const size = Math.max(1, ...points.flat().map(Math.abs));
+    const [cosine, sine] = [Math.cos(turn), Math.sin(turn)];
+    const [up, over] = [Math.cos(tilt), Math.sin(tilt)];
+    const middle = [0, 1, 2].map((k) => points.reduce((sum, point) => sum + point[k], 0) / Math.max(points.length, 1));
+    const reach = flat ? size : Math.max(1, ...points.map((p) => Math.hypot(...p.map((x, k) => x - middle[k]))));
+    const scale = 100 / reach;
+    const place = ([x, y, z]) => {
+      if (flat) return [x * scale, -y * scale];
+      [x, y, z] = [x - middle[0], y - middle[1], z - middle[2]];
+      const [a, b] = [x * cosine - y * sine, x * sine + y * cosine];
+      return [a * scale, -(z * up + b * over) * scale];
+    };
+    return { flat, scale, place };
+  }
+
+  function mark(name, attributes, text) {
+    const one = document.createElementNS(SVG, name);
+    for (const [key, value] of Object.entries(attributes)) one.setAttribute(key, value);
+    if (text) one.textContent = text;
+    picture.append(one);
+    return one;
+  }
+
+  function draw() {
+    const points = typed();
+    const { place } = frame(points);
+    const at2 = points.map(place);
+    picture.replaceChildren();
+    mark("title", {}, "The points, the true hull and what the programs of 1963 say");
+    const same = answer && answer.points && answer.points.length === points.length;
+    const loop = (face) => face.map((n) => at2[n].map((x) => x.toFixed(2)).join(",")).join(" ");
+    if (same) {
+      for (const face of answer.true.faces) mark("polygon", { points: loop(face), class: "parting-true" });
+      for (const face of answer.found.faces) mark("polygon", { points: loop(face), class: "parting-found" });
+    }
+    at2.forEach(([x, y], n) => {
+      const dot = mark("circle", { cx: x, cy: y, r: 2.6, class: "parting-point", "data-n": n });
+      dot.append(Object.assign(document.createElementNS(SVG, "title"), { textContent: `point ${n + 1}: ${points[n]}` }));
+      if (!same) return;
+      const is = answer.true.vertices.includes(n);
+      const said = answer.found.vertices.includes(n);
+      if (is && !said && answer.found.vertices.length) mark("circle", { cx: x, cy: y, r: 6, class: "parting-missed" });
+      if (said && !is) mark("path", { d: `M${x - 5} ${y - 5}l10 10m0-10l-10 10`, class: "parting-extra" });
+      mark("text", { x: x + 4, y: y - 4 }, String(n + 1));
+    });
+  }
+
+  function tell() {
+    const box = at("answer");
+    box.replaceChildren();
+    const lines = (title, texts) => {
+      if (!texts.length) return;
+      box.append(Object.assign(document.createElement("h3"), { textContent: title }));
+      for (const text of texts) box.append(Object.assign(document.createElement("p"), { textContent: text }));
+    };
+    if (answer.refused) return lines("Not run", [answer.refused]);
+    lines("The programs of 1963", answer.says);
+    const kinds = ["a point", "a line", "a polygon", "a solid"];
+    lines("The true hull", [`${kinds[answer.true.dimension]} of ${answer.true.vertices.length} vertices`]);
+    lines(
+      "The first statement that eight digits mislead",
+      answer.part.length ? answer.part : ["None: every decision is that of exact numbers."],
+    );
+  }
+
+  function employ() {
+    worker = new Worker(here + "worker.mjs", { type: "module" });
+    worker.onmessage = ({ data }) => {
+      if (data.progress !== undefined) {
+        at("progress").value = data.progress;
+        return;
+      }
+      clearTimeout(worker.late);
+      busy = false;
+      at("go").disabled = false;
+      at("progress").hidden = true;
+      if (data.failed !== undefined) {
+        at("begin").hidden = false;
+        at("begin").disabled = false;
+        at("says").textContent = `That failed: ${data.failed}`;
+        worker = null;
+        return;
+      }
+      document.getElementById("parting").dataset.state = "on";
+      at("begin").hidden = true;
+      at("says").textContent = "";
+      if (data.id === 2) {
+        answer = data.answer;
+        tell();
+        draw();
+      } else go();
+    };
+    worker.postMessage({ id: 1, do: "begin" });
+  }
+
+  function go() {
+    if (busy || !worker) return;
+    busy = true;
+    at("go").disabled = true;
+    at("says").textContent = "The programs run …";
+    worker.late = setTimeout(() => {
+      worker.terminate();
+      worker = null;
+      busy = false;
+      at("says").textContent = "No end in a minute; the run was stopped.";
+      at("begin").hidden = false;
+      at("begin").disabled = false;
+    }, LATEST);
+    worker.postMessage({ id: 2, do: "part", text: at("points").value });
+  }
+
+  at("begin").addEventListener("click", () => {
+    at("begin").disabled = true;
+    at("progress").hidden = false;
+    at("says").textContent = "Loading …";
+    employ();
+  });
+  at("form").addEventListener("submit", (event) => {
+    event.preventDefault();
+    go();
+  });
+  at("points").addEventListener("input", () => {
+    answer = null;
+    draw();
+  });
+  for (const button of document.querySelectorAll("#parting [data-turn], #parting [data-tilt]"))
+    button.addEventListener("click", () => {
+      turn += 0.3 * Number(button.dataset.turn ?? 0);
+      tilt += 0.2 * Number(button.dataset.tilt ?? 0);
+      draw();
+    });
+
+  function pointer(event) {
+    const spot = new DOMPoint(event.clientX, event.clientY).matrixTransform(picture.getScreenCTM().inverse());
+    return [spot.x, spot.y];
+  }
+  let last = null;
+  picture.addEventListener("pointerdown", (event) => {
+    held = Number(event.target.dataset?.n ?? -1);
+    last = pointer(event);
+    picture.setPointerCapture(event.pointerId);
+  });
+  picture.addEventListener("pointermove", (event) => {
+    if (last === null) return;
+    const [x, y] = pointer(event);
+    const points = typed();
+    const { flat, scale } = frame(points);
+    if (flat && held >= 0) {
+      points[held] = [Math.round(x / scale), Math.round(-y / scale), points[held][2]];
+      at("points").value = points.map((point) => point.join(" ")).join("\n");
+      answer = null;
+    } else if (!flat) {
+      turn += (x - last[0]) / 60;
+      tilt += (y - last[1]) / 60;
+    }
+    last = [x, y];
+    draw();
+  });
+  picture.addEventListener("pointerup", () => {
+    const moved = held >= 0 && answer === null;
+    last = null;
+    held = -1;
+    if (moved) go();
+  });
+
+  draw();
+  if (answer) tell();
+  if (location.protocol === "file:")
+    at("says").textContent = "To run your own points this page needs a server: “make serve” in a checkout.";
+  else at("begin").hidden = at("progress").max <= 1;
+})();
