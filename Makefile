@@ -5,7 +5,7 @@ BIN = $(VENV)/bin
 JOBS ?= 2
 PIP = $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: reproduce test lint format coverage wheel benchmark mutants tei-check edition upgrade hooks clean
+.PHONY: reproduce test lint format coverage wheel benchmark mutants tei-check edition serve upgrade hooks clean
 
 reproduce: $(VENV)/.run
 	$(BIN)/hull1620 reproduce
@@ -42,6 +42,10 @@ tei-check: $(VENV)/.dev
 
 edition: $(VENV)/.dev
 	$(BIN)/python -m modern.publication.site.build dist/edition
+
+# The site on your own computer alone; its pages open as files too, but for the machine in the page.
+serve:
+	$(BIN)/python -m http.server --bind 127.0.0.1 --directory dist/edition 1620
 
 # The newest versions that pyproject.toml allows, for every platform, with hashes: locks/run.lock what the command needs, dev.lock all.
 LOCK = $(BIN)/uv pip compile --quiet --upgrade --universal --python-version 3.11 --fork-strategy fewest --generate-hashes \

@@ -1,9 +1,9 @@
-"""The machine in the page: what the site needs of it beside :mod:`modern.publication.desk`.
+"""The machine in the page: what its two pages hold when they are made, and what is laid beside them to be loaded.
 
-The page's files lie in ``docs/console``.  Python for the browser is the npm package ``pyodide``, which
-``package-lock.json`` there names with its hash; the project itself goes into the page as its wheel, unpacked, with lark
-and mpmath as they are installed where the site is built.  Without the npm package the site has the recorded session
-alone.
+The pages' HTML and their worker lie in ``docs/console``, their scripts in ``docs/_static``.  Python for the browser is
+the npm package ``pyodide``, which ``package-lock.json`` there names with its hash; the project itself goes into the
+page as its wheel, unpacked, with lark and mpmath as they are installed where the site is built.  Without the npm
+package, or without a wheel, the site has recorded answers alone, and says so.
 """
 
 from __future__ import annotations
@@ -17,38 +17,48 @@ from importlib.metadata import distribution
 from io import BytesIO
 from pathlib import Path
 
+from modern.edition.chapter6 import input_deck
+from modern.edition.sources import read
+from modern.formats.points import parse_bytes
 from modern.publication.desk import Desk
+from modern.publication.parting import parted
 
+ROOT = Path(__file__).parents[2]
+SOURCE = ROOT / "docs" / "console"
+PERIOD = ROOT / "tests" / "data" / "period"
 PYODIDE = ("pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_stdlib.zip", "pyodide-lock.json")
-"""What of the npm package the page loads."""
-OURS = ("console.js", "console.css", "worker.mjs")
+"""What of the npm package a page loads."""
 _NEEDS = ("lark", "mpmath")
 _LEFT_OUT = ("/tests/", "/__pyinstaller/", "__pycache__")
 _EPOCH = (1980, 1, 1, 0, 0, 0)
 
 
-def fragment(source: Path, period: Path, folder: str, size: int) -> str:
-    """The page's HTML: controls, the recorded session, and the programs of ``period``.
+def console_page() -> str:
+    """The console's HTML: its controls, a recorded session, and programs in the manner of the time."""
+    return _filled("console.html", RECORDED=html.escape(recorded()), PERIOD=_json(_period()))
 
-    ``source`` is ``docs/console``, ``folder`` where :func:`lay` has laid its files, as the page sees it; ``size`` what
-    it gave, 0 where the machine is not in the site.
-    """
-    says = (
-        f"It loads Python and this project into the page, {size / 1e6:.1f} MB; nothing leaves your computer."
-        if size
-        else "This site was built without the machine (npm ci --prefix docs/console, and build again)."
-    )
-    filled = {
-        "__SAYS__": html.escape(says),
-        "__BYTES__": str(size),
-        "__RECORDED__": html.escape(recorded()),
-        "__PERIOD__": json.dumps(_period(period), sort_keys=True).replace("<", "\\u003c"),
-        "__FOLDER__": html.escape(folder),
+
+def parting_page() -> str:
+    """The HTML of the page where 1963 and exact numbers part: point sets by name, and the answer to the first."""
+    sets = point_sets()
+    first = next(iter(sets.values()))
+    return _filled("parting.html", POINTS=html.escape(first), SETS=_json(sets), FIRST=_json(parted(first)))
+
+
+def point_sets() -> dict[str, str]:
+    """Sets to begin with, a point a line."""
+    thirds = "\n".join(f"{x} {y} 0" for x, y in ((0, 0), (90, 10), (100, 60), (40, 90), (-30, 60), (30, 40), (50, 35)))
+    decks = {
+        "four points of five digits: three vertices lost": read("transcripts/counterexamples/silent.deck"),
+        "example 6 of the thesis": input_deck(6).text(),
+        "example 5 of the thesis": input_deck(5).text(),
+        "a pyramid over four points": read("fortran_src/grounds/pyramid5.deck"),
     }
-    page = (source / "console.html").read_text(encoding="utf-8")
-    for mark, text in filled.items():
-        page = page.replace(mark, text)
-    return page if size else page.replace(f'<script src="{folder}/console.js" defer></script>\n', "")
+    found = {name: "\n".join(" ".join(p) for p in parse_bytes(t.encode(), name).points) for name, t in decks.items()}
+    return found | {"seven points in a plane, to be dragged": thirds, "a triangle and its middle, in thirds": _THIRDS}
+
+
+_THIRDS = "0 0 0\n1 0 0\n0 1 0\n.33333333 .33333333 0\n.5 .5 0"
 
 
 def recorded() -> str:
@@ -63,20 +73,21 @@ def recorded() -> str:
     return desk.log()
 
 
-def lay(source: Path, wheel: Path, folder: Path) -> int:
-    """Lay everything the page loads into ``folder``; returns its size in bytes, 0 where npm's package is not there."""
-    npm = source / "node_modules" / "pyodide"
+def lay(folder: Path, wheel: Path | None, source: Path = SOURCE) -> int:
+    """Lay everything the pages load into ``folder``; returns its size in bytes, 0 where there is no machine to lay."""
     folder.mkdir(parents=True, exist_ok=True)
-    for name in OURS:
-        shutil.copyfile(source / name, folder / name)
-    if not npm.is_dir():
-        return 0
-    (folder / "pyodide").mkdir(exist_ok=True)
-    for name in PYODIDE:
-        shutil.copyfile(npm / name, folder / "pyodide" / name)
-    (folder / "packages.zip").write_bytes(packages(wheel))
-    loaded = [folder / "pyodide" / name for name in PYODIDE] + [folder / "packages.zip", folder / "worker.mjs"]
-    return sum(path.stat().st_size for path in loaded)
+    npm, size = source / "node_modules" / "pyodide", 0
+    if npm.is_dir() and wheel is not None:
+        (folder / "pyodide").mkdir(exist_ok=True)
+        for name in PYODIDE:
+            shutil.copyfile(npm / name, folder / "pyodide" / name)
+        shutil.copyfile(source / "worker.mjs", folder / "worker.mjs")
+        (folder / "packages.zip").write_bytes(packages(wheel))
+        # The worker itself and pyodide.mjs are modules, whose loading nobody can count.
+        counted = [folder / "pyodide" / name for name in PYODIDE if name != "pyodide.mjs"] + [folder / "packages.zip"]
+        size = sum(path.stat().st_size for path in counted)
+    (folder / "size.js").write_text(f"window.hull1620Bytes = {size};\n", encoding="ascii")
+    return size
 
 
 def packages(wheel: Path) -> bytes:
@@ -103,10 +114,19 @@ def _installed(package: str) -> Iterator[tuple[str, bytes]]:
             yield name, Path(str(file.locate())).read_bytes()
 
 
-def _period(folder: Path) -> Mapping[str, str]:
+def _period() -> Mapping[str, str]:
     """The programs of the time and their decks, by name."""
-    return {
-        path.name: path.read_text(encoding="ascii")
-        for path in sorted(folder.glob("*.*"))
-        if path.suffix in (".f", ".deck")
-    }
+    files = (path for path in sorted(PERIOD.glob("*.*")) if path.suffix in (".f", ".deck"))
+    return {path.name: path.read_text(encoding="ascii") for path in files}
+
+
+def _filled(name: str, **marks: str) -> str:
+    page = (SOURCE / name).read_text(encoding="utf-8")
+    for mark, text in marks.items():
+        page = page.replace(f"__{mark}__", text)
+    return page
+
+
+def _json(value: object) -> str:
+    """JSON that a script element may hold."""
+    return json.dumps(value).replace("<", "\\u003c")

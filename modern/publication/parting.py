@@ -44,7 +44,7 @@ def parted(text: str) -> dict[str, Any]:
     try:
         given = parse_bytes(text.encode(), "points")
         deck = data_deck(given.points, "points")
-    except EmulatorError as error:
+    except (EmulatorError, ValueError) as error:
         return {"refused": str(error)}
     if len(given.points) > MOST:
         return {"refused": f"{len(given.points)} points; the programs take {MOST}"}
@@ -161,9 +161,10 @@ def _found(run: HullRun, cause: Cause | None, given: Sequence[Sequence[str]]) ->
     elif dimension == 2:
         loops = [[n for n in loop if n >= 0] for loop in loops]
     strange = known.count(-1)
-    lines = [f"{len(hull.vertices)} vertices, {len(hull.equations)} equations"]
+    count = len(hull.vertices)
+    lines = [f"{count} {'vertex' if count == 1 else 'vertices'}, {len(hull.equations)} equations"]
     if strange:
-        lines.append(f"{strange} of the vertices punched are no points of the set: their coordinates were cut")
+        lines.append(f"of the vertices punched {strange} are no points of the set: their coordinates were cut")
     return lines, {"dimension": dimension, "vertices": [n for n in known if n >= 0], "faces": [x for x in loops if x]}
 
 

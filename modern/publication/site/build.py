@@ -13,6 +13,8 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
+from modern.publication.console import lay
+
 ROOT = Path(__file__).parents[3]
 NEEDS = "the site is built by Sphinx: pip install 'hull1620[edition]'"
 _OURS = ".hull1620-edition"
@@ -24,8 +26,11 @@ class BuildError(Exception):
     """Why no site was built, in one line."""
 
 
-def build(out: Path, docs: Path = ROOT / "docs", quiet: bool = False) -> None:
-    """Build the site into a folder, which it replaces.  Raises BuildError."""
+def build(out: Path, docs: Path = ROOT / "docs", quiet: bool = False, wheel: Path | None = None) -> None:
+    """Build the site into a folder, which it replaces; with ``wheel`` the machine in the page too.
+
+    Raises BuildError.
+    """
     if out.exists() and not (out / _OURS).exists() and (not out.is_dir() or any(out.iterdir())):
         raise BuildError(f"{out}: is there and is no site of ours; nothing is replaced")
     try:
@@ -61,21 +66,29 @@ def build(out: Path, docs: Path = ROOT / "docs", quiet: bool = False) -> None:
                 shutil.rmtree(found)
             else:
                 found.unlink(missing_ok=True)
+        lay(made / "console", wheel)
         (made / _OURS).write_text("built by hull1620; `make edition` replaces this folder\n", encoding="utf-8")
         if out.exists():
             out.rename(Path(folder) / "before")
         made.rename(out)
 
 
+def _newest(folder: Path) -> Path | None:
+    """The wheel built last, if there is one."""
+    return max(folder.glob("hull1620-*.whl"), key=lambda path: path.stat().st_mtime, default=None)
+
+
 def main(words: Sequence[str]) -> int:
     """Build into the folder named, or dist/edition.  0, or 2 with one line on standard error."""
     out = Path(words[0]) if words else ROOT / "dist" / "edition"
     try:
-        build(out, quiet=not sys.stdout.isatty())
+        build(out, quiet=not sys.stdout.isatty(), wheel=_newest(ROOT / "dist"))
     except BuildError as error:
         print(f"edition: {error}", file=sys.stderr)
         return 2
     size = sum(file.stat().st_size for file in out.rglob("*") if file.is_file())
+    if not (out / "console" / "worker.mjs").exists():
+        print("edition: without the machine in the page: it needs make wheel, and npm ci --prefix docs/console")
     print(f"{out / 'index.html'}: {len(list(out.rglob('*.html')))} pages, {size / 1e6:.1f} MB")
     return 0
 

@@ -2,7 +2,8 @@
 "use strict";
 (() => {
   const at = (id) => document.getElementById(`parting-${id}`);
-  const here = document.currentScript.src.replace(/[^/]*$/, "");
+  const there = new URL("../console/", document.currentScript.src).href;
+  const bytes = window.hull1620Bytes ?? 0;
   const sets = JSON.parse(at("sets-data").textContent);
   const picture = at("picture");
   const SVG = "http://www.w3.org/2000/svg";
@@ -13,6 +14,7 @@
   let turn = 0.5;
   let tilt = 0.35;
   let held = -1;
+  let asked = "";
 
   for (const name of Object.keys(sets)) at("sets").add(new Option(name, name));
   at("sets").addEventListener("change", () => {
@@ -83,7 +85,7 @@
     box.replaceChildren();
     const lines = (title, texts) => {
       if (!texts.length) return;
-      box.append(Object.assign(document.createElement("h3"), { textContent: title }));
+      box.append(Object.assign(document.createElement("h2"), { textContent: title }));
       for (const text of texts) box.append(Object.assign(document.createElement("p"), { textContent: text }));
     };
     if (answer.refused) return lines("Not run", [answer.refused]);
@@ -97,7 +99,7 @@
   }
 
   function employ() {
-    worker = new Worker(here + "worker.mjs", { type: "module" });
+    worker = new Worker(there + "worker.mjs", { type: "module" });
     worker.onmessage = ({ data }) => {
       if (data.progress !== undefined) {
         at("progress").value = data.progress;
@@ -117,11 +119,11 @@
       document.getElementById("parting").dataset.state = "on";
       at("begin").hidden = true;
       at("says").textContent = "";
-      if (data.id === 2) {
+      if (data.id === 2 && asked === at("points").value) {
         answer = data.answer;
         tell();
         draw();
-      } else go();
+      } else go(); // the points have changed since
     };
     worker.postMessage({ id: 1, do: "begin" });
   }
@@ -139,7 +141,8 @@
       at("begin").hidden = false;
       at("begin").disabled = false;
     }, LATEST);
-    worker.postMessage({ id: 2, do: "part", text: at("points").value });
+    asked = at("points").value;
+    worker.postMessage({ id: 2, do: "part", text: asked });
   }
 
   at("begin").addEventListener("click", () => {
@@ -200,5 +203,10 @@
   if (answer) tell();
   if (location.protocol === "file:")
     at("says").textContent = "To run your own points this page needs a server: “make serve” in a checkout.";
-  else at("begin").hidden = at("progress").max <= 1;
+  else if (!bytes) at("says").textContent = "This site was built without the machine; the answer shown is that of the first set.";
+  else {
+    at("says").textContent = `Python and this project come into the page, ${(bytes / 1e6).toFixed(1)} MB. Nothing leaves your computer.`;
+    at("progress").max = bytes;
+    at("begin").hidden = false;
+  }
 })();

@@ -3,7 +3,8 @@
 (() => {
   const at = (id) => document.getElementById(`desk-${id}`);
   const desk = document.getElementById("desk");
-  const here = document.currentScript.src.replace(/[^/]*$/, "");
+  const there = new URL("../console/", document.currentScript.src).href;
+  const bytes = window.hull1620Bytes ?? 0; // what console/size.js says, where the machine was laid into the site
   const PACES = [1, 10, 100, 1000, 10000, 0];
   const SPEEDS = ["as in 1963", "10 times 1963", "100 times", "1,000 times", "10,000 times", "at once"];
   const COMPILING = 10000; // milliseconds a source may take
@@ -26,6 +27,14 @@
       "Below is a recorded session.";
     return;
   }
+  if (!bytes) {
+    at("says").textContent =
+      "This site was built without the machine: “npm ci --prefix docs/console” fetches what it needs, then “make edition”.";
+    return;
+  }
+  at("says").textContent =
+    `It loads Python and this project into the page, ${(bytes / 1e6).toFixed(1)} MB. Nothing leaves your computer.`;
+  at("progress").max = bytes;
   at("begin").hidden = false;
   at("begin").addEventListener("click", begin);
 
@@ -38,7 +47,7 @@
   }
 
   function employ() {
-    worker = new Worker(here + "worker.mjs", { type: "module" });
+    worker = new Worker(there + "worker.mjs", { type: "module" });
     asked = new Map();
     worker.onmessage = ({ data }) => {
       if (data.progress !== undefined) at("progress").value = data.progress;

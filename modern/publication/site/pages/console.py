@@ -1,0 +1,12 @@
+"""The machine in the page, and the page where its numbers and exact ones part (``modern/publication/console.py``)."""
+
+from __future__ import annotations
+
+from modern.publication.console import console_page, parting_page
+from modern.publication.site.made import Made, Part, one_of
+
+
+def make(argument: str) -> Made:
+    """``machine`` or ``parting``."""
+    page = console_page if one_of(argument, ("machine", "parting")) == "machine" else parting_page
+    return Made((Part(html=page()),))
