@@ -85,7 +85,7 @@ def test_a_refusal_names_its_statement_and_fault() -> None:
         ("", "points"),
         ("1 2\n", "points"),
         ("1 2 x\n3 4 5\n", "points"),
-        ("1 2 3.123456789\n", "points"),
+        ("1 2 3.123456789\n", "point 1, field 3: 10 significant digits; a card holds 8"),
         ("\n".join(f"{n} 0 0" for n in range(52)), "52"),
     ],
 )
