@@ -1,0 +1,188 @@
+"""Figures of committed results by name, and texts that quote them: no figure of a result is typed in the article.
+
+A text names a figure between double braces, ``{{ seventy.failures }}``; :func:`filled` puts the figures in.  It is text
+to text over Markdown, so that site and book use it alike.  Figures come from the tables of ``docs/studies`` and
+``docs/weight`` (:data:`CELLS`), from the data of the edition, and from the examples, run anew.
+"""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from emulator.files import read_text
+from modern.edition import programs
+from modern.edition.chapter6 import EXAMPLES
+from modern.edition.published import PAPERS, findings
+from modern.edition.reproduce import reproduce
+from modern.edition.statements import DOCUMENTS, VERDICTS, statements_of
+
+_PLACE = re.compile(r"\{\{ *([a-z][\w.-]*) *\}\}")
+
+
+class FigureError(ValueError):
+    """A text names a figure there is not, or a table has not the cell of one; one line."""
+
+
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """A cell of a table: the file below ``docs``, the first cells of its row, the head of its column."""
+
+    table: str
+    row: tuple[str, ...]
+    column: str
+
+
+def _cell(table: str, row: str | tuple[str, ...], column: str) -> Cell:
+    return Cell(table, (row,) if isinstance(row, str) else row, column)
+
+
+_LISTED, _MENDED = "as listed", "last pair mended"
+_SHEET = ("33.3 %", "as on the sheet (.0146)")
+_TENTH = "near a plane with a gap of .1"
+CELLS: Mapping[str, Cell] = {
+    "seventy.sets": _cell("studies/seventy/table.csv", _LISTED, "sets"),
+    "seventy.failures": _cell("studies/seventy/table.csv", _LISTED, "failures in 70"),
+    "seventy.mended": _cell("studies/seventy/table.csv", _MENDED, "failures in 70"),
+    "seventy.two-or-more": _cell("studies/seventy/table.csv", _LISTED, "70s with 2 or more"),
+    "seventy.sheets-refused": _cell("studies/seventy/decimals.csv", _SHEET, "refused"),
+    "seventy.sheets-for-two": _cell("studies/seventy/decimals.csv", _SHEET, "sheets in 70 for two"),
+    "capacity.first": _cell("studies/capacity/table.csv", "sphere", "more than 98 from N ="),
+    "capacity.full": _cell("studies/capacity/table.csv", "sphere", "table full, as listed"),
+    "capacity.most": _cell("studies/capacity/storage.csv", "most places seen", "places"),
+    "capacity.listed": _cell("studies/capacity/storage.csv", "as listed", "places"),
+    "capacity.core": _cell("studies/capacity/storage.csv", "most places seen", "smallest core"),
+    "digits.two-listed": _cell("studies/digits/table.csv", "2", "hull found, as listed"),
+    "digits.two-corrected": _cell("studies/digits/table.csv", "2", "hull found, corrected"),
+    "digits.three-corrected": _cell("studies/digits/table.csv", "3", "hull found, corrected"),
+    "digits.two-needs": _cell("studies/digits/table.csv", "2", "least P without failure"),
+    "digits.three-needs": _cell("studies/digits/table.csv", "3", "least P without failure"),
+    "rounding.truncating": _cell("studies/rounding/table.csv", "truncating", "whole numbers up to"),
+    "rounding.rounding": _cell("studies/rounding/table.csv", "rounding", "whole numbers up to"),
+    "rounding.float32": _cell("studies/rounding/table.csv", "float32", "whole numbers up to"),
+    "rounding.tenth-truncating": _cell("studies/rounding/exact.csv", _TENTH, "truncating"),
+    "rounding.tenth-float64": _cell("studies/rounding/exact.csv", _TENTH, "float64"),
+    "epsilon.best": _cell("studies/epsilon/best.csv", "as it is", "best e"),
+    "epsilon.found": _cell("studies/epsilon/best.csv", "as it is", "hulls found with it"),
+    "epsilon.greater-wrong": _cell("studies/epsilon/price.csv", "greater", "of these sets"),
+    "translation.least": _cell("studies/translation/ratio.csv", "less than 0.5", "processor time saved"),
+    "translation.most": _cell("studies/translation/ratio.csv", "1.5 and more", "processor time saved"),
+    "translation.kept": _cell("studies/translation/digits.csv", "numbers to 99", "eight digits, origin kept"),
+    "translation.moved": _cell("studies/translation/digits.csv", "numbers to 99", "eight digits, origin moved to C"),
+    "time.sphere": _cell("studies/machine-time/table.csv", "sphere", "minutes"),
+    "time.ball": _cell("studies/machine-time/table.csv", "ball", "minutes"),
+    "time.points": _cell("studies/machine-time/table.csv", "sphere", "N"),
+    "divergence.share": _cell("studies/divergence/table.csv", "program1 196+2", "of all sets"),
+    "divergence.nowhere": _cell("studies/divergence/table.csv", "nowhere", "of all sets"),
+}
+"""The figures that are cells of committed tables."""
+
+_NOTICED = ("print", "machine", "equation", "sibling")
+
+
+def filled(text: str, values: Mapping[str, str]) -> str:
+    """A text with every ``{{ name }}`` replaced by its value.  Raises FigureError for a name without one."""
+
+    def put(found: re.Match[str]) -> str:
+        if found[1] not in values:
+            raise FigureError(f"there is no figure {found[1]!r}")
+        return values[found[1]]
+
+    return _PLACE.sub(put, text)
+
+
+def named(text: str) -> tuple[str, ...]:
+    """The figures a text names, in its order."""
+    return tuple(_PLACE.findall(text))
+
+
+def figures(docs: Path) -> dict[str, str]:
+    """Every figure by its name; ``docs`` is the folder of that name.  Takes some seconds: the examples are run.
+
+    Raises FigureError where a table has not the cell that a figure is, FileError where there is no table.
+    """
+    return {
+        **{name: read_cell(docs, cell) for name, cell in CELLS.items()},
+        **dict(_weight(docs)),
+        **dict(_examples()),
+        **dict(_papers()),
+        **dict(_statements()),
+        **dict(_listings()),
+    }
+
+
+def read_cell(docs: Path, cell: Cell) -> str:
+    """What stands in a cell.  Raises FigureError unless just one row begins so, and has the column."""
+    found = [line for line in _table(docs / cell.table) if tuple(line.values())[: len(cell.row)] == cell.row]
+    if len(found) != 1 or cell.column not in found[0]:
+        raise FigureError(f"{cell.table}: {len(found)} rows begin with {', '.join(cell.row)}; column {cell.column}")
+    return found[0][cell.column]
+
+
+def _table(path: Path) -> list[dict[str, str]]:
+    return list(csv.DictReader(read_text(str(path)).splitlines()))
+
+
+def _weight(docs: Path) -> Iterator[tuple[str, str]]:
+    lines = _table(docs / "weight" / "cards.csv")
+    sums = {kind: sum(int(line[kind]) for line in lines) for kind in ("compiler", *_NOTICED, "nothing")}
+    compiled = sum(sums.values()) - sums["compiler"]
+    yield "weight.variants", f"{sum(sums.values()):,}"
+    yield "weight.refused", f"{sums['compiler']:,}"
+    yield "weight.compiled", f"{compiled:,}"
+    yield "weight.noticed", f"{sum(sums[kind] for kind in _NOTICED):,}"
+    yield "weight.silent", f"{sums['nothing']:,}"
+    yield "weight.silent-share", f"{100 * sums['nothing'] / compiled:.1f} %"
+
+
+def _examples() -> Iterator[tuple[str, str]]:
+    reports = [report for report in reproduce() if not report.stated]
+    yield "examples.count", str(len(EXAMPLES))
+    for state, name in (("examples", "run"), ("listing", "listed")):
+        of_it = [report.verdict for report in reports if report.state == state]
+        kinds = Counter(verdict.kind for verdict in of_it)
+        yield f"examples.{name}-results", str(len(of_it))
+        yield f"examples.{name}-exact", str(kinds["exact"])
+        yield f"examples.{name}-reordered", str(kinds["exact in another order"])
+        exact = [verdict for verdict in of_it if verdict.kind == "exact"]
+        yield f"examples.{name}-cards", str(sum(verdict.cards + verdict.blank for verdict in exact))
+        yield f"examples.{name}-numbers", str(sum(verdict.numbers for verdict in exact))
+
+
+def _papers() -> Iterator[tuple[str, str]]:
+    kinds = Counter(finding.kind for paper in PAPERS for finding in findings(paper))
+    yield "papers.results", str(sum(kinds.values()))
+    for name in ("exact", "as corrected", "differs, explained", "not reproducible"):
+        yield f"papers.{name.replace(', ', '-').replace(' ', '-')}", str(kinds[name])
+
+
+def _statements() -> Iterator[tuple[str, str]]:
+    counted = {document: Counter(one.verdict for one in statements_of(document)) for document in DOCUMENTS}
+    counted = {**counted, "all": sum(counted.values(), Counter())}
+    lines = [("document", "statements", *VERDICTS), ("---", *("--:",) * (1 + len(VERDICTS)))]
+    for document, counts in counted.items():
+        cells = [counts.total(), *(counts[verdict] for verdict in VERDICTS)]
+        for name, cell in zip(("count", *VERDICTS), cells, strict=True):
+            yield f"statements.{document}.{name.replace(' ', '-')}", str(cell)
+        lines.append((document, *map(str, cells)))
+    yield "statements.table", "\n".join(f"| {' | '.join(line)} |" for line in lines)
+
+
+def _listings() -> Iterator[tuple[str, str]]:
+    texts = [programs.text(name) for name in programs.TEXTS]
+    layers = Counter(row.layer for text in texts for row in text.rows)
+    faults = read_text(str(programs.sources().joinpath("KNOWN-FAULTS.md")))
+    questions = read_text(str(programs.sources().joinpath("OPEN-QUESTIONS.md")))
+    dimension = programs.committed("program1").text().replace(" ", "")
+    yield "listings.statements", str(sum(len(programs.program(name).statements) for name in programs.TEXTS))
+    yield "listings.characters", f"{sum(len(''.join(line.text.split())) for text in texts for line in text.witness):,}"
+    yield "listings.rows", str(layers.total())
+    for layer in ("ocr", "print", "lacuna", "examples", "epsilon", "translation", "corrected"):
+        yield f"listings.rows-{layer}", str(layers[layer])
+    yield "listings.faults", str(len(re.findall(r"^\d+\. \*\*", faults, re.MULTILINE)))
+    yield "listings.questions", str(len(re.findall(r"^\d+\. ", questions, re.MULTILINE)))
+    yield "listings.points", re.findall(r"DIMENSIONX\((\d+)\)", dimension)[0]

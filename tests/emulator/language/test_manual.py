@@ -1,0 +1,45 @@
+"""docs/reference/fortran.md, the manual of the dialect, has what the compiler has: errors, foreign words, functions."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from emulator.errors import explanations
+from emulator.language import foreign
+from tests.support.paths import ROOT
+
+TEXT = (ROOT / "docs" / "reference" / "fortran.md").read_text(encoding="utf-8")
+WORDS = " ".join(TEXT.split())
+
+
+@pytest.mark.parametrize("number", explanations())
+def test_an_error_has_a_heading_and_all_that_is_known_of_it(number: str) -> None:
+    found = explanations()[number]
+    (section,) = re.findall(rf"^### Error {number}: (.*?)(?=^### |\Z)", TEXT, re.DOTALL | re.MULTILINE)
+    example = "\n".join(found.example)
+    assert f"```text\n{example}\n```" in section
+    assert " ".join(section.split()) == " ".join(
+        f"{found.title} {found.meaning} ```text {example} ``` *Mend:* {found.mend}. *Source:* {found.source}.".split()
+    )
+
+
+def test_no_error_is_explained_that_there_is_not() -> None:
+    assert re.findall(r"^### Error (\w+):", TEXT, re.MULTILINE) == list(explanations())
+
+
+@pytest.mark.parametrize("word", (*foreign.LATER, foreign.STATEMENT_FUNCTION), ids=lambda word: word.name)
+def test_a_word_of_another_fortran_is_named_with_its_owner(word: foreign.Word) -> None:
+    assert f"| {word.name} | {word.of} | {word.instead} |" in TEXT
+
+
+@pytest.mark.parametrize("letter", foreign.FIELDS)
+def test_a_field_of_another_fortran_is_named(letter: str) -> None:
+    what, instead = foreign.FIELDS[letter].split("; ")
+    assert f"| `{letter}` | {what} | {instead} |" in TEXT
+
+
+def test_a_function_of_another_fortran_is_named_with_what_to_write() -> None:
+    for instead, names in foreign._INSTEAD.items():
+        assert f"| {', '.join(names)} | `{instead}` |" in TEXT

@@ -1,0 +1,110 @@
+"""Figures by name: each is there, from the committed results; what the article quotes is never typed."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from modern.publication.figures import CELLS, Cell, FigureError, figures, filled, named, read_cell
+from tests.support import documents
+from tests.support.paths import ROOT
+
+DOCS = ROOT / "docs"
+MADE = ("commands", "python")
+"""What pages put in besides: the references made from the code (test_reference.py)."""
+
+
+@pytest.fixture(scope="module")
+def values() -> dict[str, str]:
+    return figures(DOCS)
+
+
+@pytest.mark.parametrize("name", CELLS)
+def test_a_cell_is_there(name: str) -> None:
+    assert read_cell(DOCS, CELLS[name])
+
+
+@pytest.mark.parametrize("page", documents.PAGES, ids=lambda path: path.relative_to(DOCS).as_posix())
+def test_every_figure_a_page_names_is_there(page: Path, values: dict[str, str]) -> None:
+    assert [name for name in named(page.read_text(encoding="utf-8")) if name not in (*values, *MADE)] == []
+
+
+def test_every_cell_is_quoted() -> None:
+    quoted = {name for page in documents.PAGES for name in named(page.read_text(encoding="utf-8"))}
+    assert sorted(set(CELLS) - quoted) == []
+
+
+def test_figures_are_those_of_other_reports(values: dict[str, str]) -> None:
+    report = (DOCS / "weight" / "report.md").read_text(encoding="utf-8")
+    assert f"{values['weight.silent']} ({values['weight.silent-share']}) by nothing" in report
+    assert f"{values['weight.variants']} of {values['weight.variants']} variants were judged" in report
+    readme = (ROOT / "fortran_src" / "README.md").read_text(encoding="utf-8")
+    assert f"Of the {values['listings.statements']} statements" in readme
+    assert f"The witness has {values['listings.characters']} characters" in readme
+    assert f"values from -e to +e count as zero; {values['listings.rows-epsilon']} rows" in readme
+    assert values["statements.table"].splitlines()[-1].startswith(f"| all | {values['statements.all.count']} |")
+    assert values["examples.run-exact"] == values["examples.run-results"]
+
+
+def test_no_digit_of_a_result_is_typed_in_the_article() -> None:
+    text = (DOCS / "article.md").read_text(encoding="utf-8")
+    assert typed(text) == []
+    assert len(named(text)) > 30
+
+
+REFERENCES = (
+    r"^```.*?^```",  # commands
+    r"`[^`]*`",  # names
+    r"\{\{.*?\}\}",  # figures
+    r"\]\([^)]*\)",  # where links lead
+    r"\bpp?\. [\d-]+(?:, [\d-]+)*",  # pages
+    r"\b(?:chapter|program|theorem|statement|example|row|fig\.|volume|number)s? [\d.+-]+",
+    r"\b(?:19|20)\d\d\b",  # years
+    r"\bIBM 1620\b|\bthe 1620\b|\b1620 FORTRAN\b|\bhull1620\b|\bC26-5619\b",
+    r"\*[^*\n]+(?:\n[^*\n]+)?\*",  # titles
+    r"\bP[123]-\d+",  # rows
+    r"^(?:#+ |)\d+\. ",  # numbers of sections and of references
+)
+
+
+def typed(text: str) -> list[str]:
+    """The digits of a text that are no references to a page, a chapter, a year or the like."""
+    text = text.replace("**", "")
+    for pattern in REFERENCES:
+        text = re.sub(pattern, "", text, flags=re.MULTILINE | re.DOTALL | re.IGNORECASE)
+    return re.findall(r"\S*\d\S*", text)
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("13.8 % of the seventies", ["13.8"]),
+        ("in 1963 (p. 117-118, chapter 7)", []),
+        ("{{ seventy.failures }} of 70", ["70"]),
+        ("`program3 147` and [x](a.md#1)", []),
+    ],
+)
+def test_a_typed_digit_is_found(text: str, found: list[str]) -> None:
+    assert typed(text) == found
+
+
+def test_figures_are_put_in_where_they_are_named() -> None:
+    assert filled("a {{ x.y-z }} b {{n}} {no} {{ X }}", {"x.y-z": "1 %", "n": "2"}) == "a 1 % b 2 {no} {{ X }}"
+    assert named("{{ b }} {{ a.c }} {{ b }}") == ("b", "a.c", "b")
+
+
+def test_a_name_without_a_figure_is_refused() -> None:
+    with pytest.raises(FigureError, match=r"no figure 'seventy\.mean'"):
+        filled("{{ seventy.mean }}", {"seventy.sets": "1"})
+
+
+@pytest.mark.parametrize("row", [("a",), ("c",), ("b", "2")])
+def test_a_cell_there_is_not_or_twice_is_refused(row: tuple[str, ...], tmp_path: Path) -> None:
+    (tmp_path / "t.csv").write_text("x,y,z\na,1,2\na,2,3\nb,1,5\n", encoding="utf-8")
+    assert read_cell(tmp_path, Cell("t.csv", ("a", "2"), "z")) == "3"
+    with pytest.raises(FigureError, match=r"t\.csv"):
+        read_cell(tmp_path, Cell("t.csv", row, "z"))
+    with pytest.raises(FigureError, match="column w"):
+        read_cell(tmp_path, Cell("t.csv", ("b",), "w"))
