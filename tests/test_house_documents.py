@@ -21,6 +21,13 @@ LEFT_OUT = {
 }
 """How many blocks of a document are not run; each says why."""
 
+BY_HAND = [
+    page
+    for page in documents.PAGES
+    if page.stem not in ("index", "glossary") and (page.parent.name != "docs" or page.stem == "article")
+]
+"""The pages that are prose; the others of docs/ itself are made when the site is built."""
+
 
 def name(path: Path) -> str:
     return path.relative_to(ROOT).as_posix()
@@ -63,6 +70,16 @@ def test_every_page_of_a_folder_is_in_its_order(folder: str) -> None:
     pages = {path.stem for path in documents.PAGES if path.parent.name == folder} - {"index"}
     listed = documents.listed(documents.ROOT / "docs" / folder / "index.md")
     assert sorted(name for name in listed if "/" not in name) == sorted(pages)
+
+
+@pytest.mark.parametrize("path", BY_HAND, ids=name)
+def test_every_page_links_to_the_glossary(path: Path) -> None:
+    assert any(link.endswith("glossary.md") for link in documents.links(path))
+
+
+def test_the_glossary_is_in_order_and_has_no_term_twice() -> None:
+    heads = documents.headings(documents.ROOT / "docs" / "reference" / "glossary.md", 2)
+    assert heads == sorted(set(heads), key=str.lower)
 
 
 @pytest.mark.parametrize(

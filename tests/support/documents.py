@@ -152,6 +152,11 @@ def listed(path: Path) -> list[str]:
     return [line for line in lines if line and not line.startswith((":", "<"))]
 
 
+def headings(path: Path, level: int) -> list[str]:
+    """The headings of one level."""
+    return re.findall(rf"^#{{{level}}} (.*?) *$", path.read_text(encoding="utf-8"), re.MULTILINE)
+
+
 def anchors(path: Path) -> set[str]:
     """The headings of a text as links name them: small letters, ``-`` for blanks, no other signs."""
     outside = re.sub(r"^```.*?^```", "", path.read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)

@@ -2,7 +2,7 @@
 
 Sets of ten points with whole coordinates of d digits go through the programs, as listed and with the layer
 ``corrected``, and through the port with P digits, truncating, for P from 4 to 28.  ``samples`` counts the sets of
-each d.  docs/explanation/studies.md derives the digits that decide every zero, and those that are always enough.
+each d.  docs/explanation/eight-digits.md derives the digits that decide every zero, and those that are always enough.
 """
 
 from __future__ import annotations

@@ -29,7 +29,7 @@ def test_no_error_is_explained_that_there_is_not() -> None:
     assert re.findall(r"^### Error (\w+):", TEXT, re.MULTILINE) == list(explanations())
 
 
-@pytest.mark.parametrize("word", (*foreign.LATER, foreign.STATEMENT_FUNCTION), ids=lambda word: word.name)
+@pytest.mark.parametrize("word", [*foreign.LATER, foreign.STATEMENT_FUNCTION], ids=lambda word: word.name)
 def test_a_word_of_another_fortran_is_named_with_its_owner(word: foreign.Word) -> None:
     assert f"| {word.name} | {word.of} | {word.instead} |" in TEXT
 

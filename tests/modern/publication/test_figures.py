@@ -62,7 +62,7 @@ REFERENCES = (
     r"\bpp?\. [\d-]+(?:, [\d-]+)*",  # pages
     r"\b(?:chapter|program|theorem|statement|example|row|fig\.|volume|number)s? [\d.+-]+",
     r"\b(?:19|20)\d\d\b",  # years
-    r"\bIBM 1620\b|\bthe 1620\b|\b1620 FORTRAN\b|\bhull1620\b|\bC26-5619\b",
+    r"\b1620\b|\bhull1620\b|\bC26-5619\b",  # the machine, the project, a manual
     r"\*[^*\n]+(?:\n[^*\n]+)?\*",  # titles
     r"\bP[123]-\d+",  # rows
     r"^(?:#+ |)\d+\. ",  # numbers of sections and of references

@@ -57,7 +57,7 @@ def table_rows(study: str, table: str) -> list[dict[str, str]]:
 
 
 def quoted() -> list[tuple[str, str]]:
-    """Sentences of docs/explanation/studies.md with their figures taken from the tables, by section."""
+    """Sentences of docs/explanation with their figures taken from the tables, by section."""
     lost = sum(int(n) for n in column("seventy", "causes", "as listed"))
     refused = sum(
         int(n)
@@ -117,7 +117,7 @@ def quoted() -> list[tuple[str, str]]:
             f"{cell('divergence', 'table', 'nowhere', 'of all sets')} go through every decision",
         ),
         (
-            "digits: what is always enough",
+            "How many digits are always enough",
             f"failure is {', '.join(column('digits', 'table', 'least P without failure'))} for d from 1 to 8.",
         ),
     ]
@@ -125,7 +125,8 @@ def quoted() -> list[tuple[str, str]]:
 
 @pytest.mark.parametrize(("section", "words"), quoted())
 def test_every_figure_quoted_is_that_of_a_table(section: str, words: str) -> None:
-    text = (ROOT / "docs" / "explanation" / "studies.md").read_text(encoding="utf-8")
+    pages = ("studies.md", "eight-digits.md")
+    text = "\n".join((ROOT / "docs" / "explanation" / page).read_text(encoding="utf-8") for page in pages)
     (found,) = [part for part in text.split("\n## ") if part.startswith(f"{section}\n")]
     assert words in " ".join(found.split())
 

@@ -87,7 +87,7 @@ def test_cards_whose_planes_miss_their_points_are_named() -> None:
 
 
 def test_the_greatest_intermediate_of_the_formulas_is_within_the_digits_derived() -> None:
-    """docs/explanation/studies.md: with 3d + 1 digits every test for zero at whole points of d digits is exact."""
+    """docs/explanation/eight-digits.md: with 3d + 1 digits every test for zero at whole points of d digits is exact."""
     size = 10**3 - 1
     assert 8 * size**3 < 10 ** digits.exact_zeros(3)
     assert 4 * (16 * size**3) < 10 ** digits.enough(3)
