@@ -12,13 +12,14 @@ import numpy as np
 
 from modern.digital.solids import Volume, half_ball, listed
 from modern.edition.chapter3_claims import COUNT, points_of
+from modern.edition.published import PAPERS, printed_lines, produced_by
 from modern.edition.sampled_sets import Point, sampled_sets, value
 from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, seen
 from modern.exact_hull import ExactHull, exact_hull
 from modern.geometry.vectors import dot, minus, plus
 from modern.papers.kovalevsky_schulz import CENTRES, VERTICES, convex_polyhedron, local_corners
 from modern.papers.kovalevsky_schulz.cells import CellList
-from modern.papers.kovalevsky_schulz.coplanar import EXTENDED, QUADRANGLES, coplanar_hull
+from modern.papers.kovalevsky_schulz.coplanar import EXTENDED, QUADRANGLES, Treatment, coplanar_hull
 from modern.papers.kovalevsky_schulz.corners import places
 from modern.papers.kovalevsky_schulz.hull import merged, straightened
 from modern.papers.kovalevsky_schulz.tables import cell_list_size, triangulation_size
@@ -118,15 +119,6 @@ def pairs_are_not_combinations() -> Seen:
     return Seen(
         FAILS if wrong else HOLDS, f"{middle} is a local corner and a combination of its {len(points) - 1} neighbours"
     )
-
-
-def no_loose_cells() -> Seen:
-    """Every corner in the closure of some voxels belongs to one of them."""
-    volume = solid_at_random(2, 3)
-    corners = np.argwhere(places(volume, VERTICES)).tolist()
-    array = np.pad(volume.array, 1)
-    good = [bool(array[x : x + 2, y : y + 2, z : z + 2].any()) for x, y, z in corners]
-    return seen(all(good), f"{len(good)} corners")
 
 
 def topological_raster(kind: str = "") -> Seen:
@@ -232,10 +224,110 @@ def integers_a_face() -> Seen:
     return Seen(CONDITION if good else FAILS, "1010 / 118 is printed rounded, 8.56; 1070 / 142 is 7.535")
 
 
+@cache
+def _table_5() -> tuple[tuple[int, int, int, int], ...]:
+    """Of the eight half-balls: triangles and integers as printed, faces and integers of the hull as computed."""
+    paper = next(paper for paper in PAPERS if paper.name == "kovalevsky-schulz")
+    printed, made = printed_lines(paper), produced_by(paper)
+    names = sorted(name for name in printed if name.startswith("table5-"))
+    rows = [(printed[name][0].split(), made[name][0].split()) for name in names]
+    return tuple((int(p[1]), int(p[2]), int(m[4]), int(m[5])) for p, m in rows)
+
+
 def memory() -> Seen:
-    """Table 4: integers by (6) and by (5)."""
-    cells, triangles = cell_list_size(60, 63), triangulation_size(3560)
-    return Seen(CONDITION if cells < triangles else FAILS, f"{cells} against {triangles}")
+    """Table 5, all half-balls: integers of the cell list against Marching Cubes' and those of triangles.
+
+    By (6) the hull has as many vertices as are left of the integers; of V vertices the hull has 2 V - 4 triangles.
+    """
+    fewer, more = [], []
+    for _, triangulated, faces, cells in _table_5():
+        own = triangulation_size(2 * ((cells - 5 * faces) // 3) - 4)
+        fewer.append(cells < triangulated)
+        more += [f"{cells} against {own}"] if cells > own else []
+    fewer.append(cell_list_size(60, 63) < triangulation_size(3560))
+    words = (
+        f"fewer than Marching Cubes in {sum(fewer)} of {len(fewer)}; more than triangles of the hull: {', '.join(more)}"
+    )
+    return Seen(CONDITION if all(fewer) and more else FAILS, words)
+
+
+def integers_of_triangles() -> Seen:
+    """Table 5: integers to save by (5), 4.5 for each of the printed triangles."""
+    good = [triangulation_size(triangles) == integers for triangles, integers, _, _ in _table_5()]
+    return seen(len(good) == 8 and all(good), f"{sum(good)} of {len(good)} rows")
+
+
+def faces_are_planar() -> Seen:
+    """The corners of each face of a half-ball's cell list satisfy one equation; some vertex has over four edges."""
+    cells = _half_ball()
+    good = []
+    for face, plane in zip(cells.faces, cells.planes(), strict=True):
+        good.append(all(value(plane, cells.vertices[v - 1].point) == 0 for v in face.vertices))
+    most = max(len(vertex.edges) for vertex in cells.vertices)
+    return seen(all(good) and most > 4, f"{len(good)} faces; a vertex with {most} edges")
+
+
+def halves_of_a_sorted_set() -> Seen:
+    """Points sorted by x and halved: apart if all x differ; with equal x the halves' hulls can meet."""
+    apart = []
+    for points, _ in grown():
+        distinct = sorted({p[0]: p for p in points}.values())
+        half = len(distinct) // 2
+        apart.append(max(p[0] for p in distinct[:half]) < min(p[0] for p in distinct[half:]))
+    halves = ([(0, 0, 0), (0, 2, 0)], [(0, 1, 0), (1, 1, 0)])
+    meet = sorted(p[0] for half in halves for p in half) == [p[0] for half in halves for p in half]
+    meet &= 2 not in exact_hull([*halves[0], halves[1][0]]).vertices
+    words = "halves of distinct x are apart; (0, 1) lies between (0, 0) and (0, 2) of the other half"
+    return Seen(CONDITION if all(apart) and meet else FAILS, words)
+
+
+def corners_of_eight_voxels(kind: str) -> Seen:
+    """All ways in which the eight voxels at a corner can be there, and its six neighbours among their corners.
+
+    ``more``: of two voxels or more some pair of opposite neighbours is there; ``edge``: where an edge at the corner
+    is one of two in line there are two voxels; ``first``: of one voxel alone no pair is there.
+    """
+    good = []
+    for there in product((False, True), repeat=8):
+        voxels = [v for v, here in zip(product((0, 1), repeat=3), there, strict=True) if here]
+        near = {tuple(v[k] if k == axis else 2 for k in range(3)) for v in voxels for axis in range(3)}
+        pairs = [tuple(side if k == axis else 2 for k in range(3)) for axis in range(3) for side in (0, 1)]
+        opposite = [pairs[2 * axis] in near and pairs[2 * axis + 1] in near for axis in range(3)]
+        if kind == "more":
+            good += [any(opposite)] if len(voxels) > 1 else []
+        elif kind == "edge":
+            good += [len(voxels) > 1] if any(opposite) else []
+        else:
+            good += [not any(opposite)] if len(voxels) == 1 else []
+    return seen(all(good), f"{len(good)} of the 256 ways")
+
+
+def what_goes() -> Seen:
+    """A hull and one point more: visible faces go, edges between two of them, vertices on them only; the rest stays."""
+    good = []
+    for points, judge in grown():
+        for new in ((9, 1, 0), (-8, 3, 7)):
+            values = {f: value(f.plane, new) for f in judge.facets}
+            after = exact_hull([*points, new])
+            if 0 in values.values():
+                continue
+            hidden = {frozenset(f.polygon) for f, v in values.items() if v < 0}
+            faces = {frozenset(f.polygon) for f in after.facets}
+            rim = [e for e in judge.edges() if sum({*e} <= h for h in hidden) == 1]
+            good.append(faces == hidden | {frozenset((*edge, len(points))) for edge in rim})
+            good.append({*after.vertices} == {v for h in hidden for v in h} | {len(points)})
+            kept = {e for e in judge.edges() if any({*e} <= h for h in hidden)}
+            good.append({e for e in after.edges() if len(points) not in e} == kept)
+    return seen(bool(good) and all(good), f"{len(good) // 3} points outside of a hull, in the plane of no face")
+
+
+def edge_in_line(treatment: Treatment = EXTENDED) -> Seen:
+    """A square and a point on the line of one of its sides: the side's end is no vertex of the larger face."""
+    square = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0), (1, 1, 5)]
+    judge = exact_hull([*square, (8, 0, 0)])
+    found = coplanar_hull([*square, (8, 0, 0)], treatment)
+    good = judge.vertices == (0, 2, 3, 4, 5) and found.straightened > 0
+    return seen(good, f"{found.straightened} edges come into line; (4, 0, 0) is no vertex afterwards")
 
 
 @cache

@@ -219,3 +219,28 @@ def polyhedra_grow() -> Seen:
             if few.dimension == more.dimension == 3:
                 good.append(all(value(f.plane, points[k]) <= 0 for f in more.facets for k in few.vertices))
     return seen(bool(good) and all(good), f"{len(good)} steps")
+
+
+def moved_vertex_is_lost() -> Seen:
+    """Each vertex of a hull moved into its interior, to the mean of all vertices: it is outside of what is left."""
+    good = []
+    for points, judge in grown():
+        number = len(judge.vertices)
+        x, y, z = (sum(points[k][axis] for k in judge.vertices) for axis in range(3))
+        for k in judge.vertices:
+            rest = [tuple(number * c for c in points[j]) for j in judge.vertices if j != k]
+            moved = exact_hull([*rest, (x, y, z)])
+            old = tuple(number * moved.scale * c for c in points[k])
+            good.append(max(value(f.plane, old) for f in moved.facets) > 0)  # type: ignore[arg-type]
+    return seen(all(good), f"{len(good)} vertices")
+
+
+def inner_side() -> Seen:
+    """From a point of the edge to any vertex: not along the two faces' normals, nor along that of the new plane."""
+    good = []
+    for _, visible, hidden, plane, vertices, edge in _horizons():
+        ways = [minus(p, edge[0]) for p in vertices]
+        sign = -1 if max(value(plane, p) for p in vertices) > 0 else 1
+        for normal in (visible[:3], hidden[:3], tuple(sign * n for n in plane[:3])):
+            good.append(max(dot(normal, way) for way in ways) == 0)  # type: ignore[arg-type]
+    return seen(bool(good) and all(good), f"{len(good)} normals")

@@ -11,6 +11,7 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache
 from importlib import import_module
 from importlib.resources import files
 from importlib.resources.abc import Traversable
@@ -169,6 +170,7 @@ def printed_lines(paper: Paper) -> Lines:
     return {result.id: result.corrected for result in results_of(paper)}
 
 
+@cache
 def produced_by(paper: Paper) -> Lines:
     """What the paper's module computes, given the corrected print."""
     produced: Lines = import_module(paper.module).produced(printed_lines(paper))
