@@ -9,6 +9,11 @@ run ends before it, the comparison ends.
 Digits lost are counted up to the first differing decision only: after it a value may differ because another
 point was taken, and no digit was lost.  A value that agrees with the reference to a relative difference r
 has lost ``P + log10(r)`` of the P digits the poorer of the two arithmetics carries, at least 0 and at most P.
+
+A reference that rounds is itself some way from the exact number.  How far it is at most its run tells beside every
+number (emulator/numbers/shadowed.py, where the bound is derived).  A value that differs by no more is counted as
+``within``, not as one that differs.  Where an IF goes two ways and the reference's value is no farther from zero than
+its bound, the reference does not tell which way is right, and the comparison ends there.
 """
 
 from __future__ import annotations
@@ -33,6 +38,7 @@ from emulator.machine.state import Entry, Journal
 from emulator.numbers import Numbers
 from emulator.numbers.base import Number
 from emulator.numbers.exact import ExactNumbers
+from emulator.numbers.shadowed import Held, ShadowedNumbers
 
 _STRIDE = 1_000
 """Statements one run does before the other takes its turn."""
@@ -45,6 +51,7 @@ class Difference:
     """A value that differs: the statement, which time it was run, the variable in each run, both values as text.
 
     ``relative`` is the difference divided by the reference's value, None where that is zero or not a number.
+    ``bound`` is how far the reference's value may be from the exact one, 0 where nothing was rounded.
     """
 
     line: Line
@@ -52,6 +59,7 @@ class Difference:
     names: tuple[str, str]
     values: tuple[str, str]
     relative: float | None
+    bound: Fraction = Fraction(0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +91,8 @@ class Divergence:
     """Two runs compared.  The first of each pair is the arithmetic studied, the second the reference.
 
     ``compared`` and ``tested`` count the values and decisions compared, ``values`` and ``decisions`` those that
-    differ, ``values_in_step`` those of them before the first differing decision.  ``apart`` says why the
+    differ, ``values_in_step`` those of them before the first differing decision, ``within`` the values besides that
+    differ by no more than the reference's own rounding.  ``apart`` says why the
     comparison ended early, and is empty where both runs were compared to their endings.  Without values asked
     for, everything about them is empty and the runs stop at the first differing decision; ``endings`` are None
     for a run that was not run to its end.
@@ -99,6 +108,7 @@ class Divergence:
     tested: int
     values: int
     values_in_step: int
+    within: int
     decisions: int
     statements: tuple[int, int]
     apart: str
@@ -114,15 +124,19 @@ def diverge(
     options: Options | None = None,
     *,
     values: bool = True,
+    rounding: bool = True,
     operator: Callable[[], Operator] = Operator,
 ) -> Divergence:
     """Run a program over two arithmetics in step; ``options`` without their profile and numbers.
 
     Without ``values`` only decisions are compared, and only up to the first that differs: the way for studies of
-    many decks.  ``operator`` gives each run its own.  Raises CardError and DeckError where both runs find the same
-    fault in the deck, DeckError where the program does not fit the machine.
+    many decks.  ``rounding``: what the reference's own rounding may explain is no difference; without it every
+    difference counts, whichever of the two is the reference.  ``operator`` gives each run its own.  Raises CardError
+    and DeckError where both runs find the same fault in the deck, DeckError where the program does not fit the machine.
     """
     options = options or Options()
+    if rounding and math.isfinite(reference.digits):
+        reference = ShadowedNumbers(reference)
     runs = [_Run(program, deck, replace(options, numbers=n), values, operator()) for n in (studied, reference)]
     comparison = _Comparison(program, studied, reference)
     apart = ""
@@ -138,6 +152,9 @@ def diverge(
         assert mine[0] == other[0], "runs in step are at the same instruction"
         if not comparison.differs(mine, other):
             continue
+        if comparison.untold:
+            apart = comparison.untold
+            break
         if not values:
             break
         parents = parents or post_dominators(successors(program))
@@ -156,6 +173,7 @@ def diverge(
         tested=comparison.tested,
         values=comparison.values,
         values_in_step=comparison.values_in_step,
+        within=comparison.within,
         decisions=comparison.decisions,
         statements=(runs[0].statements, runs[1].statements),
         apart=apart,
@@ -241,7 +259,8 @@ class _Comparison:
         self._exactly = 2 * int(self.digits) + 20
         self.first_value: Difference | None = None
         self.first_decision: Decision | None = None
-        self.compared = self.tested = self.values = self.values_in_step = self.decisions = 0
+        self.compared = self.tested = self.values = self.values_in_step = self.within = self.decisions = 0
+        self.untold = ""
 
     def differs(self, mine: Entry, other: Entry) -> bool:
         """Enter what both did; whether it is a decision that differs."""
@@ -257,6 +276,10 @@ class _Comparison:
         self.tested += 1
         if mine[1] == other[1]:
             return False
+        bound, value = self._bound(other[2]), self._value(self._reference, other[2])
+        if bound is None or (bound and (value is None or abs(Fraction(value)) <= bound)):
+            self.untold = self._untold(pc, other[2], bound)
+            return True
         self.decisions += 1
         if self.first_decision is None:
             self.first_decision = Decision(
@@ -270,7 +293,8 @@ class _Comparison:
     def _store(self, mine: Entry, other: Entry, time: int) -> None:
         pc = mine[0]
         self.compared += 1
-        lost, relative = self._lost(mine, other)
+        lost, relative, within = self._lost(mine, other)
+        self.within += within
         if lost is not None:
             self.values += 1
             if self.first_value is None:
@@ -281,6 +305,7 @@ class _Comparison:
                     (name(mine[1]), name(other[1])),
                     self._texts(mine[2], other[2]),
                     relative,
+                    self._bound(other[2]) or Fraction(0),
                 )
         if self.decisions:
             return
@@ -291,21 +316,38 @@ class _Comparison:
             tally.differing += 1
         tally.tenths[round(10 * (lost or 0.0))] += 1
 
-    def _lost(self, mine: Entry, other: Entry) -> tuple[float | None, float | None]:
-        """Digits lost and the relative difference of two stores; None and None where they are the same."""
+    def _bound(self, value: Number) -> Fraction | None:
+        """How far the reference's value may be from the exact one; None where nothing is known, 0 of a whole number."""
+        if not isinstance(value, Held) or not isinstance(self._reference, ShadowedNumbers):
+            return Fraction(0)
+        return self._reference.error(value)
+
+    def _untold(self, pc: int, value: Number, bound: Fraction | None) -> str:
+        """Why the comparison ends at a decision that the reference does not tell."""
+        card, name, text = self._line(pc).place.card, self._reference.name, self._reference.text(value)
+        size = "any number" if bound is None else f"1E{math.ceil(_logarithm(bound)):+03d}"
+        remedy = "a reference of more digits, or exact, tells which way is right"
+        return f"at card {card} {name} has {text}, which its own rounding may have moved by {size}; {remedy}"
+
+    def _lost(self, mine: Entry, other: Entry) -> tuple[float | None, float | None, bool]:
+        """Digits lost and the relative difference, None where they are the same; and whether rounding makes them so."""
         if mine[1] == other[1]:
             x, y = self._value(self._studied, mine[2]), self._value(self._reference, other[2])
             if x is None and y is None:
                 # Copies of what is undefined, infinities, no numbers: the same where they are called the same.
                 if _text(self._studied, mine[2], None) == _text(self._reference, other[2], None):
-                    return None, None
+                    return None, None, False
             elif x == y:
-                return None, None
+                return None, None, False
+            elif x is not None and y is not None:
+                bound = self._bound(other[2])
+                if bound is None or abs(Fraction(x) - y) <= bound:
+                    return None, None, True
             if x is not None and y:
                 logarithm = _logarithm(abs(Fraction(x) - y)) - _logarithm(abs(Fraction(y)))
                 relative = 10**logarithm if abs(logarithm) < 300 else None
-                return min(max(self.digits + logarithm, 0.0), self.digits), relative
-        return self.digits, None
+                return min(max(self.digits + logarithm, 0.0), self.digits), relative, False
+        return self.digits, None, False
 
     def _value(self, numbers: Numbers, value: Number) -> Fraction | int | None:
         return value if value is None or type(value) is int else numbers.exact(value, self._exactly)

@@ -48,7 +48,10 @@ class MultiprecisionNumbers(Numbers):
         return self._context.inf
 
     def decimal(self, whole: int, power: int, minus: bool = False) -> Any:
-        over, under = (whole * 10**power, 1) if power >= 0 else (whole, 10**-power)
+        return self.nearest(whole * 10**power, 1) if power >= 0 else self.nearest(whole, 10**-power)
+
+    def nearest(self, over: int, under: int) -> Any:
+        """The number nearest to a fraction."""
         return self._context.make_mpf(from_rational(over, under, self.bits, round_nearest))
 
     def add(self, first: Any, second: Any) -> Any:

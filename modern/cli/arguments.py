@@ -80,7 +80,12 @@ def _diff(parser: ArgumentParser) -> None:
 def _diverge(parser: ArgumentParser) -> None:
     parser.add_argument("program", metavar="PROGRAM.f")
     parser.add_argument("deck", metavar="DECK", help="data cards: for program2 and program3 those program 1 punches")
-    parser.add_argument("--against", metavar="NAME", default="exact", help="the reference (default: exact)")
+    parser.add_argument(
+        "--against",
+        metavar="NAME",
+        default="exact",
+        help="the reference (default: exact); what its own rounding may explain is no difference",
+    )
     parser.add_argument("--first", action="store_true", help="stop at the first decision that differs; no values")
     parser.add_argument("--json", metavar="FILE", help="write the comparison as JSON")
     machine_arguments(parser)

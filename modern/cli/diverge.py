@@ -74,14 +74,19 @@ def _cut_short(found: Divergence) -> str:
 
 
 def _first_value(found: Divergence, width: int) -> Iterator[str]:
-    first = found.first_value
+    first, reference = found.first_value, found.arithmetics[1]
+    within = f"besides, {found.within} {_differ(found.within)} by no more than {reference} may itself be off"
     if first is None:
         yield from _wrapped(f"values: {found.compared} compared, none differs", width)
+    else:
+        counts = f"values: {found.compared} compared, {found.values} differ"
+        if found.decisions:
+            counts += f", {found.values_in_step} of them before the first decision that does"
+        yield from _wrapped(counts, width)
+    if found.within:
+        yield from _wrapped(f"  {within}", width)
+    if first is None:
         return
-    counts = f"values: {found.compared} compared, {found.values} differ"
-    if found.decisions:
-        counts += f", {found.values_in_step} of them before the first decision that does"
-    yield from _wrapped(counts, width)
     yield from _wrapped(f"first value that differs: {_where(first.line)}{_which(first.time)}", width)
     for arithmetic, name, value in zip(found.arithmetics, first.names, first.values, strict=True):
         yield from _wrapped(f"  {arithmetic}: {name} = {value}", width)
@@ -149,6 +154,7 @@ def _document(found: Divergence) -> dict[str, object]:
             "compared": found.compared,
             "differing": found.values,
             "differing_in_step": found.values_in_step,
+            "within_rounding": found.within,
             "first": first
             and {
                 **_statement(first.line),

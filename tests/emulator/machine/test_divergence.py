@@ -198,9 +198,8 @@ def tried(cards: list[str], data: list[str], one: str, other: str, values: bool 
             made, _ = translate(source(*cards))
             if made is None:
                 return None
-            return diverge(
-                made, deck_from_lines("d", data), numbers(one), numbers(other), Options(limit=600), values=values
-            )
+            systems, options = map(numbers, (one, other)), Options(limit=600)
+            return diverge(made, deck_from_lines("d", data), *systems, options, values=values, rounding=False)
         except EmulatorError:
             return None
 

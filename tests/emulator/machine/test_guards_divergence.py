@@ -16,7 +16,8 @@ from tests.support.deckwork import program
 
 def compared(studied: str, reference: str, lines: Sequence[str], data: Sequence[str] = ()) -> Divergence:
     deck = deck_from_lines("d", data)
-    return diverge(program(*lines, "END"), deck, numbers(studied), numbers(reference), Options(limit=100))
+    options = Options(limit=100)
+    return diverge(program(*lines, "END"), deck, numbers(studied), numbers(reference), options, rounding=False)
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,104 @@
+"""A reference that rounds: what its own rounding may explain is called no difference, and told."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import pytest
+from hypothesis import given, settings
+
+from emulator.errors import EmulatorError
+from emulator.language.cards import deck_from_lines
+from emulator.language.compiler import translate
+from emulator.language.objectcode import FIX
+from emulator.machine.divergence import Divergence, diverge
+from emulator.machine.result import Options
+from emulator.numbers import numbers
+from tests.support.decks_at_random import DATA, programs
+from tests.support.deckwork import program, source, within
+
+
+def compared(*lines: str, names: tuple[str, str], rounding: bool = True, values: bool = True) -> Divergence:
+    studied, reference = map(numbers, names)
+    options = Options(limit=5_000)
+    deck = deck_from_lines("d", [])
+    return diverge(program(*lines, "END"), deck, studied, reference, options, rounding=rounding, values=values)
+
+
+TENTHS = ["A=.3", "B=A-.1", "C=B-.2"]
+
+
+@pytest.mark.parametrize("reference", ["float64", "float32", "mp:60", "mp:500"])
+def test_tenths_in_binary_do_not_differ_from_exact_ones(reference: str) -> None:
+    """.3, .2 and 0 exactly; in binary all three are off, the last by all it is."""
+    found = compared(*TENTHS, names=("exact", reference))
+    assert (found.compared, found.values, found.first_value, found.within) == (3, 0, None, 3)
+    assert not any(loss.worst or loss.differing for loss in found.losses)
+    raw = compared(*TENTHS, names=("exact", reference), rounding=False)
+    assert (raw.values, raw.within) == (3, 0)
+    assert raw.losses[0].worst == pytest.approx(raw.digits, abs=0.05)
+
+
+def test_a_difference_beyond_the_references_rounding_is_one() -> None:
+    """.33333333 of a third: 3.3E-9 off, where doubles are by 1.85E-17."""
+    found = compared("A=1./3.", "B=A+1.", names=("truncating", "float64"))
+    assert (found.values, found.within) == (2, 0)
+    assert found.first_value is not None
+    assert found.first_value.relative == pytest.approx(1e-8)
+    assert float(found.first_value.bound) == pytest.approx(2 * float(Fraction(1, 3) - Fraction(1 / 3)))
+    # Against exact numbers there is nothing to be off by.
+    exact = compared("A=1./3.", "B=A+1.", names=("truncating", "exact"))
+    assert exact.first_value is not None
+    assert exact.first_value.bound == 0
+
+
+def test_a_poor_reference_cannot_blame_a_better_arithmetic() -> None:
+    """A third and what is made of it in three digits: off by no more than three digits are."""
+    lines = ["A=1./3.", "B=A*A", "C=B-A"]
+    assert compared(*lines, names=("exact", "truncating:3")).values == 0
+    assert compared(*lines, names=("exact", "truncating:3")).within == 3
+    assert compared(*lines, names=("truncating:3", "exact")).values == 3
+
+
+DECISION = [*TENTHS, "IF(C)10,20,10", "10 K=1", "GO TO 30", "20 K=2", "30 M=1"]
+
+
+@pytest.mark.parametrize("values", [True, False])
+def test_a_decision_that_the_reference_cannot_tell_ends_the_comparison(values: bool) -> None:
+    """Exactly C is 0; in doubles -2.8E-17, which is not called a decision of the exact numbers that differs."""
+    found = compared(*DECISION, names=("exact", "float64"), values=values)
+    assert (found.tested, found.decisions, found.first_decision) == (1, 0, None)
+    assert found.apart == (
+        "at card 4 float64 has -2.7755575615628914e-17, which its own rounding may have moved by 1E-16; a reference of "
+        "more digits, or exact, tells which way is right"
+    )
+    raw = compared(*DECISION, names=("exact", "float64"), rounding=False, values=values)
+    assert raw.decisions == 1
+
+
+def test_a_decision_that_the_reference_tells_differs() -> None:
+    """.99999999 - 1 in eight digits, 0 exactly; and the other way about only where the reference is sure."""
+    lines = ["A=3.", "B=A-3.0000001", "IF(B)10,20,10", "10 K=1", "20 M=1"]
+    found = compared(*lines, names=("truncating:3", "truncating:12"))
+    assert (found.decisions, found.apart) == (1, "")
+    assert compared(*lines, names=("truncating:12", "truncating:3")).decisions == 0
+    # 2 - 2 is 0 in three digits too, and nothing was rounded: that is told.
+    sure = compared("A=2.", "B=A-2.", "IF(B)10,20,10", "10 K=1", "20 M=1", names=("truncating", "truncating:3"))
+    assert (sure.decisions, sure.apart) == (0, "")
+
+
+@settings(max_examples=30)
+@given(programs(), DATA)
+def test_exact_numbers_never_differ_from_a_reference_by_more_than_its_rounding(
+    cards: list[str], data: list[str]
+) -> None:
+    """Of any program without FIX, whose whole numbers have no bound: exact numbers are right."""
+    with within(60):
+        try:
+            made, _ = translate(source(*cards))
+            if made is None or any(instruction.operation == FIX for instruction in made.code):
+                return
+            found = diverge(made, deck_from_lines("d", data), numbers("exact"), numbers("mp:200"), Options(limit=600))
+        except EmulatorError:
+            return
+    assert (found.first_decision, found.first_value) == (None, None)
