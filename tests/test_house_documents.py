@@ -89,6 +89,7 @@ def test_the_glossary_is_in_order_and_has_no_term_twice() -> None:
         ("```sh\nhull1620 hull absent.deck  # exit 1\n```", "absent.deck"),
         ("```console\n$ echo right\nwrong\n```", "right"),
         ("```toml\n[a]\n```", "first line"),
+        ("```fortranfixed\n      END\n```", "first card"),
         ("```python\nassert False, 'here'\n```", "here"),
     ],
 )
@@ -124,8 +125,9 @@ def test_blocks_share_a_folder_and_one_is_left_out(tmp_path: Path, monkeypatch: 
     page.write_text(
         "```toml\n# a.toml\nx = 1\n```\n```console\n$ tail -n 1 a.toml\nx = 1\n```\n"
         '<!-- skip: next "long" -->\n```sh\nfalse\n```\n```sh\nhull1620 check absent.f  # exit 2\n```\n'
+        "```fortranfixed\nC     B.F\n      END\n```\n```console\n$ tail -n 1 b.f\n      END\n```\n"
         "```python\nx = 2\n```\n```python\nassert x == 2\n```\n```text\nfigure\n```\n",
         encoding="utf-8",
     )
-    assert documents.run(page, tmp_path) == (5, 1)
+    assert documents.run(page, tmp_path) == (7, 1)
     assert documents.reasons(page) == ["long"]

@@ -6,6 +6,7 @@ and book put the text where a page says ``{{ commands }}`` (``modern/publication
 
 from __future__ import annotations
 
+import re
 from argparse import SUPPRESS, Action, ArgumentParser
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -79,7 +80,7 @@ def as_markdown(found: Iterable[Command]) -> str:
 def _section(command: Command) -> str:
     lines = [f"## {command.name}", "", command.says, "", "```text", command.usage, "```", ""]
     lines += ["| argument | what it says |", "|---|---|"]
-    lines += [f"| {_written(one)} | {_cell(one.says) or _UNSAID} |" for one in command.arguments]
+    lines += [f"| {_written(one)} | {_said(one.says) or _UNSAID} |" for one in command.arguments]
     return "\n".join(lines)
 
 
@@ -90,3 +91,8 @@ def _written(argument: Argument) -> str:
 
 def _cell(text: str) -> str:
     return " ".join(text.split()).replace("|", "\\|")
+
+
+def _said(text: str) -> str:
+    """A help as a cell: options in it are names, so that no two minuses become a dash."""
+    return re.sub(r"(?<![\w`-])--[a-z][\w=-]*", lambda found: f"`{found[0]}`", _cell(text))

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Iterable, Iterator
+import textwrap
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from types import ModuleType
 from typing import Literal
@@ -107,19 +108,40 @@ def as_markdown(found: Iterable[Name]) -> str:
 
 
 def _section(name: Name) -> str:
-    head = (
-        [f"### {name.name}", f"```text\n{name.name}{name.signature}\n```"] if name.signature else [f"### {name.name}"]
-    )
+    head = [f"### {name.name}"]
+    if name.signature:
+        head.append(f"```text\n{_wrapped(name.name, name.signature)}\n```")
+    taken = re.findall(r"[(,] ?\**(\w+)", name.signature)
+    says = "\n\n".join(_itemised(part, taken) for part in _prose(name.says).split("\n\n"))
     rows = [f"| `{one.name}{one.signature}` | {_cell(one.says)} |" for one in name.members]
     table = ["\n".join(["| member | what it is |", "|---|---|", *rows])] if rows else []
-    return "\n\n".join([*head, _prose(name.says), *table])
+    return "\n\n".join([*head, says, *table])
+
+
+def _wrapped(name: str, signature: str) -> str:
+    """A signature on lines of 80 columns."""
+    indent = " " * (len(name) + 1)
+    return textwrap.fill(f"{name}{signature}", 80, subsequent_indent=indent, break_on_hyphens=False)
+
+
+def _itemised(paragraph: str, taken: Sequence[str]) -> str:
+    """A paragraph that says ``this: ...  that: ...`` of what is taken, as a list; what is raised after it."""
+    if not taken or paragraph.startswith("```"):
+        return paragraph
+    head, *parts = re.split(rf"(?:^|(?<=[.;)])\s+)({'|'.join(taken)}):\s", paragraph)
+    if not parts:
+        return paragraph
+    last, *raised = re.split(r"\s(?=Raises )", parts[-1], maxsplit=1)
+    said = zip(parts[::2], [*parts[1:-1:2], last], strict=True)
+    items = "\n".join(f"- `{one}`: {' '.join(words.split())}" for one, words in said)
+    return "\n\n".join(part for part in (head.strip(), items, *raised) if part)
 
 
 def _prose(docstring: str) -> str:
     """A docstring as Markdown: single quotes for names, its examples as text."""
     text = re.sub(r"``([^`]+)``", r"`\1`", re.sub(r":\w+:`([^`]+)`", r"`\1`", docstring))
     return re.sub(
-        r"::\n\n((?: {4}.*\n?|\n)+)", lambda block: f":\n\n```text\n{inspect.cleandoc(block[1])}\n```\n", text
+        r"::\n\n((?: {4}.*\n?|\n)+)", lambda block: f":\n\n```text\n{inspect.cleandoc(block[1])}\n```\n\n", text
     )
 
 

@@ -4,6 +4,7 @@
 ``console``  commands after ``$ ``, each followed by what it prints
 ``python``   one namespace for the blocks of a document
 ``toml``     saved under the name in its first line, ``# scene.toml``
+``fortranfixed``  a source deck, saved under the name in its first card, ``C     SUM.F`` as ``sum.f``
 ``text``     not run, as is ``{toctree}``, the order of a folder's pages
 
 ``<!-- skip: next "why" -->`` before a block leaves it out.  Blocks run in one folder a document, which holds
@@ -30,7 +31,7 @@ PROSE = ("", "tutorial", "how-to", "reference", "explanation", "papers")
 """The folders of ``docs`` whose pages are written by hand; the others hold results."""
 PAGES = tuple(path for folder in PROSE for path in sorted((ROOT / "docs" / folder).glob("*.md")))
 DOCUMENTS = (ROOT / "README.md", ROOT / "CONTRIBUTING.md", *PAGES)
-RUN = ("sh", "console", "python", "toml")
+RUN = ("sh", "console", "python", "toml", "fortranfixed")
 LANGUAGES = (*RUN, "text", "{toctree}")
 
 _POINTS = ((0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4), (4, 4, 0), (1, 1, 1), (2, 2, 0))
@@ -116,7 +117,7 @@ def parsed(path: Path) -> Document:
     """The document with its blocks as examples."""
     parsers = (
         PythonCodeBlockParser(),
-        *(CodeBlockParser(language, run) for language, run in (("sh", _sh), ("console", _console), ("toml", _toml))),
+        *(CodeBlockParser(language, run) for language, run in _RUNNERS),
         SkipParser(),
     )
     return Document.parse(str(path), *parsers)
@@ -191,6 +192,15 @@ def _toml(example: Example) -> None:
     named = re.match(r"# (\S+\.toml)\n", example.parsed)
     assert named, f"{example.path}: a toml block says its file's name in its first line"
     Path(named[1]).write_text(example.parsed, encoding="utf-8")
+
+
+def _deck(example: Example) -> None:
+    named = re.match(r"C +(\S+\.F)\n", example.parsed)
+    assert named, f"{example.path}: a deck says its file's name in its first card"
+    Path(named[1].lower()).write_text(example.parsed, encoding="utf-8")
+
+
+_RUNNERS = (("sh", _sh), ("console", _console), ("toml", _toml), ("fortranfixed", _deck))
 
 
 def _bash(command: str) -> subprocess.CompletedProcess[str]:

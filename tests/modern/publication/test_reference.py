@@ -51,7 +51,7 @@ def test_an_argument_as_it_is_written() -> None:
     one.add_argument("thing", metavar="THING", help="a | b")
     one.add_argument("rest", metavar="REST", nargs="*")
     one.add_argument("--size", type=int, default=3, help="how large (default: %(default)s)")
-    one.add_argument("--kind", choices=("x", "y"), help="100 %% sure")
+    one.add_argument("--kind", choices=("x", "y"), help="100 %% sure, with --size=3 x--y")
     one.add_argument("--secret", help=argparse.SUPPRESS)
     (command,) = commands.commands(parser)
     assert command.usage == "hull1620 do [OPTION ...] THING [REST ...]"
@@ -60,7 +60,7 @@ def test_an_argument_as_it_is_written() -> None:
         "| `REST` | a program: a file, or the name of one built in |",
         "| `-h`, `--help` | show this help message and exit |",
         "| `--size SIZE` | how large (default: 3) |",
-        "| `--kind {x,y}` | 100 % sure |",
+        "| `--kind {x,y}` | 100 % sure, with `--size=3` x--y |",
     ]
 
 
@@ -87,7 +87,8 @@ def made_up() -> ModuleType:
 
             join(1)
 
-        Raises Trouble.
+        points: any number of them, all:
+        taken.  how: in what way.  Raises Trouble.
         """
 
     class Thing:
@@ -128,6 +129,7 @@ def test_a_function_a_class_and_an_error_as_they_are_set_out() -> None:
     assert list(parts) == ["join", "Thing", "Trouble"]
     assert "join(points, *, how='all', by=len)" in parts["join"]
     assert "Join `points`; see `other`.  As:\n\n```text\njoin(1)\n```\n" in parts["join"]
+    assert "- `points`: any number of them, all: taken.\n- `how`: in what way.\n\nRaises Trouble." in parts["join"]
     assert "Thing(size=3)" in parts["Thing"]
     assert "| `size` | How large it is. |\n| `grow(by)` | Larger \\| smaller. |" in parts["Thing"]
     assert "silent" not in parts["Thing"]
