@@ -36,8 +36,7 @@ if TYPE_CHECKING:
     from modern.digital.hull import DigitalHull, digital_hull
     from modern.digital.solids import Volume, VolumeError
     from modern.digital.volumes import read_volume
-    from modern.exact_hull.certificate import CertificateError
-    from modern.exact_hull.result import Certificate
+    from modern.exact_hull.result import Certificate, CertificateError
     from modern.geometry.hull import Face, HullRefused, Stage
     from modern.geometry.mesh import ExportError
     from modern.geometry.numbers import PointsError
@@ -66,8 +65,7 @@ _HOMES = {
     "modern.digital.hull": ("DigitalHull", "digital_hull"),
     "modern.digital.solids": ("Volume", "VolumeError"),
     "modern.digital.volumes": ("read_volume",),
-    "modern.exact_hull.certificate": ("CertificateError",),
-    "modern.exact_hull.result": ("Certificate",),
+    "modern.exact_hull.result": ("Certificate", "CertificateError"),
     "modern.geometry.hull": ("Face", "HullRefused", "Stage"),
     "modern.geometry.mesh": ("ExportError",),
     "modern.geometry.numbers": ("PointsError",),

@@ -5,8 +5,8 @@ result from the points alone, by means other than those that built it; ``exact_h
 """
 
 from modern.exact_hull.build import exact_hull
-from modern.exact_hull.certificate import CertificateError, certify
-from modern.exact_hull.result import Certificate, ExactHull, Facet
+from modern.exact_hull.certificate import certify
+from modern.exact_hull.result import Certificate, CertificateError, ExactHull, Facet
 from modern.geometry.numbers import PointsError
 
 __all__ = ["Certificate", "CertificateError", "ExactHull", "Facet", "PointsError", "certify", "exact_hull"]

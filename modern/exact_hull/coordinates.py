@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterable, Sequence
 from decimal import Decimal
 from fractions import Fraction
-from typing import Any
+from itertools import chain
+from typing import Any, TypeGuard
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,24 @@ IntPoint = tuple[int, int, int]
 Points = Iterable[Iterable[Coordinate]] | NDArray[Any]
 
 
+def _plain(points: Sequence[Any]) -> TypeGuard[list[IntPoint]]:
+    """Whether a list has tuples or lists of three Python integers only: found out in passes, not point by point."""
+    return (
+        isinstance(points, list)
+        and set(map(type, points)) <= {tuple, list}
+        and set(map(len, points)) == {3}
+        and set(map(type, chain.from_iterable(points))) == {int}
+    )
+
+
+def _whole(points: NDArray[Any]) -> bool:
+    """Whether an array has floats that are all integers of some 18 digits."""
+    if points.dtype.kind != "f" or points.dtype.itemsize not in (4, 8):
+        return False
+    with np.errstate(invalid="ignore"):
+        return bool((abs(points) < 2.0**60).all() and (points == np.rint(points)).all())
+
+
 def read_points(points: Points) -> list[ExactPoint]:
     """The exact coordinates of every point, in the order given.  Raises PointsError."""
     if isinstance(points, np.ndarray):
@@ -28,7 +47,12 @@ def read_points(points: Points) -> list[ExactPoint]:
             raise PointsError("there are no points")
         if points.ndim != 2:
             raise PointsError(f"an array of points has the shape (n, 3), not {points.shape}")
+        if points.shape[1] == 3 and (points.dtype.kind in "iu" or _whole(points)):
+            whole = points if points.dtype.kind in "iu" else points.astype(np.int64)
+            return list(zip(*whole.T.tolist(), strict=True))
         points = points.tolist()
+    if isinstance(points, list) and points and _plain(points):
+        return list(map(tuple, points))  # type: ignore[arg-type]
     found: list[ExactPoint] = []
     for index, point in enumerate(points):
         if type(point) in (tuple, list) and len(point) == 3:  # the usual point, quickly
@@ -75,3 +99,22 @@ def to_integers(points: Sequence[ExactPoint], scale: int) -> list[IntPoint]:
         )
         for x, y, z in points
     ]
+
+
+def scaled_points(points: Sequence[ExactPoint]) -> tuple[int, list[IntPoint]]:
+    """The common scale and the integers."""
+    if _plain(points):
+        return 1, points
+    scale = common_scale(points)
+    return scale, to_integers(points, scale)
+
+
+def columns_of(points: Sequence[IntPoint]) -> list[NDArray[Any]]:
+    """The coordinates axis by axis: int64 where all are within 2**62, else Python integers."""
+    try:
+        table = np.fromiter(chain.from_iterable(points), np.int64, 3 * len(points))
+        if max(int(table.max()), -int(table.min())) < 2**62:
+            return list(table.reshape(-1, 3).T)
+    except OverflowError:
+        pass
+    return list(np.array(points, object).T)

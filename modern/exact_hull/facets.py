@@ -8,6 +8,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from modern.exact_hull.coordinates import IntPoint
 from modern.exact_hull.result import Facet, Plane
@@ -102,13 +106,38 @@ def _outline(triangles: Iterable[Triangle]) -> list[int]:
 
 def faces(triangles: Iterable[tuple[Triangle, Plane]], points: Sequence[IntPoint]) -> list[Facet]:
     """The faces of a convex surface of triangles, by plane in lowest terms; polygons index ``points``."""
+    return merged([(corners, lowest_terms(plane)) for corners, plane in triangles], points)
+
+
+def merged(triangles: Iterable[tuple[Triangle, Plane]], points: Sequence[IntPoint]) -> list[Facet]:
+    """The same of planes that are in lowest terms."""
     groups: dict[Plane, list[Triangle]] = {}
     for corners, plane in triangles:
-        groups.setdefault(lowest_terms(plane), []).append(corners)
+        groups.setdefault(plane, []).append(corners)
     return [
         Facet(plane, rotated(group[0] if len(group) == 1 else corners_only(_outline(group), points)))
         for plane, group in groups.items()
     ]
+
+
+def planes_of(triangles: NDArray[np.int64], points: Sequence[IntPoint]) -> list[Plane]:
+    """The planes through triangles (m, 3), in lowest terms.  Raises ValueError where one has no area."""
+    names, places = np.unique(triangles, return_inverse=True)
+    known: NDArray[Any] = np.array([points[name] for name in names.tolist()], object)
+    if max(np.ptp(known, axis=0).tolist()) < 2**30:  # then a normal is below 2**62
+        near = (known - known[0]).astype(np.int64)
+    else:
+        near = known
+    p, q, r = (near[places.reshape(-1, 3)[:, k]].T for k in range(3))
+    (u1, u2, u3), (v1, v2, v3) = q - p, r - p
+    normals = [u2 * v3 - u3 * v2, u3 * v1 - u1 * v3, u1 * v2 - u2 * v1]
+    divisor = np.gcd.reduce(normals)
+    if not divisor.all():
+        raise ValueError("a triangle has no area")
+    a, b, c = (axis // divisor for axis in normals)
+    x, y, z = known[places.reshape(-1, 3)[:, 0]].T
+    d = -(a.astype(object) * x + b.astype(object) * y + c.astype(object) * z)
+    return list(zip(a.tolist(), b.tolist(), c.tolist(), d.tolist(), strict=True))
 
 
 def segment(points: Sequence[IntPoint]) -> list[Facet]:

@@ -10,6 +10,16 @@ from modern.exact_hull.coordinates import IntPoint
 Plane = tuple[int, int, int, int]
 
 
+class CertificateError(Exception):
+    """The result is not proved to be the hull of the points; the message says which check failed, and where."""
+
+
+def require(condition: bool, message: str) -> None:
+    """Raise CertificateError unless the condition holds."""
+    if not condition:
+        raise CertificateError(message)
+
+
 @dataclass(frozen=True, slots=True)
 class Facet:
     """One facet of the hull within its affine hull: a face of a polyhedron, an edge of a polygon, an end of a segment.

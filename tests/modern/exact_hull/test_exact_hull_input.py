@@ -11,9 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from modern.exact_hull import PointsError, certify, exact_hull
-from modern.exact_hull import certificate as checks
-from modern.exact_hull.certificate import incidences
+from modern.exact_hull import incidences as pairs
 from modern.exact_hull.facets import lowest_terms, plane_at, plane_through, value
+from modern.exact_hull.incidences import incidences
 from modern.exact_hull.surface import BOUND, frame, plane_image
 from modern.geometry.numbers import decimal
 
@@ -218,12 +218,12 @@ def test_the_bound_of_the_certificate(points, normal) -> None:
     if not any(normal):
         return
     plane = lowest_terms(plane_at(normal, points[0]))
-    image, place = checks._images([plane], points)
+    image, place = pairs._images([plane], points)
     side = max(max(column) - min(column) for column in zip(*points, strict=True))
     width = side * max(map(abs, plane[:3]))
     for column, point in enumerate(points):
         true = Fraction(value(plane, point), width)
-        assert abs(Fraction(float(image[0] @ place[:, column])) - true) < checks.BOUND / 2
+        assert abs(Fraction(float(image[0] @ place[:, column])) - true) < pairs.BOUND / 2
 
 
 @LAW
@@ -237,9 +237,9 @@ def test_both_ways_of_the_certificate_agree(points) -> None:
         if any(plane[:3]) and (max(heights) <= 0 or min(heights) >= 0):
             planes.append(plane if max(heights) <= 0 else tuple(-number for number in plane))
     if planes:
-        first, second = checks._in_int64(planes, points), checks._in_floats(planes, points)
+        first, second = pairs._in_int64(planes, points), pairs._in_floats(planes, points)
         assert first.touching == second.touching
         assert first.outside is second.outside is None
         turned = [tuple(-number for number in planes[0])]
-        seen = {way(turned, points).outside is None for way in (checks._in_int64, checks._in_floats)}
+        seen = {way(turned, points).outside is None for way in (pairs._in_int64, pairs._in_floats)}
         assert seen == {all(value(planes[0], point) == 0 for point in points)}

@@ -1,0 +1,297 @@
+"""The proof of large polyhedra by their convexity refuses what the proof by every plane refuses, and its own cases."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import random
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from modern.exact_hull import CertificateError, ExactHull, Facet, certify, convexity, exact_hull
+from modern.exact_hull import certificate as checks
+from modern.exact_hull.facets import lowest_terms, plane_through
+from modern.exact_hull.incidences import BOUND
+from modern.exact_hull.sides import images_of, normal_images, polygons
+from tests.modern.exact_hull.test_exact_hull_certificate import (
+    BIG,
+    GRID,
+    OCTAHEDRON,
+    PRISM,
+    ball,
+    exchanged,
+    mutations,
+    promoted,
+)
+
+NEEDLE = [(x, y * 10**6, z) for x in range(3) for y in (0, 1, 5) for z in range(2)] + [(1, 5 * 10**6 + 1, 1)]
+SETS = {
+    "grid": GRID,
+    "octahedron": [*OCTAHEDRON, (0, 0, 0)],
+    "prism": [*PRISM, (0, 0, 1), (0, 0, 3)],
+    "big": BIG,
+    "needle": NEEDLE,
+    "ball": ball(30, 4),
+    "halves": [tuple(Fraction(number, 2) for number in point) for point in ball(12, 5)],
+}
+
+
+@pytest.fixture(autouse=True)
+def _by_convexity(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(checks, "MANY", 0)
+    monkeypatch.setattr(checks, "_check_points", None)
+
+
+def refused(points, hull: ExactHull, message: str) -> None:
+    with pytest.raises(CertificateError, match=message):
+        certify(points, hull)
+
+
+@pytest.mark.parametrize("name", SETS)
+def test_no_single_change_to_a_hull_passes(name: str) -> None:
+    points = SETS[name]
+    hull = exact_hull(points)
+    assert certify(points, hull) == hull.certificate
+    tried = 0
+    for field in ("dimension", "vertices", "boundary", "inside", "duplicates", "plane", "facets", "polygon"):
+        for changed in mutations(getattr(hull, field)):
+            corrupt = replace(hull, **{field: changed})
+            if corrupt == hull or changed == getattr(hull, field):
+                continue
+            tried += 1
+            with pytest.raises(CertificateError):
+                certify(points, corrupt)
+    assert tried > 100
+
+
+@pytest.mark.parametrize("name", SETS)
+def test_no_single_coordinate_may_change(name: str) -> None:
+    """In the points alone, or in points and result alike unless the hull stays what it is."""
+    points = SETS[name]
+    hull = exact_hull(points)
+    for index, axis, step in itertools.product(range(len(points)), range(3), (-1, 1)):
+        moved = list(hull.scaled[index])
+        moved[axis] += step
+        scaled = (*hull.scaled[:index], tuple(moved), *hull.scaled[index + 1 :])
+        given = [tuple(Fraction(number, hull.scale) for number in point) for point in scaled]
+        with pytest.raises(CertificateError):
+            certify(given, hull)
+        corrupt = replace(hull, scaled=scaled)
+        if exact_hull(given) != corrupt:
+            with pytest.raises(CertificateError):
+                certify(given, corrupt)
+
+
+def surface(points, triangles) -> ExactHull:
+    """Triangles called the hull of the points."""
+    facets = [Facet(lowest_terms(plane_through(*(points[k] for k in t))), rotated(t)) for t in triangles]
+    corners = sorted({index for t in triangles for index in t})
+    others = tuple(sorted(set(range(len(points))) - set(corners)))
+    ordered = tuple(sorted(facets, key=lambda facet: facet.plane))
+    return ExactHull(3, 1, tuple(points), tuple(corners), (), others, (), None, ordered)
+
+
+def rotated(triangle):
+    first = triangle.index(min(triangle))
+    return (*triangle[first:], *triangle[:first])
+
+
+def double_pyramid(step: int) -> ExactHull:
+    """A pentagon between two apexes, its corners joined in order, or as a pentagram (step 2)."""
+    ring = [(4000, 0), (1236, 3804), (-3236, 2351), (-3236, -2351), (1236, -3804)]
+    points = [(x, y, 0) for x, y in ring] + [(0, 0, 3000), (0, 0, -3000)]
+    around = [(k * step % 5, (k + 1) * step % 5) for k in range(5)]
+    return surface(points, [(a, b, 5) for a, b in around] + [(b, a, 6) for a, b in around])
+
+
+def test_a_surface_that_goes_around_twice() -> None:
+    """Closed, convex at every edge, the middle within all planes, and Euler's relation holds: only the ray tells."""
+    hull = double_pyramid(1)
+    assert certify(hull.scaled, hull).facets == 10
+    hull = double_pyramid(2)
+    refused(hull.scaled, hull, "a ray meets the facets")
+
+
+def test_a_surface_with_a_dent() -> None:
+    """A face of the octahedron with a point above it, and the same triangles with that point below it."""
+    points = [*((9 * x, 9 * y, 9 * z) for x, y, z in OCTAHEDRON), (4, 4, 4)]
+    triangles = [facet.polygon for facet in exact_hull(points).facets]
+    assert len(triangles) == 10
+    assert certify(points, surface(points, triangles)).facets == 10
+    points[6] = (2, 2, 2)
+    refused(points, surface(points, triangles), "is outside of facet")
+    points[6] = (3, 3, 3)
+    refused(points, surface(points, triangles), "a plane occurs twice")
+
+
+def test_a_surface_inside_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    hull = exact_hull(OCTAHEDRON)
+    facets = [Facet(tuple(-n for n in facet.plane), rotated(facet.polygon[::-1])) for facet in hull.facets]
+    facets.sort(key=lambda facet: facet.plane)
+    corrupt = replace(hull, facets=tuple(facets))
+    with pytest.raises(convexity.Undecided, match="has the middle of the vertices outside"):
+        convexity.prove(corrupt)
+    monkeypatch.undo()
+    refused(OCTAHEDRON, corrupt, "is outside of facet")
+
+
+def test_a_facet_seen_from_inside() -> None:
+    """A triangle whose plane is right and whose corners run the other way."""
+    hull = exact_hull(OCTAHEDRON)
+    refused(OCTAHEDRON, exchanged(hull, 0, Facet(hull.facets[0].plane, rotated(hull.facets[0].polygon[::-1]))), "edge")
+    every = [Facet(facet.plane, rotated(facet.polygon[::-1])) for facet in hull.facets]
+    refused(OCTAHEDRON, replace(hull, facets=tuple(every)), "no left turn|outside of facet")
+
+
+def test_a_face_left_out_and_a_face_twice() -> None:
+    hull = exact_hull(GRID)
+    refused(GRID, exchanged(hull, 0), "one side only")
+    refused(GRID, replace(hull, facets=(*hull.facets, hull.facets[-1])), "same sense")
+    refused(GRID, replace(hull, facets=()), "there are no facets")
+
+
+def test_two_surfaces() -> None:
+    """One beside the other, each faultless."""
+    points = [*OCTAHEDRON, *((x + 9, y, z) for x, y, z in OCTAHEDRON)]
+    one = exact_hull(OCTAHEDRON)
+    shifted = exact_hull(points[6:])
+    other = [Facet(facet.plane, tuple(k + 6 for k in facet.polygon)) for facet in shifted.facets]
+    facets = sorted([*one.facets, *other], key=lambda facet: facet.plane)
+    refused(points, replace(one, scaled=tuple(points), vertices=tuple(range(12)), facets=tuple(facets)), "Euler")
+
+
+def test_a_pentagram() -> None:
+    hull = exact_hull(PRISM)
+    number = next(k for k, facet in enumerate(hull.facets) if facet.plane == (0, 0, 1, -3))
+    a, b, c, d, e = hull.facets[number].polygon
+    refused(PRISM, exchanged(hull, number, Facet((0, 0, 1, -3), (a, c, e, b, d))), "one side only")
+
+
+def test_polygons_of_no_points() -> None:
+    hull = exact_hull(OCTAHEDRON)
+    polygon = hull.facets[0].polygon
+    for wrong in ((*polygon[:2], 17), (*polygon[:2], -1), (*polygon[:2], 1.0 * polygon[2]), polygon[:2], ()):
+        refused(
+            OCTAHEDRON, exchanged(hull, 0, Facet(hull.facets[0].plane, wrong)), "indices|no vertex|fewer than three"
+        )
+
+
+def test_a_point_inside_called_a_vertex() -> None:
+    refused(GRID, promoted(exact_hull(GRID), 13), "point 13 is called a vertex; no facet has it")
+
+
+def test_the_hull_of_all_points_but_one_vertex() -> None:
+    points = [(0, 0, 0), (9, 0, 0), (0, 9, 0), (0, 0, 9), (5, 5, 5)]
+    hull = exact_hull(points[:4])
+    for name in ("inside", "boundary"):
+        refused(points, replace(hull, scaled=tuple(points), **{name: (4,)}), "point 4 is outside of facet")
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_hull_of_some_points_is_refused_for_each_of_the_others(seed: int) -> None:
+    """The hull of all points but one vertex, the vertex called inside or boundary."""
+    points = ball(40, 10 + seed)
+    for index in exact_hull(points).vertices:
+        rest = [point for k, point in enumerate(points) if k != index]
+        hull = exact_hull(rest)
+
+        def named(indices, at=index):
+            return tuple(k + (k >= at) for k in indices)
+
+        facets = tuple(Facet(facet.plane, named(facet.polygon)) for facet in hull.facets)
+        for inside, boundary in (((index,), ()), ((), (index,))):
+            corrupt = replace(
+                hull,
+                scaled=tuple(points),
+                vertices=named(hull.vertices),
+                inside=tuple(sorted((*named(hull.inside), *inside))),
+                boundary=boundary,
+                facets=facets,
+            )
+            refused(points, corrupt, f"point {index} is outside of facet")
+
+
+@pytest.mark.parametrize("name", SETS)
+def test_every_point_is_decided_in_its_cone_as_in_every_plane(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The classes by cones alone, and by every plane alone (no triangle found for any point)."""
+    points = SETS[name]
+    hull = exact_hull(points)
+    cones = certify(points, hull)
+    monkeypatch.setattr(convexity._Proof, "_located", lambda proof, away: np.full(len(away), -1))
+    monkeypatch.setattr(convexity, "_BALL", math.inf)
+    planes = certify(points, hull)
+    assert planes.evaluations >= cones.evaluations
+    assert (planes.edges, planes.facets, planes.vertices) == (cones.edges, cones.facets, cones.vertices)
+
+
+def test_no_wrong_cone_is_believed() -> None:
+    """Points beyond a wall by less than the bound are in doubt; others are found in the cone they are in."""
+    points = ball(60, 21)
+    hull = exact_hull(points)
+    sides = polygons(hull)
+    images = images_of(hull.scaled)
+    o = images.places[list(hull.vertices)].mean(axis=0)
+    cones = convexity.cones(sides, images, o)
+    proof = convexity._Proof(hull, sides, None, images, None, o, cones)
+    rng = np.random.default_rng(3)
+    away = rng.normal(size=(500, 3)) * 0.2
+    found = proof._located(away)
+    assert (found >= 0).all()
+    for place, triangle in zip(away, found, strict=True):
+        a, b, c = (images.places[k] - o for k in cones.corners[triangle])
+        assert (np.linalg.solve(np.stack([a, b, c], axis=1), place) > 0).all()
+    along = images.places[cones.corners[:, 0]] - o
+    assert (proof._located(along) == -1).all()
+
+
+@pytest.mark.parametrize("digits", [2, 8, 16, 40, 400])
+def test_the_images_are_as_near_as_stated(digits: int) -> None:
+    """Walls and planes at points differ from the exact images' by less than the bound."""
+    rng = random.Random(digits)
+    points = [tuple(rng.randrange(10**digits) // 10 ** rng.randrange(2) for _ in range(3)) for _ in range(12)]
+    images = images_of(points)
+    table = np.array([plane_through(*rng.sample(points, 3)) for _ in range(20)], object)
+    normals = normal_images(table, images.shifts)
+    largest = abs(normals).max(axis=1)
+    assert ((largest >= 0.5) & (largest <= 1)).all()
+    exact = [
+        [Fraction(n - low, 2**shift) for n, low, shift in zip(p, images.low, images.shifts, strict=True)]
+        for p in points
+    ]
+    for place, point in zip(images.places.tolist(), exact, strict=True):
+        assert all(abs(Fraction(u) - v) <= Fraction(1, 2**54) for u, v in zip(place, point, strict=True))
+    for row, plane in zip(normals, table, strict=True):
+        scaled = [Fraction(n) * 2**shift for n, shift in zip(plane[:3], images.shifts, strict=True)]
+        width = max(map(abs, scaled)) / max(abs(Fraction(float(n))) for n in row)
+        power = 2 ** round(math.log2(width)) if width < 2**1000 else Fraction(2) ** (round(math.log2(int(width))))
+        for one, other in zip(row.tolist(), scaled, strict=True):
+            assert abs(Fraction(one) - other / power) <= Fraction(1, 2**54)
+        p, q = rng.sample(range(12), 2)
+        true = sum(n / power * (u - v) for n, u, v in zip(scaled, exact[q], exact[p], strict=True))
+        assert abs(Fraction(float(row @ (images.places[q] - images.places[p]))) - true) < BOUND
+
+
+def test_a_place_with_an_image_is_known_exactly() -> None:
+    images = images_of([(3, -7, 10**40), (20, 9, 10**40 + 12345), (4, 4, 10**40 + 5)])
+    (x, y, z), weight = images.exactly(np.array([0.3, 0.125, 2.0**-70]))
+    assert Fraction(x, weight) == 3 + 32 * Fraction(0.3)
+    assert Fraction(y, weight) == -7 + 32 * Fraction(1, 8)
+    assert Fraction(z, weight) == 10**40 + 2**14 * Fraction(1, 2**70)
+
+
+def test_signs_in_doubt_are_decided_in_integers() -> None:
+    """Points a unit off a face of a wide cube, and on it, in each of its cones."""
+    side = 10**17
+    corners = list(itertools.product((0, side), repeat=3))
+    rng = random.Random(9)
+    inner = [(rng.randrange(1, side), rng.randrange(1, side), h) for h in (0, 1, side - 1, side) for _ in range(20)]
+    hull = exact_hull([*corners, *inner])
+    assert [len(hull.boundary), len(hull.inside)] == [40, 40]
+    assert hull.certificate.in_integers >= 80
+    for index in (hull.boundary[3], hull.inside[7]):
+        boundary = tuple(sorted({*hull.boundary} ^ {index}))
+        inside = tuple(sorted({*hull.inside} ^ {index}))
+        refused(hull.scaled, replace(hull, boundary=boundary, inside=inside), f"point {index} is .* a facet")

@@ -1,0 +1,180 @@
+"""What is proposed: the hull of the points rounded to a grid, found in rounds; and what becomes of a wrong one."""
+
+from __future__ import annotations
+
+import itertools
+import math
+import random
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from modern.exact_hull import CertificateError, ExactHull, exact_hull
+from modern.exact_hull import build as build_module
+from modern.exact_hull import certificate as checks
+from modern.exact_hull.coordinates import columns_of
+from modern.exact_hull.facets import merged, planes_of
+from modern.exact_hull.proposal import Proposal, exact_signs, on_grid, propose
+from tests.modern.exact_hull.test_exact_hull_certificate import BIG, GRID, OCTAHEDRON, PRISM, ball
+
+LAW = settings(deadline=None, max_examples=200)
+WIDE = st.integers(-(2**61) + 1, 2**61 - 1)
+STEP = st.integers(-(2**30) + 1, 2**30 - 1)
+
+
+def sphere(count: int, seed: int) -> list[tuple[int, ...]]:
+    rng = random.Random(seed)
+    rows = ([rng.gauss(0, 1) for _ in range(3)] for _ in range(count))
+    return [tuple(round(10**8 * n / math.hypot(*row)) for n in row) for row in rows]
+
+
+CUBE = list(itertools.product(range(6), repeat=3))
+SETS = {
+    "grid": GRID[:27],
+    "cube": CUBE,
+    "octahedron": OCTAHEDRON,
+    "octahedral ball": [p for p in itertools.product(range(-4, 5), repeat=3) if sum(map(abs, p)) <= 4],
+    "prism": PRISM,
+    "big": BIG[:27],
+    "ball": ball(300, 1),
+    "sphere": sphere(400, 2),
+    "lens": [(x * x - y, x * y, (x + y) % 2) for x in range(9) for y in range(9)],
+}
+
+
+@pytest.fixture
+def _proposed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Proposed for however few points, and not built."""
+    monkeypatch.setattr(build_module, "MANY", 4)
+    monkeypatch.setattr(build_module, "_polyhedron", None)
+
+
+def built(points, monkeypatch: pytest.MonkeyPatch) -> ExactHull:
+    """The hull without a proposal."""
+    monkeypatch.setattr(build_module, "MANY", math.inf)
+    return exact_hull(points)
+
+
+@pytest.mark.parametrize("name", SETS)
+@pytest.mark.usefixtures("_proposed")
+def test_the_proposal_is_the_hull(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    points = SETS[name]
+    hull = exact_hull(points)
+    monkeypatch.undo()
+    assert hull == built(points, monkeypatch)
+
+
+@pytest.mark.usefixtures("_proposed")
+def test_few_points_of_a_small_grid() -> None:
+    """Many in one plane, in one line, and twice."""
+    rng = random.Random(12)
+    solids = 0
+    for _ in range(300):
+        side = rng.choice((2, 3, 4))
+        points = [tuple(rng.randrange(side) for _ in range(3)) for _ in range(rng.randint(4, 30))]
+        hull = exact_hull(points)
+        solids += hull.dimension == 3
+        assert checks.certify(points, hull) == hull.certificate
+    assert solids > 200
+
+
+@given(st.lists(st.tuples(WIDE, WIDE, WIDE, STEP, STEP, STEP), min_size=1, max_size=20))
+@LAW
+def test_signs_of_long_products(rows: list[tuple[int, ...]]) -> None:
+    normals, steps = np.array(rows, np.int64).reshape(-1, 6)[:, :3], np.array(rows, np.int64).reshape(-1, 6)[:, 3:]
+    true = [sum(a * b for a, b in zip(row[:3], row[3:], strict=True)) for row in rows]
+    assert exact_signs(normals, steps).tolist() == [(value > 0) - (value < 0) for value in true]
+
+
+@given(STEP, STEP, STEP, st.integers(-3, 3))
+@LAW
+def test_signs_next_to_zero(a: int, b: int, c: int, off: int) -> None:
+    """Products of 60 digits that cancel but for a few units."""
+    normal = np.array([[a * b, -a * c, off]], np.int64)
+    assert exact_signs(normal, np.array([[c, b, 1]], np.int64))[0] == np.sign(off)
+
+
+def test_points_on_the_grid() -> None:
+    near, exact = on_grid([(5, -7, 2**29), (6, 9, -(2**29) + 1)])
+    assert exact
+    assert near.tolist() == [[0, 0, 2**30 - 1], [1, 16, 0]]
+    far, exact = on_grid([(10**40, 0, 0), (10**40 + 2**40, 1, 0), (10**40 + 2**40 - 1, 0, 1)])
+    assert not exact
+    assert far.max() < 2**30
+    assert far[:, 0].tolist() == [0, 2**29, 2**29 - 1]
+    for limit in (2**62 - 1, 2**62, 2**64):
+        columns = columns_of([(limit, 0, -limit), (1, 2, 3)])
+        assert [column.tolist() for column in columns] == [[limit, 1], [0, 2], [-limit, 3]]
+
+
+def test_flat_on_the_grid() -> None:
+    """Points that are not in one plane until they are rounded: nothing is proposed, and the hull is found."""
+    points = [(x << 45, y << 45, (x + y << 45) + x * y % 3) for x in range(20) for y in range(20)]
+    assert propose(points) is None
+    assert exact_hull(points).dimension == 3
+
+
+def dropped(count: int):
+    """A proposal that leaves out ``count`` points."""
+
+    def wrong(points) -> Proposal | None:
+        found = propose(points[count:])
+        return found and Proposal(found.triangles + count, found.near + count)
+
+    return wrong
+
+
+def turned(points) -> Proposal | None:
+    found = propose(points)
+    return found and Proposal(found.triangles[:, ::-1], found.near)
+
+
+def torn(points) -> Proposal | None:
+    found = propose(points)
+    return found and Proposal(found.triangles[1:], found.near)
+
+
+def pinched(points) -> Proposal | None:
+    found = propose(points)
+    return found and Proposal(np.concatenate([found.triangles, found.triangles[:1, [0, 0, 1]]]), found.near)
+
+
+def unaware(points) -> Proposal | None:
+    """Of no points that may lie on the surface."""
+    found = propose(points)
+    return found and Proposal(found.triangles, found.near[:0])
+
+
+@pytest.mark.parametrize("wrong", [dropped(1), dropped(9), turned, torn, pinched, unaware, lambda points: None])
+@pytest.mark.parametrize("name", ["cube", "ball", "sphere", "octahedral ball"])
+def test_a_wrong_proposal_is_refused_and_the_hull_built(wrong, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    points = SETS[name]
+    expected = built(points, monkeypatch)
+    monkeypatch.setattr(build_module, "MANY", 4)
+    monkeypatch.setattr(build_module, "propose", wrong)
+    assert exact_hull(points) == expected
+
+
+def test_what_is_built_after_a_refusal_is_proved_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    points = SETS["sphere"]
+    monkeypatch.setattr(build_module, "propose", dropped(2))
+    monkeypatch.setattr(build_module, "insertion_order", lambda count, simplex: [])
+    with pytest.raises(CertificateError, match="is outside of facet"):
+        exact_hull(points)
+
+
+def test_planes_and_faces_of_triangles() -> None:
+    """Beside the same by one integer at a time: coordinates below and beyond 2**30, faces of several triangles."""
+    for points in (CUBE, BIG[:27], ball(40, 8), [tuple(10**9 * n for n in p) for p in CUBE]):
+        triangles = propose(points).triangles
+        for plane, (a, b, c) in zip(planes_of(triangles, points), triangles.tolist(), strict=True):
+            p, q, r = points[a], points[b], points[c]
+            assert all(plane[0] * x + plane[1] * y + plane[2] * z + plane[3] == 0 for x, y, z in (p, q, r))
+            assert math.gcd(*plane) == 1
+            x, y, z = (sum(axis) for axis in zip(*points, strict=True))
+            assert plane[0] * x + plane[1] * y + plane[2] * z + plane[3] * len(points) < 0
+        corners = map(tuple, triangles.tolist())
+        found = merged(zip(corners, planes_of(triangles, points), strict=True), points)
+        assert {facet.plane for facet in found} == {facet.plane for facet in exact_hull(points).facets}
