@@ -301,12 +301,14 @@ def convex_hull(
         raise HullRefused(Hull(error.result)) from None
 
 
-def exact_hull(points: Points) -> Hull:
+def exact_hull(points: Points, fast: bool | None = None) -> Hull:
     """The exact convex hull of points by another algorithm, over integers, with a proof: ``Hull.certificate``.
 
-    points: as of ``convex_hull``.  Raises PointsError (a ValueError) for invalid points and for none at all.
+    points: as of ``convex_hull``.  fast: find what is to be proved by a compiled kernel (extra ``fast``); left alone,
+    where it is loaded or points are very many.  Raises PointsError (a ValueError) for invalid points and for none at
+    all, and ValueError where numba is asked for and missing.
     """
-    found = judge.exact_hull(points)
+    found = judge.exact_hull(points, fast)
     return Hull(as_hull(found), found.certificate)
 
 

@@ -79,9 +79,9 @@ def _polyhedron(points: Sequence[IntPoint], simplex: Sequence[int], first: Seque
     ]
 
 
-def _proposed(points: Sequence[IntPoint]) -> tuple[list[Facet], list[int]] | None:
+def _proposed(points: Sequence[IntPoint], fast: bool | None) -> tuple[list[Facet], list[int]] | None:
     """The facets and boundary points of distinct points in space as they are proposed, or None."""
-    proposal = propose(points)
+    proposal = propose(points, fast)
     if proposal is None:
         return None
     corners = proposal.triangles
@@ -120,13 +120,16 @@ def _distinct(read: Sequence[ExactPoint]) -> _Distinct:
     return _Distinct(scale, scaled, list(first.keys()), list(first.values()), duplicates)
 
 
-def exact_hull(points: Points) -> ExactHull:
+def exact_hull(points: Points, fast: bool | None = None) -> ExactHull:
     """The convex hull of at least one point, exactly, with every point classified and the result proved.
 
     points: (x, y, z) each; a coordinate is an int, a Fraction, a Decimal, a decimal string (``"-.25E-3"``), a fraction
     ``"p/q"`` or a float, also one of numpy's, which is taken as the binary number it is; or an array of shape (n, 3).
     Of many points in space a hull is proposed in rounded numbers; where the proof refuses that, it is built anew.
-    Raises PointsError for anything else, and CertificateError if the proof of the result fails.
+    fast: propose by a compiled kernel (numba, the extra ``fast``); None: where it is loaded, or points are very many.
+    The result is the same.
+    Raises PointsError for anything else, ValueError where numba is asked for and missing, and CertificateError if the
+    proof of the result fails.
     """
     read = read_points(points)
     given = _distinct(read)
@@ -141,7 +144,7 @@ def exact_hull(points: Points) -> ExactHull:
         plane, cycle, facets = polygon(places, basis)
     elif len(basis) == 4:
         likely: set[int] = set()
-        proposed = _proposed(places) if len(places) >= MANY else None
+        proposed = _proposed(places, fast) if len(places) >= MANY else None
         if proposed:
             hull = _classified(given, 3, *proposed)
             try:

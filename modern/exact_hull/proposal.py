@@ -13,6 +13,8 @@ product of differences below 2**30, so below 2**61; with N = 2**31 H + L its val
 2**31 (H.d) + L.d, and both scalar products are below 2**63.  A computed value, divided by |A| + |B| + |C|, is off by
 at most 16 * 2**30 * 2**-53 = 2**-19.
 
+With numba (extra ``fast``) the same hull is found one point at a time (:mod:`modern.exact_hull.kernels`).
+
 Nothing here need be right: what is proposed is proved afterwards.
 """
 
@@ -20,19 +22,23 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from emulator.compiled.jit import Compiled, Function, NotInstalled
+from modern.exact_hull import kernels
 from modern.exact_hull.coordinates import IntPoint, columns_of
+from modern.exact_hull.kernels import DOUBT, LOW, NEAR
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 
 GRID_BITS = 30
-_DOUBT = 2.0**-18
-_LOW = (1 << 31) - 1
+_VERY_MANY = 500_000
+"""Points from which on loading the kernel costs less than it saves."""
 _DENSE = 24
 """Up to so many new triangles all points that lost theirs are tried against all of them, by a product of matrices."""
 
@@ -56,12 +62,20 @@ def on_grid(points: Sequence[IntPoint]) -> tuple[Ints, bool]:
     return grid, exact
 
 
-def propose(points: Sequence[IntPoint]) -> Proposal | None:
-    """The hull of points, or None where none is found.  Points beyond 2**30 steps are rounded first."""
+def propose(points: Sequence[IntPoint], fast: bool | None = None) -> Proposal | None:
+    """The hull of points, or None where none is found.
+
+    ``fast``: by the compiled kernel; None: if it is loaded, or points are very many and numba is there.
+    Raises NotInstalled.
+    """
     grid, exact = on_grid(points)
     start = _simplex(grid)
     if start is None:
         return None
+    kernel = _chosen(fast, len(points))
+    if kernel:
+        triangles, near = kernel(kernels.surface(grid), np.array(start), exact)
+        return Proposal(triangles, np.flatnonzero(near)) if len(triangles) else None
     growing = _Growing(grid, exact, start)
     while growing.waiting.size:
         if not growing.round():
@@ -69,6 +83,23 @@ def propose(points: Sequence[IntPoint]) -> Proposal | None:
     near = np.concatenate(growing.near) if growing.near else np.empty(0, np.int64)
     triangles = growing.corners[: growing.made][growing.alive[: growing.made]]
     return Proposal(triangles, near)
+
+
+@cache
+def load() -> Function:
+    """The kernel, compiled (seconds, once) or loaded.  Raises NotInstalled."""
+    some = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], np.int64)
+    return Compiled(kernels.grow).ready(kernels.surface(some), np.arange(4), True)
+
+
+def _chosen(fast: bool | None, count: int) -> Function | None:
+    if fast or (fast is None and (count >= _VERY_MANY or load.cache_info().currsize)):
+        try:
+            return load()
+        except NotInstalled:
+            if fast:
+                raise
+    return None
 
 
 def _simplex(grid: Ints) -> list[int] | None:
@@ -92,9 +123,9 @@ def _simplex(grid: Ints) -> list[int] | None:
 def exact_signs(normals: Ints, differences: Ints) -> Ints:
     """Signs of the scalar products of rows: normals below 2**61, differences below 2**30."""
     high = ((normals >> 31) * differences).sum(axis=1)
-    low = ((normals & _LOW) * differences).sum(axis=1)
+    low = ((normals & LOW) * differences).sum(axis=1)
     high += low >> 31
-    low &= _LOW
+    low &= LOW
     return np.asarray(np.where(high == 0, low > 0, np.sign(high)), np.int64)
 
 
@@ -146,7 +177,7 @@ class _Growing:
 
     def _signed(self, values: Floats, points: Ints, triangles: Ints) -> Floats:
         """The values, those in doubt replaced by their sign times the smallest there is."""
-        doubtful = np.flatnonzero(abs(values) <= _DOUBT)
+        doubtful = np.flatnonzero(abs(values) <= DOUBT)
         if doubtful.size:
             who, where = points[doubtful], triangles[doubtful]
             differences = self.grid[who] - self.grid[self.corners[where, 0]]
@@ -155,7 +186,7 @@ class _Growing:
 
     def _set_aside(self, points: Ints, largest: Floats) -> None:
         """Note those of the points, which are not outside, that may be on the surface."""
-        self.near.append(points[largest == 0] if self.exact else points[largest >= -4])
+        self.near.append(points[largest == 0] if self.exact else points[largest >= NEAR])
 
     def _tried_against_all(self, points: Ints, first: int) -> tuple[Ints, Ints, Floats]:
         """Which of the points see triangles from ``first`` on, the one each sees best, and its value there."""
@@ -165,7 +196,7 @@ class _Growing:
         for start in range(0, len(points), step):
             block = slice(start, start + step)
             values = self.places[points[block]] @ self.images[first : self.made].T
-            rows, columns = np.nonzero(abs(values) <= _DOUBT)
+            rows, columns = np.nonzero(abs(values) <= DOUBT)
             if rows.size:
                 values[rows, columns] = self._signed(values[rows, columns], points[block][rows], triangles[columns])
             best = values.argmax(axis=1)

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
+import contextlib
 import itertools
 import math
 import random
+import sys
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from modern.exact_hull import CertificateError, ExactHull, exact_hull
+from emulator.compiled.jit import NotInstalled
+from modern.exact_hull import CertificateError, ExactHull, exact_hull, kernels, proposal
 from modern.exact_hull import build as build_module
 from modern.exact_hull import certificate as checks
 from modern.exact_hull.coordinates import columns_of
 from modern.exact_hull.facets import merged, planes_of
-from modern.exact_hull.proposal import Proposal, exact_signs, on_grid, propose
+from modern.exact_hull.proposal import Proposal, _simplex, exact_signs, load, on_grid, propose
 from tests.modern.exact_hull.test_exact_hull_certificate import BIG, GRID, OCTAHEDRON, PRISM, ball
 
 LAW = settings(deadline=None, max_examples=200)
@@ -64,6 +67,33 @@ def test_the_proposal_is_the_hull(name: str, monkeypatch: pytest.MonkeyPatch) ->
     hull = exact_hull(points)
     monkeypatch.undo()
     assert hull == built(points, monkeypatch)
+
+
+@pytest.mark.parametrize("name", SETS)
+def test_the_kernel_proposes_the_same_polytope(name: str) -> None:
+    """As Python, and compiled where numba is there: the same planes, all corners and all points on them named."""
+    points = SETS[name]
+    hull = exact_hull(points)
+    grid, exact = on_grid(points)
+    start = np.array(_simplex(grid))
+    ways = [kernels.grow]
+    with contextlib.suppress(NotInstalled):
+        ways.append(load())
+    for grow in ways:
+        triangles, near = grow(kernels.surface(grid), start, exact)
+        assert set(planes_of(triangles, points)) == {facet.plane for facet in hull.facets}
+        named = {*triangles.ravel().tolist(), *np.flatnonzero(near).tolist()}
+        assert named >= {*hull.vertices, *hull.boundary}
+
+
+def test_the_kernel_is_refused_where_it_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
+    load.cache_clear()
+    monkeypatch.setitem(sys.modules, "numba", None)
+    assert exact_hull(SETS["ball"], fast=False) == exact_hull(SETS["ball"])
+    with pytest.raises(NotInstalled, match=r"needs numba: pip install 'hull1620\[fast\]'"):
+        exact_hull(SETS["ball"], fast=True)
+    monkeypatch.setattr(proposal, "_VERY_MANY", 1)
+    assert exact_hull(SETS["ball"]) == exact_hull(SETS["ball"], fast=False)
 
 
 @pytest.mark.usefixtures("_proposed")
@@ -119,35 +149,35 @@ def test_flat_on_the_grid() -> None:
 def dropped(count: int):
     """A proposal that leaves out ``count`` points."""
 
-    def wrong(points) -> Proposal | None:
-        found = propose(points[count:])
+    def wrong(points, fast) -> Proposal | None:
+        found = propose(points[count:], fast)
         return found and Proposal(found.triangles + count, found.near + count)
 
     return wrong
 
 
-def turned(points) -> Proposal | None:
-    found = propose(points)
+def turned(points, fast) -> Proposal | None:
+    found = propose(points, fast)
     return found and Proposal(found.triangles[:, ::-1], found.near)
 
 
-def torn(points) -> Proposal | None:
-    found = propose(points)
+def torn(points, fast) -> Proposal | None:
+    found = propose(points, fast)
     return found and Proposal(found.triangles[1:], found.near)
 
 
-def pinched(points) -> Proposal | None:
-    found = propose(points)
+def pinched(points, fast) -> Proposal | None:
+    found = propose(points, fast)
     return found and Proposal(np.concatenate([found.triangles, found.triangles[:1, [0, 0, 1]]]), found.near)
 
 
-def unaware(points) -> Proposal | None:
+def unaware(points, fast) -> Proposal | None:
     """Of no points that may lie on the surface."""
-    found = propose(points)
+    found = propose(points, fast)
     return found and Proposal(found.triangles, found.near[:0])
 
 
-@pytest.mark.parametrize("wrong", [dropped(1), dropped(9), turned, torn, pinched, unaware, lambda points: None])
+@pytest.mark.parametrize("wrong", [dropped(1), dropped(9), turned, torn, pinched, unaware, lambda points, fast: None])
 @pytest.mark.parametrize("name", ["cube", "ball", "sphere", "octahedral ball"])
 def test_a_wrong_proposal_is_refused_and_the_hull_built(wrong, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     points = SETS[name]
