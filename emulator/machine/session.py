@@ -358,13 +358,19 @@ class _Checkpoint:
 
 def refuse_overlap(program: Program, core: int) -> None:
     """Raise DeckError when a program and its data do not fit a machine of ``core`` positions."""
+    words = overlap(program, core)
+    if words:
+        raise DeckError(f"{program.source}: {words}")
+
+
+def overlap(program: Program, core: int) -> str:
+    """What a program and its data lack of a machine of ``core`` positions, and what has it; empty where they fit."""
     need = program.storage.fields * FIELD + code_positions(program)
     room = core - OBJECT_PROGRAM - FUNCTION_NAMES
-    if need > room:
-        raise DeckError(
-            f"{program.source}: OVERLAP: program and data need about {need} positions; "
-            f"a machine of {core} has {room} for them{_larger(need)}"
-        )
+    if need <= room:
+        return ""
+    words = f"OVERLAP: program and data need about {need} positions; a machine of {core} has {room} for them"
+    return words + _larger(need)
 
 
 def _larger(need: int) -> str:

@@ -271,6 +271,7 @@ def _program(parser: ArgumentParser) -> None:
 def _check(parser: ArgumentParser) -> None:
     parser.add_argument("program", metavar="PROGRAM.f", nargs="?")
     parser.add_argument("--explain", metavar="N", help="what error number N means, as 5 or E3; all: every one")
+    core_argument(parser)
     layers_argument(parser)
     upcase_argument(parser)
 
@@ -281,6 +282,7 @@ def _flowchart(parser: ArgumentParser) -> None:
     which = parser.add_mutually_exclusive_group()
     which.add_argument("--page", metavar="N", type=int, help="this page alone (default: all, one below the other)")
     which.add_argument("--table", action="store_true", help="every way from box to box as text instead of the picture")
+    parser.set_defaults(endings=(".svg",))
 
 
 def _tei(parser: ArgumentParser) -> None:
@@ -304,7 +306,11 @@ def _tei(parser: ArgumentParser) -> None:
 
 
 def _punched(parser: ArgumentParser) -> None:
-    parser.add_argument("deck", metavar="DECK", help="a deck, one card a line, or a built-in program's name")
+    parser.add_argument(
+        "deck",
+        metavar="DECK",
+        help="a deck, one card a line, the name of a built-in program, or an example: example1, seventy/17",
+    )
     parser.add_argument(
         "-o",
         "--output",
@@ -313,6 +319,7 @@ def _punched(parser: ArgumentParser) -> None:
         help="one picture, or one a card where the name has a place for its number: 'card-%%03d.svg' (default: '-')",
     )
     parser.add_argument("--across", metavar="N", type=int, default=1, help="cards side by side (default: 1)")
+    parser.set_defaults(endings=(".svg",))
 
 
 def _map(parser: ArgumentParser) -> None:

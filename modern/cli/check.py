@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 from emulator.errors import explanations
 from emulator.language.compiler import translate
+from emulator.machine.session import overlap
 from modern.cli.shared.console import BAD_INPUT, OK, UsageError
 from modern.cli.shared.machine import layers_of, source_deck
 
@@ -38,6 +39,10 @@ def main(args: argparse.Namespace) -> int:
     if program is None:
         errors = sum(not message.warning for message in messages)
         print(f"{deck.source}: {errors} error{'s' * (errors != 1)}")
+        return BAD_INPUT
+    lacking = overlap(program, args.core)
+    if lacking:
+        print(f"{deck.source}: {lacking}")
         return BAD_INPUT
     statements, data = len(program.statements), program.storage.fields * 10
     print(

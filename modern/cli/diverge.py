@@ -13,7 +13,7 @@ from emulator.files import check_writable, write_text
 from emulator.language.objectcode import Line
 from emulator.machine.divergence import Divergence, Loss, diverge
 from modern.cli.shared.console import DIFFERS, OK, UsageError
-from modern.cli.shared.inputs import deck_of
+from modern.cli.shared.inputs import deck_for
 from modern.cli.shared.machine import (
     layers_of,
     load_program,
@@ -39,7 +39,7 @@ def main(args: argparse.Namespace) -> int:
     program = load_program(args.program, layers_of(args), args.upcase)
     found = diverge(
         program,
-        deck_of(args.deck, args.program.startswith("program1")),
+        deck_for(args.program, args.deck),
         studied,
         reference,
         options,

@@ -19,7 +19,7 @@ from emulator.machine.operator import FromFile, Operator
 from emulator.machine.result import Options, Result
 from emulator.machine.timing import measure, shares
 from modern.cli.shared.console import BAD_INPUT, DIFFERS, OK, UsageError, say
-from modern.cli.shared.inputs import deck_of
+from modern.cli.shared.inputs import deck_for
 from modern.cli.shared.machine import (
     is_terminal,
     layers_of,
@@ -56,7 +56,7 @@ def main(args: argparse.Namespace) -> int:
     if args.program not in programs.NAMES:
         # Of its own decks the thesis's programs want whole data sets.
         options = replace(options, hopper="any")
-    deck = deck_of(args.deck, args.program.startswith("program1"))
+    deck = deck_for(args.program, args.deck)
     answers = _answers(args.operator)
     result = Machine(program, deck, options).run(_operator(answers), output=lambda events: None)
     found = _compared(args, program, deck, options, answers)

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 from emulator.language.objectcode import Program, code_positions
 from emulator.language.storage import FIELD, core_address
+from emulator.machine.session import overlap
 from modern.cli.shared.console import OK
 from modern.cli.shared.machine import layers_of, load_program
 from modern.edition import programs
@@ -44,7 +45,11 @@ def map_lines(program: Program, core: int) -> Iterator[str]:
     lowest = core_address(program.storage.fields, core) + 1
     code = code_positions(program)
     yield f"  data: {need} positions, from {core_address(0, core)} down to {lowest}"
-    yield f"  program: ~{code} positions from 08300; free between: ~{lowest - 8300 - code}"
+    lacking = overlap(program, core)
+    free = f"free between: ~{lowest - 8300 - code}" if not lacking else f"~{8300 + code - lowest} too many"
+    yield f"  program: ~{code} positions from 08300; {free}"
+    if lacking:
+        yield f"  {lacking}"
 
 
 def capacity_line(program: Program, core: int) -> str:

@@ -7,8 +7,9 @@ import re
 from dataclasses import replace
 
 from emulator.files import check_writable, write_text
-from emulator.language.cards import Deck, read_deck
+from emulator.language.cards import Deck
 from modern.cli.shared.console import OK, UsageError
+from modern.cli.shared.inputs import deck_of
 from modern.drawing.punched import cards_svg, check_punched
 from modern.edition import programs
 
@@ -20,7 +21,7 @@ def main(args: argparse.Namespace) -> int:
     """Read the deck, draw it: in one picture, or in one a card where the name has a place for a number."""
     if args.across < 1:
         raise UsageError(f"--across: {args.across} is not a number of cards")
-    deck = programs.deck(args.deck) if args.deck in programs.NAMES else read_deck(args.deck)
+    deck = programs.deck(args.deck) if args.deck in programs.NAMES else deck_of(args.deck)
     if "%" in args.output:
         _one_a_card(deck, args.output)
     else:

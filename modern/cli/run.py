@@ -12,7 +12,7 @@ from emulator.language.cards import Deck
 from emulator.machine.machine import Machine
 from emulator.machine.result import Event
 from modern.cli.shared.console import DIFFERS, OK, UsageError, say
-from modern.cli.shared.inputs import deck_of
+from modern.cli.shared.inputs import deck_for
 from modern.cli.shared.machine import (
     attended,
     layers_of,
@@ -33,7 +33,7 @@ def main(args: argparse.Namespace) -> int:
     options = replace(machine_options(args), hopper="any")
     check_writable(args.punch, args.typewriter, args.trace, args.log)
     program = load_program(args.program, layers_of(args), args.upcase)
-    deck = deck_of(args.deck) if args.deck else Deck("no deck", ())
+    deck = deck_for(args.program, args.deck) if args.deck else Deck("no deck", ())
     seen = Refusals()
     bad: EmulatorError | None = None
     with (

@@ -61,7 +61,8 @@ def check_outputs(args: argparse.Namespace) -> None:
     for name in outputs:
         if name != "-" and os.path.realpath(name) in real:
             raise UsageError(f"{name}: is the input too; an output never overwrites it")
-    endings: tuple[str, ...] = given.get("endings", ())
+    # A table that a command prints instead goes into a file of any name.
+    endings: tuple[str, ...] = () if given.get("table") else given.get("endings", ())
     output = given.get("output")
     if (
         endings

@@ -54,6 +54,11 @@ def deck_of(name: str, points: bool = False) -> Deck:
     return deck_from_bytes(source, data)
 
 
+def deck_for(program: str, name: str) -> Deck:
+    """A deck for a program, by both their names; the thesis's program 1 reads points.  Raises EmulatorError."""
+    return deck_of(name, points=program in ("program1", "program1_examples"))
+
+
 def _example(name: str) -> str | None:
     """The text of an example by name, None where no example has it."""
     if found := _EXAMPLE.fullmatch(name):

@@ -187,3 +187,37 @@ def test_the_layers_are_listed() -> None:
     base = {"ocr", "print", "lacuna", "cosmetic"}
     every = {row.layer for name in programs.TEXTS for row in programs.text(name).rows} - base
     assert [layer for layer in every if layer not in str(layers.help)] == []
+
+
+def test_punched_takes_an_example_by_name(capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, err = call(capsys, "punched", "example1")
+    assert (code, err) == (0, "")
+    assert "<title>example1: 4 cards</title>" in out
+
+
+@pytest.mark.parametrize("command", [["run"], ["diverge"], ["listing"]])
+def test_a_list_of_points_given_for_a_deck_is_told_what_makes_one(
+    command: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("mine.csv").write_text("76,-18,-21\n1,2,3\n4,5,7\n")
+    code, out, err = call(capsys, *command, "program1", "mine.csv")
+    assert (code, out) == (2, "")
+    assert "not a data deck; hull1620 cards mine.csv -o points.deck makes a deck of it" in err
+    assert err.count("\n") == 1
+    # A program of one's own reads what it likes, whatever it is called.
+    Path("program1.f").write_text("      READ 1,I\n      TYPE 1,I\n      STOP\n    1 FORMAT(I2)\n      END\n")
+    assert call(capsys, *command, "program1.f", "mine.csv")[0] == 0
+
+
+@pytest.mark.parametrize("command", [["flowchart", "program1"], ["punched", "program1"]])
+def test_a_picture_is_written_under_a_pictures_name(
+    command: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    code, out, err = call(capsys, *command, "-o", "x.txt")
+    assert (code, out) == (2, "")
+    assert err == f"hull1620: x.txt: the name must end with .svg, which is what {command[0]} writes\n"
+    assert not list(tmp_path.iterdir())
+    assert call(capsys, *command, "-o", "x.SVG")[0] == 0
+    assert call(capsys, "flowchart", "program1", "--table", "-o", "x.txt")[0] == 0

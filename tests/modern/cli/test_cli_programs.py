@@ -148,3 +148,37 @@ def test_what_cannot_be_explained(arguments: tuple[str, ...], words: str, capsys
     code, out, err = call(capsys, "check", *arguments)
     assert (code, out, err.count("\n")) == (2, "", 1)
     assert err.startswith(f"hull1620: {words}")
+
+
+LARGE = "      DIMENSION X(3900)\n      X(1)=1.\n      STOP\n      END\n"
+
+
+def test_check_and_map_say_that_a_program_does_not_fit_and_what_it_fits(capsys: pytest.CaptureFixture[str]) -> None:
+    """3,900 fields of ten positions, and 40,000 less 8,300 for the subroutines and 120 for the functions' names."""
+    Path("wide.f").write_text(LARGE)
+    code, out, err = call(capsys, "check", "wide.f")
+    assert (code, err) == (2, "")
+    words = (
+        r"OVERLAP: program and data need about 390\d\d positions; a machine of 40000 has 31580 for them; "
+        r"--core 60000 has room\n"
+    )
+    assert re.fullmatch(f"wide.f: {words}", out)
+    code, out, err = call(capsys, "map", "wide.f")
+    assert (code, err) == (0, "")
+    assert re.search(f"too many\n  {words}", out)
+    assert "free between" not in out
+    for command in ("check", "map"):
+        code, out, err = call(capsys, command, "wide.f", "--core", "60000")
+        assert (code, err) == (0, "")
+        assert "OVERLAP" not in out
+    # Where no machine has room there is no remedy to name.
+    Path("wide.f").write_text(LARGE.replace("3900", "5900"))
+    assert call(capsys, "check", "wide.f")[1].endswith("has 31580 for them\n")
+
+
+def test_check_refuses_what_run_refuses(capsys: pytest.CaptureFixture[str]) -> None:
+    Path("wide.f").write_text(LARGE)
+    _, out, _ = call(capsys, "check", "wide.f")
+    code, _, err = call(capsys, "run", "wide.f", "one.deck")
+    assert code == 2
+    assert err == f"hull1620: {out}"
