@@ -56,6 +56,10 @@ def test_every_name_is_there_and_is_listed_for_completion() -> None:
         assert not hasattr(package, "hull_of_nothing")
 
 
+def test_completion_offers_the_public_names_alone() -> None:
+    assert sorted(name for name in dir(hull1620) if not name.startswith("_")) == sorted(hull1620.__all__)
+
+
 def test_a_name_is_the_one_of_its_room() -> None:
     apart = {"Hull", "convex_hull"}
     for package in (emulator, modern):

@@ -31,7 +31,7 @@ PROSE = ("", "tutorial", "how-to", "reference", "explanation", "papers")
 """The folders of ``docs`` whose pages are written by hand; the others hold results."""
 PAGES = tuple(path for folder in PROSE for path in sorted((ROOT / "docs" / folder).glob("*.md")))
 DOCUMENTS = (ROOT / "README.md", ROOT / "CONTRIBUTING.md", *PAGES)
-RUN = ("sh", "console", "python", "toml", "fortranfixed")
+RUN = ("sh", "console", "python", "py", "toml", "fortranfixed")
 LANGUAGES = (*RUN, "text", "{toctree}")
 
 _POINTS = ((0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4), (4, 4, 0), (1, 1, 1), (2, 2, 0))
@@ -188,9 +188,9 @@ def _console(example: Example) -> None:
         assert printed == wanted, f"{example.path}: {command}\n{printed}"
 
 
-def _toml(example: Example) -> None:
-    named = re.match(r"# (\S+\.toml)\n", example.parsed)
-    assert named, f"{example.path}: a toml block says its file's name in its first line"
+def _saved(example: Example) -> None:
+    named = re.match(r"# (\S+\.(?:toml|py))\n", example.parsed)
+    assert named, f"{example.path}: a toml or py block says its file's name in its first line"
     Path(named[1]).write_text(example.parsed, encoding="utf-8")
 
 
@@ -200,7 +200,7 @@ def _deck(example: Example) -> None:
     Path(named[1].lower()).write_text(example.parsed, encoding="utf-8")
 
 
-_RUNNERS = (("sh", _sh), ("console", _console), ("toml", _toml), ("fortranfixed", _deck))
+_RUNNERS = (("sh", _sh), ("console", _console), ("py", _saved), ("toml", _saved), ("fortranfixed", _deck))
 
 
 def _bash(command: str) -> subprocess.CompletedProcess[str]:

@@ -55,7 +55,10 @@ def draw_sample(cell: Cell, study: int, index: int) -> Drawn:
     except FamilyError as error:
         raise FamilyError(f"cell {cell.name}: family {cell.family}: {error}") from None
     if not isinstance(drawn, Drawn):
-        raise PlanError(f"cell {cell.name}: family {cell.family}: it gives {type(drawn).__name__}, not Drawn")
+        raise PlanError(
+            f"cell {cell.name}: family {cell.family}: it gives {type(drawn).__name__}, not Drawn; "
+            "modern.study.drawn(points) makes it of whole numbers, modern.study.Drawn(points) of decimals as text"
+        )
     check_points(drawn, f"cell {cell.name}: family {cell.family}: sample {index}")
     return drawn
 
