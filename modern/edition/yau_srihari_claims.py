@@ -249,3 +249,47 @@ def another_vertex() -> Seen:
     normals = [normal_of(*reversed(face.vertices[:3])) for face in _hull().lower.faces]
     good = all(n[2] > 0 for n in normals) and all(face.normal[2] < 0 for face in _hull().lower.faces)
     return Seen(CONDITION if good else FAILS, f"{len(normals)} faces turned over")
+
+
+def epigraph_at_inner_nodes() -> Seen:
+    """Heights 0, 1, 1, 1 of four columns: by the letter the root, of least height 0, is full; the epigraph is not."""
+    heights = {(0, 0): 0, (0, 1): 1, (1, 0): 1, (1, 1): 1}
+    root_value, root_low = min(heights.values()), 0
+    by_letter = 8 if root_low >= root_value else 0
+    epigraph = sum(z >= height for height in heights.values() for z in (0, 1))
+    by_greatest = root_low >= max(heights.values())
+    leaves = all((z >= height) == (z in range(height, 2)) for height in heights.values() for z in (0, 1))
+    good = by_letter == 8 > epigraph == 5 and not by_greatest and leaves
+    return Seen(
+        CONDITION if good else FAILS, f"{by_letter} voxels by the letter at the root, {epigraph} in the epigraph"
+    )
+
+
+def pairs_of_points() -> Seen:
+    """Segments between n points, counted, for n up to 12."""
+    counts = {n: len([*combinations(range(n), 2)]) for n in range(2, 13)}
+    return seen(all(2 * count == n * (n - 1) for n, count in counts.items()), "n from 2 to 12")
+
+
+def outward_normals() -> Seen:
+    """Normals of the floor envelope's faces point away from all points of the floor, and down."""
+    floor = [(x, y, z) for (x, y), z in _hull().floor.items()]
+    good = []
+    for face in _hull().lower.faces:
+        normal, first = face.normal, face.vertices[0]
+        ways = [sum(n * (a - b) for n, a, b in zip(normal, p, first, strict=True)) for p in floor]
+        good.append(max(ways) == 0 and normal[2] < 0 and normal_of(*face.vertices[:3])[2] < 0)
+    return seen(bool(good) and all(good), f"{len(good)} faces")
+
+
+def midpoint_covers() -> Seen:
+    """Voxels that hold midpoints of quarters of two voxels: just those of the cover."""
+    quarters = [Fraction(k, 4) for k in range(-2, 2)]
+    good = []
+    for other in ((2, 2, 2), (1, 2, 2), (1, 1, 2), (1, 1, 1), (3, 0, 1)):
+        axes = []
+        for c in other:
+            middles = [(a + c + b) / 2 for a in quarters for b in quarters]
+            axes.append({v for m in middles for v in range(-1, 4) if m - Fraction(1, 2) < v <= m + Fraction(1, 2)})
+        good.append(set(product(*axes)) == {*map(tuple, midpoint_cover((0, 0, 0), other))})
+    return seen(all(good), f"{len(good)} pairs of voxels")

@@ -1,0 +1,120 @@
+"""Claims of Appel and Will that are steps on the way: lines that come and go, the star test, loops, inside corners."""
+
+from __future__ import annotations
+
+from itertools import combinations, pairwise, product
+
+from modern.edition.appel_will_claims import CUBE, Flat
+from modern.edition.chapter3_claims import COUNT, points_of, triples
+from modern.edition.sampled_sets import Point, sampled_sets, through, value
+from modern.edition.statements import FAILS, HOLDS, Seen, seen
+from modern.exact_hull import exact_hull
+from modern.geometry.vectors import cross, dot, minus
+from modern.papers.appel_will import Method, appel_will
+from modern.papers.appel_will.corners import preprocess
+from modern.papers.appel_will.edges import project
+from modern.papers.appel_will.star import as_corrected, as_printed
+
+
+def new_lines() -> Seen:
+    """A polygon with a notch: its hull has fewer points, and a line that is none of the polygon's."""
+    ring: list[Flat] = [(0, 0), (6, 0), (6, 6), (3, 2), (0, 6)]
+    polygon = exact_hull([(x, y, 0) for x, y in ring]).polygon
+    sides = {frozenset((k, (k + 1) % len(ring))) for k in range(len(ring))}
+    new = [pair for pair in zip(polygon, (*polygon[1:], polygon[0]), strict=True) if frozenset(pair) not in sides]
+    words = ", ".join(f"{ring[a]} to {ring[b]}" for a, b in new)
+    return seen(len(polygon) < len(ring) and len(new) == 1, f"new: {words}")
+
+
+def points_in_line() -> Seen:
+    """Of three points in a line that are projected to one, the middle one is no vertex of any set's hull."""
+    good = []
+    for one in sampled_sets(3, int(COUNT)):
+        doubled = [(2 * x, 2 * y, 2 * z) for x, y, z in one.points]
+        for p, q in combinations(doubled[:6], 2):
+            middle: Point = ((p[0] + q[0]) // 2, (p[1] + q[1]) // 2, (p[2] + q[2]) // 2)
+            if middle not in doubled:
+                points = [*doubled, middle]
+                line = project(points, (points.index(p), points.index(q)), range(len(points))).line
+                good.append(len(doubled) in line and len(doubled) not in exact_hull(points).vertices)
+    return seen(bool(good) and all(good), f"{len(good)} points between two others")
+
+
+def star_tells_inside(kind: str = "") -> Seen:
+    """Grid points against five points of a plane: the senses around the star tell who is in their hull.
+
+    ``change``: outside, whenever a sense changes; a point on the border counts as outside.
+    """
+    five = [(0, 0), (6, 1), (7, 5), (2, 6), (3, 3)]
+    good = []
+    for x, y in product(range(-1, 9, 2), range(0, 8, 2)):
+        images = [(a - x, b - y) for a, b in five]
+        if (0, 0) in images:
+            continue
+        hull = exact_hull([*((a, b, 0) for a, b in five), (x, y, 0)])
+        inside = 5 in hull.inside
+        outside = as_corrected(images)
+        if 5 not in hull.boundary:
+            good.append(outside != inside if not kind else not outside or not inside)
+    return seen(all(good), f"{len(good)} points")
+
+
+def closed_loops(kind: str = "") -> Seen:
+    """Loops of cubes and small sets: lines beside each other share an end, the last one shares one with the first.
+
+    Each line is in two loops, once in each direction: a positive entry runs from its first point to its second.
+    """
+    good, signs = [], []
+    for points in (CUBE, *(one.points for one in sampled_sets(3, int(COUNT)))):
+        hull = appel_will(points)
+        found: list[int] = []
+        for loop in hull.table.loops:
+            ends = [hull.edges[abs(e) - 1] if e > 0 else hull.edges[abs(e) - 1][::-1] for e in loop.entries]
+            good.append(all(a[1] == b[0] for a, b in pairwise([*ends, ends[0]])))
+            found += loop.entries
+        signs.append(sorted(map(abs, found)) == sorted([*range(1, len(hull.edges) + 1)] * 2))
+    words = f"{len(good)} loops"
+    return seen(all(good) and all(signs), f"{words}, every line in two" if kind else words)
+
+
+def star_in_the_text() -> Seen:
+    """Of a cube by the letter of the text on Fig. 12 there are more edges than twelve."""
+    cube = points_of("cube.csv")
+    found = appel_will(cube, method=Method(star=as_printed)).edges
+    return Seen(FAILS if len(found) > 12 else HOLDS, f"{len(found)} edges of a cube")
+
+
+def normal_line() -> Seen:
+    """From a point of a plane along its normal: at t the value of the plane is t times the normal's square."""
+    good = []
+    for p, q, r in triples():
+        plane = through(p, q, r)
+        square = dot(plane[:3], plane[:3])
+        for t in (-2, 0, 3):
+            x, y, z = (a + t * n for a, n in zip(p, plane[:3], strict=True))
+            good.append(value(plane, (x, y, z)) == t * square)
+    return seen(all(good), f"{len(good)} points of normals; with unit normals the value is t")
+
+
+def line_must_run() -> Seen:
+    """Fig. 18's determinants with the line run the other way: each sign turns."""
+    rows = {"512": ((-1, 0, 0), (0, 0, -1), (0, -1, 0)), "723": ((-1, 0, 0), (0, -1, 0), (0, 0, -1))}
+    found = {}
+    for name, matrix in rows.items():
+        i, k, m = (tuple(row[column] for row in matrix) for column in range(3))
+        triple = dot(i, cross(k, m))  # type: ignore[arg-type]
+        back = dot(minus((0, 0, 0), i), cross(k, m))  # type: ignore[arg-type]
+        found[name] = (triple, back)
+    return seen(found == {"512": (1, -1), "723": (-1, 1)}, "[512] is 1 and [723] -1; run the other way -1 and 1")
+
+
+def corners_of_three_planes() -> Seen:
+    """An L of three cubes, where three planes meet at each point: no point of its inside corner is a vertex."""
+    ring: list[Flat] = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
+    points: list[Point] = [(x, y, z) for z in (0, 1) for x, y in ring]
+    faces = [tuple(range(5, -1, -1)), tuple(range(6, 12))]
+    faces += [(k, (k + 1) % 6, (k + 1) % 6 + 6, k + 6) for k in range(6)]
+    deleted = preprocess(points, faces, "any").deleted
+    meeting = {sum(k in face for face in faces) for k in range(12)}
+    good = {*deleted} == {3, 9} and meeting == {3} and not {*deleted} & {*exact_hull(points).vertices}
+    return seen(good, f"points {', '.join(str(points[k]) for k in sorted(deleted))} are deleted")
