@@ -6,7 +6,7 @@ import math
 from collections import Counter
 from collections.abc import Sequence
 from fractions import Fraction
-from itertools import combinations, product
+from itertools import combinations, pairwise, product
 from random import Random
 
 from modern.edition.chapter3_claims import COUNT, points_of, triples
@@ -192,10 +192,21 @@ _PROPERTIES = {"1": _inside_of_all, "2": _cones, "3": _dihedral, "4": _faces, "5
 
 def surface_area() -> Seen:
     """A hull inside of a box has less surface than the box; three spikes from the middle have none at all."""
-    octahedron = math.sqrt(3) / 2 * 8
-    return Seen(
-        CONDITION if octahedron < 24 else FAILS, "an octahedron 13.86 against 24 of its cube; a star of segments 0"
-    )
+    octahedron: list[Point] = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+    box = [(2 * x - 1, 2 * y - 1, 2 * z - 1) for x, y, z in CUBE]
+    inner, outer = _surface(octahedron), _surface(box)
+    words = f"an octahedron {inner:.2f} against {outer:.2f} of its cube; a star of segments 0"
+    return Seen(CONDITION if inner < outer else FAILS, words)
+
+
+def _surface(points: list[Point]) -> float:
+    total = 0.0
+    for facet in exact_hull(points).facets:
+        first, *rest = (points[k] for k in facet.polygon)
+        for p, q in pairwise(rest):
+            normal = cross(minus(p, first), minus(q, first))
+            total += math.sqrt(dot(normal, normal)) / 2
+    return total
 
 
 def numbers_of_combinations(kind: str) -> Seen:

@@ -15,10 +15,11 @@ from modern.edition.chapter3_stages import approximations
 from modern.edition.chapter3_steps import value_v
 from modern.edition.chapter4 import load_theorems
 from modern.edition.chapter4_claims import ADDED, theorem_of
-from modern.edition.sampled_sets import SampledSet, sampled_sets, value
+from modern.edition.sampled_sets import SampledSet, sampled_sets, through, value
 from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, seen
 from modern.exact_hull import exact_hull
 from modern.geometry.vectors import cross, dot, minus
+from modern.port import convex_hull
 
 
 def eight_theorems() -> Seen:
@@ -110,14 +111,15 @@ def theorem_4_4(count: str = COUNT) -> Seen:
 
 
 def constant_term_of_4_4() -> Seen:
-    """The constant term of the three coordinate planes x = 0, y = 0, z = 0."""
-    constants = {0 for _ in ("x = 0", "y = 0", "z = 0")}
-    apart = dot((1, 0, 0), (0, 0, 1)) + 1 * 1
-    good = constants == {0} and apart != 0
-    return Seen(
-        CONDITION if good else FAILS,
-        "D_C is 0 of a coordinate plane; with D = 1 the planes x + 1 = 0 and z + 1 = 0 would not be perpendicular",
+    """The constant terms of the three coordinate planes, by three points of each; and of planes beside two of them."""
+    units = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
+    constants = {through((0, 0, 0), p, q)[3] for p, q in combinations(units, 2)}
+    one, other = through((1, 0, 0), (1, 1, 0), (1, 0, 1)), through((0, 0, 1), (1, 0, 1), (0, 1, 1))
+    good = constants == {0} and dot(one[:3], other[:3]) == 0 != one[3] * other[3]
+    words = (
+        "D_C is 0 of a coordinate plane; the planes x = 1 and z = 1 are perpendicular, though the product of D is not 0"
     )
+    return Seen(CONDITION if good else FAILS, words)
 
 
 def proof_of_4_4(part: str) -> Seen:
@@ -226,6 +228,22 @@ def gap_in_4_7() -> Seen:
     held = theorem_4_7().verdict == HOLDS
     words = f"({point[0]}, {point[1]}) is outside of one line of the square at most and of two after (5, 2) is added"
     return Seen(CONDITION if held else FAILS, words)
+
+
+def line_stays() -> Seen:
+    """The counterexample: a point outside of a line of H_1 that is not the one replaced, and so is a line of H_2."""
+    points = points_of("line_stays.csv")
+    one = SampledSet(tuple(points), convex_hull(points, history=True), exact_hull(points))
+    before, after = one.stages()[:2]
+    checked = one.hull.history[1].checked
+    stays = [
+        (k + 1, point)
+        for k, plane in enumerate(before.equations)
+        for point in points
+        if k + 1 != checked and value(plane, point) > 0 and plane in after.equations
+    ]
+    words = ", ".join(f"{point[:2]} is outside of line {k}" for k, point in stays)
+    return Seen(FAILS if stays else HOLDS, f"{words}; line {checked} is replaced")
 
 
 def lines_of_figure_3(kind: str = "") -> Seen:

@@ -23,7 +23,7 @@ from modern.edition.sampled_sets import Point, SampledSet, sampled_sets, through
 from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, counterexample, seen
 from modern.exact_hull import exact_hull
 from modern.formats.csv import points as csv_points
-from modern.formats.deck import coordinate_field, exact_points
+from modern.formats.deck import coordinate_field, data_deck, exact_points
 from modern.geometry.vectors import dot
 from modern.port.formulas import at, plane
 from modern.port.points import take
@@ -305,12 +305,12 @@ def data_sheet(part: str) -> Seen:
         z = [point[2] for point in points.values()][-1]
         return Seen(FAILS if Fraction(z) != 1 else HOLDS, f"a z of 1 punched in columns 39 to 52 is read as {z}")
     if part == "blank":
-        last = 3 * len("+.30000000E+01")
+        last = len(data_deck([["3", "12", ".0146"]], "one").cards[-1].text.rstrip())
         return Seen(CONDITION if last == 42 else FAILS, f"three fields of 14 columns end in column {last}")
     if part == "digits":
         printed = "+.3000000E+01"
-        return Seen(
-            CONDITION if len(printed) == 13 and len("+.30000000E+01") == 14 else FAILS, f"{printed} has 13 characters"
-        )
+        whole = coordinate_field("3")
+        good = len(printed) == len(whole) - 1 and printed.replace("E", "0E") == whole
+        return Seen(CONDITION if good else FAILS, f"{printed} has {len(printed)} characters, a field {len(whole)}")
     numbers = {"12": "+.12000000E+02", ".0146": "+.14600000E-01", ".0261": "+.26100000E-01", "6": "+.60000000E+01"}
     return seen(all(coordinate_field(value) == field for value, field in numbers.items()), ", ".join(numbers))

@@ -218,9 +218,9 @@ def formula_5() -> Seen:
 
 
 def integers_a_face() -> Seen:
-    """The last column of Table 5: rounded in one row, so 1070 / 142 is 7.54, not 7.53."""
-    rounded, cut = Fraction(1010, 118) * 100, Fraction(1070, 142) * 100
-    good = (int(rounded), round(rounded)) == (855, 856) and (int(cut), int(cut + Fraction(1, 2))) == (753, 754)
+    """The last column of Table 5: rounded at diameter 16, so that 1070 / 142 at 18 is 7.54, not 7.53."""
+    sixteen, eighteen = (Fraction(100 * integers, faces) for _, _, faces, integers in _table_5()[3:5])
+    good = (int(sixteen), round(sixteen)) == (855, 856) and (int(eighteen), round(eighteen)) == (753, 754)
     return Seen(CONDITION if good else FAILS, "1010 / 118 is printed rounded, 8.56; 1070 / 142 is 7.535")
 
 
