@@ -29,6 +29,7 @@ html_css_files = ["edition.css", "console.css"]
 html_js_files = ["edition.js"]
 html_copy_source = False
 html_show_sphinx = False
+html_show_search_summary = False  # a summary is fetched, and from the file system nothing can be
 html_theme_options = {"navigation_with_keys": False, "light_css_variables": LIGHT, "dark_css_variables": DARK}
 
 

@@ -4,6 +4,7 @@ The facts of a facing text, without a word of presentation: the site, the book a
 their own way.  Every card has a place that outlives changes of the deck's numbering, because it is counted from the
 numbers the programmer gave: ``147+2`` is the second statement after statement 147, ``0+1`` the first statement of a
 deck whose first number has not come yet, ``before-106`` the comment before statement 106, ``title`` the first comment.
+A count may go on past the next number, so that 147+2 is 148+1 as well; such places are the card's too.
 """
 
 from __future__ import annotations
@@ -21,6 +22,8 @@ from modern.edition.apparatus import Line, Row, Text, build
 from modern.edition.sources import sources
 
 Kind = Literal["title", "comment", "statement", "format"]
+FURTHER = 3
+"""How many statements a count goes on past the next number."""
 Span = tuple[int, int]
 """Characters of a text: the first, counted from 0, and the one after the last."""
 
@@ -55,7 +58,8 @@ class Otherwise:
 class Card:
     """A card of a deck with what faces it.
 
-    ``number`` counts the deck's cards from 1; ``label`` is the statement's number, 0 without one.  ``witness`` is empty
+    ``number`` counts the deck's cards from 1; ``also`` are further places of it; ``label`` is the statement's number, 0
+    without one.  ``witness`` is empty
     for a card of ours.  ``changed`` are characters the witness has otherwise, or not at all; ``rows`` the rows that
     touched this card, but for those that touched most cards of the deck.  ``page`` is the thesis's.
     """
@@ -71,6 +75,7 @@ class Card:
     rows: tuple[str, ...]
     layers: tuple[str, ...]
     otherwise: tuple[Otherwise, ...] = ()
+    also: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -117,6 +122,7 @@ def facing(name: str) -> Facing:
     places = tuple(_places(lines))
     pieces, dropped = _pieces(text, lines, entry.layers, everywhere)
     others = _others(text, lines, entry.layers)
+    further = _further(places)
     layer_of = {row.id: row.layer for row in text.rows}
     cards = []
     for number, (line, (place, kind, label)) in enumerate(zip(lines, places, strict=True), 1):
@@ -135,6 +141,7 @@ def facing(name: str) -> Facing:
                 rows,
                 tuple(dict.fromkeys(layer_of[name] for name in rows)),
                 others.get(line.id, ()),
+                further.get(place, ()),
             )
         )
     return Facing(
@@ -171,6 +178,24 @@ def _places(lines: Iterable[Line]) -> Iterator[tuple[str, Kind, int]]:
         comments = []
         found.append((place, "format" if match and match[2] else "statement", label))
     yield from found
+
+
+def _further(places: Sequence[tuple[str, Kind, int]]) -> Mapping[str, tuple[str, ...]]:
+    """The places of a card that are counted from the numbers before its own."""
+    known = {place for place, _, _ in places}
+    found: dict[str, list[str]] = {}
+    counted: list[tuple[int, int]] = []
+    for place, kind, label in places:
+        if kind in ("comment", "title"):
+            continue
+        counted = [(number, steps + 1) for number, steps in counted]
+        for number, steps in counted:
+            name = f"{number}+{steps}"
+            if steps <= FURTHER and name not in known:
+                found.setdefault(place, []).append(name)
+        if label:
+            counted = [(number, steps) for number, steps in counted if steps < FURTHER] + [(label, 0)]
+    return {place: tuple(names) for place, names in found.items()}
 
 
 def _pieces(

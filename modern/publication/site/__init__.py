@@ -18,6 +18,7 @@ others may point at, and what the general index says of them.  So to add a page 
 Prose points at data by roles, which fail the build where nothing stands: ``{card}`program3 147+2```, ``{row}`P1-039```,
 ``{name}`program3 KELEQ```, ``{error}`5```; any other address by its label, ``{at}`words <label>```.  A link to a file
 of the project that is no page, as ``[README](../fortran_src/README.md)``, becomes the page that holds it, or words.
+A figure of a committed result is written between double braces (:mod:`modern.publication.figures`).
 
 Addresses are promises: an id is made from what the thesis or the data call a thing, never from a count of ours.
 """

@@ -36,9 +36,12 @@ def build(out: Path, docs: Path = ROOT / "docs", quiet: bool = False, wheel: Pat
     try:
         from sphinx.application import Sphinx
         from sphinx.errors import SphinxError
+        from sphinx.util.console import nocolor
         from sphinx.util.docutils import docutils_namespace, patch_docutils
     except ImportError:
         raise BuildError(NEEDS) from None
+    if quiet:
+        nocolor()
     out.parent.mkdir(parents=True, exist_ok=True)
     os.environ.setdefault("SOURCE_DATE_EPOCH", "0")
     with tempfile.TemporaryDirectory(prefix=".edition-", dir=out.parent) as folder:

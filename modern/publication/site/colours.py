@@ -68,6 +68,7 @@ _FURO = {
 
 def _variables(place: int) -> Mapping[str, str]:
     own = {f"e-{role}": colours[place] for role, colours in ROLES.items()}
+    own["e-turned"] = str(place)
     return own | {name: ROLES[role][place] for name, role in _FURO.items()}
 
 

@@ -42,7 +42,7 @@ CAUSES = {
 def entry(row: Row, cards: Iterable[tuple[str, str]], page: str) -> str:
     """A row; ``cards`` are pairs of address and place on ``page``."""
     touched = ", ".join(link(page, id, place_) for id, place_ in cards)
-    head = element("h4", text("a", row.id, href=f"#{row.id}", cls="rowid"), cls="row-head")
+    head = element("h3", text("a", row.id, href=f"#{row.id}", cls="rowid"), cls="row-head")
     head += text("p", f"{row.layer}, {row.kind}; ", cls="row-kind").replace(
         "</p>", f"{text('strong', row.certainty)}</p>"
     )
@@ -99,4 +99,4 @@ def _seen(row: Row) -> str:
 def _source(row: Row) -> str:
     where = place(row.text, row.changes[0].line)
     pages = f"p. {row.page}" if "-" not in row.page else f"pp. {row.page}"
-    return f"{pages} of the thesis" + (f"; {where.replace(' of thesis', ' of its OCR text')}" if where else "")
+    return f"{pages} of the thesis" + (f"; {where.partition(' of ')[0] + ' of its OCR text'}" if where else "")

@@ -17,6 +17,7 @@ from sphinx.util.docutils import SphinxDirective
 
 from modern.publication.site.made import Made, Part, make
 from modern.publication.site.markup import shifted
+from modern.publication.site.mend import mend
 
 ROLES = {"card": "{}", "row": "{}", "name": "name {}", "error": "error {}"}
 """A role, and the label of what it points at; ``{name}`program3 KELEQ``` is the label ``name program3 keleq``."""
@@ -136,10 +137,16 @@ def _copied(file: str) -> bool:
     return file.startswith("docs/") and not file.endswith((".md", "/")) and "." in posixpath.basename(file)
 
 
+def _finished(app: Sphinx, exception: Exception | None) -> None:
+    if exception is None and app.builder.name == "html":
+        mend(Path(app.outdir))
+
+
 def setup(app: Sphinx) -> dict[str, Any]:
     """Sphinx calls this."""
     app.add_directive("made", MadeDirective)
     for kind in (*ROLES, "at"):
         app.add_role(kind, _role(kind))
     app.connect("source-read", _project_files)
+    app.connect("build-finished", _finished)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

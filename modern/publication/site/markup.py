@@ -6,11 +6,13 @@ HTML already.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from html import escape as _escape
 
 HERE = "@/"
 """How an address within the site begins until it is known on what page, and so how deep, it stands."""
+_OPERATOR = re.compile(r"(?<=[\w)])[-+*/=,](?=\S)")
 _NO_END = frozenset({"input", "br", "img", "hr", "col"})
 
 
@@ -58,8 +60,8 @@ def definitions(pairs: Iterable[tuple[str, str]], **attributes: str | bool) -> s
     return element("dl", inner, **attributes) if inner else ""
 
 
-def table(head: Iterable[str], rows: Iterable[Iterable[str]], caption: str = "", **attributes: str | bool) -> str:
-    """A table: words of the head, HTML of the cells; the first cell of a row names the row."""
+def table(head: Iterable[str], rows: Iterable[Iterable[str]], name: str, caption: str = "") -> str:
+    """A table: words of the head, HTML of the cells; the first cell of a row names the row, ``name`` the whole."""
     top = "".join(f'<th scope="col">{escape(words)}</th>' for words in head)
     body = []
     for row in rows:
@@ -67,16 +69,24 @@ def table(head: Iterable[str], rows: Iterable[Iterable[str]], caption: str = "",
         body.append(f'<tr><th scope="row">{first}</th>{"".join(f"<td>{cell}</td>" for cell in rest)}</tr>')
     inner = text("caption", caption) if caption else ""
     inner += f"<thead><tr>{top}</tr></thead><tbody>{''.join(body)}</tbody>"
-    return element("div", element("table", inner, **attributes), cls="wide", tabindex="0", role="region")
+    return element("section", element("table", inner), cls="wide", tabindex="0", aria_label=name)
 
 
-def marked(words: str, spans: Iterable[tuple[int, int]], name: str, **attributes: str | bool) -> str:
+def marked(words: str, spans: Iterable[tuple[int, int]], name: str) -> str:
     """Words with some of their characters in an element of their own."""
     found, at = [], 0
     for first, last in spans:
-        found += [escape(words[at:first]), text(name, words[first:last], **attributes)]
+        found += [escape(words[at:first]), text(name, words[first:last])]
         at = last
     return "".join([*found, escape(words[at:])])
+
+
+def code(words: str, spans: Iterable[tuple[int, int]] = (), name: str = "mark") -> str:
+    """A card or a line as code that may be broken: never behind its first blanks, else after an operator or a comma."""
+    inner = marked(words, spans, name)
+    pieces = re.split(r"(<[^>]*>|&[a-z0-9#]+;)", inner)
+    broken = "".join(piece if at % 2 else _OPERATOR.sub(r"\g<0><wbr>", piece) for at, piece in enumerate(pieces))
+    return element("code", re.sub(r"^( +)([^<&\s])", r'<span class="lead">\1\2</span>', broken))
 
 
 def shifted(html: str, depth: int) -> str:

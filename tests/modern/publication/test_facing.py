@@ -52,6 +52,22 @@ def test_places_of_program_3() -> None:
 
 
 @pytest.mark.parametrize("name", programs.NAMES)
+def test_a_count_may_go_on_past_the_next_number(name: str) -> None:
+    cards = [each for each in facing(name).cards if each.kind not in ("comment", "title")]
+    first = {each.label: at for at, each in enumerate(cards) if each.label}
+    names = [each.place for each in cards] + [also for each in cards for also in each.also]
+    assert len(set(names)) == len(names)
+    for at, each in enumerate(cards):
+        for also in each.also:
+            label, _, steps = also.partition("+")
+            assert first[int(label)] + int(steps) == at
+
+
+def test_147_and_two_cards_of_program_3() -> None:
+    assert [each.place for each in facing("program3").cards if "147+2" in (each.place, *each.also)] == ["148+1"]
+
+
+@pytest.mark.parametrize("name", programs.NAMES)
 def test_every_line_of_the_witness_is_shown_once(name: str) -> None:
     """A line that makes several cards is shown in parts, which together are the line."""
     found = facing(name)

@@ -21,6 +21,7 @@ def make(argument: str) -> Made:
     """All addresses."""
     field = text("label", "Name, statement, row or error number: ", for_="find")
     field += element("input", type="search", id="find", autocomplete="off", spellcheck="false", disabled=True)
+    field += text("button", "Go to the first", type="submit")
     field += text("output", "", for_="find", id="found")
     parts = [Part(html=element("form", field, cls="finder", role="search", aria_label="Find in the index"))]
     parts.append(Part("Error numbers", "error-numbers", html=_list(_errors())))

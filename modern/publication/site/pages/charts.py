@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import re
-
 from modern.edition import programs
 from modern.publication.chart import chart
 from modern.publication.chart_svg import chart_svg
@@ -11,6 +9,7 @@ from modern.publication.facing import facing
 from modern.publication.flow import Box, Flow, flow
 from modern.publication.site.made import Made, Part, Target, one_of
 from modern.publication.site.markup import address, element, escape, link, table, text
+from modern.publication.site.pictures import inline
 
 _OURS = "Ours, made from the compiled program; the thesis's own charts are lost."
 
@@ -22,7 +21,7 @@ def make(argument: str) -> Made:
     drawn = chart(found)
     parts: list[Part] = []
     for page in range(1, len(drawn.pages) + 1):
-        svg = _inline(chart_svg(drawn, page, lambda box: address(name, _place(name, box))), f"{name}-{page}")
+        svg = inline(chart_svg(drawn, page, lambda box: address(name, _place(name, box))), f"{name}-{page}", "flow")
         first, last = (found.boxes[drawn.pages[page - 1].boxes[at].box] for at in (0, -1))
         words = f"Sheet {page} of {len(drawn.pages)}: from {first.name} to {last.name}. {_OURS}"
         html = element("figure", svg + text("figcaption", words), cls="chart")
@@ -39,15 +38,6 @@ def _place(name: str, box: Box) -> str:
     return facing(name).cards[box.cards[0] - 1].place
 
 
-def _inline(svg: str, key: str) -> str:
-    """A picture as it stands in a page: its style is the page's, its ids are its own, its paper is the page's."""
-    svg = re.sub(r"<style>.*?</style>\n?", "", svg, flags=re.DOTALL)
-    svg = re.sub(r'<rect x="[^"]*" width="[^"]*" height="[^"]*" fill="#fff"/>\n?', "", svg, count=1)
-    svg = svg.replace('id="title"', f'id="title-{key}"').replace('id="desc"', f'id="desc-{key}"')
-    svg = svg.replace('aria-labelledby="title desc"', f'aria-labelledby="title-{key} desc-{key}"')
-    return svg.replace("<svg ", '<svg class="flow" ', 1)
-
-
 def _ways(name: str, found: Flow) -> str:
     def to(box: Box) -> str:
         return link(name, _place(name, box), _place(name, box))
@@ -60,5 +50,5 @@ def _ways(name: str, found: Flow) -> str:
     return element(
         "details",
         text("summary", f"{len(rows)} ways from box to box")
-        + table(("from", "taken for", "to"), rows, aria_label="Ways from box to box"),
+        + table(("from", "taken for", "to"), rows, "Ways from box to box"),
     )

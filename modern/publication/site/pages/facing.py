@@ -14,7 +14,7 @@ from modern.publication.facing import Card, Facing, Otherwise, Piece, facing
 from modern.publication.measured import NOTICED, Run, runs, weights
 from modern.publication.site.entries import LAYERS, entry
 from modern.publication.site.made import Made, Part, Target, one_of
-from modern.publication.site.markup import definitions, element, escape, link, marked, text
+from modern.publication.site.markup import code, definitions, element, escape, link, text
 from modern.publication.site.pages.symbols import symbols
 from modern.publication.uses import Jump, uses
 
@@ -37,7 +37,7 @@ def make(argument: str) -> Made:
         parts.append(Part("What touches most cards", "everywhere", html=_everywhere(found)))
     for page, cards in found.pages():
         items = "".join(_card(found, card, first) for card in cards)
-        html = _head() + element("ol", items, cls="cards", role="list")
+        html = _head() + element("ol", items, cls="cards")
         parts.append(Part(f"Page {page}", f"page-{page}", html=html))
     made = symbols(name)
     return Made((*parts, *made.parts), (*_targets(found), *made.targets))
@@ -46,7 +46,8 @@ def make(argument: str) -> Made:
 def _targets(found: Facing) -> Iterator[Target]:
     name = found.program
     for card in found.cards:
-        yield Target(card.place, f"{name} {card.place}", f"{name} {card.place}")
+        for place in (card.place, *card.also):
+            yield Target(place, f"{name} {place}", f"{name} {place}")
     for page, _ in found.pages():
         yield Target(f"page-{page}", f"{name} page {page}", f"{name}, p. {page}")
     own = {row.id for row in found.rows()}
@@ -80,12 +81,12 @@ def _controls(found: Facing) -> str:
         cls="key",
     )
     keys = element("p", "Keys: <kbd>n</kbd> and <kbd>p</kbd> go to the next and the previous emendation.", cls="keys")
-    return element("form", html + key + keys, cls="controls", aria_label="What the text shows")
+    return element("div", html + key + keys, cls="controls", role="group", aria_label="What the text shows")
 
 
 def _choice(kind: str, id: str, name: str, value: str, on: bool, words: str, title: str) -> str:
     box = element("input", type=kind, id=id, name=name, value=value, checked=on)
-    return element("label", box + " " + text("span", words), title=title, for_=id)
+    return element("label", box + " " + text("span", words), title=title)
 
 
 def _run(run: Run) -> tuple[str, str]:
@@ -95,7 +96,7 @@ def _run(run: Run) -> tuple[str, str]:
 
 
 def _everywhere(found: Facing) -> str:
-    html = "".join(entry(row, (), found.program) for row in found.everywhere)
+    html = "".join(element("div", entry(row, (), found.program), cls="panel") for row in found.everywhere)
     for row_id, pieces in found.dropped:
         lines = "\n".join(f"{piece.line:>4}  {piece.text}" for piece in pieces)
         html += element(
@@ -128,13 +129,15 @@ def _card(found: Facing, card: Card, first: dict[str, Card]) -> str:
     )
     left = "".join(_piece(piece) for piece in card.witness) or text("span", SAID["ours"], cls="none")
     witness = element("div", text("span", "Witness ", cls="sr") + left, cls="witness")
-    code = marked(card.text, card.changed if card.witness else (), "ins")
+    words = code(card.text, card.changed if card.witness else (), "ins")
+    words += text("span", str(card.number), cls="number", title="card of the deck")
     mark = element("span", SIGNS[sign], cls="sign", title=SAID[sign], role="img", aria_label=SAID[sign]) if sign else ""
-    deck = element("div", text("span", "Deck ", cls="sr") + mark + element("code", code), cls="deck")
+    deck = element("div", text("span", "Deck ", cls="sr") + mark + words, cls="deck")
     others = "".join(_otherwise(found, other) for other in card.otherwise)
     names = " ".join([card.kind, *(f"of-{layer}" for layer in card.layers), *([sign] if sign else []), *_tall(card)])
+    also = "".join(element("span", "", id=place, cls="also-at") for place in card.also)
     return element(
-        "li", number + witness + deck + _about(found, card, first) + others, cls=f"card {names}", id=card.place
+        "li", also + number + witness + deck + _about(found, card, first) + others, cls=f"card {names}", id=card.place
     )
 
 
@@ -146,7 +149,7 @@ def _tall(card: Card) -> tuple[str, ...]:
 def _piece(piece: Piece) -> str:
     where = f"p. {piece.page}, line {piece.line} of the witness, {piece.source} of the thesis's OCR text"
     number = text("span", str(piece.line), cls="line", title=where)
-    return element("span", number + element("code", marked(piece.text, piece.changed, "del")), cls="piece")
+    return element("span", number + code(piece.text, piece.changed, "del"), cls="piece")
 
 
 def _otherwise(found: Facing, other: Otherwise) -> str:
@@ -190,7 +193,9 @@ def _margin(found: Facing, card: Card) -> str:
 
 
 def _seconds(seconds: float) -> str:
-    return f"{seconds:.2f} s" if seconds < 10 else f"{seconds:.0f} s"
+    if seconds >= 0.1:
+        return f"{seconds:.1f} s" if seconds < 10 else f"{seconds:.0f} s"
+    return f"{1000 * seconds:.0f} ms" if seconds >= 0.001 else "<1 ms"
 
 
 def _facts(found: Facing, card: Card) -> str:

@@ -31,7 +31,7 @@ def symbols(program: str) -> Made:
         )
         for name in known.names
     ]
-    names = table(("name", "is", "declared", "set", "used"), rows, aria_label="Names")
+    names = table(("name", "is", "declared", "set", "used"), rows, "Names")
     formats = []
     for card in cards.values():
         if card.kind == "format":
@@ -43,7 +43,7 @@ def symbols(program: str) -> Made:
             formats.append((link(program, card.place, str(card.label)), text("code", specification), used or "nothing"))
     parts = (
         Part("Names", "names", html=names),
-        Part("FORMATs", "formats", html=table(("FORMAT", "specification", "used by"), formats, aria_label="FORMATs")),
+        Part("FORMATs", "formats", html=table(("FORMAT", "specification", "used by"), formats, "FORMATs")),
     )
     targets = [
         Target(f"name-{name.name}", f"name {program} {name.name}", name.name, f"{name.name}; {program}")

@@ -1,0 +1,214 @@
+"""The site as files: every link and id resolves, decks and rows are on it, nothing is loaded from elsewhere."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+import subprocess
+from itertools import pairwise
+from pathlib import Path
+from shutil import which
+
+import pytest
+
+from emulator.errors import explanations
+from modern.edition import programs
+from modern.publication.site import build as site_build
+from modern.publication.site.colours import ROLES, TEXT_ON, contrast
+from modern.publication.site.made import make, names
+from modern.publication.site.markup import code, element, escape, shifted
+from modern.publication.site.mend import mended
+from modern.publication.site.pictures import inline
+from tests.support import editions
+from tests.support.editions import pages, words
+
+MEGABYTES = 15
+"""What the site may weigh, the machine in the page left out."""
+
+
+def test_every_link_and_every_id_resolves(site: Path) -> None:
+    assert list(editions.dead(site)) == []
+    for page in pages(site).values():
+        assert len(set(page.ids)) == len(page.ids), [id for id in page.ids if page.ids.count(id) > 1][:5]
+
+
+def test_a_dead_link_is_found(tmp_path: Path) -> None:
+    (tmp_path / "a.html").write_text('<p id="x"><a href="b.html">b</a><a href="#y">y</a><a href="#x">x</a></p>')
+    assert list(editions.dead(tmp_path)) == [
+        "a.html: b.html: there is no such file",
+        "a.html: #y: there is no such id",
+    ]
+
+
+@pytest.mark.parametrize("name", programs.NAMES)
+def test_the_deck_on_a_page_is_the_deck(site: Path, name: str) -> None:
+    cards = pages(site)[f"{name}.html"].root.xpath('//li[contains(@class, "card ")]//div[@class="deck"]/code')
+    text = "".join(words(card) + "\n" for card in cards)
+    committed = programs.sources().joinpath(f"{name}.f").read_bytes()
+    assert hashlib.sha256(text.encode()).hexdigest() == hashlib.sha256(committed).hexdigest()
+
+
+def test_every_row_has_an_address_and_its_fields(site: Path) -> None:
+    entries = {}
+    for name in programs.NAMES:
+        for entry in pages(site)[f"{name}.html"].root.xpath('//article[contains(@class, "row ")]'):
+            entries.setdefault(entry.get("id"), words(entry))
+    for name in programs.TEXTS:
+        for row in programs.text(name).rows:
+            told = entries[row.id]
+            assert {row.certainty, row.reason, row.evidence} - {
+                part for part in (row.certainty, row.reason, row.evidence) if part in told
+            } == set()
+            assert all(rejected.reading in told and rejected.reason in told for rejected in row.rejected)
+
+
+def test_addresses_that_were_given(site: Path) -> None:
+    known = pages(site)
+    for page, id in (
+        ("program3", "147+2"),
+        ("program3", "P3-025"),
+        ("program1", "P1-039"),
+        ("program3", "name-KELEQ"),
+        ("program1", "title"),
+        ("program2", "before-106"),
+        ("program3", "page-97"),
+        ("errors", "error-5"),
+    ):
+        assert id in known[f"{page}.html"].ids, id
+
+
+def test_the_index_has_every_card_row_name_and_error(site: Path) -> None:
+    there = {str(href) for href in pages(site)["addresses.html"].root.xpath('//ul[@class="addresses"]//a/@href')}
+    cards = sum(len(programs.deck(name).cards) for name in programs.NAMES)
+    assert len([href for href in there if re.search(r"program\w+\.html#(title|before-|\d)", href)]) == cards
+    assert {f"errors.html#error-{number}" for number in explanations()} <= there
+
+
+def test_two_clicks_from_home_are_enough(site: Path) -> None:
+    home = {str(href) for href in pages(site)["index.html"].root.xpath("//article//a/@href")}
+    assert {"program3.html#147", "program1.html#P1-039", "errors.html#error-5", "addresses.html"} <= home
+    assert "to-cite" in pages(site)["index.html"].ids
+
+
+def test_nothing_is_loaded_from_elsewhere(site: Path) -> None:
+    for page in pages(site).values():
+        loaded = page.root.xpath('//link[@rel!="canonical"]/@href | //script/@src | //img/@src | //iframe/@src')
+        assert [str(one) for one in loaded if "//" in str(one)] == []
+    for sheet in (site / "_static").rglob("*.css"):
+        assert not re.search(r"url\(\s*[\"']?(https?:)?//", sheet.read_text(encoding="utf-8")), sheet
+
+
+def test_the_text_needs_no_script(site: Path) -> None:
+    for name in programs.NAMES:
+        assert not pages(site)[f"{name}.html"].root.xpath("//article//script")
+    assert "fetch(" not in (site / "_static" / "edition.js").read_text(encoding="utf-8")
+
+
+def test_headings_go_down_one_by_one(site: Path) -> None:
+    for page in pages(site).values():
+        levels = [
+            int(heading.tag[1])
+            for heading in page.root.xpath("//article//*[self::h1 or self::h2 or self::h3 or self::h4]")
+        ]
+        assert levels[:1] == [1], page.name
+        assert levels.count(1) == 1, page.name
+        assert all(after - before <= 1 for before, after in pairwise(levels)), page.name
+
+
+def test_every_picture_says_what_it_shows(site: Path) -> None:
+    for page in pages(site).values():
+        assert page.root.xpath("//article//img[not(@alt) or @alt='']/@src") == [], page.name
+        for svg in page.root.xpath("//article//svg[@role]"):
+            assert svg.xpath("./title | @aria-label | @aria-labelledby"), page.name
+
+
+def test_it_is_small_enough(site: Path) -> None:
+    size = sum(file.stat().st_size for file in site.rglob("*") if file.is_file() and "console" not in file.parts)
+    assert size < MEGABYTES * 1_000_000
+
+
+def test_built_again_it_is_the_same_bytes(site: Path, tmp_path: Path) -> None:
+    again = tmp_path / "again"
+    done = editions.build(again, PYTHONHASHSEED="1963", TZ="Pacific/Auckland", LC_ALL="C")
+    assert done.returncode == 0, done.stderr
+    one, other = (
+        {file.relative_to(root): file.read_bytes() for file in root.rglob("*") if file.is_file()}
+        for root in (site, again)
+    )
+    assert sorted(one) == sorted(other)
+    assert [file for file in one if one[file] != other[file]] == []
+
+
+def test_a_folder_of_something_else_is_not_replaced(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "thesis.txt").write_text("kept")
+    assert site_build.main([str(tmp_path)]) == 2
+    assert capsys.readouterr().err == f"edition: {tmp_path}: is there and is no site of ours; nothing is replaced\n"
+    assert (tmp_path / "thesis.txt").read_text() == "kept"
+
+
+def test_html_is_valid(site: Path, tmp_path: Path) -> None:
+    validate = editions.MODULES / "html-validate" / "bin" / "html-validate.mjs"
+    node = which("node")
+    if node is None or not validate.exists():
+        pytest.skip("html-validate is not there: npm ci --prefix docs/console")
+    # Sphinx's search and the theme's style find the text by article[role=main].
+    rules = {
+        "root": True,
+        "extends": ["html-validate:standard", "html-validate:a11y"],
+        "rules": {"prefer-native-element": ["error", {"exclude": ["main"]}]},
+    }
+    (tmp_path / "rules.json").write_text(json.dumps(rules), encoding="utf-8")
+    files = [str(site / name) for name in pages(site)]
+    told = tmp_path / "told.json"
+    subprocess.run(
+        [node, str(validate), "--config", str(tmp_path / "rules.json"), "-f", f"json={told}", *files],
+        check=False,
+        capture_output=True,
+    )
+    found = [
+        f"{Path(file['filePath']).name}:{message['line']}: {message['ruleId']}: {message['message']}"
+        for file in json.loads(told.read_text(encoding="utf-8"))
+        for message in file["messages"]
+    ]
+    assert found == []
+
+
+@pytest.mark.parametrize(("ink", "ground"), TEXT_ON)
+def test_text_can_be_read_on_its_ground(ink: str, ground: str) -> None:
+    for theme in (0, 1):
+        assert contrast(ROLES[ink][theme], ROLES[ground][theme]) >= 4.5, theme
+
+
+def test_contrast_of_black_and_white_is_21() -> None:
+    assert contrast("#000000", "#ffffff") == pytest.approx(21)
+    assert contrast("#777777", "#ffffff") == pytest.approx(4.48, abs=0.01)
+
+
+def test_a_maker_refuses_what_it_does_not_know() -> None:
+    assert {"facing", "charts", "addresses", "errors", "home"} <= set(names())
+    with pytest.raises(ValueError, match="nothing is made by the name of 'maps'"):
+        make("maps", "")
+    with pytest.raises(ValueError, match="'program4' is not one of program1"):
+        make("facing", "program4")
+
+
+def test_markup_escapes() -> None:
+    assert element("p", escape('a<b & "c"')) == "<p>a&lt;b &amp; &quot;c&quot;</p>"
+    assert element("input", type="radio", checked=True, id="", value="") == '<input type="radio" checked value="">'
+    assert code("  I=J+1", ((4, 5),), "ins") == '<code><span class="lead">  I</span>=<ins>J</ins>+1</code>'
+    assert shifted('<a href="@/a.html">', 2) == '<a href="../../a.html">'
+
+
+def test_ids_of_a_picture_are_its_own() -> None:
+    head = '<?xml version="1.0"?><svg aria-labelledby="t"><style>a{}</style>'
+    svg = head + '<title id="t">x</title><use href="#f"/><g id="f"/></svg>'
+    assert inline(svg, "k", "c") == (
+        '<svg class="c" aria-labelledby="t-k"><title id="t-k">x</title><use href="#f-k"/><g id="f-k"/></svg>'
+    )
+
+
+def test_a_page_that_is_mended_already_stays() -> None:
+    page = '<aside class="toc-drawer"><button class="theme-toggle"></button></aside>'
+    assert mended(page) != page
+    assert mended(mended(page)) == mended(page)
