@@ -5,10 +5,16 @@ from __future__ import annotations
 import csv
 import json
 import re
+from dataclasses import fields
+from inspect import signature
 
 import pytest
 
+from modern.study.families import FAMILIES
+from modern.study.measures import MEASURES
+from modern.study.plan import Port, Programs
 from modern.study.registry import names, study
+from modern.study.tomlplan import _CELL, _HEAD
 from tests.support.paths import ROOT
 
 DOCS = ROOT / "docs" / "studies"
@@ -144,3 +150,41 @@ def test_the_report_holds_every_table(name: str) -> None:
         with open(path, encoding="utf-8", newline="") as file:
             for row in csv.reader(file):
                 assert "| " + " | ".join(row) + " |" in report, path
+
+
+HOW_TO = (ROOT / "docs" / "how-to" / "own-study.md").read_text(encoding="utf-8")
+
+
+def rows_of(head: str) -> set[str]:
+    """The names in the first column of the table with that head."""
+    (table,) = re.findall(rf"^\| {re.escape(head)} .*\n\|[-|]+\n((?:\|.*\n)+)", HOW_TO, re.MULTILINE)
+    return {name for line in table.splitlines() for name in re.findall(r"`(\w[\w-]*)`", line.split("|")[1])}
+
+
+@pytest.mark.parametrize(
+    ("head", "names"),
+    [
+        ("at the head", {*_HEAD} - {"route", "cell"}),
+        ("in `[[route]]`", {"kind", *(field.name for made in (Programs, Port) for field in fields(made))}),
+        ("in `[[cell]]`", {*_CELL}),
+        ("family", {*FAMILIES, "file"}),
+        ("measure", {*MEASURES}),
+    ],
+)
+def test_the_how_to_has_every_key_family_and_measure(head: str, names: set[str]) -> None:
+    assert rows_of(head) == names
+
+
+def test_the_how_to_has_every_parameter_of_a_family() -> None:
+    for name, family in FAMILIES.items():
+        (line,) = re.findall(rf"^\| `{name}` \| (.*?) \|", HOW_TO, re.MULTILINE)
+        taken = [one for one in signature(family).parameters if one != "draw"]
+        assert sorted(re.findall(r"`(\w+)`", line)) == sorted(taken), name
+
+
+def test_the_how_to_has_what_a_route_is_without_a_key() -> None:
+    for made in (Programs, Port):
+        for field in fields(made):
+            if field.name in ("limit", "core", "arithmetic", "state", "bounds"):
+                (line,) = re.findall(rf"^\| `{field.name}` \|.*", HOW_TO, re.MULTILINE)
+                assert str(field.default) in line.rsplit("|", 2)[1], field.name
