@@ -4,7 +4,8 @@ Every name is loaded when it is first used, so that ``import hull1620`` costs no
 
 convex_hull, exact_hull         the hull of points: Butler's procedure over any arithmetic; the exact one, proved
 Hull                            what both give: numpy arrays, exact volume and area, draw, save
-digital_hull, read_volume       the filled hull of voxels, and voxels from files
+digital_hull, voxel_hull        the filled hull of voxels; their exact hull, in millimetres where spacing is in them
+read_volume                     voxels from files: NRRD, NPY, NIfTI, DICOM and others
 read_points, data_deck          points from a file of any kind; points as a data deck
 read_deck, compile_deck         cards from a file; a FORTRAN program compiled
 Machine, Options, numbers       a run of a program on the 1620, how it is set up, its arithmetic
@@ -33,8 +34,9 @@ if TYPE_CHECKING:
     from emulator.numbers import Numbers, numbers
     from emulator.numbers.arithmetic import Profile, profile
     from hull1620.hulls import Hull, convex_hull, data_deck, draw, exact_hull, read_points, reproduce, run_hull, save
+    from hull1620.voxels import voxel_hull
     from modern.digital.hull import DigitalHull, digital_hull
-    from modern.digital.solids import Volume, VolumeError
+    from modern.digital.solids import NoVoxels, Volume, VolumeError
     from modern.digital.volumes import read_volume
     from modern.exact_hull.result import Certificate, CertificateError
     from modern.geometry.hull import Face, HullRefused, Stage
@@ -62,8 +64,9 @@ _HOMES = {
     "hull1620.hulls": (
         *("Hull", "convex_hull", "data_deck", "draw", "exact_hull", "read_points", "reproduce", "run_hull", "save"),
     ),
+    "hull1620.voxels": ("voxel_hull",),
     "modern.digital.hull": ("DigitalHull", "digital_hull"),
-    "modern.digital.solids": ("Volume", "VolumeError"),
+    "modern.digital.solids": ("NoVoxels", "Volume", "VolumeError"),
     "modern.digital.volumes": ("read_volume",),
     "modern.exact_hull.result": ("Certificate", "CertificateError"),
     "modern.geometry.hull": ("Face", "HullRefused", "Stage"),
@@ -98,6 +101,7 @@ __all__ = [
     "HullRefused",
     "HullRun",
     "Machine",
+    "NoVoxels",
     "Numbers",
     "Options",
     "Plan",
@@ -135,6 +139,7 @@ __all__ = [
     "run_study",
     "save",
     "translate",
+    "voxel_hull",
 ]
 
 

@@ -206,13 +206,17 @@ def _hidden_line(parser: ArgumentParser) -> None:
 
 def _voxel_hull(parser: ArgumentParser) -> None:
     volume_arguments(parser)
+    parser.add_argument(
+        "--space",
+        choices=("file", "lps", "ras", "index"),
+        default="file",
+        help="coordinates: as the file's, turned to LPS or RAS, or indices, as of files that state no place (default: "
+        "file). A position is that of a voxel's centre, and corners lie half a voxel from it; in indices voxel "
+        "(x, y, z) has the corners (x, y, z) to (x+1, y+1, z+1), as in the paper",
+    )
     which = parser.add_mutually_exclusive_group()
     which.add_argument("--centres", action="store_true", help="the hull of the voxels' centres")
-    which.add_argument(
-        "--vertices",
-        action="store_true",
-        help="of the voxels' corners (default): from (x, y, z) to (x+1, y+1, z+1) for voxel (x, y, z)",
-    )
+    which.add_argument("--vertices", action="store_true", help="of the voxels' corners (default)")
     parser.add_argument(
         "--corners", type=int, choices=(6, 26), help="neighbours tested for local corners (default: 26)"
     )
@@ -221,9 +225,24 @@ def _voxel_hull(parser: ArgumentParser) -> None:
     )
     parser.add_argument("--straight", action="store_true", help="merge edges in one line too, for --cells and -o")
     parser.add_argument("--cells", action="store_true", help="print the cell list: vertices, edges and faces")
-    parser.add_argument("--fill", action="store_true", help="fill the hull of the centres; -o FILE.npy writes it")
+    parser.add_argument("--fill", action="store_true", help="fill the hull of the centres; -o writes the voxels")
+    parser.add_argument(
+        "--each-label",
+        action="store_true",
+        help="a table: of each label (or of those given) volume, hull, area, solidity and convex deficiency; with "
+        "--fill in voxels",
+    )
+    parser.add_argument(
+        "--csv", metavar="FILE", help="with --each-label: the table with all digits and exact fractions"
+    )
     mesh = ", ".join(f".{name}" for name in MESHES)
-    parser.add_argument("-o", "--output", metavar="FILE", help=f"a mesh ({mesh}); with --fill an array")
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE",
+        help=f"a mesh ({mesh}); with --fill an array: .nrrd, which keeps spacing and origin, or .npy; with "
+        "--each-label a name with a place for the label, as 'label-%%d.off'",
+    )
 
 
 def _octree_hull(parser: ArgumentParser) -> None:
@@ -236,7 +255,8 @@ def _octree_hull(parser: ArgumentParser) -> None:
         help="only these as printed: angle, start, triangles, truncation, bound, corners, marks",
     )
     parser.add_argument("--trace", action="store_true", help="every edge taken from the queue, and what became of it")
-    parser.add_argument("-o", "--output", metavar="FILE.npy", help="write the filled hull as an array")
+    words = "write the filled hull as an array: .nrrd, which keeps spacing and origin, or .npy"
+    parser.add_argument("-o", "--output", metavar="FILE", help=words)
 
 
 def _apparatus(parser: ArgumentParser) -> None:

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from emulator.files import check_writable
 from modern.cli.shared.console import DIFFERS, OK, UsageError, counted, say
-from modern.cli.shared.volumes import volume_of
-from modern.digital.volumes import write_npy
+from modern.cli.shared.volumes import array_note, check_array, volume_of
+from modern.digital.volumes import write_array
 from modern.papers.yau_srihari import OctreeHull, Printed, octree_hull
 from modern.papers.yau_srihari.envelope import Edge, Envelope, Step
 from modern.papers.yau_srihari.octree import nodes
@@ -25,21 +25,20 @@ Point = tuple[int, int, int]
 def main(args: argparse.Namespace) -> int:
     """Read the volume, find its hull, print every stage, write the filled hull."""
     printed = _printed(args)
-    if args.output is not None and not args.output.lower().endswith(".npy"):
-        raise UsageError(f"{args.output}: a filled hull is written as an array; the name must end with .npy")
+    check_array(args.output)
     check_writable(args.output)
     volume = volume_of(args)
     hull = octree_hull(volume, printed)
     if args.output is not None:
-        write_npy(args.output, hull.filled)
+        write_array(args.output, hull.filled, volume)
     x, y, z = (*volume.origin, 0)[:3]
     for line in _lines(hull, volume.source, (x, y, z), args.trace):
         print(line)
     if printed.names():
         say([f"note: taken as printed: {', '.join(printed.names())}"])
     say(f"note: {fault}" for fault in hull.faults)
-    if any(volume.origin) and args.output is not None:
-        say([f"note: the array's first voxel is {_shown(volume.origin)}"])
+    if args.output is not None:
+        say(array_note(args.output, volume))
     return _compared(hull.filled, octree_hull(volume).filled) if printed.names() else OK
 
 

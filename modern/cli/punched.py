@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 import argparse
-import re
 from dataclasses import replace
 
 from emulator.files import check_writable, write_text
 from emulator.language.cards import Deck
-from modern.cli.shared.console import OK, UsageError
+from modern.cli.shared.console import OK, UsageError, check_numbered
 from modern.cli.shared.inputs import deck_of
 from modern.drawing.punched import cards_svg, check_punched
 from modern.edition import programs
-
-_NUMBERED = re.compile(r"(?:[^%]|%%)*%(?:0?[1-9])?d(?:[^%]|%%)*")
-"""A name with one place for a number, as printf has it: ``card-%03d.svg``."""
 
 
 def main(args: argparse.Namespace) -> int:
@@ -31,8 +27,7 @@ def main(args: argparse.Namespace) -> int:
 
 def _one_a_card(deck: Deck, pattern: str) -> None:
     """A file for each card; none where one of the cards cannot be drawn or one of the files cannot be written."""
-    if not _NUMBERED.fullmatch(pattern):
-        raise UsageError(f"--output: {pattern!r} has no place for a number as in 'card-%03d.svg'")
+    check_numbered(pattern, "number", "card-%03d.svg")
     check_punched(deck)
     names = [pattern % card.number for card in deck.cards]
     check_writable(*names)

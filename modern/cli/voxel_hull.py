@@ -3,15 +3,29 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 from emulator.files import check_writable, write_text
-from modern.cli.shared.console import OK, UsageError, counted
-from modern.cli.shared.volumes import volume_of
-from modern.digital.volumes import Volume, write_npy
+from modern.cli.shared.console import OK, UsageError, check_numbered, counted, say
+from modern.cli.shared.measures import Row, centres_row, csv_text, filled_row, measure_lines, solid_row, table
+from modern.cli.shared.volumes import (
+    array_note,
+    check_array,
+    choice_of,
+    coordinate_words,
+    in_space,
+    printable,
+    scan_of,
+    spacing_words,
+    volume_of,
+)
+from modern.digital.hull import digital_hull
+from modern.digital.scans import labels_of, of_each_label
+from modern.digital.volumes import Volume, write_array
+from modern.digital.world import voxel_volume
 from modern.formats import MESHES
 from modern.formats.hulls import mesh_text
-from modern.geometry.mesh import Mesh
 from modern.papers.kovalevsky_schulz import (
     CENTRES,
     VERTICES,
@@ -24,23 +38,28 @@ from modern.papers.kovalevsky_schulz import (
     voxel_hull,
 )
 from modern.papers.kovalevsky_schulz.tables import all_rows, cell_list_size, economical_size, triangulation_size
+from modern.study.progress import Progress
 
 
 def main(args: argparse.Namespace) -> int:
     """Read the volume, find its hull, print what the paper prints, write the file."""
     _check_options(args)
     form = _form(args)
-    check_writable(args.output)
-    volume = volume_of(args)
+    check_writable(args.output, args.csv)
+    if args.each_label:
+        return _each_label(args, form)
+    volume = _placed(volume_of(args), args.space)
     print(f"{volume.source}: {counted(volume.count, 'voxel')}")
     if args.fill:
         _fill(volume, args.output)
         return OK
-    of: Of = CENTRES if args.centres else VERTICES
-    hull = voxel_hull(volume, of, args.corners or 26, args.coplanar or VISIBLE)
+    say([printable(coordinate_words(volume.world, not args.centres))])
+    hull = _hull(volume, args)
     if args.output is not None and form is not None:
-        write_text(args.output, mesh_text(_mesh(hull.surface, args.straight), form))
-    for line in _count_lines(hull, of):
+        write_text(args.output, mesh_text(hull.mesh(args.straight), form))
+    for line in _count_lines(hull):
+        print(line)
+    for line in measure_lines(hull.measures(), volume.world.unit if volume.world else "", not args.centres):
         print(line)
     if args.cells and isinstance(hull.surface, Surface):
         for line in all_rows(hull.surface.straight if args.straight else hull.surface.faces):
@@ -48,10 +67,18 @@ def main(args: argparse.Namespace) -> int:
     return OK
 
 
+def _hull(volume: Volume, args: argparse.Namespace) -> VoxelHull:
+    of: Of = CENTRES if args.centres else VERTICES
+    return voxel_hull(volume, of, args.corners or 26, args.coplanar or VISIBLE)
+
+
+def _placed(volume: Volume, space: str) -> Volume:
+    """The volume in the coordinates of ``--space``."""
+    return replace(volume, world=in_space(volume.world, space))
+
+
 def _check_options(args: argparse.Namespace) -> None:
     """Refuse options that would do nothing.  Raises UsageError."""
-    if not args.fill:
-        return
     given = {
         "--vertices": args.vertices,
         "--corners": args.corners,
@@ -60,17 +87,24 @@ def _check_options(args: argparse.Namespace) -> None:
         "--straight": args.straight,
     }
     useless = [name for name, value in given.items() if value]
-    if useless:
+    if args.fill and useless:
         raise UsageError(f"--fill fills the hull of the voxels' centres; {useless[0]} is not for it")
+    if args.each_label and args.cells:
+        raise UsageError("--each-label prints a table of labels; --cells is of one hull")
+    if args.each_label and args.threshold is not None:
+        raise UsageError("--each-label takes whole values; --threshold is not for it")
+    if args.csv is not None and not args.each_label:
+        raise UsageError("--csv is the table of --each-label")
 
 
 def _form(args: argparse.Namespace) -> str | None:
     """The format of the mesh to write, or None.  Raises UsageError."""
     if args.output is None:
         return None
+    if args.each_label:
+        check_numbered(args.output, "label", "label-%d.off")
     if args.fill:
-        if not args.output.lower().endswith(".npy"):
-            raise UsageError(f"{args.output}: a filled hull is written as an array; the name must end with .npy")
+        check_array(args.output)
         return None
     form: str = args.output.rpartition(".")[2].lower()
     if form not in MESHES:
@@ -79,20 +113,57 @@ def _form(args: argparse.Namespace) -> str | None:
 
 
 def _fill(volume: Volume, output: str | None) -> None:
-    # Imported here: only this option needs it.
-    from modern.digital.hull import digital_hull
-
     hull = digital_hull(volume)
     if output is not None:
-        write_npy(output, hull.filled)
+        write_array(output, hull.filled, volume)
     print(f"filled hull of the voxels' centres ({hull.kind}): {counted(hull.voxels, 'voxel')}")
-    if any(volume.origin):
-        print(f"the array's first voxel is {volume.origin}")
+    print(f"solidity {hull.solidity}, in voxels; convex deficiency: {counted(hull.deficiency, 'voxel')}")
+    if output is not None:
+        say(printable(note) for note in array_note(output, volume))
 
 
-def _count_lines(hull: VoxelHull, of: str) -> Iterator[str]:
+def _each_label(args: argparse.Namespace, form: str | None) -> int:
+    """The table of labels, and a file for each where the output has a place for it: all, or none of them."""
+    scan = scan_of(args)
+    labels = choice_of(args).labels or labels_of(scan)
+    names = [args.output % label for label in labels] if args.output is not None else []
+    check_writable(*names, args.csv)
+    world = in_space(scan.world, args.space)
+    say([printable(f"{scan.source}: {counted(len(labels), 'label')}; {spacing_words(world)}")])
+    if not args.fill:
+        say([printable(coordinate_words(world, not args.centres))])
+    rows: list[Row] = []
+    writers: list[Callable[[], None]] = []
+    progress = Progress(len(labels), what="labels")
+    for label, found in of_each_label(scan, labels):
+        volume = replace(found, world=world)
+        name = args.output % label if args.output is not None else None
+        if args.fill:
+            filled = digital_hull(volume)
+            rows.append(filled_row(label, filled, voxel_volume(world)))
+            if name is not None:
+                writers.append(lambda name=name, filled=filled: filled.save(name))  # type: ignore[misc]
+        else:
+            hull = _hull(volume, args)
+            rows.append((centres_row if args.centres else solid_row)(label, hull.measures()))
+            if name is not None and form is not None:
+                text = mesh_text(hull.mesh(args.straight), form)
+                writers.append(lambda name=name, text=text: write_text(name, text))  # type: ignore[misc]
+        progress.add(1)
+    progress.close()
+    unit = "voxel" if world is None else world.unit
+    for write in writers:
+        write()
+    if args.csv is not None:
+        write_text(args.csv, csv_text(rows, unit))
+    for line in table(rows, unit):
+        print(line)
+    return OK
+
+
+def _count_lines(hull: VoxelHull) -> Iterator[str]:
     """The counts of section 2 and the sizes of section 4."""
-    what = "voxels" if of == CENTRES else "voxel vertices"
+    what = "voxels" if hull.of == CENTRES else "voxel vertices"
     counts = ", ".join(f"{count} by {tested} neighbours" for tested, count in hull.corners.items())
     yield f"local corners of the {what}: {counts}"
     surface = hull.surface
@@ -114,16 +185,3 @@ def _count_lines(hull: VoxelHull, of: str) -> Iterator[str]:
 
 def _cells(cells: CellList) -> str:
     return f"{len(cells.faces)} faces, {len(cells.vertices)} vertices, {len(cells.edges)} edges"
-
-
-def _mesh(surface: Surface | Flat, straight: bool) -> Mesh:
-    """The hull for the writers of mesh files."""
-    if isinstance(surface, Flat):
-        cycle = tuple(range(len(surface.vertices)))
-        return Mesh(surface.dimension, _texts(surface.vertices), (cycle,) if surface.dimension == 2 else ())
-    cells = surface.straight if straight else surface.faces
-    return Mesh(3, _texts(cells.points), tuple(tuple(v - 1 for v in face.vertices) for face in cells.faces))
-
-
-def _texts(points: tuple[tuple[int, int, int], ...]) -> tuple[tuple[str, str, str], ...]:
-    return tuple((str(x), str(y), str(z)) for x, y, z in points)

@@ -8,6 +8,8 @@ voxel centres contains.
 
 from __future__ import annotations
 
+import os
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, Literal, get_args
@@ -19,13 +21,14 @@ from emulator.compiled.jit import NotInstalled
 from modern.digital.columns import Grid, Truth, column_ends, fill, reduced
 from modern.digital.intervals import below_edges, below_facets, in_plane
 from modern.digital.polytope import compiled_hull, polyhedron
-from modern.digital.solids import Volume, VolumeError
+from modern.digital.solids import NoVoxels, Volume, VolumeError
+from modern.digital.world import World, voxel_volume, world_of
 
 MAX_VOXELS = 1 << 56
 """Beyond this a product of three lengths would leave 64 bits; no memory holds so much."""
 WORTH_COMPILING = 1000
 """From so many candidates on compiled code is used where numba is installed."""
-Kind = Literal["empty", "point", "segment", "polygon", "polyhedron"]
+Kind = Literal["point", "segment", "polygon", "polyhedron"]
 KINDS: tuple[Kind, ...] = get_args(Kind)
 
 
@@ -34,46 +37,101 @@ class DigitalHull:
     """The digital hull of a volume.
 
     filled: truth values of the volume's shape, in its order of memory.  dimension: that of the voxels' centres: 3; 2 if
-    they lie in one plane, 1 on one line; 0 for one voxel, -1 for none.  given: how many voxels the volume has.
+    they lie in one plane, 1 on one line; 0 for one voxel.  given: how many voxels the volume has.  source: the volume
+    whose hull it is, for where its voxels lie.
     """
 
     filled: Truth
     dimension: int
     given: int
+    source: Volume
 
     @property
     def kind(self) -> Kind:
-        """``empty``, ``point``, ``segment``, ``polygon`` or ``polyhedron``."""
-        return KINDS[self.dimension + 1]
+        """``point``, ``segment``, ``polygon`` or ``polyhedron``."""
+        return KINDS[self.dimension]
 
     @property
     def solidity(self) -> Fraction:
-        """The share of the hull that the volume fills, in voxels; 1 of a volume without voxels."""
-        return Fraction(self.given, self.voxels) if self.given else Fraction(1)
+        """The share of the hull that the volume fills, in voxels."""
+        return Fraction(self.given, self.voxels)
+
+    @property
+    def deficiency(self) -> int:
+        """How many voxels the convex deficiency has: those of the hull that are not given."""
+        return self.voxels - self.given
+
+    @property
+    def world(self) -> World | None:
+        """Where the voxels of ``filled`` lie, by their indices; None where nothing says it."""
+        world = self.source.world
+        return None if world is None else world.moved(self.source.origin)
+
+    @property
+    def volume(self) -> Fraction:
+        """The volume of the hull's voxels in the world, exactly; their number where there is no world."""
+        return self.voxels * voxel_volume(self.source.world)
 
     @property
     def voxels(self) -> int:
         """How many voxels the hull has."""
         return int(np.count_nonzero(self.filled))
 
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write ``filled``: as .nrrd with the place of its voxels, or as .npy, which holds none.
 
-def digital_hull(volume: Volume | NDArray[Any], fast: bool | None = None) -> DigitalHull:
+        Raises VolumeError for another ending, FileError where the file cannot be written.
+        """
+        from modern.digital.volumes import write_array
+
+        write_array(os.fspath(path), self.filled, self.source)
+
+
+def digital_hull(
+    volume: Volume | NDArray[Any],
+    fast: bool | None = None,
+    *,
+    spacing: Sequence[Any] | None = None,
+    origin: Sequence[Any] | None = None,
+    directions: Sequence[Sequence[Any]] | None = None,
+) -> DigitalHull:
     """The grid points in the convex hull of a volume's voxel centres.
 
     volume: two or three axes; every value other than 0 is a voxel.  fast: True for compiled code (numba, the extra
-    ``fast``), False for plain Python, None for whichever is quicker; the result is the same.
+    ``fast``), False for plain Python, None for whichever is quicker; the result is the same.  spacing, origin,
+    directions: where the voxels of an array lie, see :func:`modern.digital.world.world_of`; the hull's voxels do not
+    depend on it, its ``world`` and ``volume`` do.
 
-    Raises VolumeError for other arrays, and where ``fast`` is asked for without numba.
+    Raises VolumeError for other arrays, for a place that is none, and where ``fast`` is asked for without numba;
+    NoVoxels, which is a PointsError, where there are no voxels.
     """
-    array = _truth(volume.array if isinstance(volume, Volume) else np.asarray(volume))
-    given = int(np.count_nonzero(array))
-    if given == 0:
-        return DigitalHull(np.zeros_like(array), -1, 0)
+    source = placed(volume, spacing, origin, directions)
+    array, given = source.array, source.count
     solid = array.reshape((1,) * (3 - array.ndim) + array.shape)
     # Columns run along the axis whose voxels are next to each other in memory.
     order = sorted(range(3), key=lambda axis: -abs(solid.strides[axis]))
     dimension, filled = _hull(solid.transpose(order), fast)
-    return DigitalHull(filled.transpose(np.argsort(order)).reshape(array.shape), dimension, given)
+    return DigitalHull(filled.transpose(np.argsort(order)).reshape(array.shape), dimension, given, source)
+
+
+def placed(
+    volume: Volume | NDArray[Any],
+    spacing: Sequence[Any] | None = None,
+    origin: Sequence[Any] | None = None,
+    directions: Sequence[Sequence[Any]] | None = None,
+) -> Volume:
+    """A volume as it is, or an array of two or three axes with its place; every value other than 0 is a voxel.
+
+    Raises VolumeError and NoVoxels as ``digital_hull``.
+    """
+    if not isinstance(volume, Volume):
+        array = _truth(np.asarray(volume))
+        volume = Volume(array, (0,) * array.ndim, world=world_of(array.ndim, spacing, origin, directions))
+    elif spacing is not None or origin is not None or directions is not None:
+        raise VolumeError(f"{volume.source}: a Volume has its place; spacing, origin and directions are of arrays")
+    if not _truth(volume.array).any():
+        raise NoVoxels("there are no points")
+    return volume
 
 
 def _truth(array: NDArray[Any]) -> Truth:

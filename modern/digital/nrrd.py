@@ -2,8 +2,9 @@
 
 Read are arrays of two or three axes of the standard number types, encoded raw or gzip, with the data after the
 header or in one file that a detached header names (``data file: NAME``).  The fastest axis is the first, so the
-array is indexed [x, y, z].  Whatever says where the volume lies in the world (spacings, space directions) is passed
-over.
+array is indexed [x, y, z].  Where the volume lies (``spacings`` or ``space directions``, ``space origin``, ``space``
+and units) is kept as decimal text says it; ``space origin`` is the centre of the first voxel.  Written are truth
+values as uint8, packed, with all of that.
 """
 
 from __future__ import annotations
@@ -11,16 +12,21 @@ from __future__ import annotations
 import gzip
 import io
 import math
+import re
 import zlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from emulator.files import read_bytes
-from modern.digital.solids import MAX_CELLS, VolumeError
+from emulator.files import read_bytes, writing_bytes
+from modern.digital.scans import Scan
+from modern.digital.solids import MAX_CELLS, Volume, VolumeError
+from modern.digital.world import ANATOMICAL, Position, World, length_text, world_of
+from modern.geometry.numbers import finite_decimal
 
 MAGIC = b"NRRD000"
 _TYPES = {
@@ -38,10 +44,22 @@ _TYPES = {
 _CODES = {name: code for code, names in _TYPES.items() for name in names}
 _ENDIANS = {"little": "<", "big": ">"}
 _RAW, _PACKED = "raw", ("gzip", "gz")
+_OTHER_NAMES = {
+    "datafile": "data file",
+    "lineskip": "line skip",
+    "byteskip": "byte skip",
+    "axismins": "axis mins",
+    "axismaxs": "axis maxs",
+}
+_SPACES = {"lps": ANATOMICAL[0], "ras": ANATOMICAL[1], "las": ANATOMICAL[2]}
+_VECTOR = re.compile(r"\(([^()]*)\)|(none)(?!\S)")
+_QUOTED = re.compile(r'"((?:[^"\\]|\\.)*)"')
+_NOT_TAKEN = ("axis mins", "axis maxs")
+_MOST_AXES = 3
 
 
-def parse_nrrd(data: bytes, source: str) -> NDArray[Any]:
-    """The array of an NRRD file, indexed [x, y] or [x, y, z].
+def parse_nrrd(data: bytes, source: str) -> Scan:
+    """The array of an NRRD file, indexed [x, y] or [x, y, z], and where it lies.
 
     source: the name messages use; a detached header's data file is looked for beside it.  Raises VolumeError with the
     header's line for a field that is missing, unknown here or no number, and for data that are too short, too long or
@@ -75,7 +93,33 @@ def parse_nrrd(data: bytes, source: str) -> NDArray[Any]:
         raise VolumeError(f"{source}: the data end after {len(body)} of {wanted} bytes")
     if len(body) > wanted:
         raise VolumeError(f"{source}: the data go on after the {wanted} bytes of {'x'.join(map(str, sizes))} numbers")
-    return np.frombuffer(body, kind).reshape(sizes, order="F")
+    array = np.frombuffer(body, kind).reshape(sizes, order="F")
+    world, notes = _world(fields, dimension, source)
+    return Scan(array, (0,) * dimension, source, world, notes)
+
+
+def write_nrrd(path: str, array: NDArray[np.bool_], volume: Volume) -> None:
+    """Write truth values of a volume's shape as NRRD with the volume's place, whole or not at all.
+
+    Raises FileError, and VolumeError for a place that no decimal numbers name.
+    """
+    world = volume.world
+    if world is None and any(volume.origin):
+        world = world_of(array.ndim, origin=(0,) * array.ndim)
+    head = [f"{MAGIC.decode()}4", "type: uint8", f"dimension: {array.ndim}"]
+    if world is not None:
+        head.append(f"space: {world.space}" if world.space else f"space dimension: {len(world.origin)}")
+    head += [f"sizes: {' '.join(map(str, array.shape))}", "encoding: gzip"]
+    if world is not None:
+        head.append(f"space directions: {' '.join(_vector(step, path) for step in world.steps)}")
+        head.append(f"space origin: {_vector(world.place(volume.origin), path)}")
+        if world.unit:
+            head.append("space units: " + " ".join([f'"{world.unit}"'] * len(world.origin)))
+    with writing_bytes(path) as file:
+        file.write(("\n".join(head) + "\n\n").encode("latin-1", "replace"))
+        with gzip.GzipFile(filename="", mode="wb", compresslevel=6, fileobj=file, mtime=0) as packed:
+            for place in range(array.shape[-1]):
+                packed.write(array[..., place].astype(np.uint8).tobytes("F"))
 
 
 def _cut(data: bytes) -> tuple[bytes, bytes]:
@@ -99,10 +143,10 @@ def _fields(head: bytes, source: str) -> dict[str, tuple[int, str]]:
             raise VolumeError(f"{source}: line {line}, column 1: neither a field nor a comment of an NRRD header")
         if value.startswith("="):
             continue
-        name = {"datafile": "data file", "lineskip": "line skip", "byteskip": "byte skip"}.get(name, name)
-        if name.lower() in found:
+        known = _OTHER_NAMES.get(name.lower(), name.lower())
+        if known in found:
             raise VolumeError(f"{source}: line {line}, column 1: {name} stands twice")
-        found[name.lower()] = (line, value.strip())
+        found[known] = (line, value.strip())
     for name in ("type", "dimension", "sizes", "encoding"):
         if name not in found:
             raise VolumeError(f"{source}: the header has no field {name!r}")
@@ -149,3 +193,100 @@ def _unpacked(body: bytes, wanted: int, source: str) -> bytes:
             return found + packed.read(1)
     except (OSError, EOFError, zlib.error) as error:
         raise VolumeError(f"{source}: the data cannot be unpacked: {str(error).lower()}") from None
+
+
+def _world(fields: Mapping[str, tuple[int, str]], dimension: int, source: str) -> tuple[World | None, tuple[str, ...]]:
+    """Where the volume lies, None where the header does not say it, and notes on what is not taken."""
+    notes = [
+        f"{source}: line {fields[name][0]}: {name} is not taken; space origin says where a volume lies"
+        for name in _NOT_TAKEN
+        if name in fields
+    ]
+    line, steps = _steps(fields, dimension, source)
+    if not line:
+        at = fields.get("space origin")
+        return None, (*notes, *([f"{source}: line {at[0]}: space origin, but no spacings: not taken"] if at else []))
+    if steps is None:
+        return None, (*notes, f"{source}: line {line}: an axis of the array is none of space: no place is taken")
+    width = len(steps[0])
+    if width > _MOST_AXES:
+        return None, (*notes, f"{source}: line {line}: a space of {width} axes: no place is taken")
+    origin = _origin(fields, width, source)
+    space = fields.get("space", (0, ""))[1]
+    space = _SPACES.get(space.lower(), space.lower() if space.lower() in ANATOMICAL else space)
+    try:
+        return World(steps, origin, space, _unit(fields, source)), tuple(notes)
+    except VolumeError as error:
+        raise VolumeError(f"{source}: line {line}: {error}") from None
+
+
+def _steps(
+    fields: Mapping[str, tuple[int, str]], dimension: int, source: str
+) -> tuple[int, tuple[Position, ...] | None]:
+    """The line that says the steps, 0 for none, and the steps; None where one of them is unknown."""
+    if "space directions" not in fields:
+        if "spacings" not in fields:
+            return 0, None
+        line, text = fields["spacings"]
+        found = _lengths(text.split(), dimension, f"{source}: line {line}: spacings")
+        if any(number is None for number in found):
+            return line, None
+        zero = Fraction(0)
+        return line, tuple(
+            tuple((number or zero) if k == axis else zero for k in range(dimension))
+            for axis, number in enumerate(found)
+        )
+    line, text = fields["space directions"]
+    if any(word.lower() != "nan" for word in fields.get("spacings", (0, ""))[1].split()):
+        raise VolumeError(f"{source}: line {fields['spacings'][0]}: spacings beside space directions: which holds?")
+    vectors = _vectors(text, dimension, f"{source}: line {line}: space directions")
+    if any(vector is None or None in vector for vector in vectors):
+        return line, None
+    return line, tuple(tuple(number for number in vector or () if number is not None) for vector in vectors)
+
+
+def _origin(fields: Mapping[str, tuple[int, str]], width: int, source: str) -> Position:
+    if "space origin" not in fields:
+        return (Fraction(0),) * width
+    line, text = fields["space origin"]
+    what = f"{source}: line {line}: space origin"
+    (vector,) = _vectors(text, 1, what)
+    if vector is None or None in vector or len(vector) != width:
+        raise VolumeError(f"{what}: {text[:60]!r} are not {width} numbers in parentheses")
+    return tuple(number for number in vector if number is not None)
+
+
+def _vectors(text: str, count: int, what: str) -> list[list[Fraction | None] | None]:
+    """So many vectors of one length: ``(1,0,0)``, or ``none``."""
+    found = list(_VECTOR.finditer(text))
+    if len(found) != count or _VECTOR.sub("", text).strip():
+        raise VolumeError(f"{what}: {count} vectors as (1,0,0) are due, here is {text[:60]!r}")
+    inner = [None if match[2] else match[1].split(",") for match in found]
+    width = len(next((words for words in inner if words is not None), ()))
+    return [None if words is None else _lengths(words, width, what) for words in inner]
+
+
+def _lengths(words: Sequence[str], count: int, what: str) -> list[Fraction | None]:
+    """So many numbers, None for nan."""
+    if len(words) != count:
+        raise VolumeError(f"{what}: {count} numbers are due, here are {len(words)}")
+    try:
+        return [None if word.strip().lower() == "nan" else length_text(word) for word in words]
+    except ValueError as error:
+        raise VolumeError(f"{what}: {error}") from None
+
+
+def _unit(fields: Mapping[str, tuple[int, str]], source: str) -> str:
+    """The unit of all axes.  Raises VolumeError where they have several."""
+    line, text = fields.get("space units") or fields.get("units") or (0, "")
+    units = {unit for unit in _QUOTED.findall(text) if unit}
+    if len(units) > 1:
+        raise VolumeError(f"{source}: line {line}: the axes have different units: {', '.join(sorted(units))[:60]}")
+    return units.pop() if units else ""
+
+
+def _vector(place: Position, path: str) -> str:
+    texts = [finite_decimal(number) for number in place]
+    if None in texts:
+        raise VolumeError(f"{path}: {place[texts.index(None)]} has no finite decimal; NRRD holds decimals only")
+    return f"({','.join(text for text in texts if text is not None)})"

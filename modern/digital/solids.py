@@ -14,7 +14,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from emulator.errors import EmulatorError
+from modern.digital.world import NoVoxels, VolumeError, World
+
+__all__ = ["NoVoxels", "Volume", "VolumeError", "World", "as_volume", "ball", "half_ball", "listed"]
 
 VOXEL, VERTEX = "voxel", "vertex"
 MAX_CELLS = 2**31
@@ -25,25 +27,23 @@ FARTHEST = 10**DIGITS
 Voxels = NDArray[np.bool_]
 
 
-class VolumeError(EmulatorError):
-    """A volume that cannot be read or made; the message names file and place."""
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class Volume:
     """A finite set of voxels in a box.
 
     ``array``: truth values of shape (nx, ny) or (nx, ny, nz), indexed [x, y, z]; any order of memory.  ``origin``: the
     coordinates of the voxel at index 0, 0, 0, so that array[i, j, k] is voxel origin + (i, j, k).  ``source``: what
-    messages call it.  ``notes``: what the reader of the file should know, a line each.
+    messages call it.  ``notes``: what the reader of the file should know, a line each.  ``world``: where voxels lie, by
+    their coordinates; None where these are all that is known.
 
-    Raises VolumeError for an array of another type or dimension.
+    Raises VolumeError for an array of another type or dimension, and for a world of another number of axes.
     """
 
     array: Voxels
     origin: tuple[int, ...]
     source: str = "volume"
     notes: tuple[str, ...] = ()
+    world: World | None = None
 
     def __post_init__(self) -> None:
         if self.array.dtype != np.bool_ or self.array.ndim not in (2, 3):
@@ -53,6 +53,8 @@ class Volume:
             )
         if len(self.origin) != self.array.ndim:
             raise VolumeError(f"{self.source}: {len(self.origin)} coordinates of the origin for {self.array.ndim} axes")
+        if self.world is not None and len(self.world.steps) != self.array.ndim:
+            raise VolumeError(f"{self.source}: {len(self.world.steps)} steps in the world for {self.array.ndim} axes")
 
     @property
     def dimension(self) -> int:
@@ -85,11 +87,11 @@ def listed(coordinates: Sequence[Sequence[int]] | NDArray[np.integer[Any]], sour
     """The volume of voxels by their whole coordinates, in any order, shape (n, 2) or (n, 3); it keeps them.
 
     A voxel that is listed again counts once, and a note says so.  Raises VolumeError for coordinates of another shape
-    or type, for none, for one of more than ``DIGITS``, and for voxels in a box of more than ``MAX_CELLS``.
+    or type and for one of more than ``DIGITS``, NoVoxels for none, and for voxels in a box of more than ``MAX_CELLS``.
     """
     given = np.asarray(coordinates)
     if not given.size:
-        raise VolumeError(f"{source}: there are no voxels")
+        raise NoVoxels(f"{source}: there are no voxels")
     if given.ndim != 2 or given.shape[1] not in (2, 3) or given.dtype.kind not in "iu":
         raise VolumeError(
             f"{source}: coordinates are whole numbers, two or three a voxel, "
@@ -153,5 +155,5 @@ def _ball(name: str, diameter: int, centre: str, half: bool) -> Volume:
     for x, square in enumerate(squares):
         np.less_equal(plane, diameter**2 - square, out=array[x])
     if not array.any():
-        raise VolumeError(f"{name}: there is no voxel in it")
+        raise NoVoxels(f"{name}: there is no voxel in it")
     return Volume(array, (first, first, low), name)

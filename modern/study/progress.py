@@ -16,12 +16,13 @@ _LINES = 60.0
 
 @dataclass
 class Progress:
-    """Counts samples and shows the count on ``file``; ``before`` of them were there already."""
+    """Counts samples (or ``what``) and shows the count on ``file``; ``before`` of them were there already."""
 
     total: int
     before: int = 0
     file: TextIO = field(default_factory=lambda: sys.stderr)
     quiet: bool = False
+    what: str = "samples"
     clock: Callable[[], float] = time.monotonic
     done: int = field(init=False, default=0)
     _shown: float = field(init=False, default=0.0)
@@ -33,7 +34,7 @@ class Progress:
         self._bar = not self.quiet and self.file.isatty()
 
     def add(self, samples: int) -> None:
-        """So many samples more are kept."""
+        """So many samples more are done."""
         self.done += samples
         now = self.clock()
         if not self.quiet and now - self._shown >= (_REDRAW if self._bar else _LINES):
@@ -51,7 +52,7 @@ class Progress:
         seconds = now - self._began
         rate = self.done / seconds if seconds > 0 else 0.0
         left = f", {_span((self.total - at) / rate)} left" if rate and at < self.total else ""
-        words = f"{at:,} of {self.total:,} samples, {rate:,.0f} a second{left}"
+        words = f"{at:,} of {self.total:,} {self.what}, {rate:,.0f} a second{left}"
         if not self._bar:
             self._say(words + "\n")
             return

@@ -115,14 +115,31 @@ def points_argument(parser: ArgumentParser, metavar: str = "POINTS", more: str =
 
 
 def volume_arguments(parser: ArgumentParser) -> None:
-    """VOLUME, ``--shape`` and ``--dtype``."""
+    """VOLUME, what it does not say of itself, and which of its voxels are taken."""
     parser.add_argument(
         "volume",
         metavar="VOLUME",
-        help="an NPY, NRRD or raw array, CSV voxels x,y,z, or ball:32, ball:32:vertex, half-ball:18",
+        help="NRRD, NPY, NPZ or a raw array; NIfTI (.nii, .nii.gz), MetaImage (.mha, .mhd), TIFF, DICOM (.dcm, or a "
+        "folder with a series) by SimpleITK (extra volumes); CSV voxels x,y,z; or ball:32, ball:32:vertex, "
+        "half-ball:18",
+    )
+    parser.add_argument(
+        "--label",
+        metavar="N",
+        type=int,
+        action="append",
+        default=[],
+        help="take the voxels whose value is N; again for more labels (default: every value other than 0)",
+    )
+    parser.add_argument("--threshold", metavar="T", help="take the voxels whose value is T or more (>=)")
+    parser.add_argument("--spacing", metavar="DX,DY,DZ", help="of a file that does not say where its voxels lie")
+    parser.add_argument(
+        "--origin", metavar="X,Y,Z", help="the centre of its voxel (0, 0, 0) (default: 0,0,0, with --spacing)"
     )
     parser.add_argument("--shape", metavar="NX,NY,NZ", help="of a raw array, x fastest; it is needed for one")
     parser.add_argument("--dtype", metavar="TYPE", help="of a raw array's numbers (default: uint8)")
+    parser.add_argument("--array", metavar="NAME", help="of an NPZ file with several arrays")
+    parser.add_argument("--series", metavar="UID", help="of a folder with several DICOM series")
 
 
 def listed(names: Iterable[str]) -> str:

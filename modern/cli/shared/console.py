@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import contextlib
 import os
+import re
 import sys
 from collections.abc import Iterable
 
@@ -21,8 +22,10 @@ class UsageError(EmulatorError):
     """Options or arguments that cannot be carried out; the message names the option."""
 
 
+_NUMBERED = re.compile(r"(?:[^%]|%%)*%(?:0?[1-9])?d(?:[^%]|%%)*")
+"""A name with one place for a number, as printf has it: ``card-%03d.svg``."""
 _INPUTS = ("program", "deck", "points", "volume", "scene", "name", "read")
-_OUTPUTS = ("output", "punch", "typewriter", "trace", "json", "log")
+_OUTPUTS = ("output", "punch", "typewriter", "trace", "json", "log", "csv")
 
 
 class Parser(argparse.ArgumentParser):
@@ -50,6 +53,12 @@ def say(lines: Iterable[str]) -> None:
 def counted(count: int, what: str) -> str:
     """``1 voxel``, ``2 voxels``."""
     return f"{count} {what}{'s' * (count != 1)}"
+
+
+def check_numbered(pattern: str, what: str, example: str) -> None:
+    """Refuse an output's name that has no place for a number.  Raises UsageError."""
+    if not _NUMBERED.fullmatch(pattern):
+        raise UsageError(f"--output: {pattern!r} has no place for a {what} as in {example!r}")
 
 
 def check_outputs(args: argparse.Namespace) -> None:

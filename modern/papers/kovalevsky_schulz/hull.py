@@ -6,10 +6,15 @@ and 7).
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from fractions import Fraction
 
-from modern.digital.solids import Volume, VolumeError, Voxels, as_volume
-from modern.papers.kovalevsky_schulz.cells import CellList, Economical, Plane, expanded
+from modern.digital.measures import Measures, measures
+from modern.digital.solids import NoVoxels, Volume, VolumeError, Voxels, as_volume
+from modern.digital.world import World, decimal_or_fraction
+from modern.geometry.mesh import Mesh
+from modern.papers.kovalevsky_schulz.cells import CellList, Economical, IntPoint, Plane, expanded
 from modern.papers.kovalevsky_schulz.corners import VERTICES, Of, Points, corner_mask, places, points_of
 from modern.papers.kovalevsky_schulz.polyhedron import VISIBLE, Coplanar, Flat, convex_polyhedron
 
@@ -76,7 +81,8 @@ class VoxelHull:
 
     ``source``: what messages call the solid.  ``voxels``: how many it has.  ``corners``: how many local corners 6 and
     26 neighbours leave.  ``inserted``: those that were inserted, shape (n, 3), in raster order.  ``surface``: the hull,
-    ``Flat`` where the places lie in one plane.
+    ``Flat`` where the places lie in one plane.  ``of``: whether places are centres or corners of voxels.  ``world``:
+    where voxels lie, by the coordinates of their centres.
     """
 
     source: str
@@ -84,6 +90,8 @@ class VoxelHull:
     corners: dict[int, int]
     inserted: Points
     surface: Surface | Flat
+    of: Of = VERTICES
+    world: World | None = None
 
     @property
     def polyhedron(self) -> Surface:
@@ -91,6 +99,44 @@ class VoxelHull:
         if isinstance(self.surface, Flat):
             raise VolumeError(f"{self.source}: flat: the hull is a {self.surface.kind} and has no cell list")
         return self.surface
+
+    def mesh(self, straight: bool = False) -> Mesh:
+        """The hull for the writers of mesh files and for the judge, as exact text: positions in the world where the
+        voxels have any, a corner half a step from the centres; else whole coordinates, as the paper's.
+
+        The faces are counterclockwise seen from outside in these coordinates.  straight: edges in one line merged, so
+        that every vertex is one of the hull.
+        """
+        points, faces = self._polygons(straight)
+        if self.world is None:
+            return Mesh(self._dimension, tuple(_three(map(str, point)) for point in points), faces)
+        # A voxel's corner with the paper's coordinates of that voxel lies half a step before its centre.
+        half = Fraction(1, 2) if self.of == VERTICES else Fraction(0)
+        places = (self.world.place([number - half for number in point]) for point in points)
+        texts = tuple(_three(map(decimal_or_fraction, place)) for place in places)
+        turned = tuple(face[::-1] for face in faces) if self.world.mirrors else faces
+        return Mesh(self._dimension, texts, turned)
+
+    def measures(self) -> Measures:
+        """The measures of the solid and of its hull, in the world where the voxels have positions there."""
+        return measures(self.voxels, *self._polygons(False), self.world)
+
+    @property
+    def _dimension(self) -> int:
+        return self.surface.dimension if isinstance(self.surface, Flat) else 3
+
+    def _polygons(self, straight: bool) -> tuple[tuple[IntPoint, ...], tuple[tuple[int, ...], ...]]:
+        """Vertices, and faces as their places from 0."""
+        if isinstance(self.surface, Flat):
+            cycle = tuple(range(len(self.surface.vertices)))
+            return self.surface.vertices, (cycle,) if self.surface.dimension == 2 else ()
+        cells = self.surface.straight if straight else self.surface.faces
+        return cells.points, tuple(tuple(v - 1 for v in face.vertices) for face in cells.faces)
+
+
+def _three(texts: Iterable[str]) -> tuple[str, str, str]:
+    x, y, z = texts
+    return x, y, z
 
 
 def voxel_hull(
@@ -101,18 +147,18 @@ def voxel_hull(
     volume: a volume, or an array of truth values indexed [x, y, z].
     neighbours: 6 or 26, the test that chooses local corners.  coplanar: ``visible`` or ``invisible``, see
     ``convex_polyhedron``.  The hull does not depend on either, the number of triangles does.  Raises VolumeError for a
-    picture of two dimensions and for a volume without voxels.
+    picture of two dimensions, NoVoxels for a volume without voxels.
     """
     volume = as_volume(volume)
     if not volume.count:
-        raise VolumeError(f"{volume.source}: there are no voxels")
+        raise NoVoxels(f"{volume.source}: there are no voxels")
     array = places(volume, of)
     masks = {count: corner_mask(array, count) for count in (6, 26)}
     inserted = points_of(masks[neighbours], volume.origin)
     triangles = convex_polyhedron(inserted, coplanar)
     surface = triangles if isinstance(triangles, Flat) else _surface(triangles)
     counts = {count: int(mask.sum()) for count, mask in masks.items()}
-    return VoxelHull(volume.source, volume.count, counts, inserted, surface)
+    return VoxelHull(volume.source, volume.count, counts, inserted, surface, of, volume.world)
 
 
 def _surface(triangles: CellList) -> Surface:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.digital.solids import MAX_CELLS, Volume, VolumeError, as_volume
+from modern.digital.solids import MAX_CELLS, NoVoxels, Volume, VolumeError, as_volume
 from modern.papers.yau_srihari import octree as trees
 from modern.papers.yau_srihari.envelope import Envelope, envelope
 from modern.papers.yau_srihari.octree import Octree
@@ -88,7 +88,7 @@ def octree_hull(volume: Volume | NDArray[np.bool_], printed: Printed | None = No
     printed = printed or Printed()
     array: NDArray[Any] = volume.array.reshape(volume.array.shape + (1,) * (3 - volume.dimension))
     if not array.any():
-        raise VolumeError(f"{volume.source}: there are no voxels")
+        raise NoVoxels(f"{volume.source}: there are no voxels")
     side = trees.side_for(max(array.shape))
     if side**3 > MAX_CELLS:
         raise VolumeError(f"{volume.source}: a cube of side {side}, more than {MAX_CELLS} voxels, is not divided")
