@@ -31,6 +31,6 @@ def voxel_hull(
 
     Raises VolumeError for other arrays and places, NoVoxels (a PointsError) where there are no voxels.
     """
-    of = voxels.CENTRES if centres else voxels.VERTICES
+    of: voxels.Of = voxels.CENTRES if centres else voxels.VERTICES
     found = voxels.voxel_hull(placed(volume, spacing, origin, directions), of)
     return exact_hull(found.mesh(straight=True).points)

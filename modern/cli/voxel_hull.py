@@ -21,7 +21,7 @@ from modern.cli.shared.volumes import (
     volume_of,
 )
 from modern.digital.hull import digital_hull
-from modern.digital.scans import labels_of, of_each_label
+from modern.digital.scans import label_boxes, label_volume
 from modern.digital.volumes import Volume, write_array
 from modern.digital.world import voxel_volume
 from modern.formats import MESHES
@@ -48,7 +48,7 @@ def main(args: argparse.Namespace) -> int:
     check_writable(args.output, args.csv)
     if args.each_label:
         return _each_label(args, form)
-    volume = _placed(volume_of(args), args.space)
+    volume = volume_of(args)
     print(f"{volume.source}: {counted(volume.count, 'voxel')}")
     if args.fill:
         _fill(volume, args.output)
@@ -70,11 +70,6 @@ def main(args: argparse.Namespace) -> int:
 def _hull(volume: Volume, args: argparse.Namespace) -> VoxelHull:
     of: Of = CENTRES if args.centres else VERTICES
     return voxel_hull(volume, of, args.corners or 26, args.coplanar or VISIBLE)
-
-
-def _placed(volume: Volume, space: str) -> Volume:
-    """The volume in the coordinates of ``--space``."""
-    return replace(volume, world=in_space(volume.world, space))
 
 
 def _check_options(args: argparse.Namespace) -> None:
@@ -124,19 +119,19 @@ def _fill(volume: Volume, output: str | None) -> None:
 
 def _each_label(args: argparse.Namespace, form: str | None) -> int:
     """The table of labels, and a file for each where the output has a place for it: all, or none of them."""
+    asked = choice_of(args).labels
     scan = scan_of(args)
-    labels = choice_of(args).labels or labels_of(scan)
-    names = [args.output % label for label in labels] if args.output is not None else []
-    check_writable(*names, args.csv)
     world = in_space(scan.world, args.space)
-    say([printable(f"{scan.source}: {counted(len(labels), 'label')}; {spacing_words(world)}")])
+    boxes = label_boxes(scan, asked)
+    check_writable(*(args.output % label for label in boxes if args.output is not None), args.csv)
+    say([printable(f"{scan.source}: {counted(len(boxes), 'label')}; {spacing_words(scan.world)}")])
     if not args.fill:
         say([printable(coordinate_words(world, not args.centres))])
     rows: list[Row] = []
     writers: list[Callable[[], None]] = []
-    progress = Progress(len(labels), what="labels")
-    for label, found in of_each_label(scan, labels):
-        volume = replace(found, world=world)
+    progress = Progress(len(boxes), what="labels")
+    for label, box in boxes.items():
+        volume = replace(label_volume(scan, label, box), world=world)
         name = args.output % label if args.output is not None else None
         if args.fill:
             filled = digital_hull(volume)

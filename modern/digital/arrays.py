@@ -41,12 +41,13 @@ def parse_npy(data: bytes, source: str) -> NDArray[Any]:
         raise VolumeError(f"{source}: no NPY array of numbers: {_said(error)}") from None
     if kind.kind not in "biufc" or kind.itemsize == 0:
         raise VolumeError(f"{source}: no NPY array of numbers: its type is {shown(str(kind))}")
-    check_size(shape, source)
     number = math.prod(shape)
     count, found = number * kind.itemsize, len(data) - file.tell()
     if found != count:
-        how = f"the data end after {found} of {count} bytes" if found < count else f"{found - count} bytes too many"
+        wanted = count if count < 10**18 else "more than 10**18"
+        how = f"the data end after {found} of {wanted} bytes" if found < count else f"{found - count} bytes too many"
         raise VolumeError(f"{source}: no NPY array of numbers: {how}")
+    check_size(shape, source)
     array = np.frombuffer(data, kind, number, file.tell()) if number else np.empty(0, kind)
     return _true(array).reshape(shape, order="F" if across else "C")
 

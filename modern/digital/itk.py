@@ -92,11 +92,12 @@ def _check_folder(path: str) -> None:
     """Refuse a folder without DICOM files, which have their mark after 128 bytes.  Raises VolumeError."""
     place, mark = _DICOM
     try:
-        for entry in os.scandir(path):
-            if entry.is_file():
-                with open(entry.path, "rb") as file:
-                    if file.read(place + len(mark))[place:] == mark:
-                        return
+        with os.scandir(path) as entries:
+            for entry in entries:
+                if entry.is_file():
+                    with open(entry.path, "rb") as file:
+                        if file.read(place + len(mark))[place:] == mark:
+                            return
     except OSError as error:
         raise VolumeError(f"{path}: {reason(error)}") from None
     raise VolumeError(f"{path}: is a directory without a DICOM file; a volume is a file, or a folder with a series")

@@ -89,12 +89,10 @@ def chosen(scan: Scan, choice: Choice | None = None) -> Chosen:
     present: tuple[int, ...] = ()
     if choice.labels:
         present = labels_of(scan)
-        absent = [label for label in choice.labels if label not in present]
-        if absent:
-            raise NoVoxels(f"{scan.source}: no voxel has the label {absent[0]}; {_listed(present)}")
         truth = np.zeros(scan.values.shape, np.bool_)
         for label in choice.labels:
-            truth |= scan.values == _kind(scan.values)(label)
+            _check_label(scan, label, present)
+            truth |= scan.values == scan.values.dtype.type(label)
     elif choice.threshold is not None:
         truth = _from(scan.values, choice.threshold)
     else:
@@ -110,45 +108,50 @@ def chosen(scan: Scan, choice: Choice | None = None) -> Chosen:
 
 def labels_of(scan: Scan) -> tuple[int, ...]:
     """The whole values of a scan other than 0, in order; values that are not whole are none."""
-    found: set[int] = set()
-    for part in _parts(_counted(scan.values)):
-        for value in _distinct(part).tolist():
-            if value and value == value // 1 and abs(value) != float("inf"):
-                found.add(int(value))
-    return tuple(sorted(found))
+    return tuple(sorted({label for part in _parts(scan.values) for label in _labels(part)}))
 
 
-def of_each_label(scan: Scan, labels: Sequence[int] = ()) -> Iterator[tuple[int, Volume]]:
-    """For each of some labels, or of all, its voxels, in the smallest box that holds them.
+def label_boxes(scan: Scan, labels: Sequence[int] = ()) -> dict[int, tuple[slice, ...]]:
+    """The smallest box of indices that holds all voxels of a label: of some labels as asked, or of all in order.
 
     Raises NoVoxels for a label that no voxel has, and for a scan without any.
     """
-    present = labels_of(scan)
-    absent = [label for label in labels if label not in present]
-    if absent or not present:
-        what = f"no voxel has the label {absent[0]}" if absent else "there are no labels: no value is whole and not 0"
-        raise NoVoxels(f"{scan.source}: {what}{'; ' + _listed(present) if present else ''}")
-    boxes = _boxes(_counted(scan.values))
-    for label in dict.fromkeys(labels or present):
-        box = boxes[label]
-        truth = scan.values[box] == _kind(scan.values)(label)
-        origin = tuple(start + part.start for start, part in zip(scan.origin, box, strict=True))
-        yield label, Volume(truth, origin, f"{scan.source}: label {label}", (), scan.world)
-
-
-def _boxes(values: NDArray[Any]) -> dict[int, tuple[slice, ...]]:
-    """The smallest box of every whole value but 0: per axis, the first and the last layer that has it."""
     sides: dict[int, list[slice]] = {}
-    for axis in range(values.ndim):
-        first: dict[Any, int] = {}
-        last: dict[Any, int] = {}
-        for place, layer in enumerate(np.moveaxis(values, axis, 0)):
-            for value in _distinct(layer).tolist():
-                first.setdefault(value, place)
-                last[value] = place
-        for value, start in first.items():
-            sides.setdefault(value, []).append(slice(start, last[value] + 1))
-    return {label: tuple(box) for label, box in sides.items()}
+    for axis in range(scan.values.ndim):
+        first: dict[int, int] = {}
+        last: dict[int, int] = {}
+        for place, layer in enumerate(np.moveaxis(scan.values, axis, 0)):
+            for label in _labels(layer):
+                first.setdefault(label, place)
+                last[label] = place
+        for label, start in first.items():
+            sides.setdefault(label, []).append(slice(start, last[label] + 1))
+    present = sorted(sides)
+    if not present:
+        raise NoVoxels(f"{scan.source}: there are no labels: no value is whole and not 0")
+    for label in labels:
+        _check_label(scan, label, present)
+    return {label: tuple(sides[label]) for label in labels or present}
+
+
+def label_volume(scan: Scan, label: int, box: tuple[slice, ...]) -> Volume:
+    """The voxels of one label, in its box of ``label_boxes``."""
+    truth = scan.values[box] == scan.values.dtype.type(label)
+    origin = tuple(start + side.start for start, side in zip(scan.origin, box, strict=True))
+    return Volume(truth, origin, f"{scan.source}: label {label}", (), scan.world)
+
+
+def _check_label(scan: Scan, label: int, present: Sequence[int]) -> None:
+    if label not in present:
+        there = f"the labels are {listed_labels(present)}" if present else "there are no labels"
+        raise NoVoxels(f"{scan.source}: no voxel has the label {label}; {there}")
+
+
+def _labels(part: NDArray[Any]) -> list[int]:
+    """The different whole values of a part other than 0."""
+    found = _distinct(_counted(part))
+    whole = found[np.isfinite(found) & (found != 0) & (found == np.floor(found))] if found.dtype.kind == "f" else found
+    return [int(value) for value in whole if value]
 
 
 def _counted(values: NDArray[Any]) -> NDArray[Any]:
@@ -195,17 +198,16 @@ def _least(kind: Any, threshold: Fraction) -> Any:
     return near
 
 
-def _kind(values: NDArray[Any]) -> Any:
-    """What makes a label a value of the array; labels that are compared are in it."""
-    return values.dtype.type
-
-
 def _range(values: NDArray[Any]) -> tuple[Fraction | None, Fraction | None]:
     """The lowest and the highest value; None for an infinite one."""
     counted = _counted(values)
-    low, high = (getattr(counted, name)().item() for name in ("min", "max"))
-    lowest, highest = (None if number in (float("inf"), -float("inf")) else Fraction(number) for number in (low, high))
-    return lowest, highest
+    return _finite(counted.min()), _finite(counted.max())
+
+
+def _finite(number: Any) -> Fraction | None:
+    if number.dtype.kind in "iu":
+        return Fraction(int(number))
+    return Fraction(*number.as_integer_ratio()) if np.isfinite(number) else None
 
 
 def _parts(values: NDArray[Any]) -> Iterator[NDArray[Any]]:
@@ -214,10 +216,6 @@ def _parts(values: NDArray[Any]) -> Iterator[NDArray[Any]]:
 
 def _text(number: Fraction | None) -> str:
     return "infinite" if number is None else decimal_or_fraction(number)
-
-
-def _listed(labels: Sequence[int]) -> str:
-    return f"the labels are {listed_labels(labels)}" if labels else "there are no labels"
 
 
 def listed_labels(labels: Sequence[int]) -> str:

@@ -29,6 +29,7 @@ from hull1620 import (
     reproduce,
     run_hull,
     save,
+    voxel_hull,
 )
 
 CUBE = [(x, y, z) for x in (0, 2) for y in (0, 2) for z in (0, 2)]
@@ -78,6 +79,13 @@ def test_a_coordinate_is_a_number_of_any_type(hull_of: Any) -> None:
 @pytest.mark.parametrize("hull_of", BOTH)
 @pytest.mark.parametrize("nothing", [[], (), iter([]), np.empty((0, 3)), np.empty(0), np.empty((0, 3), int)])
 def test_no_points_are_refused_in_one_way(hull_of: Any, nothing: Any) -> None:
+    with pytest.raises(PointsError, match=r"^there are no points$"):
+        hull_of(nothing)
+
+
+@pytest.mark.parametrize("hull_of", [digital_hull, voxel_hull])
+@pytest.mark.parametrize("nothing", [np.zeros((2, 2, 2)), np.empty((0, 3, 3)), np.zeros((3, 3, 3), bool)])
+def test_no_voxels_are_refused_as_no_points_are(hull_of: Any, nothing: Any) -> None:
     with pytest.raises(PointsError, match=r"^there are no points$"):
         hull_of(nothing)
 
@@ -237,4 +245,3 @@ def test_the_solidity_of_voxels_is_a_fraction() -> None:
     hull = digital_hull(solid)
     assert (hull.voxels, hull.solidity) == (4, Fraction(3, 4))
     assert digital_hull(np.ones((2, 2, 2))).solidity == 1
-    assert digital_hull(np.zeros((2, 2, 2))).solidity == 1

@@ -33,22 +33,21 @@ class Column:
 Row = tuple[Column, ...]
 
 
-def solid_row(label: int, found: Measures) -> Row:
-    """A label's solid and the hull of its voxels' corners."""
+def centres_row(label: int, found: Measures) -> Row:
+    """A label's solid and the hull of its voxels' centres, which cuts the voxels at its rim."""
     return (
         Column("label", label),
         Column("voxels", found.voxels),
         Column("volume", found.volume),
         Column("hull_volume", found.hull_volume, True),
         Column("hull_area", found.hull_area),
-        Column("solidity", found.solidity, True),
-        Column("deficiency", found.deficiency, True),
     )
 
 
-def centres_row(label: int, found: Measures) -> Row:
-    """A label's solid and the hull of its voxels' centres, which cuts the voxels at its rim."""
-    return solid_row(label, found)[:5]
+def solid_row(label: int, found: Measures) -> Row:
+    """A label's solid and the hull of its voxels' corners, which contains it."""
+    share, lack = Column("solidity", found.solidity, True), Column("deficiency", found.deficiency, True)
+    return (*centres_row(label, found), share, lack)
 
 
 def filled_row(label: int, found: DigitalHull, cell: Fraction) -> Row:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from fractions import Fraction
 
 from modern.cli.shared.console import UsageError, counted, say
@@ -45,10 +46,15 @@ def choice_of(args: argparse.Namespace) -> Choice:
 
 
 def volume_of(args: argparse.Namespace) -> Volume:
-    """The voxels asked for of ``VOLUME``; what was chosen goes to standard error.  Raises as ``scan_of``."""
-    found = chosen(scan_of(args), choice_of(args))
+    """The voxels asked for of ``VOLUME``, in the coordinates of ``--space``; what was chosen goes to standard error.
+
+    Raises as ``scan_of``.
+    """
+    choice = choice_of(args)
+    found = chosen(scan_of(args), choice)
+    volume = replace(found.volume, world=in_space(found.volume.world, getattr(args, "space", "file")))
     say(_chosen_lines(found))
-    return found.volume
+    return volume
 
 
 def in_space(world: World | None, space: str) -> World | None:

@@ -30,7 +30,7 @@ VOLUMES = st.one_of(
         elements=st.just(True),
         fill=st.just(False),
     ),
-)
+).filter(np.any)
 
 
 def agrees(array: Any, fast: bool = False) -> bool:
@@ -41,7 +41,7 @@ def agrees(array: Any, fast: bool = False) -> bool:
 
 @given(VOLUMES)
 def test_any_volume_has_the_grid_points_of_the_judge(array: np.ndarray) -> None:
-    assert not array.any() or agrees(array)
+    assert agrees(array)
 
 
 @given(st.integers(0, 10**9))

@@ -1,0 +1,228 @@
+"""``hull1620 voxel-hull`` and ``octree-hull`` on scans: what is chosen and said, where the hull lies, the table."""
+
+from __future__ import annotations
+
+import csv
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from hull1620 import exact_hull, read_points, read_volume
+from modern.digital.solids import Volume, ball
+from modern.digital.volumes import write_array
+from modern.digital.world import LPS, World
+from tests.support.commands import call
+
+STEPS = ((Fraction(1, 2), Fraction(0), Fraction(0)), (Fraction(0), Fraction(-1, 2), Fraction(0)))
+WORLD = World(
+    (*STEPS, (Fraction(0), Fraction(0), Fraction(2))), (Fraction(-10), Fraction(5), Fraction(1, 4)), LPS, "mm"
+)
+
+
+def scan() -> np.ndarray:
+    """Labels 1 (a block of 2 x 2 x 2), 2 (a single voxel) and 7 (a ball of 57 voxels without its middle)."""
+    array = np.zeros((12, 12, 9), np.uint8)
+    array[0:2, 0:2, 0:2] = 1
+    array[3, 0, 0] = 2
+    there = ball(5).array.copy()
+    there[2, 2, 2] = False
+    array[4 : 4 + there.shape[0], 4 : 4 + there.shape[1], 2 : 2 + there.shape[2]][there] = 7
+    return array
+
+
+@pytest.fixture(autouse=True)
+def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    array = scan()
+    np.save("scan.npy", array)
+    np.savez("scan.npz", scan=array, other=array[:2])
+    place = (
+        "space: left-posterior-superior\nspace directions: (0.5,0,0) (0,-0.5,0) (0,0,2)\n"
+        'space origin: (-10,5,0.25)\nspace units: "mm" "mm" "mm"\n'
+    )
+    head = f"NRRD0004\ntype: uint8\ndimension: 3\nsizes: 12 12 9\nencoding: raw\n{place}\n"
+    Path("scan.nrrd").write_bytes(head.encode() + array.tobytes("F"))
+
+
+def test_what_was_chosen_is_said(capsys: pytest.CaptureFixture[str]) -> None:
+    words = {
+        (): "values other than 0 of 0 to 7; 89 voxels",
+        ("--label", "1"): "label 1 of 1, 2, 7; 8 voxels",
+        ("--label", "7", "--label", "1", "--label", "7"): "labels 7, 1 of 1, 2, 7; 88 voxels",
+        ("--threshold", "1.5"): "values from 1.5 up (>=) of 0 to 7; 81 voxels",
+    }
+    for options, said in words.items():
+        for command in ("voxel-hull", "octree-hull"):
+            code, _, err = call(capsys, command, "scan.nrrd", *options)
+            assert code == 0
+            assert err.splitlines()[0] == f"scan.nrrd: {said}; spacing 0.5 0.5 2 mm"
+    assert call(capsys, "voxel-hull", "scan.npy")[2].splitlines()[0].endswith("; no spacing stated")
+    placed = call(capsys, "voxel-hull", "scan.npy", "--spacing", ".5,.5,2")[2].splitlines()[0]
+    assert placed.endswith("spacing 0.5 0.5 2 (unit not stated)")
+
+
+def test_what_coordinates_mean_is_said(capsys: pytest.CaptureFixture[str]) -> None:
+    assert call(capsys, "voxel-hull", "scan.nrrd")[2].splitlines()[1] == (
+        "coordinates: left-posterior-superior; the centre of voxel (0, 0, 0) at -10 5 0.25; the array's axes run left, "
+        "anterior, superior; vertices are corners, half a voxel from centres"
+    )
+    ras = call(capsys, "voxel-hull", "scan.nrrd", "--space", "ras", "--centres")[2].splitlines()[1]
+    assert ras.startswith("coordinates: right-anterior-superior; the centre of voxel (0, 0, 0) at 10 -5 0.25; ")
+    assert ras.endswith("run left, anterior, superior; vertices are centres")
+    for words in (["scan.nrrd", "--space", "index"], ["scan.npy"]):
+        assert call(capsys, "voxel-hull", *words)[2].splitlines()[1] == (
+            "coordinates: indices, voxel (x, y, z) from (x, y, z) to (x+1, y+1, z+1)"
+        )
+        assert call(capsys, "voxel-hull", *words, "--centres")[2].splitlines()[1] == (
+            "coordinates: indices, of voxels' centres"
+        )
+
+
+@pytest.mark.parametrize("form", ["off", "obj", "ply", "stl"])
+def test_a_label_becomes_a_mesh_in_millimetres(form: str, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = call(capsys, "voxel-hull", "scan.nrrd", "--label", "1", "--straight", "-o", f"one.{form}")
+    assert code == 0
+    corners = {tuple(map(float, point)) for point in read_points(f"one.{form}")}
+    assert corners == {(x, y, z) for x in (-10.25, -9.25) for y in (4.25, 5.25) for z in (-0.75, 3.25)}
+    assert "volume of the voxels: 4 mm^3\n" in out
+    assert "hull: volume 4 mm^3\nhull: area 18 mm^2\nsolidity 1; convex deficiency 0 mm^3\n" in out
+
+
+def test_faces_stay_outward_where_an_axis_is_turned(capsys: pytest.CaptureFixture[str]) -> None:
+    assert WORLD.mirrors
+    call(capsys, "voxel-hull", "scan.nrrd", "--label", "7", "-o", "seven.off")
+    lines = Path("seven.off").read_text(encoding="ascii").split("\n")
+    count, faces, _ = map(int, lines[1].split())
+    points = np.array([[float(word) for word in line.split()] for line in lines[2 : 2 + count]])
+    for line in lines[2 + count : 2 + count + faces]:
+        a, b, c = points[[int(word) for word in line.split()[1:4]]]
+        normal = np.cross(b - a, c - a)
+        assert ((points - a) @ normal <= 1e-12).all()
+        assert ((points - a) @ normal).min() < 0
+
+
+def test_the_measures_of_one_hull(capsys: pytest.CaptureFixture[str]) -> None:
+    call(capsys, "voxel-hull", "scan.nrrd", "--label", "7", "--straight", "-o", "seven.off")
+    out = call(capsys, "voxel-hull", "scan.nrrd", "--label", "7")[1].splitlines()
+    judged = exact_hull(read_points("seven.off"))
+    assert "volume of the voxels: 40 mm^3" in out
+    volume, area = judged.volume, judged.area
+    assert any(line.startswith(f"hull: volume {volume}, about ") and line.endswith(" mm^3") for line in out)
+    (said,) = [line for line in out if line.startswith("hull: area ")]
+    assert said.endswith(" mm^2, to 50 digits")
+    assert said.split()[2][:49] == str(area)[:49]
+    assert any(line.startswith(f"solidity {40 / volume}, about 0.") for line in out)
+    centres = call(capsys, "voxel-hull", "scan.nrrd", "--label", "2", "--centres")[1].splitlines()
+    assert centres[-3:] == ["volume of the voxels: 0.5 mm^3", "hull: volume 0 mm^3", "hull: area 0 mm^2"]
+
+
+def test_each_label_has_a_row_and_a_mesh(capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, err = call(capsys, "voxel-hull", "scan.nrrd", "--each-label", "--csv", "t.csv", "-o", "label-%02d.stl")
+    assert code == 0
+    assert sorted(path.name for path in Path().glob("label-*")) == ["label-01.stl", "label-02.stl", "label-07.stl"]
+    assert err.startswith("scan.nrrd: 3 labels; spacing 0.5 0.5 2 mm\ncoordinates: left-posterior-superior;")
+    head, *rows, foot = out.splitlines()
+    assert head.split() == "label voxels volume hull volume hull area solidity deficiency".split()
+    assert rows[0].split() == ["1", "8", "4", "4", "18", "1", "0"]
+    assert [row.split()[:2] for row in rows] == [["1", "8"], ["2", "1"], ["7", "80"]]
+    assert foot == "lengths in mm; numbers to 12 digits, with --csv to 50 and exact"
+    with open("t.csv", encoding="ascii", newline="") as file:
+        table = list(csv.DictReader(file))
+    assert [row["unit"] for row in table] == ["mm"] * 3
+    for row in table:
+        hull = exact_hull(read_points(f"label-{int(row['label']):02d}.stl"))
+        assert Fraction(row["hull_volume_exact"]) == hull.volume
+        assert abs(Fraction(row["hull_volume"]) - hull.volume) <= hull.volume / 10**49
+        assert abs(Fraction(row["hull_area"]) - Fraction(hull.area)) <= Fraction(hull.area) / 10**48
+        assert Fraction(row["solidity_exact"]) == Fraction(row["volume"]) / hull.volume
+        assert Fraction(row["deficiency_exact"]) == hull.volume - Fraction(row["volume"])
+
+
+def test_some_labels_and_the_table_of_centres_and_of_filled_hulls(capsys: pytest.CaptureFixture[str]) -> None:
+    some = call(capsys, "voxel-hull", "scan.nrrd", "--each-label", "--label", "7", "--label", "2")[1].splitlines()
+    assert [line.split()[0] for line in some] == ["label", "7", "2", "lengths"]
+    centres = call(capsys, "voxel-hull", "scan.nrrd", "--each-label", "--centres")[1].splitlines()
+    assert centres[0].split() == "label voxels volume hull volume hull area".split()
+    assert centres[1].split() == ["1", "8", "4", "0.5", "4.5"]
+    code, out, _ = call(capsys, "voxel-hull", "scan.npy", "--each-label", "--fill", "-o", "f-%d.nrrd", "--csv", "f.csv")
+    assert code == 0
+    assert out.splitlines()[3].split()[:5] == ["7", "80", "81", "0.987654320988", "1"]
+    assert out.splitlines()[-1].startswith("lengths in voxel; ")
+    assert read_volume("f-7.nrrd").count == 81
+    assert "80/81" in Path("f.csv").read_text(encoding="ascii").splitlines()[3]
+
+
+def test_a_filled_hull_keeps_the_place_of_the_scan(capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, err = call(capsys, "voxel-hull", "scan.nrrd", "--label", "7", "--fill", "-o", "filled.nrrd")
+    assert (code, "note" in err) == (0, False)
+    assert out.endswith("polyhedron): 81 voxels\nsolidity 80/81, in voxels; convex deficiency: 1 voxel\n")
+    assert read_volume("filled.nrrd").world == WORLD
+    call(capsys, "octree-hull", "scan.nrrd", "--label", "7", "-o", "octree.nrrd")
+    assert Path("octree.nrrd").read_bytes() == Path("filled.nrrd").read_bytes()
+    err = call(capsys, "voxel-hull", "scan.nrrd", "--fill", "-o", "filled.npy")[2]
+    assert "note: filled.npy holds no spacing and no origin; a name ending .nrrd keeps them\n" in err
+    call(capsys, "voxel-hull", "scan.nrrd", "--fill", "--space", "ras", "-o", "ras.nrrd")
+    assert read_volume("ras.nrrd").world == WORLD.turned("right-anterior-superior")
+    call(capsys, "voxel-hull", "scan.nrrd", "--fill", "--space", "index", "-o", "index.nrrd")
+    assert read_volume("index.nrrd").world is None
+
+
+def test_an_array_of_several_is_named(capsys: pytest.CaptureFixture[str]) -> None:
+    assert call(capsys, "voxel-hull", "scan.npz", "--array", "scan", "--label", "1")[0] == 0
+    np.savez("one.npz", scan=scan())
+    assert call(capsys, "voxel-hull", "one.npz")[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ("scan.nrrd --label 9", "scan.nrrd: no voxel has the label 9; the labels are 1, 2, 7"),
+        ("scan.nrrd --label x", "argument --label: invalid int value: 'x'"),
+        ("scan.nrrd --threshold 8", "the greatest value is 7, the threshold 8"),
+        ("scan.nrrd --threshold high", "--threshold: 'high' is not a decimal number"),
+        ("scan.nrrd --threshold 1 --label 1", "a threshold and labels are not asked for together"),
+        ("scan.nrrd --spacing 1,1,1", "the file says where its voxels lie"),
+        ("scan.npy --spacing 1,1", "scan.npy: spacing: 2 numbers; 3 are due"),
+        ("scan.npy --spacing 1,x,1", "--spacing: 'x' is not a decimal number"),
+        ("scan.npy --spacing 1,0,1", "scan.npy: the spacing of an axis is 0"),
+        ("scan.npy --space ras", "--space ras: the file does not say where its voxels lie"),
+        ("scan.npy --spacing 1,1,1 --space lps", "--space lps: the file's space is not named"),
+        ("scan.npz", "scan.npz: 2 arrays; --array names one of them: other, scan"),
+        ("scan.npz --array third", "scan.npz: there is no array 'third', only other, scan"),
+        ("scan.npy --array scan", "scan.npy: only an NPZ file has an array to name"),
+        ("scan.npy --series 1", "scan.npy: only a folder of DICOM files has a series to name"),
+        ("scan.nrrd --each-label -o a.off", "'a.off' has no place for a label as in 'label-%d.off'"),
+        ("scan.nrrd --each-label -o a-%d.json", "a-%d.json: the name must end with one of .off"),
+        ("scan.nrrd --each-label --fill -o a-%d.off", "the name must end with .npy or .nrrd"),
+        ("scan.nrrd --each-label --cells", "--cells is of one hull"),
+        ("scan.nrrd --each-label --threshold 1", "--threshold is not for it"),
+        ("scan.nrrd --each-label --label 9", "no voxel has the label 9"),
+        ("scan.nrrd --csv t.csv", "--csv is the table of --each-label"),
+        ("scan.nrrd --each-label --csv scan.nrrd", "scan.nrrd: is the input too"),
+        ("scan.nrrd --fill -o a.off", "the name must end with .npy or .nrrd"),
+    ],
+)
+def test_what_cannot_be_done_is_one_line(words: str, message: str, capsys: pytest.CaptureFixture[str]) -> None:
+    before = sorted(Path().iterdir())
+    code, out, err = call(capsys, "voxel-hull", *words.split())
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert message in err
+    assert sorted(Path().iterdir()) == before
+
+
+def test_a_name_that_would_write_two_labels_to_one_file(capsys: pytest.CaptureFixture[str]) -> None:
+    """A width cuts nothing: names differ; a folder that is not there is told before anything is written."""
+    code, _, err = call(capsys, "voxel-hull", "scan.nrrd", "--each-label", "-o", "absent/label-%d.off")
+    assert (code, err.count("\n")) == (2, 1)
+    assert "absent" in err
+
+
+def test_a_picture_is_filled_and_has_no_polyhedron(capsys: pytest.CaptureFixture[str]) -> None:
+    picture = Volume(scan()[:, :, 0] > 0, (0, 0))
+    write_array("picture.npy", picture.array, picture)
+    assert call(capsys, "voxel-hull", "picture.npy", "--fill", "--spacing", "1,2")[0] == 0
+    code, _, err = call(capsys, "voxel-hull", "picture.npy")
+    assert code == 2
+    assert "a picture of two dimensions" in err

@@ -1,0 +1,285 @@
+"""NIfTI, MetaImage, TIFF and DICOM by SimpleITK, which writes the samples; whatever becomes of it is one line."""
+
+from __future__ import annotations
+
+import math
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from modern.digital import itk
+from modern.digital.itk import KINDS, kind_of
+from modern.digital.scans import Scan
+from modern.digital.solids import VolumeError
+from modern.digital.volumes import Stated, read_scan, read_volume
+from modern.digital.world import LPS
+from tests.support.paths import ROOT
+
+sitk: Any = pytest.importorskip("SimpleITK")
+
+VALUES = (np.arange(24).reshape(2, 3, 4) % 5).astype(np.int16)
+"""Indexed [x, y, z], at places that no exchange of axes leaves alone."""
+TURNED = (math.cos(0.3), -math.sin(0.3), 0, math.sin(0.3), math.cos(0.3), 0, 0, 0, -1)
+
+
+@pytest.fixture(autouse=True)
+def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+
+
+def written(name: str, direction: Any = (1, 0, 0, 0, -1, 0, 0, 0, 1), values: np.ndarray = VALUES) -> str:
+    image = sitk.GetImageFromArray(values.T)
+    image.SetSpacing((0.5, 0.25, 2.0)[: values.ndim])
+    image.SetOrigin((-12.5, 4.0, 5.0)[: values.ndim])
+    if values.ndim == 3:
+        image.SetDirection(direction)
+    sitk.WriteImage(image, name)
+    return name
+
+
+def series(folder: str, heights: tuple[float, ...] = (0.0, 1.5, 3.0, 4.5), uid: str = "1.2.3") -> str:
+    """A DICOM series of slices along z, written last slice first."""
+    Path(folder).mkdir(exist_ok=True)
+    writer = sitk.ImageFileWriter()
+    writer.KeepOriginalImageUIDOn()
+    for number, height in reversed(list(enumerate(heights))):
+        image = sitk.GetImageFromArray(VALUES[:, :, number].T)
+        image.SetSpacing((0.5, 0.25))
+        said = {
+            "0020|0032": f"-10\\20\\{height}",
+            "0020|0037": "1\\0\\0\\0\\1\\0",
+            "0020|0013": str(number),
+            "0008|0060": "CT",
+            "0020|000e": uid,
+            "0020|000d": "1.2",
+            "0008|0018": f"{uid}.{number + 1}",
+            "0028|1052": "0",
+            "0028|1053": "1",
+        }
+        for key, value in said.items():
+            image.SetMetaData(key, value)
+        writer.SetFileName(f"{folder}/{uid}-{9 - number}.dcm")
+        writer.Execute(image)
+    return folder
+
+
+@pytest.mark.parametrize("name", ["a.nii", "a.nii.gz", "A.NII.GZ", "a.mha", "a.mhd"])
+def test_values_and_places_are_those_of_the_library(name: str) -> None:
+    os.rename(written(name.lower()), name)
+    scan = read_scan(name)
+    assert np.array_equal(scan.values, VALUES)
+    assert scan.world is not None
+    assert scan.world.steps == ((Fraction(1, 2), 0, 0), (0, Fraction(-1, 4), 0), (0, 0, 2))
+    assert scan.world.origin == (Fraction(-25, 2), 4, 5)
+    assert scan.world.space == LPS
+    assert scan.world.unit == ("mm" if "nii" in name.lower() else "")
+    assert scan.notes == ()
+    assert scan.world.mirrors
+
+
+@pytest.mark.parametrize("name", ["a.nii", "a.mha"])
+def test_oblique_directions_are_the_columns_of_the_matrix(name: str) -> None:
+    scan = read_scan(written(name, TURNED))
+    image = sitk.ReadImage(name)
+    assert scan.world is not None
+    for voxel in ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 2, 3)):
+        ours = [float(number) for number in scan.world.place(voxel)]
+        assert ours == pytest.approx(image.TransformIndexToPhysicalPoint(voxel), abs=1e-12)
+    if name == "a.mha":
+        # A double is taken as the shortest decimal that names it: for a text of few digits, the text.
+        assert scan.world.steps[1][1] == Fraction(repr(math.cos(0.3))) / 4
+
+
+def test_nifti_tells_left_from_right_as_nifti_does() -> None:
+    """A file as the standard (nifti1.h) describes it: srow in RAS; the library's world is LPS."""
+    header = bytearray(352)
+
+    def put(at: int, kind: str, *numbers: float) -> None:
+        data = np.array(numbers, kind).tobytes()
+        header[at : at + len(data)] = data
+
+    put(0, "<i4", 348)
+    put(40, "<i2", 3, 2, 3, 4, 1, 1, 1, 1)
+    put(70, "<i2", 4, 16)
+    put(76, "<f4", 1, 0.5, 0.25, 2, 0, 0, 0, 0)
+    put(108, "<f4", 352)
+    header[123] = 2
+    put(252, "<i2", 0, 1)
+    put(280, "<f4", 0.5, 0, 0, 10, 0, 0.25, 0, 20, 0, 0, 2, 30)
+    header[344:348] = b"n+1\0"
+    Path("a.nii").write_bytes(bytes(header) + VALUES.astype("<i2").tobytes("F"))
+    world = read_scan("a.nii").world
+    assert world is not None
+    assert (world.space, world.origin) == (LPS, (-10, -20, 30))
+    assert world.bearings() == (("right", True), ("anterior", True), ("superior", True))
+    assert world.turned("right-anterior-superior").origin == (10, 20, 30)
+    header[123] = 0
+    put(252, "<i2", 0, 0)
+    Path("a.nii").write_bytes(bytes(header) + VALUES.astype("<i2").tobytes("F"))
+    scan = read_scan("a.nii")
+    assert scan.notes == ("a.nii: the file states no orientation (qform and sform are 0)",)
+    assert scan.world is not None
+    assert scan.world.unit == ""
+
+
+def test_one_moment_of_time_is_a_volume_and_more_are_not() -> None:
+    for moments, wanted in ((1, ""), (2, "4 axes, 2 x 3 x 4 x 2; a volume has two or three")):
+        image = sitk.JoinSeries([sitk.GetImageFromArray(VALUES.T)] * moments)
+        sitk.WriteImage(image, "a.nii")
+        if wanted:
+            with pytest.raises(VolumeError, match=f"a.nii: {wanted}"):
+                read_scan("a.nii")
+        else:
+            assert np.array_equal(read_scan("a.nii").values, VALUES)
+
+
+def test_a_tiff_file_has_no_place() -> None:
+    scan = read_scan(written("a.tif", values=VALUES.astype(np.uint8)))
+    assert np.array_equal(scan.values, VALUES)
+    assert scan.world is None
+    assert scan.notes == ("a.tif: the resolution of a TIFF file is not taken for the spacing of its voxels",)
+    placed = read_scan("a.tif", Stated(spacing=("0.1", "0.1", 1)))
+    assert placed.world is not None
+    assert placed.world.steps[0] == (Fraction(1, 10), 0, 0)
+    picture = read_scan(written("b.tiff", values=VALUES[:, :, 0].astype(np.uint8)))
+    assert np.array_equal(picture.values, VALUES[:, :, 0])
+
+
+def test_every_kind_of_number() -> None:
+    for kind in ("u1", "i1", "u2", "i4", "u4", "f4", "f8"):
+        array = VALUES.astype(kind)
+        found = read_scan(written("a.mha", values=array)).values
+        assert found.dtype == array.dtype
+        assert np.array_equal(found, array)
+
+
+def test_a_dicom_series_is_a_folder_in_the_order_of_its_slices() -> None:
+    scan = read_scan(series("ct"))
+    assert np.array_equal(scan.values, VALUES)
+    assert scan.world is not None
+    assert scan.world.steps == ((Fraction(1, 2), 0, 0), (0, Fraction(1, 4), 0), (0, 0, Fraction(3, 2)))
+    assert (scan.world.origin, scan.world.space, scan.world.unit) == ((-10, 20, 0), LPS, "mm")
+    assert scan.notes == ()
+    assert read_scan("ct/1.2.3-9.dcm").values.shape[:2] == (2, 3)
+
+
+def test_uneven_slices_are_noted() -> None:
+    scan = read_scan(series("ct", (0.0, 1.5, 3.0, 7.5)))
+    assert scan.notes == ("ct: slices lie 1.5 to 4.5 mm apart; they are taken as evenly spaced",)
+
+
+def test_one_of_several_series_is_named() -> None:
+    series("ct")
+    series("ct", (0.0, 2.0, 4.0), "1.2.4")
+    with pytest.raises(VolumeError, match=r"ct: 2 DICOM series; --series names one of them: .*1\.2\.4\S* \(3 files\)"):
+        read_scan("ct")
+    with pytest.raises(VolumeError, match=r"there is no series 7, only 1\.2\.3"):
+        read_scan("ct", Stated(series="7"))
+    listed = sitk.ImageSeriesReader.GetGDCMSeriesIDs("ct")
+    three = next(name for name in listed if len(sitk.ImageSeriesReader.GetGDCMSeriesFileNames("ct", name)) == 3)
+    assert read_scan("ct", Stated(series=three)).values.shape == (2, 3, 3)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: "missing.nii", "missing.nii: no such file or directory"),
+        (lambda: made_folder("empty"), "empty: is a directory without a DICOM file"),
+        (lambda: saved("a.nii", b""), "a.nii: SimpleITK cannot read it as NIfTI: "),
+        (lambda: saved("a.mha", b"ObjectType = Image\nNDims = 3\n"), "a.mha: SimpleITK cannot read it as MetaImage: "),
+        (lambda: saved("a.tif", b"no picture"), "a.tif: SimpleITK cannot read it as TIFF: "),
+        (lambda: saved("a.dcm", b"no slice"), "a.dcm: SimpleITK cannot read it as DICOM: "),
+        (lambda: rgb("a.mha"), "a.mha: every voxel has 3 numbers; a volume has one"),
+        (lambda: huge("a.mha"), "a.mha: 9000 x 9000 x 9000 voxels; at most 2147483648 are read"),
+    ],
+)
+def test_a_file_that_is_none_is_one_line(make: Callable[[], str], message: str, capfd: Any) -> None:
+    name = make()
+    with pytest.raises(Exception, match=r"\S") as caught:
+        read_scan(name)
+    assert str(caught.value).startswith(message)
+    assert "\n" not in str(caught.value)
+    assert capfd.readouterr() == ("", "")
+
+
+def made_folder(name: str) -> str:
+    Path(name).mkdir()
+    Path(name, "notes.txt").write_text("no slice")
+    return name
+
+
+def saved(name: str, data: bytes) -> str:
+    Path(name).write_bytes(data)
+    return name
+
+
+def rgb(name: str) -> str:
+    sitk.WriteImage(sitk.GetImageFromArray(np.zeros((4, 3, 2, 3), np.uint8), isVector=True), name)
+    return name
+
+
+def huge(name: str) -> str:
+    data = Path(written(name)).read_bytes()
+    return saved(name, data.replace(b"DimSize = 2 3 4", b"DimSize = 9000 9000 9000"))
+
+
+@pytest.mark.parametrize(
+    ("child", "message"),
+    [
+        ("import os; os.kill(os.getpid(), 11)", "SimpleITK crashed (SIGSEGV) while it read the file"),
+        ("import os; os.abort()", "SimpleITK crashed (SIGABRT) while it read the file"),
+        ("raise SystemExit(7)", "SimpleITK ended with exit code 7 while it read the file"),
+        ("print('noise')", "SimpleITK ended with exit code 0 while it read the file"),
+        ("import time; time.sleep(60)", "SimpleITK has not read it within 0.5 seconds"),
+    ],
+)
+def test_whatever_becomes_of_the_library_is_one_line(
+    child: str, message: str, monkeypatch: pytest.MonkeyPatch, capfd: Any
+) -> None:
+    Path("child.py").write_text(f"print('noise', flush=True)\n{child}\n")
+    monkeypatch.setattr(itk, "_CHILD", "child.py")
+    if "sleep" in child:
+        monkeypatch.setattr(itk, "LIMIT", 0.5)
+    with pytest.raises(VolumeError) as caught:
+        read_scan(written("a.nii"))
+    assert str(caught.value) == f"a.nii: {message}"
+    assert capfd.readouterr() == ("", "")
+
+
+def test_nothing_is_left_behind(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("TMPDIR", str(tmp_path / "tmp"))
+    monkeypatch.setattr("tempfile.tempdir", None)
+    (tmp_path / "tmp").mkdir()
+    read_scan(written("a.nii"))
+    assert os.listdir(tmp_path / "tmp") == []
+
+
+def test_a_missing_library_is_named_as_it_is_installed() -> None:
+    written("a.nii")
+    code = "import sys; sys.modules['SimpleITK'] = None; import hull1620; hull1620.read_volume('a.nii')"
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, env=environment)
+    assert done.stderr.splitlines()[-1].endswith("a.nii: NIfTI is read by SimpleITK: pip install 'hull1620[volumes]'")
+
+
+def test_kinds_are_by_the_ending_of_a_name() -> None:
+    assert {kind_of(f"a{ending}") for ending in KINDS} == {"NIfTI", "MetaImage", "TIFF", "DICOM"}
+    assert (kind_of("-"), kind_of("a.nrrd"), kind_of("nii"), kind_of("a\0.nii")) == (None, None, None, None)
+
+
+def test_a_scan_by_the_library_is_chosen_from_as_any() -> None:
+    written("a.nii.gz")
+    volume = read_volume("a.nii.gz", labels=[3])
+    assert volume.count == np.count_nonzero(VALUES == 3)
+    assert isinstance(read_scan("a.nii.gz"), Scan)
+    with pytest.raises(VolumeError, match="the file says where its voxels lie"):
+        read_volume("a.nii.gz", spacing=(1, 1, 1))
+    with pytest.raises(VolumeError, match="only a folder of DICOM files has a series"):
+        read_scan("a.nii.gz", Stated(series="1"))

@@ -1,0 +1,180 @@
+"""Where an NRRD file says that its voxels lie: read as decimal text, written again as it was."""
+
+from __future__ import annotations
+
+import gzip
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from hull1620 import digital_hull
+from modern.digital.nrrd import parse_nrrd, write_nrrd
+from modern.digital.scans import chosen
+from modern.digital.solids import Volume, VolumeError, listed
+from modern.digital.volumes import read_volume, write_array
+from modern.digital.world import LAS, LPS, RAS, World, determinant, world_of
+
+STEPS = (np.arange(24).reshape(2, 3, 4) % 5).astype(np.uint8)
+
+
+def nrrd(*fields: str, array: np.ndarray = STEPS) -> bytes:
+    """A file as the definition of the format describes it, with its lines 6 on as given."""
+    head = ["NRRD0005", "type: uint8", f"dimension: {array.ndim}", f"sizes: {' '.join(map(str, array.shape))}"]
+    return "\n".join([*head, "encoding: raw", *fields, "", ""]).encode() + array.tobytes("F")
+
+
+def world_in(*fields: str) -> World:
+    world = parse_nrrd(nrrd(*fields), "a.nrrd").world
+    assert world is not None
+    return world
+
+
+def test_decimals_are_taken_to_the_last_digit() -> None:
+    world = world_in(
+        "space: left-posterior-superior",
+        "space directions: (0.1,0,0) (0,-0.30000000000000004,1e-3) (0, 0, 2.5)",
+        "space origin: (-12.345678901234567890123456789,+4,.5)",
+        'space units: "mm" "mm" "mm"',
+    )
+    assert world.steps[0] == (Fraction(1, 10), 0, 0)
+    assert world.steps[1] == (0, Fraction(-30000000000000004, 10**17), Fraction(1, 1000))
+    assert world.origin == (Fraction(-12345678901234567890123456789, 10**27), 4, Fraction(1, 2))
+    assert (world.space, world.unit) == (LPS, "mm")
+
+
+def test_spacings_are_along_the_axes_and_begin_at_zero() -> None:
+    world = world_in("spacings: 0.5 0.25 2", 'units: "mm" "mm" "mm"')
+    assert world == World(((Fraction(1, 2), 0, 0), (0, Fraction(1, 4), 0), (0, 0, 2)), (0, 0, 0), "", "mm")  # type: ignore[arg-type]
+    beside = world_in("spacings: nan nan nan", "space directions: (1,0,0) (0,1,0) (0,0,1)")
+    assert beside.steps[0] == (1, 0, 0)
+
+
+@pytest.mark.parametrize(
+    ("word", "space"), [("RAS", RAS), ("left-anterior-superior", LAS), ("Lps", LPS), ("scanner-xyz", "scanner-xyz")]
+)
+def test_a_space_has_its_long_name(word: str, space: str) -> None:
+    assert world_in(f"space: {word}", "space directions: (1,0,0) (0,1,0) (0,0,1)").space == space
+
+
+@pytest.mark.parametrize(
+    ("fields", "note"),
+    [
+        (("spacings: 1 nan 2",), "line 6: an axis of the array is none of space: no place is taken"),
+        (
+            ("space dimension: 2", "space directions: none (1,0) (0,1)"),
+            "line 7: an axis of the array is none of space: no place is taken",
+        ),
+        (("space origin: (1,2,3)",), "line 6: space origin, but no spacings: not taken"),
+        (("space directions: (1,0,0,0) (0,1,0,0) (0,0,1,0)",), "line 6: a space of 4 axes: no place is taken"),
+        (("axis mins: 0 0 0", "spacings: 1 1 1"), "line 6: axis mins is not taken; space origin says where"),
+        (("axismaxs: 2 3 4", "spacings: 1 1 1"), "line 6: axis maxs is not taken; space origin says where"),
+    ],
+)
+def test_what_is_not_taken_is_noted(fields: tuple[str, ...], note: str) -> None:
+    scan = parse_nrrd(nrrd(*fields), "a.nrrd")
+    assert (scan.world is None) == ("no place" in note or "no spacings" in note)
+    assert scan.notes[0].startswith(f"a.nrrd: {note}")
+
+
+@pytest.mark.parametrize(
+    ("fields", "message"),
+    [
+        (("spacings: 1 2",), "line 6: spacings: 3 numbers are due, here are 2"),
+        (("spacings: 1 2 x",), "line 6: spacings: 'x' is not a decimal number"),
+        (("spacings: 1 2 1e999",), "line 6: spacings: '1e999' has more than 100 digits or an exponent beyond 400"),
+        (("spacings: 1 2 0",), "line 6: the spacing of an axis is 0"),
+        (("space directions: (1,0,0) (0,1,0)",), "line 6: space directions: 3 vectors as (1,0,0) are due"),
+        (("space directions: (1,0,0) (0,1,0) (0,0)",), "line 6: space directions: 3 numbers are due, here are 2"),
+        (("space directions: (1,0,0) (0,1,0) (0,0,1) 7",), "line 6: space directions: 3 vectors"),
+        (("space directions: (1,0,0) (0,1,0) (1,1,0)",), "the directions of the axes depend on each other"),
+        (("spacings: 1 1 1", "space directions: (1,0,0) (0,1,0) (0,0,1)"), "line 6: spacings beside space directions"),
+        (("spacings: 1 1 1", "space origin: (1,2)"), "line 7: space origin: '(1,2)' are not 3 numbers in parentheses"),
+        (("spacings: 1 1 1", "space origin: (1,nan,2)"), "line 7: space origin: '(1,nan,2)' are not 3 numbers"),
+        (("spacings: 1 1 1", "space origin: none"), "line 7: space origin: 'none' are not 3 numbers"),
+        (("spacings: 1 1 1", 'space units: "mm" "m" "mm"'), "line 7: the axes have different units: m, mm"),
+        (("spacings: 1 1 1", "SPACINGS: 1 1 1"), "line 7, column 1: SPACINGS stands twice"),
+        (("axis mins: 0 0 0", "axismins: 0 0 0"), "line 7, column 1: axismins stands twice"),
+    ],
+)
+def test_a_place_that_is_none_is_one_line(fields: tuple[str, ...], message: str) -> None:
+    with pytest.raises(VolumeError) as caught:
+        parse_nrrd(nrrd(*fields), "a.nrrd")
+    assert message in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+numbers = st.decimals(-1000, 1000, places=7).map(Fraction)
+vectors = st.tuples(numbers, numbers, numbers)
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.tuples(vectors, vectors, vectors), vectors, st.sampled_from(["", LPS, "scanner-xyz"]), st.booleans())
+def test_a_volume_written_is_read_again_in_its_place(
+    steps: tuple[tuple[Fraction, ...], ...], origin: tuple[Fraction, ...], space: str, unit: bool
+) -> None:
+    if not determinant(steps):
+        return
+    volume = Volume(STEPS > 2, (4, -1, 0), world=World(steps, origin, space, "mm" if unit else ""))
+    path = Path("a.nrrd")
+    write_nrrd(str(path), volume.array, volume)
+    found = chosen(parse_nrrd(path.read_bytes(), "a.nrrd")).volume
+    path.unlink()
+    assert np.array_equal(found.array, volume.array)
+    assert volume.world is not None
+    assert found.world == volume.world.moved(volume.origin)
+
+
+@pytest.fixture(autouse=True)
+def _folder(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path_factory.mktemp("nrrd"))
+
+
+def test_a_filled_hull_keeps_its_place() -> None:
+    array = np.zeros((3, 3, 3), np.uint8)
+    array[0, 0, 0] = array[2, 2, 2] = array[2, 0, 1] = 1
+    hull = digital_hull(array, spacing=("0.1", 2, "-0.25"), origin=(1, "2.5", 0))
+    hull.save("hull.nrrd")
+    hull.save("hull.npy")
+    assert (read_volume("hull.nrrd").world, read_volume("hull.npy").world) == (hull.world, None)
+    assert np.array_equal(read_volume("hull.nrrd").array, hull.filled)
+    with pytest.raises(VolumeError, match=r"hull\.off: the name must end with \.npy or \.nrrd"):
+        hull.save("hull.off")
+
+
+def test_a_list_of_voxels_keeps_its_coordinates_as_an_origin() -> None:
+    volume = listed([(5, -2, 7), (6, -2, 7)])
+    write_array("a.nrrd", volume.array, volume)
+    world = read_volume("a.nrrd").world
+    assert world is not None
+    assert world.place((0, 0, 0)) == (5, -2, 7)
+    whole = listed([(0, 0, 0), (0, 0, 1)])
+    write_array("b.nrrd", whole.array, whole)
+    assert read_volume("b.nrrd").world is None
+
+
+def test_a_picture_in_space_is_written_and_read() -> None:
+    picture = Volume(np.ones((2, 3), np.bool_), (0, 0), world=world_of(2, directions=[(0, 1, 1), (2, 0, 0)]))
+    write_nrrd("a.nrrd", picture.array, picture)
+    assert read_volume("a.nrrd").world == picture.world
+
+
+def test_what_no_decimal_names_is_not_written() -> None:
+    volume = Volume(STEPS > 0, (0, 0, 0), world=world_of(3, spacing=(Fraction(1, 3), 1, 1)))
+    with pytest.raises(VolumeError, match=r"a\.nrrd: 1/3 has no finite decimal"):
+        write_nrrd("a.nrrd", volume.array, volume)
+    assert not Path("a.nrrd").exists()
+
+
+def test_what_is_written_is_the_same_every_time() -> None:
+    volume = Volume(STEPS > 0, (0, 0, 0), world=world_of(3, (1, 2, 3)))
+    write_nrrd("a.nrrd", volume.array, volume)
+    first = Path("a.nrrd").read_bytes()
+    head, _, body = first.partition(b"\n\n")
+    assert b"space directions: (1,0,0) (0,2,0) (0,0,3)" in head.splitlines()
+    assert gzip.decompress(body) == (STEPS > 0).astype(np.uint8).tobytes("F")
+    write_nrrd("a.nrrd", volume.array, volume)
+    assert Path("a.nrrd").read_bytes() == first

@@ -1,0 +1,131 @@
+"""Which voxels of a scan are taken: a threshold and labels, compared exactly in every type of number."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as arrays
+
+from hull1620 import digital_hull, read_volume
+from modern.digital.scans import Choice, Scan, chosen, label_boxes, label_volume, labels_of, listed_labels
+from modern.digital.solids import NoVoxels, VolumeError
+from modern.digital.volumes import write_npy
+
+TYPES = ["?", "i1", "u1", ">i2", "u2", "i4", "i8", "u8", "f2", "f4", "f8", ">f8"]
+values = arrays.arrays(
+    st.sampled_from([np.dtype(kind) for kind in TYPES]),
+    arrays.array_shapes(min_dims=2, max_dims=3, max_side=4),
+    elements={"allow_nan": False},
+)
+
+
+def scan(array: Any) -> Scan:
+    array = np.asarray(array)
+    return Scan(array, (0,) * array.ndim, "scan")
+
+
+def exact(value: Any) -> Fraction | float:
+    number = value.item()
+    return number if number in (float("inf"), -float("inf")) else Fraction(number)
+
+
+@settings(deadline=None)
+@given(values, st.data())
+def test_a_threshold_takes_what_is_not_below_it(array: np.ndarray, data: st.DataObject) -> None:
+    finite = [exact(v) for v in array.ravel() if np.isfinite(v)] or [Fraction(0)]
+    near = data.draw(st.sampled_from(finite))
+    little = Fraction(1, 10**40)
+    threshold = near + data.draw(st.sampled_from([0, little, -little, Fraction(1, 3), 10**30]))
+    wanted = np.array([exact(v) >= threshold for v in array.ravel()]).reshape(array.shape)
+    if wanted.any():
+        assert np.array_equal(chosen(scan(array), Choice(Fraction(threshold))).volume.array, wanted)
+    else:
+        with pytest.raises(NoVoxels, match="the threshold"):
+            chosen(scan(array), Choice(Fraction(threshold)))
+
+
+@pytest.mark.parametrize("kind", ["f4", "f8", "g"])
+def test_a_threshold_is_a_decimal_and_a_value_the_number_it_is(kind: str) -> None:
+    """The float called 0.1 is more than a tenth, in single precision too; the double 0.3 is less than three tenths."""
+    narrow = np.float32 if kind == "f4" else np.float64
+    assert chosen(scan(np.full((1, 1, 1), narrow(0.1), kind)), Choice(Fraction(1, 10))).volume.count == 1
+    with pytest.raises(NoVoxels):
+        chosen(scan(np.full((1, 1, 1), np.float64(0.3), "f8" if kind == "f4" else kind)), Choice(Fraction(3, 10)))
+
+
+@settings(deadline=None)
+@given(values)
+def test_labels_are_the_whole_values_but_zero(array: np.ndarray) -> None:
+    whole = {int(v) for v in array.ravel() if np.isfinite(v) and v and v == np.floor(v)}
+    assert labels_of(scan(array)) == tuple(sorted(whole))
+    boxes = label_boxes(scan(array)) if whole else {}
+    assert set(boxes) == whole
+    for label, box in boxes.items():
+        volume = label_volume(scan(array), label, box)
+        found = {tuple(voxel) for voxel in volume.coordinates().tolist()}
+        assert found == {tuple(place) for place in np.argwhere(array == array.dtype.type(label)).tolist()}
+        for axis in range(array.ndim):
+            # The box is the smallest: every side of it has a voxel.
+            others = tuple(k for k in range(array.ndim) if k != axis)
+            assert volume.array.any(axis=others)[[0, -1]].all()
+
+
+def test_several_labels_are_taken_together() -> None:
+    array = np.array([[[0, 1, 2, 3, 3, 7]]], np.uint8)
+    found = chosen(scan(array), Choice(labels=(3, 1)))
+    assert found.volume.array.ravel().tolist() == [False, True, False, True, True, False]
+    assert (found.present, found.lowest, found.highest) == ((1, 2, 3, 7), 0, 7)
+    assert chosen(scan(-array.astype(">f4")), Choice(labels=(-7,))).volume.count == 1
+
+
+@pytest.mark.parametrize(
+    ("array", "choice", "message"),
+    [
+        ([[0, 1, 3]], Choice(labels=(3, 2)), "scan: no voxel has the label 2; the labels are 1, 3"),
+        ([[0.5, 0.25]], Choice(labels=(1,)), "scan: no voxel has the label 1; there are no labels"),
+        ([[0, 1]], Choice(Fraction(1), (1,)), "scan: a threshold and labels are not asked for together"),
+        ([[0, 3]], Choice(Fraction(7, 2)), "there are no voxels: the greatest value is 3, the threshold 3.5"),
+        ([[0, 0]], Choice(), "there are no voxels: every value is 0"),
+        ([[0.0, np.nan]], Choice(), "a value is not a number (nan)"),
+        (np.zeros((0, 2, 2)), Choice(), "there are no voxels: the array is empty"),
+        (np.zeros((2, 2), complex), Choice(), "an array of complex128 with 2 axes"),
+    ],
+)
+def test_what_is_not_there_is_told(array: Any, choice: Choice, message: str) -> None:
+    with pytest.raises(VolumeError) as caught:
+        chosen(scan(array), choice)
+    assert message in str(caught.value)
+
+
+def test_no_label_at_all() -> None:
+    with pytest.raises(NoVoxels, match="there are no labels: no value is whole and not 0"):
+        label_boxes(scan([[0.5, 0.0]]))
+    with pytest.raises(NoVoxels, match="no voxel has the label 9; the labels are 1, 2"):
+        label_boxes(scan([[1, 2]]), (1, 9))
+
+
+def test_many_labels_are_listed_briefly() -> None:
+    assert listed_labels([1, 2]) == "1, 2"
+    assert listed_labels(range(1, 40)) == "1, 2, 3, 4, ... 39 (39 labels)"
+
+
+def test_a_volume_is_read_by_threshold_and_by_label(tmp_path: Any) -> None:
+    path = str(tmp_path / "a.npy")
+    write_npy(path, np.array([[[0, 1, 2, 3]]], np.int16))
+    assert read_volume(path).count == 3
+    assert read_volume(path, threshold="1.5").count == 2
+    assert read_volume(path, labels=[2]).coordinates().tolist() == [[0, 0, 2]]
+    placed = read_volume(path, labels=[1, 3], spacing=("0.5", 1, 2), origin=(1, 1, 1))
+    hull = digital_hull(placed)
+    assert (hull.voxels, hull.deficiency, hull.volume, hull.solidity) == (3, 1, 3, Fraction(2, 3))
+    assert hull.world is not None
+    assert hull.world.place((0, 0, 1)) == (1, 1, 3)
+    with pytest.raises(VolumeError, match="threshold: 'x' is not a decimal"):
+        read_volume(path, threshold="x")
+    with pytest.raises(VolumeError, match="spacing: 2 numbers; 3 are due"):
+        read_volume(path, spacing=(1, 2))

@@ -1,0 +1,191 @@
+"""Where voxels lie: the hull in the world is the exact image of the hull of indices, whatever way the axes run."""
+
+from __future__ import annotations
+
+import random
+from fractions import Fraction
+from itertools import product
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from hull1620 import exact_hull as proved
+from hull1620 import voxel_hull as hull_of_voxels
+from modern.digital.solids import Volume, VolumeError
+from modern.digital.world import LAS, LPS, RAS, World, determinant, length_text, voxel_volume, world_of
+from modern.exact_hull import exact_hull
+from modern.geometry.numbers import number
+from modern.papers.kovalevsky_schulz import CENTRES, VERTICES, Of, voxel_hull
+from tests.support.digital_judge import random_solid
+
+ONE, NONE = Fraction(1), Fraction(0)
+tenths = st.integers(-40, 40).map(lambda n: Fraction(n, 10))
+vectors = st.tuples(tenths, tenths, tenths)
+
+
+@st.composite
+def worlds(draw: st.DrawFn) -> World:
+    """Any steps that span space: oblique, mirrored, with negative directions."""
+    steps = draw(st.tuples(vectors, vectors, vectors))
+    assume(determinant(steps))
+    return World(steps, draw(vectors))
+
+
+def faces(points: Any, polygons: Any) -> set[tuple[Any, ...]]:
+    """Every face as its cycle of points, from the least one on: counterclockwise stays counterclockwise."""
+    found = set()
+    for polygon in polygons:
+        cycle = [points[k] for k in polygon]
+        first = cycle.index(min(cycle))
+        found.add((*cycle[first:], *cycle[:first]))
+    return found
+
+
+def image_of_every_voxel(volume: Volume, world: World, of: Of) -> list[tuple[Fraction, ...]]:
+    """Centres, or all eight corners, by the definition: the centre, and half a step each way."""
+    halves = [Fraction(0)] if of == CENTRES else [Fraction(-1, 2), Fraction(1, 2)]
+    found = {}
+    for voxel in volume.coordinates().tolist():
+        for shift in product(halves, repeat=3):
+            place = [
+                world.origin[k] + sum(world.steps[axis][k] * (voxel[axis] + shift[axis]) for axis in range(3))
+                for k in range(3)
+            ]
+            found[tuple(place)] = None
+    return list(found)
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.integers(0, 10**9), worlds(), st.tuples(*[st.integers(-9, 9)] * 3), st.sampled_from([VERTICES, CENTRES]))
+def test_the_hull_in_the_world_is_that_of_the_judge(
+    seed: int, world: World, origin: tuple[int, int, int], of: Of
+) -> None:
+    solid = random_solid(random.Random(seed), side=4, steps=20)
+    volume = Volume(solid, origin, world=world)
+    hull = voxel_hull(volume, of)
+    mesh = hull.mesh(straight=True)
+    judged = exact_hull(image_of_every_voxel(volume, world, of))
+    given_points = image_of_every_voxel(volume, world, of)
+    assert mesh.dimension == judged.dimension
+    assert {tuple(map(number, point)) for point in mesh.points} == {given_points[k] for k in judged.vertices}
+    if judged.dimension == 3:
+        polygons = [facet.polygon for facet in judged.facets]
+        assert faces(mesh.numbers(), mesh.faces) == faces(given_points, polygons)
+
+
+@settings(deadline=None, max_examples=40)
+@given(st.integers(0, 10**9), worlds())
+def test_measures_are_those_of_the_judge(seed: int, world: World) -> None:
+    volume = Volume(random_solid(random.Random(seed), side=4, steps=20), (1, -2, 3), world=world)
+    for of in (VERTICES, CENTRES):
+        found = voxel_hull(volume, of).measures()
+        judged = proved(image_of_every_voxel(volume, world, of))
+        assert found.hull_volume == judged.volume
+        assert abs(found.hull_area - judged.area) <= judged.area.scaleb(-48)
+        assert found.volume == volume.count * abs(determinant(world.steps))
+        if of == VERTICES:
+            assert found.solidity == found.volume / judged.volume <= 1
+            assert found.deficiency == judged.volume - found.volume >= 0
+
+
+def test_an_axis_turned_round_turns_the_faces_and_nothing_else() -> None:
+    """Of one body: the array reversed along x, with the step negative and the origin at the other end."""
+    solid = random_solid(random.Random(7), side=6)
+    size = solid.shape[0]
+    there = world_of(3, (2, 3, "0.5"), (5, 5, 5))
+    back = world_of(3, (-2, 3, "0.5"), (5 + 2 * (size - 1), 5, 5))
+    one = voxel_hull(Volume(solid, (0, 0, 0), world=there)).mesh(straight=True)
+    other = voxel_hull(Volume(solid[::-1], (0, 0, 0), world=back)).mesh(straight=True)
+    assert faces(one.numbers(), one.faces) == faces(other.numbers(), other.faces)
+
+
+def test_half_a_voxel_lies_between_centres_and_corners() -> None:
+    voxel = np.ones((1, 1, 1), np.bool_)
+    spaced = hull_of_voxels(voxel, spacing=("0.5", "0.5", 2), origin=(10, 0, -1))
+    assert sorted(map(tuple, spaced.points.tolist()))[0] == (9.75, -0.25, -2.0)
+    assert sorted(map(tuple, spaced.points.tolist()))[-1] == (10.25, 0.25, 0.0)
+    assert spaced.volume == Fraction(1, 2)
+    assert hull_of_voxels(voxel, centres=True, spacing=(1, 1, 1), origin=(7, 8, 9)).points.tolist() == [[7, 8, 9]]
+    bare = hull_of_voxels(voxel)
+    assert (bare.points.min(), bare.points.max()) == (0, 1)
+
+
+def test_left_and_right_are_exchanged_between_spaces() -> None:
+    world = World(((ONE, NONE, NONE), (NONE, -2 * ONE, NONE), (NONE, NONE, 3 * ONE)), (5 * ONE,) * 3, LPS)
+    turned = world.turned(RAS)
+    assert turned.origin == (-5, -5, 5)
+    assert [step[k] for k, step in enumerate(turned.steps)] == [-1, 2, 3]
+    assert turned.turned(LPS) == world
+    assert world.turned(LAS).origin == (5, -5, 5)
+    assert world.bearings() == turned.bearings() == (("left", True), ("anterior", True), ("superior", True))
+    assert (world.mirrors, turned.mirrors, world.turned(LAS).mirrors) == (True, True, False)
+    with pytest.raises(VolumeError, match="the space is not stated"):
+        World(world.steps, world.origin).turned(RAS)
+
+
+def test_oblique_axes_are_named_by_the_sides_they_run_to_most() -> None:
+    steps = ((ONE / 2, 4 * ONE, ONE), (-3 * ONE, ONE, NONE), (NONE, ONE, -2 * ONE))
+    world = World(steps, (NONE,) * 3, RAS)
+    assert world.bearings() == (("anterior", False), ("left", False), ("inferior", False))
+    assert World(steps, (NONE,) * 3, "scanner-xyz").bearings() == ()
+
+
+def test_the_length_of_a_step_is_exact_along_an_axis_and_has_six_digits_else() -> None:
+    world = world_of(3, directions=[(0, "-0.1234567891", 0), (3, 0, 4), (0, 1, 1)])
+    assert world is not None
+    assert world.spacings() == (("0.1234567891", True), ("5", False), ("1.41421", False))
+
+
+def test_a_place_is_of_numbers_of_any_real_type() -> None:
+    assert world_of(3) is None
+    world = world_of(2, spacing=(0.1, "0.1"), unit="mm")
+    assert world is not None
+    assert (world.steps[0][0], world.steps[1][1], world.origin) == (Fraction(0.1), Fraction(1, 10), (0, 0))
+    assert voxel_volume(world) == Fraction(0.1) / 10
+    turned = world_of(3, (2, 2, 2), (1, 1, 1), [(0, 1, 0), (1, 0, 0), (0, 0, Fraction(1, 3))])
+    assert turned is not None
+    assert turned.place((1, 2, 3)) == (5, 3, 3)
+    assert voxel_volume(turned) == Fraction(8, 3)
+    assert voxel_volume(None) == 1
+    assert turned.moved((1, 2, 3)).place((0, 0, 0)) == turned.place((1, 2, 3))
+
+
+@pytest.mark.parametrize(
+    ("place", "message"),
+    [
+        ({"spacing": (1, 2)}, "spacing: 2 numbers; 3 are due"),
+        ({"origin": (1, 2, "x")}, "origin: 'x' is not a decimal number"),
+        ({"spacing": (1, 2, float("nan"))}, "spacing: nan is not finite"),
+        ({"spacing": (1, 2, 0)}, "the spacing of an axis is 0"),
+        ({"directions": [(1, 0, 0)]}, "directions: 1 vectors; the array has 3 axes"),
+        ({"directions": [(1, 0, 0), (0, 1, 0), (1, 1, 0)]}, "the directions of the axes depend on each other"),
+        ({"directions": [(1, 0, 0), (0, 1, 0), (1, 1)]}, "direction of axis 2: 2 numbers; 3 are due"),
+    ],
+)
+def test_what_is_no_place(place: dict[str, Any], message: str) -> None:
+    with pytest.raises(VolumeError) as caught:
+        hull_of_voxels(np.ones((2, 2, 2)), **place)
+    assert message in str(caught.value)
+
+
+def test_a_picture_in_space_has_pixels_without_an_exact_area() -> None:
+    world = world_of(2, directions=[(1, 0, 1), (0, 1, 0)])
+    with pytest.raises(VolumeError, match="2 axes in a space of 3"):
+        voxel_volume(world)
+
+
+@pytest.mark.parametrize("text", ["1e401", "9" * 101, "", "x", "1/2", "0x10"])
+def test_a_number_of_a_header_is_a_decimal_of_a_readable_size(text: str) -> None:
+    with pytest.raises(ValueError, match=r"\S"):
+        length_text(text)
+    assert length_text("-1.5e-2") == Fraction(-3, 200)
+
+
+def test_a_volume_has_a_step_for_every_axis() -> None:
+    with pytest.raises(VolumeError, match="2 steps in the world for 3 axes"):
+        Volume(np.ones((1, 1, 1), np.bool_), (0, 0, 0), world=world_of(2, (1, 1)))
+    with pytest.raises(VolumeError, match="a Volume has its place"):
+        hull_of_voxels(Volume(np.ones((1, 1, 1), np.bool_), (0, 0, 0)), spacing=(1, 1, 1))
