@@ -27,10 +27,11 @@ def main(args: argparse.Namespace) -> int:
     printed = _printed(args)
     check_array(args.output)
     check_writable(args.output)
-    volume = volume_of(args)
+    volume, said = volume_of(args)
     hull = octree_hull(volume, printed)
     if args.output is not None:
         write_array(args.output, hull.filled, volume)
+    say(said)
     x, y, z = (*volume.origin, 0)[:3]
     for line in _lines(hull, volume.source, (x, y, z), args.trace):
         print(line)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 
 from emulator.files import check_writable, write_text
@@ -15,6 +15,7 @@ from modern.cli.shared.volumes import (
     choice_of,
     coordinate_words,
     in_space,
+    note_lines,
     printable,
     scan_of,
     spacing_words,
@@ -48,18 +49,19 @@ def main(args: argparse.Namespace) -> int:
     check_writable(args.output, args.csv)
     if args.each_label:
         return _each_label(args, form)
-    volume = volume_of(args)
-    print(f"{volume.source}: {counted(volume.count, 'voxel')}")
+    volume, said = volume_of(args)
     if args.fill:
-        _fill(volume, args.output)
+        _fill(volume, said, args.output)
         return OK
-    say([printable(coordinate_words(volume.world, not args.centres))])
     hull = _hull(volume, args)
+    measures = hull.measures()
     if args.output is not None and form is not None:
         write_text(args.output, mesh_text(hull.mesh(args.straight), form))
+    say([*said, printable(coordinate_words(volume.world, not args.centres))])
+    print(f"{volume.source}: {counted(volume.count, 'voxel')}")
     for line in _count_lines(hull):
         print(line)
-    for line in measure_lines(hull.measures(), volume.world.unit if volume.world else "", not args.centres):
+    for line in measure_lines(measures, volume.world.unit if volume.world else "", not args.centres):
         print(line)
     if args.cells and isinstance(hull.surface, Surface):
         for line in all_rows(hull.surface.straight if args.straight else hull.surface.faces):
@@ -107,10 +109,12 @@ def _form(args: argparse.Namespace) -> str | None:
     return form
 
 
-def _fill(volume: Volume, output: str | None) -> None:
+def _fill(volume: Volume, said: Iterable[str], output: str | None) -> None:
     hull = digital_hull(volume)
     if output is not None:
         write_array(output, hull.filled, volume)
+    say(said)
+    print(f"{volume.source}: {counted(volume.count, 'voxel')}")
     print(f"filled hull of the voxels' centres ({hull.kind}): {counted(hull.voxels, 'voxel')}")
     print(f"solidity {hull.solidity}, in voxels; convex deficiency: {counted(hull.deficiency, 'voxel')}")
     if output is not None:
@@ -124,9 +128,6 @@ def _each_label(args: argparse.Namespace, form: str | None) -> int:
     world = in_space(scan.world, args.space)
     boxes = label_boxes(scan, asked)
     check_writable(*(args.output % label for label in boxes if args.output is not None), args.csv)
-    say([printable(f"{scan.source}: {counted(len(boxes), 'label')}; {spacing_words(scan.world)}")])
-    if not args.fill:
-        say([printable(coordinate_words(world, not args.centres))])
     rows: list[Row] = []
     writers: list[Callable[[], None]] = []
     progress = Progress(len(boxes), what="labels")
@@ -151,6 +152,10 @@ def _each_label(args: argparse.Namespace, form: str | None) -> int:
         write()
     if args.csv is not None:
         write_text(args.csv, csv_text(rows, unit))
+    say(note_lines(scan.notes))
+    say([printable(f"{scan.source}: {counted(len(boxes), 'label')}; {spacing_words(scan.world)}")])
+    if not args.fill:
+        say([printable(coordinate_words(world, not args.centres))])
     for line in table(rows, unit):
         print(line)
     return OK

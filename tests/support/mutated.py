@@ -1,11 +1,26 @@
-"""Files damaged at random, each in one of fifty ways that the seed chooses: bytes, words, lines, numbers, ends."""
+"""Files damaged at random, each in one of fifty ways that the seed chooses: bytes, words, lines, numbers, ends.
+
+``codes_of`` gives a command many of them: a result, or one line and exit code 2, and no file half written.
+"""
 
 from __future__ import annotations
 
+import io
+import os
 import random
 import re
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.support.commands import call
 
 WAYS = 50
+FILES = int(os.environ.get("HULL1620_FUZZ", "3"))
+"""How many files of each reader are damaged."""
+Make = Callable[[random.Random], bytes]
 
 _WORDS = (
     *(b"nan", b"inf", b"-inf", b"-0", b"1e999", b"1e-999", b"1e99999", b"9" * 400, b"0x10", b"1/3", b"1/0", b"", b"-1"),
@@ -94,3 +109,55 @@ def _line(data: bytes, draw: random.Random) -> bytes:
 
 
 _MUTATIONS = (_flip, _byte, _cut, _beheaded, _without, _twice, _piece, _word, _number, _line)
+
+
+def codes_of(
+    name: str,
+    path: str,
+    make: Make,
+    words: Sequence[str],
+    folder: Path,
+    capsys: pytest.CaptureFixture[str],
+    files: int = FILES,
+) -> set[int]:
+    """The exit codes of a command over damaged files of one kind, in a folder of its own, which is the current one.
+
+    Raises AssertionError for a traceback, for an exit code other than 0, 1 and 2, for bad input told in more than one
+    line (but for ``check``, which lists its findings), and for a file written beside it.
+    """
+    codes = set()
+    for number in range(files):
+        whole = make(random.Random(f"{name}:{number}"))
+        Path(path).write_bytes(whole)
+        codes.add(call(capsys, *words)[0])
+        for way in range(WAYS):
+            for left in folder.iterdir():
+                left.unlink()
+            data = damaged(whole, way, f"{name}:{number}")
+            Path(path).write_bytes(data)
+            try:
+                code, _, err = call(capsys, *words)
+            except BaseException as error:
+                raise AssertionError(f"file {number}, way {way}: {type(error).__name__}: {data[:200]!r}") from error
+            codes.add(code)
+            there = {left.name for left in folder.iterdir()} - {path}
+            assert code in (0, 1, 2), (number, way)
+            assert "Traceback" not in err
+            if code == 2 and words[0] != "check":
+                assert (err.count("\n"), err.startswith("hull1620: "), there) == (1, True, set()), (number, way, err)
+    return codes
+
+
+def saved(array: np.ndarray) -> bytes:
+    """An array as the bytes of an NPY file."""
+    file = io.BytesIO()
+    np.save(file, array)
+    return file.getvalue()
+
+
+def solid(draw: random.Random) -> np.ndarray:
+    """A few voxels of any of three types of number, the first of them set."""
+    shape = tuple(draw.randrange(2, 5) for _ in range(3))
+    array = np.array([draw.random() < 0.6 for _ in range(shape[0] * shape[1] * shape[2])]).reshape(shape)
+    array[0, 0, 0] = True
+    return array.astype(draw.choice((np.uint8, np.int16, np.float32)))

@@ -81,7 +81,8 @@ def table(rows: Sequence[Row], unit: str) -> Iterator[str]:
     widths = [max(len(line[k]) for line in cells) for k in range(len(cells[0]))]
     for line in cells:
         yield "  ".join(f"{cell:>{width}}" for cell, width in zip(line, widths, strict=True))
-    lengths = f"lengths in {printable(unit)}" if unit else "unit of lengths not stated"
+    plural = "s" if unit == "voxel" else ""
+    lengths = f"lengths in {printable(unit)}{plural}" if unit else "unit of lengths not stated"
     yield f"{lengths}; numbers to {SHOWN} digits, with --csv to {AREA_DIGITS} and exact"
 
 

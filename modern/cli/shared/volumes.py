@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 
-from modern.cli.shared.console import UsageError, counted, say
+from modern.cli.shared.console import UsageError, counted
 from modern.digital.scans import Choice, Chosen, Scan, chosen, listed_labels
 from modern.digital.solids import Volume
 from modern.digital.volumes import ARRAYS, Stated, read_scan
@@ -18,7 +18,7 @@ _SPACES = dict(zip(("lps", "ras"), ANATOMICAL, strict=False))
 
 
 def scan_of(args: argparse.Namespace) -> Scan:
-    """The scan ``VOLUME``, read as the arguments say; its notes go to standard error.
+    """The scan ``VOLUME``, read as the arguments say.
 
     Raises FileError, VolumeError, and UsageError for arguments that are no numbers.
     """
@@ -30,9 +30,7 @@ def scan_of(args: argparse.Namespace) -> Scan:
         spacing=_numbers("--spacing", args.spacing),
         origin=_numbers("--origin", args.origin),
     )
-    scan = read_scan(args.volume, stated)
-    say(printable(f"note: {note}") for note in scan.notes)
-    return scan
+    return read_scan(args.volume, stated)
 
 
 def choice_of(args: argparse.Namespace) -> Choice:
@@ -45,16 +43,21 @@ def choice_of(args: argparse.Namespace) -> Choice:
         raise UsageError(f"--threshold: {error}") from None
 
 
-def volume_of(args: argparse.Namespace) -> Volume:
-    """The voxels asked for of ``VOLUME``, in the coordinates of ``--space``; what was chosen goes to standard error.
+def volume_of(args: argparse.Namespace) -> tuple[Volume, tuple[str, ...]]:
+    """The voxels asked for of ``VOLUME``, in the coordinates of ``--space``; and what is to be said of them once all
+    has gone well: notes, and what was chosen.
 
     Raises as ``scan_of``.
     """
     choice = choice_of(args)
     found = chosen(scan_of(args), choice)
     volume = replace(found.volume, world=in_space(found.volume.world, getattr(args, "space", "file")))
-    say(_chosen_lines(found))
-    return volume
+    return volume, (*note_lines(volume.notes), *_chosen_lines(found))
+
+
+def note_lines(notes: Sequence[str]) -> Iterator[str]:
+    """Notes as the user reads them."""
+    return (printable(f"note: {note}") for note in notes)
 
 
 def in_space(world: World | None, space: str) -> World | None:

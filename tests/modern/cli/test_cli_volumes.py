@@ -149,7 +149,7 @@ def test_some_labels_and_the_table_of_centres_and_of_filled_hulls(capsys: pytest
     code, out, _ = call(capsys, "voxel-hull", "scan.npy", "--each-label", "--fill", "-o", "f-%d.nrrd", "--csv", "f.csv")
     assert code == 0
     assert out.splitlines()[3].split()[:5] == ["7", "80", "81", "0.987654320988", "1"]
-    assert out.splitlines()[-1].startswith("lengths in voxel; ")
+    assert out.splitlines()[-1].startswith("lengths in voxels; ")
     assert read_volume("f-7.nrrd").count == 81
     assert "80/81" in Path("f.csv").read_text(encoding="ascii").splitlines()[3]
 
