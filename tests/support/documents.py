@@ -13,6 +13,7 @@
 
 from __future__ import annotations
 
+import gzip
 import os
 import re
 import subprocess
@@ -26,6 +27,7 @@ from sybil import Document, Example
 from sybil.parsers.markdown import CodeBlockParser, PythonCodeBlockParser, SkipParser
 
 from tests.support.paths import PROGRAMS, ROOT
+from tests.support.volumefiles import PLACE, nifti, nrrd
 
 PROSE = ("", "tutorial", "how-to", "reference", "explanation", "papers")
 """The folders of ``docs`` whose pages are written by hand; the others hold results."""
@@ -49,6 +51,15 @@ def _ball() -> np.ndarray:
 
 def _nrrd() -> bytes:
     return b"NRRD0004\ntype: uint8\ndimension: 3\nsizes: 6 6 6\nencoding: raw\n\n" + _ball().tobytes("F")
+
+
+def _labels() -> np.ndarray:
+    """A ball of label 3 with a hole, a block of label 1 beside it."""
+    labels = np.zeros((12, 10, 8), np.uint8)
+    labels[1:7, 1:7, 1:7] = 3 * _ball()
+    labels[4, 4, 4] = 0
+    labels[8:11, 2:4, 2:5] = 1
+    return labels
 
 
 def _array(path: Path) -> None:
@@ -79,7 +90,8 @@ INPUTS: dict[str, Callable[[Path], object]] = {
     "solid.csv": _text("".join(f"{x},{y},{z}\n" for x, y, z in np.argwhere(_ball()))),
     "solid.npy": _array,
     "solid.nrrd": _bytes(_nrrd),
-    "scan.nrrd": _bytes(_nrrd),
+    "scan.nrrd": _bytes(lambda: nrrd(_labels(), *PLACE)),
+    "scan.nii.gz": _bytes(lambda: gzip.compress(nifti(_labels(), (0.5, 0.5, 2), (10, 20, 30)))),
     "scan.raw": _raw,
 }
 """The name of every input a block may use without making it, and what makes it."""

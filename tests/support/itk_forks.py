@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
@@ -40,8 +41,11 @@ for line in sys.stdin:
 
 
 @contextmanager
-def forks(monkeypatch: pytest.MonkeyPatch, seconds: int = 60) -> Iterator[None]:
-    """Within this, a volume is read in a fork; one that takes longer than so many seconds ends by SIGALRM."""
+def forks(monkeypatch: pytest.MonkeyPatch, seconds: int = 60) -> Iterator[Counter[int]]:
+    """Within this, a volume is read in a fork; one that takes longer than so many seconds ends by SIGALRM.
+
+    Gives how often each exit code came: 0, or a negative signal where the library crashed.
+    """
     words = [sys.executable, "-P", "-W", "ignore", "-c", _SERVER, itk._CHILD, str(seconds)]
     with subprocess.Popen(
         words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
@@ -50,13 +54,16 @@ def forks(monkeypatch: pytest.MonkeyPatch, seconds: int = 60) -> Iterator[None]:
         assert server.stdout is not None
         asked, answered = server.stdin, server.stdout
         answered.readline()
+        endings: Counter[int] = Counter()
 
         def run(words: Sequence[str], _: str) -> int:
             asked.write(json.dumps(list(words)) + "\n")
             asked.flush()
-            return int(answered.readline())
+            code = int(answered.readline())
+            endings[code] += 1
+            return code
 
         with monkeypatch.context() as patched:
             patched.setattr(itk, "_run", run)
-            yield
+            yield endings
         asked.close()

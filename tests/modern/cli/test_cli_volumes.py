@@ -14,6 +14,7 @@ from modern.digital.solids import Volume, ball
 from modern.digital.volumes import write_array
 from modern.digital.world import LPS, World
 from tests.support.commands import call
+from tests.support.volumefiles import PLACE, nrrd
 
 STEPS = ((Fraction(1, 2), Fraction(0), Fraction(0)), (Fraction(0), Fraction(-1, 2), Fraction(0)))
 WORLD = World(
@@ -38,12 +39,7 @@ def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     array = scan()
     np.save("scan.npy", array)
     np.savez("scan.npz", scan=array, other=array[:2])
-    place = (
-        "space: left-posterior-superior\nspace directions: (0.5,0,0) (0,-0.5,0) (0,0,2)\n"
-        'space origin: (-10,5,0.25)\nspace units: "mm" "mm" "mm"\n'
-    )
-    head = f"NRRD0004\ntype: uint8\ndimension: 3\nsizes: 12 12 9\nencoding: raw\n{place}\n"
-    Path("scan.nrrd").write_bytes(head.encode() + array.tobytes("F"))
+    Path("scan.nrrd").write_bytes(nrrd(array, *PLACE))
 
 
 def test_what_was_chosen_is_said(capsys: pytest.CaptureFixture[str]) -> None:

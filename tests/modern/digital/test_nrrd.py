@@ -17,18 +17,14 @@ from modern.digital.scans import chosen
 from modern.digital.solids import Volume, VolumeError, listed
 from modern.digital.volumes import read_volume, write_array
 from modern.digital.world import LAS, LPS, RAS, World, determinant, world_of
+from tests.support.volumefiles import nrrd
 
 STEPS = (np.arange(24).reshape(2, 3, 4) % 5).astype(np.uint8)
-
-
-def nrrd(*fields: str, array: np.ndarray = STEPS) -> bytes:
-    """A file as the definition of the format describes it, with its lines 6 on as given."""
-    head = ["NRRD0005", "type: uint8", f"dimension: {array.ndim}", f"sizes: {' '.join(map(str, array.shape))}"]
-    return "\n".join([*head, "encoding: raw", *fields, "", ""]).encode() + array.tobytes("F")
+"""Values 0 to 4; further lines of the header are lines 6 on."""
 
 
 def world_in(*fields: str) -> World:
-    world = parse_nrrd(nrrd(*fields), "a.nrrd").world
+    world = parse_nrrd(nrrd(STEPS, *fields), "a.nrrd").world
     assert world is not None
     return world
 
@@ -75,7 +71,7 @@ def test_a_space_has_its_long_name(word: str, space: str) -> None:
     ],
 )
 def test_what_is_not_taken_is_noted(fields: tuple[str, ...], note: str) -> None:
-    scan = parse_nrrd(nrrd(*fields), "a.nrrd")
+    scan = parse_nrrd(nrrd(STEPS, *fields), "a.nrrd")
     assert (scan.world is None) == ("no place" in note or "no spacings" in note)
     assert scan.notes[0].startswith(f"a.nrrd: {note}")
 
@@ -102,7 +98,7 @@ def test_what_is_not_taken_is_noted(fields: tuple[str, ...], note: str) -> None:
 )
 def test_a_place_that_is_none_is_one_line(fields: tuple[str, ...], message: str) -> None:
     with pytest.raises(VolumeError) as caught:
-        parse_nrrd(nrrd(*fields), "a.nrrd")
+        parse_nrrd(nrrd(STEPS, *fields), "a.nrrd")
     assert message in str(caught.value)
     assert "\n" not in str(caught.value)
 
