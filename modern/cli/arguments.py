@@ -26,6 +26,7 @@ from modern.formats import HULLS, MESHES
 def _reproduce(parser: ArgumentParser) -> None:
     words = "1 to 6, a theorem (4.1), a document (thesis, yau-srihari, ...) or a statement's id (default: all)"
     parser.add_argument("examples", metavar="NAME", nargs="*", help=words)
+    parser.add_argument("--show", action="store_true", help="print beside result, character by character")
     parser.add_argument("--json", metavar="FILE", help="write the verdicts as JSON")
 
 

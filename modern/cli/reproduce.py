@@ -7,14 +7,16 @@ import json
 import os
 import shutil
 import sys
+import textwrap
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import asdict
 from functools import partial
 from typing import TextIO
 
 from emulator.files import check_writable, write_text
 from emulator.machine.endings import Ending
+from modern.cli.shared.beside import beside
 from modern.cli.shared.console import DIFFERS, OK, UsageError
 from modern.cli.shared.statements import Indented, Paint, statement_lines, statement_summary, theorem_lines
 from modern.edition.chapter4 import THEOREMS
@@ -41,6 +43,8 @@ _WHY_ORDER = (
 
 _PAINTED_AS = {EXACT: EXACT, CORRECTED: EXACT, EXPLAINED: ORDER, CANNOT: "", DIFFERENT: DIFFERENT}
 _MOST_LINES = 4
+_EVERY = ("Every", "NOT every")
+"""How the verdict on everything begins."""
 
 
 def main(args: argparse.Namespace) -> int:
@@ -58,13 +62,13 @@ def main(args: argparse.Namespace) -> int:
     for example in examples:
         found = list(reproduce((example,)))
         reports.extend(found)
-        for line in _example_lines(example, found, colour, width):
+        for line in _example_lines(example, found, colour, width, args.show):
             print(line, file=out)
     results = Judgements(reports)
     theorems = [judge(row, results) for row in statements_of(THESIS) if row.part in named]
     for line in theorem_lines(theorems, paint, indented):
         print(line, file=out)
-    found_results = list(_papers(named, colour, width, out))
+    found_results = list(_papers(named, colour, width, out, args.show))
     results.found(found_results)
     known = {judged.statement.id: judged for judged in theorems}
     stated = [known.get(row.id) or judge(row, results) for row in _rows(asked)]
@@ -72,8 +76,10 @@ def main(args: argparse.Namespace) -> int:
         print(line, file=out)
     good, *_ = summary(reports)
     good = good and all(judged.agrees for judged in (*theorems, *stated)) and all(f.holds for f in found_results)
-    for line in _summary_lines(reports, theorems, found_results, good, colour):
-        print(line, file=out)
+    for line in _summary_lines(reports, theorems, found_results, good):
+        kind = (EXACT if good else DIFFERENT) if line.startswith(_EVERY) else ""
+        for part in textwrap.wrap(line, max(40, width)):
+            print(_paint(part, kind, colour), file=out)
     if args.json is not None:
         write_text(args.json, json.dumps(_document(reports, theorems, stated, found_results, good), indent=1) + "\n")
     return OK if good else DIFFERS
@@ -106,18 +112,21 @@ def _rows(asked: Sequence[str]) -> list[Statement]:
     return [row for row in rows if row.document in asked or row.id in asked] if asked else rows
 
 
-def _papers(names: Sequence[str], colour: bool, width: int, out: TextIO) -> Iterator[Finding]:
+def _papers(names: Sequence[str], colour: bool, width: int, out: TextIO, show: bool) -> Iterator[Finding]:
     """The verdicts on the papers named, each paper printed when it is judged."""
     for paper in PAPERS:
         if paper.name in names:
             found = list(findings(paper))
             paint = partial(_paint, colour=colour)
-            for line in _finding_lines(paper, found, paint, partial(_indented, width=width)):
+            beside_it = partial(_printed_beside, colour=colour, width=width) if show else None
+            for line in _finding_lines(paper, found, paint, partial(_indented, width=width), beside_it):
                 print(line, file=out)
             yield from found
 
 
-def _example_lines(example: int, reports: Iterable[Report], colour: bool, width: int) -> Iterator[str]:
+def _example_lines(
+    example: int, reports: Iterable[Report], colour: bool, width: int, show: bool = False
+) -> Iterator[str]:
     yield f"Example {example}"
     state = ""
     explained = False
@@ -135,7 +144,11 @@ def _example_lines(example: int, reports: Iterable[Report], colour: bool, width:
         ending = _ending(report)
         if ending:
             yield from _indented(ending, width)
-        if verdict.kind in (DIFFERENT, SPACING):
+        if show:
+            marks = partial(_paint, kind=DIFFERENT, colour=colour)
+            heads = ("stated" if report.stated else "print", "result")
+            yield from beside(report.printed, report.produced, width, heads=heads, paint=marks)
+        elif verdict.kind in (DIFFERENT, SPACING):
             yield from _differences(report, width)
     yield ""
 
@@ -181,9 +194,7 @@ def _differences(report: Report, width: int) -> Iterator[str]:
         yield f"      and {len(differences) - _MOST_DIFFERENCES} more"
 
 
-def _summary_lines(
-    reports: list[Report], theorems: list[Judged], found: list[Finding], good: bool, colour: bool
-) -> Iterator[str]:
+def _summary_lines(reports: list[Report], theorems: list[Judged], found: list[Finding], good: bool) -> Iterator[str]:
     punched = [r for r in reports if r.device == "punch" and r.state == "examples"]
     listed = [r for r in reports if r.device == "punch" and r.state == "listing"]
     if punched:
@@ -199,9 +210,9 @@ def _summary_lines(
     if found:
         yield _finding_summary(found)
     what = "printed result comes out" if reports or theorems or found else "statement has the verdict of its row"
-    words = f"Every {what}" if good else f"NOT every {what}"
+    words = f"{_EVERY[0]} {what}" if good else f"{_EVERY[1]} {what}"
     words += ", or it is said why it does not." if good and any(finding.excused for finding in found) else "."
-    yield _paint(words, EXACT if good else DIFFERENT, colour)
+    yield words
 
 
 def _paint(text: str, kind: str, colour: bool) -> str:
@@ -209,8 +220,6 @@ def _paint(text: str, kind: str, colour: bool) -> str:
 
 
 def _indented(text: str, width: int) -> list[str]:
-    import textwrap
-
     return textwrap.wrap(text, max(40, width), initial_indent="      ", subsequent_indent="      ")
 
 
@@ -261,8 +270,22 @@ def _document(
     }
 
 
-def _finding_lines(paper: Paper, found: Sequence[Finding], paint: Paint, indented: Indented) -> Iterator[str]:
-    """A paper's verdicts: a line a result, with what was printed where they differ."""
+def _printed_beside(finding: Finding, colour: bool, width: int) -> Iterator[str]:
+    """A paper's result as it is printed beside what is computed; nothing where nothing can be computed."""
+    marks = partial(_paint, kind=DIFFERENT, colour=colour)
+    heads = ("print", "computed")
+    if finding.produced:
+        yield from beside(finding.result.printed, finding.produced, width, heads=heads, columns=False, paint=marks)
+
+
+def _finding_lines(
+    paper: Paper,
+    found: Sequence[Finding],
+    paint: Paint,
+    indented: Indented,
+    beside_it: Callable[[Finding], Iterable[str]] | None = None,
+) -> Iterator[str]:
+    """A paper's verdicts: a line a result, with what was printed where they differ, or beside every one."""
     yield paper.title
     for finding in found:
         result = finding.result
@@ -274,7 +297,9 @@ def _finding_lines(paper: Paper, found: Sequence[Finding], paint: Paint, indente
         if finding.kind == CORRECTED:
             rows = ", ".join(f"{row.id} ({row.kind})" for row in result.rows)
             yield from indented(f"the print corrected by {rows}")
-        if finding.kind in (EXPLAINED, DIFFERENT):
+        if beside_it is not None:
+            yield from beside_it(finding)
+        elif finding.kind in (EXPLAINED, DIFFERENT):
             yield from _finding_differences(finding, indented)
     yield ""
 

@@ -1,0 +1,111 @@
+"""``reproduce --show``: print beside result, in two columns or one below the other, differences marked."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from modern.cli.shared.beside import beside, by_column, by_words
+from modern.edition.chapter6 import prints
+from modern.edition.published import PAPERS, findings
+from tests.support.commands import call
+
+
+def test_two_columns_mark_each_character() -> None:
+    assert list(beside(["A=1.25", "B", "C"], ["A=1.35", "B"], 60)) == [
+        "      = the same; | different, ^ where",
+        "            print    result",
+        "         1  A=1.25 | A=1.35",
+        "                ^        ^",
+        "         2  B      = B",
+        "         3  C      |",
+        "            ^        ^",
+    ]
+
+
+def test_a_narrow_terminal_has_one_below_the_other() -> None:
+    assert list(beside(["A=1.25", "B"], ["A=1.35", "B"], 26)) == [
+        "      = the same; |",
+        "      different, ^ where",
+        "     1 | print  A=1.25",
+        "         result A=1.35",
+        "                    ^",
+        "     2 =        B",
+    ]
+
+
+def test_a_line_that_stands_elsewhere_is_not_marked_as_wrong() -> None:
+    found = list(beside(["N=2", "ONE", "TWO"], ["N=2", "TWO", "ONE"], 60))
+    assert found[0].strip() == "= the same; ~ stands at another place"
+    assert not any("^" in line for line in found)
+    # One that stands there twice and here once is.
+    assert any("^" in line for line in beside(["ONE", "TWO", "TWO"], ["TWO", "ONE", "ONE"], 60))
+
+
+def test_cards_are_compared_column_by_column_and_print_word_by_word() -> None:
+    assert by_column("  .5", " .5") == (" ^^^", " ^^^")
+    assert by_words("9 1 2 C", "9 1 2 0") == ("      ^", "      ^")
+    assert by_words("2 3 4 1 1", "2 1 1") == ("  ^ ^", "")
+    (line,) = [line for line in beside(["1\t2"], ["1 2"], 60, columns=False) if line.startswith("         1")]
+    assert " = " in line
+
+
+TEXT = st.lists(st.text("ABC .1", max_size=40).map(str.rstrip), max_size=6)
+
+
+@given(TEXT, TEXT, st.integers(50, 140), st.booleans())
+def test_nothing_is_lost_and_no_line_is_too_long(one: list[str], other: list[str], width: int, columns: bool) -> None:
+    found = list(beside(one, other, width, columns=columns))
+    assert all(len(line) <= width for line in found)
+    shown = "".join(found).replace(" ", "")
+    for line in (*one, *other):
+        words = line.replace(" ", "")
+        # A long line goes on below, behind the marks of its first piece.
+        assert all(word in shown for word in (words[:20], words[-10:]))
+    assert bool(found) == bool(one or other)
+
+
+@pytest.mark.parametrize("width", [60, 100, 170])
+@pytest.mark.parametrize("example", [1, 4, 5])
+def test_every_card_of_an_example_is_shown(
+    example: int, width: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("COLUMNS", str(width))
+    code, out, err = call(capsys, "reproduce", str(example), "--show")
+    assert (code, err) == (0, "")
+    lines = out.splitlines()
+    assert max(map(len, lines)) <= width
+    for printed in prints(example):
+        for card in printed.lines:
+            if width == 170 and card.strip():
+                assert any(re.match(rf" +\d+  {re.escape(card)} +[=~|]", line) for line in lines), card
+            elif width == 100 and card.strip():
+                assert any(card.rstrip() in line for line in lines), card
+    # What came out exactly has no mark; what the listing chooses otherwise has.
+    exact, listed = out.split("program 1 as listed")
+    assert "^" not in exact
+    assert "^" in listed
+
+
+def test_every_result_of_a_paper_that_is_computed_is_shown(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("COLUMNS", "200")
+    (paper,) = (paper for paper in PAPERS if paper.name == "appel-will")
+    code, out, _ = call(capsys, "reproduce", "appel-will", "--show")
+    assert code == 0
+    for finding in findings(paper):
+        assert finding.result.place in out
+        for line in finding.produced:
+            assert line.strip().expandtabs(2) in out
+
+
+def test_a_document_on_standard_output_is_alone(capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, err = call(capsys, "reproduce", "1", "--show", "--json", "-")
+    assert code == 0
+    assert json.loads(out)["reproduced"] is True
+    assert "CONVEX HULL" in err
