@@ -112,6 +112,8 @@ def read_line(source: str, number: int, line: str, unit: str = "card") -> Card:
 
 def refuse_strange(source: str, number: int, line: str, unit: str = "card") -> None:
     """Raise CardError for the first character that is not in the card code."""
+    if CHARACTERS.issuperset(line):
+        return
     for column, char in enumerate(line, 1):
         if char not in CHARACTERS:
             kind = LowerCaseError if char.upper() in CHARACTERS else CardError

@@ -206,14 +206,17 @@ class _Translation:
             self._dimension(body)
             return
         index = len(self.lines)
-        self.lines.append(Line(statement.label, statement.place, _words(statement), index=index))
+        line = Line(statement.label, statement.place, _words(statement), index=index)
+        self.lines.append(line)
         if statement.label:
             self.targets.setdefault(statement.label, len(self.emitter.code))
         self.emitter.temporaries = 0
         self.emitter.modes.clear()
         self.emitter.count(index, True, "statement")
         self._body(body, statement, index)
-        self.lines[index] = replace(self.lines[index], effect=_EFFECTS.get(self.emitter.code[-1].operation, ""))
+        effect = _EFFECTS.get(self.emitter.code[-1].operation)
+        if effect:
+            self.lines[index] = replace(line, effect=effect)
 
     def _body(self, body: tree.Body, statement: tree.Statement, index: int) -> None:
         emitter = self.emitter

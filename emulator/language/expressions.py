@@ -63,6 +63,8 @@ class Emitter:
     subscripts: dict[Subscript, int] = field(default_factory=dict)
     arrays: dict[str, tuple[int, ...]] = field(default_factory=dict)
     counters: list[Counter] = field(default_factory=list)
+    elements: dict[tuple[str, str], Operand] = field(default_factory=dict)
+    """Elements by array and the name that is all of their subscript: most are used many times."""
     temporaries: int = 0
     modes: dict[int, bool] = field(default_factory=dict)
     """Of expressions of the present statement, by identity: fixed point or not."""
@@ -100,6 +102,16 @@ class Emitter:
             return Operand(self.allocator.place("variable", reference.name).first)
         if not reference.arguments:
             raise Refused(reference.place, f"the array {reference.name} needs a subscript here")
+        (first, *others) = reference.arguments
+        key = (reference.name, first.name) if isinstance(first, Reference) and not (first.arguments or others) else None
+        if key is None:
+            return self._element(reference, shape)
+        if key not in self.elements:
+            self.elements[key] = self._element(reference, shape)
+        return self.elements[key]
+
+    def _element(self, reference: Reference, shape: tuple[int, ...]) -> Operand:
+        """The operand of an array's element.  Raises Refused."""
         if len(reference.arguments) != len(shape):
             raise Refused(
                 reference.place,

@@ -7,7 +7,7 @@ FORTRAN II-D with its Monitor (C26-5774) and of GOTRAN (C26-5594); FORTRAN IV as
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 
@@ -169,20 +169,32 @@ def advice(name: str, library: Sequence[str]) -> str:
     return f"{known}; is {close[0]} meant?" if close else known
 
 
-_NODES = (
-    *(tree.Power, tree.Product, tree.Sum),
-    *(tree.Assignment, tree.ComputedGoTo, tree.If, tree.Do, tree.InputOutput, tree.Loop),
-)
+_PARTS: dict[type[object], tuple[str, ...]] = {
+    node: tuple(name for name in node.__slots__ if name != "place")
+    for node in (
+        *(tree.Power, tree.Product, tree.Sum, tree.Reference),
+        *(tree.Assignment, tree.ComputedGoTo, tree.If, tree.Do, tree.InputOutput, tree.Loop),
+    )
+}
+"""The nodes that hold names, and their parts."""
 
 
-def references(node: object) -> Iterator[tree.Reference]:
-    """Every name in a statement or a part of one, but for those a DIMENSION gives."""
+def references(node: object) -> list[tree.Reference]:
+    """Every name in a statement or a part of one, but for those a DIMENSION gives, in order."""
+    found: list[tree.Reference] = []
+    _collect(node, found)
+    return found
+
+
+def _collect(node: object, found: list[tree.Reference]) -> None:
     if isinstance(node, tuple):
         for part in node:
-            yield from references(part)
-    elif isinstance(node, tree.Reference):
-        yield node
-        yield from references(node.arguments)
-    elif isinstance(node, _NODES):
-        for slot in node.__slots__:
-            yield from references(getattr(node, slot))
+            _collect(part, found)
+        return
+    parts = _PARTS.get(type(node))
+    if parts is None:
+        return
+    if isinstance(node, tree.Reference):
+        found.append(node)
+    for name in parts:
+        _collect(getattr(node, name), found)

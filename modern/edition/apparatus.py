@@ -15,6 +15,7 @@ import tomllib
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import date
+from functools import lru_cache
 from importlib.resources.abc import Traversable
 from typing import Any, Literal
 
@@ -24,6 +25,8 @@ PAGE_MARK = "## page "
 LAST_COLUMN = 72
 _OURS = ("lacuna", "examples", "epsilon", "translation", "corrected")
 _LIKENESS = ("sibling",)
+_KEPT = 16
+"""A page in work is kept before every sixteenth row."""
 _ADDS = ("lost", "lost-sign", "slip")
 """Kinds that put in what the witness has not."""
 _CAUSES = ("ocr", "typist", "author", "editor", "undecidable")
@@ -137,6 +140,10 @@ class Text:
     rows: tuple[Row, ...]
     layers: tuple[str, ...]
     default: tuple[str, ...]
+    pages: dict[tuple[str, ...], tuple[tuple[Row, ...], dict[int, _Page]]] = field(
+        default_factory=dict, init=False, compare=False, repr=False
+    )
+    """By layers: their rows in order, and the page before some of them; builds that differ later have it in common."""
 
     def row(self, row_id: str) -> Row:
         for row in self.rows:
@@ -187,8 +194,12 @@ def load(folder: Traversable, name: str) -> Text:
     return Text(head["id"], head["title"], lines, rows, layers, tuple(head["default"]))
 
 
-def build(text: Text, layers: Iterable[str] | None = None, without: Collection[str] = ()) -> tuple[Line, ...]:
+def build(
+    text: Text, layers: Iterable[str] | None = None, without: Collection[str] = (), instead: Row | None = None
+) -> tuple[Line, ...]:
     """Witness plus the rows of ``layers`` (the text's default layers if None), leaving out rows ``without``.
+
+    ``instead`` stands in the place of the text's row of its id.
 
     Layers apply in the text's own order whatever order they are asked for in, so that a later layer may
     change what an earlier one established.  Raises ApparatusError for an unknown layer and for a row whose
@@ -198,23 +209,27 @@ def build(text: Text, layers: Iterable[str] | None = None, without: Collection[s
     unknown = wanted.difference(text.layers)
     if unknown:
         raise ApparatusError(f"{text.id} has no layer {', '.join(sorted(unknown))}; it has {', '.join(text.layers)}")
-    page = _Page(text.witness)
-    for layer in text.layers:
-        if layer not in wanted:
-            continue
-        for row in text.rows:
-            if row.layer == layer and row.id not in without:
-                page.apply(row)
+    order = tuple(layer for layer in text.layers if layer in wanted)
+    rows, kept = text.pages.setdefault(order, (tuple(r for layer in order for r in text.rows if r.layer == layer), {}))
+    left_out = {*without, instead.id} if instead else without
+    changed = next((n for n, row in enumerate(rows) if row.id in left_out), len(rows))
+    done = max((number for number in kept if number <= changed), default=0)
+    page = kept[done].copy() if kept else _Page({line.id: line for line in text.witness})
+    for number, row in enumerate(rows[done:], done):
+        if number <= changed and number % _KEPT == 0 and number not in kept:
+            kept[number] = page.copy()
+        if instead and row.id == instead.id:
+            row = instead
+        if row.id not in without:
+            page.apply(row)
     return tuple(line for line in page.lines() if line.text.strip())
 
 
-def lost_with(text: Text, row_id: str) -> frozenset[str]:
-    """The row and those that cannot stand without it: they change a card it inserted, or a fragment it supplied."""
-    return built_without(text, row_id)[0]
-
-
 def built_without(text: Text, row_id: str) -> tuple[frozenset[str], tuple[Line, ...]]:
-    """:func:`lost_with`, and the text of all layers without those rows."""
+    """A row with those that cannot stand without it, and the text of all layers without them.
+
+    Such rows change a card it inserted, or a fragment it supplied.
+    """
     lost = {row_id}
     while True:
         try:
@@ -236,9 +251,11 @@ class RowMisfit(ApparatusError):
 class _Page:
     """A text in work: its lines by id, and their order."""
 
-    def __init__(self, witness: Iterable[Line]) -> None:
-        self._at = {line.id: line for line in witness}
-        self._order = list(self._at)
+    def __init__(self, at: dict[str, Line], order: Iterable[str] = ()) -> None:
+        self._at, self._order = at, list(order or at)
+
+    def copy(self) -> _Page:
+        return _Page(dict(self._at), self._order)
 
     def lines(self) -> Iterator[Line]:
         return (self._at[name] for name in self._order)
@@ -285,6 +302,7 @@ class _Page:
         return inserted + len(texts)
 
 
+@lru_cache(4096)
 def on_form(text: str) -> str:
     """A statement in the columns of the coding form (C26-5619 p. 12); a comment keeps its own."""
     if text.startswith("C  "):

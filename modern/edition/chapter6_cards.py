@@ -68,6 +68,8 @@ class Chapter:
     """Each line's place in the print."""
     read: dict[tuple[str, ...], tuple[Card, ...]] = field(default_factory=dict, compare=False)
     """Cards already read, by device file and lines; a chapter and what is made of it share them."""
+    last: dict[str, Chapter] = field(default_factory=dict, compare=False)
+    """The chapter without a row, for the row asked for last: more than one check of a row asks for it."""
 
 
 def load_chapter(layers: Iterable[str] | None = None, without: Collection[str] = ()) -> Chapter:
@@ -87,8 +89,11 @@ def rebuilt(text: Text, layout: Layout, layers: Iterable[str] | None = None, wit
 
 def without_row(chapter: Chapter, row_id: str) -> Chapter:
     """The chapter without a row and those that cannot stand without it, in all layers."""
-    gone, lines = built_without(chapter.text, row_id)
-    return _chapter(chapter.text, lines, chapter.layout, chapter.text.layers, gone, chapter.read)
+    if row_id not in chapter.last:
+        gone, lines = built_without(chapter.text, row_id)
+        chapter.last.clear()
+        chapter.last[row_id] = _chapter(chapter.text, lines, chapter.layout, chapter.text.layers, gone, chapter.read)
+    return chapter.last[row_id]
 
 
 def _chapter(

@@ -12,7 +12,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import replace
 from functools import cache
 from itertools import repeat
 from multiprocessing import get_context
@@ -89,8 +88,7 @@ def chapter4_faults(text: Text, row: Row) -> tuple[str, ...]:
     if not holds(row, build(text)):
         return (f"row {row.id}: its ground does not hold",)
     for step in steps(row) or ():
-        rows = tuple(without_step(row, step) if one.id == row.id else one for one in text.rows)
-        if holds(row, build(replace(text, rows=rows))):
+        if holds(row, build(text, instead=without_step(row, step))):
             return (f"row {row.id}: {step.pair.lemma!r} for {step.pair.witness!r} is not needed",)
     if holds(row, build(text, None, {row.id})):
         return (f"row {row.id}: its ground holds without it",)
@@ -164,23 +162,29 @@ def check_everything(rows: list[Row], transcripts: bool, whole: str = "", worker
     document's.
     """
     places = places_of_pairs(texts())
-    if transcripts:
-        yield from check_sources(whole)
-    yield from check_decks()
     if workers == 1 or len(rows) < _MANY:
+        if transcripts:
+            yield from check_sources(whole)
+        yield from check_decks()
         yield from (check_listing(row, places) for row in rows)
         yield from check_transcripts(places) if transcripts else ()
         return
     pool = ProcessPoolExecutor(workers, get_context("spawn"), initializer=signal, initargs=(SIGINT, SIG_IGN))
     try:
-        # The transcripts take longest, and are begun first.
+        # The transcripts take longest, and are begun first; this process does its part while the others begin.
         others = pool.submit(_listed_transcripts, places) if transcripts else None
-        yield from pool.map(check_listing, rows, repeat(places), chunksize=4)
+        proofs = pool.map(check_listing, rows, repeat(places), chunksize=_CHUNK)
+        if transcripts:
+            yield from check_sources(whole)
+        yield from check_decks()
+        yield from proofs
         yield from others.result() if others else ()
     finally:
         pool.shutdown(cancel_futures=True)
 
 
+_CHUNK = 8
+"""Rows a process takes at a time: neighbours have a program in common."""
 _MANY = 20
 """Rows for which it pays to begin further processes."""
 

@@ -20,14 +20,14 @@ from functools import cache
 
 from emulator.errors import CompileError, EmulatorError
 from emulator.language.cards import Deck, deck_from_text
-from emulator.language.compiler import compile_deck, translate
+from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import Program
 from emulator.language.parser import parse
 from emulator.language.statements import sources
 from emulator.machine.endings import Ending
 from emulator.machine.result import LOOP_WINDOW, Options
 from modern.edition import chapter6, programs
-from modern.edition.apparatus import Row, lost_with
+from modern.edition.apparatus import Row, built_without
 from modern.edition.readings import Step, steps, without_step
 from modern.edition.reproduce import EXACT, State, reproduce
 from modern.thesis.job import run_hull
@@ -53,7 +53,7 @@ def check_decks() -> Iterator[Proof]:
     for entry in programs.BUILT_INS:
         built, committed = programs.built(entry.name), programs.committed(entry.name)
         same = built.text() == committed.text()
-        compiles = not any(not message.warning for message in translate(built)[1])
+        compiles = _compiles(entry.name, built, same)
         rows = sum(row.layer in entry.layers for row in programs.text(entry.text).rows)
         yield Proof(
             f"{entry.name}.f",
@@ -61,6 +61,14 @@ def check_decks() -> Iterator[Proof]:
             f"{len(built.cards)} cards {'are' if same else 'ARE NOT'} witness and {rows} rows"
             + ("" if compiles else ", and do NOT compile"),
         )
+
+
+def _compiles(name: str, built: Deck, same: bool) -> bool:
+    try:
+        # What every row is judged by is compiled once.
+        return bool(programs.program(name) if same else compile_deck(built))
+    except CompileError:
+        return False
 
 
 def check_row(row: Row) -> Proof:
@@ -103,23 +111,27 @@ def _without(row: Row, step: Step | None) -> Deck:
     """The deck without a row and those that cannot stand without it, or without one step of the row."""
     if step is None:
         return programs.built(_name(row), layers_for(row), _lost(row))
-    text = programs.text(row.text)
-    rows = tuple(without_step(row, step) if one.id == row.id else one for one in text.rows)
-    return programs.built(_name(row), layers_for(row), (), replace(text, rows=rows))
+    return programs.built(_name(row), layers_for(row), (), without_step(row, step))
 
 
 def _lost(row: Row) -> frozenset[str]:
-    return lost_with(programs.text(row.text), row.id)
+    return built_without(programs.text(row.text), row.id)[0]
 
 
 def _compiled(row: Row, step: Step | None) -> tuple[Program | None, str]:
     """The program without the row, or without a step of it; or why there is none."""
     try:
-        return compile_deck(_without(row, step)), ""
-    except CompileError as error:
-        return None, error.diagnostics[0].message
+        return _program(_without(row, step))
     except EmulatorError as error:
         return None, str(error)
+
+
+def _program(deck: Deck) -> tuple[Program | None, str]:
+    """A deck's program, or the compiler's first message where there is none.  Raises DeckError for an empty deck."""
+    try:
+        return compile_deck(deck), ""
+    except CompileError as error:
+        return None, error.diagnostics[0].message
 
 
 def _whole(row: Row) -> Program:
@@ -129,8 +141,9 @@ def _whole(row: Row) -> Program:
 
 def _parse(row: Row, step: Step | None) -> tuple[bool, str]:
     try:
-        wrong = [message for message in parse(_without(row, step)).diagnostics if not message.warning]
-        message = wrong[0].message if wrong else _compiled(row, step)[1]
+        deck = _without(row, step)
+        wrong = [message for message in parse(deck).diagnostics if not message.warning]
+        message = wrong[0].message if wrong else _program(deck)[1]
     except EmulatorError as error:
         message = str(error)
     if message:
@@ -151,20 +164,18 @@ def _print(row: Row, step: Step | None) -> tuple[bool, str]:
     name = _name(row)
     number = programs.built_in(name).number
     state: State = "listing" if name == "program1" else "examples"
-    seen = []
-    for example in row.ground.get("examples", ()):
-        with_row = _printed(example, state, number)
-        program, message = _compiled(row, step)
-        if program is None:
-            return False, f"without it the deck does not compile: {message}"
-        without_row = _exact(example, state, number, {name: program})
+    examples = row.ground.get("examples", ())
+    if not examples:
+        return False, "names no example"
+    program, message = _compiled(row, step)
+    if program is None:
+        return False, f"without it the deck does not compile: {message}"
+    for example in examples:
+        with_row, without_row = _printed(example, state, number), _exact(example, state, number, {name: program})
         if not with_row or without_row:
             words = ["exact" if exact else "not exact" for exact in (with_row, without_row)]
             return False, f"example {example}, program {number}: {words[0]} with it, {words[1]} without"
-        seen.append(str(example))
-    if not seen:
-        return False, "names no example"
-    return True, f"example {', '.join(seen)} is exact with it, not without"
+    return True, f"example {', '.join(map(str, examples))} is exact with it, not without"
 
 
 @cache

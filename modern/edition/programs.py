@@ -110,15 +110,15 @@ def committed(name: str) -> Deck:
     return deck_from_text(f"{name}.f", sources().joinpath(f"{name}.f").read_text(encoding="ascii"))
 
 
-def built(name: str, layers: Sequence[str] = (), without: Collection[str] = (), instead: Text | None = None) -> Deck:
+def built(name: str, layers: Sequence[str] = (), without: Collection[str] = (), instead: Row | None = None) -> Deck:
     """A built-in program built anew from witness and apparatus.
 
-    ``layers`` are added to its own, the rows ``without`` left out; ``instead`` is a text to take for its own.  Raises
-    ApparatusError where that does not build, CardError where the result is no deck (a reading the OCR left, with a row
-    switched off).
+    ``layers`` are added to its own, the rows ``without`` left out; ``instead`` stands in the place of the row of its
+    id.  Raises ApparatusError where that does not build, CardError where the result is no deck (a reading the OCR left,
+    with a row switched off).
     """
     entry = built_in(name)
-    lines = build(instead or text(entry.text), (*entry.layers, *layers), without)
+    lines = build(text(entry.text), (*entry.layers, *layers), without, instead)
     return deck_from_lines(f"{name}.f", (line.text for line in lines))
 
 

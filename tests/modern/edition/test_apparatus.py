@@ -11,7 +11,7 @@ import pytest
 from emulator.errors import DeckError
 from emulator.language.cards import deck_from_lines
 from modern.edition import chapter6, grounds, programs
-from modern.edition.apparatus import ApparatusError, Change, Row, build, load
+from modern.edition.apparatus import ApparatusError, Change, Row, build, built_without, load
 from modern.edition.grounds import check_decks, check_row
 
 ROWS = [row for name in programs.TEXTS for row in programs.text(name).rows]
@@ -160,6 +160,26 @@ def test_check_of_decks_covers_all_four() -> None:
         assert finding.words.startswith(f"{cards} cards are witness and ")
 
 
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("END", "cards are witness and "),
+        ("STOP", "cards ARE NOT witness and "),
+        ("GO TO", "cards ARE NOT witness and "),
+    ],
+)
+def test_a_deck_that_is_not_its_build_fails(line: str, words: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The last card, END, made another; one that does not parse is told of besides."""
+    cards = [card.text for card in programs.committed("program1").cards]
+    other = deck_from_lines("program1.f", [*cards[:-1], "      " + line])
+    monkeypatch.setattr(programs, "built", lambda name: other if name == "program1" else programs.committed(name))
+    found, *others = check_decks()
+    assert found.holds == (line == "END")
+    assert words in found.words
+    assert found.words.endswith(", and do NOT compile") == (line == "GO TO")
+    assert all(proof.holds for proof in others[:2])
+
+
 def test_a_layer_without_rows_is_refused() -> None:
     with pytest.raises(DeckError, match=r"^program2 has no rows of a layer 'examples'; it has "):
         programs.deck("program2", ("examples",))
@@ -211,6 +231,21 @@ def test_a_change_replaces_its_fragment_and_keeps_blanks_where_nothing_else_is_s
     text = load(text_of(tmp_path, ("r", "a", '{ line = "1", witness = " l", lemma = " 1" }')), "t")
     changed = replace(text, rows=(replace(text.rows[0], changes=(Change("5", "gamma", "X = 1"),)),))
     assert build(changed)[-1].text == "  12 X = 1"
+
+
+@pytest.mark.parametrize("name", programs.TEXTS)
+def test_builds_that_have_rows_in_common_are_what_each_is_alone(name: str) -> None:
+    """Twice in two orders, each time beside one from a text nothing was built of before."""
+    text = replace(programs.text(name))
+    for row in (*text.rows[::3], *text.rows[::-4]):
+        gone, lines = built_without(text, row.id)
+        alone = replace(text, rows=tuple(one for one in text.rows if one.id not in gone))
+        assert lines == build(alone, text.layers)
+        other = replace(row, changes=row.changes[:-1])
+        others = replace(
+            text, rows=tuple(other if one.id == row.id else one for one in text.rows if one.id not in gone - {row.id})
+        )
+        assert build(text, text.layers, gone - {row.id}, other) == build(others, text.layers)
 
 
 def test_readings_for_a_table(tmp_path: Path) -> None:

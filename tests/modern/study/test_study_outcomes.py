@@ -90,7 +90,7 @@ def test_every_outcome(points: Sequence[Sequence[int | str]] | str, route: Route
 
 
 def test_the_plane_table_is_full() -> None:
-    """KNOWN-FAULTS 5: with the mend of the last pair the 47 points of the ground come to its end."""
+    """KNOWN-FAULTS 5: with the mend of the last pair the 28 points of the ground come to its end."""
     found = answer("table", Programs("one mend", rows=("P3-025",)))
     assert (found.outcome, found.detail) == ("table full", "program3 MM(99)")
     assert answer("table", MENDED).outcome == "right"
