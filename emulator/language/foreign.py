@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
 
 from emulator.language import tree
 
@@ -165,6 +164,8 @@ def advice(name: str, library: Sequence[str]) -> str:
     instead = _BY_NAME.get(name) or _BY_NAME.get(bare)
     if instead:
         return f"{known}; for {name} write {instead}"
+    from difflib import get_close_matches
+
     close = get_close_matches(bare, library, 1, 0.7) if len(bare) > 2 else []
     return f"{known}; is {close[0]} meant?" if close else known
 

@@ -65,7 +65,8 @@ def main(args: argparse.Namespace) -> int:
         for line in _example_lines(example, found, colour, width, args.show):
             print(line, file=out)
     results = Judgements(reports)
-    theorems = [judge(row, results) for row in statements_of(THESIS) if row.part in named]
+    parts = {name for name in THEOREMS if name in named}
+    theorems = [judge(row, results) for row in statements_of(THESIS) if row.part in parts] if parts else []
     for line in theorem_lines(theorems, paint, indented):
         print(line, file=out)
     found_results = list(_papers(named, colour, width, out, args.show))
@@ -98,7 +99,7 @@ def _meant(text: str) -> list[str]:
         return [*map(str, EXAMPLES), *THEOREMS]
     if text in _names():
         return [text]
-    if text not in DOCUMENTS and not any(row.id == text for name in DOCUMENTS for row in statements_of(name)):
+    if text not in DOCUMENTS and not any(row.id == text for row in _rows([text])):
         raise UsageError(
             f"reproduce: there is no example {text!r}; chapter 6 has 1 to {EXAMPLES[-1]}, "
             f"chapter 4 {', '.join(THEOREMS)}, the documents are {', '.join(DOCUMENTS)}; statements have ids"
@@ -108,7 +109,8 @@ def _meant(text: str) -> list[str]:
 
 def _rows(asked: Sequence[str]) -> list[Statement]:
     """The statements of the documents asked for, and those asked for by id; all where nothing is asked for."""
-    rows = [row for name in DOCUMENTS for row in statements_of(name)]
+    documents = {text.partition(".")[0] for text in asked} if asked else set(DOCUMENTS)
+    rows = [row for name in DOCUMENTS if name in documents for row in statements_of(name)]
     return [row for row in rows if row.document in asked or row.id in asked] if asked else rows
 
 

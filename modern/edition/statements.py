@@ -129,6 +129,8 @@ def _row(document: str, raw: Mapping[str, Any]) -> Statement:
     missing = {"id", "page", "kind", "words", "says", "verdict"} - raw.keys()
     if strange or missing:
         raise StatementError(f"{where}: {', '.join(sorted(strange or missing))} {'unknown' if strange else 'missing'}")
+    if not raw["id"].startswith(f"{document}."):
+        raise StatementError(f"{where}: an id is the document's name, a point and what tells it from its others")
     if raw["verdict"] not in get_args(Verdict):
         raise StatementError(f"{where}: a verdict is one of {', '.join(VERDICTS)}")
     if len(raw["words"].split()) > MOST_WORDS:

@@ -189,6 +189,7 @@ def test_a_wrong_verdict_is_seen(capsys: pytest.CaptureFixture[str], monkeypatch
     ("text", "words"),
     [
         (GOOD.replace("kind", "sort"), "sort unknown"),
+        (GOOD.replace("x.1", "y.1"), "x: y.1: an id is the document's name, a point and "),
         (GOOD.replace('page = "1"\n', ""), "page missing"),
         (GOOD.replace('"holds"', '"perhaps"'), "a verdict is one of holds"),
         (GOOD.replace("some words", "one two three four five six seven eight nine"), "at most 8 words"),
@@ -209,7 +210,8 @@ def test_claims_and_results_that_do_not_exist_are_named() -> None:
         claimed("chapter3_claims.nothing")
     with pytest.raises(StatementError, match=r"no claim nothing\.at_all"):
         claimed("nothing.at_all")
-    (row,) = read_rows("thesis", GOOD.replace('claim = "chapter3_claims.few_points"', 'result = "example 9"'))
+    text = GOOD.replace("x.1", "thesis.1").replace('claim = "chapter3_claims.few_points"', 'result = "example 9"')
+    (row,) = read_rows("thesis", text)
     with pytest.raises(StatementError, match="there is no result"):
         judge(row, Judgements())
 
