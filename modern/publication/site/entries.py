@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from functools import cache
 
+from modern.edition import programs
 from modern.edition.apparatus import Row
 from modern.edition.grounds import check_row
 from modern.edition.sources import place
@@ -21,6 +22,8 @@ LAYERS = {
     "epsilon": "chapter 7: values within e count as zero",
     "translation": "chapter 7: the origin moved to C",
     "corrected": "our corrections of faults",
+    "typist": "slips of the retyping, on the page",
+    "author": "slips of the author, or not to be told from them",
 }
 """Every layer in few words."""
 GROUNDS = {
@@ -29,6 +32,11 @@ GROUNDS = {
     "deck": "without it a named deck gives other cards",
     "forced": "with it the card is a sibling card with names exchanged",
     "cosmetic": "the object code is the same with and without it",
+    "width": "without it a field has not its 14 characters, or is no number",
+    "arithmetic": "with it the printed plane vanishes at its printed vertices",
+    "sibling": "another place prints the same words",
+    "order": "the column in the witness, a numbering, or the page's number",
+    "result": "with it a published result comes out that is computed",
 }
 CAUSES = {
     "ocr": "the OCR",
@@ -71,10 +79,10 @@ def _ground(row: Row) -> str:
     kind = str(row.ground.get("kind", ""))
     if not kind:
         return "none: a conjecture"
-    seen = _seen(row)
     named = ", ".join(_named(row))
-    words = f"{escape(kind)}: {escape(GROUNDS[kind])}"
-    return words + (f" ({escape(named)})" if named else "") + f". {text('span', 'Seen: ' + seen, cls='seen')}"
+    told = GROUNDS[kind] if row.text in programs.TEXTS or kind != "deck" else "the number stands in a deck too"
+    words = f"{escape(kind)}: {escape(told)}" + (f" ({escape(named)})" if named else "") + "."
+    return words + (f" {text('span', 'Seen: ' + _seen(row), cls='seen')}" if row.text in programs.TEXTS else "")
 
 
 def _named(row: Row) -> Iterator[str]:
@@ -85,8 +93,6 @@ def _named(row: Row) -> Iterator[str]:
 
 @cache
 def _checked(name: str, row_id: str) -> str:
-    from modern.edition import programs
-
     proof = check_row(programs.text(name).row(row_id))
     return proof.words.partition(": ")[2] or proof.words
 

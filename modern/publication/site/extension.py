@@ -115,21 +115,42 @@ def _role(kind: str) -> Any:
 _LINK = re.compile(r"\[([^\]\[]*)\]\(([\w./-]+)(#[\w-]*)?\)")
 
 
+_WHOLE = re.compile(r"^:::\{whole\} (\S+)\n:::$", re.MULTILINE)
+
+
 def _project_files(app: Sphinx, docname: str, source: list[str]) -> None:
-    """Links to files that are no pages, in a page's text: to the page that holds the file, or the words alone."""
+    """Put in files that a page holds whole (``:::{whole} fortran_src/README.md``), and make links to files.
+
+    A link to a file that is no page goes to the page that holds it, or becomes its words.
+    """
+    root = Path(app.srcdir).parent
+
+    def whole(match: re.Match[str]) -> str:
+        file = match[1]
+        return linked(app, (root / file).read_text(encoding="utf-8"), docname, posixpath.dirname(file))
+
+    source[0] = linked(app, source[0], docname, posixpath.join("docs", posixpath.dirname(docname)))
+    source[0] = _WHOLE.sub(whole, source[0])
+
+
+def linked(app: Sphinx, words: str, docname: str, origin: str) -> str:
+    """Text of a file of the folder ``origin`` with its links made those of the page ``docname``."""
     root, folder = Path(app.srcdir).parent, posixpath.dirname(docname)
 
     def page(match: re.Match[str]) -> str:
         words, target, part = match.groups()
-        file = posixpath.normpath(posixpath.join("docs", folder, target))
+        file = posixpath.normpath(posixpath.join(origin, target))
         holder = HOLDERS.get(file, "")
         if holder in app.env.found_docs:
             return f"[{words}]({posixpath.relpath(holder, folder or '.')}.md{part or ''})"
         inside = posixpath.relpath(file, "docs")
-        is_page = inside.removesuffix(".md") in app.env.found_docs
-        return words if not is_page and (root / file).exists() and not _copied(file) else match[0]
+        if inside.removesuffix(".md") in app.env.found_docs:
+            return f"[{words}]({posixpath.relpath(inside, folder or '.')}{part or ''})"
+        if (root / file).exists():
+            return match[0] if _copied(file) and origin.startswith("docs") else words
+        return match[0]
 
-    source[0] = _LINK.sub(page, source[0])
+    return _LINK.sub(page, words)
 
 
 def _copied(file: str) -> bool:

@@ -1,0 +1,160 @@
+"""A printed example: input, construction, hull, time, and the print beside the witness and the run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from emulator.machine.endings import Ending
+from modern.drawing.draw import draw_svg
+from modern.drawing.punched import cards_svg
+from modern.drawing.stages import frames, strip
+from modern.edition.chapter6 import EXAMPLES, input_deck
+from modern.edition.programs import program
+from modern.edition.reproduce import EXACT, ORDER, Report
+from modern.formats.points import parse_input
+from modern.geometry.hull import Hull
+from modern.geometry.mesh import ExportError
+from modern.port import convex_hull
+from modern.publication.examples import TITLES, Part, Shown, Source, example
+from modern.publication.measured import runs
+from modern.publication.site.entries import entry
+from modern.publication.site.made import Made, Target, one_of
+from modern.publication.site.made import Part as Section
+from modern.publication.site.markup import definitions, element, escape, link, marked, table, text
+from modern.publication.site.pictures import figure
+
+VERDICTS = {EXACT: "to the character", ORDER: "the same hull, in another order"}
+STATES = {"examples": "program 1 in the state of the examples", "listing": "program 1 as listed"}
+
+
+def make(argument: str) -> Made:
+    """The example of that number."""
+    number = int(one_of(argument, map(str, EXAMPLES)))
+    parts = example(number)
+    made = [Section("Verdict", "verdict", html=_verdicts(parts)), *_pictures(number)]
+    targets = []
+    for part in parts:
+        title = f"Program {part.program}: {TITLES[part.device]}"
+        made.append(Section(title, part.id, html=_part(part)))
+        targets.append(Target(part.id, f"example {number} {part.id}", f"example {number}, {title.lower()}"))
+        targets += [Target(row.id, row.id, row.id, f"rows of the apparatus; {row.id}") for row in part.rows]
+    made.append(Section("What the 1620 took", "time", html=_time(number)))
+    return Made(tuple(made), tuple(targets))
+
+
+def _verdicts(parts: tuple[Part, ...]) -> str:
+    rows = [
+        (
+            link_to(part, f"program {part.program}, {TITLES[part.device]}"),
+            *(_verdict(report) for report in sorted(part.reports, key=lambda r: r.state)),
+        )
+        for part in parts
+        if part.reports
+    ]
+    head = ("what is printed or stated", *(STATES[state] for state in sorted(STATES)))
+    words = "hull1620 reproduce N --show".replace("N", str(parts[0].example))
+    again = element("p", f"To do it again: {text('code', words)}.")
+    return table(head, rows, aria_label="Verdicts") + again
+
+
+def link_to(part: Part, words: str) -> str:
+    """A link to a device of the same page."""
+    return text("a", words, href=f"#{part.id}")
+
+
+def _verdict(report: Report) -> str:
+    verdict = report.verdict
+    words = VERDICTS.get(verdict.kind, verdict.kind)
+    counts = f"{verdict.cards} cards, {verdict.numbers} numbers" if report.device == "punch" else "stated, not printed"
+    ending = report.ending
+    trouble = "" if isinstance(ending, Ending) and ending.normal else "; the run did not end"
+    return f"{text('strong', words + trouble)} {text('span', f'({counts})', cls='quiet')}"
+
+
+def _pictures(number: int) -> Iterator[Section]:
+    deck = input_deck(number)
+    points = parse_input(deck.text(), f"example{number}").points
+    hull = convex_hull(points, "exact", history=True, on_refusal="return")
+    drawn = figure(draw_svg(hull, width=520), f"hull{number}", "The hull by exact numbers: what the programs punch.")
+    punched = element(
+        "details",
+        text("summary", f"The {len(deck.cards)} cards of the input deck, as punched")
+        + figure(cards_svg(deck, title=f"the input deck of example {number}"), f"deck{number}", "", "punched"),
+    )
+    yield Section("The hull", "hull", html=drawn + punched)
+    built = _construction(hull, number)
+    if built:
+        yield Section("The construction", "construction", html=built)
+
+
+def _construction(hull: Hull, number: int) -> str:
+    try:
+        stages = frames(hull)
+    except ExportError:
+        return ""
+    steps = "".join(text("li", "; ".join(words for words in stage.words if words)) for stage in stages)
+    caption = "H1 to Hf, each with the vertex that was added. The same direction of view throughout."
+    return figure(strip(stages), f"stages{number}", caption) + element("ol", steps, cls="steps")
+
+
+def _part(part: Part) -> str:
+    head = ("line of the witness", "corrected print", *(("run",) if part.reports else ()))
+    words = "The thesis states these lines and prints none." if part.stated else ""
+    cards = "".join(_card(card, part) for card in part.cards)
+    top = element("div", "".join(text("span", name) for name in head), cls="print-head", aria_hidden="true")
+    html = (text("p", words) if words else "") + element(
+        "div", top + element("ol", cards, cls="print-cards", role="list"), cls=f"print columns-{len(head)}"
+    )
+    if part.rows:
+        rows = "".join(entry(row, (), f"example{part.example}") for row in part.rows)
+        opened = text("summary", f"{len(part.rows)} rows of the apparatus made this print of the witness")
+        html += element("details", opened + rows, cls="rows-of-print")
+    return html
+
+
+def _card(card: Shown, part: Part) -> str:
+    again = (
+        text("span", f"line {', '.join(card.again)} goes on", cls="quiet") if card.again and not card.sources else ""
+    )
+    left = "".join(map(_source, card.sources)) or again or text("span", "blank" if not card.print else "", cls="quiet")
+    cells = [element("div", text("span", "Witness ", cls="sr") + left, cls="witness")]
+    cells.append(element("div", text("span", "Print ", cls="sr") + text("code", card.print or " "), cls="corrected"))
+    if card.run is not None:
+        sign = "=" if not card.differs else "\u2260"
+        said = "the same" if not card.differs else "differs"
+        mark = element("span", sign, cls="sign", title=said, role="img", aria_label=said)
+        code = element("code", marked(card.run or " ", card.differs, "ins"))
+        cells.append(element("div", text("span", "Run ", cls="sr") + mark + code, cls="run"))
+    return element("li", "".join(cells), id=f"{part.id}-{card.number}")
+
+
+def _source(source: Source) -> str:
+    where = f"p. {source.page}, line {source.line} of the witness, {source.at} of the thesis's OCR text"
+    number = text("span", source.line, cls="line", title=where)
+    words = source.text.replace("\t", "  ")
+    spans = source.changed if "\t" not in source.text else ()
+    return element("span", number + element("code", marked(words, spans, "del")), cls="piece")
+
+
+def _time(number: int) -> str:
+    rows = []
+    for name in ("program1_examples", "program2", "program3"):
+        for run in runs(name):
+            if run.example == number:
+                rows.append(
+                    (
+                        link(name, "", program(name).source),
+                        f"{run.statements:,}",
+                        _seconds(run.seconds),
+                        _seconds(run.total),
+                    )
+                )
+    head = ("program", "statements", "processor", "with reader, punch and typewriter, one after the other")
+    note = definitions(
+        (("how sure", "within ten per cent where IBM gives times; the rest are estimates"),), cls="facts"
+    )
+    return table(head, rows, aria_label="Time on a 1620 Model 1") + note
+
+
+def _seconds(seconds: float) -> str:
+    return escape(f"{seconds:.1f} s" if seconds < 120 else f"{seconds / 60:.1f} min")
