@@ -35,7 +35,7 @@ def make(argument: str) -> Made:
     claim = claim_of(read_hull(punched), hull, "cards")
     answer = parted("\n".join(" ".join(point) for point in points))
     drawn = figure(
-        draw_against(hull, claim, width=520, show=Show("lines")),
+        draw_against(hull, claim, width=520, show=Show("input")),
         "wrong",
         "The true hull, a tetrahedron. In red what the programs missed, in blue what they put in.",
         "drawing coloured",
