@@ -12,12 +12,13 @@ from difflib import SequenceMatcher
 from functools import cache
 
 from modern.edition.apparatus import Row
-from modern.edition.chapter6 import Device, DeviceLayout
+from modern.edition.chapter6 import EXAMPLES, Device, DeviceLayout
 from modern.edition.chapter6_cards import Card, Chapter, cards, load_chapter, printed_lines
 from modern.edition.reproduce import Report, reproduce
 from modern.edition.segments import Place, Segments, reading, segments
 from modern.edition.sources import sources
 
+_ALL = ("ocr", "typist")
 Spans = tuple[tuple[int, int], ...]
 TITLES = {"deck": "cards read", "punch": "cards punched", "typewriter": "lines typed"}
 
@@ -73,11 +74,38 @@ def example(number: int) -> tuple[Part, ...]:
     """Every device of an example of chapter 6, in the order of the print."""
     chapter = load_chapter()
     reports = tuple(reproduce((number,)))
-    lines = {line.id: line for line in segments(chapter.text)}
+    lines = _origins(segments(chapter.text))
     return tuple(_part(chapter, entry, lines, reports) for entry in chapter.layout.devices if entry.example == number)
 
 
-def _part(chapter: Chapter, entry: DeviceLayout, lines: dict[str, Segments], reports: Sequence[Report]) -> Part:
+@cache
+def homes() -> dict[str, tuple[int, str]]:
+    """Each row that an example shows, and the first example and device that do: a row may touch two."""
+    found: dict[str, tuple[int, str]] = {}
+    for number in EXAMPLES:
+        for part in example(number):
+            for row in part.rows:
+                found.setdefault(row.id, (number, part.id))
+    return found
+
+
+def rest() -> tuple[Row, ...]:
+    """Rows of chapter 6 that touch no card: what they drop stands between the cards, as a page's number does."""
+    return tuple(row for row in load_chapter().text.rows if row.id not in homes())
+
+
+def _origins(lines: Sequence[Segments]) -> dict[str, list[Segments]]:
+    """Each line of the corrected print with the line of the witness it is of, and the lines that rows made of that."""
+    found: dict[str, list[Segments]] = {}
+    family: list[Segments] = []
+    for line in lines:
+        family = [*family, line] if line.inserted else [line]
+        for one in family:
+            found[one.id] = family
+    return found
+
+
+def _part(chapter: Chapter, entry: DeviceLayout, lines: dict[str, list[Segments]], reports: Sequence[Report]) -> Part:
     mine = tuple(r for r in reports if (r.program, r.device) == (entry.program, entry.device))
     produced = next((r.produced for r in mine if r.state == "examples"), None)
     found: list[Shown] = []
@@ -95,9 +123,9 @@ def _part(chapter: Chapter, entry: DeviceLayout, lines: dict[str, Segments], rep
     )
 
 
-def _shown(number: int, card: Card | None, run: str | None, lines: dict[str, Segments], seen: set[str]) -> Shown:
-    named = tuple(dict.fromkeys(token.line for token in card.tokens)) if card else ()
-    new = tuple(name for name in named if name not in seen and name.isdigit())
+def _shown(number: int, card: Card | None, run: str | None, lines: dict[str, list[Segments]], seen: set[str]) -> Shown:
+    named = tuple(dict.fromkeys(lines[token.line][0].id for token in card.tokens)) if card else ()
+    new = tuple(name for name in named if name not in seen)
     seen |= set(new)
     image = card.image if card else ""
     return Shown(
@@ -110,13 +138,15 @@ def _shown(number: int, card: Card | None, run: str | None, lines: dict[str, Seg
     )
 
 
-def _source(line: Segments) -> Source:
-    """A line of the witness, with the stretches that a row reads otherwise."""
+def _source(family: Sequence[Segments]) -> Source:
+    """A line of the witness, with the stretches that a row reads otherwise; a break of the line is none."""
+    line, *after = family
     words, spans = "", []
     for piece in line.pieces:
         if isinstance(piece, Place):
             old = reading((piece,), ())
-            new = reading((piece,), (piece.row.layer,))
+            rest = [one for one in after if one.id.startswith(f"{piece.row.id}.")]
+            new = " ".join(reading(pieces, _ALL) for pieces in ((piece,), *(one.pieces for one in rest)))
             spans += [(len(words) + first, len(words) + last) for first, last in differing(new, old) if old]
             words += old
         else:

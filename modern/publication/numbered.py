@@ -16,19 +16,24 @@ _ROW = re.compile(r"\b(?:P[123]|C[46]|AW|NN|KS)-\d+\b")
 
 @dataclass(frozen=True, slots=True)
 class Item:
-    """An item: its number, its title, what follows it as Markdown, the heading it stands under, decks and rows."""
+    """An item: its number, its title, what follows it as Markdown, the heading it stands under, decks and rows.
+
+    ``before`` is what stands between that heading and the item, where it is the first below it.
+    """
 
     number: int
     title: str
     text: str
     under: str
+    before: str
     decks: tuple[str, ...]
     rows: tuple[str, ...]
 
 
 @cache
-def numbered(file: str) -> tuple[str, tuple[Item, ...]]:
-    """What stands before the items of a Markdown file of the project, without its title, and the items.
+def numbered(file: str) -> tuple[str, tuple[Item, ...], tuple[str, str]]:
+    """What stands before the items of a Markdown file of the project, without its title; the items; heading and text
+    of what stands after them.
 
     An item begins a line with its number; its title is what is in bold there, or its first words up to a point.  Raises
     ValueError where the numbers are not 1, 2, 3 and so on.
@@ -40,18 +45,19 @@ def numbered(file: str) -> tuple[str, tuple[Item, ...]]:
         opening = source[: places[0]]
     head = re.findall(r"^## (.+)$", opening, re.MULTILINE)
     opening = re.sub(r"^## .+\n?", "", opening, flags=re.MULTILINE)
-    heads = head[-1] if head else ""
+    heads, closing, before = head[-1] if head else "", ("", ""), ""
     for at, end in zip(places, [*places[1:], len(source)], strict=True):
         text = source[at:end]
-        later = re.findall(r"^## (.+)$", text, re.MULTILINE)
-        text = re.sub(r"^## .+\n?", "", text, flags=re.MULTILINE)
+        text, _, later = text.partition("\n## ")
+        if end == len(source) and later:
+            closing = (later.partition("\n")[0], later.partition("\n")[2].strip())
         number, title, rest = _parted(text)
         decks, rows = tuple(dict.fromkeys(_DECK.findall(text))), tuple(dict.fromkeys(_ROW.findall(text)))
-        items.append(Item(number, title, rest, heads, decks, rows))
-        heads = later[-1] if later else heads
+        items.append(Item(number, title, rest, heads, before, decks, rows))
+        heads, before = (later.partition("\n")[0], later.partition("\n")[2].strip()) if later else (heads, "")
     if [item.number for item in items] != list(range(1, len(items) + 1)):
         raise ValueError(f"{file}: the items are not numbered one by one")
-    return opening.strip(), tuple(items)
+    return opening.strip(), tuple(items), closing
 
 
 def _parted(text: str) -> tuple[int, str, str]:

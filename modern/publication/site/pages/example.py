@@ -15,7 +15,7 @@ from modern.formats.points import parse_input
 from modern.geometry.hull import Hull
 from modern.geometry.mesh import ExportError
 from modern.port import convex_hull
-from modern.publication.examples import TITLES, Part, Shown, Source, example
+from modern.publication.examples import TITLES, Part, Shown, Source, example, homes, rest
 from modern.publication.measured import runs
 from modern.publication.site.entries import entry
 from modern.publication.site.made import Made, Target, one_of
@@ -28,16 +28,21 @@ STATES = {"examples": "program 1 in the state of the examples", "listing": "prog
 
 
 def make(argument: str) -> Made:
-    """The example of that number."""
-    number = int(one_of(argument, map(str, EXAMPLES)))
+    """The example of that number; ``rest``: the rows of the chapter that are of no example."""
+    if one_of(argument, ("rest", *map(str, EXAMPLES))) == "rest":
+        html = "".join(entry(row, (), "examples") for row in rest())
+        targets = tuple(Target(row.id, row.id, row.id, f"rows of the apparatus; {row.id}") for row in rest())
+        return Made((Section("Rows of no card", "rest", html=html),), targets)
+    number = int(argument)
     parts = example(number)
     made = [Section("Verdict", "verdict", html=_verdicts(parts)), *_pictures(number)]
-    targets = []
+    targets: list[Target] = []
     for part in parts:
         title = f"Program {part.program}: {TITLES[part.device]}"
         made.append(Section(title, part.id, html=_part(part)))
         targets.append(Target(part.id, f"example {number} {part.id}", f"example {number}, {title.lower()}"))
-        targets += [Target(row.id, row.id, row.id, f"rows of the apparatus; {row.id}") for row in part.rows]
+        mine = (row.id for row in part.rows if homes()[row.id] == (number, part.id))
+        targets += [Target(row, row, row, f"rows of the apparatus; {row}") for row in mine]
     made.append(Section("What the 1620 took", "time", html=_time(number)))
     return Made(tuple(made), tuple(targets))
 
@@ -106,7 +111,11 @@ def _part(part: Part) -> str:
         "div", top + element("ol", cards, cls="print-cards", role="list"), cls=f"print columns-{len(head)}"
     )
     if part.rows:
-        rows = "".join(entry(row, (), f"example{part.example}") for row in part.rows)
+        here = [row for row in part.rows if homes()[row.id] == (part.example, part.id)]
+        rows = "".join(entry(row, (), f"example{part.example}") for row in here)
+        others = [link(f"example{homes()[r.id][0]}", r.id, r.id) for r in part.rows if r not in here]
+        if others:
+            rows += element("p", f"And {', '.join(others)}, which touch other cards too.")
         opened = text("summary", f"{len(part.rows)} rows of the apparatus made this print of the witness")
         html += element("details", opened + rows, cls="rows-of-print")
     return html

@@ -16,17 +16,20 @@ FILES = {"fortran_src/KNOWN-FAULTS.md": "fault", "fortran_src/OPEN-QUESTIONS.md"
 def make(argument: str) -> Made:
     """The items of one of the two files."""
     kind = FILES[one_of(argument, FILES)]
-    opening, items = numbered(argument)
+    opening, items, closing = numbered(argument)
     parts, targets, under = [Part(text=opening)], [], ""
     for item in items:
         if item.under != under:
             under = item.under
-            parts.append(Part(under, "of-" + "".join(c if c.isalnum() else "-" for c in under.lower())))
+            slug = "of-" + "".join(c if c.isalnum() else "-" for c in under.lower())
+            parts.append(Part(under, slug, text=_FILE.sub(r"\1", item.before)))
         level = 2 if under else 1
         parts.append(Part(f"{item.number}. {item.title}", f"{kind}-{item.number}", level, text=_linked(item)))
         for deck in item.decks:
             parts.append(Part(html=_deck(deck)))
         targets.append(Target(f"{kind}-{item.number}", f"{kind} {item.number}", f"{kind} {item.number}"))
+    if closing[0]:
+        parts.append(Part(closing[0], "after", text=_FILE.sub(r"\1", closing[1])))
     return Made(tuple(parts), tuple(targets))
 
 

@@ -1,0 +1,156 @@
+"""What the pages of the examples, statements, faults and questions are made of."""
+
+from __future__ import annotations
+
+import re
+from xml.etree.ElementTree import fromstring
+
+import pytest
+
+from modern.edition.chapter6 import EXAMPLES, prints
+from modern.edition.chapter6_cards import load_chapter
+from modern.edition.sources import read
+from modern.edition.statements import DOCUMENTS, statements_of
+from modern.publication.examples import differing, example, homes, rest
+from modern.publication.numbered import numbered
+from modern.publication.site.made import make
+from modern.publication.site.pages.numbered import FILES
+from tests.support.paths import ROOT
+
+
+def parsed(html: str) -> None:
+    """That HTML of ours nests as XML does: void elements closed, entities known."""
+    closed = re.sub(r"<(input|br|img|hr|col)\b([^>]*)>", r"<\1\2/>", html).replace("&nbsp;", " ")
+    closed = re.sub(r" (checked|hidden|disabled|open)(?=[ />])", r' \1=""', closed)
+    fromstring(f"<x>{closed}</x>")
+
+
+@pytest.mark.parametrize("number", EXAMPLES)
+def test_every_card_of_the_print_and_of_the_run_is_shown(number: int) -> None:
+    shown = {(part.program, part.device): [card.print for card in part.cards] for part in example(number)}
+    for printed in prints(number):
+        assert shown[printed.program, printed.device] == list(printed.lines)
+    for part in example(number):
+        if part.reports:
+            produced = next(r.produced for r in part.reports if r.state == "examples")
+            assert [card.run for card in part.cards] == list(produced)
+            assert all(not card.differs for card in part.cards), "every example comes out to the character"
+        else:
+            assert part.device == "deck"
+
+
+@pytest.mark.parametrize("number", EXAMPLES)
+def test_every_line_of_the_witness_is_shown_once_with_its_words(number: int) -> None:
+    witness = {line.id: line.text for line in load_chapter().text.witness}
+    for part in example(number):
+        seen = [source for card in part.cards for source in card.sources]
+        assert len({source.line for source in seen}) == len(seen)
+        assert all(source.text == witness[source.line] for source in seen)
+        assert bool(seen) != part.stated
+
+
+def test_what_a_row_changes_is_marked_and_nothing_else() -> None:
+    card = example(1)[0].cards[1]
+    (source,) = card.sources
+    assert source.text == "- +.20000000E+01-.50000000E+01+.20000000E+02"
+    assert source.changed == ((0, 2),)
+    assert source.at == 1823
+
+
+def test_a_row_of_chapter_6_stands_in_its_example() -> None:
+    touched = {row.id for number in EXAMPLES for part in example(number) for row in part.rows}
+    assert set(homes()) == touched
+    others = {row.id for row in rest()}
+    assert {row.id for row in load_chapter().text.rows} == touched | others
+    assert others == {"C6-009", "C6-084", "C6-277"}, "what stands between the cards"
+    assert {target.id for target in make("example", "rest").targets} == others
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "spans"),
+    [
+        ("abc", "abc", ()),
+        ("abc", "axc", ((1, 2),)),
+        ("abc", "abcd", ((3, 4),)),
+        ("abcd", "abc", ((0, 3),)),
+        ("", "x", ((0, 1),)),
+    ],
+)
+def test_differing(one: str, other: str, spans: tuple[tuple[int, int], ...]) -> None:
+    assert differing(one, other) == spans
+
+
+@pytest.mark.parametrize("number", EXAMPLES)
+def test_the_page_of_an_example_nests(number: int) -> None:
+    made = make("example", str(number))
+    for part in made.parts:
+        parsed(part.html)
+    ids = re.findall(r'\bid="([^"]+)"', "".join(part.html for part in made.parts))
+    assert len(ids) == len(set(ids))
+    assert {target.id for target in made.targets} <= {*ids, *(part.id for part in made.parts)}
+
+
+@pytest.mark.parametrize("name", DOCUMENTS)
+def test_every_statement_stands_on_its_page_with_its_verdict(name: str) -> None:
+    made = make("statements", name)
+    html = "".join(part.html for part in made.parts)
+    parsed(html)
+    for row in statements_of(name):
+        assert html.count(f'id="{row.id}"') == 1
+    assert html.count("<strong>does not hold</strong>") == sum(
+        r.verdict == "does not hold" for r in statements_of(name)
+    )
+    assert {target.id for target in made.targets} == {row.id for row in statements_of(name)}
+
+
+@pytest.mark.parametrize("file", FILES)
+def test_items_are_counted_and_whole(file: str) -> None:
+    opening, items, closing = numbered(file)
+    source = read(file)
+    assert opening
+    assert len(items) == len(re.findall(r"^\d+\. ", source, re.MULTILINE))
+    for item in items:
+        assert item.title
+        assert "\n" not in item.title
+    words = re.sub(
+        r"\W+", " ", " ".join([f"{i.title} {i.text} {i.before} {i.under}" for i in items]) + " ".join(closing)
+    )
+    for word in re.findall(r"\w{7,}", source.split("\n1. ", 1)[1]):
+        assert word in words or word in opening, word
+    assert len(make("numbered", file).targets) == len(items)
+
+
+def test_a_fault_shows_its_deck() -> None:
+    _, items, _ = numbered("fortran_src/KNOWN-FAULTS.md")
+    assert items[0].decks == ("lastpair",)
+    html = "".join(part.html for part in make("numbered", "fortran_src/KNOWN-FAULTS.md").parts)
+    for item in items:
+        for deck in item.decks:
+            assert read(f"fortran_src/grounds/{deck}.deck").splitlines()[1] in html
+
+
+def test_items_out_of_order_are_refused(tmp_path: object, monkeypatch: pytest.MonkeyPatch) -> None:
+    from pathlib import Path
+
+    from modern.publication import numbered as module
+
+    place = Path(str(tmp_path))
+    (place / "x.md").write_text("# T\n\nWords.\n\n1. **One.** a\n3. **Three.** b\n")
+    monkeypatch.setattr(module, "ROOT", place)
+    with pytest.raises(ValueError, match=r"x\.md: the items are not numbered one by one"):
+        numbered("x.md")
+
+
+def test_the_set_that_goes_wrong_names_its_card() -> None:
+    made = make("wrong", "")
+    html = "".join(part.html for part in made.parts)
+    parsed(html)
+    assert "missed: point 1, point 2, point 3" in html
+    assert re.search(r'href="@/program3\.html#\S+">in program 3 at', html)
+
+
+def test_every_document_and_witness_is_a_source() -> None:
+    html = "".join(part.html for part in make("sources", "").parts)
+    parsed(html)
+    for name in ("program1.txt", "chapter6/witness.txt", "butler-1963"):
+        assert name in html or (ROOT / name).exists()
