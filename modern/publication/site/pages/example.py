@@ -31,8 +31,7 @@ def make(argument: str) -> Made:
     """The example of that number; ``rest``: the rows of the chapter that are of no example."""
     if one_of(argument, ("rest", *map(str, EXAMPLES))) == "rest":
         html = "".join(entry(row, (), "examples") for row in rest())
-        targets = tuple(Target(row.id, row.id, row.id, f"rows of the apparatus; {row.id}") for row in rest())
-        return Made((Section("Rows of no card", "rest", html=html),), targets)
+        return Made((Section("Rows of no card", "rest", html=html),), tuple(_target(row.id) for row in rest()))
     number = int(argument)
     parts = example(number)
     made = [Section("Verdict", "verdict", html=_verdicts(parts)), *_pictures(number)]
@@ -42,9 +41,13 @@ def make(argument: str) -> Made:
         made.append(Section(title, part.id, html=_part(part)))
         targets.append(Target(part.id, f"example {number} {part.id}", f"example {number}, {title.lower()}"))
         mine = (row.id for row in part.rows if homes()[row.id] == (number, part.id))
-        targets += [Target(row, row, row, f"rows of the apparatus; {row}") for row in mine]
+        targets += [_target(row) for row in mine]
     made.append(Section("What the 1620 took", "time", html=_time(number)))
     return Made(tuple(made), tuple(targets))
+
+
+def _target(row: str) -> Target:
+    return Target(row, row, row, f"rows of the apparatus; {row}")
 
 
 def _verdicts(parts: tuple[Part, ...]) -> str:
