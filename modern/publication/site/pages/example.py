@@ -62,7 +62,7 @@ def _verdicts(parts: tuple[Part, ...]) -> str:
     head = ("what is printed or stated", *(STATES[state] for state in sorted(STATES)))
     words = "hull1620 reproduce N --show".replace("N", str(parts[0].example))
     again = element("p", f"To do it again: {text('code', words)}.")
-    return table(head, rows, aria_label="Verdicts") + again
+    return table(head, rows, name="Verdicts") + again
 
 
 def link_to(part: Part, words: str) -> str:
@@ -165,7 +165,7 @@ def _time(number: int) -> str:
     note = definitions(
         (("how sure", "within ten per cent where IBM gives times; the rest are estimates"),), cls="facts"
     )
-    return table(head, rows, aria_label="Time on a 1620 Model 1") + note
+    return table(head, rows, name="Time on a 1620 Model 1") + note
 
 
 def _seconds(seconds: float) -> str:

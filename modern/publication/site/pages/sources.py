@@ -41,7 +41,7 @@ def _document(document: Document) -> str:
         if excerpt.document == document.id
     ]
     head = ("witness", "its lines, and where they begin in the text", "SHA-256, its beginning")
-    excerpts = table(head, rows, aria_label=f"Witnesses taken from {document.id}") if rows else ""
+    excerpts = table(head, rows, name=f"Witnesses taken from {document.id}") if rows else ""
     pages = "".join(text("li", f"{page}: lines {first} to {last}") for page, first, last in document.pages)
     where = element("details", text("summary", "pages and lines") + element("ul", pages))
     return facts + excerpts + where
