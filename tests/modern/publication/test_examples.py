@@ -14,7 +14,7 @@ from modern.edition.statements import DOCUMENTS, statements_of
 from modern.publication.examples import differing, example, homes, rest
 from modern.publication.numbered import numbered
 from modern.publication.site.made import make
-from modern.publication.site.pages.numbered import FILES
+from modern.publication.site.pages.texts import FILES
 from tests.support.paths import ROOT
 
 
@@ -117,13 +117,13 @@ def test_items_are_counted_and_whole(file: str) -> None:
     )
     for word in re.findall(r"\w{7,}", source.split("\n1. ", 1)[1]):
         assert word in words or word in opening, word
-    assert len(make("numbered", file).targets) == len(items)
+    assert len(make("texts", file).targets) == len(items)
 
 
 def test_a_fault_shows_its_deck() -> None:
     _, items, _ = numbered("fortran_src/KNOWN-FAULTS.md")
     assert items[0].decks == ("lastpair",)
-    html = "".join(part.html for part in make("numbered", "fortran_src/KNOWN-FAULTS.md").parts)
+    html = "".join(part.html for part in make("texts", "fortran_src/KNOWN-FAULTS.md").parts)
     for item in items:
         for deck in item.decks:
             assert read(f"fortran_src/grounds/{deck}.deck").splitlines()[1] in html
@@ -150,7 +150,7 @@ def test_the_set_that_goes_wrong_names_its_card() -> None:
 
 
 def test_every_document_and_witness_is_a_source() -> None:
-    html = "".join(part.html for part in make("sources", "").parts)
+    html = "".join(part.html for part in make("texts", "sources").parts)
     parsed(html)
     for name in ("program1.txt", "chapter6/witness.txt", "butler-1963"):
         assert name in html or (ROOT / name).exists()

@@ -1,0 +1,90 @@
+"""What the edition says of its texts: faults with the decks that show them, open questions, and the sources."""
+
+from __future__ import annotations
+
+import re
+
+from modern.edition.sources import Document, read, sources
+from modern.publication.numbered import Item, numbered
+from modern.publication.site.made import Made, Part, Target, one_of
+from modern.publication.site.markup import definitions, element, escape, table, text
+
+_FILE = re.compile(r"\[([^\]]+)\]\((?!https?:)[^)]+\)")
+FILES = {"fortran_src/KNOWN-FAULTS.md": "fault", "fortran_src/OPEN-QUESTIONS.md": "question"}
+
+
+def make(argument: str) -> Made:
+    """The items of one of the two files, a section each, or ``sources``: every document and its witnesses."""
+    if one_of(argument, ("sources", *FILES)) == "sources":
+        documents = sources().documents
+        parts = [Part(document.title, document.id, html=_document(document)) for document in documents]
+        return Made(tuple(parts), tuple(Target(document.id, document.id, document.title) for document in documents))
+    kind = FILES[argument]
+    opening, items, closing = numbered(argument)
+    parts, under = [Part(text=opening)], ""
+    targets: list[Target] = []
+    for item in items:
+        if item.under != under:
+            under = item.under
+            slug = "of-" + "".join(c if c.isalnum() else "-" for c in under.lower())
+            parts.append(Part(under, slug, text=_FILE.sub(r"\1", item.before)))
+        level = 2 if under else 1
+        parts.append(Part(f"{item.number}. {item.title}", f"{kind}-{item.number}", level, text=_linked(item)))
+        for deck in item.decks:
+            parts.append(Part(html=_deck(deck)))
+        targets.append(Target(f"{kind}-{item.number}", f"{kind} {item.number}", f"{kind} {item.number}"))
+    if closing[0]:
+        parts.append(Part(closing[0], "after", text=_FILE.sub(r"\1", closing[1])))
+    return Made(tuple(parts), tuple(targets))
+
+
+def _linked(item: Item) -> str:
+    """The text with the rows of the listings made references; links to files have been resolved for no page here."""
+    words = item.text
+    for name in item.rows:
+        if name.startswith("P"):
+            words = words.replace(name, f"{{row}}`{name}`", 1)
+    return _FILE.sub(r"\1", words)
+
+
+def _deck(name: str) -> str:
+    cards = read(f"fortran_src/grounds/{name}.deck").rstrip("\n")
+    count = cards.count("\n") + 1
+    shown = element("pre", escape(cards), tabindex="0", aria_label=f"the deck {name}")
+    run = element("p", "run: " + text("code", f"hull1620 hull fortran_src/grounds/{name}.deck"))
+    return element(
+        "details", text("summary", f"the deck grounds/{name}: {count} cards") + shown + run, cls="deck-shown"
+    )
+
+
+def _document(document: Document) -> str:
+    facts = definitions(
+        (
+            ("author", escape(document.author)),
+            ("kind", escape(document.kind)),
+            ("year", escape(document.year)),
+            ("institution", escape(document.institution)),
+            ("volume, pages", escape(", ".join(filter(None, (document.volume, document.extent))))),
+            ("DOI", escape(document.doi)),
+            ("what is held", escape(document.held)),
+            ("its length", f"{document.bytes:,} bytes, {document.characters:,} characters, {document.lines:,} lines"),
+            ("its SHA-256", text("code", document.sha256)),
+            ("rights", escape(document.rights)),
+        ),
+        cls="facts",
+    )
+    rows = [
+        (
+            text("code", excerpt.file),
+            "; ".join(f"{s.first}-{s.last} from {s.at}{' (in part)' if s.part else ''}" for s in excerpt.stretches[:6])
+            + (f"; {len(excerpt.stretches) - 6} more" if len(excerpt.stretches) > 6 else ""),
+            text("code", excerpt.sha256[:16]),
+        )
+        for excerpt in sources().excerpts
+        if excerpt.document == document.id
+    ]
+    head = ("witness", "its lines, and where they begin in the text", "SHA-256, its beginning")
+    excerpts = table(head, rows, name=f"Witnesses taken from {document.id}") if rows else ""
+    pages = "".join(text("li", f"{page}: lines {first} to {last}") for page, first, last in document.pages)
+    where = element("details", text("summary", "pages and lines") + element("ul", pages))
+    return facts + excerpts + where
