@@ -106,7 +106,7 @@ def figures(docs: Path) -> dict[str, str]:
     Raises FigureError where a table has not the cell that a figure is, FileError where there is no table.
     """
     return {
-        **{name: read_cell(docs, cell) for name, cell in CELLS.items()},
+        **{name: _written(read_cell(docs, cell)) for name, cell in CELLS.items()},
         **dict(_weight(docs)),
         **dict(_examples()),
         **dict(_papers()),
@@ -121,6 +121,11 @@ def read_cell(docs: Path, cell: Cell) -> str:
     if len(found) != 1 or cell.column not in found[0]:
         raise FigureError(f"{cell.table}: {len(found)} rows begin with {', '.join(cell.row)}; column {cell.column}")
     return found[0][cell.column]
+
+
+def _written(value: str) -> str:
+    """A number of five digits and more with commas, as the other figures have them."""
+    return f"{int(value):,}" if value.isdigit() and len(value) > 4 else value
 
 
 def _table(path: Path) -> list[dict[str, str]]:
@@ -184,5 +189,6 @@ def _listings() -> Iterator[tuple[str, str]]:
     for layer in ("ocr", "print", "lacuna", "examples", "epsilon", "translation", "corrected"):
         yield f"listings.rows-{layer}", str(layers[layer])
     yield "listings.faults", str(len(re.findall(r"^\d+\. \*\*", faults, re.MULTILINE)))
-    yield "listings.questions", str(len(re.findall(r"^\d+\. ", questions, re.MULTILINE)))
+    entries = re.split(r"^\d+\. ", questions, flags=re.MULTILINE)[1:]
+    yield "listings.questions", str(sum("ettled 20" not in entry for entry in entries))
     yield "listings.points", re.findall(r"DIMENSIONX\((\d+)\)", dimension)[0]

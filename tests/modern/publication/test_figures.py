@@ -46,6 +46,7 @@ def test_figures_are_those_of_other_reports(values: dict[str, str]) -> None:
     assert f"values from -e to +e count as zero; {values['listings.rows-epsilon']} rows" in readme
     assert values["statements.table"].splitlines()[-1].startswith(f"| all | {values['statements.all.count']} |")
     assert values["examples.run-exact"] == values["examples.run-results"]
+    assert (values["seventy.sets"], values["capacity.listed"]) == ("140,000", "98")
 
 
 def test_no_digit_of_a_result_is_typed_in_the_article() -> None:
