@@ -158,10 +158,7 @@ def _turned_at_one(one: SampledSet) -> Iterator[bool]:
 
 
 def _vertices_among_used(one: SampledSet) -> Iterator[bool]:
-    used = {k for stage in one.hull.history for k in stage.added}
-    struck = {k for stage in one.hull.history for k in stage.struck}
-    yield {*one.judge.vertices} <= used
-    yield set(range(len(one.points))) - used - struck <= {*one.judge.boundary}
+    yield {*one.judge.vertices} <= {k for stage in one.hull.history for k in stage.added}
 
 
 def _vertex_once(one: SampledSet) -> Iterator[bool]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import combinations
 
-from modern.edition.chapter3_claims import COUNT, both, plane_as_printed, points_of, triples
+from modern.edition.chapter3_claims import COUNT, both, lowest_terms, plane_as_printed, points_of, triples
 from modern.edition.sampled_sets import Grown, Point, SampledSet, sampled_sets, through, value
 from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, seen
 from modern.exact_hull import exact_hull
@@ -128,11 +128,15 @@ def three_parts(count: str = COUNT) -> Seen:
 
 
 def mean_is_inside(count: str = COUNT) -> Seen:
-    """Each equation of H_1 is negative at the mean of its points."""
+    """The judge's planes or lines of H_1 are the procedure's, and each is below zero at the mean of its points."""
     found = []
     for one in both(count):
         first = one.stages()[0]
-        found += [sum(value(plane, one.points[k]) for k in first.vertices) < 0 for plane in first.equations]
+        judge = exact_hull([one.points[k] for k in first.vertices])
+        x, y, z = (sum(one.points[k][axis] for k in first.vertices) for axis in range(3))
+        number = len(first.vertices)
+        found.append({lowest_terms(plane) for plane in first.equations} == {f.plane for f in judge.facets})
+        found += [dot(f.plane[:3], (x, y, z)) + number * f.plane[3] < 0 for f in judge.facets]
     return _all(found, "equations are below zero at C")
 
 
@@ -142,13 +146,16 @@ def outside_below_zero() -> Seen:
     return Seen(FAILS if x < 0 else HOLDS, f"x at the point is {x}: inside and outside of x = 0 by the same words")
 
 
-def left_over(count: str = COUNT) -> Seen:
-    """What is neither struck nor a vertex at the end is on the boundary."""
-    found = []
-    for one in both(count):
-        left = set(range(len(one.points))) - {k for stage in one.hull.history for k in (*stage.added, *stage.struck)}
-        found.append(left <= {*one.judge.boundary, *one.judge.vertices} and not left & {*one.judge.inside})
-    return _all(found, "sets")
+def left_over(dimension: str) -> Seen:
+    """A grid of a square, or of a cube: what is neither struck nor used at the end is on the boundary, and some is."""
+    sizes = (5, 5, 1) if dimension == "2" else (3, 3, 3)
+    points = [(x, y, z) for x in range(sizes[0]) for y in range(sizes[1]) for z in range(sizes[2])]
+    hull, judge = convex_hull(points, history=True), exact_hull(points)
+    used = {k for stage in hull.history for k in stage.added}
+    struck = {k for stage in hull.history for k in stage.struck}
+    left = set(range(len(points))) - used - struck
+    good = bool(left) and left <= {*judge.boundary} and struck == {*judge.inside} and {*judge.vertices} <= used
+    return seen(good, f"{len(left)} of {len(points)} points are left, all of them on the boundary and no vertices")
 
 
 def used_but_no_vertex() -> Seen:

@@ -230,7 +230,6 @@ def test_claims_and_results_that_do_not_exist_are_named() -> None:
         "chapter4_proofs.none_below_the_origin",
         "chapter3_steps.third_point",
         "chapter3_steps.mean_is_inside",
-        "chapter3_steps.left_over",
         "chapter3_steps.visible_planes counts",
         "chapter3_steps.visible_planes pairs",
         "chapter4_proofs.theorem_4_4",
