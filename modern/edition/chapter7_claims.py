@@ -149,6 +149,16 @@ def notation() -> Seen:
     )
 
 
+def inside_heading() -> Seen:
+    """Program 3 punches FORMAT 5, the heading of inside points, once: INSID is 1 before, 2 after."""
+    cards = [card.text.strip() for card in programs.deck("program3").cards]
+    place = next(k for k, card in enumerate(cards) if card.endswith("PUNCH 5"))
+    heading = next(card for card in cards if card.startswith("5 FORMAT"))
+    good = "INSIDE POINTS" in heading and cards[place + 1] == "INSID=2" and cards.index("INSID=1") < place
+    good &= cards[place - 1].endswith("GO TO (109,110), INSID") and cards[place].startswith("109")
+    return seen(good, f"{cards[place - 1]} / {cards[place]} / {cards[place + 1]}")
+
+
 def eight_digits() -> Seen:
     """A card's field has eight digits and no room for a ninth; a ninth digit of a product is dropped."""
     try:

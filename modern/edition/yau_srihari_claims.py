@@ -14,6 +14,7 @@ from modern.edition.chapter3_claims import points_of
 from modern.edition.sampled_sets import Point, sampled_sets, through, value
 from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, seen
 from modern.exact_hull import exact_hull
+from modern.geometry.vectors import dot, minus
 from modern.papers.yau_srihari import OctreeHull, Printed, octree_hull
 from modern.papers.yau_srihari.convexity import (
     convex_deficiency,
@@ -215,9 +216,13 @@ def extreme_points() -> Seen:
 
 
 def integer_normals() -> Seen:
-    """Normals of the faces."""
-    normals = [face.normal for face in (*_hull().lower.faces, *_hull().upper.faces)]
-    return seen(all(isinstance(n, int) for normal in normals for n in normal), f"{len(normals)} normals")
+    """Normals of the faces: whole numbers, at right angles to the face's sides, and not 0."""
+    good = []
+    for face in (*_hull().lower.faces, *_hull().upper.faces):
+        first, *others = face.vertices
+        good.append(any(face.normal) and all(type(n) is int for n in face.normal))
+        good += [dot(face.normal, minus(vertex, first)) == 0 for vertex in others]
+    return seen(bool(good) and all(good), f"{len(_hull().lower.faces) + len(_hull().upper.faces)} normals")
 
 
 def supporting_is_no_face() -> Seen:
