@@ -184,7 +184,7 @@ def _hidden_line(parser: ArgumentParser) -> None:
     parser.add_argument(
         "scene",
         metavar="SCENE",
-        help="a scene file .toml, a convex polyhedron .off, points to take the hull of, or cuboids, columns, house",
+        help="a scene file .toml, faces (OFF, OBJ, STL), points to take the hull of, or cuboids, columns, house",
     )
     parser.add_argument(
         "-o", "--output", metavar="FILE", help="SVG (.svg), or HPGL (.hpgl or .plt) (default: SVG to '-')"
@@ -193,6 +193,11 @@ def _hidden_line(parser: ArgumentParser) -> None:
     eye_argument(parser)
     parser.add_argument("--perspective", action="store_true", help="--eye is the observation point itself")
     parser.add_argument("--towards", metavar="X,Y,Z", help="in perspective: the point looked at (default: the middle)")
+    words = "in perspective: cut off what lies nearer to the eye than this (default: it is refused beside or behind it)"
+    parser.add_argument("--near", metavar="DISTANCE", help=words)
+    words = "of a file of faces: the hull of each connected component (default: each has to be convex)"
+    parser.add_argument("--hull", action="store_true", help=words)
+    coplanar_argument(parser)
     parser.add_argument("--hidden", action="store_true", help="draw hidden lines too, dashed")
     parser.add_argument("--tables", action="store_true", help="print contours, PL and LP tables with d, and indices")
     parser.add_argument(

@@ -15,33 +15,33 @@ from modern.geometry.hull import Hull
 def main(args: argparse.Namespace) -> int:
     """Read the points, find the hull, write the file."""
     form = args.format or _form(args.output)
-    hull = exact_hull_of(args.points, within=args.coplanar_within)
+    hull, notes = exact_hull_of(args.points, within=args.coplanar_within)
     if not hull.determined and form != "json":
         say([f"hull1620: {args.points}: {hull.status}"])
         return DIFFERS
     write_hull(hull, args.output, form)
+    say(f"note: {note}" for note in notes)
     return OK if hull.determined else DIFFERS
 
 
-def exact_hull_of(path: str, history: bool = False, within: str | None = None) -> Hull:
-    """The hull of a file's points in exact arithmetic, with its stages if asked; notes go to standard error.
+def exact_hull_of(path: str, history: bool = False, within: str | None = None) -> tuple[Hull, list[str]]:
+    """The hull of a file's points in exact arithmetic, with its stages if asked; and what the user should know of it.
 
     within: read faces as one whose vertices lie within this distance of a plane.
     """
     limit = None if within is None else distance(within)
     found = points_of(path)
-    say(f"note: {note}" for note in found.notes)
     # Imported here, so that a fault of the file is told without waiting.
     from modern.port import convex_hull
 
     hull = convex_hull(found.points, "exact", history=history, on_refusal="return")
+    notes = [*found.notes]
     for point, first in hull.duplicates:
-        say([f"note: {found.source}: {found.places[point]}: the point of {found.places[first]} again"])
-    if limit is None or not hull.determined:
-        return hull
-    reading, joined = read_coplanar(hull, limit, found.source)
-    say([f"note: {found.source}: {described(joined) if joined else FLAT}"])
-    return reading
+        notes.append(f"{found.source}: {found.places[point]}: the point of {found.places[first]} again")
+    if limit is not None and hull.determined:
+        hull, joined = read_coplanar(hull, limit, found.source)
+        notes.append(f"{found.source}: {described(joined) if joined else FLAT}")
+    return hull, notes
 
 
 def read_coplanar(hull: Hull, limit: Fraction, source: str) -> tuple[Hull, Joined | None]:

@@ -16,14 +16,16 @@ from modern.geometry.mesh import sides
 
 N = TypeVar("N", int, Fraction)
 
-Kind = Literal["inner", "contour", "outline", "back", "flat"]
+Kind = Literal["inner", "contour", "outline", "back", "flat", "joined"]
 """What an edge is: of two faces seen; of one seen; of none seen but one edge-on, behind the contour in the image; of
-two turned away; of two in one plane, which is no edge of the solid."""
+two turned away; of two in one plane, which is no edge of the solid; of two read as one, both seen or both turned away,
+which is an edge and is not drawn."""
 INNER: Final = "inner"
 CONTOUR: Final = "contour"
 OUTLINE: Final = "outline"
 BACK: Final = "back"
 FLAT: Final = "flat"
+JOINED: Final = "joined"
 
 
 @dataclass(frozen=True, slots=True)

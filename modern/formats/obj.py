@@ -1,14 +1,18 @@
 """OBJ, the Wavefront object file: polygons and decimal text, both kept.
 
 A polyhedron is written with its faces (``f``), a polygon with one, a segment as a line (``l``), a point as ``p``.
-Read are its vertices (``v``), x y z and whatever follows them: a weight, a colour.
+Read are its vertices (``v``), x y z and whatever follows them (a weight, a colour), and for a surface its faces; a
+vertex of a face is counted from 1, or back from the last one with a minus, and what follows it after a slash is passed
+over.
 """
 
 from __future__ import annotations
 
-from modern.formats.words import error, lines, point
+import re
+
+from modern.formats.words import FileMesh, Word, error, lines, point
 from modern.geometry.mesh import Mesh
-from modern.geometry.numbers import Point
+from modern.geometry.numbers import Point, shown
 
 KEYWORDS = frozenset(("v", "vn", "vt", "vp", "f", "l", "p", "o", "g", "s", "mtllib", "usemtl"))
 """Words that may begin the first line of an OBJ file."""
@@ -39,3 +43,33 @@ def parse(text: str, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
         points.append(point(source, line, words[1:4]))
         places.append(line)
     return tuple(points), tuple(places)
+
+
+def surface(text: str, source: str) -> FileMesh:
+    """The vertices and faces of an OBJ file.
+
+    Raises FileError, with line and column, for a vertex that is not three decimals and a face of vertices that are not
+    there.
+    """
+    points, places = parse(text, source)
+    faces = []
+    known = 0
+    for line, words in lines(text):
+        if words[0][0] == "v":
+            known += 1
+        elif words[0][0] == "f":
+            faces.append(tuple(_corner(source, line, word, known, len(points)) for word in words[1:]))
+            if not faces[-1]:
+                raise error(source, line, words[0], "a face has at least one vertex")
+    return FileMesh(source, points, places, tuple(faces))
+
+
+def _corner(source: str, line: int, word: Word, known: int, count: int) -> int:
+    """A vertex of a face by place; one counted back is counted from the ``known`` ones before the face."""
+    found = re.fullmatch(r"(-?)([0-9]{1,9})(?:/-?[0-9]*){0,2}", word[0])
+    if not found:
+        raise error(source, line, word, f"{shown(word[0])} is not a vertex of a face")
+    place = known - int(found[2]) if found[1] else int(found[2]) - 1
+    if not 0 <= place < (known if found[1] else count):
+        raise error(source, line, word, f"there is no vertex {shown(word[0])}; they count from 1 to {count}")
+    return place

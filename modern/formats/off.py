@@ -6,24 +6,12 @@ without a face.  Read is the plain ASCII form: one vertex a line, one face a lin
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from emulator.errors import FileError
 from emulator.files import read_text, source_name
-from modern.formats.words import Word, count, decimal, error, last_line, point, take
+from modern.formats.words import FileMesh, Word, count, decimal, error, last_line, point, take
 from modern.formats.words import lines as worded
 from modern.geometry.mesh import Mesh
 from modern.geometry.numbers import Point, shown
-
-
-@dataclass(frozen=True, slots=True)
-class OffMesh:
-    """An OFF file: its points as the text that stands there, the line of each, and faces by place from 0."""
-
-    source: str
-    points: tuple[Point, ...]
-    lines: tuple[int, ...]
-    faces: tuple[tuple[int, ...], ...]
 
 
 def write(mesh: Mesh, digits: int | None = None) -> str:
@@ -33,12 +21,12 @@ def write(mesh: Mesh, digits: int | None = None) -> str:
     return "".join(line + "\n" for line in lines)
 
 
-def read_off(path: str) -> OffMesh:
+def read_off(path: str) -> FileMesh:
     """The points and faces of an OFF file; see ``parse_off``.  Raises FileError with file, line and column."""
     return parse_off(read_text(path), source_name(path))
 
 
-def parse_off(text: str, source: str) -> OffMesh:
+def parse_off(text: str, source: str) -> FileMesh:
     """An OFF file from its text.  The heading OFF may be missing, and so may the count of edges.
 
     Colours after a face are passed over.  Raises FileError with line and column for everything else: other
@@ -71,7 +59,7 @@ def parse_off(text: str, source: str) -> OffMesh:
     more = next(lines, None)
     if more is not None:
         raise error(source, more[0], more[1][0], "the last face has been read, and nothing is due after it")
-    return OffMesh(source, tuple(points), tuple(places), tuple(polygons))
+    return FileMesh(source, tuple(points), tuple(places), tuple(polygons))
 
 
 def _face(source: str, line: int, words: list[Word], vertices: int) -> tuple[int, ...]:

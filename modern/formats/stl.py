@@ -4,7 +4,7 @@ A face is cut into triangles from its first vertex.  Corners are exact decimal t
 vertex; normals, which have no finite decimal, are cut to nine decimals.  A polygon becomes a sheet of triangles with
 one side; a segment and a point have no area and are refused.  Read are the corners of triangles, in text or binary,
 each point once, in order of appearance: a format that repeats every vertex in every triangle does not mean
-duplicates.
+duplicates; for a surface also which corners make a triangle.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import struct
 from fractions import Fraction
 
 from emulator.errors import FileError
-from modern.formats.words import error, lines, point
+from modern.formats.words import FileMesh, Word, error, lines, point
 from modern.geometry.mesh import ExportError, Mesh
 from modern.geometry.numbers import Point, coordinates, float_text
 from modern.geometry.vectors import Vector, cross, dot, minus
@@ -63,15 +63,24 @@ def parse_binary(data: bytes, source: str) -> tuple[tuple[Point, ...], tuple[int
 
     Raises FileError for a coordinate that is not finite.
     """
-    found: dict[Point, int] = {}
+    found = surface_binary(data, source)
+    return found.points, found.lines
+
+
+def surface_binary(data: bytes, source: str) -> FileMesh:
+    """The triangles of a binary STL file; see ``parse_binary``."""
+    places: dict[Point, int] = {}
+    first: list[int] = []
+    faces = []
     for number in range(1, (len(data) - _HEAD) // _TRIANGLE + 1):
         values = struct.unpack_from("<9f", data, _HEAD + _TRIANGLE * (number - 1) + 12)
         if not all(map(math.isfinite, values)):
             raise FileError(f"{source}: triangle {number}: a coordinate is not finite")
         texts = [float_text(value) for value in values]
-        for corner in range(0, 9, 3):
-            found.setdefault((texts[corner], texts[corner + 1], texts[corner + 2]), number)
-    return tuple(found), tuple(found.values())
+        corners = [places.setdefault((texts[k], texts[k + 1], texts[k + 2]), len(places)) for k in range(0, 9, 3)]
+        first += [number] * (len(places) - len(first))
+        faces.append(tuple(corners))
+    return FileMesh(source, tuple(places), tuple(first), tuple(faces))
 
 
 def parse(text: str, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
@@ -81,10 +90,36 @@ def parse(text: str, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
     """
     found: dict[Vector, tuple[Point, int]] = {}
     for line, words in lines(text, ""):
-        if words[0][0].lower() != "vertex":
-            continue
-        if len(words) != 4:
-            raise error(source, line, words[-1], f"a vertex is three numbers, x y z; here are {len(words) - 1}")
-        corner = point(source, line, words[1:])
-        found.setdefault(coordinates(corner), (corner, line))
+        if words[0][0].lower() == "vertex":
+            corner = _vertex(source, line, words)
+            found.setdefault(coordinates(corner), (corner, line))
     return tuple(corner for corner, _ in found.values()), tuple(line for _, line in found.values())
+
+
+def surface(text: str, source: str) -> FileMesh:
+    """The triangles of an STL file of text.
+
+    Raises FileError, with line and column, for a corner that is not three decimals and a loop that has not three.
+    """
+    points, first = parse(text, source)
+    places = {coordinates(point): place for place, point in enumerate(points)}
+    faces: list[tuple[int, ...]] = []
+    loop: list[int] = []
+    for line, words in lines(text, ""):
+        word = words[0][0].lower()
+        if word == "vertex":
+            loop.append(places[coordinates(_vertex(source, line, words))])
+        elif word in ("endloop", "endfacet", "facet", "outer") and loop:
+            if len(loop) != 3:
+                raise error(source, line, words[0], f"a triangle ends here after {len(loop)} vertices")
+            faces.append(tuple(loop))
+            loop = []
+    if loop:
+        raise error(source, line, words[0], f"the file ends within a triangle, after {len(loop)} of its vertices")
+    return FileMesh(source, points, first, tuple(faces))
+
+
+def _vertex(source: str, line: int, words: list[Word]) -> Point:
+    if len(words) != 4:
+        raise error(source, line, words[-1], f"a vertex is three numbers, x y z; here are {len(words) - 1}")
+    return point(source, line, words[1:])

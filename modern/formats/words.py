@@ -1,9 +1,13 @@
-"""Words of a text file with line and column, as the readers of OFF, OBJ, PLY and STL take them: decimals and counts."""
+"""Words of a text file with line and column, as the readers of OFF, OBJ, PLY and STL take them: decimals and counts.
+
+And the surface such a file holds.
+"""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 from emulator.errors import FileError
 from modern.geometry.numbers import Point, number, shown
@@ -12,6 +16,17 @@ Word = tuple[str, int]
 """A word and the column it begins in, from 1."""
 Line = tuple[int, list[Word]]
 """A line's number, from 1, and its words; there is one at least."""
+
+
+@dataclass(frozen=True, slots=True)
+class FileMesh:
+    """A file of a surface: its points as the text that stands there, where each stands (line, or triangle of a binary
+    file), and faces by place from 0."""
+
+    source: str
+    points: tuple[Point, ...]
+    lines: tuple[int, ...]
+    faces: tuple[tuple[int, ...], ...]
 
 
 def lines(text: str, comment: str = "#") -> Iterator[Line]:

@@ -1,13 +1,24 @@
-"""Solids in doubles, and the rule for joining their faces once more, in fractions and without haste."""
+"""Solids in doubles and as triangles, and the rule for joining faces once more, in fractions and without haste."""
 
 from __future__ import annotations
 
 import math
+import struct
+from collections.abc import Sequence
 from fractions import Fraction
 
+from modern.geometry.coplanar import coplanar
+from modern.geometry.hull import Hull
 from modern.geometry.mesh import Mesh
+from modern.port import convex_hull
 
 Vector = tuple[Fraction, ...]
+Point = tuple[int, int, int]
+
+CUBE = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+CUBE_FACES = [(3, 2, 1, 0), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
+ELL = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)]
+ELL_FACES = [(5, 4, 3, 2, 1, 0), (6, 7, 8, 9, 10, 11), *((k, (k + 1) % 6, (k + 1) % 6 + 6, k + 6) for k in range(6))]
 
 
 def dodecahedron() -> list[tuple[float, float, float]]:
@@ -62,3 +73,19 @@ def _dot(u: Vector, v: Vector) -> Fraction:
 
 def _square(normal: Vector, base: Vector, point: Vector) -> Fraction:
     return _dot(normal, tuple(a - b for a, b in zip(point, base, strict=True))) ** 2 / _dot(normal, normal)
+
+
+def twelve_faces() -> Hull:
+    """The dodecahedron's hull with its faces joined: pentagons that are plane but for rounding."""
+    return coplanar(convex_hull(dodecahedron()), "1e-9")[0]
+
+
+def cut(points: Sequence[Point], faces: Sequence[tuple[int, ...]]) -> list[tuple[Point, ...]]:
+    """Faces cut into triangles, from their first corners."""
+    return [(points[f[0]], points[f[k]], points[f[k + 1]]) for f in faces for k in range(1, len(f) - 1)]
+
+
+def binary_stl(triangles: Sequence[Sequence[Point]]) -> bytes:
+    """Triangles as a binary STL file."""
+    rows = (struct.pack("<12fH", 0, 0, 0, *(c for corner in t for c in corner), 0) for t in triangles)
+    return b"parts".ljust(80) + struct.pack("<I", len(triangles)) + b"".join(rows)

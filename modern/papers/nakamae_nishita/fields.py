@@ -35,6 +35,12 @@ class Fields:
             raise self.wrong(key, "a text is due")
         return default if found is None else found
 
+    def flag(self, key: str) -> bool:
+        found = self.take(key)
+        if found is not None and not isinstance(found, bool):
+            raise self.wrong(key, "true or false is due")
+        return bool(found)
+
     def table(self, key: str) -> Mapping[str, Any]:
         found = self.take(key)
         if found is not None and not isinstance(found, dict):

@@ -10,6 +10,7 @@ from fractions import Fraction
 
 from modern.drawing.visible import BACK
 from modern.geometry.vectors import Vector
+from modern.papers.nakamae_nishita.clipping import beyond_near
 from modern.papers.nakamae_nishita.contours import Tables, Values, boxes, overlapping, tables, values
 from modern.papers.nakamae_nishita.crossings import Passage, as_printed, clipped
 from modern.papers.nakamae_nishita.ghosts import Name, Span, ghosts
@@ -71,7 +72,10 @@ class Passages:
 
 @dataclass(frozen=True, slots=True)
 class Drawing:
-    """A scene without its hidden lines.  ``seconds``: of the paper's three steps, making, searching, eliminating."""
+    """A scene without its hidden lines.  ``seconds``: of the paper's three steps, making, searching, eliminating.
+
+    cut, behind: the names of the polyhedra that the near plane cuts, and of those wholly behind it, which are left out.
+    """
 
     observer: Observer
     solids: tuple[Solid, ...]
@@ -79,6 +83,8 @@ class Drawing:
     passages: tuple[Passages, ...]
     pieces: tuple[Piece, ...]
     seconds: tuple[float, float, float]
+    cut: tuple[str, ...] = ()
+    behind: tuple[str, ...] = ()
 
     @property
     def counts(self) -> tuple[int, int, int, int]:
@@ -104,14 +110,16 @@ def draw(
     without: names from ``REFINEMENTS`` to leave out.  hidden: the hidden parts are pieces too, and edges of faces that
     all turn away.  check: prove of every pair whose contours overlap that they do not intersect.
 
-    Raises SceneError for polyhedra that intersect, one not wholly before the observation point, and a name that is
-    none of these.
+    Raises SceneError for polyhedra that intersect, one not wholly before the observation point where there is no near
+    plane, and a name that is none of these.
     """
     strange = sorted(set(without) - set(REFINEMENTS))
     if strange:
         raise SceneError(f"{strange[0]!r} is not one of {', '.join(REFINEMENTS)}")
     started = time.perf_counter()
-    polyhedra = made() if callable(made) else made
+    given = made() if callable(made) else made
+    kept = beyond_near(given, observer)
+    polyhedra = kept.polyhedra
     searched = time.perf_counter()
     origin = _origin(polyhedra)
     solids = tuple(solid(number, polyhedron, observer, origin) for number, polyhedron in enumerate(polyhedra))
@@ -137,7 +145,7 @@ def draw(
         pieces += [piece for item in solids for piece in _backs(item, turned)]
     ended = time.perf_counter()
     seconds = (searched - started, eliminated - searched, ended - eliminated)
-    return Drawing(observer, solids, tuple(relations), passages, tuple(pieces), seconds)
+    return Drawing(observer, solids, tuple(relations), passages, tuple(pieces), seconds, kept.cut, kept.behind)
 
 
 def _origin(polyhedra: Sequence[Polyhedron]) -> Vector:

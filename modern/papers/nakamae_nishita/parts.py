@@ -1,15 +1,20 @@
-"""The parts of a scene file: standard shapes, their placing, and the figures on their faces."""
+"""The parts of a scene file: standard shapes and solids from files, their placing, and the figures on their faces."""
 
 from __future__ import annotations
 
 import itertools
+import os
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 
+from emulator.errors import EmulatorError
+from emulator.files import read_bytes
+from modern.geometry.coplanar import distance
 from modern.geometry.numbers import shown
 from modern.geometry.vectors import Vector, cross, dot, minus
+from modern.papers.nakamae_nishita.bodies import Reading, read_bodies
 from modern.papers.nakamae_nishita.fields import Fields
 from modern.papers.nakamae_nishita.polyhedron import Figure, Polyhedron, SceneError, checked, outward
 from modern.papers.nakamae_nishita.shapes import (
@@ -20,6 +25,7 @@ from modern.papers.nakamae_nishita.shapes import (
     placed,
     plate,
     round_base,
+    scaled,
     turned,
 )
 
@@ -33,52 +39,104 @@ class Part:
     """One shape, and where its copies stand.
 
     build: makes the shape at the origin, under a name.  thing: the object all copies belong to.  figures: in the
-    shape's own coordinates.  turn: degrees about the z axis, before the move by ``at``.  count: copies along x, y and
-    z, ``step`` apart.
+    shape's own coordinates.  scale: how many times its size, before ``turn``: degrees about the z axis, before the move
+    by ``at``.  count: copies along x, y and z, ``step`` apart.
     """
 
     place: str
     build: Callable[[str], Polyhedron]
     thing: str = ""
     figures: tuple[tuple[Vector, ...], ...] = ()
+    scale: Fraction = Fraction(1)
     turn: Fraction = Fraction(0)
     at: Vector = _ZERO
     count: tuple[int, ...] = (1, 1, 1)
     step: Vector = _ZERO
 
 
-def part(fields: Fields) -> Part:
-    """A part from its table.  Raises SceneError."""
-    shape = fields.text("shape", "")
-    if shape not in _SHAPES:
-        raise fields.wrong("shape", f"{shown(shape)} is not one of {', '.join(_SHAPES)}")
-    build = _SHAPES[shape](fields)
+@dataclass(frozen=True, slots=True)
+class Parts:
+    """What a table of a scene file stands for: a part, or one for each connected component of a file; the path of the
+    file, empty without one; and what the reader should know of it."""
+
+    parts: tuple[Part, ...]
+    file: str = ""
+    notes: tuple[str, ...] = ()
+
+
+def part(fields: Fields, folder: str = "") -> Parts:
+    """The parts of a table; a file is looked for from ``folder`` on.  Raises EmulatorError."""
     name = fields.text("name", "")
+    place = f"{fields.place} ({name})" if name else fields.place
+    if "file" in fields:
+        if "shape" in fields:
+            raise fields.wrong("file", "a part has a shape or a file, not both")
+        made = _from_file(fields, folder, place)
+    else:
+        shape = fields.text("shape", "")
+        if shape not in _SHAPES:
+            raise fields.wrong("shape", f"{shown(shape)} is not one of {', '.join(_SHAPES)}")
+        made = Parts((Part(place, _SHAPES[shape](fields)),))
     count = fields.whole("count", 3) or (1, 1, 1)
-    if min(count) < 1 or count[0] * count[1] * count[2] > MOST:
+    if min(count) < 1 or count[0] * count[1] * count[2] * len(made.parts) > MOST:
         raise fields.wrong("count", f"copies are 1 or more along each axis, and {MOST:,} at the most")
     step = fields.vector("step")
     if max(count) > 1 and step is None:
         raise fields.wrong("step", "how far apart the copies stand is not said")
-    found = Part(
-        f"{fields.place} ({name})" if name else fields.place,
-        build,
-        fields.text("object", ""),
-        fields.polygons("figures"),
-        fields.number("turn") or Fraction(0),
-        fields.vector("at") or _ZERO,
-        count,
-        step or _ZERO,
-    )
+    scale = fields.number("scale")
+    if scale is not None and scale <= 0:
+        raise fields.wrong("scale", "a size is a number greater than 0")
+    figures = fields.polygons("figures")
+    if figures and len(made.parts) > 1:
+        raise fields.wrong(
+            "figures", f"the file holds {len(made.parts)} connected components; a figure is on a face of one"
+        )
+    thing, turn, at = fields.text("object", ""), fields.number("turn"), fields.vector("at")
     fields.done()
-    return found
+    found = (
+        replace(
+            item,
+            thing=thing,
+            figures=figures,
+            scale=scale or Fraction(1),
+            turn=turn or Fraction(0),
+            at=at or _ZERO,
+            count=count,
+            step=step or _ZERO,
+        )
+        for item in made.parts
+    )
+    return replace(made, parts=tuple(found))
+
+
+def _from_file(fields: Fields, folder: str, place: str) -> Parts:
+    """The connected components of a file of faces, or with ``hull = true`` the hull of a file of points."""
+    path = fields.text("file", "")
+    within = fields.take("coplanar_within")
+    hull = fields.flag("hull")
+    try:
+        limit = None if within is None else distance(within)
+        named = os.path.join(folder, path) if path else path
+        found = read_bodies(read_bytes(named, path), path, Reading(hull, limit))
+    except EmulatorError as error:
+        raise SceneError(f"{place}: file: {error}") from None
+    parts = tuple(
+        Part(f"{place}{polyhedron.name.removeprefix(path)}", partial(_named, polyhedron))
+        for polyhedron in found.polyhedra
+    )
+    return Parts(parts, named, tuple(f"{place}: {note}" for note in found.notes))
+
+
+def _named(polyhedron: Polyhedron, name: str) -> Polyhedron:
+    return replace(polyhedron, name=name)
 
 
 def make(item: Part) -> Iterator[Polyhedron]:
     """The copies of a part.  Raises SceneError."""
     shape = item.build(item.place)
     figures = tuple(_figure(item.place, shape, corners) for corners in item.figures)
-    shape = placed(replace(shape, thing=item.thing, figures=figures), turned(item.turn), item.place)
+    shape = replace(shape, thing=item.thing, figures=figures)
+    shape = placed(placed(shape, scaled(item.scale), item.place), turned(item.turn), item.place)
     for place in itertools.product(*map(range, item.count)):
         x, y, z = (start + k * step for start, k, step in zip(item.at, place, item.step, strict=True))
         copy = f", copy {','.join(str(k + 1) for k in place)}" if max(item.count) > 1 else ""

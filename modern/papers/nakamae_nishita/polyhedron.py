@@ -1,23 +1,22 @@
 """A convex polyhedron as the paper has it (section 2): vertices, and faces by vertex numbers, clockwise from outside.
 
 A plate is a polyhedron without thickness: one polygon as two faces, one for each side.  Polyhedra come from a
-scene, from an OFF file and from every hull of this project.
+scene, from files of faces (``bodies``) and from every hull of this project.
 """
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import PurePath
 
 from emulator.errors import EmulatorError
 from modern.exact_hull.coordinates import common_scale, to_integers
-from modern.formats.off import OffMesh
+from modern.geometry.coplanar import Joined
 from modern.geometry.hull import Hull
 from modern.geometry.mesh import mesh, sides
-from modern.geometry.numbers import coordinates
 from modern.geometry.vectors import Vector, area_vector, cross, dot, lowest, minus
 
 
@@ -35,13 +34,18 @@ class Figure:
 
 @dataclass(frozen=True, slots=True)
 class Polyhedron:
-    """A convex polyhedron.  ``thing``: the object it is a part of; lines that only divide an object are not drawn."""
+    """A convex polyhedron.  ``thing``: the object it is a part of; lines that only divide an object are not drawn.
+
+    joined: for every face a number that it shares with those it is read as one with (``modern.geometry.coplanar``),
+    between which no edge is drawn; empty: each face is its own.
+    """
 
     name: str
     vertices: tuple[Vector, ...]
     faces: tuple[tuple[int, ...], ...]
     thing: str = ""
     figures: tuple[Figure, ...] = ()
+    joined: tuple[int, ...] = ()
 
 
 def outward(polyhedron: Polyhedron, face: tuple[int, ...]) -> Vector:
@@ -56,9 +60,7 @@ def checked(polyhedron: Polyhedron) -> Polyhedron:
     """
     name = polyhedron.name
     _check_closed(polyhedron)
-    turned = Polyhedron(
-        name, polyhedron.vertices, tuple(face[::-1] for face in polyhedron.faces), polyhedron.thing, polyhedron.figures
-    )
+    turned = replace(polyhedron, faces=tuple(face[::-1] for face in polyhedron.faces))
     faults = [next(_faults(candidate), "") for candidate in (polyhedron, turned)]
     if not faults[0]:
         return polyhedron
@@ -146,22 +148,11 @@ def _volume(polyhedron: Polyhedron) -> Fraction:
     )
 
 
-def polyhedron_of_off(found: OffMesh) -> Polyhedron:
-    """The convex polyhedron of an OFF file, its faces all clockwise or all counterclockwise from outside.
-
-    Raises SceneError where it is not closed or not convex.
-    """
-    if not found.faces:
-        raise SceneError(f"{found.source}: there are no faces, only points")
-    points = tuple(coordinates(point) for point in found.points)
-    return checked(Polyhedron(found.source, points, found.faces))
-
-
-def polyhedron_of_hull(hull: Hull, name: str = "hull") -> Polyhedron:
+def polyhedron_of_hull(hull: Hull, name: str = "hull", joined: Joined | None = None) -> Polyhedron:
     """The polyhedron of a hull; of a polygon a plate.
 
-    Raises ExportError where there is no hull, SceneError for one of less than two dimensions and for one whose faces,
-    in rounded arithmetic, are not plane or not convex.
+    joined: which of its faces are read as one.  Raises ExportError where there is no hull, SceneError for one of less
+    than two dimensions and for one whose faces, in rounded arithmetic, are not plane or not convex.
     """
     surface = mesh(hull)
     if surface.dimension < 2:
@@ -169,4 +160,5 @@ def polyhedron_of_hull(hull: Hull, name: str = "hull") -> Polyhedron:
     faces = tuple(face[::-1] for face in surface.faces)
     if surface.dimension == 2:
         faces = (faces[0], surface.faces[0])
-    return checked(Polyhedron(PurePath(name).name, surface.numbers(), faces))
+    groups = () if joined is None else joined.group_of()
+    return checked(Polyhedron(PurePath(name).name, surface.numbers(), faces, joined=groups))

@@ -29,7 +29,9 @@ class Observer:
     up: Eye
     point: Vector | None = None
     stretch: Fraction = Fraction(1)
-    """x of the image times it is of the same scale as y."""
+    """x of the image times it is of the same scale as y: the length of ``eye``, to 15 decimals."""
+    near: Fraction | None = None
+    """In perspective, how far from the eye the near plane is, at right angles to the direction of view."""
 
 
 def parallel(direction: Sequence[Fraction | int]) -> Observer:
@@ -40,12 +42,15 @@ def parallel(direction: Sequence[Fraction | int]) -> Observer:
     return Observer(sight.eye, sight.right, sight.up, None, sight.stretch)
 
 
-def perspective(point: Vector, towards: Vector) -> Observer:
-    """Seen from a point towards another one.  Raises SceneError where they are the same."""
+def perspective(point: Vector, towards: Vector, near: Fraction | None = None) -> Observer:
+    """Seen from a point towards another one, what lies beyond a near plane if one is given.
+
+    Raises SceneError where the points are the same.
+    """
     if point == towards:
         raise SceneError("the observation point is the point looked at")
     sight = parallel(minus(point, towards))
-    return Observer(sight.eye, sight.right, sight.up, point, sight.stretch)
+    return Observer(sight.eye, sight.right, sight.up, point, sight.stretch, near)
 
 
 def project(polyhedron: Polyhedron, observer: Observer, origin: Vector) -> list[Homogeneous]:
@@ -69,7 +74,7 @@ def project(polyhedron: Polyhedron, observer: Observer, origin: Vector) -> list[
     if observer.point is None:
         return [(x, y, z, scale) for x, y, z in flat]
     if any(z >= 0 for _, _, z in flat):
-        raise SceneError(f"{polyhedron.name}: not wholly before the observation point")
+        raise SceneError(f"{polyhedron.name}: not wholly before the observation point; a near plane cuts it")
     return [(x, y, scale, -z) for x, y, z in flat]
 
 

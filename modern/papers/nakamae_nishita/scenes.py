@@ -6,11 +6,13 @@ The numbers are exact: integers and decimals as they stand, and fractions as tex
 
 from __future__ import annotations
 
+import os
 import re
 import tomllib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from importlib.resources import files
 from typing import Final, Literal
 
@@ -32,11 +34,13 @@ _AT = re.compile(r"(.*) \(at (?:line (\d+), column (\d+)|end of document)\)", re
 @dataclass(frozen=True, slots=True)
 class Sight:
     """How a scene is looked at.  eye: the direction to the eye, or the observation point in perspective; towards: the
-    point looked at, in perspective; None is the middle of all."""
+    point looked at, in perspective; None is the middle of all; near: how far from the eye the near plane is, in
+    perspective; None is no such plane."""
 
     eye: Vector
     projection: Projection = PARALLEL
     towards: Vector | None = None
+    near: Fraction | None = None
 
     def observer(self, make: Callable[[], Sequence[Polyhedron]]) -> Observer:
         """The observer of the polyhedra that ``make`` makes, if their middle is wanted.
@@ -45,17 +49,22 @@ class Sight:
         """
         if self.projection == PARALLEL:
             return parallel(self.eye)
-        return perspective(self.eye, self.towards or _middle(make()))
+        return perspective(self.eye, self.towards or _middle(make()), self.near)
 
 
 @dataclass(frozen=True, slots=True)
 class SceneFile:
-    """A scene as it was read: its parts are made by ``make``, the first of the paper's three steps."""
+    """A scene as it was read: its parts are made by ``make``, the first of the paper's three steps.
+
+    files: those its parts were read from.  notes: what was done to make convex polyhedra of them, a line each.
+    """
 
     source: str
     title: str
     sight: Sight
     parts: tuple[Part, ...]
+    files: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
 
     def make(self) -> tuple[Polyhedron, ...]:
         """The polyhedra.  Raises SceneError for a part that is no convex polyhedron."""
@@ -80,19 +89,29 @@ def scene(name: str) -> SceneFile:
 
 
 def read(path: str) -> SceneFile:
-    """A scene from a file.  Raises FileError, and SceneError naming line and column, or the part."""
-    return parse(read_text(path), source_name(path))
+    """A scene from a file; the files of its parts are looked for from the scene's folder on.
+
+    Raises FileError, and SceneError naming line and column, or the part.
+    """
+    return parse(read_text(path), source_name(path), os.path.dirname(path))
 
 
-def of_polyhedron(polyhedron: Polyhedron) -> SceneFile:
-    """A scene of one polyhedron, seen from where its faces and vertices can be told apart."""
-    eye = choose(polyhedron.vertices, [outward(polyhedron, face) for face in polyhedron.faces])
+def of_polyhedra(polyhedra: Sequence[Polyhedron], title: str, notes: Sequence[str] = ()) -> SceneFile:
+    """A scene of polyhedra, seen from where their faces and vertices can be told apart."""
+    # Two solids that touch may have a vertex in common.
+    points = list(dict.fromkeys(point for polyhedron in polyhedra for point in polyhedron.vertices))
+    eye = choose(points, [outward(polyhedron, face) for polyhedron in polyhedra for face in polyhedron.faces])
     sight = Sight((Fraction(eye[0]), Fraction(eye[1]), Fraction(eye[2])))
-    return SceneFile(polyhedron.name, polyhedron.name, sight, (Part(polyhedron.name, lambda _: polyhedron),))
+    parts = (Part(polyhedron.name, partial(_made, polyhedron)) for polyhedron in polyhedra)
+    return SceneFile(title, title, sight, tuple(parts), notes=tuple(notes))
 
 
-def parse(text: str, source: str) -> SceneFile:
-    """A scene from its text.  Raises SceneError."""
+def _made(polyhedron: Polyhedron, _: str) -> Polyhedron:
+    return polyhedron
+
+
+def parse(text: str, source: str, folder: str = "") -> SceneFile:
+    """A scene from its text, the files of its parts from ``folder`` on.  Raises SceneError."""
     try:
         data = tomllib.loads(text, parse_float=_decimal)
     except tomllib.TOMLDecodeError as error:
@@ -106,8 +125,14 @@ def parse(text: str, source: str) -> SceneFile:
     fields.done()
     if not tables:
         raise SceneError(f"{source}: there are no parts")
+    found = [part(Fields(table, f"{source}: part {k}"), folder) for k, table in enumerate(tables, 1)]
     return SceneFile(
-        source, title, sight, tuple(part(Fields(table, f"{source}: part {k}")) for k, table in enumerate(tables, 1))
+        source,
+        title,
+        sight,
+        tuple(item for parts in found for item in parts.parts),
+        tuple(parts.file for parts in found if parts.file),
+        tuple(note for parts in found for note in parts.notes),
     )
 
 
@@ -124,8 +149,13 @@ def _sight(fields: Fields) -> Sight:
         raise fields.wrong("eye", "the direction of view is 0,0,0")
     if towards == eye:
         raise fields.wrong("towards", "it is the observation point")
+    near = fields.number("near")
+    if near is not None and projection == PARALLEL:
+        raise fields.wrong("near", "a parallel projection has no near plane")
+    if near is not None and near <= 0:
+        raise fields.wrong("near", "the near plane is at a distance greater than 0")
     fields.done()
-    return Sight(eye, projection, towards)
+    return Sight(eye, projection, towards, near)
 
 
 def _middle(polyhedra: Sequence[Polyhedron]) -> Vector:

@@ -88,6 +88,11 @@ def turned(degrees: Fraction) -> Move:
     return lambda p: (cosine * p[0] - sine * p[1], sine * p[0] + cosine * p[1], p[2])
 
 
+def scaled(times: Fraction) -> Move:
+    """Larger or smaller about the origin."""
+    return lambda p: (times * p[0], times * p[1], times * p[2])
+
+
 def moved(shift: Vector) -> Move:
     """A move by a vector."""
     return lambda p: plus(p, shift)

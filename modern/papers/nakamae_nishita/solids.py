@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final, Literal
 
 from modern.drawing import visible
@@ -73,6 +73,8 @@ def solid(number: int, polyhedron: Polyhedron, observer: Observer, origin: Vecto
     signs = [visible.facing([flat[place] for place in face]) for face in polyhedron.faces]
     planes = [_face_plane([points[place] for place in face]) for face in polyhedron.faces]
     edges = visible.classify(polyhedron.faces, signs, lambda a, b: same_plane(planes[a], planes[b]))
+    if polyhedron.joined:
+        edges = tuple(_read_as_one(edge, polyhedron.joined) for edge in edges)
     chain = visible.contour(polyhedron.faces, signs)
     found: list[tuple[int, int, Kind, tuple[int, ...]]] = [
         (edge.start, edge.end, edge.kind, _seen(edge.faces, signs)) for edge in edges if edge.kind in _DRAWN
@@ -130,6 +132,13 @@ def _face_plane(corners: Sequence[Homogeneous]) -> Plane:
         if any(plane):
             return plane
     raise AssertionError("a face of a polyhedron is a polygon")
+
+
+def _read_as_one(edge: Edge, joined: Sequence[int]) -> Edge:
+    """The edge, which is not drawn where its faces are read as one and both are on its side of the contour."""
+    first, last = edge.faces[0], edge.faces[-1]
+    within = edge.kind in (visible.INNER, visible.BACK) and joined[first] == joined[last]
+    return replace(edge, kind=visible.JOINED) if within else edge
 
 
 def _seen(orders: Sequence[int], signs: Sequence[int]) -> tuple[int, ...]:

@@ -17,7 +17,8 @@ from modern.formats.hulls import export_text
 from modern.port import convex_hull
 from modern.study.tomlplan import read_plan
 from tests.support.mutated import FILES, WAYS, Make, codes_of, damaged, saved, solid
-from tests.support.paths import PROGRAMS
+from tests.support.paths import PROGRAMS, ROOT
+from tests.support.solids import CUBE, CUBE_FACES, binary_stl, cut
 
 
 def points(draw: random.Random) -> list[tuple[str, str, str]]:
@@ -40,7 +41,7 @@ def exported(form: str) -> Make:
     return lambda draw: export_text(convex_hull(points(draw)), form).encode()
 
 
-def binary_stl(draw: random.Random) -> bytes:
+def triangles_apart(draw: random.Random) -> bytes:
     count = draw.randrange(1, 9)
     body = b"".join(struct.pack("<12fH", *(draw.uniform(-9, 9) for _ in range(12)), 0) for _ in range(count))
     return b"binary".ljust(80) + struct.pack("<I", count) + body
@@ -51,6 +52,15 @@ def binary_ply(draw: random.Random) -> bytes:
     head = f"ply\nformat binary_{order[0]}_endian 1.0\nelement vertex {count}\n"
     head += "".join(f"property float {axis}\n" for axis in "xyz") + "end_header\n"
     return head.encode() + struct.pack(f"{order[1]}{3 * count}f", *(draw.uniform(-9, 9) for _ in range(3 * count)))
+
+
+def triangles(draw: random.Random) -> bytes:
+    """The faces of one or two cuboids, a binary STL file."""
+    rows = []
+    for k in range(draw.randrange(1, 3)):
+        size = draw.randrange(1, 4)
+        rows += cut([(size * x + 5 * k, size * y, size * z) for x, y, z in CUBE], CUBE_FACES)
+    return binary_stl(rows)
 
 
 def point_array(draw: random.Random) -> bytes:
@@ -73,6 +83,12 @@ shape = "cuboid"
 size = [{number}, 22.5, 1]
 at = [-9, -6, -1]
 figures = [[[1.5, 0, 1], [1.5, 0, 2.5], [3.5, 0, 2.5], [3.5, 0, 1]]]
+[[part]]
+file = "{ROOT / "transcripts" / "counterexamples" / "crown.off"}"
+hull = true
+coplanar_within = 0.0{number}
+scale = 0.{number}
+at = [0, 0, 90]
 """
     return text.encode()
 
@@ -108,12 +124,16 @@ READERS: dict[str, tuple[str, Make, list[str]]] = {
     "tabs": ("a.txt", listed("\t"), ["cards", "a.txt", "-o", "out"]),
     "blanks": ("a.txt", listed(" "), ["export", "a.txt", "--format", "json", "-o", "out"]),
     "off": ("a.off", exported("off"), ["hidden-line", "a.off", "-o", "out.svg"]),
+    "obj-faces": ("a.obj", exported("obj"), ["hidden-line", "a.obj", "-o", "out.svg"]),
+    "stl-faces": ("a.stl", exported("stl"), ["hidden-line", "a.stl", "--hull", "-o", "out.svg"]),
+    "stl-binary-faces": ("a.stl", triangles, ["hidden-line", "a.stl", "-o", "out.svg"]),
+    "off-within": ("a.off", exported("off"), ["hidden-line", "a.off", "--coplanar-within", ".01", "-o", "out.svg"]),
     "off-points": ("a.off", exported("off"), ["appel-will", "a.off", "-o", "out.off"]),
     "obj": ("a.obj", exported("obj"), ["cards", "a.obj", "-o", "out"]),
     "ply": ("a.ply", exported("ply"), ["cards", "a.ply", "-o", "out"]),
     "ply-binary": ("a.ply", binary_ply, ["export", "a.ply", "--format", "off", "-o", "out"]),
     "stl": ("a.stl", exported("stl"), ["cards", "a.stl", "-o", "out"]),
-    "stl-binary": ("a.stl", binary_stl, ["export", "a.stl", "--format", "off", "-o", "out"]),
+    "stl-binary": ("a.stl", triangles_apart, ["export", "a.stl", "--format", "off", "-o", "out"]),
     "json": ("a.json", exported("json"), ["cards", "a.json", "-o", "out"]),
     "npy-points": ("a.npy", point_array, ["export", "a.npy", "--format", "json", "-o", "out"]),
     "voxels": ("a.csv", voxels, ["octree-hull", "a.csv", "-o", "out.npy"]),

@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 from modern.cli.main import main
 from modern.formats.off import parse_off
 from modern.geometry.vectors import Vector
+from modern.papers.nakamae_nishita.bodies import Reading, bodies
 from modern.papers.nakamae_nishita.hidden import draw
 from modern.papers.nakamae_nishita.picture import DASHED, PLOT_HEIGHT, PLOT_WIDTH, SOLID, as_hpgl, as_svg, ends, plot
 from modern.papers.nakamae_nishita.polyhedron import (
@@ -24,7 +25,6 @@ from modern.papers.nakamae_nishita.polyhedron import (
     SceneError,
     checked,
     polyhedron_of_hull,
-    polyhedron_of_off,
 )
 from modern.papers.nakamae_nishita.projection import image, parallel
 from modern.papers.nakamae_nishita.scenes import names, parse, scene
@@ -125,7 +125,8 @@ def test_shapes_that_are_none() -> None:
 
 
 def off(text: str) -> Polyhedron:
-    return polyhedron_of_off(parse_off(text, "f.off"))
+    (made,) = bodies(parse_off(text, "f.off"), Reading(), "f.off").polyhedra
+    return made
 
 
 def test_an_off_file_either_way_round() -> None:
@@ -161,7 +162,7 @@ def test_a_dent_is_named() -> None:
     """The cube with its top pressed in to a point: closed, every face plane, not convex."""
     dented = CUBE.replace("8 6 12", "9 9 0").replace("0 1 1\n", "0 1 1\n0.5 0.5 0.5\n")
     dented = dented.replace("4 4 5 6 7\n", "3 4 5 8\n3 5 6 8\n3 6 7 8\n3 7 4 8\n")
-    with pytest.raises(SceneError, match=r"^f\.off: not convex: vertex \d lies beyond face \d$"):
+    with pytest.raises(SceneError, match=r"^f\.off: not convex: between faces 2 and 3 the edge of vertices 6 and 9"):
         off(dented)
     raised = dented.replace("0.5 0.5 0.5", "0.5 0.5 1.5")
     assert len(off(raised).faces) == 9

@@ -1,0 +1,258 @@
+"""Solids of files: components, convex or with a dent that is named, their hulls, faces in floats."""
+
+from __future__ import annotations
+
+import random
+from fractions import Fraction
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from emulator.errors import EmulatorError
+from modern.exact_hull import exact_hull
+from modern.formats.hulls import export_text
+from modern.formats.meshes import parse_mesh
+from modern.formats.words import FileMesh
+from modern.geometry.coplanar import CoplanarError
+from modern.papers.nakamae_nishita.bodies import Bodies, Reading, bodies, read_bodies
+from modern.papers.nakamae_nishita.hidden import draw
+from modern.papers.nakamae_nishita.polyhedron import Polyhedron, SceneError, checked
+from modern.papers.nakamae_nishita.projection import parallel
+from modern.port import convex_hull
+from tests.support.solids import CUBE, CUBE_FACES, ELL, ELL_FACES, Point, binary_stl, cut, dodecahedron, twelve_faces
+
+
+def file_mesh(points: list[tuple[object, ...]], faces: list[tuple[int, ...]], name: str = "f") -> FileMesh:
+    texts = tuple((str(x), str(y), str(z)) for x, y, z in points)
+    return FileMesh(name, texts, tuple(range(len(points))), tuple(faces))
+
+
+def read_mesh(points: list[tuple[object, ...]], faces: list[tuple[int, ...]], reading: Reading | None = None) -> Bodies:
+    return bodies(file_mesh(points, faces), reading or Reading(), "f")
+
+
+def shape(polyhedron: Polyhedron) -> set[frozenset[tuple[Fraction, ...]]]:
+    """The faces as sets of points, those in one plane together."""
+    return {frozenset(polyhedron.vertices[place] for place in face) for face in polyhedron.faces}
+
+
+@settings(deadline=None, max_examples=40)
+@given(st.integers(0, 10**6), st.integers(1, 4), st.booleans(), st.sampled_from(("off", "obj", "stl")))
+def test_components_are_the_solids_a_file_was_made_of(seed: int, many: int, inward: bool, form: str) -> None:
+    """Solids apart, their faces in any order: as OFF and OBJ faces, as STL triangles; all inward or all outward."""
+    source = random.Random(seed)
+    points: list[tuple[object, ...]] = []
+    faces: list[tuple[int, ...]] = []
+    solids = []
+    while len(solids) < many:
+        corners = [tuple(source.randrange(-5, 6) for _ in range(3)) for _ in range(source.randrange(4, 9))]
+        corners = [(x + 20 * len(solids), y, z) for x, y, z in corners]
+        hull = exact_hull(corners)
+        if hull.dimension < 3:
+            continue
+        place = {index: len(points) + k for k, index in enumerate(hull.vertices)}
+        points += [corners[index] for index in hull.vertices]
+        polygons = [tuple(place[index] for index in facet.polygon) for facet in hull.facets]
+        faces += [face[::-1] for face in polygons] if inward else polygons
+        solids.append({frozenset(tuple(map(Fraction, points[k])) for k in face) for face in polygons})
+    source.shuffle(faces)
+    if form == "off":
+        text = f"OFF\n{len(points)} {len(faces)} 0\n" + "".join(" ".join(map(str, p)) + "\n" for p in points)
+        data = (text + "".join(" ".join(map(str, (len(f), *f))) + "\n" for f in faces)).encode()
+    elif form == "obj":
+        rows = ["v " + " ".join(map(str, p)) for p in points]
+        signs = [source.choice((str(k + 1), str(k - len(points)), f"{k + 1}/1/2")) for k in range(len(points))]
+        data = "\n".join([*rows, *("f " + " ".join(signs[k] for k in face) for face in faces), ""]).encode()
+    else:
+        data = binary_stl(cut(points, faces))  # type: ignore[arg-type]
+    found = bodies(parse_mesh(data, f"a.{form}"), Reading(), "a")
+    assert len(found.polyhedra) == many
+    assert (found.notes == ()) == (many == 1)
+    for polyhedron in found.polyhedra:
+        assert checked(polyhedron) == polyhedron
+        if form != "stl":
+            assert shape(polyhedron) in solids
+    merged = [{p for face in solid for p in face} for solid in solids]
+    assert sorted(map(sorted, merged)) == sorted(sorted(p.vertices) for p in found.polyhedra)
+
+
+def test_solids_that_touch_in_a_file_of_triangles_stay_apart() -> None:
+    """Two cubes with an edge, and two with a corner, in common: STL has their points once."""
+    for shift in ((1, 1, 0), (1, 1, 1)):
+        other = [tuple(a + b for a, b in zip(p, shift, strict=True)) for p in CUBE]
+        data = binary_stl([*cut(CUBE, CUBE_FACES), *cut(other, CUBE_FACES)])  # type: ignore[arg-type]
+        found = parse_mesh(data, "a.stl")
+        assert len(found.points) == 16 - (2 if shift == (1, 1, 0) else 1)
+        assert len(bodies(found, Reading(), "a").polyhedra) == 2
+
+
+def test_the_reflex_edge_is_named_with_what_to_do() -> None:
+    points = [(x, y, z) for z in (0, 1) for x, y in ELL]
+    with pytest.raises(SceneError) as caught:
+        read_mesh(points, ELL_FACES)
+    assert str(caught.value) == (
+        "f: not convex: between faces 5 and 6 the edge of vertices 4 and 10, (1, 1, 0) and (1, 1, 1), is reflex by 2; "
+        "part the solid along the plane of face 5, or take its hull (hull = true), or, where that is rounding, read "
+        'faces within a distance as one (coplanar_within = "E")'
+    )
+    found = read_mesh(points, ELL_FACES, Reading(hull=True))
+    assert found.notes == ("f: not convex, its hull is taken",)
+    assert sorted(found.polyhedra[0].vertices) == sorted(tuple(map(Fraction, p)) for p in points if p[:2] != (1, 1))
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_of_several_dents_the_deepest_is_named(seed: int) -> None:
+    """A star prism: every second corner is drawn in, each by its own amount; the deepest is known."""
+    source = random.Random(seed)
+    outer = [(20, 0), (0, 20), (-20, 0), (0, -20)]
+    depths = source.sample(range(1, 10), 4)
+    ring = [p for (x, y), (u, v), d in zip(outer, [*outer[1:], outer[0]], depths, strict=True)
+            for p in ((x, y), ((x + u) * (10 - d) // 20, (y + v) * (10 - d) // 20))]  # fmt: skip
+    n = len(ring)
+    points = [(x, y, z) for z in (0, 5) for x, y in ring]
+    faces = [tuple(range(n))[::-1], tuple(range(n, 2 * n))]
+    faces += [(k, (k + 1) % n, (k + 1) % n + n, k + n) for k in range(n)]
+    with pytest.raises(SceneError, match="reflex by") as caught:
+        read_mesh(points, faces)
+    corner = 2 * depths.index(max(depths)) + 1
+    assert f"the edge of vertices {corner + 1} and {corner + 1 + n}," in str(caught.value)
+
+
+def test_faces_in_doubles_are_refused_with_how_far_off_they_are_and_read_within_a_distance() -> None:
+    points = dodecahedron()
+    hull = convex_hull(points)
+    joined = parse_mesh(export_text(hull, "off").encode(), "d.off")
+    assert len(bodies(joined, Reading(), "d").polyhedra[0].faces) == 36
+    text = export_text(twelve_faces(), "off").encode()
+    with pytest.raises(SceneError, match=r"^d: face \d+ is not plane, by \d\.\d+e-16; coplanar_within = \"E\" reads"):
+        bodies(parse_mesh(text, "d.off"), Reading(), "d")
+    found = bodies(parse_mesh(text, "d.off"), Reading(within=Fraction(1, 10**9)), "d")
+    assert found.notes[0].startswith("d: 36 faces are read as 12 within 1e-9; a vertex is off its plane by ")
+    drawing = draw(found.polyhedra, parallel((3, -5, 2)), hidden=True)
+    assert len({(piece.start, piece.end) for piece in drawing.pieces}) == 30
+    whole = draw(
+        [Polyhedron("d", found.polyhedra[0].vertices, found.polyhedra[0].faces)], parallel((3, -5, 2)), hidden=True
+    )
+    assert {(p.start, p.end, p.seen) for p in drawing.pieces} < {(p.start, p.end, p.seen) for p in whole.pieces}
+    assert "joined" in {edge.kind for edge in drawing.solids[0].edges}
+    with pytest.raises(CoplanarError, match=r"^d: within 2 the 36 faces would be 2; "):
+        bodies(parse_mesh(text, "d.off"), Reading(within=Fraction(2)), "d")
+
+
+def test_the_outline_is_whole_where_a_joined_face_is_seen_edge_on() -> None:
+    """A slab whose side bends by a thousandth: seen along the side the contour runs between its two faces."""
+    base = [(0, 0), (10, 0), (Fraction(10001, 1000), 5), (10, 10), (0, 10)]
+    points = [(x, y, z) for z in (0, 3) for x, y in base]
+    faces = [(4, 3, 2, 1, 0), (5, 6, 7, 8, 9), *((k, (k + 1) % 5, (k + 1) % 5 + 5, k + 5) for k in range(5))]
+    (made,) = read_mesh(points, faces, Reading(within=Fraction(1, 100))).polyhedra
+    assert len(set(made.joined)) == 6
+    front, along = draw([made], parallel((5, 1, 2))), draw([made], parallel((0, -5, 2)))
+    bend = tuple(sorted(k for k, v in enumerate(made.vertices) if v[1] == 5))
+    assert bend not in {(piece.start, piece.end) for piece in front.pieces}
+    assert bend in {(piece.start, piece.end) for piece in along.pieces}
+    for drawing in (front, along):
+        contour = drawing.solids[0].contour
+        drawn = {frozenset((piece.start, piece.end)) for piece in drawing.pieces}
+        assert all(frozenset(side) in drawn for side in zip(contour, (*contour[1:], contour[0]), strict=True))
+
+
+@pytest.mark.parametrize(
+    ("points", "faces", "message"),
+    [
+        (CUBE, CUBE_FACES[1:], "f: not closed: one face only at vertices 1 and 2, (0, 0, 0) and (1, 0, 0)"),
+        (CUBE, [(3, 2, 1, 1), *CUBE_FACES[1:]], "f: face 1 is not of three or more different vertices"),
+        (CUBE, [(0, 1, 2, 3), *CUBE_FACES[1:]], "f: two faces run the same way along vertices 1 and 2"),
+        ([*CUBE[:7], (0, 0, 0)], CUBE_FACES, "f: vertices 1 and 8 are one point, (0, 0, 0)"),
+        ([*CUBE[:7], (0, 1, "9/8")], CUBE_FACES, "f: face 2 is not plane, by 0.0623; coplanar_within"),
+    ],
+)
+def test_what_is_no_convex_solid(points: list[Point], faces: list[tuple[int, ...]], message: str) -> None:
+    with pytest.raises(SceneError) as caught:
+        read_mesh(points, faces)  # type: ignore[arg-type]
+    assert str(caught.value).startswith(message.partition(", (0, 0, 0)")[0] if "one point" in message else message)
+    assert "\n" not in str(caught.value)
+
+
+HALF = Fraction(1, 2)
+STAR = [(0, 30), (18, -24), (-29, 9), (29, 9), (-18, -24)]
+TETRA = [(0, 0, 0), (6, 0, 0), (0, 6, 0), (0, 0, 6)]
+MIDDLES = [(3, 0, 0), (0, 3, 0), (0, 0, 3), (3, 3, 0), (3, 0, 3), (0, 3, 3)]
+"""Of the edges 01, 02, 03, 12, 13, 23: vertices 4 to 9."""
+
+
+@pytest.mark.parametrize(
+    ("points", "faces", "message"),
+    [
+        (
+            [*CUBE, (HALF, 0, 1)],
+            [CUBE_FACES[0], (4, 8, 5, 6, 7), *CUBE_FACES[2:], (5, 8, 4)],
+            "f: face 7 is no polygon",
+        ),
+        (
+            [(x, y, z) for z in (0, 9) for x, y in STAR],
+            [*((k, k + 5, (k + 1) % 5 + 5, (k + 1) % 5) for k in range(5)), (0, 1, 2, 3, 4), (9, 8, 7, 6, 5)],
+            "f: not convex: face 1 does not lie on the hull of the vertices",
+        ),
+        (
+            [*CUBE[:4], *((x, y, 2) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1), (0, HALF), (HALF, 0), (HALF, HALF)))],
+            [CUBE_FACES[0], (4, 9, 10, 8), (9, 5, 6, 7, 8, 10), (0, 1, 5, 9, 4), *CUBE_FACES[3:5], (3, 0, 4, 8, 7)],
+            "f: face 3 is not convex",
+        ),
+        (
+            [*TETRA, *MIDDLES],
+            [face[::-1] for face in ((0, 1, 2), (1, 4, 0, 3), (0, 2, 3), (1, 3, 2))]
+            + [face[::-1] for face in ((0, 4, 1, 7, 2, 5), (1, 0, 6, 3, 8), (0, 5, 2, 9, 3, 6), (1, 8, 3, 9, 2, 7))],
+            "f: not one closed surface: vertices - edges + faces is not 2",
+        ),
+    ],
+)
+def test_closed_faces_without_a_dent_that_are_no_convex_solid(
+    points: list[tuple[object, ...]], faces: list[tuple[int, ...]], message: str
+) -> None:
+    """A face without width; walls over a star; a face that is not convex; a tetrahedron covered twice."""
+    with pytest.raises(SceneError) as caught:
+        read_mesh(points, faces)
+    assert str(caught.value) == message
+
+
+def test_vertices_of_no_face_and_files_of_points_alone_are_told() -> None:
+    found = read_mesh([*CUBE, (9, 9, 9)], CUBE_FACES)
+    assert found.notes == ("f: 1 of 9 vertices belong to no face",)
+    with pytest.raises(SceneError, match=r"^a: there are no faces, only points; hull = true takes their hull$"):
+        read_bodies(b"0,0,0\n1,0,0\n0,1,0\n0,0,1\n", "a", Reading())
+    for data in (b"0,0,0\n1,0,0\n0,1,0\n0,0,1\n0,0,0\n", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 0\n"):
+        taken = read_bodies(data, "a", Reading(hull=True))
+        assert len(taken.polyhedra[0].faces) == 4
+        assert taken.notes == ("a: line 5: the point of line 1 again",)
+    flat = read_bodies(b"0,0,0\n1,0,0\n0,1,0\n", "a", Reading(hull=True, within=Fraction(1)))
+    assert (len(flat.polyhedra[0].faces), flat.notes) == (
+        2,
+        ("a: the points lie in one plane: there are no faces to join",),
+    )
+
+
+def test_a_plate_and_an_open_surface() -> None:
+    assert len(read_mesh(CUBE[:4], [(0, 1, 2, 3), (3, 2, 1, 0)]).polyhedra[0].faces) == 2  # type: ignore[arg-type]
+    found = read_mesh(CUBE, CUBE_FACES[1:], Reading(hull=True))  # type: ignore[arg-type]
+    assert (len(found.polyhedra[0].faces), found.notes) == (6, ("f: not closed, its hull is taken",))
+
+
+@pytest.mark.parametrize(
+    ("data", "message"),
+    [
+        (b"OFF\n0 0 0\n", "there are no faces, only points"),
+        (b"v 0 0 0\nf 1 2 3\n", "a.obj: line 2, column 5: there is no vertex '2'; they count from 1 to 1"),
+        (b"v 0 0 0\nf -2\n", "a.obj: line 2, column 3: there is no vertex '-2'"),
+        (b"v 0 0 0\nf 0\n", "a.obj: line 2, column 3: there is no vertex '0'"),
+        (b"v 0 0 0\nf a\n", "a.obj: line 2, column 3: 'a' is not a vertex of a face"),
+        (b"v 0 0 0\nf\n", "a.obj: line 2, column 1: a face has at least one vertex"),
+        (b"solid a\nfacet\nvertex 0 0 0\nendfacet\n", "a.obj: line 4, column 1: a triangle ends here after 1 vertices"),
+        (b"solid a\nfacet\nvertex 0 0 0\n", "a.obj: line 3, column 1: the file ends within a triangle, after 1"),
+        (b"ply\n", "a.obj: line 1, column 1"),
+    ],
+)
+def test_broken_files_of_faces(data: bytes, message: str) -> None:
+    with pytest.raises(EmulatorError) as caught:
+        read_bodies(data, "a.obj", Reading(points=data.startswith(b"ply")))
+    assert message in str(caught.value)

@@ -1,0 +1,134 @@
+"""Scenes of files, and files of faces drawn by themselves."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from modern.formats.hulls import export_text
+from modern.papers.nakamae_nishita.hidden import draw
+from modern.papers.nakamae_nishita.projection import parallel
+from modern.papers.nakamae_nishita.scenes import read
+from tests.support.commands import call
+from tests.support.solids import CUBE, CUBE_FACES, ELL, ELL_FACES, binary_stl, cut, twelve_faces
+from tests.support.visibility import Judge, wrong
+
+SCENE = """title = "Three files"
+[view]
+eye = [4, -7, 5]
+[[part]]
+name = "dodecahedron"
+file = "d.off"
+coplanar_within = 1e-9
+at = [0, 0, 3]
+[[part]]
+file = "parts/boxes.stl"
+at = [4, 0, 0]
+count = [1, 2, 1]
+step = [0, 4, 0]
+[[part]]
+name = "ell"
+file = "ell.obj"
+hull = true
+scale = 0.5
+turn = 90
+at = [-3, -2, 0]
+"""
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    inner = tmp_path / "scenes"
+    (inner / "parts").mkdir(parents=True)
+    (inner / "d.off").write_text(export_text(twelve_faces(), "off"))
+    boxes = [[(x + 2 * k, y, z) for x, y, z in CUBE] for k in range(2)]
+    (inner / "parts" / "boxes.stl").write_bytes(binary_stl([t for box in boxes for t in cut(box, CUBE_FACES)]))
+    rows = [f"v {x} {y} {z}\n" for z in (0, 1) for x, y in ELL]
+    rows += ["f " + " ".join(str(k + 1) for k in face) + "\n" for face in ELL_FACES]
+    (inner / "ell.obj").write_text("".join(rows))
+    (inner / "three.toml").write_text(SCENE)
+    return tmp_path
+
+
+def test_a_scene_of_three_files_from_another_folder(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    found = read("scenes/three.toml")
+    made = found.make()
+    assert [len(item.vertices) for item in made] == [20, 8, 8, 8, 8, 10]
+    assert made[1].name == "scenes/three.toml: part 2, component 1 of 2, copy 1,1,1"
+    ell = made[-1].vertices
+    assert {p[2] for p in ell} == {0, Fraction(1, 2)}
+    assert (min(p[0] for p in ell), max(p[1] for p in ell)) == (Fraction(-9, 2), Fraction(-1, 2))
+    assert wrong(draw(made[1:], parallel((4, -7, 5))), Judge(made[1:], direction=(4, -7, 5)))[0] == []
+    code, out, err = call(capsys, "hidden-line", "scenes/three.toml", "-o", "a.svg")
+    assert (code, out) == (0, "")
+    notes = err.splitlines()[:-2]
+    assert notes[0].startswith("note: scenes/three.toml: part 1 (dodecahedron): d.off: 36 faces are read as 12")
+    assert notes[1:] == [
+        "note: scenes/three.toml: part 2: parts/boxes.stl: 2 connected components",
+        "note: scenes/three.toml: part 3 (ell): ell.obj: not convex, its hull is taken",
+    ]
+    assert len(list(ElementTree.parse("a.svg").iter())) > 40
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('"d.off"', '"none.off"', "part 1 (dodecahedron): file: none.off: no such file or directory"),
+        ('"d.off"', '""', "part 1 (dodecahedron): file: a file without a name cannot be read"),
+        ('"d.off"', "3", "part 1: file: a text is due"),
+        ('"d.off"', '"three.toml"', "part 1 (dodecahedron): file: three.toml: there are no faces, only points"),
+        ("coplanar_within = 1e-9\n", "", "part 1 (dodecahedron): file: d.off: face 1 is not plane, by "),
+        ("1e-9", "-1", "is 0 or more, not -1"),
+        ("1e-9", "7", "part 1 (dodecahedron): file: d.off: all points lie within 7 of the plane"),
+        ("hull = true\n", "", "part 3 (ell): file: ell.obj: not convex: between faces 5 and 6"),
+        ("hull = true\n", "hull = 1\n", "part 3: hull: true or false is due"),
+        ("scale = 0.5", "scale = 0", "part 3: scale: a size is a number greater than 0"),
+        ('"ell"\n', '"ell"\nshape = "cuboid"\n', "part 3: file: a part has a shape or a file, not both"),
+        ("step = [0, 4, 0]\n", "figures = [[[0, 0, 0]]]\nstep = [0, 4, 0]\n", "figures: the file holds 2 connected"),
+        (
+            "count = [1, 2, 1]",
+            "count = [1, 10001, 1]",
+            "part 2: count: copies are 1 or more along each axis, and 20,000",
+        ),
+        ("at = [4, 0, 0]\n", "hul = true\n", "part 2: 'hul' is no field of this place"),
+    ],
+)
+def test_what_is_wrong_with_a_part_is_one_line(
+    folder: Path, old: str, new: str, message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert SCENE.count(old) == 1
+    Path("scenes/three.toml").write_text(SCENE.replace(old, new))
+    code, out, err = call(capsys, "hidden-line", "scenes/three.toml", "-o", "a.svg")
+    assert (code, out, err.count("\n")) == (2, "", 1), err
+    assert message in err
+    assert not Path("a.svg").exists()
+
+
+def test_the_command_on_files_of_faces(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, err = call(capsys, "hidden-line", "scenes/parts/boxes.stl")
+    assert (code, err.splitlines()[0]) == (0, "note: scenes/parts/boxes.stl: 2 connected components")
+    assert len(list(ElementTree.fromstring(out).iter("{http://www.w3.org/2000/svg}line"))) == 18
+    code, _, err = call(capsys, "hidden-line", "scenes/ell.obj", "-o", "a.svg")
+    assert code == 2
+    assert "take its hull (--hull), or, where that is rounding, read faces within a distance as one (--coplanar" in err
+    assert call(capsys, "hidden-line", "scenes/ell.obj", "--hull", "-o", "a.svg")[0] == 0
+    code, _, err = call(capsys, "hidden-line", "scenes/d.off", "--coplanar-within", "1e-9", "-o", "a.svg")
+    assert (code, err.count("36 faces are read as 12")) == (0, 1)
+    code, _, err = call(capsys, "hidden-line", "house", "--hull")
+    assert (code, err) == (
+        2,
+        "hull1620: --hull and --coplanar-within are for a file of faces or points; a scene file has fields\n",
+    )
+
+
+def test_an_output_never_overwrites_a_file_of_the_scene(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("scenes/ell.obj").rename("scenes/ell.svg")
+    before = Path("scenes/ell.svg").read_text()
+    Path("scenes/three.toml").write_text(SCENE.replace("ell.obj", "ell.svg"))
+    code, _, err = call(capsys, "hidden-line", "scenes/three.toml", "-o", "scenes/ell.svg")
+    assert (code, err) == (2, "hull1620: scenes/ell.svg: is a file of the scene too; an output never overwrites it\n")
+    assert Path("scenes/ell.svg").read_text() == before

@@ -1,0 +1,190 @@
+"""The near plane of a perspective: what is cut is the part beyond it, exactly; what is behind is left out and said."""
+
+from __future__ import annotations
+
+import random
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from modern.exact_hull import exact_hull
+from modern.papers.nakamae_nishita.clipping import Kept, beyond_near
+from modern.papers.nakamae_nishita.hidden import draw
+from modern.papers.nakamae_nishita.polyhedron import Figure, Polyhedron, SceneError, checked
+from modern.papers.nakamae_nishita.projection import Observer, parallel, perspective
+from modern.papers.nakamae_nishita.scenes import parse
+from modern.papers.nakamae_nishita.shapes import cuboid, moved, placed, plate
+from tests.support.commands import call
+from tests.support.scenes_at_random import hull_of, vector
+from tests.support.visibility import Judge, wrong
+
+EYE = vector(0, -10, 0)
+
+
+def looking(near: Fraction | int | str) -> Observer:
+    return perspective(EYE, vector(0, 0, 0), Fraction(near))
+
+
+def box(low, high, name: str = "box") -> Polyhedron:
+    size = [Fraction(b) - Fraction(a) for a, b in zip(low, high, strict=True)]
+    return placed(cuboid(name, *size), moved(vector(*low)), name)
+
+
+def clip(polyhedron: Polyhedron, near: Fraction | int | str) -> Kept:
+    return beyond_near([polyhedron], looking(near))
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.integers(0, 10**6))
+def test_what_is_left_is_the_hull_of_what_lies_beyond_and_of_where_edges_cross(seed: int) -> None:
+    """By the exact judge: every segment between two vertices is cut, not only the edges."""
+    source = random.Random(seed)
+    points = [vector(*(source.randint(-4, 4) for _ in range(3))) for _ in range(source.randint(4, 9))]
+    made = hull_of(points, "p")
+    assume(made is not None)
+    assert made is not None
+    # The plane is y = level: the eye looks along the y axis.
+    level = Fraction(source.randint(-8, 8), 2)
+    if all(p[1] <= level for p in made.vertices):
+        with pytest.raises(SceneError, match="everything lies behind"):
+            clip(made, level + 10)
+        return
+    kept = clip(made, level + 10)
+    beyond = [p for p in made.vertices if p[1] >= level]
+    crossed = [
+        tuple(a + (level - p[1]) / (q[1] - p[1]) * (b - a) for a, b in zip(p, q, strict=True))
+        for p in made.vertices
+        for q in made.vertices
+        if p[1] < level < q[1]
+    ]
+    (left,) = kept.polyhedra
+    expected = exact_hull([*beyond, *crossed])
+    places = [*beyond, *crossed]
+    assert set(left.vertices) == {tuple(places[index]) for index in expected.vertices}
+    assert len(left.faces) == len(expected.facets)
+    assert checked(left) == left
+    assert kept.cut == (("p",) if any(p[1] < level for p in made.vertices) else ())
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_cut_scene_is_drawn_as_the_judge_sees_it(seed: int) -> None:
+    source = random.Random(seed)
+    polyhedra = [
+        box((x, y, z), (x + source.randint(1, 3), y + source.randint(1, 3), z + source.randint(1, 3)), f"{x}{y}{z}")
+        for x in (-4, 0, 4)
+        for y in (-4, 0, 4)
+        for z in (-4, 0)
+    ]
+    eye = vector(source.randint(-2, 2), -9, source.randint(-2, 3))
+    observer = perspective(eye, vector(0, 0, source.randint(-1, 1)), Fraction(source.randint(10, 27), 2))
+    drawing = draw(polyhedra, observer)
+    assert drawing.cut
+    left = [solid.polyhedron for solid in drawing.solids]
+    assert len(left) == len(polyhedra) - len(drawing.behind)
+    assert wrong(drawing, Judge(left, point=eye))[0] == []
+
+
+def test_the_distance_is_measured_along_the_direction_of_view() -> None:
+    """Exact where the direction has a length that is a fraction, within 1e-15 where it has none."""
+    observer = perspective(vector(0, 0, 0), vector(3, 4, 0), Fraction(5))
+    (left,) = beyond_near([box((0, 0, 0), (20, 20, 1))], observer).polyhedra
+    assert {3 * x + 4 * y for x, y, _ in left.vertices if 3 * x + 4 * y <= 25} == {25}
+    slanted = perspective(vector(0, 0, 0), vector(1, 1, 1), Fraction(2))
+    (left,) = beyond_near([box((0, 0, 0), (9, 9, 9))], slanted).polyhedra
+    (level,) = {sum(p) for p in left.vertices if sum(p) < 5}
+    assert 0 <= 12 - level * level < Fraction(1, 10**13)
+
+
+def test_what_the_plane_only_touches_is_whole_or_gone() -> None:
+    solid = box((0, 0, 0), (2, 2, 2))
+    assert clip(solid, 10) == Kept((solid,))
+    with pytest.raises(SceneError, match=r"^everything lies behind the near plane$"):
+        clip(solid, 12)
+    kept = beyond_near([solid, box((5, 5, 5), (6, 6, 6), "far")], looking(12))
+    assert ([p.name for p in kept.polyhedra], kept.cut, kept.behind) == (["far"], (), ("box",))
+    assert beyond_near([solid], parallel((0, -1, 0))) == Kept((solid,))
+
+
+def test_plates_figures_and_faces_read_as_one_are_cut_too() -> None:
+    flat = plate("plate", [vector(0, y, z) for y, z in ((-2, 0), (2, 0), (2, 2), (-2, 2))])
+    (left,) = clip(flat, 11).polyhedra
+    assert (len(left.faces), {p[1] for p in left.vertices}) == (2, {1, 2})
+    side = box((0, -2, 0), (2, 2, 2))
+    order = next(k for k, face in enumerate(side.faces) if all(side.vertices[p][0] == 2 for p in face))
+    front = next(k for k, face in enumerate(side.faces) if all(side.vertices[p][1] == -2 for p in face))
+    triangle = (vector(2, -1, 1), vector(2, 1, 1), vector(2, 1, "3/2"))
+    window = (vector(1, -2, 1), vector("3/2", -2, 1), vector(1, -2, "3/2"))
+    figures = (
+        Figure(order, triangle),
+        Figure(front, window),
+        Figure(order, tuple(vector(2, "-3/2", k) for k in (0, 1, 2))),
+    )
+    solid = Polyhedron("s", side.vertices, side.faces, figures=figures, joined=tuple(range(6)))
+    (left,) = clip(solid, 10).polyhedra
+    assert [figure.corners for figure in left.figures] == [(vector(2, 0, 1), *triangle[1:], vector(2, 0, "5/4"))]
+    assert {left.vertices[p][0] for p in left.faces[left.figures[0].face]} == {2}
+    assert len(set(left.joined)) == len(left.faces) == 6
+    assert {left.vertices[p][1] for p in left.faces[-1]} == {0}
+
+
+SCENE = """[view]
+projection = "perspective"
+eye = [0, -10, 1]
+towards = [0, 0, 1]
+near = 8
+[[part]]
+name = "near"
+shape = "cuboid"
+size = [2, 1, 2]
+at = [-6, -9, 0]
+[[part]]
+name = "across"
+shape = "cuboid"
+size = [2, 9, 2]
+at = [0, -5, 0]
+"""
+
+
+def test_a_scene_with_a_near_plane(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("s.toml").write_text(SCENE)
+    code, _, err = call(capsys, "hidden-line", "s.toml", "-o", "a.svg")
+    assert code == 0
+    assert err.splitlines()[:2] == [
+        "note: 1 part cut by the near plane: s.toml: part 2 (across)",
+        "note: 1 part behind the near plane, left out: s.toml: part 1 (near)",
+    ]
+    assert call(capsys, "hidden-line", "s.toml", "--near", "1/2", "-o", "b.svg")[2].startswith("polyhedra ")
+    assert Path("a.svg").read_text() != Path("b.svg").read_text()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "arguments", "message"),
+    [
+        ("near = 8", "near = 0", (), "s.toml: view: near: the near plane is at a distance greater than 0"),
+        ('projection = "perspective"\n', "", (), "towards: a parallel projection has a direction only, eye"),
+        ('projection = "perspective"\neye', "eye", ("--towards", "1,2,3"), "towards: a parallel projection"),
+        ("near = 8", "near = 99", (), "everything lies behind the near plane"),
+        ("near = 8", "", ("--near", "0"), "--near: '0' is not a distance greater than 0"),
+        ("near = 8", "", ("--near", "a"), "--near: 'a' is not a decimal number"),
+        ("near = 8", "", ("--near", "-1"), "--near: '-1' is not a distance greater than 0"),
+    ],
+)
+def test_refusals(tmp_path: Path, monkeypatch, capsys, old: str, new: str, arguments, message: str) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("s.toml").write_text(SCENE.replace(old, new))
+    code, _, err = call(capsys, "hidden-line", "s.toml", *arguments, "-o", "a.svg")
+    assert (code, err.count("\n"), Path("a.svg").exists()) == (2, 1, False), err
+    assert message in err
+
+
+def test_a_parallel_projection_has_no_near_plane_and_without_one_the_remedy_is_named(capsys) -> None:
+    with pytest.raises(SceneError, match="view: near: a parallel projection has no near plane"):
+        parse("[view]\nnear = 1\n[[part]]\nshape = 'cuboid'\nsize = [1, 1, 1]", "s")
+    code, _, err = call(capsys, "hidden-line", "house", "--near", "2")
+    assert (code, err) == (2, "hull1620: --near is for a perspective; a parallel projection has a direction only\n")
+    with pytest.raises(SceneError, match=r"^box: not wholly before the observation point; a near plane cuts it$"):
+        draw([box((-1, -11, -1), (1, 1, 1))], perspective(EYE, vector(0, 0, 0)))
