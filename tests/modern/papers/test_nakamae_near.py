@@ -13,11 +13,13 @@ from hypothesis import strategies as st
 from modern.exact_hull import exact_hull
 from modern.papers.nakamae_nishita.clipping import Kept, beyond_near
 from modern.papers.nakamae_nishita.hidden import draw
+from modern.papers.nakamae_nishita.picture import as_svg
 from modern.papers.nakamae_nishita.polyhedron import Figure, Polyhedron, SceneError, checked
 from modern.papers.nakamae_nishita.projection import Observer, parallel, perspective
-from modern.papers.nakamae_nishita.scenes import parse
+from modern.papers.nakamae_nishita.scenes import Sight, parse, scene
 from modern.papers.nakamae_nishita.shapes import cuboid, moved, placed, plate
 from tests.support.commands import call
+from tests.support.paths import ROOT
 from tests.support.scenes_at_random import hull_of, vector
 from tests.support.visibility import Judge, wrong
 
@@ -188,3 +190,10 @@ def test_a_parallel_projection_has_no_near_plane_and_without_one_the_remedy_is_n
     assert (code, err) == (2, "hull1620: --near is for a perspective; a parallel projection has a direction only\n")
     with pytest.raises(SceneError, match=r"^box: not wholly before the observation point; a near plane cuts it$"):
         draw([box((-1, -11, -1), (1, 1, 1))], perspective(EYE, vector(0, 0, 0)))
+
+
+def test_the_committed_picture_of_the_cut_house_is_the_one_drawn() -> None:
+    sight = Sight(vector(40, -35, 30), "perspective", vector(4, 5, 1), Fraction(53))
+    make = scene("house").make
+    picture = as_svg(draw(make, sight.observer(make)), "The house cut by a near plane")
+    assert (ROOT / "docs" / "papers" / "section.svg").read_text() == picture
