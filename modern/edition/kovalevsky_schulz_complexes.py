@@ -259,7 +259,9 @@ def raster(kind: str) -> Seen:
         array = np.zeros((2 * SIDE + 1,) * 3, dtype=np.int64)
         for number, cell in enumerate(sorted(SPACE), 1):
             array[cell] = number
-        return seen(len(np.unique(array)) == array.size == len(SPACE), f"{array.size} places for {len(SPACE)} cells")
+        return seen(
+            len({*array.ravel().tolist()}) == array.size == len(SPACE), f"{array.size} places for {len(SPACE)} cells"
+        )
     if kind == "incident":
         good = []
         for cell in SPACE:

@@ -244,3 +244,14 @@ def inner_side() -> Seen:
         for normal in (visible[:3], hidden[:3], tuple(sign * n for n in plane[:3])):
             good.append(max(dot(normal, way) for way in ways) == 0)  # type: ignore[arg-type]
     return seen(bool(good) and all(good), f"{len(good)} normals")
+
+
+def acute_and_obtuse() -> Seen:
+    """Products of the two normals with the way to the new point, from three points of each edge."""
+    good = []
+    for new, visible, hidden, _, _, (start, end) in _horizons():
+        for share in (0, 1, 2):
+            way = [2 * p - (2 - share) * a - share * b for p, a, b in zip(new, start, end, strict=True)]
+            of_visible, of_hidden = (sum(n * w for n, w in zip(p[:3], way, strict=True)) for p in (visible, hidden))
+            good.append(of_visible > 0 > of_hidden)
+    return seen(bool(good) and all(good), f"{len(good)} points of edges")
