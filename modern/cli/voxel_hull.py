@@ -39,7 +39,6 @@ from modern.papers.kovalevsky_schulz import (
     voxel_hull,
 )
 from modern.papers.kovalevsky_schulz.tables import all_rows, cell_list_size, economical_size, triangulation_size
-from modern.study.progress import Progress
 
 
 def main(args: argparse.Namespace) -> int:
@@ -123,6 +122,8 @@ def _fill(volume: Volume, said: Iterable[str], output: str | None) -> None:
 
 def _each_label(args: argparse.Namespace, form: str | None) -> int:
     """The table of labels, and a file for each where the output has a place for it: all, or none of them."""
+    from modern.study.progress import Progress  # its room is loaded for many labels only
+
     asked = choice_of(args).labels
     scan = scan_of(args)
     world = in_space(scan.world, args.space)

@@ -21,7 +21,7 @@ READERS = {"NIfTI": "NiftiImageIO", "MetaImage": "MetaImageIO", "TIFF": "TIFFIma
 _POSITION, _ORIENTATION = "0020|0032", "0020|0037"
 _UNEVEN = 1e-3
 """Distances of slices that differ by more than this part of their mean are told."""
-_SAID = 120
+_SAID = 160
 
 
 class Refused(Exception):
@@ -157,7 +157,7 @@ def _floats(text: str) -> list[float]:
 def _said(error: Exception) -> str:
     """The last thing an exception of the library says, without places in its source and in memory."""
     words = " ".join(str(error).split())
-    words = re.split(r"(?:itk|sitk)::ERROR: ", words)[-1]
+    words = re.split(r"(?:itk::|sitk::|ITK )ERROR: ", words)[-1]
     words = re.sub(r"\b\w+\((?:0x)?[0-9a-fA-F]+\): ", "", words)
     words = re.sub(r"(?:/[^\s/]+)+/", "", words)
     return (words or type(error).__name__)[:_SAID]

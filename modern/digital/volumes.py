@@ -76,14 +76,18 @@ def read_volume(
     labels: Sequence[int] = (),
     spacing: Sequence[object] | None = None,
     origin: Sequence[object] | None = None,
+    array: str | None = None,
+    series: str | None = None,
 ) -> Volume:
     """The voxels of a file (``-``: standard input), of a folder with a DICOM series, or of a ball: ``ball:32``.
 
     shape, dtype: of a file of bare numbers, x fastest.  threshold: values from it up are voxels.  labels: values that
     are voxels.  With neither, all values other than 0.  spacing, origin: of a file that does not say where its voxels
-    lie.  Raises FileError for a file that cannot be read, VolumeError for an invalid volume.
+    lie.  array: the name of one of several in an NPZ file.  series: the identifier of one of several in a folder.
+
+    Raises FileError for a file that cannot be read, VolumeError for an invalid volume.
     """
-    stated = Stated(tuple(shape) if shape is not None else None, dtype, spacing=spacing, origin=origin)
+    stated = Stated(None if shape is None else tuple(shape), dtype, array, series, spacing, origin)
     try:
         least = None if threshold is None else real(threshold)
     except ValueError as error:
