@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import csv
+import os
+import subprocess
+import sys
 from fractions import Fraction
 from pathlib import Path
 
@@ -14,6 +17,7 @@ from modern.digital.solids import Volume, ball
 from modern.digital.volumes import write_array
 from modern.digital.world import LPS, World
 from tests.support.commands import call
+from tests.support.paths import ROOT
 from tests.support.volumefiles import PLACE, nrrd
 
 STEPS = ((Fraction(1, 2), Fraction(0), Fraction(0)), (Fraction(0), Fraction(-1, 2), Fraction(0)))
@@ -206,6 +210,20 @@ def test_what_cannot_be_done_is_one_line(words: str, message: str, capsys: pytes
     assert (code, out, err.count("\n")) == (2, "", 1)
     assert message in err
     assert sorted(Path().iterdir()) == before
+
+
+@pytest.mark.parametrize(("shape", "code"), [("(2L, 2L, 2L)", 0), ("(2if 1 else 3, 2, 2)", 2)])
+def test_what_python_says_of_a_header_is_not_shown(shape: str, code: int) -> None:
+    """numpy reads the header as Python, which warns of some words: of those that Python 2 wrote, too."""
+    head = f"{{'descr': '|u1', 'fortran_order': False, 'shape': {shape}, }}".ljust(117) + "\n"
+    Path("a.npy").write_bytes(b"\x93NUMPY\x01\x00" + len(head).to_bytes(2, "little") + head.encode() + b"\1" * 8)
+    words = [sys.executable, "-W", "always", "-m", "modern.cli.main", "voxel-hull", "a.npy"]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    done = subprocess.run(words, env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == code
+    assert [line.split(":")[0] for line in done.stderr.splitlines()] == (
+        ["hull1620"] if code else ["a.npy", "coordinates"]
+    )
 
 
 def test_a_name_that_would_write_two_labels_to_one_file(capsys: pytest.CaptureFixture[str]) -> None:

@@ -120,15 +120,18 @@ def test_what_a_nifti_file_does_not_state_is_said() -> None:
     assert scan.world.unit == ""
 
 
-def test_one_moment_of_time_is_a_volume_and_more_are_not() -> None:
-    for moments, wanted in ((1, ""), (2, "4 axes, 2 x 3 x 4 x 2; a volume has two or three")):
-        image = sitk.JoinSeries([sitk.GetImageFromArray(VALUES.T)] * moments)
-        sitk.WriteImage(image, "a.nii")
-        if wanted:
-            with pytest.raises(VolumeError, match=f"a.nii: {wanted}"):
-                read_scan("a.nii")
-        else:
-            assert np.array_equal(read_scan("a.nii").values, VALUES)
+@pytest.mark.parametrize("name", ["a.nii", "a.mha"])
+def test_one_moment_of_time_is_a_volume_and_more_are_not(name: str) -> None:
+    image = sitk.GetImageFromArray(VALUES.T)
+    image.SetSpacing((0.5, 0.25, 2.0))
+    sitk.WriteImage(sitk.JoinSeries([image], 7.0, 3.0), name)
+    scan = read_scan(name)
+    assert np.array_equal(scan.values, VALUES)
+    assert scan.world is not None
+    assert [text for text, _ in scan.world.spacings()] == ["0.5", "0.25", "2"]
+    sitk.WriteImage(sitk.JoinSeries([image, image]), name)
+    with pytest.raises(VolumeError, match=f"{name}: 4 axes, 2 x 3 x 4 x 2; a volume has two or three"):
+        read_scan(name)
 
 
 def test_a_tiff_file_has_no_place() -> None:

@@ -58,6 +58,17 @@ def test_a_threshold_is_a_decimal_and_a_value_the_number_it_is(kind: str) -> Non
         chosen(scan(np.full((1, 1, 1), np.float64(0.3), "f8" if kind == "f4" else kind)), Choice(Fraction(3, 10)))
 
 
+def test_a_threshold_between_two_numbers_of_a_wide_type() -> None:
+    """The double next to 5/3 is above it: a wider type has numbers between the two."""
+    threshold = Fraction(5, 3)
+    value = np.longdouble(float(threshold))
+    while Fraction(*np.nextafter(value, np.longdouble(0)).as_integer_ratio()) >= threshold:
+        value = np.nextafter(value, np.longdouble(0))
+    below = np.nextafter(value, np.longdouble(0))
+    found = chosen(scan(np.array([[below, value]])), Choice(threshold))
+    assert found.volume.array.tolist() == [[False, True]]
+
+
 @settings(deadline=None)
 @given(values)
 def test_labels_are_the_whole_values_but_zero(array: np.ndarray) -> None:
