@@ -260,9 +260,14 @@ def _octree_hull(parser: ArgumentParser) -> None:
         metavar="NAME,...",
         help="only these as printed: angle, start, triangles, truncation, bound, corners, marks",
     )
-    parser.add_argument("--trace", action="store_true", help="every edge taken from the queue, and what became of it")
-    words = "write the filled hull as an array: .nrrd, which keeps spacing and origin, or .npy"
-    parser.add_argument("-o", "--output", metavar="FILE", help=words)
+    words = "print floor and ceiling, the reduced sets, and every face (default: a summary)"
+    parser.add_argument("--tables", action="store_true", help=words)
+    words = "the tables, with every edge taken from the queue and what became of it"
+    parser.add_argument("--trace", action="store_true", help=words)
+    meshes = tuple(f".{name}" for name in MESHES)
+    words = "the filled hull as an array: .nrrd, which keeps spacing and origin, or .npy; or as a mesh "
+    parser.add_argument("-o", "--output", metavar="FILE", help=f"{words}({', '.join(meshes)}) over voxels' centres")
+    parser.set_defaults(endings=(".nrrd", ".npy", *meshes))
 
 
 def _apparatus(parser: ArgumentParser) -> None:

@@ -5,14 +5,18 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from emulator.files import check_writable
+from emulator.files import check_writable, write_text
 from modern.cli.shared.console import DIFFERS, OK, UsageError, counted, say
-from modern.cli.shared.volumes import array_note, check_array, volume_of
-from modern.digital.volumes import write_array
+from modern.cli.shared.volumes import array_note, coordinate_words, printable, volume_of
+from modern.digital.solids import Volume
+from modern.digital.volumes import ARRAYS, write_array
+from modern.formats.hulls import mesh_text
+from modern.papers.kovalevsky_schulz import CENTRES, voxel_hull
 from modern.papers.yau_srihari import OctreeHull, Printed, octree_hull
 from modern.papers.yau_srihari.envelope import Edge, Envelope, Step
 from modern.papers.yau_srihari.octree import nodes
@@ -23,24 +27,35 @@ Point = tuple[int, int, int]
 
 
 def main(args: argparse.Namespace) -> int:
-    """Read the volume, find its hull, print every stage, write the filled hull."""
+    """Read the volume, find its hull, write it, print a summary or every stage."""
     printed = _printed(args)
-    check_array(args.output)
     check_writable(args.output)
     volume, said = volume_of(args)
     hull = octree_hull(volume, printed)
-    if args.output is not None:
+    array = args.output is not None and args.output.lower().endswith(ARRAYS)
+    if array:
         write_array(args.output, hull.filled, volume)
+    elif args.output is not None:
+        centres = voxel_hull(_in_space(replace(volume, array=hull.filled)), CENTRES)
+        write_text(args.output, mesh_text(centres.mesh(straight=True), args.output.rpartition(".")[2].lower()))
+        said = (*said, printable(coordinate_words(volume.world, corners=False)))
     say(said)
     x, y, z = (*volume.origin, 0)[:3]
-    for line in _lines(hull, volume.source, (x, y, z), args.trace):
+    for line in _lines(hull, volume.source, (x, y, z), args.tables or args.trace, args.trace):
         print(line)
     if printed.names():
         say([f"note: taken as printed: {', '.join(printed.names())}"])
     say(f"note: {fault}" for fault in hull.faults)
-    if args.output is not None:
+    if array:
         say(array_note(args.output, volume))
     return _compared(hull.filled, octree_hull(volume).filled) if printed.names() else OK
+
+
+def _in_space(volume: Volume) -> Volume:
+    """The volume with three axes; of an array of two that has no place in the world, one layer."""
+    if volume.dimension == 3 or volume.world is not None:
+        return volume
+    return replace(volume, array=volume.array[..., None], origin=(*volume.origin, 0))
 
 
 def _printed(args: argparse.Namespace) -> Printed:
@@ -60,19 +75,29 @@ def _compared(literal: NDArray[np.bool_], corrected: NDArray[np.bool_]) -> int:
     return DIFFERS if missing or more else OK
 
 
-def _lines(hull: OctreeHull, source: str, origin: Point, trace: bool) -> Iterator[str]:
+def _lines(hull: OctreeHull, source: str, origin: Point, tables: bool, trace: bool) -> Iterator[str]:
     x, y, z = origin
     over = f"an octree of {counted(nodes(hull.solid), 'node')} over a cube of side {hull.side}"
     yield f"{source}: {counted(hull.given, 'voxel')}, {over}"
     floor = {(i + x, j + y): value + z for (i, j), value in hull.floor.items()}
     ceiling = {(i + x, j + y): value + z for (i, j), value in hull.ceiling.items()}
-    yield from _table("floor", floor)
-    yield from _table("ceiling", ceiling)
-    yield from _side("floor", hull.lower, len(floor), origin, 1, trace)
-    yield from _side("ceiling", hull.upper, len(ceiling), origin, -1, trace)
+    if tables:
+        yield from _table("floor", floor)
+        yield from _table("ceiling", ceiling)
+        yield from _side("floor", hull.lower, len(floor), origin, 1, trace)
+        yield from _side("ceiling", hull.upper, len(ceiling), origin, -1, trace)
+    else:
+        yield _brief("floor", hull.lower, len(floor))
+        yield _brief("ceiling", hull.upper, len(ceiling))
     parts = hull.components
     what = "digital hull" if parts == 1 else f"digital points of the hull of {parts} 6-connected parts"
     yield f"{what}: {counted(hull.voxels, 'voxel')}, an octree of {counted(nodes(hull.hull), 'node')}"
+
+
+def _brief(name: str, found: Envelope, columns: int) -> str:
+    """An envelope in a line."""
+    what = f"over one line, {len(found.chain)} vertices" if found.chain else counted(len(found.faces), "face")
+    return f"{name}: {len(found.reduced)} of {columns} columns are in the reduced set; {what}"
 
 
 def _table(name: str, heights: dict[Place, int]) -> Iterator[str]:

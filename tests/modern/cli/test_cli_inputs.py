@@ -132,7 +132,7 @@ def test_a_ball_too_large_names_the_limit(diameter: str, capsys: pytest.CaptureF
         (["hidden-line", "house", "-o", "a.pdf"], ".svg or .hpgl or .plt"),
         (["export", "points.csv", "-o", "a.3ds"], ".off, .obj, .ply, .stl, .json"),
         (["voxel-hull", "ball:3", "-o", "a.json"], ".off, .obj, .ply, .stl"),
-        (["octree-hull", "ball:3", "-o", "a.off"], ".npy"),
+        (["octree-hull", "ball:3", "-o", "a.svg"], ".nrrd or .npy or .off or .obj or .ply or .stl"),
     ],
 )
 def test_an_ending_that_is_not_written_is_refused(

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from modern.cli.main import build_parser
+from modern.formats.off import read_off
 from modern.papers.yau_srihari.printed import NAMES
 from tests.support.commands import call
 from tests.support.digital_judge import judged, solid_of
@@ -25,7 +26,7 @@ def stair(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
 
 
 def test_every_stage_is_printed_in_the_coordinates_given(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
-    code, out, err = call(capsys, "octree-hull", stair)
+    code, out, err = call(capsys, "octree-hull", stair, "--tables")
     assert (code, err) == (0, "")
     assert out == (
         "stair.csv: 7 voxels, an octree of 25 nodes over a cube of side 4\n"
@@ -53,6 +54,55 @@ def test_every_stage_is_printed_in_the_coordinates_given(stair: str, capsys: pyt
     )
 
 
+def test_by_itself_a_summary_is_printed(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, err = call(capsys, "octree-hull", stair)
+    assert (code, err) == (0, "")
+    assert out == (
+        "stair.csv: 7 voxels, an octree of 25 nodes over a cube of side 4\n"
+        "floor: 4 of 5 columns are in the reduced set; 2 faces\n"
+        "ceiling: 4 of 5 columns are in the reduced set; 2 faces\n"
+        "digital hull: 7 voxels, an octree of 25 nodes\n"
+    )
+    assert call(capsys, "octree-hull", "ball:16")[1].count("\n") == 4
+
+
+@pytest.mark.parametrize(
+    ("name", "voxels"),
+    [
+        ("stair", STAIR),
+        ("row", "x,y,z\n4,4,4\n6,8,4\n"),
+        ("layer", "x,y,z\n0,0,7\n3,0,7\n0,3,7\n"),
+        ("upright", "x,y,z\n0,0,0\n3,3,0\n0,0,9\n"),
+        ("one", "x,y,z\n-3,5,6\n"),
+        ("plane", "x,y\n2,2\n5,2\n2,9\n"),
+    ],
+)
+def test_the_mesh_is_the_hull_of_the_voxels_centres(
+    stair: str, name: str, voxels: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """As another command makes it of the centres as points."""
+    Path("v.csv").write_text(voxels)
+    rows = [row if row.count(",") == 2 else f"{row},0" for row in voxels.split()[1:]]
+    Path("p.csv").write_text("\n".join(rows) + "\n")
+    assert call(capsys, "octree-hull", "v.csv", "-o", "v.off")[0] == 0
+    assert call(capsys, "export", "p.csv", "-o", "p.off")[0] == 0
+    found, wanted = read_off("v.off"), read_off("p.off")
+    places = [set(mesh.points) for mesh in (found, wanted)]
+    assert places[0] == places[1]
+    faces = [{frozenset(mesh.points[k] for k in face) for face in mesh.faces} for mesh in (found, wanted)]
+    assert faces[0] == faces[1]
+
+
+def test_what_the_reader_says_comes_only_when_all_went_well(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("far.csv").write_text("0,0,0\n0,0,0\n999999999,0,0\n")
+    code, out, err = call(capsys, "octree-hull", "far.csv", "-o", "far.npy")
+    assert (code, out, err.count("\n")) == (2, "", 1), err
+    assert call(capsys, "octree-hull", "far.csv")[2].endswith("is not divided\n")
+    Path("twice.csv").write_text("0,0,0\n0,0,0\n")
+    said = "note: twice.csv: 1 of 2 voxels are listed before\n"
+    assert call(capsys, "octree-hull", "twice.csv")[::2] == (0, said)
+
+
 def test_one_voxel_is_one(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
     Path("one.csv").write_text("4,5,6\n")
     out = call(capsys, "octree-hull", "one.csv")[1].splitlines()
@@ -61,7 +111,7 @@ def test_one_voxel_is_one(stair: str, capsys: pytest.CaptureFixture[str]) -> Non
 
 
 def test_faces_run_counterclockwise_seen_from_outside(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
-    out = call(capsys, "octree-hull", stair)[1]
+    out = call(capsys, "octree-hull", stair, "--tables")[1]
     faces = re.findall(r"^  (\S+): (\S+) (\S+) (\S+)", out, re.MULTILINE)
     assert len(faces) == 4
     for face in faces:
@@ -121,7 +171,7 @@ def test_where_an_array_begins_is_said(stair: str, capsys: pytest.CaptureFixture
 
 def test_what_is_not_connected_says_so(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
     Path("apart.csv").write_text("0,0\n4,2\n")
-    code, out, _ = call(capsys, "octree-hull", "apart.csv")
+    code, out, _ = call(capsys, "octree-hull", "apart.csv", "--tables")
     assert code == 0
     assert "over one line; vertices of its envelope:\n  (0,0,0) (4,2,0)\n" in out
     assert out.endswith("digital points of the hull of 2 6-connected parts: 3 voxels, an octree of 49 nodes\n")
@@ -133,7 +183,7 @@ def test_what_is_not_connected_says_so(stair: str, capsys: pytest.CaptureFixture
         (["stair.csv", "--printed", "angel"], "--printed: 'angel' is not one of angle, start"),
         (["stair.csv", "--printed", ""], "--printed: '' is not one of angle, start"),
         (["stair.csv", "--literal", "--printed", "angle"], "not allowed with argument"),
-        (["stair.csv", "-o", "hull.off"], "hull.off: a filled hull is written as an array"),
+        (["stair.csv", "-o", "hull.svg"], "hull.svg: the name must end with .nrrd or .npy or .off or .obj"),
         (["stair.csv", "-o", "no/hull.npy"], "no/hull.npy: no such file or directory"),
         (["none.csv"], "none.csv: no such file or directory"),
         (["."], "is a directory"),
