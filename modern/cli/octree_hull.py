@@ -39,6 +39,8 @@ def main(args: argparse.Namespace) -> int:
         centres = voxel_hull(_in_space(replace(volume, array=hull.filled)), CENTRES)
         write_text(args.output, mesh_text(centres.mesh(straight=True), args.output.rpartition(".")[2].lower()))
         said = (*said, printable(coordinate_words(volume.world, corners=False)))
+    elif volume.world is not None and (args.tables or args.trace):
+        said = (*said, coordinate_words(None, corners=False))
     say(said)
     x, y, z = (*volume.origin, 0)[:3]
     for line in _lines(hull, volume.source, (x, y, z), args.tables or args.trace, args.trace):

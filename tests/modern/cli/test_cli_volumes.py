@@ -58,6 +58,8 @@ def test_what_was_chosen_is_said(capsys: pytest.CaptureFixture[str]) -> None:
             code, _, err = call(capsys, command, "scan.nrrd", *options)
             assert code == 0
             assert err.splitlines()[0] == f"scan.nrrd: {said}; spacing 0.5 0.5 2 mm"
+    octree = call(capsys, "octree-hull", "scan.nrrd", "--tables")[2].splitlines()
+    assert octree[1:] == ["coordinates: indices, of voxels' centres"]
     assert call(capsys, "voxel-hull", "scan.npy")[2].splitlines()[0].endswith("; no spacing stated")
     placed = call(capsys, "voxel-hull", "scan.npy", "--spacing", ".5,.5,2")[2].splitlines()[0]
     assert placed.endswith("spacing 0.5 0.5 2 (unit not stated)")

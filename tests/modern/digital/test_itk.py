@@ -18,7 +18,7 @@ from modern.digital import itk
 from modern.digital.itk import KINDS, kind_of
 from modern.digital.scans import Scan
 from modern.digital.solids import VolumeError
-from modern.digital.volumes import Stated, read_scan, read_volume
+from modern.digital.volumes import Stated, read_scan, read_volume, write_array
 from modern.digital.world import LPS, RAS
 from tests.support.paths import ROOT
 from tests.support.volumefiles import nifti
@@ -263,6 +263,23 @@ def test_a_missing_library_is_named_as_it_is_installed() -> None:
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, env=environment)
     assert done.stderr.splitlines()[-1].endswith("a.nii: NIfTI is read by SimpleITK: pip install 'hull1620[volumes]'")
+
+
+@pytest.mark.parametrize("direction", [TURNED, (0, 0, 1, -1, 0, 0, 0, 1, 0)])
+def test_nrrd_is_read_and_written_as_the_library_reads_and_writes_it(direction: Any) -> None:
+    """Our own reader and writer against the library's, in both senses."""
+    scan = read_scan(written("a.nrrd", direction, VALUES.astype(np.uint8)))
+    image = sitk.ReadImage("a.nrrd")
+    assert np.array_equal(scan.values, sitk.GetArrayFromImage(image).T)
+    volume = read_volume("a.nrrd")
+    write_array("b.nrrd", volume.array, volume)
+    ours = sitk.ReadImage("b.nrrd")
+    assert np.array_equal(sitk.GetArrayFromImage(ours).T, VALUES != 0)
+    assert volume.world is not None
+    for voxel in ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 2, 3)):
+        place = image.TransformIndexToPhysicalPoint(voxel)
+        assert [float(number) for number in volume.world.place(voxel)] == pytest.approx(place, abs=1e-12)
+        assert ours.TransformIndexToPhysicalPoint(voxel) == pytest.approx(place, abs=1e-12)
 
 
 def test_kinds_are_by_the_ending_of_a_name() -> None:
