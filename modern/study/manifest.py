@@ -112,7 +112,7 @@ def differences(there: Mapping[str, Any], here: Mapping[str, Any]) -> str:
     if was.get("seed") != now["seed"]:
         return f"its seed is {was.get('seed')}, not {now['seed']}"
     if there.get("samples") != here["samples"]:
-        return f"it has {there.get('samples')} samples, not {here['samples']}"
+        return f"it has {there.get('samples')} samples, not {here['samples']}; give the --samples it was begun with"
     if was != now:
         return "its plan is another"
     for package, wanted in here["versions"].items():
