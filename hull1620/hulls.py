@@ -28,7 +28,7 @@ from modern.formats import deck as decks
 from modern.formats.hulls import to_trimesh, write_hull
 from modern.formats.points import read_input
 from modern.geometry.coplanar import coplanar
-from modern.geometry.hull import Face, HullRefused, Stage
+from modern.geometry.hull import Face, HullRefused, Stage, all_of
 from modern.geometry.hull import Hull as Record
 from modern.geometry.mesh import ExportError, Mesh, mesh, sides
 from modern.geometry.numbers import coordinates, real
@@ -91,7 +91,7 @@ class Hull:
     @property
     def faces(self) -> tuple[Face, ...]:
         """The faces of a polyhedron or lines of a polygon: exact equations, vertices in order, other points on them."""
-        return self.record.faces
+        return all_of(self.record.faces)
 
     @property
     def duplicates(self) -> tuple[tuple[int, int], ...]:
@@ -101,7 +101,7 @@ class Hull:
     @property
     def history(self) -> tuple[Stage, ...]:
         """The approximations H1, H2, ..., where ``convex_hull`` was asked for them."""
-        return self.record.history
+        return all_of(self.record.history)
 
     @property
     def corrected(self) -> tuple[str, ...]:

@@ -7,9 +7,9 @@ decimal exists; a binary float appears as the exact decimal of its value.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, SupportsIndex, TypeVar, overload
 
 from emulator.errors import EmulatorError
 
@@ -19,6 +19,54 @@ ERROR = "ERROR IN PROGRAM"
 TABLE_FULL = "table of planes is full"
 
 Coefficients = tuple[str, str, str, str]
+T = TypeVar("T")
+
+
+class Later(Sequence[T]):
+    """A tuple whose members are made when one is first asked for; their number is known before.  Equal to the tuple."""
+
+    def __init__(self, count: int, make: Callable[[], Iterable[T]]) -> None:
+        self._count = count
+        self._make: Callable[[], Iterable[T]] | None = make
+        self._made: tuple[T, ...] = ()
+
+    def all(self) -> tuple[T, ...]:
+        """The tuple itself."""
+        if self._make is not None:
+            self._made, self._make = tuple(self._make()), None
+        return self._made
+
+    def __len__(self) -> int:
+        return self._count
+
+    @overload
+    def __getitem__(self, index: SupportsIndex) -> T: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> tuple[T, ...]: ...
+
+    def __getitem__(self, index: SupportsIndex | slice) -> T | tuple[T, ...]:
+        return self.all()[index]
+
+    def __iter__(self) -> Iterator[T]:
+        return iter(self.all())
+
+    def __eq__(self, other: object) -> bool:
+        return self.all() == (other.all() if isinstance(other, Later) else other)
+
+    def __hash__(self) -> int:
+        return hash(self.all())
+
+    def __repr__(self) -> str:
+        return repr(self.all())
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return tuple, (self.all(),)
+
+
+def all_of(members: Sequence[T]) -> tuple[T, ...]:
+    """The tuple of them; no copy of what is one."""
+    return members.all() if isinstance(members, Later) else tuple(members)
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,14 +143,14 @@ class Hull:
     boundary: tuple[int, ...]
     inside: tuple[int, ...]
     duplicates: tuple[tuple[int, int], ...] = ()
-    faces: tuple[Face, ...] = ()
+    faces: Sequence[Face] = ()
     plane: Coefficients | None = None
     lines: tuple[Coefficients, ...] = ()
     centre: tuple[str, str, str] | None = None
     statement: str = ""
     corrected: tuple[str, ...] = ()
     """Corrections of the layer ``corrected`` that took a branch other than the listing's."""
-    history: tuple[Stage, ...] = field(default=(), repr=False)
+    history: Sequence[Stage] = field(default=(), repr=False)
     coplanar: Coplanar | None = None
     """Where this is a reading of a hull with faces joined: how they were.  A face's vertices lie near to its plane."""
 

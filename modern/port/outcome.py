@@ -11,7 +11,7 @@ from typing import SupportsIndex, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.geometry.hull import Coefficients, Face, Stage
+from modern.geometry.hull import Coefficients, Face, Later, Stage
 from modern.port.arithmetic import Arithmetic, Exact, Scalar, Vector
 from modern.port.table import Equations, Places
 
@@ -53,8 +53,14 @@ class Faces:
         whole = [[value.numerator * (unit // value.denominator) for value in row] for row in rows]
         return dict(zip(places, zip(*whole, strict=True), strict=True))
 
-    def polyhedral(self, table: Equations, on: list[NDArray[np.int64]], vertex: NDArray[np.bool_]) -> tuple[Face, ...]:
-        """The faces of a polyhedron; ``on`` are the places that satisfy each plane, ``vertex`` tells vertices."""
+    def polyhedral(self, table: Equations, on: list[NDArray[np.int64]], vertex: NDArray[np.bool_]) -> Sequence[Face]:
+        """The faces of a polyhedron; ``on`` are the places that satisfy each plane, ``vertex`` tells vertices.
+
+        They are made when asked for: places, table and the rest must stay as they are.
+        """
+        return Later(len(on), lambda: self._polyhedral(table, on, vertex))
+
+    def _polyhedral(self, table: Equations, on: list[NDArray[np.int64]], vertex: NDArray[np.bool_]) -> list[Face]:
         arithmetic, who, is_vertex = self.arithmetic, self.places.who.tolist(), vertex.tolist()
         known = self.whole_points(np.flatnonzero(vertex).tolist())
         by_row = list(zip(table.coefficients, PLANE, strict=True))
@@ -76,7 +82,7 @@ class Faces:
                     on=tuple([who[place] for place in others]),
                 )
             )
-        return tuple(found)
+        return found
 
     def edges(
         self, table: Equations, ends: NDArray[np.int64], on: list[NDArray[np.int64]], projection: int
@@ -101,16 +107,26 @@ class Faces:
 
 
 class Historian:
-    """Writes down each H_j as it comes about."""
+    """Notes each H_j as it comes about; what it says is made when asked for."""
 
     def __init__(self, places: Places) -> None:
         self.places = places
-        self.stages: list[Stage] = []
+        self._notes: list[tuple[tuple[int, ...], int, int, list[int], NDArray[np.int64]]] = []
 
     def __call__(self, table: Equations, added: tuple[int, ...], checked: int, outside: int, struck: list[int]) -> None:
-        equations = tuple(self.places.names(column) for column in table.defining.T)
-        stage = Stage(len(self.stages) + 1, added, checked, outside, tuple(struck), equations)
-        self.stages.append(stage)
+        self._notes.append((added, checked, outside, struck, self.places.who[table.defining]))
+
+    @property
+    def stages(self) -> Sequence[Stage]:
+        """The stages noted so far."""
+        notes = self._notes.copy()
+        return Later(len(notes), lambda: (_stage(number, *note) for number, note in enumerate(notes, 1)))
+
+
+def _stage(
+    number: int, added: tuple[int, ...], checked: int, outside: int, struck: list[int], names: NDArray[np.int64]
+) -> Stage:
+    return Stage(number, added, checked, outside, tuple(struck), tuple(map(tuple, names.T.tolist())))
 
 
 class PointTexts(Sequence[tuple[str, str, str]]):

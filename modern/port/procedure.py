@@ -208,7 +208,7 @@ class _Run:
             boundary=tuple(self.progress.boundary),
             inside=tuple(self.progress.inside),
             corrected=tuple(self.progress.corrected),
-            history=tuple(self.watcher.stages) if self.watcher else (),
+            history=self.watcher.stages if self.watcher else (),
         )
 
     def historian(self, places: Places) -> Historian | None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pickle
+from collections.abc import Iterator
 from decimal import Decimal
 from fractions import Fraction
 
@@ -13,8 +15,10 @@ from hypothesis import strategies as st
 import modern
 from emulator.numbers.arithmetic import TRUNCATING
 from emulator.numbers.fields import FALLBACK, read_floating, write_floating
+from modern.geometry.hull import Later, all_of
 from modern.port import PointsError, convex_hull
 from modern.port.arithmetic import exact_text
+from modern.port.outcome import Faces
 from modern.port.points import NAMES, fixed_arithmetic
 from tests.support.punched import e_field
 
@@ -147,3 +151,46 @@ def test_a_number_is_cut_as_a_card_reader_cuts_it(digits: int, exponent: int) ->
     assert (number.m, number.e) == (read.mantissa, read.exponent)
     card = write_floating(FALLBACK, read.mantissa, read.exponent, TRUNCATING.rules)[0].strip()
     assert e_field(arithmetic.text(number, 1)) == card
+
+
+def test_faces_and_stages_are_made_when_asked_for() -> None:
+    """They count, compare, hash, print and travel as the tuples they become, and are made once."""
+    made: list[int] = []
+
+    def make() -> Iterator[str]:
+        made.append(1)
+        yield from "abc"
+
+    later = Later(3, make)
+    assert len(later) == 3
+    assert bool(later)
+    assert not made
+    assert later == ("a", "b", "c") == later
+    assert later != ("a", "b")
+    assert later == Later(3, make)
+    assert made == [1, 1]
+    assert (later[0], later[-1], later[1:], list(later)) == ("a", "c", ("b", "c"), ["a", "b", "c"])
+    assert (hash(later), repr(later)) == (hash(("a", "b", "c")), "('a', 'b', 'c')")
+    assert pickle.loads(pickle.dumps(later)) == later
+    assert all_of(later) is all_of(later)
+    assert all_of(later) is all_of(all_of(later))
+    with pytest.raises(IndexError):
+        later[3]
+    assert made == [1, 1]
+
+
+def test_a_hull_waits_with_its_faces(monkeypatch: pytest.MonkeyPatch) -> None:
+    points = [(x, y, z) for x in (0, 2) for y in (0, 2) for z in (0, 2)] + [(1, 1, 1)]
+    calls: list[int] = []
+    make = Faces._polyhedral
+    monkeypatch.setattr(Faces, "_polyhedral", lambda *given: calls.append(1) or make(*given))
+    for arithmetic in ("exact", "float64"):
+        calls.clear()
+        hull = convex_hull(points, arithmetic, history=True)
+        assert len(hull.faces) == 6
+        assert len(hull.history) == 5
+        assert not calls
+        assert sorted(len(face.polygon) for face in hull.faces) == [4] * 6
+        assert len(hull.history[0].equations) == 4
+        assert hull == pickle.loads(pickle.dumps(hull))
+        assert calls == [1]
