@@ -88,7 +88,7 @@ def _proposed(points: Sequence[IntPoint], fast: bool | None) -> tuple[list[Facet
     turn = corners.argmin(axis=1)
     corners = corners[np.arange(len(corners))[:, None], (turn[:, None] + np.arange(3)) % 3]
     try:
-        facets = merged(zip(map(tuple, corners.tolist()), planes_of(corners, points), strict=True), points)
+        facets = merged(list(map(tuple, corners.tolist())), planes_of(corners, points), points)
         vertices = [index for facet in facets for index in facet.polygon]
         near = np.setdiff1d(np.concatenate([proposal.near, proposal.triangles.ravel()]), vertices)
         return facets, _on_facets(points, facets, near.tolist())

@@ -88,7 +88,7 @@ def corners_only(cycle: Sequence[int], points: Sequence[IntPoint]) -> list[int]:
     return kept
 
 
-def _outline(triangles: Iterable[Triangle]) -> list[int]:
+def _outline(triangles: Iterable[tuple[int, ...]]) -> list[int]:
     """The border of triangles that fill a polygon, in their own sense."""
     edges = {edge for a, b, c in triangles for edge in ((a, b), (b, c), (c, a))}
     following = {a: b for a, b in edges if (b, a) not in edges}
@@ -106,16 +106,19 @@ def _outline(triangles: Iterable[Triangle]) -> list[int]:
 
 def faces(triangles: Iterable[tuple[Triangle, Plane]], points: Sequence[IntPoint]) -> list[Facet]:
     """The faces of a convex surface of triangles, by plane in lowest terms; polygons index ``points``."""
-    return merged([(corners, lowest_terms(plane)) for corners, plane in triangles], points)
+    given = [(rotated(corners), lowest_terms(plane)) for corners, plane in triangles]
+    return merged([corners for corners, _ in given], [plane for _, plane in given], points)
 
 
-def merged(triangles: Iterable[tuple[Triangle, Plane]], points: Sequence[IntPoint]) -> list[Facet]:
-    """The same of planes that are in lowest terms."""
-    groups: dict[Plane, list[Triangle]] = {}
-    for corners, plane in triangles:
+def merged(triangles: Sequence[tuple[int, ...]], planes: Sequence[Plane], points: Sequence[IntPoint]) -> list[Facet]:
+    """The same of triangles from their smallest corners on and planes in lowest terms."""
+    if len(set(planes)) == len(planes):
+        return list(map(Facet, planes, triangles))
+    groups: dict[Plane, list[tuple[int, ...]]] = {}
+    for corners, plane in zip(triangles, planes, strict=True):
         groups.setdefault(plane, []).append(corners)
     return [
-        Facet(plane, rotated(group[0] if len(group) == 1 else corners_only(_outline(group), points)))
+        Facet(plane, group[0] if len(group) == 1 else rotated(corners_only(_outline(group), points)))
         for plane, group in groups.items()
     ]
 

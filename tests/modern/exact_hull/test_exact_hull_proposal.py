@@ -18,7 +18,7 @@ from modern.exact_hull import CertificateError, ExactHull, exact_hull, kernels, 
 from modern.exact_hull import build as build_module
 from modern.exact_hull import certificate as checks
 from modern.exact_hull.coordinates import columns_of
-from modern.exact_hull.facets import merged, planes_of
+from modern.exact_hull.facets import merged, planes_of, rotated
 from modern.exact_hull.proposal import Proposal, _simplex, exact_signs, load, on_grid, propose
 from tests.modern.exact_hull.test_exact_hull_certificate import BIG, GRID, OCTAHEDRON, PRISM, ball
 
@@ -205,6 +205,6 @@ def test_planes_and_faces_of_triangles() -> None:
             assert math.gcd(*plane) == 1
             x, y, z = (sum(axis) for axis in zip(*points, strict=True))
             assert plane[0] * x + plane[1] * y + plane[2] * z + plane[3] * len(points) < 0
-        corners = map(tuple, triangles.tolist())
-        found = merged(zip(corners, planes_of(triangles, points), strict=True), points)
-        assert {facet.plane for facet in found} == {facet.plane for facet in exact_hull(points).facets}
+        corners = [rotated(corners) for corners in triangles.tolist()]
+        found = merged(corners, planes_of(triangles, points), points)
+        assert sorted(found, key=lambda facet: facet.plane) == list(exact_hull(points).facets)
