@@ -5,7 +5,7 @@ BIN = $(VENV)/bin
 JOBS ?= 2
 PIP = $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: reproduce test lint format coverage wheel benchmark mutants tei-check edition serve upgrade hooks clean
+.PHONY: reproduce test lint format coverage wheel benchmark mutants tei-check edition book serve upgrade hooks clean
 
 reproduce: $(VENV)/.run
 	$(BIN)/hull1620 reproduce
@@ -42,6 +42,10 @@ tei-check: $(VENV)/.dev
 
 edition: $(VENV)/.dev
 	$(BIN)/python -m modern.publication.site.build dist/edition
+
+# The same as a book: dist/hull1620.pdf, PDF/A.
+book: $(VENV)/.dev
+	$(BIN)/python -m modern.publication.book.build dist/hull1620.pdf
 
 # The site on your own computer alone; its pages open as files too, but for the machine in the page.
 serve:

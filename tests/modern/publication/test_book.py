@@ -1,0 +1,156 @@
+"""The book: words stay words, links lead somewhere, and every card, row and statement stands in it once."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from modern.edition import programs
+from modern.edition.checks import texts
+from modern.edition.statements import DOCUMENTS, statements_of
+from modern.publication.book import build as book
+from modern.publication.book.markup import Markdown, label, places, say, string, table
+from modern.publication.book.parts import fitted, listings, statements
+from modern.publication.facing import facing
+
+compiler = pytest.importorskip("typst", reason="the book is set by typst")
+
+
+def unescaped(written: str) -> str:
+    """What Typst reads in a string of its code."""
+    found = re.sub(r'\\(["\\n])', lambda m: "\n" if m[1] == "n" else m[1], written[1:-1])
+    return re.sub(r"\[U\+([0-9A-F]+)\]", lambda m: chr(int(m[1], 16)), found)
+
+
+@given(st.text(st.characters(exclude_characters="\t[]", exclude_categories=["Cs"]), max_size=40))
+@settings(deadline=None)
+def test_words_come_through_as_they_are(words: str) -> None:
+    assert unescaped(string(words)) == words
+
+
+def test_no_character_is_taken_for_markup(tmp_path: Path) -> None:
+    words = '= #let x = 1 ; *a* _b_ `c` $d$ <e> @f [g] // h \\ i "j" - k + l / m ~ 1. n'
+    (tmp_path / "b.typ").write_text(f"{say(words)}\n#metadata({string(words)}) <it>\n")
+    (found,) = json.loads(compiler.query(str(tmp_path / "b.typ"), "<it>"))
+    assert found["value"] == words
+
+
+@given(st.text(max_size=20), st.text(max_size=20))
+@settings(deadline=None)
+def test_labels_tell_words_apart(one: str, other: str) -> None:
+    assert re.fullmatch(r"[A-Za-z0-9.-]*", label(one))
+    if one.replace(" ", "-").replace("_", "-") != other.replace(" ", "-").replace("_", "-"):
+        assert label(one) != label(other)
+
+
+def typst(text: str, name: str = "how-to/x.md", known: tuple[str, ...] = ()) -> str:
+    return Markdown(name, known, 2, lambda file: "").typst(text)
+
+
+def test_markdown_becomes_typst() -> None:
+    found = typst("# A *b*\n\nSee `c` and [d](../e.md#f).\n\n- one\n- two\n\n| x | y |\n|---|---|\n| 1 | 2 |\n")
+    title, words, items, table_ = [part for part in found.split("\n\n") if part]
+    assert title == f'#[] <{label("how-to/x.md")}>\n== #"A b"; <{label("how-to/x.md", "a-b")}>'
+    assert words == '#"See ";#raw("c");#" and ";#"d";#".";', "what is not in the book is no link"
+    assert items.split() == '#list([#"one"; ], [#"two"; ])'.split()
+    assert table_.startswith("#tabular(8.5pt, (auto, auto,), ")
+
+
+def test_a_link_within_the_book_has_its_page() -> None:
+    known = (label("e.md", "f"), label("e.md"))
+    assert f"#to(<{label('e.md', 'f')}>)" in typst("See [d](../e.md#f).", known=known)
+    assert f"#to(<{label('e.md')}>)" in typst("See [d](../e.md#gone).", known=known)
+
+
+def test_a_role_is_a_reference_or_its_words() -> None:
+    known = (label("card", "program3", "147+2"),)
+    assert f"#to(<{known[0]}>)" in typst("At {card}`program3 147+2` it stands.", known=known)
+    found = typst("At {card}`program3 9+9` it stands.", known=known)
+    assert "{card}" not in found
+    assert '#raw("program3 9+9");' in found
+
+
+def test_a_wide_table_breaks_its_widest_column() -> None:
+    assert "auto, 90fr" in table(["a", "b"], [["x", "y"]], (5, 200))
+    assert "auto, auto" in table(["a", "b"], [["x", "y"]], (5, 20))
+
+
+def test_pictures_have_the_fonts_of_the_book() -> None:
+    svg = '<svg><a href="x"><text font-family="Helvetica, Arial, sans-serif">a</text></a><style>.m{font-family:monospace}</style></svg>'
+    assert fitted(svg) == (
+        "<svg><text font-family=\"Libertinus Serif\">a</text><style>.m{font-family:'DejaVu Sans Mono'}</style></svg>"
+    )
+
+
+def test_every_card_and_row_of_the_listings_stands_once() -> None:
+    found = "".join(listings())
+    for name in programs.NAMES:
+        for card in facing(name).cards:
+            assert found.count(f"<{label('card', name, card.place)}>") == 1
+    for name in programs.TEXTS:
+        for row in texts()[name].rows:
+            assert found.count(f"<{label('row', row.id)}>") <= 1
+    missing = [r.id for n in programs.TEXTS for r in texts()[n].rows if f"<{label('row', r.id)}>" not in found]
+    assert missing == []
+
+
+def test_every_statement_stands_once() -> None:
+    found = "".join(statements())
+    for name in DOCUMENTS:
+        for row in statements_of(name):
+            assert found.count(f"<{label('row', row.id)}>") == 1
+
+
+def test_every_document_of_a_chapter_is_there() -> None:
+    for _, chapter in book.CHAPTERS:
+        for name in chapter:
+            assert name.startswith("@") or (book.DOCS / name).is_file()
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Path]:
+    folder = tmp_path_factory.mktemp("book")
+    return book.typst(folder), folder
+
+
+def test_every_reference_of_the_book_leads_somewhere(whole: tuple[str, Path]) -> None:
+    text, folder = whole
+    made = re.findall(r" <([\w.-]+)>", text)
+    assert len(made) == len(set(made)), sorted({one for one in made if made.count(one) > 1})[:5]
+    wanted = set(re.findall(r"#to\(<([\w.-]+)>\)", text))
+    assert len(wanted) > 50
+    assert wanted <= set(made)
+    pictures = set(re.findall(r'"([\w.-]+\.svg)"', text))
+    assert pictures == {file.name for file in folder.iterdir()}
+
+
+def test_the_book_is_pdf_a(tmp_path: Path, whole: tuple[str, Path]) -> None:
+    text, folder = whole
+    (folder / "book.typ").write_text(text, encoding="utf-8")
+    made = compiler.compile(
+        str(folder / "book.typ"), root=str(folder), ignore_system_fonts=True, pdf_standards=[book.STANDARD]
+    )
+    assert made.startswith(b"%PDF-1.7")
+    assert b"<pdfaid:part>2</pdfaid:part>" in made
+    assert b"<pdfaid:conformance>A</pdfaid:conformance>" in made
+
+
+def test_without_typst_it_says_what_to_install(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    import sys
+
+    monkeypatch.setitem(sys.modules, "typst", None)
+    assert book.main([str(tmp_path / "x.pdf")]) == 2
+    assert capsys.readouterr().err == f"book: {book.NEEDS}\n"
+    assert not (tmp_path / "x.pdf").exists()
+
+
+def test_a_document_knows_its_places() -> None:
+    found = places("x.md", "# A\n\n## B c\n\n## B c\n\nTerm\n: words\n")
+    assert set(found) >= {label("x.md"), label("x.md", "a"), label("x.md", "b-c"), label("x.md", "b-c-1")}
