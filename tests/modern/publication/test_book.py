@@ -81,10 +81,10 @@ def test_a_wide_table_breaks_its_widest_column() -> None:
 
 
 def test_pictures_have_the_fonts_of_the_book() -> None:
-    svg = '<svg><a href="x"><text font-family="Helvetica, Arial, sans-serif">a</text></a><style>.m{font-family:monospace}</style></svg>'
-    assert fitted(svg) == (
-        "<svg><text font-family=\"Libertinus Serif\">a</text><style>.m{font-family:'DejaVu Sans Mono'}</style></svg>"
-    )
+    text = '<text font-family="Helvetica, Arial, sans-serif">a</text>'
+    svg = f'<svg><a href="x">{text}</a><style>.m{{font-family:monospace}}</style></svg>'
+    serif = '<text font-family="Libertinus Serif">a</text>'
+    assert fitted(svg) == f"<svg>{serif}<style>.m{{font-family:'DejaVu Sans Mono'}}</style></svg>"
 
 
 def test_every_card_and_row_of_the_listings_stands_once() -> None:
