@@ -3,23 +3,31 @@
 from __future__ import annotations
 
 import argparse
+import os
+import re
 import shutil
 import sys
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from fractions import Fraction
 
 from emulator.files import check_writable, decoded, source_name, write_text
 from modern.cli.shared.console import DIFFERS, OK, UsageError, counted, say
 from modern.cli.shared.inputs import read_given
+from modern.drawing.scene import eye_of
 from modern.formats import off
 from modern.formats.off import parse_off
 from modern.formats.points import Input, parse_bytes
+from modern.geometry.coplanar import FLAT, CoplanarError, Joined, described, distance, join, joined_mesh, shown
 from modern.geometry.mesh import Mesh
 from modern.papers.appel_will import PRINTED, Assembled, MapError, Method, appel_will, printed
 from modern.papers.appel_will.corners import Preprocessing, Rule
 from modern.papers.appel_will.loops import Loop
+from modern.papers.appel_will.pictures import as_mesh, joined_points, joined_surfaces, solid_svg, star_svg
+from modern.papers.appel_will.planar import map_svg
 from modern.papers.appel_will.star import as_printed, in_one_pass
-from modern.papers.appel_will.surfaces import Surface
+from modern.papers.appel_will.surfaces import Fates, Surface, fates_by_points
 
 KINDS = ("a point", "a segment", "a polygon", "a polyhedron")
 RELIED_ON: dict[Rule, str] = {
@@ -30,9 +38,16 @@ RELIED_ON: dict[Rule, str] = {
 """What each rule for inside corners relies on."""
 
 
+MOST = 50
+"""Points beyond which the tables are told in a line each."""
+
+
 def main(args: argparse.Namespace) -> int:
-    """Read points and map, find the hull, print the tables."""
+    """Read points and map, find the hull, write it or a picture of it, print the tables."""
+    _check_options(args)
     check_writable(args.output)
+    eye = None if args.eye is None else eye_of(args.eye.split(","))
+    within = None if args.coplanar_within is None else distance(args.coplanar_within)
     data, name = read_given(args.points), source_name(args.points)
     found = parse_bytes(data, name)
     given = parse_off(decoded(data, name), name).faces if found.kind == "off" else ()
@@ -43,8 +58,12 @@ def main(args: argparse.Namespace) -> int:
         method = replace(method, star=as_printed if args.star == "printed" else in_one_pass)
     try:
         hull = appel_will(found.points, given, replace(method, inside_corners=args.inside_corners))
-    except MapError as error:
-        raise MapError(f"{found.source}: {error}") from None
+        surface = None if hull.fault else as_mesh(hull, found.points)
+        joined = None if within is None or surface is None or hull.dimension < 3 else join(surface, within)
+    except (MapError, CoplanarError) as error:
+        raise type(error)(f"{found.source}: {error}") from None
+    if args.output is not None and surface is not None:
+        write_text(args.output, _written(args, found, given, hull, surface, joined, eye))
     say(f"note: {note}" for note in found.notes)
     if args.literal or args.printed is not None:
         say([f"note: taken as printed: {', '.join(_names(args))}"])
@@ -52,11 +71,15 @@ def main(args: argparse.Namespace) -> int:
         f"note: {found.source}: {found.places[index]}: the point of {found.places[first]} again"
         for index, first in hull.duplicates
     )
-    if args.output is not None and not hull.fault:
-        write_text(args.output, off.write(_mesh(found, hull)))
-    # An OFF file on standard output must be alone there.
+    if within is not None and surface is not None:
+        say([f"note: {found.source}: {FLAT if joined is None else described(joined)}"])
+    # A file on standard output must be alone there.
     out = sys.stderr if args.output == "-" else sys.stdout
-    for line in _report(found, given, hull, args.trace, shutil.get_terminal_size((100, 24)).columns):
+    brief = len(found.points) > MOST and not (args.all or args.trace)
+    columns = shutil.get_terminal_size((100, 24)).columns
+    for line in (
+        _brief(found, given, hull, joined) if brief else _report(found, given, hull, joined, args.trace, columns)
+    ):
         print(line, file=out)
     if method.star is as_printed:
         for line in _false_edges(found, hull):
@@ -64,6 +87,48 @@ def main(args: argparse.Namespace) -> int:
     if hull.fault:
         print(f"no hull: {hull.fault}", file=out)
     return DIFFERS if hull.fault else OK
+
+
+def _check_options(args: argparse.Namespace) -> None:
+    """Refuse a picture's options without a picture.  Raises UsageError."""
+    picture = args.output is not None and (args.output == "-" or args.output.lower().endswith(".svg"))
+    for option, given in (("--map", args.map), ("--star-of", args.star_of)):
+        if given and not picture:
+            raise UsageError(f"{option} is a picture: it needs -o FILE.svg")
+    for option, given in (("--eye", args.eye), ("--width", args.width)):
+        if given is not None and not (picture and (args.output != "-" or args.map or args.star_of)):
+            raise UsageError(f"{option} is for a picture: it needs -o FILE.svg")
+    if args.eye is not None and (args.map or args.star_of):
+        raise UsageError("--eye is for the solid; a map has none, and a star polygon is seen along its line")
+
+
+def _written(
+    args: argparse.Namespace,
+    found: Input,
+    given: Sequence[Surface],
+    hull: Assembled,
+    surface: Mesh,
+    joined: Joined | None,
+    eye: Sequence[Fraction] | None,
+) -> str:
+    """What ``-o`` writes: a picture, or the hull as OFF."""
+    name = "" if args.points == "-" else os.path.basename(args.points) if os.path.exists(args.points) else args.points
+    if args.map:
+        faces = hull.surfaces if joined is None else joined_surfaces(hull, joined)
+        return map_svg(faces, hull.edges, name, args.width)
+    if args.star_of is not None:
+        return star_svg(hull, _pair(args.star_of), name, args.width)
+    if args.output.lower().endswith(".svg"):
+        return solid_svg(hull, found.points, given, joined, eye, name, args.width)
+    return off.write(surface if joined is None else joined_mesh(surface, joined))
+
+
+def _pair(text: str) -> tuple[int, int]:
+    """Two points, counted from 1, as ``3-7``.  Raises UsageError."""
+    match = re.fullmatch(r"([0-9]{1,9})[-,]([0-9]{1,9})", text.strip())
+    if not match:
+        raise UsageError(f"--star-of: {text!r} is not a line I-J, two points by number")
+    return int(match[1]) - 1, int(match[2]) - 1
 
 
 def _names(args: argparse.Namespace) -> Sequence[str]:
@@ -79,16 +144,16 @@ def _method(args: argparse.Namespace) -> Method:
         raise UsageError(f"--printed: {error}") from None
 
 
-def _report(found: Input, given: Sequence[Surface], hull: Assembled, trace: bool, width: int) -> Iterator[str]:
-    surfaces = f", {counted(len(given), 'surface')}" if given else ""
-    yield f"{found.source}: {counted(len(found.points), 'point')}{surfaces}"
+def _report(
+    found: Input, given: Sequence[Surface], hull: Assembled, joined: Joined | None, trace: bool, width: int
+) -> Iterator[str]:
+    yield _first(found, given)
     if hull.preprocessing is not None:
         yield from _preprocessing(hull.preprocessing)
     if hull.deleted:
         between = (f"{d.point + 1} ({_line(d.between)})" for d in hull.deleted)
         yield f"deleted as between two others: {', '.join(between)}"
-    of = f" of {len(hull.vertices)} points" if hull.dimension else ""
-    yield f"{counted(hull.projections, 'projection')}; {KINDS[hull.dimension]}{of}"
+    yield _kind(hull)
     yield ""
     yield "Vertex list"
     yield from _table(("Point", "X", "Y", "Z"), ((str(i + 1), *found.points[i]) for i in hull.vertices))
@@ -106,9 +171,62 @@ def _report(found: Input, given: Sequence[Surface], hull: Assembled, trace: bool
     yield "Topological map"
     for number, surface in enumerate(hull.surfaces, 1):
         yield f"surface {number}: {_points(surface)}"
+    if joined is not None:
+        yield ""
+        yield f"Topological map, faces within {shown(joined.within)} of a plane read as one"
+        for number, surface in enumerate(joined_surfaces(hull, joined), 1):
+            yield f"surface {number}: {_points(surface)}"
     if given and not hull.fault:
         yield ""
-        yield from _fates(given, hull)
+        yield from _fates(given, _compared(given, hull, joined))
+
+
+def _brief(found: Input, given: Sequence[Surface], hull: Assembled, joined: Joined | None) -> Iterator[str]:
+    """The report of many points: a line for every table."""
+    yield _first(found, given)
+    if hull.preprocessing is not None:
+        done = hull.preprocessing
+        yield f"{counted(len(done.deleted), 'point')} deleted by rule {done.rule} before any projection"
+    if hull.deleted:
+        yield f"{counted(len(hull.deleted), 'point')} deleted as between two others"
+    yield _kind(hull)
+    yield f"convex edge list: {counted(len(hull.edges), 'line')}"
+    yield f"loop table: {counted(len(hull.table.loops), 'loop')}{_sizes([loop.entries for loop in hull.table.loops])}"
+    if joined is not None:
+        surfaces = joined_surfaces(hull, joined)
+        yield f"faces within {shown(joined.within)} read as one: {counted(len(surfaces), 'surface')}{_sizes(surfaces)}"
+    if given and not hull.fault:
+        fates = _compared(given, hull, joined)
+        gone = sum(other is None for other in fates.of)
+        respecified = len(given) - gone - len(fates.kept)
+        yield (
+            f"of the {counted(len(given), 'surface')} given {len(fates.kept)} kept, {respecified} respecified, "
+            f"{gone} deleted; {len(fates.added)} added"
+        )
+    yield "--all lists everything"
+
+
+def _sizes(loops: Sequence[Sequence[int]]) -> str:
+    """How many loops have how many lines."""
+    sizes = Counter(map(len, loops))
+    return f" ({', '.join(f'{sizes[size]} of {size} lines' for size in sorted(sizes))})" if sizes else ""
+
+
+def _first(found: Input, given: Sequence[Surface]) -> str:
+    surfaces = f", {counted(len(given), 'surface')}" if given else ""
+    return f"{found.source}: {counted(len(found.points), 'point')}{surfaces}"
+
+
+def _kind(hull: Assembled) -> str:
+    of = f" of {len(hull.vertices)} points" if hull.dimension else ""
+    return f"{counted(hull.projections, 'projection')}; {KINDS[hull.dimension]}{of}"
+
+
+def _compared(given: Sequence[Surface], hull: Assembled, joined: Joined | None) -> Fates:
+    """What became of the surfaces given."""
+    if joined is None:
+        return hull.fates(given)
+    return fates_by_points(given, joined_points(hull, joined), joined_surfaces(hull, joined))
 
 
 def _preprocessing(done: Preprocessing) -> Iterator[str]:
@@ -134,9 +252,8 @@ def _growth(loop: Loop, width: int) -> Iterator[str]:
         yield "  IUC(L)" + "".join(f"{count:>{cell}}" for count in some)
 
 
-def _fates(given: Sequence[Surface], hull: Assembled) -> Iterator[str]:
+def _fates(given: Sequence[Surface], fates: Fates) -> Iterator[str]:
     yield "The surfaces given"
-    fates = hull.fates(given)
     for number, other in enumerate(fates.of):
         if other is None:
             yield f"surface {number + 1}: deleted"
@@ -153,12 +270,6 @@ def _false_edges(found: Input, hull: Assembled) -> Iterator[str]:
     if wrong:
         yield ""
         yield f"{len(wrong)} of {len(hull.edges)} edges are none, by images on one ray: {', '.join(map(str, wrong))}"
-
-
-def _mesh(found: Input, hull: Assembled) -> Mesh:
-    places = {index: place for place, index in enumerate(hull.vertices)}
-    faces = tuple(tuple(places[index] for index in surface) for surface in hull.outward())
-    return Mesh(hull.dimension, tuple(found.points[index] for index in hull.vertices), faces)
 
 
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[str]:

@@ -69,12 +69,13 @@ def draw_svg(
     width = width_of(picture, width)
     layout = lay_out(picture, width)
     numbered = show.labels != "none" and len(picture.images) <= MOST_NUMBERS
+    told = numbered or show.labels == "none"
     items = [
         *marked(hull, picture, layout),
         *(numbers(hull, picture, layout, show.labels) if numbered else ()),
-        *svg.group("legend", _FONT, band(picture, width, layout.height, title, numbered or show.labels == "none")),
+        *svg.group("legend", _FONT, band(picture, width, layout.height, title, told)),
     ]
-    return svg.page(width, layout.height + band_height(picture, width, title), title or caption(picture), items)
+    return svg.page(width, layout.height + band_height(picture, width, title, told), title or caption(picture), items)
 
 
 def seen(picture: Scene, show: Show) -> Scene:

@@ -14,32 +14,49 @@ from modern.geometry.vectors import dot
 
 _KINDS = ("Point", "Segment", "Polygon", "Polyhedron")
 _STEP, _LETTER, _AXES = 19, 8, 60
+_WIDEST = 6.8
 _ARM, _SHORTEST, _BEYOND = 2200, 300, 800
 _LARGEST = 10**9
 _UNITS = tuple(tuple(Fraction(row == column) for column in range(3)) for row in range(3))
 
 
-def band_height(picture: Scene, width: int, title: str) -> int:
+def band_height(picture: Scene, width: int, title: str, numbered: bool = True) -> int:
     """The height of the band in pixels."""
-    rows = len(_rows(picture, width)) + 1 + bool(title)
+    rows = len(_rows(picture, width)) + sum(map(len, _words(picture, width, title, numbered)))
     return max(_STEP * rows + 20, 76 if picture.dimension else 0)
 
 
 def band(picture: Scene, width: int, top: int, title: str, numbered: bool) -> Iterator[str]:
     """The band that begins at ``top``."""
     base = top + 12
-    if title:
-        yield svg.text(Pixel(MARGIN * 100, base * 100), title, 'font-weight="bold"')
-        base += _STEP
-    words = caption(picture) + ("" if numbered else "; vertices not numbered")
-    yield svg.text(Pixel(MARGIN * 100, base * 100), words)
-    for row in _rows(picture, width):
-        base += _STEP
+    for lines, weight in zip(_words(picture, width, title, numbered), ('font-weight="bold"', ""), strict=True):
+        for line in lines:
+            yield svg.text(Pixel(MARGIN * 100, base * 100), line, weight)
+            base += _STEP
+    for number, row in enumerate(_rows(picture, width)):
+        base += _STEP * (number > 0)
         for x, style in row:
             yield sample(style, Pixel((x + 9) * 100, base * 100 - 450))
             yield svg.text(Pixel((x + 26) * 100, base * 100), style.name)
     if picture.dimension:
         yield from _axes(picture, Pixel((width - MARGIN - 16) * 100, (top + 34) * 100))
+
+
+def wrapped(words: str, room: int) -> list[str]:
+    """Words in lines of at most so many pixels, as near as can be said without the font; none of no words."""
+    lines: list[str] = []
+    for word in words.split():
+        if lines and (len(lines[-1]) + 1 + len(word)) * _WIDEST <= room:
+            lines[-1] += f" {word}"
+        else:
+            lines.append(word)
+    return lines
+
+
+def _words(picture: Scene, width: int, title: str, numbered: bool) -> tuple[list[str], list[str]]:
+    """Title and caption in lines, beside the axes."""
+    room = width - 2 * MARGIN - (_AXES if picture.dimension else 0)
+    return wrapped(title, room), wrapped(caption(picture) + ("" if numbered else "; vertices not numbered"), room)
 
 
 def caption(picture: Scene) -> str:

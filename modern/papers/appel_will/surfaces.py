@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from emulator.errors import EmulatorError
@@ -46,6 +46,18 @@ def fates(points: Sequence[IntPoint], given: Sequence[Surface], hull: Sequence[S
     of: list[int | None] = []
     for surface in given:
         of.append(next((number for number, other in enumerate(hull) if _lies_in(points, surface, other)), None))
+    kept = {k for k, number in enumerate(of) if number is not None and set(given[k]) == set(hull[number])}
+    return Fates(tuple(of), frozenset(kept), tuple(number for number in range(len(hull)) if number not in of))
+
+
+def fates_by_points(given: Sequence[Surface], faces: Sequence[Collection[int]], hull: Sequence[Surface]) -> Fates:
+    """Compare them where faces of the hull were joined: a surface lies in the joined face that has all of its points.
+
+    faces: all points of each joined face; hull: those of its polygon.
+    """
+    of = [
+        next((number for number, points in enumerate(faces) if set(points) >= set(surface)), None) for surface in given
+    ]
     kept = {k for k, number in enumerate(of) if number is not None and set(given[k]) == set(hull[number])}
     return Fates(tuple(of), frozenset(kept), tuple(number for number in range(len(hull)) if number not in of))
 

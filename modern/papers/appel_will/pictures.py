@@ -1,0 +1,297 @@
+"""Pictures of the method: the hull with its convex edges, and the star polygon of one line.
+
+Points have the numbers of the input, convex edges those of the convex edge list (L).  What is decided is decided in
+integers; floating point only chooses where numbers are put.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+
+from modern.drawing import svg
+from modern.drawing.draw import Show, marked, seen, width_of
+from modern.drawing.labels import Label, place_labels
+from modern.drawing.layout import MARGIN, Pixel, fit, lay_out
+from modern.drawing.legend import band, band_height, wrapped
+from modern.drawing.scene import scene
+from modern.drawing.svg import Style
+from modern.drawing.view import view
+from modern.geometry.coplanar import Joined
+from modern.geometry.hull import DETERMINED, Face
+from modern.geometry.hull import Hull as Record
+from modern.geometry.mesh import ExportError, Mesh, sides
+from modern.geometry.numbers import Point
+from modern.geometry.vectors import area_vector, dot, lowest, minus
+from modern.papers.appel_will.edges import Pair, project
+from modern.papers.appel_will.hull import Assembled
+from modern.papers.appel_will.star import Image, on_one_ray, star_polygon, vorticity
+from modern.papers.appel_will.surfaces import Surface
+
+WIDTH, WIDER = 640, 1000
+MOST_POINTS, MOST_LINES = 400, 60
+"""Beyond so many points, or convex edges, they are not numbered."""
+_SIZE, _SMALL = 13.0, 11.0
+_FONT = f'font-family="{svg.FONT}" font-size="13" fill="#000"'
+_LINE_FONT = f'font-family="{svg.FONT}" font-size="11" font-style="italic" fill="#444"'
+_HALO = 'stroke="#fff" stroke-width="3" paint-order="stroke"'
+"""White around a number, where lines cannot be avoided."""
+_STEP = 19
+GIVEN = Style("given", "line given, no convex edge", "line", 'stroke="#777" stroke-width="0.8"')
+SIDE = Style("star", "star polygon", "line", 'stroke="#000" stroke-width="1.2" fill="none"')
+CLOCKWISE = Style("clockwise", "side that turns clockwise about C", "line", 'stroke="#000" stroke-width="3.4"')
+RAY = Style("rays", "ray from C", "line", 'stroke="#aaa" stroke-width="0.8"')
+Row = Callable[[int], Iterator[str]]
+"""A row of a legend, which is given its base line."""
+CENTRE = Style("centre", "C", "dot", 'fill="#fff" stroke="#000" stroke-width="1.6"')
+
+
+class PictureError(ExportError):
+    """A picture that cannot be drawn of this hull; one line."""
+
+
+def checked_width(width: int | None, otherwise: int) -> int:
+    """The width of a picture.  Raises PictureError where it is out of range."""
+    if width is not None and not 320 <= width <= 4000:
+        raise PictureError(f"a picture {width} pixels wide is not drawn; 320 to 4000 are")
+    return otherwise if width is None else width
+
+
+def solid_svg(
+    hull: Assembled,
+    points: Sequence[Point],
+    given: Sequence[Surface] = (),
+    joined: Joined | None = None,
+    eye: Sequence[Fraction] | None = None,
+    title: str = "",
+    width: int | None = None,
+) -> str:
+    """The hull with its convex edges, hidden ones dashed, and the lines of the polyhedron that are none of them.
+
+    points: as given, in text.  given: the polyhedron's surfaces, if there are any.  joined: which faces of the hull's
+    ``as_mesh`` are read as one.  eye, width: see ``modern.drawing.draw.draw_svg``.  Raises ExportError.
+    """
+    record = as_record(hull, points, joined)
+    picture = seen(scene(record, eye), Show())
+    width = width_of(picture, width)
+    layout = lay_out(picture, width)
+    at = {index: layout.vertices[place] for place, index in enumerate(record.vertices)}
+    for marks, places in ((picture.boundary, layout.boundary), (picture.inside, layout.inside)):
+        at |= {mark.index: place for mark, place in zip(marks, places, strict=True)}
+    at |= {index: at[first] for index, first in record.duplicates}
+    drawn = {tuple(sorted((record.vertices[e.start], record.vertices[e.end]))): e for e in picture.edges}
+    others = sorted(
+        {(min(a, b), max(a, b)) for surface in given for a, b in sides(surface) if (min(a, b), max(a, b)) not in drawn}
+    )
+    lines = [(number, pair) for number, pair in enumerate(hull.edges, 1) if pair in drawn]
+    numbered = len(points) <= MOST_POINTS
+    labelled = numbered and 0 < len(lines) <= MOST_LINES
+    rows = [sample_row(GIVEN)] if others else []
+    words = "in italics: the convex edges, by L of the convex edge list" if labelled else ""
+    rows += map(words_row, wrapped(words, width - 2 * MARGIN))
+    top = layout.height + band_height(picture, width, title, numbered)
+    items = [
+        *marked(record, picture, layout),
+        *svg.group(GIVEN.key, GIVEN.attributes, (svg.line(at[a], at[b], _named(a, b)) for a, b in others)),
+        *(_numbers(at, lines if labelled else [], [*drawn, *others], (width, layout.height)) if numbered else ()),
+        *svg.group("legend", _FONT, band(picture, width, layout.height, title, numbered)),
+        *svg.group("more", _FONT, (item for k, row in enumerate(rows) for item in row(top + _STEP * k))),
+    ]
+    return svg.page(width, top + _STEP * len(rows) + (4 if rows else 0), title or "Convex edges", items)
+
+
+def as_mesh(hull: Assembled, points: Sequence[Point]) -> Mesh:
+    """The assembled hull as a surface, its points in the order of the vertex list."""
+    places = {index: place for place, index in enumerate(hull.vertices)}
+    faces = tuple(tuple(places[index] for index in surface) for surface in hull.outward())
+    return Mesh(hull.dimension, tuple(points[index] for index in hull.vertices), faces)
+
+
+def as_record(hull: Assembled, points: Sequence[Point], joined: Joined | None = None) -> Record:
+    """The assembled hull as a record that can be drawn, with faces joined if it says so.  Raises PictureError."""
+    if hull.fault:
+        raise PictureError(f"there is no hull to draw: {hull.fault}")
+    surfaces = hull.outward() if joined is None else joined_surfaces(hull, joined)
+    vertices = tuple(sorted({index for surface in surfaces for index in surface})) or hull.vertices
+    left_out = set(hull.vertices).difference(vertices)
+    again = dict(hull.duplicates)
+    rest = [index for index in range(len(points)) if index not in vertices and index not in again]
+    planes = [(area_vector(hull.points, surface), hull.points[surface[0]]) for surface in hull.surfaces]
+    on = {
+        index
+        for index in rest
+        if hull.dimension == 3 and any(not dot(n, minus(hull.points[index], p)) for n, p in planes)
+    }
+    if hull.dimension == 3:
+        within = [()] * len(surfaces) if joined is None else joined_points(hull, joined)
+        faces = [(surface, left_out.intersection(some)) for surface, some in zip(surfaces, within, strict=True)]
+    else:
+        faces = [(side, set[int]()) for surface in surfaces for side in sides(surface)]
+    return Record(
+        arithmetic="exact",
+        status=DETERMINED,
+        dimension=hull.dimension,
+        points=tuple(points),
+        vertices=vertices,
+        boundary=tuple(index for index in rest if index in on or index in left_out),
+        inside=tuple(index for index in rest if index not in on and index not in left_out),
+        duplicates=hull.duplicates,
+        faces=tuple(
+            Face(("0", "0", "0", "0"), (0, 0, 0, 0), polygon[:3], polygon, tuple(sorted(some)))
+            for polygon, some in faces
+        ),
+    )
+
+
+def joined_surfaces(hull: Assembled, joined: Joined) -> tuple[Surface, ...]:
+    """The surfaces of a hull's ``as_mesh`` with faces joined, by points as given."""
+    return tuple(tuple(hull.vertices[place] for place in loop) for loop in joined.loops)
+
+
+def joined_points(hull: Assembled, joined: Joined) -> list[tuple[int, ...]]:
+    """The points of every joined face, those within it too."""
+    return [tuple(index for face in group for index in hull.surfaces[face]) for group in joined.groups]
+
+
+@dataclass(frozen=True, slots=True)
+class Star:
+    """The star polygon of a line (Figs. 8 to 12).
+
+    line: the points on it, the pair's ends first and last.  order: the points off it, by the angle of their images
+    about C; ``images`` theirs, relative to C.  outside: whether C is, so that the line is a convex edge; clockwise: the
+    sides of the polygon, by place, that turn clockwise about C, of which there is then one.
+    """
+
+    line: tuple[int, ...]
+    order: tuple[int, ...]
+    images: tuple[Image, ...]
+    outside: bool
+    clockwise: tuple[int, ...]
+
+
+def star(hull: Assembled, pair: Pair) -> Star:
+    """The star polygon of a pair of points.  Raises PictureError for one that was deleted, or is no pair."""
+    a, b = pair
+    again = dict(hull.duplicates)
+    gone = {entry.point: f"it lies between {entry.between[0] + 1} and {entry.between[1] + 1}" for entry in hull.deleted}
+    if hull.preprocessing is not None:
+        gone |= dict.fromkeys(hull.preprocessing.deleted, "it is on an inside corner")
+    gone |= {index: f"it is point {first + 1} again" for index, first in again.items()}
+    for index in pair:
+        if not 0 <= index < len(hull.points):
+            raise PictureError(f"there is no point {index + 1}; they count from 1 to {len(hull.points)}")
+        if index in gone:
+            raise PictureError(f"point {index + 1} was deleted: {gone[index]}")
+    if a == b:
+        raise PictureError(f"a line has two points; {a + 1} is one")
+    live = [index for index in range(len(hull.points)) if index not in gone]
+    line = project(hull.points, pair, live).line
+    images = {index: project(hull.points, pair, [index]).images[0] for index in live if index not in line}
+    places: dict[Image, list[int]] = {}
+    for index, image in images.items():
+        places.setdefault(image, []).append(index)
+    order = [index for image in dict.fromkeys(star_polygon(list(images.values()))) for index in places[image]]
+    found = tuple(images[index] for index in order)
+    around = [*pairwise(found), (found[-1], found[0])] if found else []
+    turned = tuple(k for k, (p, q) in enumerate(around) if vorticity(p, q) < 0)
+    one_ray = all(on_one_ray(found[0], image) for image in found)
+    return Star(tuple(line), tuple(order), found, one_ray or bool(turned), turned)
+
+
+def star_svg(hull: Assembled, pair: Pair, title: str = "", width: int | None = None) -> str:
+    """The star polygon of a pair of points, as it is seen along their line.  Raises PictureError.
+
+    width: in pixels, by default 640.
+    """
+    width = checked_width(width, WIDTH)
+    found = star(hull, pair)
+    a, b = pair
+    sight = view(lowest([Fraction(q - p) for p, q in zip(hull.points[a], hull.points[b], strict=True)]))
+    flat = {}
+    for index in (a, *found.order):
+        x, y, z = (Fraction(number) for number in hull.points[index])
+        flat[index] = sight.project((x, y, z))
+    pixel, height = fit(list(flat.values()), width, max(460, width * 460 // 640))
+    at = {index: pixel(image) for index, image in flat.items()}
+    ends = list(zip(found.order, [*found.order[1:], *found.order[:1]], strict=True))
+    shown = [(p, q) for p, q in ends if at[p] != at[q]]
+    bold = [ends[k] for k in found.clockwise]
+    thin = [side for side in shown if side not in bold]
+    together: dict[Pixel, list[int]] = {}
+    for index in found.order:
+        together.setdefault(at[index], []).append(index)
+    labels = [Label(*place.place, ",".join(str(k + 1) for k in group)) for place, group in together.items()]
+    line = found.line if found.line[0] < found.line[-1] else found.line[::-1]
+    centre = Label(*at[a].place, f"C = {'-'.join(str(k + 1) for k in line)}")
+    segments = [(at[p].place, at[q].place) for p, q in shown] + [(at[a].place, at[k].place) for k in found.order]
+    put = place_labels([*labels, centre], segments, [], (float(width), float(height)))
+    words = wrapped(_verdict(found, pair), width - 2 * MARGIN)
+    rows = [*([words_row(title, bold=True)] if title else []), *map(words_row, words)]
+    rows += [sample_row(style) for style in (SIDE, *([CLOCKWISE] if bold else []), RAY)]
+    items = [
+        *svg.group(RAY.key, RAY.attributes, (svg.line(at[a], place) for place in together)),
+        *svg.group(SIDE.key, SIDE.attributes, (svg.line(at[p], at[q], _named(p, q)) for p, q in thin)),
+        *svg.group(CLOCKWISE.key, CLOCKWISE.attributes, (svg.line(at[p], at[q], _named(p, q)) for p, q in bold)),
+        *svg.group("points", svg.VERTEX.attributes, (svg.circle(place, svg.RADIUS) for place in together)),
+        *svg.group(CENTRE.key, CENTRE.attributes, [svg.circle(at[a], "4.5")]),
+        *svg.group("numbers", f'{_FONT} text-anchor="middle" {_HALO}', texts([*labels, centre], put)),
+        *svg.group("legend", _FONT, (item for k, row in enumerate(rows) for item in row(height + 12 + _STEP * k))),
+    ]
+    return svg.page(width, height + _STEP * len(rows) + 12, title or f"Star polygon of line {a + 1}-{b + 1}", items)
+
+
+def _verdict(found: Star, pair: Pair) -> str:
+    named = f"Star polygon of line {pair[0] + 1}-{pair[1] + 1}, seen along it: C, its image, is"
+    if found.outside:
+        how = "one side turns clockwise about it" if found.clockwise else "all images are on one ray"
+        how = how if found.order else "no point is off the line"
+        return f"{named} outside ({how}); the line is a convex edge"
+    return f"{named} within it or on a side; the line is no convex edge"
+
+
+def _named(a: int, b: int) -> str:
+    return f'data-points="{a + 1} {b + 1}"'
+
+
+def _numbers(
+    at: Mapping[int, Pixel], lines: Sequence[tuple[int, Pair]], edges: Sequence[Sequence[int]], size: tuple[int, int]
+) -> Iterator[str]:
+    """Numbers of points and, in italics, of lines, all off the lines as far as there is room."""
+    together: dict[Pixel, list[int]] = {}
+    for index, place in sorted(at.items()):
+        together.setdefault(place, []).append(index)
+    points = [Label(*place.place, ",".join(str(k + 1) for k in group), _SIZE) for place, group in together.items()]
+    middles = [
+        Label((at[a].x + at[b].x) / 200, (at[a].y + at[b].y) / 200, str(number), _SMALL) for number, (a, b) in lines
+    ]
+    segments = [(at[a].place, at[b].place) for a, b in edges]
+    put = place_labels([*points, *middles], segments, [], (float(size[0]), float(size[1])))
+    yield from svg.group("numbers", f'{_FONT} text-anchor="middle"', texts(points, put[: len(points)]))
+    yield from svg.group("lines", f'{_LINE_FONT} text-anchor="middle"', texts(middles, put[len(points) :]))
+
+
+def texts(labels: Sequence[Label], places: Sequence[tuple[float, float]]) -> Iterator[str]:
+    """Labels where they were put."""
+    for label, (x, y) in zip(labels, places, strict=True):
+        yield svg.text(Pixel(round(100 * x), round(100 * (y + label.size * 0.35))), label.text)
+
+
+def sample_row(style: Style) -> Row:
+    """A row of a legend: a mark and its name."""
+
+    def row(base: int) -> Iterator[str]:
+        yield svg.sample(style, Pixel((MARGIN + 9) * 100, base * 100 - 450))
+        yield svg.text(Pixel((MARGIN + 26) * 100, base * 100), style.name)
+
+    return row
+
+
+def words_row(words: str, bold: bool = False) -> Row:
+    """A row of a legend: words."""
+
+    def row(base: int) -> Iterator[str]:
+        yield svg.text(Pixel(MARGIN * 100, base * 100), words, 'font-weight="bold"' if bold else "")
+
+    return row

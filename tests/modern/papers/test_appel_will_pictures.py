@@ -1,0 +1,327 @@
+"""Pictures of Appel and Will's method: the solid, a line's star polygon, the topological map in the plane."""
+
+from __future__ import annotations
+
+import random
+from collections import Counter
+from fractions import Fraction
+from itertools import combinations
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from modern.geometry.coplanar import join
+from modern.geometry.mesh import ExportError, sides
+from modern.papers.appel_will import appel_will, printed
+from modern.papers.appel_will.pictures import PictureError, as_mesh, joined_surfaces, solid_svg, star, star_svg
+from modern.papers.appel_will.planar import MOST, embedded, map_svg
+from modern.papers.appel_will.results import found_solid
+from tests.support.commands import call
+from tests.support.paths import ROOT
+from tests.support.solids import dodecahedron
+
+SVG = "{http://www.w3.org/2000/svg}"
+CUBE = [(x, y, z) for x in (0, 2) for y in (0, 2) for z in (0, 2)]
+Points = list[tuple[int, int, int]]
+
+
+def texts(points: Points) -> list[tuple[str, str, str]]:
+    return [(str(x), str(y), str(z)) for x, y, z in points]
+
+
+def groups(picture: str) -> dict[str, list[ElementTree.Element]]:
+    return {item.attrib["class"]: list(item) for item in ElementTree.fromstring(picture) if "class" in item.attrib}
+
+
+def pairs(items: list[ElementTree.Element], name: str = "data-points") -> list[tuple[int, int]]:
+    return [tuple(int(word) for word in item.attrib[name].split()) for item in items]  # type: ignore[misc]
+
+
+def legend(picture: str) -> str:
+    return " ".join(str(item.text) for item in groups(picture)["legend"])
+
+
+def scattered(seed: int, most: int = 12) -> Points:
+    draw = random.Random(seed)
+    return [tuple(draw.randrange(-4, 5) for _ in range(3)) for _ in range(draw.randrange(4, most))]  # type: ignore[misc]
+
+
+# --- the star polygon
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.integers(0, 10**6))
+def test_c_is_outside_of_the_star_polygon_of_every_convex_edge_and_of_no_other_line(seed: int) -> None:
+    points = scattered(seed, 9)
+    hull = appel_will(points)
+    live = set(range(len(points))) - {d.point for d in hull.deleted} - {k for k, _ in hull.duplicates}
+    for pair in combinations(sorted(live), 2):
+        found = star(hull, pair)
+        assert found.outside == (pair in hull.edges)
+        assert len(found.clockwise) <= 1
+        assert sorted((*found.line, *found.order)) == sorted(live)
+        # In the order of their angles: of neighbours less than half a turn apart the second is on the left.
+        turns = [
+            a[0] * b[1] - a[1] * b[0] for a, b in zip(found.images, (*found.images[1:], *found.images[:1]), strict=True)
+        ]
+        assert [k for k, turn in enumerate(turns) if turn < 0] == list(found.clockwise)
+
+
+def test_the_star_polygon_of_a_cubes_edge_and_of_its_diagonal() -> None:
+    edge, across = (groups(star_svg(appel_will(CUBE), pair)) for pair in ((0, 1), (0, 7)))
+    assert sorted(str(item.text) for item in edge["numbers"]) == ["3,4", "5,6", "7,8", "C = 1-2"]
+    assert len(edge["clockwise"]) == 1
+    assert "clockwise" not in across
+    assert len(across["star"]) == 6
+    assert len(across["rays"]) == 6
+    assert "is within it or on a side; the line is no convex edge" in legend(star_svg(appel_will(CUBE), (0, 7)))
+    words = legend(star_svg(appel_will(CUBE), (0, 1)))
+    assert "Star polygon of line 1-2, seen along it: C, its image, is outside (one side turns clockwise" in words
+
+
+def test_all_images_on_one_ray() -> None:
+    triangle = appel_will([(0, 0, 0), (4, 0, 0), (0, 4, 0)])
+    found = star(triangle, (0, 1))
+    assert (found.outside, found.clockwise) == (True, ())
+    assert "outside (all images are on one ray); the line is a convex edge" in legend(star_svg(triangle, (0, 1)))
+    segment = appel_will([(0, 0, 0), (4, 0, 0)])
+    assert star(segment, (0, 1)).order == ()
+    assert "outside (no point is off the line)" in legend(star_svg(segment, (0, 1)))
+
+
+@pytest.mark.parametrize(
+    ("pair", "message"),
+    [
+        ((0, 9), "there is no point 10; they count from 1 to 6"),
+        ((-1, 2), "there is no point 0; they count from 1 to 6"),
+        ((2, 2), "a line has two points; 3 is one"),
+        ((0, 4), "point 5 was deleted: it lies between 1 and 2"),
+        ((5, 1), "point 6 was deleted: it is point 1 again"),
+    ],
+)
+def test_lines_that_have_no_star_polygon(pair: tuple[int, int], message: str) -> None:
+    hull = appel_will([(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4), (2, 0, 0), (0, 0, 0)])
+    with pytest.raises(PictureError, match=f"^{message}$"):
+        star(hull, pair)
+
+
+# --- the solid
+
+
+@pytest.mark.parametrize("name", ["fig14", "fig18", "fig23"])
+def test_the_solid_has_its_convex_edges_and_the_lines_that_are_none(name: str) -> None:
+    given = found_solid(name)
+    hull = appel_will(given.points, given.surfaces)
+    found = groups(solid_svg(hull, texts(list(given.points)), given.surfaces, title=name))
+    drawn = pairs(found["seen"] + found.get("hidden", []), "data-vertices")
+    named = {tuple(sorted((hull.vertices[a - 1], hull.vertices[b - 1]))) for a, b in drawn}
+    assert named == set(hull.edges)
+    assert len(drawn) == len(hull.edges)
+    lines = {(min(a, b), max(a, b)) for surface in given.surfaces for a, b in sides(surface)}
+    assert {(a - 1, b - 1) for a, b in pairs(found.get("given", []))} == lines - set(hull.edges)
+    assert sorted(int(str(item.text)) for item in found["lines"]) == list(range(1, len(hull.edges) + 1))
+    numbers = [word for item in found["numbers"] for word in str(item.text).split(",")]
+    assert sorted(map(int, numbers)) == list(range(1, len(given.points) + 1))
+    assert ("line given, no convex edge" in str([item.text for item in found["more"]])) == bool(lines - set(hull.edges))
+
+
+def test_many_lines_have_no_numbers_and_a_fault_no_picture() -> None:
+    draw = random.Random(7)
+    points = [tuple(draw.randrange(-999, 1000) for _ in range(3)) for _ in range(60)]
+    picture = solid_svg(appel_will(points), texts(points))  # type: ignore[arg-type]
+    assert "lines" not in groups(picture)
+    with pytest.raises(PictureError, match="there is no hull to draw"):
+        solid_svg(appel_will(CUBE, method=printed("star")), texts(CUBE))
+    for make in (
+        lambda: solid_svg(appel_will(CUBE), texts(CUBE), width=9),
+        lambda: star_svg(appel_will(CUBE), (0, 1), width=9),
+    ):
+        with pytest.raises(ExportError, match="9 pixels wide is not drawn; 320 to 4000 are"):
+            make()
+
+
+@pytest.mark.parametrize(
+    "points", [[(0, 0, 0)], [(0, 0, 0), (3, 0, 0)], [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0), (1, 1, 0)]]
+)
+def test_flat_hulls_are_drawn_too(points: Points) -> None:
+    ElementTree.fromstring(solid_svg(appel_will(points), texts(points)))
+
+
+# --- the map
+
+
+def crosses(p, q, r, s) -> bool:
+    """Whether two segments cross within both, by exact areas."""
+
+    def area(a, b, c) -> Fraction:
+        return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+    return area(p, q, r) * area(p, q, s) < 0 and area(r, s, p) * area(r, s, q) < 0
+
+
+@settings(deadline=None, max_examples=25)
+@given(st.integers(0, 10**6))
+def test_no_two_lines_of_the_map_cross_and_every_region_is_convex(seed: int) -> None:
+    hull = appel_will(scattered(seed, 16))
+    if hull.dimension < 3:
+        return
+    surfaces = hull.outward()
+    for outer in range(min(3, len(surfaces))):
+        places = {k: (Fraction(x), Fraction(y)) for k, (x, y) in embedded(surfaces, outer).items()}
+        assert len(set(places.values())) == len(hull.vertices)
+        for (a, b), (c, d) in combinations(hull.edges, 2):
+            assert len({a, b, c, d}) < 4 or not crosses(places[a], places[b], places[c], places[d])
+        signs = Counter()
+        for order, surface in enumerate(surfaces):
+            ring = [places[k] for k in surface]
+            for p, q, r in zip(ring, ring[1:] + ring[:1], ring[2:] + ring[:2], strict=True):
+                turn = (q[0] - p[0]) * (r[1] - q[1]) - (q[1] - p[1]) * (r[0] - q[0])
+                signs[order == outer, turn > 0] += 1
+        assert len(signs) == 2, signs
+
+
+def test_the_map_has_every_line_point_and_surface_once() -> None:
+    given = found_solid("fig23")
+    hull = appel_will(given.points, given.surfaces)
+    found = groups(map_svg(hull.surfaces, hull.edges, "a map"))
+    assert sorted(pairs(found["seen"])) == sorted((a + 1, b + 1) for a, b in hull.edges)
+    assert sorted(int(str(item.text)) for item in found["numbers"]) == sorted(k + 1 for k in hull.vertices)
+    assert sorted(int(str(item.text)) for item in found["lines"]) == list(range(1, len(hull.edges) + 1))
+    outside = max(range(len(hull.surfaces)), key=lambda k: (len(hull.surfaces[k]), -k)) + 1
+    numbers = {int(str(item.text)) for item in found["surfaces"]}
+    assert numbers == set(range(1, len(hull.surfaces) + 1)) - {outside}
+    assert f"surface {outside} is the outside." in legend(map_svg(hull.surfaces, hull.edges, "a map"))
+
+
+def test_a_polygons_map_and_maps_that_are_not_drawn() -> None:
+    square = appel_will([(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0)])
+    assert [item.text for item in groups(map_svg(square.surfaces, square.edges))["surfaces"]] == ["1"]
+    with pytest.raises(PictureError, match=r"^there are no surfaces, so there is no map to draw$"):
+        map_svg(appel_will([(0, 0, 0), (4, 0, 0)]).surfaces, ())
+    ring = tuple(range(MOST + 1))
+    with pytest.raises(
+        PictureError, match=rf"^a map of {MOST + 1} points is not drawn; of at most {MOST} it can be read$"
+    ):
+        map_svg((ring, ring[::-1]), ())
+    with pytest.raises(PictureError, match="9 pixels wide"):
+        map_svg(square.surfaces, square.edges, width=9)
+
+
+def test_faces_read_as_one_are_one_in_every_picture() -> None:
+    points = dodecahedron()
+    hull = appel_will(points)
+    joined = join(as_mesh(hull, texts(points)), Fraction(1, 10**9))  # type: ignore[arg-type]
+    found = groups(solid_svg(hull, texts(points), joined=joined))  # type: ignore[arg-type]
+    assert len(found["seen"]) + len(found["hidden"]) == len(found["lines"]) == 30
+    regions = groups(map_svg(joined_surfaces(hull, joined), hull.edges))
+    assert (len(regions["seen"]), len(regions["surfaces"])) == (30, 11)
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [("solid", ()), ("star", ("--star-of", "5-6", "--width", "480")), ("map", ("--map", "--width", "480"))],
+)
+def test_the_committed_pictures_are_those_drawn(
+    name: str, words: tuple[str, ...], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    drawn = tmp_path / "drawn.svg"
+    assert call(capsys, "appel-will", "appel-will/fig18", "-o", str(drawn), *words)[0] == 0
+    assert drawn.read_text() == (ROOT / "docs" / "papers" / f"appel_will_{name}.svg").read_text()
+
+
+# --- the command
+
+
+@pytest.fixture
+def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    draw = random.Random(5)
+    rows = [",".join(str(draw.randrange(-99, 100)) for _ in range(3)) for _ in range(70)]
+    Path("many.csv").write_text("\n".join(rows) + "\n")
+    Path("d.csv").write_text("".join(f"{x!r},{y!r},{z!r}\n" for x, y, z in dodecahedron()))
+    return tmp_path
+
+
+def test_the_command_draws_all_three(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    pictures = []
+    for words in ((), ("--map",), ("--star-of", "1-7"), ("--eye", "1,2,3"), ("--map", "--width", "900")):
+        code, out, err = call(capsys, "appel-will", "appel-will/fig23", "-o", "a.svg", *words)
+        assert (code, err) == (0, "")
+        assert "Convex edge list" in out
+        ElementTree.parse("a.svg")
+        pictures.append(Path("a.svg").read_text())
+    assert len(set(pictures)) == 5
+    code, out, err = call(capsys, "appel-will", "appel-will/fig23", "-o", "-", "--map")
+    assert (code, "Convex edge list" in err) == (0, True)
+    ElementTree.fromstring(out)
+
+
+def test_many_points_are_told_briefly(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, err = call(capsys, "appel-will", "many.csv")
+    assert (code, err) == (0, "")
+    lines = out.splitlines()
+    assert len(lines) == 5
+    assert lines[0] == "many.csv: 70 points"
+    assert lines[2].startswith("convex edge list: ")
+    assert lines[3].startswith("loop table: ")
+    assert lines[3].endswith(" of 3 lines)")
+    assert lines[4] == "--all lists everything"
+    everything = call(capsys, "appel-will", "many.csv", "--all")[1]
+    edges = int(lines[2].split()[3])
+    start = everything.splitlines().index("Convex edge list")
+    assert everything.splitlines()[start + 1 + edges].split()[0] == str(edges)
+    assert "IUC(L)" in call(capsys, "appel-will", "many.csv", "--trace")[1]
+    assert call(capsys, "export", "many.csv", "-o", "hull.off")[0] == 0
+    vertices, faces, _ = Path("hull.off").read_text().splitlines()[1].split()
+    inner = "".join(f"0 0 {k}\n" for k in range(30))
+    more = Path("hull.off").read_text().split("\n", 2 + int(vertices))
+    text = "\n".join(["OFF", f"{int(vertices) + 30} {faces} 0", *more[2:-1], inner + more[-1]])
+    Path("more.off").write_text(text)
+    out = call(capsys, "appel-will", "more.off", "--inside-corners", "two")[1]
+    assert f"of the {faces} surfaces given {faces} kept, 0 respecified, 0 deleted; 0 added\n" in out
+    assert "0 points deleted by rule two before any projection\n" in out
+    assert "28 points deleted as between two others\n" in out
+
+
+def test_faces_of_a_file_in_floats_are_kept(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert call(capsys, "export", "d.csv", "-o", "d.off", "--coplanar-within", "1e-9")[0] == 0
+    assert "added: " in call(capsys, "appel-will", "d.off")[1]
+    code, out, err = call(capsys, "appel-will", "d.off", "--coplanar-within", "1e-9", "-o", "e.off")
+    assert (code, err.count("\n")) == (0, 1)
+    assert err.startswith("note: d.off: 36 faces are read as 12 within 1e-9; ")
+    assert "Topological map, faces within 1e-9 of a plane read as one\nsurface 1: " in out
+    assert out.count(": kept as surface") == 12
+    assert "added" not in out
+    assert Path("e.off").read_text().splitlines()[1] == "20 12 30"
+    flat = call(capsys, "appel-will", "appel-will/fig23", "--coplanar-within", "0")
+    assert "no two of 7 faces lie within 0 of one plane" in flat[2]
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("-o", "a.stl"), "a.stl: the name must end with .off or .svg"),
+        (("--map",), "--map is a picture: it needs -o FILE.svg"),
+        (("--map", "-o", "a.off"), "--map is a picture: it needs -o FILE.svg"),
+        (("--star-of", "1-2", "-o", "a.off"), "--star-of is a picture"),
+        (("--star-of", "1", "-o", "a.svg"), "--star-of: '1' is not a line I-J, two points by number"),
+        (("--star-of", "1-99", "-o", "a.svg"), "there is no point 99"),
+        (("--star-of", "1-2", "--map", "-o", "a.svg"), "not allowed with argument"),
+        (("--eye", "1,2,3"), "--eye is for a picture"),
+        (("--eye", "1,2,3", "-o", "a.off"), "--eye is for a picture"),
+        (("--eye", "1,2,3", "--map", "-o", "a.svg"), "--eye is for the solid"),
+        (("--eye", "1,2", "-o", "a.svg"), "the direction of view is 2 numbers"),
+        (("--width", "5", "-o", "a.svg"), "a picture 5 pixels wide is not drawn"),
+        (("--width", "500"), "--width is for a picture"),
+        (("--coplanar-within", "99", "-o", "a.svg"), "d.csv: all points lie within 99 of the plane"),
+        (("--coplanar-within", "x", "-o", "a.svg"), "'x' is not a decimal number"),
+    ],
+)
+def test_refusals(room: Path, words: tuple[str, ...], message: str, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, err = call(capsys, "appel-will", "d.csv", *words)
+    assert (code, out, err.count("\n")) == (2, "", 1), err
+    assert message in err
+    assert not list(room.glob("a.*"))
