@@ -15,8 +15,11 @@ from emulator.language import objectcode as op
 from emulator.language.cards import Deck, deck_from_lines
 from emulator.language.compiler import compile_deck, translate
 from emulator.language.objectcode import Program
-from emulator.machine.machine import Machine
+from emulator.machine.endings import Ending
+from emulator.machine.machine import Machine, operated
+from emulator.machine.operator import Operator
 from emulator.machine.result import Options, Result
+from emulator.machine.session import Session
 from emulator.machine.state import FLOATING
 from emulator.numbers import numbers
 from emulator.numbers.arithmetic import FIXED_POINT, MINUS_ZERO, UNDEFINED, ZERO
@@ -113,6 +116,23 @@ def machine(
 def run(*lines: str, **setting: object) -> Result:
     """Compile ``lines``, run them, and give back the result; settings as for :func:`machine`."""
     return machine(*lines, **setting).run()  # type: ignore[arg-type]
+
+
+def until(session: Session, statements: int, operator: Operator | None = None) -> Ending | None:
+    """Run on until so many plain statements are done, whatever costs more; the ending of a run that ended before.
+
+    What is done is counted as the limit counts it, but for what costly operations add: the same in every arithmetic.
+    """
+    while (left := statements - plain(session)) > 0:
+        ending = operated(session, operator or Operator(), session.state.work + left)
+        if ending is not None:
+            return ending
+    return None
+
+
+def plain(session: Session) -> int:
+    """How much a session has done, every statement counted as one."""
+    return session.state.work - session.state.costly
 
 
 def punched(*lines: str, **setting: object) -> tuple[str, ...]:

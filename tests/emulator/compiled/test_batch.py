@@ -82,10 +82,13 @@ def test_programs_with_every_function(cards: list[str], data: list[list[str]], o
 
 
 def test_many_of_the_random_programs_stay_in_the_compiled_engine() -> None:
-    """Else the two tests above would compare the plain engine with itself."""
+    """Else the two tests above would compare the plain engine with itself.
+
+    Some six in ten do; of twenty programs it may be three or nine, of sixty it is never far from that.
+    """
     found: list[int] = []
 
-    @settings(max_examples=20, derandomize=True, database=None)
+    @settings(max_examples=60, derandomize=True, database=None)
     @given(programs(), DATA)
     def sample(cards: list[str], data: list[str]) -> None:
         random = made(cards)
@@ -93,7 +96,7 @@ def test_many_of_the_random_programs_stay_in_the_compiled_engine() -> None:
             found.append(agreed(random, decks(data), Options(limit=500)))
 
     sample()
-    assert sum(found) > len(found) / 4
+    assert sum(found) > len(found) / 3
 
 
 MODES = {"E14.8": "A", "E10.3": "A", "F7.2": "A", "F5.1": "A", "I4": "I", "I2": "I", "2I3": "II", "2(I3,1X)": "II"}

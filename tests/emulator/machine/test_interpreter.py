@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 import re
+from dataclasses import dataclass, field
+from fractions import Fraction
 
 import pytest
 from hypothesis import given, settings
@@ -12,26 +14,62 @@ from emulator.compiled.batch import run_batch
 from emulator.errors import EmulatorError
 from emulator.language.cards import deck_from_lines
 from emulator.language.compiler import translate
+from emulator.machine.endings import Ending
 from emulator.machine.machine import Machine
+from emulator.machine.operator import Operator
 from emulator.machine.result import Options, Result
 from emulator.machine.trace import Tracer
 from emulator.numbers import numbers
+from emulator.numbers.arithmetic import profile as digit_profile
+from emulator.numbers.base import Numbers
+from emulator.numbers.decimal import DecimalNumbers, Pair
 from tests.support.decks_at_random import ALL_FUNCTIONS, DATA, programs
-from tests.support.deckwork import program, source, within
+from tests.support.deckwork import plain, program, source, until, within
+
+Ran = tuple[Result | str, Machine | None]
+"""A result or an error's words, and the machine where there is one."""
+KEYED = ["1.5", "-7", "2"]
+FAR = 1_000
+"""The limit of work for each statement that is compared."""
+STANDS = Ending("limit", trouble="as many statements are done as were asked for")
 
 
-def ran(lines: list[str], data: list[str], options: Options) -> tuple[Result | str, Machine | None]:
-    """A result or an error's words, and the machine where there is one."""
+def ran(lines: list[str], data: list[str], options: Options, statements: int | None = None) -> Ran:
+    """A run to its end, or until it has done so many statements."""
     machine = None
     with within(30):
         try:
             made, _ = translate(source(*lines))
             if made is None:
                 return "refused", None
-            machine = Machine(made, deck_from_lines("data", data), options, ["1.5", "-7", "2"])
-            return machine.run(), machine
+            machine = Machine(made, deck_from_lines("data", data), options, KEYED)
+            if statements is None:
+                return machine.run(), machine
+            return machine.result(until(machine, statements, Operator(KEYED)) or STANDS), machine
         except EmulatorError as error:
             return str(error), machine
+
+
+def side_by_side(
+    lines: list[str], data: list[str], systems: tuple[Numbers, Numbers], statements: int
+) -> tuple[Ran, Ran]:
+    """Runs of two arithmetics until each has ended or done so many statements, whatever an operation costs in it.
+
+    One that is beyond all limits in either stops both before its statement.
+    """
+
+    def both(statements: int) -> tuple[Ran, Ran]:
+        options = (Options(numbers=system, limit=FAR * (statements + 1)) for system in systems)
+        one, other = (ran(lines, data, each, statements) for each in options)
+        return one, other
+
+    found = both(statements)
+    beyond = [
+        plain(machine) - 1
+        for outcome, machine in found
+        if machine and isinstance(outcome, Result) and outcome.ending.kind == "limit" and outcome.ending is not STANDS
+    ]
+    return both(min(beyond)) if beyond else found
 
 
 def results(name: str, *lines: str, data: tuple[str, ...] = (), limit: int = 10_000) -> Result:
@@ -46,13 +84,11 @@ def test_double_precision_twice(cards: list[str], data: list[str]) -> None:
 
     Not after an overflow: mpmath has none.
     """
-    runs = [ran(cards, data, Options(numbers=numbers(name), limit=2_000)) for name in ("float64", "mp:53")]
+    runs = side_by_side(cards, data, (numbers("float64"), numbers("mp:53")), 2_000)
     if any(machine and machine.result().errors for _, machine in runs):
         return
     one, other = (outcome for outcome, _ in runs)
     if isinstance(one, Result) and isinstance(other, Result):
-        if "limit" in (one.ending.kind, other.ending.kind):
-            return  # mpmath's operations count as more work
         assert one.counts == other.counts
         assert one.ending.kind == other.ending.kind
         assert [unsigned(card) for card in one.punched] == [unsigned(card) for card in other.punched]
@@ -65,27 +101,87 @@ def unsigned(card: str) -> str:
     return re.sub(r"-(?=\.0*(E-99)?(?!\d))", " ", card)
 
 
+@dataclass(frozen=True)
+class Watched(DecimalNumbers):
+    """Decimal numbers that note each result that is not the exact one."""
+
+    cuts: list[str] = field(default_factory=list, compare=False)
+
+    def _noted(self, what: str, found: Pair, same: bool) -> Pair:
+        if not same:
+            self.cuts.append(what)
+        return found
+
+    def add(self, first: Pair, second: Pair) -> Pair:
+        found = super().add(first, second)
+        return self._noted("sum", found, self._of(found) == self._of(first) + self._of(second))
+
+    def subtract(self, first: Pair, second: Pair) -> Pair:
+        found = super().subtract(first, second)
+        return self._noted("difference", found, self._of(found) == self._of(first) - self._of(second))
+
+    def subtract_reversed(self, first: Pair, second: Pair) -> Pair:
+        found = super().subtract_reversed(first, second)
+        return self._noted("difference", found, self._of(found) == self._of(second) - self._of(first))
+
+    def multiply(self, first: Pair, second: Pair) -> Pair:
+        found = super().multiply(first, second)
+        return self._noted("product", found, self._of(found) == self._of(first) * self._of(second))
+
+    def function(self, name: str, value: Pair) -> tuple[Pair, str]:
+        found, code = super().function(name, value)
+        return self._noted(name, found, name == "SQRT" and self._of(found) ** 2 == self._of(value)), code
+
+    def integer_power(self, base: Pair, count: int) -> tuple[Pair, str]:
+        found, code = super().integer_power(base, count)
+        same = 0 <= count <= 30 and self._of(found) == self._of(base) ** count
+        return self._noted("power", found, same), code
+
+    def power(self, base: Pair, exponent: Pair) -> tuple[Pair, str]:
+        found, code = super().power(base, exponent)
+        return self._noted("power", found, False), code
+
+    def _of(self, value: Pair) -> Fraction:
+        return Fraction(self.exact(value, 0))
+
+
+def test_what_is_cut_is_noted() -> None:
+    for line, cut in (("A=1.E60+3.", True), ("A=1.E20+3.", False), ("A=SQRT(2.)", True), ("A=SQRT(4.)", False)):
+        watched = Watched(digit_profile("truncating:28"))
+        Machine(program(line, "END"), deck_from_lines("d", []), Options(numbers=watched)).run()
+        assert bool(watched.cuts) == cut
+
+
 @settings(max_examples=60)
 @given(programs(), DATA)
 def test_long_decimals_exactly(cards: list[str], data: list[str]) -> None:
     """Where no digit is cut and no quotient is taken, 28 decimal digits and exact numbers punch the same cards."""
     whole = [card for card in cards if "/" not in card or "FORMAT" in card]
-    runs = [
-        ran(whole, data, options)[0]
-        for options in (
-            Options(numbers=numbers("exact"), limit=200),
-            Options(numbers=numbers("truncating:28"), limit=200),
-        )
-    ]
-    one, other = runs
-    if (
-        isinstance(one, Result)
-        and isinstance(other, Result)
-        and one.ending.kind not in ("undecided", "limit")
-        and not other.errors
-    ):
+    statements = before_a_cut(whole, data, 200)
+    (one, _), (other, _) = side_by_side(whole, data, (numbers("exact"), numbers("truncating:28")), statements)
+    if isinstance(one, Result) and isinstance(other, Result) and one.ending.kind != "undecided" and not other.errors:
         assert one.punched == other.punched
         assert one.counts == other.counts
+
+
+def before_a_cut(lines: list[str], data: list[str], statements: int) -> int:
+    """How many of the statements 28 digits do before the first whose result has more."""
+    watched = Watched(digit_profile("truncating:28"))
+    made, _ = translate(source(*lines))
+    if made is None:
+        return statements
+    operator = Operator(KEYED)
+    machine = Machine(made, deck_from_lines("data", data), Options(numbers=watched, limit=FAR * statements))
+    for done in range(statements):
+        try:
+            ended = until(machine, done + 1, operator)
+        except EmulatorError:
+            return statements
+        if watched.cuts:
+            return done
+        if ended is not None:
+            return statements
+    return statements
 
 
 @pytest.mark.parametrize("name", ["float64", "float32", "mp:24", "exact", "truncating"])

@@ -11,12 +11,16 @@ import pytest
 
 from emulator.language.cards import Deck, deck_from_lines, read_deck
 from emulator.machine.divergence import diverge
+from emulator.machine.endings import looped
+from emulator.machine.result import LOOP_WINDOW, Result
+from emulator.machine.session import Session
 from emulator.numbers import numbers
 from modern.comparison.difference import disagreement
 from modern.comparison.outcome import Vector, from_cards, from_judge
 from modern.edition import chapter6, programs
 from modern.exact_hull import exact_hull
-from modern.thesis.job import HullRun, run_hull
+from modern.thesis.job import HullRun, Step, run_hull
+from tests.support.deckwork import until
 from tests.support.judged import OPTIONS, deck_of, differences, sets
 from tests.support.paths import MACHINE_RUNS
 
@@ -45,15 +49,27 @@ def test_the_decks_of_whole_numbers(folder: Path, name: str) -> None:
     if folder.name in DECIMAL:
         pytest.skip("not whole")
     plain = hull(deck_of_folder(folder))
-    if plain.final.result.ending.kind == "limit":
-        # What costs more than a statement of eight digits counts for more, so the other stops elsewhere.
-        assert hull(deck_of_folder(folder), name).final.result.ending.kind == "limit"
-        return
-    other = hull(deck_of_folder(folder), name, limit=100 * LIMIT)
-    assert [step.result.counts for step in other.steps] == [step.result.counts for step in plain.steps]
-    assert [step.result.ending for step in other.steps] == [step.result.ending for step in plain.steps]
+    endless = plain.final.result.ending.kind == "limit"
+    other = hull(deck_of_folder(folder), name, limit=LIMIT if endless else 100 * LIMIT)
+    results = [step.result for step in other.steps]
+    if endless:
+        results[-1] = after_statements(other.final, name, LIMIT)
+    assert [result.counts for result in results] == [step.result.counts for step in plain.steps]
+    assert [result.ending for result in results] == [step.result.ending for step in plain.steps]
     if name == "exact":
-        assert [step.result.punched for step in other.steps] == [step.result.punched for step in plain.steps]
+        assert [result.punched for result in results] == [step.result.punched for step in plain.steps]
+
+
+def after_statements(step: Step, name: str, statements: int) -> Result:
+    """What a step has done after so many statements, with the ending of a run whose limit that is.
+
+    A limit of work would stop it elsewhere: what costs more than a statement of eight digits counts for more.
+    """
+    session = Session(step.program, step.deck, replace(OPTIONS, limit=100 * statements, numbers=numbers(name)))
+    assert until(session, statements - LOOP_WINDOW) is None
+    before = list(session.state.counts)
+    assert until(session, statements) is None
+    return session.result(looped(step.program, statements, before, session.state.counts, session.state.decision))
 
 
 @pytest.mark.parametrize("example", chapter6.EXAMPLES)
