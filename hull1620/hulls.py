@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from decimal import MAX_EMAX, MIN_EMIN, Context, Decimal
+from decimal import Decimal
 from fractions import Fraction
 from functools import cached_property
 from typing import Any, TypeVar
@@ -31,7 +31,7 @@ from modern.geometry.coplanar import coplanar
 from modern.geometry.hull import Face, HullRefused, Stage, all_of
 from modern.geometry.hull import Hull as Record
 from modern.geometry.mesh import ExportError, Mesh, mesh, sides
-from modern.geometry.numbers import coordinates, real
+from modern.geometry.numbers import AREA_DIGITS, coordinates, real, sum_of_roots
 from modern.geometry.vectors import Vector, area_vector, cross, dot
 from modern.port.arithmetic import exact_text
 from modern.port.outcome import PointTexts
@@ -39,9 +39,6 @@ from modern.port.procedure import Epsilon, OnRefusal
 from modern.thesis import job
 from modern.thesis.job import HullRun
 
-AREA_DIGITS = 50
-"""Significant digits of an area, which is a sum of square roots."""
-_GUARD = 20
 _KINDS = ("point", "segment", "polygon", "polyhedron")
 
 Path = str | os.PathLike[str]
@@ -184,13 +181,7 @@ class Hull:
         It is exact where every face's area is a decimal of no more digits; ``squared_areas`` are exact always.  Raises
         as ``volume``.
         """
-        work = Context(prec=AREA_DIGITS + _GUARD, Emin=MIN_EMIN, Emax=MAX_EMAX)
-        total = Decimal(0)
-        for square in self.squared_areas:
-            # A quotient of roots: exact where both are whole.
-            root = work.divide(work.sqrt(Decimal(square.numerator)), work.sqrt(Decimal(square.denominator)))
-            total = work.add(total, root)
-        return Context(prec=AREA_DIGITS, Emin=MIN_EMIN, Emax=MAX_EMAX).plus(total)
+        return sum_of_roots(self.squared_areas, AREA_DIGITS)
 
     @cached_property
     def squared_areas(self) -> tuple[Fraction, ...]:

@@ -101,6 +101,8 @@ def _form(args: argparse.Namespace) -> str | None:
         check_numbered(args.output, "label", "label-%d.off")
     if args.fill:
         check_array(args.output)
+        if args.each_label and not args.output.lower().endswith(".nrrd"):
+            raise UsageError(f"{args.output}: each label's box is written, and its place is kept by .nrrd, not by .npy")
         return None
     form: str = args.output.rpartition(".")[2].lower()
     if form not in MESHES:

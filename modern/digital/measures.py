@@ -10,15 +10,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from decimal import MAX_EMAX, MIN_EMIN, Context, Decimal
+from decimal import Decimal
 from fractions import Fraction
 from itertools import pairwise
 
 from modern.digital.world import Position, VolumeError, World, voxel_volume
+from modern.geometry.numbers import AREA_DIGITS, sum_of_roots
 from modern.geometry.vectors import area_vector, cross, dot, minus
 
-AREA_DIGITS = 50
-_GUARD = 20
 _UNIT: tuple[Position, ...] = tuple(tuple(Fraction(int(k == axis)) for k in range(3)) for axis in range(3))
 Whole = tuple[int, int, int]
 
@@ -74,13 +73,12 @@ def measures(
     rows = [cross(_three(steps[(k + 1) % 3]), _three(steps[(k + 2) % 3])) for k in range(3)]
     scale = math.lcm(*(number.denominator for row in rows for number in row))
     whole = [[int(number * scale) for number in row] for row in rows]
-    work = Context(prec=AREA_DIGITS + _GUARD, Emin=MIN_EMIN, Emax=MAX_EMAX)
-    area = Decimal(0)
+    squares = []
     for face in polygons:
         normal = area_vector(points, face)
         image = [sum(normal[k] * whole[k][j] for k in range(3)) for j in range(3)]
-        area = work.add(area, work.sqrt(Decimal(sum(number * number for number in image))))
-    area = Context(prec=AREA_DIGITS, Emin=MIN_EMIN, Emax=MAX_EMAX).divide(area, Decimal(2 * scale))
+        squares.append(Fraction(sum(number * number for number in image), (2 * scale) ** 2))
+    area = sum_of_roots(squares, AREA_DIGITS)
     return Measures(voxels, voxels * cell, Fraction(abs(six), 6) * cell, area)
 
 

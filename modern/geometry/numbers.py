@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from decimal import MAX_EMAX, MIN_EMIN, ROUND_HALF_EVEN, Context, Decimal
 from fractions import Fraction
 from numbers import Rational, Real
@@ -14,9 +14,12 @@ Exact = int | Fraction
 Point = tuple[str, str, str]
 
 MAX_DIGITS, MAX_EXPONENT = 4000, 9999
+AREA_DIGITS = 50
+"""Significant digits of an area, which is a sum of square roots."""
 _DECIMAL = re.compile(r"([+-]?)([0-9]*)(?:\.([0-9]*))?(?:[eE]([+-]?[0-9]{1,6}))?")
 _QUOTIENT = re.compile(r"([+-]?[0-9]+)/([0-9]+)")
 _SHOWN = 40
+_GUARD = 20
 
 
 class PointsError(EmulatorError, ValueError):
@@ -130,6 +133,19 @@ def decimal_text(text: str, digits: int | None = None) -> str:
         raise ValueError(f"{digits} is not a number of digits to round to")
     context = Context(prec=digits, rounding=ROUND_HALF_EVEN, Emin=MIN_EMIN, Emax=MAX_EMAX)
     return str(context.divide(Decimal(value.numerator), Decimal(value.denominator)))
+
+
+def sum_of_roots(squares: Iterable[Fraction], digits: int) -> Decimal:
+    """The sum of the square roots of fractions, to so many significant digits.
+
+    It is exact where every root is a decimal of no more digits.
+    """
+    work, total = Context(prec=digits + _GUARD, Emin=MIN_EMIN, Emax=MAX_EMAX), Decimal(0)
+    for square in squares:
+        # A quotient of roots: exact where both are whole.
+        root = work.divide(work.sqrt(Decimal(square.numerator)), work.sqrt(Decimal(square.denominator)))
+        total = work.add(total, root)
+    return Context(prec=digits, Emin=MIN_EMIN, Emax=MAX_EMAX).plus(total)
 
 
 def finite_decimal(value: Fraction) -> str | None:

@@ -14,8 +14,8 @@ from fractions import Fraction
 
 from modern.cli.shared.volumes import printable
 from modern.digital.hull import DigitalHull
-from modern.digital.measures import AREA_DIGITS, Measures
-from modern.geometry.numbers import finite_decimal
+from modern.digital.measures import Measures
+from modern.geometry.numbers import AREA_DIGITS, finite_decimal
 
 SHOWN = 12
 """Digits of a number in lines and tables."""

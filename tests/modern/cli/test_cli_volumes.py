@@ -198,6 +198,7 @@ def test_an_array_of_several_is_named(capsys: pytest.CaptureFixture[str]) -> Non
         ("scan.nrrd --each-label -o a.off", "'a.off' has no place for a label as in 'label-%d.off'"),
         ("scan.nrrd --each-label -o a-%d.json", "a-%d.json: the name must end with one of .off"),
         ("scan.nrrd --each-label --fill -o a-%d.off", "the name must end with .npy or .nrrd"),
+        ("scan.nrrd --each-label --fill -o a-%d.npy", "its place is kept by .nrrd, not by .npy"),
         ("scan.nrrd --each-label --cells", "--cells is of one hull"),
         ("scan.nrrd --each-label --threshold 1", "--threshold is not for it"),
         ("scan.nrrd --each-label --label 9", "no voxel has the label 9"),
