@@ -50,7 +50,7 @@ def engine_lines() -> Iterator[str]:
 GROUPS: Mapping[str, Callable[[], Iterator[str]]] = {
     "commands": command_lines,
     "engine": engine_lines,
-    "hulls": lambda: (figure.line() for figure in hulls.figures()),
+    "hulls": hulls.lines,
     "papers": lambda: (figure.line() for figure in papers.figures()),
     "digital": lambda: (figure.line() for figure in digital.figures()),
 }

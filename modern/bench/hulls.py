@@ -1,7 +1,7 @@
-"""Hulls: the exact judge and the port in float64, beside Qhull (through scipy) where it is installed.
+"""Hulls: the exact judge and the port in float64, each row beside its peers, Qhull and CGAL, in one run.
 
-``python -m modern.bench.hulls FILE.svg`` measures how their time grows with the number of points and plots it (extra
-``plot``).
+``python -m modern.bench.hulls FILE.svg`` measures how their time grows with the number of points, and plots it with
+the slope of each curve (extra ``plot``).
 """
 
 from __future__ import annotations
@@ -10,24 +10,31 @@ import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable, Iterator
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
 
-from modern.bench.timing import Curve, Figure, plot, timed, timed_once
+from modern.bench.peers import Peers, Work
+from modern.bench.timing import Curve, Figure, plot, side_by_side, timed, timed_once
 from modern.exact_hull import exact_hull
+from modern.geometry.hull import all_of
 from modern.port import convex_hull
 
 COUNTS = (100, 1_000, 10_000, 100_000, 1_000_000)
-LARGEST_FOR_JUDGE = 100_000
-PORT = ("port, float64, numpy", "port, float64, fast")
+SLOPES_FROM = 1_000
+"""Fewer points measure what a call costs."""
+WITH_FACES = "port, fast, with its faces as text"
 STYLES = (
     {"marker": "o", "linestyle": "-", "color": "0"},
-    {"marker": "D", "linestyle": "-.", "color": "0"},
-    {"marker": "s", "linestyle": "--", "color": "0.35"},
-    {"marker": "^", "linestyle": ":", "color": "0.5"},
+    {"marker": "o", "linestyle": "--", "color": "0"},
+    {"marker": "D", "linestyle": "-", "color": "0.4"},
+    {"marker": "D", "linestyle": "--", "color": "0.4"},
+    {"marker": "s", "linestyle": "-.", "color": "0.6"},
+    {"marker": "^", "linestyle": ":", "color": "0.6"},
 )
 
 
@@ -37,6 +44,17 @@ def ball(count: int, seed: int = 1) -> Any:
     directions = source.normal(size=(count, 3))
     directions /= np.linalg.norm(directions, axis=1)[:, None]
     return directions * source.random(count)[:, None] ** (1 / 3)
+
+
+def sphere(count: int) -> Any:
+    """Points uniform on the unit sphere, shape (count, 3), float64."""
+    points = np.random.default_rng(2).normal(size=(count, 3))
+    return points / np.linalg.norm(points, axis=1)[:, None]
+
+
+def cube(count: int) -> Any:
+    """Points uniform in the cube from -1 to 1, shape (count, 3), float64."""
+    return np.random.default_rng(2).uniform(-1, 1, size=(count, 3))
 
 
 def exact_in_doubles(points: Any) -> Any:
@@ -53,36 +71,72 @@ def eight_digits(points: Any) -> Any:
     return np.rint(points * 99_999_999).astype(np.int64)
 
 
-def figures(largest: int = 100_000) -> Iterator[Figure]:
-    """Every figure, smallest first."""
-    source = np.random.default_rng(2)
-    sphere = source.normal(size=(10_000, 3))
-    sphere /= np.linalg.norm(sphere, axis=1)[:, None]
-    cube = eight_digits(source.uniform(-1, 1, size=(10_000, 3)))
-    yield timed("judge, 10,000 points of 8 digits uniform in a cube", lambda: exact_hull(cube), "bar 2 s")
-    ball_on_sphere = eight_digits(sphere)
-    yield timed("judge, 10,000 points of 8 digits on a sphere", lambda: exact_hull(ball_on_sphere), "bar 20 s")
-    yield from starts()
-    count = 100
-    while count <= largest:
-        points = exact_in_doubles(ball(count))
-        ours = list(port(points))
-        yield from ours
-        other = qhull(points, count)
-        if other is not None:
-            times = " and ".join(f"{figure.median / other.median:.1f}" for figure in ours)
-            yield Figure(other.what, other.seconds, f"the port takes {times} times as long")
-        whole = eight_digits(points / 80_000)
-        yield timed(f"judge, {count:,} points of 8 digits in a ball", lambda p=whole: exact_hull(p))  # type: ignore[misc]
-        count *= 10
-
-
-def port(points: Any) -> Iterator[Figure]:
-    """The port in float64 by numpy alone, and by compiled kernels where numba is installed."""
-    what = f"port float64, {len(points):,} points uniform in a ball"
-    yield timed(f"{what}, numpy", lambda: convex_hull(points, "float64", fast=False))
+def judge(points: Any) -> dict[str, Work]:
+    """The judge by numpy alone, and with its proposals by the kernel where numba is installed."""
+    works: dict[str, Work] = {"judge, numpy": lambda: exact_hull(points, fast=False)}
     if find_spec("numba"):
-        yield timed(f"{what}, fast", lambda: convex_hull(points, "float64", fast=True))
+        works["judge, fast"] = lambda: exact_hull(points, fast=True)
+    return works
+
+
+def port(points: Any) -> dict[str, Work]:
+    """The port in float64 by numpy alone, and by compiled kernels where numba is installed; faces are made if asked."""
+    works: dict[str, Work] = {"port, numpy": lambda: convex_hull(points, "float64", fast=False)}
+    if find_spec("numba"):
+        works["port, fast"] = lambda: convex_hull(points, "float64", fast=True)
+        works[WITH_FACES] = lambda: all_of(convex_hull(points, "float64", fast=True).faces)
+    return works
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Works on one set of points, measured in turn in seconds of the processor; the peers are the last of them."""
+
+    points: str
+    rows: tuple[Figure, ...]
+    peers: tuple[str, ...]
+
+    def peer(self, name: str) -> Figure:
+        return next(row for row in self.rows if row.what == name)
+
+    def lines(self) -> list[str]:
+        """The table as text, 78 columns: median seconds, and how many times a peer's."""
+        found = [f"{self.points:<44}{'seconds':>10}" + "".join(f"{'/ ' + name:>12}" for name in self.peers)]
+        for row in self.rows:
+            ratios = "".join(f"{row.median / self.peer(name).median:>12.1f}" for name in self.peers)
+            found.append(f"  {row.what:<42}{row.median:>10.4f}{ratios}")
+        return found
+
+
+def table(name: str, points: Any, works: Mapping[str, Work], peers: Peers) -> Table:
+    """Measure works and peers in turn on the same points."""
+    others = {peer: of(points) for peer, of in peers.found.items()}
+    return Table(name, tuple(side_by_side({**works, **others}, clock=time.process_time)), tuple(others))
+
+
+def tables(peers: Peers, largest: int = 100_000) -> Iterator[Table]:
+    """Every table, smallest first; ``largest``: no larger set of points."""
+    counts = [count for count in COUNTS if count <= min(largest, 100_000)]
+    for count in counts:
+        points = exact_in_doubles(ball(count))
+        yield table(f"{count:,} whole points in a ball", points, port(points), peers)
+    for count in counts:
+        points = eight_digits(ball(count))
+        yield table(f"{count:,} of 8 digits in a ball", points, judge(points), peers)
+    for name, made in (("in a cube", cube), ("on a sphere", sphere)):
+        count = min(largest, 10_000)
+        points = eight_digits(made(count))
+        yield table(f"{count:,} of 8 digits {name}", points, judge(points), peers)
+
+
+def lines(largest: int = 100_000) -> Iterator[str]:
+    """Every table as text, process starts, and what is missing."""
+    with Peers() as peers:
+        for one in tables(peers, largest):
+            yield from one.lines()
+        for figure in starts():
+            yield figure.line()
+        yield from peers.remarks
 
 
 def starts() -> Iterator[Figure]:
@@ -103,40 +157,35 @@ def small_hull(fast: bool, cache: str = "") -> Callable[[], object]:
     return lambda: subprocess.run([sys.executable, "-c", text], check=True, env=environment)
 
 
-def qhull(points: Any, count: int) -> Figure | None:
-    """Qhull through scipy, or None where scipy is not installed."""
-    try:
-        from scipy.spatial import ConvexHull
-    except ImportError:
-        return None
-    return timed(f"Qhull (scipy), {count:,} points uniform in a ball", lambda: ConvexHull(points))
-
-
-def growth() -> dict[str, list[tuple[int, float]]]:
-    """Median seconds by route and number of points, uniform in a ball."""
-    found: dict[str, list[tuple[int, float]]] = {name: [] for name in (*PORT, "judge, exact", "Qhull (scipy)")}
-    for count in COUNTS:
-        points = exact_in_doubles(ball(count))
-        for name, figure in zip(PORT, port(points), strict=False):
-            found[name].append((count, figure.median))
-        other = qhull(points, count)
-        if other is not None:
-            found["Qhull (scipy)"].append((count, other.median))
-        if count <= LARGEST_FOR_JUDGE:
-            whole = eight_digits(points / 80_000)
-            found["judge, exact"].append((count, timed("", lambda p=whole: exact_hull(p)).median))  # type: ignore[misc]
-    return found
+def growth(peers: Peers, counts: Sequence[int] = COUNTS) -> list[Curve]:
+    """Median seconds by route and number of points, uniform in a ball; the judge and the peers get 8 digits."""
+    found: dict[str, list[tuple[int, float]]] = {}
+    for count in counts:
+        whole, long = exact_in_doubles(ball(count)), eight_digits(ball(count))
+        works = {**judge(long), **port(whole)}
+        works.pop(WITH_FACES, None)
+        for figure in table("", long, works, peers).rows:
+            found.setdefault(figure.what, []).append((count, figure.median))
+    return [Curve(name, points, style) for (name, points), style in zip(found.items(), STYLES, strict=False)]
 
 
 def main() -> None:
     """Measure the growth, print and plot it."""
     if len(sys.argv) != 2:
         sys.exit("usage: python -m modern.bench.hulls FILE.svg")
-    found = growth()
-    for name, points in found.items():
-        print(name, ", ".join(f"{count:,}: {seconds:.4f} s" for count, seconds in points))
-    curves = [Curve(name, points, style) for (name, points), style in zip(found.items(), STYLES, strict=True)]
-    plot(curves, sys.argv[1], "points, uniform in a ball")
+    with Peers() as peers:
+        curves = growth(peers)
+        print(*peers.remarks, sep="\n", end="\n" if peers.remarks else "")
+    shown = []
+    for curve in curves:
+        slope = curve.slope(SLOPES_FROM)
+        print(
+            curve.name,
+            ", ".join(f"{count:,}: {seconds:.4f} s" for count, seconds in curve.points),
+            f"slope {slope:.2f}",
+        )
+        shown.append(Curve(f"{curve.name}: slope {slope:.2f}", curve.points, curve.style))
+    plot(shown, sys.argv[1], "points, uniform in a ball; slopes from 1,000 on")
 
 
 if __name__ == "__main__":

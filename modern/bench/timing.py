@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import statistics
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -9,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 RUNS = 5
+Clock = Callable[[], float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,18 +40,24 @@ def timed(what: str, work: Callable[[], object], note: str = "") -> Figure:
     return side_by_side({what: work}, note)[0]
 
 
-def side_by_side(works: Mapping[str, Callable[[], object]], note: str = "") -> list[Figure]:
+def side_by_side(
+    works: Mapping[str, Callable[[], object]], note: str = "", clock: Clock = time.perf_counter
+) -> list[Figure]:
     """Time several works in turn, five rounds of them, so that what else the machine does falls on all of them."""
     for work in works.values():
         work()
-    rounds = [[_seconds(work) for work in works.values()] for _ in range(RUNS)]
+    rounds = [[_seconds(work, clock) for work in works.values()] for _ in range(RUNS)]
     return [Figure(what, tuple(seconds), note) for what, seconds in zip(works, zip(*rounds, strict=True), strict=True)]
 
 
-def _seconds(work: Callable[[], object]) -> float:
-    start = time.perf_counter()
-    work()
-    return time.perf_counter() - start
+class Measured(float):
+    """Seconds that a work measured itself, as a process does that has to read its points first."""
+
+
+def _seconds(work: Callable[[], object], clock: Clock = time.perf_counter) -> float:
+    start = clock()
+    found = work()
+    return float(found) if isinstance(found, Measured) else clock() - start
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +67,13 @@ class Curve:
     name: str
     points: Sequence[tuple[int, float]]
     style: Mapping[str, Any]
+
+    def slope(self, least: int = 0) -> float | None:
+        """The exponent of growth: of the line nearest to the logarithms (least squares), from ``least`` points on."""
+        logs = [(math.log(count), math.log(seconds)) for count, seconds in self.points if count >= least]
+        if len(logs) < 2:
+            return None
+        return statistics.linear_regression(*zip(*logs, strict=True)).slope
 
 
 def plot(curves: Sequence[Curve], path: str, what: str) -> None:

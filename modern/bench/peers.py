@@ -1,0 +1,114 @@
+"""What a hull is measured beside: Qhull through scipy, and CGAL by a program of some ten lines."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import shutil
+import subprocess
+from collections.abc import Callable
+from contextlib import AbstractContextManager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from modern.bench.timing import Measured
+
+COMPILERS = ("c++", "g++", "clang++")
+"""Looked for in this order, after what the environment variable CXX names."""
+
+CGAL = """
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/convex_hull_3.h>
+#include <ctime>
+#include <iostream>
+#include <vector>
+typedef CGAL::Exact_predicates_inexact_constructions_kernel::Point_3 Point;
+int main() {
+  std::vector<Point> points;
+  for (double x, y, z; std::cin >> x >> y >> z;) points.push_back(Point(x, y, z));
+  for (int run = 0; run < 2; run++) {
+    CGAL::Surface_mesh<Point> hull;
+    std::clock_t start = std::clock();
+    CGAL::convex_hull_3(points.begin(), points.end(), hull);
+    double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
+    std::cout << seconds << ' ' << hull.number_of_vertices() << std::endl;
+  }
+}
+"""
+"""``convex_hull_3`` with exact predicates, run twice, first to fill caches; prints processor seconds and vertices."""
+
+_LIBRARIES = (("-lgmp", "-lmpfr"), ("-lgmp",), ())
+_PATIENCE = 300
+
+Work = Callable[[], object]
+Peer = Callable[[Any], Work]
+"""From points (n, 3) to one hull of them."""
+
+
+class Peers(AbstractContextManager["Peers"]):
+    """Those that there are, by name, and why others are missing; a folder for compiled programs while it is open."""
+
+    def __init__(self) -> None:
+        self._folder = TemporaryDirectory()
+        self.found: dict[str, Peer] = {}
+        self.remarks: list[str] = []
+        for name, peer in (("Qhull", qhull), ("CGAL", lambda: cgal(Path(self._folder.name)))):
+            try:
+                self.found[name] = peer()
+            except Missing as reason:
+                self.remarks.append(f"{name} is left out: {reason}")
+
+    def __exit__(self, *_: object) -> None:
+        self._folder.cleanup()
+
+
+class Missing(Exception):
+    """A peer that is not here; ``str`` says why."""
+
+
+def qhull() -> Peer:
+    """Qhull on the points as doubles.  Raises Missing."""
+    try:
+        from scipy.spatial import ConvexHull
+    except ImportError:
+        raise Missing("scipy is not installed") from None
+
+    def peer(points: Any) -> Work:
+        doubles = points.astype("float64")
+        return lambda: ConvexHull(doubles)
+
+    return peer
+
+
+def cgal(folder: Path) -> Peer:
+    """CGAL on the points as doubles, in a process that reads them first and times itself.  Raises Missing."""
+    named = shlex.split(os.environ.get("CXX", ""))
+    command = named or next(([name] for name in COMPILERS if shutil.which(name)), [])
+    if not command or not shutil.which(command[0]):
+        raise Missing(f"no C++ compiler is found ({', '.join(COMPILERS)}, or CXX)")
+    source, program = folder / "hull.cpp", folder / "hull"
+    source.write_text(CGAL, encoding="ascii")
+    for libraries in _LIBRARIES:
+        compiled = [*command, "-O2", "-DNDEBUG", "-w", "-o", str(program), str(source), *libraries]
+        try:
+            done = subprocess.run(compiled, capture_output=True, text=True, timeout=_PATIENCE)
+        except (OSError, subprocess.TimeoutExpired) as error:
+            raise Missing(f"{command[0]}: {error}") from None
+        if not done.returncode:
+            break
+    else:
+        said = next((line for line in done.stderr.splitlines() if "rror" in line), "no reason given")
+        raise Missing(f"{command[0]} does not compile a program with its headers: {said.strip()}")
+
+    def peer(points: Any) -> Work:
+        text = "".join(f"{x!r} {y!r} {z!r}\n" for x, y, z in points.tolist())
+
+        def work() -> Measured:
+            run = subprocess.run([program], input=text, capture_output=True, text=True, check=True)
+            return Measured(run.stdout.splitlines()[-1].split()[0])
+
+        return work
+
+    return peer
