@@ -50,7 +50,7 @@ m = (a - o) x (b - o) with products off by 3e + 3e + e = 7e, two by 14e, and the
 16e and at most 2 in size.  In m . (x - o) a product is off by 16e + 2 * 3e + 2e = 24e, three by 72e; the additions, of
 sums below 4 and below 8, round by 4e and 8e: 84e.  Products of two errors and underflow add less than e.  All this
 is below BOUND = 2**-47 = 128e, and holds with fused products too, which round less often.  A value beyond the bound has
-the true sign; the others are computed in integers.
+the true sign; the others, and what were no number, are computed in integers.
 
 Most points of a large set are nearer to o than any plane, which one distance each tells.  With r the least of
 -N . (o - p) / |N| over all planes, a point whose image is within r of o has N . (x - p) = N . (o - p) + N . (x - o) <
@@ -154,7 +154,7 @@ class _Proof:
         base = self.images.places[self.sides.corner[self.sides.first[facets]]]
         found = np.einsum("ij,ij->i", self.normals[facets], self.images.places[points] - base)
         signs: Ints = np.sign(found).astype(np.int64)
-        doubtful = np.flatnonzero(abs(found) <= BOUND)
+        doubtful = np.flatnonzero(~(abs(found) > BOUND))
         if doubtful.size:
             exact = values(self.planes, self.hull.scaled, facets[doubtful], points[doubtful])
             signs[doubtful] = (exact > 0).astype(np.int64) - (exact < 0)
@@ -166,7 +166,7 @@ class _Proof:
         """That o is strictly inside of every plane; returns r."""
         bases = self.images.places[self.sides.corner[self.sides.first]]
         found = np.einsum("ij,ij->i", self.normals, self.o - bases)
-        for facet in np.flatnonzero(found >= -BOUND).tolist():
+        for facet in np.flatnonzero(~(found < -BOUND)).tolist():
             a, b, c, d = self.hull.facets[facet].plane
             (x, y, z), weight = self.images.exactly(self.o)
             self.in_integers += 1
@@ -203,14 +203,14 @@ class _Proof:
         cones = self.cones
         third = self.images.places[cones.corners[:, 2]] - self.o
         size = np.einsum("ij,ij->i", cones.walls[:, 0], third)
-        for triangle in np.flatnonzero((size <= BOUND) & (self.sides.count[cones.facet] == 3)).tolist():
+        for triangle in np.flatnonzero(~(size > BOUND) & (self.sides.count[cones.facet] == 3)).tolist():
             if self.wall_sign(triangle, 0, int(cones.corners[triangle, 2])) <= 0:
                 raise CertificateError(f"facet {cones.facet[triangle]}: no left turn")
         first = int(size.argmax())
         middle = self.images.places[cones.corners[first]].mean(axis=0)
         found = cones.walls @ (middle - self.o)
         missed = (found < -BOUND).any(axis=1)
-        for edge in np.flatnonzero(found[first] <= BOUND).tolist():
+        for edge in np.flatnonzero(~(found[first] > BOUND)).tolist():
             if self.wall_sign(first, edge, middle) <= 0:
                 raise Undecided("the ray is not within its triangle")
         missed[first] = True
@@ -257,8 +257,8 @@ class _Proof:
             found = np.einsum("ijk,ik->ij", cones.walls[at[walking]], away[walking])
             edge = found.argmin(axis=1)
             least: Floats = found[np.arange(len(found)), edge]
-            doubtful = walking[abs(least) <= BOUND]
             beyond = least < -BOUND
+            doubtful = walking[~(least > BOUND) & ~beyond]
             walking, edge = walking[beyond], edge[beyond]
             at[walking] = cones.beyond[at[walking], edge]
             at[doubtful] = -1

@@ -19,8 +19,8 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Objects = NDArray[np.object_]
 
-_WIDE = 1 << 900
-"""Integers below it are rounded to float64 without overflow."""
+_WIDE, _APART = 1 << 900, 100
+"""Integers below 2**900, and these times 2**100, are rounded to float64 without overflow."""
 
 
 def difference(p: Sequence[int], q: Sequence[int]) -> IntPoint:
@@ -177,7 +177,7 @@ def images_of(scaled: Sequence[IntPoint]) -> Images:
 def normal_images(planes: Objects, shifts: Sequence[int]) -> Floats:
     """The images of the planes' normals (m, 3)."""
     normals = planes[:, :3]
-    if abs(normals).max() < _WIDE:
+    if abs(normals).max() < _WIDE and max(shifts) - min(shifts) < _APART:
         floats = np.ldexp(normals.astype(np.float64), np.array(shifts) - min(shifts))
         exponents = np.frexp(abs(floats).max(axis=1))[1]
         return np.asarray(np.ldexp(floats, -exponents[:, None]))
