@@ -27,7 +27,7 @@ from modern.exact_hull.result import CertificateError, ExactHull, Facet, Plane
 from modern.exact_hull.surface import BOUND, convex_surface, frame, plane_image
 
 SEED = 1963
-MANY = 200
+MANY = 500
 """Points from which on a hull is proposed before one is built."""
 _BLOCK = 1 << 16
 

@@ -88,6 +88,7 @@ def test_the_kernel_proposes_the_same_polytope(name: str) -> None:
 
 def test_the_kernel_is_refused_where_it_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
     load.cache_clear()
+    monkeypatch.setattr(build_module, "MANY", 4)
     monkeypatch.setitem(sys.modules, "numba", None)
     assert exact_hull(SETS["ball"], fast=False) == exact_hull(SETS["ball"])
     with pytest.raises(NotInstalled, match=r"needs numba: pip install 'hull1620\[fast\]'"):
