@@ -3,9 +3,11 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN = $(VENV)/bin
 JOBS ?= 2
+# The day of the edition, so that what is built of the same files is the same bytes.
+EPOCH := $(shell $(PYTHON) -c "import re, datetime as d; day = re.search('date-released: (.+)', open('CITATION.cff').read())[1]; print(int(d.datetime.fromisoformat(day + 'T00:00+00:00').timestamp()))")
 PIP = $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: reproduce test lint format coverage wheel benchmark mutants tei-check edition book serve upgrade hooks clean
+.PHONY: reproduce test lint format coverage wheel benchmark mutants tei-check edition book archive serve upgrade hooks clean
 
 reproduce: $(VENV)/.run
 	$(BIN)/hull1620 reproduce
@@ -28,7 +30,7 @@ coverage: $(VENV)/.dev
 
 wheel: $(VENV)/.dev
 	rm -rf build/lib
-	$(BIN)/python -m build --wheel --no-isolation --outdir dist .
+	SOURCE_DATE_EPOCH=$(EPOCH) $(BIN)/python -m build --wheel --no-isolation --outdir dist .
 
 benchmark: $(VENV)/.dev
 	$(BIN)/python -m modern.bench
@@ -46,6 +48,10 @@ edition: $(VENV)/.dev
 # The same as a book: dist/hull1620.pdf, PDF/A.
 book: $(VENV)/.dev
 	$(BIN)/python -m modern.publication.book.build dist/hull1620.pdf
+
+# Everything for an archive, as a BagIt bag: dist/hull1620-VERSION-deposit; ROWS=FOLDER adds rows of studies.
+archive: wheel edition book
+	$(BIN)/python -m modern.publication.deposit dist $(if $(ROWS),--rows $(ROWS))
 
 # The site on your own computer alone; its pages open as files too, but for the machine in the page.
 serve:
