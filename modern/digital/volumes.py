@@ -7,6 +7,7 @@ order x, y, z; a list of coordinates keeps those it states.
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -68,7 +69,7 @@ class Stated:
 
 
 def read_volume(
-    path: str,
+    path: str | os.PathLike[str],
     shape: Sequence[int] | None = None,
     dtype: str | None = None,
     *,
@@ -89,10 +90,10 @@ def read_volume(
     """
     stated = Stated(None if shape is None else tuple(shape), dtype, array, series, spacing, origin)
     try:
-        least = None if threshold is None else real(threshold)
+        least = None if threshold is None else Fraction(real(threshold))
     except ValueError as error:
         raise VolumeError(f"threshold: {error}") from None
-    return chosen(read_scan(path, stated), Choice(None if least is None else Fraction(least), tuple(labels))).volume
+    return chosen(read_scan(os.fspath(path), stated), Choice(least, tuple(labels))).volume
 
 
 def read_scan(path: str, stated: Stated | None = None) -> Scan:

@@ -126,8 +126,8 @@ def test_many_labels_are_listed_briefly() -> None:
 
 
 def test_a_volume_is_read_by_threshold_and_by_label(tmp_path: Any) -> None:
-    path = str(tmp_path / "a.npy")
-    write_npy(path, np.array([[[0, 1, 2, 3]]], np.int16))
+    path = tmp_path / "a.npy"
+    write_npy(str(path), np.array([[[0, 1, 2, 3]]], np.int16))
     assert read_volume(path).count == 3
     assert read_volume(path, threshold="1.5").count == 2
     assert read_volume(path, labels=[2]).coordinates().tolist() == [[0, 0, 2]]
