@@ -97,7 +97,7 @@ def hidden_line(parser: ArgumentParser) -> None:
     eye_argument(parser)
     parser.add_argument("--perspective", action="store_true", help="--eye is the observation point itself")
     parser.add_argument("--towards", metavar="X,Y,Z", help="in perspective: the point looked at (default: the middle)")
-    words = "in perspective: cut off what lies nearer to the eye than this (default: it is refused beside or behind it)"
+    words = "in perspective: cut off what is nearer than this (default: nothing; what is not before the eye is refused)"
     parser.add_argument("--near", metavar="DISTANCE", help=words)
     words = "of a file of faces: the hull of each connected component (default: each has to be convex)"
     parser.add_argument("--hull", action="store_true", help=words)

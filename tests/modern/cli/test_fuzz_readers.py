@@ -129,6 +129,8 @@ READERS: dict[str, tuple[str, Make, list[str]]] = {
     "stl-binary-faces": ("a.stl", triangles, ["hidden-line", "a.stl", "-o", "out.svg"]),
     "off-within": ("a.off", exported("off"), ["hidden-line", "a.off", "--coplanar-within", ".01", "-o", "out.svg"]),
     "off-points": ("a.off", exported("off"), ["appel-will", "a.off", "-o", "out.off"]),
+    "off-map": ("a.off", exported("off"), ["appel-will", "a.off", "--map", "-o", "out.svg"]),
+    "off-solid": ("a.off", exported("off"), ["appel-will", "a.off", "--coplanar-within", ".1", "-o", "out.svg"]),
     "obj": ("a.obj", exported("obj"), ["cards", "a.obj", "-o", "out"]),
     "ply": ("a.ply", exported("ply"), ["cards", "a.ply", "-o", "out"]),
     "ply-binary": ("a.ply", binary_ply, ["export", "a.ply", "--format", "off", "-o", "out"]),
