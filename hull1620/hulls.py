@@ -27,7 +27,7 @@ from modern.exact_hull.result import Certificate
 from modern.formats import deck as decks
 from modern.formats.hulls import to_trimesh, write_hull
 from modern.formats.points import read_input
-from modern.geometry.coplanar import coplanar
+from modern.geometry.coplanar import coplanar, shown
 from modern.geometry.hull import Face, HullRefused, Stage, all_of
 from modern.geometry.hull import Hull as Record
 from modern.geometry.mesh import ExportError, Mesh, mesh, sides
@@ -246,7 +246,7 @@ class Hull:
         faces = f", {len(self.faces)} {'faces' if self.dimension == 3 else 'lines'}" if self.faces else ""
         vertices = f"{len(self.record.vertices)} {'vertices' if self.dimension else 'vertex'}"
         read = self.record.coplanar
-        within = "" if read is None else f", coplanar within {read.within}"
+        within = "" if read is None else f", coplanar within {shown(Fraction(read.within))}"
         return f"<hull: {_KINDS[self.dimension]}, {vertices}{faces}; {count} points, {arithmetic}{within}>"
 
     def _repr_svg_(self) -> str | None:

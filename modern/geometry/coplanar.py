@@ -207,10 +207,11 @@ def root_text(square: Fraction) -> str:
 
 
 def shown(value: Fraction) -> str:
-    """A distance for a message: as it is where that is short, else three digits, rounded up."""
+    """A distance for a message: as it is where that is short, else to six digits."""
     exact = finite_decimal(value)
     text = str(value) if exact is None else _plain(Decimal(exact))
-    return text if len(text) <= _LONGEST else root_text(value * value)
+    work = Context(prec=6, Emin=MIN_EMIN, Emax=MAX_EMAX)
+    return text if len(text) <= _LONGEST else _plain(work.divide(Decimal(value.numerator), Decimal(value.denominator)))
 
 
 def _plain(value: Decimal) -> str:

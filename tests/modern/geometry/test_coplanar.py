@@ -16,7 +16,17 @@ from hypothesis import strategies as st
 
 import hull1620
 from modern.formats.hulls import export_text
-from modern.geometry.coplanar import CoplanarError, Joined, coplanar, described, distance, join, joined_mesh, root_text
+from modern.geometry.coplanar import (
+    CoplanarError,
+    Joined,
+    coplanar,
+    described,
+    distance,
+    join,
+    joined_mesh,
+    root_text,
+    shown,
+)
 from modern.geometry.hull import Hull
 from modern.geometry.mesh import Mesh, mesh, sides
 from modern.port import convex_hull
@@ -189,6 +199,10 @@ def test_a_root_is_rounded_up_to_three_digits(value: Fraction) -> None:
 
 
 def test_distances() -> None:
+    assert [shown(Fraction(value)) for value in (0.001, 1e-9, "1/3", "0.25", 5, "1/1000003")] == [
+        *("0.001", "1e-9", "1/3", "0.25", "5", "1/1000003"),
+    ]
+    assert shown(Fraction(1, 10**20 + 7)) == "1e-20"
     assert distance("1e-9") == Fraction(1, 10**9)
     assert distance(np.float32(0.5)) == distance("1/2") == Fraction(1, 2)
 
@@ -196,7 +210,9 @@ def test_distances() -> None:
 def test_the_reading_from_python() -> None:
     hull = hull1620.exact_hull(dodecahedron())
     found = hull.coplanar(within=1e-9)
-    assert repr(found).startswith("<hull: polyhedron, 20 vertices, 12 faces; 20 points, exact, coplanar within 1.00")
+    assert repr(found) == "<hull: polyhedron, 20 vertices, 12 faces; 20 points, exact, coplanar within 1e-9>"
+    assert found.record.coplanar is not None
+    assert Fraction(found.record.coplanar.within) == Fraction(1e-9)
     assert hull.coplanar("1e-9") != hull
     assert found.record.coplanar is not None
     assert found.record.coplanar.faces == len(hull.faces) == 36
