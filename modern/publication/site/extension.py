@@ -102,7 +102,13 @@ def _role(kind: str) -> Any:
         label = ROLES.get(kind, "{}").format(rest.rstrip(">") if rest else text).lower()
         shown = words if rest else text.rpartition(" ")[2] if kind in ("card", "name") else text
         reference = addnodes.pending_xref(
-            rawtext, refdomain="std", reftype="ref", reftarget=label, refexplicit=True, refwarn=True, classes=[kind]
+            rawtext,
+            refdomain="std",
+            reftype="ref",
+            reftarget=label,
+            refexplicit=True,
+            refwarn=True,
+            classes=[f"to-{kind}"],
         )
         reference += nodes.inline("", shown, classes=["std", "std-ref"])
         env = inliner.document.settings.env

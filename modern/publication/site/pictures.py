@@ -14,14 +14,20 @@ _GROUND = re.compile(r'<rect (?:x="[^"]*" )?width="[^"]*" height="[^"]*" fill="#
 _REFERENCE = re.compile(r'\b(id|href|xlink:href|aria-labelledby|aria-describedby)="(#?)([^"]*)"|url\(#([\w-]+)\)')
 
 
-def inline(svg: str, key: str, cls: str = "drawing") -> str:
-    """An SVG file's text as an element of a page.
+_SIZE = re.compile(r'(<svg [^>]*?)width="(\d+)" height="(\d+)"')
+
+
+def inline(svg: str, key: str, cls: str = "drawing", percent: int = 100) -> str:
+    """An SVG file's text as an element of a page, so many percent of its size.
 
     ``key`` is told to every id within, so that two pictures of a page share none.
     """
     svg = svg[svg.index("<svg") :]
     svg = re.sub(r"<style>.*?</style>\n?", "", svg, flags=re.DOTALL)
     svg = _GROUND.sub("", svg, count=1)
+    svg = _SIZE.sub(
+        lambda m: f'{m[1]}width="{int(m[2]) * percent // 100}" height="{int(m[3]) * percent // 100}"', svg, 1
+    )
     known = set(re.findall(r'\bid="([^"]+)"', svg))
 
     def own(match: re.Match[str]) -> str:

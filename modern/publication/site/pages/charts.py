@@ -21,7 +21,9 @@ def make(argument: str) -> Made:
     drawn = chart(found)
     parts: list[Part] = []
     for page in range(1, len(drawn.pages) + 1):
-        svg = inline(chart_svg(drawn, page, lambda box: address(name, _place(name, box))), f"{name}-{page}", "flow")
+        svg = inline(
+            chart_svg(drawn, page, lambda box: address(name, _place(name, box))), f"{name}-{page}", "flow", 125
+        )
         first, last = (found.boxes[drawn.pages[page - 1].boxes[at].box] for at in (0, -1))
         words = f"Sheet {page} of {len(drawn.pages)}: from {first.name} to {last.name}. {_OURS}"
         html = element("figure", svg + text("figcaption", words), cls="chart")

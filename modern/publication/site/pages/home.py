@@ -32,17 +32,16 @@ _SHOWN = ("105+3", "130", "131+2", "143", "167")
 
 
 def make(argument: str) -> Made:
-    """``pictures``, ``verdicts`` or ``cite``."""
-    made = {"pictures": _pictures, "verdicts": _verdicts, "cite": _cite}
+    """``pictures``, ``verdicts``, ``programs`` or ``cite``."""
+    made = {"pictures": _pictures, "verdicts": _verdicts, "programs": _programs, "cite": _cite}
     return Made((Part(html=made[one_of(argument, made)]()),))
 
 
 def _pictures() -> str:
     found = {card.place: card for card in facing("program3").cards}
     rows = "".join(_line(found[place]) for place in _SHOWN)
-    words = (
-        f"A damaged text, and the cards restored from it: {link('program3', _SHOWN[0], 'program 3')}, beside its scan."
-    )
+    page = link("program3", _SHOWN[0], "program 3")
+    words = f"A damaged text, and the cards restored from it: {page}, card by card."
     mended = element("figure", element("div", rows, cls="mended") + element("figcaption", words))
     card = found["105+3"]
     punched = figure(
@@ -53,9 +52,7 @@ def _pictures() -> str:
     )
     points = parse_input(input_deck(6).text(), "example6").points
     hull = convex_hull(points, "exact", on_refusal="return")
-    drawn = figure(
-        draw_svg(hull, width=420), "hull", "The hull of example 6, by exact numbers: what the programs punch."
-    )
+    drawn = figure(draw_svg(hull), "hull", "The hull of example 6, by exact numbers: what the programs punch.")
     sheet = figure(
         chart_svg(chart(flow(programs.program("program3"))), 1, lambda box: address("chart3", "sheet-1")),
         "chart",
@@ -111,6 +108,28 @@ def _examples() -> str:
         cells.append(text("li", f"Example {example}: {words}" if different == 0 else f"Example {example}: different"))
     head = text("p", "The six examples of chapter 6, run as their points were put in, against the print:")
     return head + element("ul", "".join(cells), cls="examples")
+
+
+def _programs() -> str:
+    """The programs: where the thesis prints each, how many cards and rows, and its flow chart."""
+    rows = []
+    for built_in in programs.BUILT_INS:
+        found = facing(built_in.name)
+        pages = [page for page, _ in found.pages()]
+        own = [row for row in found.rows() if row.layer in built_in.layers]
+        sure = Counter(row.certainty for row in own)
+        told = ", ".join(f"{sure[each]} {each}" for each in ("certain", "probable", "conjecture") if sure[each])
+        chart_page = built_in.name.replace("program", "chart")
+        rows.append(
+            (
+                link(built_in.name, "", built_in.title),
+                text("span", f"{pages[0]}\u2013{pages[-1]}", cls="whole"),
+                str(len(found.cards)),
+                f"{len(own)}: {told}",
+                link(chart_page, "", "flow chart"),
+            )
+        )
+    return table(("program", "pages", "cards", "emendations", "where it goes"), rows, "Programs")
 
 
 def _cite() -> str:
