@@ -111,7 +111,7 @@ def _part(part: Part) -> str:
     cards = "".join(_card(card, part) for card in part.cards)
     top = element("div", "".join(text("span", name) for name in head), cls="print-head", aria_hidden="true")
     html = (text("p", words) if words else "") + element(
-        "div", top + element("ol", cards, cls="print-cards", role="list"), cls=f"print columns-{len(head)}"
+        "div", top + element("ol", cards, cls="print-cards"), cls=f"print columns-{len(head)}"
     )
     if part.rows:
         here = [row for row in part.rows if homes()[row.id] == (part.example, part.id)]

@@ -64,13 +64,14 @@ def _controls(rows: tuple[Statement, ...]) -> str:
         words = f" {SIGNS[verdict]} {verdict}: {counts[verdict]}"
         boxes += element("label", box + escape(words))
     field = element("label", "Words: " + element("input", type="search", name="words", autocomplete="off"))
+    button = text("button", "Show", type="submit")
     shown = text("output", "", cls="shown", role="status")
-    inner = element("fieldset", text("legend", "Verdicts shown") + boxes) + element("p", field + " " + shown)
+    inner = element("fieldset", text("legend", "Verdicts shown") + boxes) + element("p", f"{field} {button} {shown}")
     return element("form", inner, cls="controls filter", aria_label="Which statements are shown", hidden=True)
 
 
 def _list(rows: list[Statement]) -> str:
-    return element("ol", "".join(map(_statement, rows)), cls="statements", role="list")
+    return element("ol", "".join(map(_statement, rows)), cls="statements")
 
 
 def _statement(row: Statement) -> str:
