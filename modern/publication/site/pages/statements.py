@@ -65,7 +65,7 @@ def _controls(rows: tuple[Statement, ...]) -> str:
         boxes += element("label", box + escape(words))
     field = element("label", "Words: " + element("input", type="search", name="words", autocomplete="off"))
     button = text("button", "Show", type="submit")
-    shown = text("output", "", cls="shown", role="status")
+    shown = text("output", "", cls="shown")
     inner = element("fieldset", text("legend", "Verdicts shown") + boxes) + element("p", f"{field} {button} {shown}")
     return element("form", inner, cls="controls filter", aria_label="Which statements are shown", hidden=True)
 
