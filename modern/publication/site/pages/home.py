@@ -93,7 +93,7 @@ def _verdicts() -> str:
             for at, verdict in enumerate(VERDICTS)
             if count[verdict]
         )
-        who = f"{escape(document.author)}{element('i', ' ' + escape(document.title))}"
+        who = f"{escape(document.author)} {link(f'statements/{name}', '', document.title)}"
         rows.append((who, *cells, element("span", bar, cls="weight", aria_hidden="true")))
     statements = table(("document", *VERDICTS, "share"), rows, "Verdicts", "Statements of the five documents")
     return statements + _examples()
@@ -105,7 +105,8 @@ def _examples() -> str:
     for example in EXAMPLES:
         good, exact, order, different = summary(reproduce((example,), states=("examples",)))
         words = "exact" if good and not order and not different else f"{exact} exact, {order} in another order"
-        cells.append(text("li", f"Example {example}: {words}" if different == 0 else f"Example {example}: different"))
+        told = f": {words}" if different == 0 else ": different"
+        cells.append(element("li", link(f"example{example}", "", f"Example {example}") + escape(told)))
     head = text("p", "The six examples of chapter 6, run as their points were put in, against the print:")
     return head + element("ul", "".join(cells), cls="examples")
 
