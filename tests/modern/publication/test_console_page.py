@@ -1,0 +1,307 @@
+"""The machine in the page, in a real Chromium: what it does is what the desk does, and so the command.
+
+It needs Chromium, playwright and the npm package of Python for the page (``npm ci --prefix docs/console``); where one
+is missing the tests are skipped and say so.
+"""
+
+from __future__ import annotations
+
+import random
+import threading
+import zipfile
+from collections.abc import Iterator
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from modern.edition.chapter6 import prints
+from modern.formats.deck import data_deck
+from modern.publication.console import SOURCE, lay
+from modern.publication.desk import Desk
+from tests.support.desks import PAIRS, Pair, Played, played
+from tests.support.paths import ROOT
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, Page
+
+pytestmark = pytest.mark.skipif(
+    not (SOURCE / "node_modules" / "pyodide").is_dir(),
+    reason="there is no pyodide (npm ci --ignore-scripts --prefix docs/console)",
+)
+LONG = 60_000
+_PACKAGES = ("hull1620", "emulator", "modern", "fortran_src", "transcripts")
+
+
+class Quiet(SimpleHTTPRequestHandler):
+    """Files of a folder, without a word on standard error."""
+
+    def log_message(self, format: str, *args: Any) -> None:
+        """Say nothing."""
+
+
+def packed(room: Path) -> Path:
+    """The packages of this checkout in one archive, as their wheel has them."""
+    archive = room / "packages.whl"
+    with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as file:
+        for package in _PACKAGES:
+            for path in sorted((ROOT / package).rglob("*")):
+                if path.is_file() and "__pycache__" not in path.parts:
+                    file.write(path, path.relative_to(ROOT).as_posix())
+    return archive
+
+
+@pytest.fixture(scope="module")
+def served(site: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """The address of the site with the machine in it, on the loopback."""
+    room = tmp_path_factory.mktemp("console")
+    folder = room / "site"
+    folder.mkdir()
+    for entry in site.iterdir():
+        if entry.name != "console":
+            (folder / entry.name).symlink_to(entry)
+    assert lay(folder / "console", packed(room)) > 10_000_000
+    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Quiet, directory=str(folder)))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    yield f"http://127.0.0.1:{server.server_port}"
+    server.shutdown()
+    server.server_close()
+
+
+@pytest.fixture(scope="module")
+def tab(chromium: Browser, served: str) -> Iterator[Page]:
+    """The console's page with the machine switched on; an error in its console fails the test that made it."""
+    page = chromium.new_page(viewport={"width": 1280, "height": 1000})
+    page.goto(f"{served}/console.html")
+    switch_on(page)
+    yield page
+    page.close()
+
+
+def switch_on(page: Page) -> None:
+    page.click("#desk-begin")
+    page.wait_for_selector(".desk-parts:not([hidden])", timeout=2 * LONG)
+
+
+def stands(page: Page, *states: str) -> str:
+    """Wait until the machine waits or has ended; which."""
+    wanted = ", ".join(f"#desk[data-state={state}]" for state in states or ("waits", "ended"))
+    page.wait_for_selector(wanted, timeout=LONG)
+    return str(page.get_attribute("#desk", "data-state"))
+
+
+def give(page: Page, name: str, text: str) -> None:
+    page.set_input_files("#desk-files", [{"name": name, "mimeType": "text/plain", "buffer": text.encode("ascii")}])
+
+
+def load(page: Page, pair: Pair) -> bool:
+    """Choose and load; whether the machine took it."""
+    if pair.source:
+        give(page, pair.program, pair.source)
+    if pair.cards:
+        give(page, pair.deck, pair.cards)
+    page.wait_for_function(
+        "([p, d]) => [...document.querySelectorAll('option')].filter(o => o.value === p || o.value === d).length > 1",
+        arg=[pair.program, pair.deck],
+    )
+    page.select_option("#desk-program", pair.program)
+    page.select_option("#desk-deck", pair.deck)
+    page.set_checked("#desk-upcase", pair.upcase)
+    page.evaluate(
+        """() => {
+          document.getElementById('desk').dataset.state = 'loading';
+          document.getElementById('desk-paper').replaceChildren();
+          for (const one of document.querySelectorAll('[data-switch]')) one.ariaChecked = 'false';
+        }"""
+    )
+    page.click("#desk-load")
+    page.wait_for_function(
+        "document.querySelector('.desk-note') || document.getElementById('desk').dataset.state !== 'loading'",
+        timeout=LONG,
+    )
+    return page.get_attribute("#desk", "data-state") != "loading"
+
+
+def gave(page: Page, taken: bool) -> Played:
+    """What stands on the paper and in the stacker."""
+    lines = page.eval_on_selector_all("#desk-stacker li", "all => all.map(one => one.textContent)")
+    typed = page.eval_on_selector_all("#desk-paper .desk-typed", "all => all.map(one => one.textContent.slice(0, -1))")
+    notes = page.eval_on_selector_all("#desk-paper .desk-note", "all => all.map(one => one.textContent.slice(0, -1))")
+    said = [note for note in notes if not taken or note.startswith(("hull1620:", "warning:", "note:"))]
+    if not taken and said:
+        said[0] = f"hull1620: {said[0]}"
+    return Played(taken, [line if line != " " else "" for line in lines] if taken else [], typed, said)
+
+
+def play(page: Page, pair: Pair) -> Played:
+    """A pair on the page: loaded, started, everything its operator does done when the machine stands."""
+    if not load(page, pair):
+        return gave(page, False)
+    assert stands(page) == "waits"
+    left = [line for line in pair.operator if not line.startswith("*")]
+    typed_by_hand: list[str] = []
+    while left and left[0].startswith("SWITCH"):
+        page.click(f"[data-switch='{left.pop(0).split()[1]}']")
+    words = "START"
+    while True:
+        page.evaluate("document.getElementById('desk').dataset.state = 'asked'")
+        if words.startswith("ENTER"):
+            page.fill("#desk-line", words[6:])
+            page.press("#desk-line", "Enter")
+            typed_by_hand.append(words[6:].upper())
+        elif words.startswith("SWITCH"):
+            page.click(f"[data-switch='{words.split()[1]}']")
+        else:
+            page.click(f"[data-words='{words}']")
+        if stands(page) == "ended":
+            break
+        words = left.pop(0) if left else "START"
+    found = gave(page, True)
+    for line in typed_by_hand:
+        found.typed.remove(line)
+    return found
+
+
+@pytest.mark.parametrize("pair", [p for p in PAIRS if p.shows != "endless"], ids=lambda pair: pair.name)
+def test_cards_lines_and_messages_are_those_of_the_desk(tab: Page, pair: Pair) -> None:
+    assert play(tab, pair) == played(Desk(), pair)
+
+
+def test_example_4_comes_out_from_deck_to_last_card(tab: Page) -> None:
+    first = play(tab, Pair("one", "program1_examples", "example4"))
+    assert first.typed == ["POINTS ARE COPLANAR"]
+    tab.click("#desk-again")
+    second = play(tab, Pair("two", "program2", "stacker"))
+    printed = {(p.program, p.device): list(p.lines) for p in prints(4)}
+    assert first.punched == printed[1, "punch"]
+    assert second.punched == printed[2, "punch"]
+
+
+def test_a_refusal_with_switch_1_off_and_on(tab: Page) -> None:
+    draw = random.Random(1)
+    points = [[str(draw.randint(-999, 999) / 10) for _ in range(3)] for _ in range(20)]
+    cards = data_deck(points, "decimals.deck").text()
+    found = []
+    for switch in ((), ("SWITCH 1 ON",)):
+        first = play(tab, Pair("one", "program1", "decimals.deck", cards=cards))
+        assert first.typed == ["POINTS ARE NOT COPLANAR"]
+        tab.click("#desk-again")
+        pair = Pair("two", "program3", "stacker", operator=switch)
+        on_page = play(tab, pair)
+        desk = Desk()
+        played(desk, Pair("one", "program1", "decimals.deck", cards=cards))
+        assert on_page == played(desk, pair)
+        assert "DATA NOT ACCEPTABLE" in on_page.typed
+        found.append((on_page.typed, on_page.punched))
+    assert found[0] != found[1], "with switch 1 the machine shows more"
+
+
+def test_an_endless_loop_is_stopped_and_the_page_lives(tab: Page) -> None:
+    loop = Pair("loop", "loop.f", "", source="    1 GO TO 1\n      END\n")
+    assert load(tab, loop)
+    stands(tab)
+    tab.click("[data-words='START']")
+    stands(tab, "runs")
+    tab.wait_for_timeout(300)
+    took = tab.evaluate(
+        """async () => {
+          const began = performance.now();
+          document.querySelector("[data-words='ATTN']").click();
+          const state = document.getElementById('desk').dataset;
+          while (state.state !== 'waits') await new Promise((next) => setTimeout(next, 5));
+          return performance.now() - began;
+        }"""
+    )
+    print(f"stopped after {took:.0f} ms")
+    assert "stopped (attention) before statement 1" in tab.inner_text("#desk-state")
+    tab.click("[data-words='STOP']")
+    assert stands(tab, "ended") == "ended"
+
+
+def test_words_at_the_console_are_answered(tab: Page) -> None:
+    assert load(tab, Pair("x", "program1", "example1"))
+    stands(tab)
+    for words, answer in (("BREAK 131", "BREAK 131"), ("SWITCH", "1 OFF, 2 OFF"), ("NONSENSE", "is none of")):
+        tab.fill("#desk-line", words)
+        tab.press("#desk-line", "Enter")
+        tab.wait_for_function("w => document.getElementById('desk-paper').textContent.includes(w)", arg=answer)
+    assert tab.locator("#desk-variables").inner_text().startswith("X(51): 0 of 51 defined")
+
+
+def test_a_source_of_9999_bad_cards_is_told_and_the_page_lives(tab: Page) -> None:
+    source = "".join(f"      GO TO {n}\n" for n in range(1, 9999)) + "      END\n"
+    give(tab, "bad.f", source)
+    tab.wait_for_function("[...document.querySelectorAll('#desk-program option')].some(o => o.value === 'bad.f')")
+    tab.select_option("#desk-program", "bad.f")
+    tab.select_option("#desk-deck", "")
+    tab.click("#desk-load")
+    assert tab.evaluate("1 + 1") == 2
+    tab.wait_for_function(
+        "/bad.f: card|stopped after 10 seconds/.test(document.getElementById('desk-state').textContent)", timeout=20_000
+    )
+    tab.wait_for_function("!/Loading/.test(document.getElementById('desk-state').textContent)", timeout=2 * LONG)
+
+
+def test_a_page_loaded_again_in_mid_run_works(chromium: Browser, served: str) -> None:
+    page = chromium.new_page()
+    errors: list[str] = []
+    page.on("pageerror", lambda error: errors.append(str(error)))
+    page.goto(f"{served}/console.html")
+    switch_on(page)
+    load(page, Pair("x", "loop.f", "", source="    1 GO TO 1\n      END\n"))
+    stands(page)
+    page.click("[data-words='START']")
+    stands(page, "runs")
+    page.reload()
+    assert page.is_visible(".desk-recorded")
+    switch_on(page)
+    pair = next(pair for pair in PAIRS if pair.name == "program1 example1")
+    assert play(page, pair) == played(Desk(), pair)
+    assert errors == []
+    page.close()
+
+
+def test_points_part_in_the_page_as_they_do_here(chromium: Browser, served: str) -> None:
+    from modern.publication.console import point_sets
+    from modern.publication.parting import parted
+
+    page = chromium.new_page()
+    page.goto(f"{served}/parting.html")
+    assert "missed: point 1, point 2, point 3" in page.inner_text("#parting-answer")
+    page.click("#parting-begin")
+    page.wait_for_selector("#parting[data-state=on]", timeout=2 * LONG)
+    for name, text in list(point_sets().items())[1:]:
+        page.select_option("#parting-sets", name)
+        expected = parted(text)
+        page.wait_for_function(
+            "w => document.getElementById('parting-answer').innerText.includes(w)",
+            arg=expected["says"][0],
+            timeout=LONG,
+        )
+        for line in (*expected["says"], *expected["part"]):
+            assert line in page.inner_text("#parting-answer")
+        shown = page.locator(".parting-true").count()
+        assert shown == len(expected["true"]["faces"])
+    page.fill("#parting-points", "1 2")
+    page.click("#parting-go")
+    page.wait_for_function("/Not run/.test(document.getElementById('parting-answer').innerText)", timeout=LONG)
+    page.close()
+
+
+def test_a_point_is_dragged(chromium: Browser, served: str) -> None:
+    page = chromium.new_page()
+    page.goto(f"{served}/parting.html")
+    page.select_option("#parting-sets", "seven points in a plane, to be dragged")
+    before = page.input_value("#parting-points")
+    box = page.locator("[data-n='0']").bounding_box()
+    assert box is not None
+    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 40, box["y"] + 30)
+    page.mouse.up()
+    after = page.input_value("#parting-points").split("\n")
+    assert after[0] != before.split("\n")[0]
+    assert after[1:] == before.split("\n")[1:]
+    page.close()
