@@ -12,7 +12,7 @@ from functools import cache
 from pathlib import Path
 
 from emulator.machine.result import Options
-from emulator.machine.timing import measure, shares
+from emulator.machine.timing import Row, measure, shares
 from modern.edition import programs
 from modern.edition.chapter6 import EXAMPLES, input_deck
 from modern.thesis.job import run_hull
@@ -28,7 +28,7 @@ class Run:
     """One example through one program: executions and processor seconds by card, those never executed left out.
 
     ``seconds`` is the processor's, ``total`` with reader, punch and typewriter one after the other; ``statements``
-    counts the statements executed.
+    counts the statements executed; ``rows`` say what the time is made of, the processor's causes and then the devices.
     """
 
     example: int
@@ -38,6 +38,7 @@ class Run:
     statements: int
     seconds: float
     total: float
+    rows: tuple[Row, ...]
 
 
 @cache
@@ -73,6 +74,7 @@ def _job(example: int, first: str) -> tuple[Run, ...]:
                 step.result.statements,
                 timing.processor_seconds,
                 timing.seconds,
+                (*timing.processor, *timing.devices),
             )
         )
     return tuple(found)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from modern.publication.site.markup import element
+from modern.publication.site.markup import element, escape
 
 _GROUND = re.compile(r'<rect (?:x="[^"]*" )?width="[^"]*" height="[^"]*" fill="#fff"/>\n?')
 _REFERENCE = re.compile(r'\b(id|href|xlink:href|aria-labelledby|aria-describedby)="(#?)([^"]*)"|url\(#([\w-]+)\)')
@@ -43,6 +43,17 @@ def inline(svg: str, key: str, cls: str = "drawing", percent: int = 100) -> str:
     return _REFERENCE.sub(own, svg).replace("<svg ", f'<svg class="{cls}" ', 1).strip()
 
 
-def figure(svg: str, key: str, caption: str, cls: str = "drawing") -> str:
-    """A picture with a caption in HTML."""
+def described(svg: str, words: str) -> str:
+    """A picture with a description in words below its title; a picture that has one is left as it is."""
+    if "<desc" in svg:
+        return svg
+    named = svg.replace("<title>", '<title id="title">', 1).replace(
+        "</title>", f'</title>\n<desc id="desc">{escape(words)}</desc>', 1
+    )
+    return named.replace("<svg ", '<svg aria-labelledby="title" aria-describedby="desc" ', 1)
+
+
+def figure(svg: str, key: str, caption: str, cls: str = "drawing", words: str = "") -> str:
+    """A picture with a caption in HTML, and with ``words`` for who does not see it."""
+    svg = described(svg, words) if words else svg
     return element("figure", inline(svg, key, cls) + element("figcaption", caption), cls=f"of-{cls}")
