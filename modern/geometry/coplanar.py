@@ -273,11 +273,9 @@ def _check_convex(
 
 
 def _outer(corners: Sequence[IntVector], flank: IntVector) -> list[int]:
-    """The corners of the convex polygon around a polygon, in its order, seen from where the normal points to."""
+    """The corners of the convex polygon around a polygon, in its order, seen along the normal."""
     dropped = max(range(3), key=lambda axis: abs(flank[axis]))
     u, v = (dropped + 1) % 3, (dropped + 2) % 3
-    if flank[dropped] < 0:
-        u, v = v, u
     # Seen along the normal, not along an axis: times the normal's component, to stay whole.
     height = abs(flank[dropped])
     flat = []

@@ -101,6 +101,16 @@ def test_the_reflex_edge_is_named_with_what_to_do() -> None:
     assert sorted(found.polyhedra[0].vertices) == sorted(tuple(map(Fraction, p)) for p in points if p[:2] != (1, 1))
 
 
+def test_a_distance_forgives_no_more_than_itself() -> None:
+    points = [(x, y, z) for z in (0, 1) for x, y in ELL]
+    with pytest.raises(SceneError, match=r"between faces 5 and 6 the edge of vertices 4 and 10, .* is reflex by 2; "):
+        read_mesh(points, ELL_FACES, Reading(within=Fraction(1, 100)))
+    walls = [(k, k + 5, (k + 1) % 5 + 5, (k + 1) % 5) for k in range(5)]
+    star = [(x, y, z) for z in (0, 9) for x, y in STAR]
+    with pytest.raises(SceneError, match=r"^f: face 1 does not lie within that distance of the hull of the vertices$"):
+        read_mesh(star, [*walls, (0, 1, 2, 3, 4), (9, 8, 7, 6, 5)], Reading(within=Fraction(1, 100)))
+
+
 @pytest.mark.parametrize("seed", range(12))
 def test_of_several_dents_the_deepest_is_named(seed: int) -> None:
     """A star prism: every second corner is drawn in, each by its own amount; the deepest is known."""

@@ -123,6 +123,7 @@ def test_plates_figures_and_faces_read_as_one_are_cut_too() -> None:
         Figure(order, triangle),
         Figure(front, window),
         Figure(order, tuple(vector(2, "-3/2", k) for k in (0, 1, 2))),
+        Figure(order, (vector(2, -1, 1), vector(2, 0, 1), vector(2, 0, "3/2"))),
     )
     solid = Polyhedron("s", side.vertices, side.faces, figures=figures, joined=tuple(range(6)))
     (left,) = clip(solid, 10).polyhedra

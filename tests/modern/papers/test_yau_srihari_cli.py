@@ -74,6 +74,8 @@ def test_by_itself_a_summary_is_printed(stair: str, capsys: pytest.CaptureFixtur
         ("layer", "x,y,z\n0,0,7\n3,0,7\n0,3,7\n"),
         ("upright", "x,y,z\n0,0,0\n3,3,0\n0,0,9\n"),
         ("one", "x,y,z\n-3,5,6\n"),
+        ("box", "x,y,z\n" + "".join(f"{x},{y},{z}\n" for x in range(4) for y in range(3) for z in range(3))),
+        ("roof", "x,y,z\n" + "".join(f"{x},{y},{z}\n" for x in range(5) for y in range(4) for z in range(y + 1))),
         ("plane", "x,y\n2,2\n5,2\n2,9\n"),
     ],
 )
