@@ -6,6 +6,8 @@ costs nothing.
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Mapping
 from importlib import import_module
 from typing import TYPE_CHECKING
 
@@ -23,17 +25,17 @@ if TYPE_CHECKING:
     from emulator.numbers.arithmetic import Profile, profile
 
 _HOMES = {
-    "numbers.arithmetic": ("Profile", "profile"),
-    "compiled.batch": ("run_batch",),
-    "language.cards": ("Card", "Deck", "deck_from_lines", "deck_from_text", "read_deck"),
-    "language.compiler": ("compile_deck", "translate"),
-    "machine.divergence": ("Divergence", "diverge"),
-    "errors": ("CardError", "CompileError", "DeckError", "Diagnostic", "EmulatorError", "FileError"),
-    "machine.machine": ("Machine",),
-    "language.objectcode": ("Program",),
-    "machine.endings": ("Ending",),
-    "machine.result": ("Options", "Result"),
-    "machine.timing": ("Timing", "measure"),
+    "emulator.numbers.arithmetic": ("Profile", "profile"),
+    "emulator.compiled.batch": ("run_batch",),
+    "emulator.language.cards": ("Card", "Deck", "deck_from_lines", "deck_from_text", "read_deck"),
+    "emulator.language.compiler": ("compile_deck", "translate"),
+    "emulator.machine.divergence": ("Divergence", "diverge"),
+    "emulator.errors": ("CardError", "CompileError", "DeckError", "Diagnostic", "EmulatorError", "FileError"),
+    "emulator.machine.machine": ("Machine",),
+    "emulator.language.objectcode": ("Program",),
+    "emulator.machine.endings": ("Ending",),
+    "emulator.machine.result": ("Options", "Result"),
+    "emulator.machine.timing": ("Timing", "measure"),
 }
 
 __all__ = [
@@ -65,12 +67,22 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> object:
-    for module, names in _HOMES.items():
+def named(package: str, homes: Mapping[str, tuple[str, ...]], name: str) -> object:
+    """A package's name, from the module that has it, whence it is taken once: what its ``__getattr__`` gives.
+
+    homes: modules and their names.  Raises AttributeError.
+    """
+    for module, names in homes.items():
         if name in names:
-            return getattr(import_module(f"emulator.{module}"), name)
-    raise AttributeError(f"module 'emulator' has no attribute {name!r}")
+            found: object = getattr(import_module(module), name)
+            setattr(sys.modules[package], name, found)
+            return found
+    raise AttributeError(f"module {package!r} has no attribute {name!r}")
+
+
+def __getattr__(name: str) -> object:
+    return named(__name__, _HOMES, name)
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    return sorted({*(name for name in globals() if name.startswith("__")), *__all__})

@@ -17,7 +17,6 @@ reproduce                       everything printed, computed again
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -144,11 +143,9 @@ __all__ = [
 
 
 def __getattr__(name: str) -> object:
-    for module, names in _HOMES.items():
-        if name in names:
-            found = globals()[name] = getattr(import_module(module), name)
-            return found
-    raise AttributeError(f"module 'hull1620' has no attribute {name!r}")
+    from emulator import named  # every name is in a room that needs it
+
+    return named(__name__, _HOMES, name)
 
 
 def __dir__() -> list[str]:

@@ -5,8 +5,9 @@ The names below are the public interface; they are imported when first used.
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import TYPE_CHECKING
+
+from emulator import named
 
 if TYPE_CHECKING:
     from modern.digital.hull import DigitalHull, digital_hull
@@ -33,11 +34,8 @@ __all__ = [
 
 
 def __getattr__(name: str) -> object:
-    for module, names in _HOMES.items():
-        if name in names:
-            return getattr(import_module(module), name)
-    raise AttributeError(f"module 'modern' has no attribute {name!r}")
+    return named(__name__, _HOMES, name)
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    return sorted({*(name for name in globals() if name.startswith("__")), *__all__})

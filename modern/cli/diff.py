@@ -7,6 +7,7 @@ import json
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
 from pathlib import PurePath
 
 from emulator.files import write_text
@@ -23,7 +24,8 @@ from modern.exact_hull import exact_hull
 from modern.formats.deck import MAX_POINTS, UnfitPoint, data_deck, with_epsilon
 from modern.formats.points import Input
 from modern.port import convex_hull
-from modern.thesis.refusals import Cause, run_explained
+from modern.thesis.job import run_hull
+from modern.thesis.refusals import Cause, explained
 
 _LIMIT = 1_000_000
 _NOT_RUN = "not run"
@@ -95,7 +97,7 @@ def _routes(args: argparse.Namespace, found: Input, points: list[Vector]) -> Ite
         except ValueError as error:
             raise UsageError(f"--epsilon: {error}") from None
         options = Options(limit=_LIMIT, core=60000 if chosen else 40000)
-        run, cause = run_explained(data, programs.loader(chosen), options)
+        run, cause = explained(partial(run_hull, data, programs.loader(chosen), options))
         yield Route(from_cards(name, run, points), cause=cause, layers=chosen)
     for arithmetic in ("float64", "exact"):
         hull = convex_hull(found.points, arithmetic, epsilon=args.epsilon, on_refusal="return")

@@ -6,6 +6,7 @@ import argparse
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 
 from emulator.files import check_writable
 from emulator.language.cards import Deck
@@ -28,8 +29,8 @@ from modern.cli.shared.machine import (
 )
 from modern.edition import programs
 from modern.formats.deck import check, with_epsilon
-from modern.thesis.job import HullRun
-from modern.thesis.refusals import Cause, run_explained
+from modern.thesis.job import HullRun, run_hull
+from modern.thesis.refusals import Cause, explained
 
 
 def main(args: argparse.Namespace) -> int:
@@ -58,7 +59,8 @@ def main(args: argparse.Namespace) -> int:
 
         for i in range(len(checked.sets)):
             deck = checked.deck(i) if args.epsilon is None else _with_epsilon(checked.deck(i), args.epsilon)
-            runs.append(run_explained(deck, load, options, first, watch, who.operator, output))
+            begun = partial(run_hull, deck, load, options, first, operator=who.operator, output=output)
+            runs.append(explained(begun, watch))
     typed = [line for run, _ in runs for step in run.steps for line in step.result.typed]
     shown = who.show is not None and args.typewriter is None and is_terminal(sys.stderr)
     put_out(args, [card for run, _ in runs for card in run.final.result.punched], () if shown else typed)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from functools import partial
 from itertools import combinations
 from math import lcm
 from typing import Any
@@ -24,8 +25,8 @@ from modern.formats.points import parse_bytes
 from modern.geometry.numbers import coordinates
 from modern.geometry.vectors import cross, dot, minus
 from modern.thesis.cards import read_hull
-from modern.thesis.job import HullRun
-from modern.thesis.refusals import Cause, run_explained
+from modern.thesis.job import HullRun, run_hull
+from modern.thesis.refusals import Cause, explained
 
 MOST = 51
 """Points of a data set, as many as the programs have places for."""
@@ -49,7 +50,7 @@ def parted(text: str) -> dict[str, Any]:
     if len(given.points) > MOST:
         return {"refused": f"{len(given.points)} points; the programs take {MOST}"}
     points = scaled([coordinates(point) for point in given.points])
-    run, cause = run_explained(deck, programs.program, Options(limit=LIMIT))
+    run, cause = explained(partial(run_hull, deck, programs.program, Options(limit=LIMIT)))
     dimension, faces = true_hull(points)
     says, found = _found(run, cause, given.points)
     right = {n for face in faces for n in face}

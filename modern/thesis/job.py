@@ -17,6 +17,8 @@ REFUSALS = ("DATA NOT ACCEPTABLE", "ERROR IN PROGRAM")
 
 Load = Callable[[str], Program]
 """Gives a program compiled, by name."""
+Watch = Callable[[Program, Machine], None]
+"""Sees each machine before it runs."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +99,7 @@ def run_hull(
     load: Load,
     options: Options | None = None,
     first: str = "program1",
-    watch: Callable[[Program, Machine], None] | None = None,
+    watch: Watch | None = None,
     operator: Operator | None = None,
     output: Output | None = None,
 ) -> HullRun:

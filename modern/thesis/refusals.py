@@ -11,14 +11,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
-from emulator.language.cards import Deck
 from emulator.language.objectcode import Line, Program
 from emulator.machine.machine import Machine
-from emulator.machine.operator import Operator, Output
-from emulator.machine.result import Options
 from emulator.machine.session import Session
 from emulator.machine.trace import contents
-from modern.thesis.job import REFUSALS, HullRun, Load, Step, refusal, run_hull
+from modern.thesis.job import REFUSALS, HullRun, Step, Watch, refusal
 
 Kind = Literal["miss", "centre", "zeros", "pair", "repeat", "room", "endless", "unmet", "stopped", "other"]
 """What happened.
@@ -55,16 +52,11 @@ class Cause:
     value: str = ""
 
 
-def run_explained(
-    deck: Deck,
-    load: Load,
-    options: Options | None = None,
-    first: str = "program1",
-    watch: Callable[[Program, Machine], None] | None = None,
-    operator: Operator | None = None,
-    output: Output | None = None,
-) -> tuple[HullRun, Cause | None]:
-    """A hull run, as :func:`modern.thesis.job.run_hull` has it, and why it came to no hull, if it did not."""
+def explained(run: Callable[..., HullRun], watch: Watch | None = None) -> tuple[HullRun, Cause | None]:
+    """A hull run, and why it came to no hull, if it did not.
+
+    ``run``: :func:`modern.thesis.job.run_hull` with all its arguments but ``watch``, which is given here.
+    """
     machines: list[Machine] = []
 
     def seen(program: Program, machine: Machine) -> None:
@@ -72,9 +64,9 @@ def run_explained(
         if watch is not None:
             watch(program, machine)
 
-    run = run_hull(deck, load, options, first, seen, operator, output)
-    causes = (cause(step, machine) for step, machine in zip(run.steps, machines, strict=True))
-    return run, next((found for found in causes if found is not None), None)
+    done = run(watch=seen)
+    causes = (cause(step, machine) for step, machine in zip(done.steps, machines, strict=True))
+    return done, next((found for found in causes if found is not None), None)
 
 
 def cause(step: Step, machine: Session) -> Cause | None:
