@@ -30,9 +30,9 @@ from modern.formats.points import read_input
 from modern.geometry.coplanar import coplanar, shown
 from modern.geometry.hull import Face, HullRefused, Stage, all_of
 from modern.geometry.hull import Hull as Record
-from modern.geometry.mesh import ExportError, Mesh, mesh, sides
+from modern.geometry.mesh import ExportError, Mesh, mesh
 from modern.geometry.numbers import AREA_DIGITS, coordinates, real, sum_of_roots
-from modern.geometry.vectors import Vector, area_vector, cross, dot
+from modern.geometry.vectors import Vector, six_volumes
 from modern.port.arithmetic import exact_text
 from modern.port.outcome import PointTexts
 from modern.port.procedure import Epsilon, OnRefusal
@@ -148,13 +148,8 @@ class Hull:
 
         ``faces`` has the equations exactly.  Raises ExportError where there is no hull.
         """
-        points, rows = self._mesh.numbers(), []
-        for order, polygon in enumerate(self._mesh.faces):
-            if self.dimension == 3:
-                a, b, c, d = map(Fraction, self.faces[order].coefficients)
-            else:
-                a, b, c = area_vector(points, polygon)
-                d = -dot((a, b, c), points[polygon[0]])
+        rows: list[Floats] = []
+        for (a, b, c, d), polygon in zip(self._mesh.planes(self.record), self._mesh.faces, strict=True):
             # Scaled by the largest exactly: no product of doubles can overflow.
             largest = max(abs(a), abs(b), abs(c)) or Fraction(1)
             row = np.array([float(number / largest) for number in (a, b, c, d)])
@@ -167,12 +162,8 @@ class Hull:
 
         Raises ExportError where there is no hull or, found in rounded numbers, its faces do not close.
         """
-        points = self._closed.numbers()
-        if self.dimension < 3:
-            return Fraction(0)
-        return (
-            sum((dot(points[a], cross(points[b], points[c])) for a, b, c in self._closed.triangles()), Fraction(0)) / 6
-        )
+        surface = self._closed
+        return six_volumes(surface.numbers(), surface.faces) / 6 if self.dimension == 3 else Fraction(0)
 
     @cached_property
     def area(self) -> Decimal:
@@ -186,9 +177,7 @@ class Hull:
     @cached_property
     def squared_areas(self) -> tuple[Fraction, ...]:
         """The square of each face's area, exactly, in the order of ``faces``; of a polygon its one."""
-        points = self._closed.numbers()
-        normals = (area_vector(points, face) for face in self._closed.faces)
-        return tuple(dot(normal, normal) / 4 for normal in normals)
+        return self._closed.squared_areas()
 
     def coplanar(self, within: Any) -> Hull:
         """A reading of the hull with faces joined whose vertices lie within a distance of one plane.
@@ -259,9 +248,7 @@ class Hull:
     @cached_property
     def _closed(self) -> Mesh:
         """The mesh, of a polyhedron with every edge between two faces that run along it in opposite ways."""
-        edges = [edge for face in self._mesh.faces for edge in sides(face)]
-        known = set(edges)
-        if self.dimension == 3 and (len(known) < len(edges) or any((b, a) not in known for a, b in edges)):
+        if self.dimension == 3 and not self._mesh.closed:
             raise ExportError(f"the faces found in {self.arithmetic} do not close to a surface")
         return self._mesh
 

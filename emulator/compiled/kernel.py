@@ -48,6 +48,7 @@ from emulator.language.objectcode import (
     XSB,
     XSBR,
     Flat,
+    element_after,
 )
 from emulator.machine.interpreter import (
     AT_BEGIN,
@@ -288,10 +289,8 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
                 reason = AT_COSTLY
                 break
             a += element
-            element += 1
-            if element == abs(seconds[pc]):
-                element = 0
-                pc += 1
+            element = element_after(element, seconds[pc])
+            pc += element == 0
             reason = AT_ITEM
             break
         elif o == BEGIN:

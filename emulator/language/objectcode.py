@@ -138,6 +138,14 @@ def repeats(instruction: Instruction) -> int:
     return abs(instruction.second) if instruction.operation == ITEM else 1
 
 
+def element_after(element: int, second: int) -> int:
+    """The element of an ITEM's array that goes through the list after this one; 0 where it was the last.
+
+    second: the instruction's.  Interpreter and kernel both ask here.
+    """
+    return element + 1 if element + 1 < abs(second) else 0
+
+
 LIST_PASS = "pass of the list"
 """What a COUNT counts in the body of an indexed list: it counts against the statement limit."""
 

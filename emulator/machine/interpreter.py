@@ -46,6 +46,7 @@ from emulator.language.objectcode import (
     XSB,
     XSBR,
     Flat,
+    element_after,
 )
 from emulator.machine.state import FLOATING, Journal, State, Table
 from emulator.numbers.accumulator import divide_fixed
@@ -332,10 +333,8 @@ def run(
                     reason = AT_COSTLY
                     break
                 a += element
-                element += 1
-                if element == abs(seconds[pc]):
-                    element = 0
-                    pc += 1
+                element = element_after(element, seconds[pc])
+                pc += element == 0
                 state.listed = True
                 reason = AT_ITEM
                 break

@@ -12,11 +12,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
-from itertools import pairwise
 
 from modern.digital.world import Position, VolumeError, World, voxel_volume
 from modern.geometry.numbers import AREA_DIGITS, sum_of_roots
-from modern.geometry.vectors import area_vector, cross, dot, minus
+from modern.geometry.vectors import area_vector, cross, six_volumes
 
 _UNIT: tuple[Position, ...] = tuple(tuple(Fraction(int(k == axis)) for k in range(3)) for axis in range(3))
 Whole = tuple[int, int, int]
@@ -60,13 +59,7 @@ def measures(
     from 0, in cyclic order; all of a polyhedron's in the same sense.  world: three steps in a space of three axes.
     """
     polygons = [tuple(face) for face in faces]
-    six = 0
-    if len(polygons) > 1:
-        first = points[0]
-        arms = [minus(point, first) for point in points]
-        for face in polygons:
-            for b, c in pairwise(face[1:]):
-                six += dot(arms[face[0]], cross(arms[b], arms[c]))
+    six = six_volumes(points, polygons) if len(polygons) > 1 else 0
     steps = _UNIT if world is None else world.steps
     cell = voxel_volume(world)
     # Areas turn with the cofactors: of edges u, v the vector product of their images is that of the cofactors' rows.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 
 from emulator.errors import EmulatorError
 from modern.geometry.hull import Hull
@@ -51,6 +52,30 @@ class Mesh:
         if self.dimension == 1:
             return ((0, 1),)
         return tuple(sorted({(min(a, b), max(a, b)) for face in self.faces for a, b in sides(face)}))
+
+    def planes(self, hull: Hull) -> Iterator[tuple[Fraction, Fraction, Fraction, Fraction]]:
+        """A, B, C, D of each face's plane, the normal outward: of a polyhedron the hull's own equations."""
+        points = self.numbers()
+        for order, polygon in enumerate(self.faces):
+            if self.dimension == 3:
+                a, b, c, d = map(Fraction, hull.faces[order].coefficients)
+            else:
+                a, b, c = area_vector(points, polygon)
+                d = -dot((a, b, c), points[polygon[0]])
+            yield a, b, c, d
+
+    def squared_areas(self) -> tuple[Fraction, ...]:
+        """The square of each face's area."""
+        points = self.numbers()
+        normals = (area_vector(points, face) for face in self.faces)
+        return tuple(dot(normal, normal) / 4 for normal in normals)
+
+    @property
+    def closed(self) -> bool:
+        """Whether every edge lies between two faces, which run along it in opposite ways."""
+        edges = [edge for face in self.faces for edge in sides(face)]
+        known = set(edges)
+        return len(known) == len(edges) and all((b, a) in known for a, b in edges)
 
     def triangles(self) -> tuple[Triangle, ...]:
         """The faces cut into triangles, each from its first vertex."""

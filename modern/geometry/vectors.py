@@ -6,7 +6,7 @@ The judge (:mod:`modern.exact_hull`) and the port have their own, since one is t
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from itertools import pairwise
 from typing import TypeVar
@@ -49,4 +49,15 @@ def area_vector(points: Sequence[tuple[N, N, N]], face: Sequence[int]) -> tuple[
     total = minus(origin, origin)
     for here, ahead in pairwise(face[1:]):
         total = plus(total, cross(minus(points[here], origin), minus(points[ahead], origin)))
+    return total
+
+
+def six_volumes(points: Sequence[tuple[N, N, N]], faces: Iterable[Sequence[int]]) -> N:
+    """Six times the volume inside a closed surface, its faces counterclockwise from outside; the other way negative."""
+    first = points[0]
+    arms = [minus(point, first) for point in points]
+    total = dot(arms[0], arms[0])
+    for face in faces:
+        for here, ahead in pairwise(face[1:]):
+            total += dot(arms[face[0]], cross(arms[here], arms[ahead]))
     return total
