@@ -11,9 +11,10 @@ from collections.abc import Callable
 
 from modern.cli.shared import pictured
 from modern.cli.shared.arguments import (
+    compared_machine,
     core_argument,
     layers_argument,
-    machine_arguments,
+    output_argument,
     points_argument,
     result_arguments,
     upcase_argument,
@@ -86,9 +87,7 @@ def _diverge(parser: ArgumentParser) -> None:
     )
     parser.add_argument("--first", action="store_true", help="stop at the first decision that differs; no values")
     parser.add_argument("--json", metavar="FILE", help="write the comparison as JSON")
-    machine_arguments(parser)
-    upcase_argument(parser)
-    parser.set_defaults(limit=1_000_000)
+    compared_machine(parser)
 
 
 def _listing(parser: ArgumentParser) -> None:
@@ -97,10 +96,8 @@ def _listing(parser: ArgumentParser) -> None:
     words = "digits lost to this arithmetic, or none (default: %(default)s)"
     parser.add_argument("--against", metavar="NAME", default="exact", help=words)
     parser.add_argument("--operator", metavar="=FILE", help="a file or a log that answers ACCEPT and PAUSE")
-    parser.add_argument("-o", "--output", metavar="FILE", default="-", help="where it goes (default: '-')")
-    machine_arguments(parser)
-    upcase_argument(parser)
-    parser.set_defaults(limit=1_000_000)
+    output_argument(parser)
+    compared_machine(parser)
 
 
 def _study(parser: ArgumentParser) -> None:
@@ -158,7 +155,7 @@ def _check(parser: ArgumentParser) -> None:
 
 def _flowchart(parser: ArgumentParser) -> None:
     _program(parser)
-    parser.add_argument("-o", "--output", metavar="FILE.svg", default="-", help="where it goes (default: '-')")
+    output_argument(parser, "FILE.svg")
     which = parser.add_mutually_exclusive_group()
     which.add_argument("--page", metavar="N", type=int, help="this page alone (default: all, one below the other)")
     which.add_argument("--table", action="store_true", help="every way from box to box as text instead of the picture")
@@ -167,7 +164,7 @@ def _flowchart(parser: ArgumentParser) -> None:
 
 def _tei(parser: ArgumentParser) -> None:
     parser.add_argument("text", metavar="TEXT", nargs="?", help="program1, chapter6, ... (default: name them all)")
-    parser.add_argument("-o", "--output", metavar="FILE", default="-", help="where it goes (default: '-')")
+    output_argument(parser)
     which = parser.add_mutually_exclusive_group()
     which.add_argument("--all", metavar="FOLDER", help="every text, as FOLDER/TEXT.xml")
     which.add_argument("--schema", action="store_true", help="the RELAX NG schema of these documents instead")

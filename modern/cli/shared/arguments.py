@@ -71,6 +71,18 @@ def machine_arguments(parser: ArgumentParser) -> None:
     layers_argument(parser)
 
 
+def compared_machine(parser: ArgumentParser) -> None:
+    """``machine_arguments`` and ``--upcase`` where every statement is compared, which takes longer."""
+    machine_arguments(parser)
+    upcase_argument(parser)
+    parser.set_defaults(limit=1_000_000)
+
+
+def output_argument(parser: ArgumentParser, metavar: str = "FILE") -> None:
+    """``-o``, else standard output."""
+    parser.add_argument("-o", "--output", metavar=metavar, default="-", help="where it goes (default: '-')")
+
+
 def core_argument(parser: ArgumentParser) -> None:
     """``--core``."""
     words = "positions of core storage (default: %(default)s)"

@@ -7,7 +7,14 @@ from __future__ import annotations
 
 from argparse import ArgumentParser
 
-from modern.cli.shared.arguments import coplanar_argument, eye_argument, listed, points_argument, volume_arguments
+from modern.cli.shared.arguments import (
+    coplanar_argument,
+    eye_argument,
+    listed,
+    output_argument,
+    points_argument,
+    volume_arguments,
+)
 from modern.formats import HULLS, MESHES
 
 
@@ -25,7 +32,7 @@ def export(parser: ArgumentParser) -> None:
 def draw(parser: ArgumentParser) -> None:
     """``draw``."""
     points_argument(parser)
-    parser.add_argument("-o", "--output", metavar="FILE.svg", default="-", help="where it goes (default: '-')")
+    output_argument(parser, "FILE.svg")
     parser.set_defaults(endings=(".svg",))
     eye_argument(parser)
     parser.add_argument("--title", metavar="TEXT", help="the line below the picture (default: the name of the file)")

@@ -173,15 +173,18 @@ def squares(tree: Quadtree, side: int, x: int = 0, y: int = 0) -> Iterator[tuple
                 yield from squares(son, half, x + i * half, y + j * half)
 
 
+def lower_tree(array: Any, side: int) -> Quadtree:
+    """The reduced tree that the lower half of a solid's hull is searched in, made anew."""
+    return reduced_tree(floor(octree(array), side), side)
+
+
 def broken(array: Any, printed: Printed) -> tuple[int, int, int]:
     """Squares bounded; those of which every point scores less than delta_1; those with a point above delta_2.
 
     The edges and faces are those of the corrected algorithm.
     """
     hull = octree_hull(array)
-    cube = np.zeros((hull.side,) * 3, dtype=np.bool_)
-    cube[tuple(slice(length) for length in array.shape)] = array
-    tree = reduced_tree(floor(octree(cube), hull.side), hull.side)
+    tree = lower_tree(array, hull.side)
     seen = least_broken = most_broken = 0
     for step in hull.lower.steps:
         search = Search(*step.edge, step.normal, printed)
@@ -211,9 +214,7 @@ def test_no_face_stands_over_a_square_on_the_known_side(seed: int) -> None:
     """Rule 1: there n_3(r) >= 0, and the next face has no corner there."""
     array = random_solid(random.Random(seed), side=9, steps=60)
     hull = octree_hull(array)
-    cube = np.zeros((hull.side,) * 3, dtype=np.bool_)
-    cube[tuple(slice(length) for length in array.shape)] = array
-    tree = reduced_tree(floor(octree(cube), hull.side), hull.side)
+    tree = lower_tree(array, hull.side)
     for step in hull.lower.steps:
         start, end = step.edge
         search = Search(start, end, step.normal, Printed())
@@ -240,9 +241,7 @@ def test_a_square_below_the_bound_or_empty_has_no_point_of_the_next_face(seed: i
     """Rule 2, with the least angle: the search looks at few squares, and finds what all points together give."""
     array = random_solid(random.Random(seed), side=9, steps=60)
     hull = octree_hull(array)
-    cube = np.zeros((hull.side,) * 3, dtype=np.bool_)
-    cube[tuple(slice(length) for length in array.shape)] = array
-    tree = reduced_tree(floor(octree(cube), hull.side), hull.side)
+    tree = lower_tree(array, hull.side)
     for step in hull.lower.steps:
         search = Search(*step.edge, step.normal, Printed())
         every = [(x, y, z) for (x, y), z in heights(tree, hull.side).items() if search.beyond(x, y)]
