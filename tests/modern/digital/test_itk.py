@@ -192,6 +192,7 @@ def test_one_of_several_series_is_named() -> None:
         (lambda: saved("a.tif", b"no picture"), "a.tif: SimpleITK cannot read it as TIFF: "),
         (lambda: saved("a.dcm", b"no slice"), "a.dcm: SimpleITK cannot read it as DICOM: "),
         (lambda: rgb("a.mha"), "a.mha: every voxel has 3 numbers; a volume has one"),
+        (lambda: endless("a.mha"), "a.mha: SimpleITK "),
         (lambda: huge("a.mha"), "a.mha: 9000 x 9000 x 9000 voxels; at most 2147483648 are read"),
     ],
 )
@@ -219,6 +220,12 @@ def saved(name: str, data: bytes) -> str:
 def rgb(name: str) -> str:
     sitk.WriteImage(sitk.GetImageFromArray(np.zeros((4, 3, 2, 3), np.uint8), isVector=True), name)
     return name
+
+
+def endless(name: str) -> str:
+    """A number of axes at which ITK 5.4 ends by a segmentation fault."""
+    data = Path(written(name)).read_bytes()
+    return saved(name, data.replace(b"NDims = 3", b"NDims = 18446744073709551616"))
 
 
 def huge(name: str) -> str:
