@@ -33,6 +33,8 @@ def main(args: argparse.Namespace) -> int:
         listed = [*(families.items() if args.families else ()), *(MEASURES.items() if args.measures else ())]
         print("\n".join(described(name, function) for name, function in listed))
         return OK
+    if args.redraw is not None:
+        return redrawn(Path(args.redraw))
     if args.name is None:
         raise PlanError(f"which study? There are {', '.join(names())}, or a plan file; --list says what they are")
     for name, value in (("--samples", args.samples), ("--workers", args.workers)):
@@ -84,3 +86,14 @@ def described(name: str, function: Callable[..., object]) -> str:
     ]
     words = " ".join((inspect.getdoc(function) or "").replace("``", "").split())
     return "\n".join((f"{name:<14} {', '.join(taken)}".rstrip(), textwrap.indent(textwrap.fill(words, 76), "    ")))
+
+
+def redrawn(folder: Path) -> int:
+    """The plots of a finished study, drawn anew from its charts.json.  Raises StudyFileError, PlanError."""
+    from modern.study.chartfile import read_charts
+    from modern.study.plots import draw
+
+    for chart in read_charts(folder):
+        draw(chart, folder)
+        print(f"{folder / chart.name}.svg, .png")
+    return OK

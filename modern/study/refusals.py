@@ -15,7 +15,7 @@ from modern.study.families.thesis import SHEET
 from modern.study.outcomes import DETERMINED
 from modern.study.plan import Cell, Plan, Programs
 from modern.study.report import INTERVALS, Bars, Series, Table, percent, with_interval
-from modern.study.statistics import Interval, wilson
+from modern.study.statistics import Interval, count, exact
 from modern.study.store import Store
 
 SEVENTY, TWO = 70, 2
@@ -53,7 +53,7 @@ class Sheets:
     @property
     def rate(self) -> Interval:
         """How often such a set is refused."""
-        return wilson(self.refused, self.sets)
+        return exact(self.refused, self.sets)
 
 
 TWO_LIKELIEST = (TWO / (SEVENTY + 1), (TWO + 1) / (SEVENTY + 1))
@@ -83,7 +83,7 @@ def table(sheets: tuple[Sheets, ...]) -> Table:
             FORMS[s.form],
             str(s.sets),
             percent(s.rate),
-            with_interval(Interval(*(SEVENTY * value for value in (s.rate.value, s.rate.low, s.rate.high))), 1),
+            with_interval(count(s.refused, s.sets, SEVENTY), 1),
             str(s.otherwise),
             needed(s),
         )
@@ -133,7 +133,7 @@ def chart(sheets: tuple[Sheets, ...]) -> Bars:
         "DATA NOT ACCEPTABLE, share of the sets",
         series,
         percent=True,
-        note=f"{sheets[0].sets:,} sets of 8 points each; bars: 95 % intervals (Wilson)",
+        note=f"{sheets[0].sets:,} sets of 8 points each; bars: exact 95 % intervals",
     )
 
 

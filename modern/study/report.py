@@ -5,18 +5,18 @@ from __future__ import annotations
 import csv
 import io
 import textwrap
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from math import isinf
 from pathlib import Path
 
 from modern.study.plan import Plan
-from modern.study.statistics import Interval, wilson
+from modern.study.statistics import Interval, exact
 from modern.study.store import Store, put
 from modern.study.summary import summary
 
 _NUMERIC = frozenset("0123456789.+-%eE to(),")
-INTERVALS = ("In brackets: 95 % intervals, of proportions by Wilson's formula.",)
+INTERVALS = ("In brackets: exact 95 % intervals of proportions (Clopper and Pearson).",)
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,9 +77,9 @@ def with_interval(estimate: Interval, digits: int = 2) -> str:
 Place = str | float
 
 
-def share_of(hits: int, of: int, interval: Callable[[int, int], Interval] = wilson) -> str:
+def share_of(hits: int, of: int) -> str:
     """A count of a total, with the proportion: ``3 of 40, 7.5 (2.6 to 19.9) %``; of none, ``0 of 0``."""
-    return f"{hits:,} of {of:,}" + (f", {percent(interval(hits, of))}" if of else "")
+    return f"{hits:,} of {of:,}" + (f", {percent(exact(hits, of))}" if of else "")
 
 
 def listed(items: Iterable[object]) -> str:
@@ -108,15 +108,11 @@ class Series:
 
 @dataclass(frozen=True, slots=True)
 class Mark:
-    """A value to compare with: a line across the chart at x (``upright``) or at y, with its words.
-
-    The words of a level line stand at its right end, or with ``left`` at the other, where nothing is drawn.
-    """
+    """A value to compare with: a line across the chart at x (``upright``) or at y, with its words in the legend."""
 
     at: float
     words: str
     upright: bool = False
-    left: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,10 +140,14 @@ class Bars(Chart):
 
 @dataclass(frozen=True, slots=True)
 class Lines(Chart):
-    """Values over numbers, joined by lines, intervals as bars; either axis may be logarithmic."""
+    """Values over numbers, joined by lines, intervals as bars; either axis may be logarithmic.
+
+    powers: the numbers on the axis of x are exponents of ten.
+    """
 
     log_x: bool = False
     log_y: bool = False
+    powers: bool = False
 
 
 @dataclass(frozen=True, slots=True)

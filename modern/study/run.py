@@ -16,6 +16,7 @@ from emulator.numbers.decimal import DecimalNumbers
 from modern.edition import programs
 from modern.formats.deck import coordinate_field
 from modern.port import convex_hull
+from modern.study.chartfile import write_charts
 from modern.study.families import draw_sample
 from modern.study.interrupt import Interrupt, watching
 from modern.study.manifest import NAME, differences, manifest, read_manifest, versions, write_manifest
@@ -77,6 +78,7 @@ def run_study(
         without = can_plot()
         if without and not quiet:
             print(without, file=sys.stderr)
+        write_charts(folder, found.charts)
         for chart in () if without else found.charts:
             draw(chart, folder)
         write_report(folder, plan, found, not without)

@@ -1,10 +1,18 @@
-"""Intervals for what samples tell: of a proportion exactly and by Wilson's formula, of a mean by Student's t.
+"""Intervals for what samples tell: exact ones of proportions and counts, Student's of the means of other quantities.
+
+A proportion, and a count, which is a proportion of a known number, have Clopper and Pearson's interval: it has at least
+the level whatever the truth is, and never passes 0 or the whole.  It keeps the level where samples of several kinds,
+each with a proportion of its own, are counted together (Hoeffding: then the count varies less).  Student's
+interval supposes that means vary normally; it is for quantities that are no counts, such as minutes, and is cut at
+bounds that the quantity itself has (no time is below 0), by which nothing is lost of its level.  Wilson's formula is
+here for comparison: it is shorter, and keeps the level only on the mean over proportions.
 
 Sources: C. J. Clopper and E. S. Pearson, The use of confidence or fiducial limits illustrated in the case of the
 binomial, Biometrika 26 (1934) 404-413; E. B. Wilson, Probable inference, the law of succession, and statistical
 inference, J. Amer. Statist. Assoc. 22 (1927) 209-212; L. D. Brown, T. T. Cai, A. DasGupta, Interval estimation for a
-binomial proportion, Statist. Sci. 16 (2001) 101-133, which compares them; Student (W. S. Gosset), The probable error
-of a mean, Biometrika 6 (1908) 1-25.  All intervals have two equal tails; ``level`` is .95 unless said otherwise.
+binomial proportion, Statist. Sci. 16 (2001) 101-133, which compares them; W. Hoeffding, On the distribution of the
+number of successes in independent trials, Ann. Math. Statist. 27 (1956) 713-721; Student (W. S. Gosset), The probable
+error of a mean, Biometrika 6 (1908) 1-25.  All intervals have two equal tails; ``level`` is .95 unless said otherwise.
 """
 
 from __future__ import annotations
@@ -51,28 +59,41 @@ def exact(hits: int, of: int, level: float = LEVEL) -> Interval:
     return Interval(hits / of, low, high)
 
 
-def mean(values: Iterable[float], level: float = LEVEL) -> Interval:
+def count(hits: int, of: int, times: int, level: float = LEVEL) -> Interval:
+    """How many of ``times`` samples are expected to be hits, where ``hits`` of ``of`` were: the proportion's exact
+    interval times ``times``, so that it lies in 0 to ``times``.
+
+    Raises ValueError as :func:`wilson`.
+    """
+    share = exact(hits, of, level)
+    return Interval(times * share.value, times * share.low, times * share.high)
+
+
+def mean(values: Iterable[float], level: float = LEVEL, least: float = -inf, most: float = inf) -> Interval:
     """The mean of a sample with Student's interval, in one pass (B. P. Welford, Technometrics 4 (1962) 419-420).
 
-    Raises ValueError where there is no value; of one value alone the interval is without bounds.
+    ``least`` and ``most`` are the bounds that the quantity itself has; the interval is cut there.  Raises ValueError
+    where there is no value; of one value alone the interval is without bounds.
     """
-    count, average, squares = 0, 0.0, 0.0
+    number, average, squares = 0, 0.0, 0.0
     for value in values:
-        count += 1
+        number += 1
         step = value - average
-        average += step / count
+        average += step / number
         squares += step * (value - average)
-    return mean_of(count, average, squares, level)
+    return mean_of(number, average, squares, level, least, most)
 
 
-def mean_of(count: int, average: float, squares: float, level: float = LEVEL) -> Interval:
+def mean_of(
+    number: int, average: float, squares: float, level: float = LEVEL, least: float = -inf, most: float = inf
+) -> Interval:
     """Student's interval from the number of values, their mean, and the sum of squared deviations from it."""
-    if count < 1:
+    if number < 1:
         raise ValueError("a mean needs a value")
-    if count == 1:
+    if number == 1:
         return Interval(average, -inf, inf)
-    half = student(count - 1, level) * sqrt(squares / (count - 1) / count)
-    return Interval(average, average - half, average + half)
+    half = student(number - 1, level) * sqrt(squares / (number - 1) / number)
+    return Interval(average, max(least, average - half), min(most, average + half))
 
 
 def student(degrees: int, level: float = LEVEL) -> float:

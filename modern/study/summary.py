@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from modern.study.outcomes import DETERMINED, OUTCOMES
 from modern.study.plan import Cell, Plan, Value
-from modern.study.statistics import Interval, wilson
+from modern.study.statistics import Interval, exact
 from modern.study.store import Store
 
 
@@ -55,8 +55,8 @@ class Summary:
         return best
 
     def share(self, cell: int, route: str, outcomes: Iterable[str] = DETERMINED) -> Interval:
-        """The proportion of samples under one of the outcomes, with Wilson's interval."""
-        return wilson(self.hits(cell, route, outcomes), self.of(cell, route))
+        """The proportion of samples under one of the outcomes, with its exact interval."""
+        return exact(self.hits(cell, route, outcomes), self.of(cell, route))
 
     def seen(self) -> tuple[str, ...]:
         """The outcomes that occur, in the order of OUTCOMES."""

@@ -25,7 +25,9 @@ POINTS = (8, 12, 16, 20, 24, 28, 32, 36, 40, 44, 46, 48, 50, 51)
 PLACES = 98
 CORE = (20_000, 40_000, 60_000)
 LISTED, EXACT = "as listed", "exact"
-_INTERVALS = "In brackets: 95 % intervals, of means by Student's t, of proportions by Wilson's formula."
+_INTERVALS = (
+    "In brackets: 95 % intervals, of means by Student's t, cut at 0 places, of proportions exact (Clopper and Pearson)."
+)
 _NAMES = {"integers": "cube, solid", "cube": "cube, surface"}
 
 
@@ -69,7 +71,7 @@ def _peaks(plan: Plan, store: Store) -> dict[int, _Peak]:
         (EXACT,),
     )
     return {
-        cell: _Peak(mean_of(count, average, max(0.0, squares - count * average * average)), most)
+        cell: _Peak(mean_of(count, average, max(0.0, squares - count * average * average), least=0.0), most)
         for cell, count, average, squares, most in asked
     }
 
@@ -168,7 +170,7 @@ def _chart(plan: Plan, peaks: dict[int, _Peak]) -> Lines:
         "points N",
         "places",
         tuple(series),
-        marks=(Mark(PLACES, "98 places, as listed", left=True),),
+        marks=(Mark(PLACES, "98 places, as listed"),),
         note=f"{plan.cells[0].samples} sets at each point; marks: means, bars: up to the most seen",
     )
 
@@ -185,7 +187,7 @@ def _full(plan: Plan, found: Summary) -> Lines:
         "table full, of all sets",
         series,
         percent=True,
-        note=f"{plan.cells[0].samples} sets at each point; bars: 95 % intervals (Wilson)",
+        note=f"{plan.cells[0].samples} sets at each point; bars: exact 95 % intervals",
     )
 
 

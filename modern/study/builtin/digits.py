@@ -113,8 +113,7 @@ def _main(found: Summary, cells: Cells) -> Table:
     )
     notes = (
         *INTERVALS,
-        "The failures at the least P are none; their interval is exact (Clopper and Pearson) and says how often sets "
-        "could still fail there.",
+        "The failures at the least P are none; their interval says how often sets could still fail there.",
     )
     return Table("table", "Digits of the coordinates against digits of the arithmetic", head, tuple(rows), notes)
 
@@ -148,7 +147,7 @@ def _growth(found: Summary, cells: Cells) -> Lines:
         lines,
         percent=True,
         marks=(Mark(8, "the 1620's eight", upright=True),),
-        note=f"whole coordinates of d digits, {found.of(0, LISTED)} sets each; bars: 95 % intervals (Wilson)",
+        note=f"whole coordinates of d digits, {found.of(0, LISTED)} sets each; bars: exact 95 % intervals",
     )
 
 
@@ -190,7 +189,7 @@ def _eight(found: Summary, cells: Cells) -> Bars:
         "share of all sets",
         bars,
         percent=True,
-        note=f"{found.of(0, CORRECTED)} sets of {POINTS} points each; bars: 95 % intervals (Wilson)",
+        note=f"{found.of(0, CORRECTED)} sets of {POINTS} points each; bars: exact 95 % intervals",
     )
 
 
@@ -204,8 +203,7 @@ def _words(found: Summary, cells: Cells) -> tuple[str, ...]:
     return (
         f"Eight digits, layer corrected: digits d of the coordinates at which no set failed: {listed(sound)}; at which "
         f"no hull was found: {listed(lost)}.",
-        "Of the sets that failed so, those that ended in a wrong hull that looks right: "
-        f"{share_of(wrong, failed, exact)}.",
+        f"Of the sets that failed so, those that ended in a wrong hull that looks right: {share_of(wrong, failed)}.",
         f"Lengths d for which the least P is 3d + 1, with which every test for zero is exact: {len(agree)} of "
         f"{len(cells)}. Where none of {sets} sets fails, up to {100 * exact(0, sets).high:.2f} % of such sets could "
         "(95 %, exact); with 3d + 4 digits none can.",

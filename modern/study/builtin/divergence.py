@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from modern.study.outcomes import DETERMINED
 from modern.study.plan import Cell, Plan, Programs
 from modern.study.report import INTERVALS, Bars, Report, Series, Table, listed, percent, share_of
-from modern.study.statistics import exact, wilson
+from modern.study.statistics import exact
 from modern.study.store import Store
 
 TITLE = "the statement that first decides otherwise than exact numbers"
@@ -105,9 +105,9 @@ def _main(seen: _Place) -> Table:
         (
             name,
             str(seen.total(name)),
-            percent(wilson(seen.total(name), everything)),
+            percent(exact(seen.total(name), everything)),
             str(seen.ended_well(name)),
-            percent(wilson(seen.ended_well(name), seen.total(name))),
+            percent(exact(seen.ended_well(name), seen.total(name))),
         )
         for name in (*seen.places, NOWHERE)
         if seen.total(name)
@@ -136,7 +136,7 @@ def _chart(plan: Plan, seen: _Place) -> Bars:
         Series(
             name,
             tuple(
-                (str(cell.key["sets"]), wilson(seen.counts[number, name], seen.of(number)))
+                (str(cell.key["sets"]), exact(seen.counts[number, name], seen.of(number)))
                 for number, cell in enumerate(plan.cells)
             ),
         )
@@ -151,7 +151,7 @@ def _chart(plan: Plan, seen: _Place) -> Bars:
         "share of the family's sets",
         series,
         percent=True,
-        note=f"{seen.of(0)} sets of each family{more}; bars: 95 % intervals (Wilson)",
+        note=f"{seen.of(0)} sets of each family{more}; bars: exact 95 % intervals",
     )
 
 
@@ -165,6 +165,6 @@ def _words(plan: Plan, seen: _Place) -> tuple[str, ...]:
         f"every set does: {listed(never)}.",
         f"Of the other sets, those that still end in the right hull: {share_of(saved, everything - same)}. Of the sets "
         "that follow exact numbers throughout, those that fail, by the programs' own faults: "
-        f"{share_of(lost, same, exact)}.",
+        f"{share_of(lost, same)}.",
         f"Runs that exact numbers could not follow to a decision that differs: {seen.undecided}.",
     )

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from modern.study.outcomes import DETERMINED, WRONG
 from modern.study.plan import Cell, Plan, Port, Programs, Route
 from modern.study.report import INTERVALS, Lines, Report, Series, Table, listed, percent, powers
-from modern.study.statistics import Interval, wilson
+from modern.study.statistics import Interval, exact
 from modern.study.store import Store
 from modern.study.summary import Summary, summary
 
@@ -104,7 +104,7 @@ class _Rows:
 
     def swallows(self, cell: int, route: str) -> Interval:
         """The share of sets of which a vertex was swallowed."""
-        return wilson(self.swallowed.get((cell, route), 0), self.found.of(cell, route))
+        return exact(self.swallowed.get((cell, route), 0), self.found.of(cell, route))
 
     def clean(self, cell: int, name: Name, tried: tuple[int, ...]) -> list[int]:
         """The powers at which no set failed."""
@@ -199,7 +199,7 @@ def _chart(
     return Lines(
         file,
         title,
-        "k, where e = 10^k",
+        "e",
         "vertex swallowed, of all sets" if swallows else "hull found, of all sets",
         tuple(
             Series(str(cell.key["sets"]), tuple((float(k), shares(number, name(k))) for k in tried))
@@ -207,7 +207,8 @@ def _chart(
             if cell.key["sets"] in _CHARTED
         ),
         percent=True,
-        note=f"{plan.cells[0].samples} sets of {POINTS} points of each kind; bars: 95 % intervals (Wilson)",
+        powers=True,
+        note=f"{plan.cells[0].samples} sets of {POINTS} points of each kind; bars: exact 95 % intervals",
     )
 
 
@@ -224,7 +225,7 @@ def _best(plan: Plan, rows: _Rows) -> Table:
                 how,
                 powers(k for k in tried if all(k in one for one in clean)),
                 f"10^{best}",
-                percent(wilson(hits[best], of)),
+                percent(exact(hits[best], of)),
                 listed(cell.key["sets"] for number, cell in enumerate(plan.cells) if best not in clean[number]),
                 listed(cell.key["sets"] for number, cell in enumerate(plan.cells) if not clean[number]),
             )
@@ -237,7 +238,7 @@ def _price(plan: Plan, rows: _Rows, store: Store) -> Table:
     lines = []
     for words, below in (("smaller", True), ("greater", False)):
         wrong, of = _wrong_beside(plan, rows, store, below)
-        lines.append((words, str(of), str(wrong), percent(wilson(wrong, of)) if of else "-"))
+        lines.append((words, str(of), str(wrong), percent(exact(wrong, of)) if of else "-"))
     notes = (
         *INTERVALS,
         "Smaller, greater: than those at which no set of the kind failed; a set counts once, whatever the e.",

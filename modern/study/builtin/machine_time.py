@@ -72,7 +72,9 @@ def _times(store: Store) -> dict[int, _Time]:
     found = {}
     for cell, count, longest, operations, *numbers in asked:
         pairs = zip(numbers[::2], numbers[1::2], strict=True)
-        means = [mean_of(count, average, max(0.0, squares - count * average**2)) for average, squares in pairs]
+        means = [
+            mean_of(count, average, max(0.0, squares - count * average**2), least=0.0) for average, squares in pairs
+        ]
         found[cell] = _Time(count, dict(zip(PARTS, means, strict=False)), means[-1], longest, operations)
     return found
 
@@ -113,7 +115,8 @@ def _row(name: Value, n: float, time: _Time) -> tuple[str, ...]:
 
 _HEAD = ("sets", "N", "timed", "minutes", "longest", *PARTS, "operations", "ms an operation")
 _NOTES = (
-    "In brackets: 95 % intervals of the mean by Student's t. Processor, reader, punch and typewriter: mean minutes.",
+    "In brackets: 95 % intervals of the mean by Student's t, cut at 0 minutes. Processor, reader, punch and "
+    "typewriter: mean minutes.",
     "Operations: floating-point additions, products and quotients; the last column is the processor's time for one.",
 )
 
@@ -141,7 +144,7 @@ def _chart(plan: Plan, times: dict[int, _Time]) -> Lines:
         tuple(one for one in series if one.points),
         log_x=True,
         log_y=True,
-        marks=(Mark(60, "one hour", left=True),),
+        marks=(Mark(60, "one hour"),),
         note=f"{plan.cells[0].samples} sets at each point; bars: 95 % intervals of the mean (Student)",
     )
 

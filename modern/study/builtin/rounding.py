@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from modern.study.outcomes import DETERMINED, WRONG
 from modern.study.plan import Cell, Plan, Port, Programs, Route
 from modern.study.report import INTERVALS, Bars, Lines, Report, Series, Table, percent, powers
-from modern.study.statistics import exact, wilson
+from modern.study.statistics import exact
 from modern.study.store import Store
 from modern.study.summary import Summary, cells, summary
 
@@ -175,7 +175,7 @@ def _main(plan: Plan, found: Summary, tested: Mapping[str, _Pairs], widened: Map
         "with the interval",
     )
     notes = (
-        "In brackets: 95 % intervals, exact (Clopper and Pearson).",
+        "In brackets: exact 95 % intervals (Clopper and Pearson).",
         "Sets, failed and wrong hulls: with the exact test. Whole numbers up to: the largest size tried with which, "
         "and with all smaller ones, no set failed. Against truncating: sets it finds and truncating does not / the "
         "other way round. With the interval: sets whose hull it finds at more / at fewer widths than truncating.",
@@ -218,7 +218,7 @@ def _size_chart(plan: Plan, found: Summary) -> Lines:
         percent=True,
         log_x=True,
         note=f"{shown[0][1].samples} sets of {POINTS} points at each size, the same for all ways; "
-        "bars: 95 % intervals (Wilson)",
+        "bars: exact 95 % intervals",
     )
 
 
@@ -227,11 +227,12 @@ def _width_chart(plan: Plan, found: Summary) -> Lines:
     return Lines(
         "interval",
         f"Chapter 7's interval, scaled: {_SHOWN}",
-        "k, where e = 10^k is the distance from a plane that counts as on it",
+        "e, the distance from a plane that counts as on it",
         "hull found, of all sets",
         tuple(Series(way, tuple((float(k), found.share(number, within(way, k))) for k in WIDTHS)) for way in WAYS),
         percent=True,
-        note=f"{cell.samples} sets of {POINTS} points; bars: 95 % intervals (Wilson)",
+        powers=True,
+        note=f"{cell.samples} sets of {POINTS} points; bars: exact 95 % intervals",
     )
 
 
@@ -244,13 +245,13 @@ def _wrong_chart(plan: Plan, found: Summary) -> Bars:
         tuple(
             Series(
                 way,
-                tuple((f"10^{k}", wilson(*_pooled(plan, found, "interval", within(way, k), (WRONG,)))) for k in WIDTHS),
+                tuple((f"10^{k}", exact(*_pooled(plan, found, "interval", within(way, k), (WRONG,)))) for k in WIDTHS),
             )
             for way in WAYS
         ),
         percent=True,
         note=f"{sum(cell.samples for _, cell in cells(plan, test='interval'))} sets of {len(_INTERVAL)} kinds; "
-        "bars: 95 % intervals (Wilson)",
+        "bars: exact 95 % intervals",
     )
 
 
@@ -293,7 +294,7 @@ def _sound_widths(plan: Plan, found: Summary) -> Table:
 
 def _silent(plan: Plan, found: Summary) -> Table:
     rows = tuple(
-        (f"10^{k}", *(percent(wilson(*_pooled(plan, found, "interval", within(way, k), (WRONG,)))) for way in WAYS))
+        (f"10^{k}", *(percent(exact(*_pooled(plan, found, "interval", within(way, k), (WRONG,)))) for way in WAYS))
         for k in WIDTHS
     )
     return Table("silent", "Wrong hulls that look right, with the interval", ("e", *WAYS), rows, INTERVALS)

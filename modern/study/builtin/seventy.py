@@ -20,7 +20,7 @@ from modern.study.families.thesis import KINDS
 from modern.study.outcomes import DETERMINED, WRONG
 from modern.study.plan import Cell, Plan, PlanError, Programs
 from modern.study.report import INTERVALS, Bars, Mark, Report, Series, Table, listed, percent, share_of, with_interval
-from modern.study.statistics import Interval, exact, mean, wilson
+from modern.study.statistics import Interval, count, exact
 from modern.study.store import Store
 
 TITLE = "failures in seventy examples, with and without the mend of the last pair"
@@ -83,11 +83,12 @@ class _Route:
 
     @property
     def mean(self) -> Interval:
-        return mean(self.failures)
+        """Failures of seventy sets, from all sets: each is drawn by itself, so that their number is binomial."""
+        return count(self.failed, self.sets, SEVENTY)
 
     def groups(self, least: int, most: int = SEVENTY) -> Interval:
         """The share of the seventies with so many failures."""
-        return wilson(sum(least <= n <= most for n in self.failures), len(self.failures))
+        return exact(sum(least <= n <= most for n in self.failures), len(self.failures))
 
 
 def report(plan: Plan, store: Store) -> Report:
@@ -150,8 +151,8 @@ def _main(*routes: _Route) -> Table:
         for route in routes
     )
     notes = (
-        "In brackets: 95 % intervals; of failed sets exact, of the mean by Student's t, of seventies by Wilson's "
-        "formula.",
+        "In brackets: exact 95 % intervals (Clopper and Pearson); that of failures in 70 is seventy times that of all "
+        "sets, as each set is drawn by itself.",
     )
     return Table("table", "Failures in seventy examples", head, rows, notes)
 
@@ -187,7 +188,7 @@ def _causes(*routes: _Route) -> Table:
             outcome,
             detail,
             *(str(route.causes[outcome, detail]) for route in routes),
-            *(percent(wilson(route.causes[outcome, detail], route.sets)) for route in routes),
+            *(percent(exact(route.causes[outcome, detail], route.sets)) for route in routes),
         )
         for outcome, detail in names
     )
@@ -206,7 +207,7 @@ def _chart(*routes: _Route) -> Bars:
         series,
         percent=True,
         marks=(Mark(THESIS, "the thesis: 2 in about 70", upright=True),),
-        note=f"{len(routes[0].failures):,} times 70 sets; bars: 95 % intervals (Wilson)",
+        note=f"{len(routes[0].failures):,} times 70 sets; bars: exact 95 % intervals",
     )
 
 
@@ -222,7 +223,7 @@ def _kind_chart(kinds: dict[tuple[str, ...], int]) -> Bars:
         "failed, of all sets of the kind",
         series,
         percent=True,
-        note="bars: 95 % intervals (Wilson)",
+        note="bars: exact 95 % intervals",
     )
 
 
@@ -237,8 +238,13 @@ def _of(kinds: dict[tuple[str, ...], int], names: tuple[str, ...], route: str = 
 
 def _share(kinds: dict[tuple[str, ...], int], names: tuple[str, ...], route: str) -> Interval:
     """How often sets of these kinds fail."""
+    return exact(*_failed(kinds, names, route))
+
+
+def _failed(kinds: dict[tuple[str, ...], int], names: tuple[str, ...], route: str) -> tuple[int, int]:
+    """How many sets of these kinds fail, and of how many."""
     failed = sum(n for key, n in kinds.items() if key[0] in names and key[1] == route and key[2] not in DETERMINED)
-    return wilson(failed, _of(kinds, names, route))
+    return failed, _of(kinds, names, route)
 
 
 def _words(as_listed: _Route, mended: _Route, kinds: dict[tuple[str, ...], int], longest: int) -> tuple[str, ...]:
@@ -261,8 +267,8 @@ def _words(as_listed: _Route, mended: _Route, kinds: dict[tuple[str, ...], int],
     ]
     space = tuple(name for name in _names(kinds) if name in _IN_SPACE)
     if space:
-        share = _share(kinds, space, LISTED)
-        seventy = Interval(*(SEVENTY * value for value in (share.value, share.low, share.high)))
+        failed = _failed(kinds, space, LISTED)
+        share, seventy = exact(*failed), count(*failed, SEVENTY)
         words[2] += (
             f" Sets in space that fail as listed: {percent(share)}; of seventy such sets: {with_interval(seventy, 1)}."
         )

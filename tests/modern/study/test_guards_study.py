@@ -1,6 +1,6 @@
 """What studies claim follows the intervals of their figures: rows made up, limits worked out by hand.
 
-Student's t of 3 and 9 degrees is 3.182 and 2.262; Wilson's interval of none in n ends at z*z/(n + z*z), z*z = 3.8415.
+All intervals are Clopper and Pearson's; of none in n it ends at 1 - .025**(1/n), of n in n it begins at .025**(1/n).
 """
 
 from __future__ import annotations
@@ -79,19 +79,33 @@ def seventies(folder: Path, failures: Sequence[int], slabs: int = 0, mended: int
     ("failures", "claim"),
     [
         ([1] * 10, "fewer than the thesis's two"),
-        ([1, 2] * 5, "fewer than the thesis's two"),
-        ([1, 2] * 2, "not to be told from the thesis's two"),
+        ([1] * 9 + [2], "fewer than the thesis's two"),
+        ([1] * 8 + [2] * 2, "not to be told from the thesis's two"),
+        ([2, 0, 0, 0], "fewer than the thesis's two"),
+        ([2, 1, 0, 0], "not to be told from the thesis's two"),
         ([2] * 10, "not to be told from the thesis's two"),
-        ([2, 3] * 2, "not to be told from the thesis's two"),
-        ([2, 3] * 5, "more than the thesis's two"),
+        ([3] * 9 + [2], "not to be told from the thesis's two"),
         ([3] * 10, "more than the thesis's two"),
+        ([3, 3, 4, 4], "not to be told from the thesis's two"),
+        ([3, 4, 4, 4], "more than the thesis's two"),
     ],
-    ids=["1", "1.12 to 1.88", "0.58 to 2.42", "2", "1.58 to 3.42", "2.12 to 2.88", "3"],
+    ids=[
+        "to 1.83",
+        "to 1.956",
+        "to 2.08",
+        "to 1.79",
+        "to 2.17",
+        "2",
+        "from 1.954",
+        "from 2.04",
+        "from 1.93",
+        "from 2.12",
+    ],
 )
 def test_seventy_compares_with_two_where_the_whole_interval_is_on_one_side(
     tmp_path: Path, failures: list[int], claim: str
 ) -> None:
-    """Of 1, 2, 1, 2, ... the deviation is .577 of four and .527 of ten: 1.5 +- 3.182*.289 and 1.5 +- 2.262*.167."""
+    """Seventy times the limits of 10, 11, 12, 20, 29 and 30 of 700 and of 2, 3, 14 and 15 of 280 (scipy's beta.ppf)."""
     assert claim in seventies(tmp_path, failures)
 
 
@@ -103,19 +117,31 @@ UNTOLD = "not to be judged from so few seventies"
     ("failures", "claim"),
     [
         ([0] * 73, UNUSUAL),
-        ([0] * 72, UNTOLD),
+        ([0] * 72, UNUSUAL),
         ([1] * 73, UNUSUAL),
+        ([0] * 71, UNTOLD),
         ([2, 0, 0, 0], UNTOLD),
         ([2, 2, 0, 0], USUAL),
         ([3, 3, 0, 0], USUAL),
-        ([2, 0, 0], USUAL),
+        ([2, 2, 0, 0, 0], USUAL),
+        ([2, 2, 0, 0, 0, 0], UNTOLD),
     ],
-    ids=["to .04999", "to .0507", "one failure each", "from .0456", "from .150", "three failures", "from .0615"],
+    ids=[
+        "to .0493",
+        "to .04994",
+        "one failure each",
+        "to .0506",
+        "from .006",
+        "from .068",
+        "three",
+        "from .053",
+        "from .043",
+    ],
 )
 def test_seventy_calls_two_unusual_where_the_whole_interval_is_below_a_twentieth(
     tmp_path: Path, failures: list[int], claim: str
 ) -> None:
-    """Two or more in a twentieth of the seventies is the limit; 1 of 4 is from .0456 to .699."""
+    """Two or more in a twentieth of the seventies is the limit; 1 of 4 is from .0063 to .806."""
     words = seventies(tmp_path, failures)
     assert [text in words for text in (UNUSUAL, USUAL, UNTOLD)] == [claim == t for t in (UNUSUAL, USUAL, UNTOLD)]
 
@@ -123,18 +149,18 @@ def test_seventy_calls_two_unusual_where_the_whole_interval_is_below_a_twentieth
 @pytest.mark.parametrize(
     ("failures", "slabs", "claim"),
     [
-        ([5, 0, 0, 0], 20, "of seventy such sets: 17.5 (7.8 to 32.8)."),
-        ([0, 0], 131, "of seventy such sets: 0.0 (0.0 to 2.0)."),
-        ([1, 0], 70, "of seventy such sets: 1.0 (0.2 to 5.4)."),
-        ([2, 0], 70, "of seventy such sets: 2.0 (0.6 to 6.9)."),
+        ([5, 0, 0, 0], 20, "of seventy such sets: 17.5 (6.1 to 34.4)."),
+        ([0, 0], 131, "of seventy such sets: 0.0 (0.0 to 1.9)."),
+        ([1, 0], 70, "of seventy such sets: 1.0 (0.0 to 5.4)."),
+        ([2, 0], 70, "of seventy such sets: 2.0 (0.2 to 7.0)."),
     ],
 )
 def test_seventy_says_of_sets_in_space_what_their_interval_allows(
     tmp_path: Path, failures: list[int], slabs: int, claim: str
 ) -> None:
-    """None of 131 ends at 3.8415/134.8415, 1.994 of seventy.
+    """None of 131 ends at 1 - .025**(1/131), 1.944 of seventy.
 
-    5 of 20 is .112 to .469, 1 of 70 .0025 to .077, 2 of 70 .0079 to .098 (Wilson).
+    5 of 20 is .087 to .491, 1 of 70 .00036 to .077, 2 of 70 .0035 to .099.
     """
     assert claim in seventies(tmp_path, failures, slabs)
 
@@ -145,8 +171,8 @@ def test_seventy_counts_what_the_card_saves_by_the_means(tmp_path: Path) -> None
 
 
 def test_seventy_takes_the_sets_in_space_as_listed(tmp_path: Path) -> None:
-    """Both slabs fail as listed, none does with the card."""
-    assert "Sets in space that fail as listed: 100.0 (34.2 to 100.0) %" in seventies(tmp_path, [2, 2], slabs=2)
+    """Both slabs fail as listed, none does with the card; .158 is the root of .025."""
+    assert "Sets in space that fail as listed: 100.0 (15.8 to 100.0) %" in seventies(tmp_path, [2, 2], slabs=2)
 
 
 # The study divergence.
@@ -176,19 +202,19 @@ def twenty(tmp_path: Path) -> Report:
 
 
 def test_divergence_gives_shares_of_all_sets_and_of_those_of_a_statement(twenty: Report) -> None:
-    """The most frequent first, of equals by name, nowhere last.  Wilson: 5 of 20, 1 of 20, 13 of 20; 2 of 5."""
+    """The most frequent first, of equals by name, nowhere last."""
     assert [row[:4] for row in twenty.tables[0].rows] == [
-        ("program3 116", "5", "25.0 (11.2 to 46.9) %", "2"),
-        ("program1 127", "1", "5.0 (0.9 to 23.6) %", "0"),
-        ("program2 169", "1", "5.0 (0.9 to 23.6) %", "1"),
-        (divergence.NOWHERE, "13", "65.0 (43.3 to 81.9) %", "10"),
+        ("program3 116", "5", "25.0 (8.7 to 49.1) %", "2"),
+        ("program1 127", "1", "5.0 (0.1 to 24.9) %", "0"),
+        ("program2 169", "1", "5.0 (0.1 to 24.9) %", "1"),
+        (divergence.NOWHERE, "13", "65.0 (40.8 to 84.6) %", "10"),
     ]
-    assert twenty.tables[0].rows[0][4] == "40.0 (11.8 to 76.9) %"
+    assert twenty.tables[0].rows[0][4] == "40.0 (5.3 to 85.3) %"
 
 
 def test_divergence_counts_faults_of_the_digits_apart_from_the_programs_own(twenty: Report) -> None:
-    """3 of 7 misled sets end right (Wilson .158 to .750); 3 of 13 fail unmisled (Clopper and Pearson .050 to .538)."""
-    assert "those that still end in the right hull: 3 of 7, 42.9 (15.8 to 75.0) %." in twenty.words[1]
+    """3 of 7 misled sets end right (.099 to .816); 3 of 13 fail unmisled (.050 to .538)."""
+    assert "those that still end in the right hull: 3 of 7, 42.9 (9.9 to 81.6) %." in twenty.words[1]
     assert "those that fail, by the programs' own faults: 3 of 13, 23.1 (5.0 to 53.8) %." in twenty.words[1]
 
 

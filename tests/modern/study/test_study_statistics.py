@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from modern.study.statistics import Interval, exact, incomplete_beta, mean, mean_of, student, wilson
+from modern.study.statistics import Interval, count, exact, incomplete_beta, mean, mean_of, student, wilson
 
 
 def test_published_intervals() -> None:
@@ -27,6 +27,54 @@ def test_published_intervals() -> None:
         for interval, (low, high) in ((wilson(hits, of), by_wilson), (exact(hits, of), by_exact)):
             assert (round(interval.low, 4), round(interval.high, 4)) == (low, high)
             assert interval.value == hits / of
+
+
+def test_an_interval_of_the_manual_of_r() -> None:
+    """R's help of binom.test, after W. J. Conover, Practical Nonparametric Statistics (1971) 97-104: 682 of 925."""
+    found = exact(682, 925)
+    assert (found.low, found.high) == pytest.approx((0.7076683, 0.7654066), abs=5e-8)
+
+
+@pytest.mark.parametrize("of", [5, 20, 70])
+def test_the_exact_interval_keeps_its_level_whatever_the_proportion_is(of: int) -> None:
+    """The probability that it holds the true proportion, summed over all counts; Wilson's does not keep it."""
+    truths = [k / 400 for k in range(1, 400)]
+    for method, keeps in ((exact, True), (wilson, False)):
+        held = [method(hits, of) for hits in range(of + 1)]
+        coverage = [
+            sum(
+                math.comb(of, k) * p**k * (1 - p) ** (of - k) for k in range(of + 1) if held[k].low <= p <= held[k].high
+            )
+            for p in truths
+        ]
+        assert (min(coverage) >= 0.95) is keeps
+
+
+@given(st.integers(1, 2000), st.data())
+def test_a_count_lies_between_none_and_all(of: int, data: st.DataObject) -> None:
+    stats = pytest.importorskip("scipy.stats")
+    hits = data.draw(st.integers(0, of))
+    found = count(hits, of, 70)
+    assert 0 <= found.low <= found.value <= found.high <= 70
+    assert found.value == pytest.approx(70 * hits / of)
+    low = 70 * stats.beta.ppf(0.025, hits, of - hits + 1) if hits else 0
+    high = 70 * stats.beta.ppf(0.975, hits + 1, of - hits) if hits < of else 70
+    assert (found.low, found.high) == pytest.approx((low, high), abs=1e-6)
+
+
+def test_ten_seventies_with_two_failures_have_no_count_below_none() -> None:
+    """By Student's t their mean of .2 ends below 0, at .2 - 2.262*.133."""
+    failures = [1, 1, 0, 0, 0, 0, 0, 0, 0, 0]
+    assert mean(failures).low == pytest.approx(-0.1016, abs=5e-5)
+    found = count(sum(failures), 700, 70)
+    assert (round(found.low, 3), round(found.high, 3)) == (0.024, 0.72)
+
+
+def test_a_mean_is_cut_at_the_bounds_of_its_quantity() -> None:
+    """1 and 3 by Student's t: 2 +- 12.706."""
+    assert (mean([1, 3]).low, mean([1, 3]).high) == pytest.approx((-10.706, 14.706), abs=5e-4)
+    assert mean([1, 3], least=0.0, most=4.0) == Interval(2.0, 0.0, 4.0)
+    assert mean([1, 3], least=-20.0, most=20.0) == mean([1, 3])
 
 
 def test_published_values_of_students_t() -> None:

@@ -1,0 +1,252 @@
+"""Charts: nothing lies on the curves, no series hides another, signs are those of print, and grey tells as much."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from itertools import combinations, pairwise
+from math import inf
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from modern.cli.main import main
+from modern.study import layout, plots
+from modern.study.chartfile import read_charts, write_charts
+from modern.study.plan import StudyFileError
+from modern.study.registry import names as studies
+from modern.study.report import Bars, Chart, Lines, Mark, Series
+from modern.study.statistics import Interval
+from tests.support.paths import ROOT
+
+NEEDS_MATPLOTLIB = pytest.mark.skipif(bool(plots.can_plot()), reason="needs matplotlib")
+
+
+def lines(count: int, places: int, apart: float = 0.0, **more: Any) -> Lines:
+    """Series of one value each, ``apart`` from one another, at places 1, 2, ..."""
+    series = tuple(
+        Series(
+            f"series {k}", tuple((float(n + 1), Interval(k * apart, k * apart, k * apart + 0.1)) for n in range(places))
+        )
+        for k in range(count)
+    )
+    return Lines("lines", "Lines", "x", "y", series, **more)
+
+
+def bars(count: int, places: int, **more: Any) -> Bars:
+    points = tuple((f"place {n}", Interval(0.5, 0.4, 0.6)) for n in range(places))
+    return Bars("bars", "Bars", "x", "y", tuple(Series(f"series {k}", points) for k in range(count)), **more)
+
+
+MARKS = (Mark(2, "a level"), Mark(3, "a place", upright=True))
+CHARTS: dict[str, Chart] = {
+    "one line": lines(1, 5, marks=MARKS, note="a note"),
+    "side by side": lines(3, 6, marks=MARKS, note="a note"),
+    "lines in panels": lines(6, 25, marks=MARKS, note="a note"),
+    "logarithmic": replace(lines(2, 8, marks=MARKS, note="n"), log_x=True),
+    "bars": bars(3, 5, marks=(Mark(2, "here", upright=True),), note="a note", percent=True),
+    "bars in panels": bars(5, 13, marks=(Mark(2, "here", upright=True),), note="a note", percent=True),
+}
+
+
+def laid_out(chart: Chart) -> Any:
+    """The chart's figure, with everything in its place."""
+    import matplotlib
+
+    with matplotlib.rc_context(plots._STYLE):
+        figure = plots.drawn(chart)
+        figure.draw_without_rendering()
+    return figure
+
+
+@NEEDS_MATPLOTLIB
+@pytest.mark.parametrize("chart", CHARTS.values(), ids=CHARTS)
+def test_names_and_notes_stand_off_the_curves(chart: Chart) -> None:
+    figure = laid_out(chart)
+    legends = [legend.get_window_extent() for legend in figure.legends]
+    texts = [text.get_window_extent() for text in figure.texts]
+    boxes = [axes.get_window_extent() for axes in figure.axes if axes.axison]
+    assert not any(box.overlaps(other) for box in boxes for other in (*legends, *texts))
+    assert not any(box.overlaps(other) for box, other in combinations((*legends, *texts), 2))
+    # Nor on the numbers and the words of an axis.
+    around = [axes.get_tightbbox() for axes in figure.axes if axes.axison]
+    assert not any(box.overlaps(other) for box in around for other in legends)
+    assert not any(axes.texts or axes.get_legend() for axes in figure.axes)
+    page = figure.bbox
+    assert all(page.x0 <= box.x0 and box.x1 <= page.x1 for box in (*legends, *texts))
+    assert {text.get_text() for legend in figure.legends for text in legend.get_texts()} >= {
+        mark.words for mark in chart.marks
+    }
+
+
+@NEEDS_MATPLOTLIB
+@pytest.mark.parametrize("chart", [lines(3, 6), lines(5, 13), lines(6, 25), lines(6, 6, 0.01)])
+def test_no_series_hides_another(chart: Lines) -> None:
+    """Marks at one place are 3.4 points of print apart, or each series has axes on which it alone has marks."""
+    figure = laid_out(chart)
+    alone = [axes for axes in figure.axes if axes.axison]
+    marked = [[line for line in axes.lines if line.get_marker() not in ("", "None", None)] for axes in alone]
+    # The caps of the intervals are lines with marks too, of a hair's breadth.
+    marked = [[line for line in found if line.get_linestyle() not in ("None", "")] for found in marked]
+    if len(alone) > 1:
+        assert [len(found) for found in marked] == [1] * len(chart.series)
+        return
+    assert len(marked[0]) == len(chart.series)
+    points = [line.get_transform().transform(line.get_xydata()) * 72 / figure.dpi for line in marked[0]]
+    for one, other in combinations(points, 2):
+        for a, b in zip(one, other, strict=True):
+            assert ((a - b) ** 2).sum() ** 0.5 > 0.9 * layout.APART
+
+
+def test_series_with_room_stand_side_by_side_and_those_without_in_panels() -> None:
+    assert layout.steps(lines(3, 6)) == (-5.5, 0.0, 5.5)
+    assert layout.steps(lines(2, 6, apart=1.0)) == (0.0, 0.0)
+    assert not layout.panels(lines(3, 6))
+    assert layout.panels(lines(6, 25))
+    assert not layout.panels(lines(6, 25, apart=1.0))
+    assert not layout.panels(bars(6, 8))
+    assert layout.panels(bars(6, 9))
+
+
+@NEEDS_MATPLOTLIB
+def test_series_side_by_side_are_said_to_be_so() -> None:
+    said = [[text.get_text() for text in laid_out(lines(2, 6, apart)).texts] for apart in (0.0, 1.0)]
+    assert said == [["Lines", "marks stand side by side about their place"], ["Lines"]]
+
+
+@NEEDS_MATPLOTLIB
+def test_numbers_have_the_signs_of_print() -> None:
+    points = tuple((float(k), Interval(k / 10, k / 10, k / 10)) for k in range(-6, 3))
+    chart = Lines("x", "e", "e", "of all", (Series("1E-3", points),), percent=True, powers=True)
+    (axes,) = laid_out(chart).axes
+    x, y = ([text.get_text() for text in axis.get_ticklabels()] for axis in (axes.xaxis, axes.yaxis))
+    assert {"10⁻⁶", "10⁻²", "10⁰"} <= set(x)
+    assert {"−20 %", "0 %", "20 %"} <= set(y)
+    assert not any("-" in text or "^" in text for text in (*x, *y))
+
+
+@pytest.mark.parametrize(
+    ("text", "printed"),
+    [
+        ("e = 10^-3", "e = 10⁻³"),
+        ("10^12", "10¹²"),
+        ("k, where e = 10^k", "k, where e = 10ᵏ"),
+        ("gap 1E-5", "gap 10⁻⁵"),
+        ("2.5E+3", "2.5 × 10⁺³"),
+        ("from -1.5 to -.5", "from −1.5 to −.5"),
+        ("program1 196+2", "program1 196+2"),
+        ("two-digit 3d-1 1963-1964 P3-025", "two-digit 3d-1 1963-1964 P3-025"),
+        ("example1E5", "example1E5"),
+    ],
+)
+def test_text_has_the_signs_of_print(text: str, printed: str) -> None:
+    assert layout.typeset(text) == printed
+
+
+def lightness(colour: str) -> float:
+    """CIE L* of an sRGB colour, 0 to 100 (CIE 15:2004)."""
+    parts = [int(colour[k : k + 2], 16) / 255 for k in (1, 3, 5)]
+    red, green, blue = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in parts)
+    y = 0.2126 * red + 0.7152 * green + 0.0722 * blue
+    return 116 * y ** (1 / 3) - 16 if y > (6 / 29) ** 3 else y * (29 / 3) ** 3
+
+
+def test_series_differ_without_hue() -> None:
+    """Lines in lightness, mark and pattern; bars in lightness or hatching; neighbours more than others."""
+    dark = [lightness(colour) for colour in plots.COLOURS]
+    assert min(abs(a - b) for a, b in combinations(dark, 2)) > 8
+    assert min(abs(a - b) for a, b in pairwise(dark)) > 20
+    assert len(set(plots.MARKERS)) == len(set(plots.LINES)) == len(plots.COLOURS)
+    light = list(zip(map(lightness, plots.FILLS), plots.HATCHES, strict=True))
+    assert all(abs(a - b) > 10 or h != i for (a, h), (b, i) in combinations(light, 2))
+    assert min(map(lightness, plots.FILLS)) > 55, "an interval in black shows on every bar"
+
+
+NUMBERS = st.floats(allow_nan=False, allow_infinity=False)
+INTERVALS = st.builds(Interval, NUMBERS, NUMBERS | st.just(-inf), NUMBERS | st.just(inf))
+
+
+@given(st.lists(st.tuples(NUMBERS, INTERVALS)), st.text(st.characters(codec="utf-8")), st.booleans())
+def test_charts_are_read_as_they_were_written(
+    tmp_path_factory: pytest.TempPathFactory, points: list[tuple[float, Interval]], words: str, log: bool
+) -> None:
+    folder = tmp_path_factory.mktemp("charts")
+    line = Lines("a-1", words, "x", words, (Series(words, tuple(points)),), marks=(Mark(1.5, words, log),), log_y=log)
+    bar = Bars("b", "", "", "", (Series("s", tuple((str(x), e) for x, e in points)),), percent=log, note=words)
+    write_charts(folder, (line, bar))
+    assert read_charts(folder) == (line, bar)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        *("", "{", "3", "[3]", "[{}]", '"abc"', "[" * 100_000),
+        '[{"kind": "pie", "name": "a", "marks": [], "series": []}]',
+        *(
+            json.dumps(
+                [{"kind": "lines", "name": "a", "title": "", "x": "", "y": "", "marks": [], "series": [], **wrong}]
+            )
+            for wrong in (
+                {"name": "../a"},
+                {"name": ""},
+                {"name": 3},
+                {"percent": 1},
+                {"more": ""},
+                {"marks": [{"at": "x", "words": "", "upright": False}]},
+                {"series": [{"name": "s", "points": [[1, 2, 3]]}]},
+                {"series": [{"name": "s", "points": [["p", 2, 3, 4]]}]},
+                {"kind": "bars", "series": [{"name": "s", "points": [[1, 2, 3, 4]]}]},
+            )
+        ),
+    ],
+)
+def test_a_damaged_file_of_charts_is_said_in_a_line(
+    tmp_path: Path, text: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "charts.json").write_text(text)
+    assert main(["study", "--redraw", str(tmp_path)]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.endswith("charts.json: not the charts of a study\n")
+    assert err.count("\n") == 1
+    assert [path.name for path in tmp_path.iterdir()] == ["charts.json"]
+
+
+def test_a_folder_without_charts_is_said_in_a_line(tmp_path: Path) -> None:
+    with pytest.raises(StudyFileError, match=r"charts\.json: no such file"):
+        read_charts(tmp_path)
+
+
+@NEEDS_MATPLOTLIB
+def test_charts_are_drawn_anew_as_they_were(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    first, again = tmp_path / "first", tmp_path / "again"
+    for folder in (first, again):
+        folder.mkdir()
+        write_charts(folder, CHARTS.values())
+    for chart in CHARTS.values():
+        plots.draw(chart, first)
+    assert main(["study", "--redraw", str(again)]) == 0
+    assert capsys.readouterr().out.count("\n") == len(CHARTS)
+    assert {path.name: path.read_bytes() for path in first.iterdir()} == {
+        path.name: path.read_bytes() for path in again.iterdir()
+    }
+
+
+@pytest.mark.parametrize("name", studies())
+def test_the_committed_charts_are_those_of_the_report_and_hide_nothing(name: str) -> None:
+    folder = ROOT / "docs" / "studies" / name
+    charts = read_charts(folder)
+    assert {f"{chart.name}.svg" for chart in charts} == {path.name for path in folder.glob("*.svg")}
+    report = (folder / "report.md").read_text(encoding="utf-8")
+    for chart in charts:
+        assert f"![{chart.title}]({chart.name}.svg)" in report
+        for series in chart.series:
+            assert all(e.low <= e.value <= e.high for _, e in series.points)
+            assert (
+                not chart.percent or name == "translation" or all(0 <= e.low <= e.high <= 1 for _, e in series.points)
+            )
+        if isinstance(chart, Lines) and not layout.panels(chart):
+            assert max(layout.hidden(chart)) < 1
