@@ -252,7 +252,7 @@ def _standing(axes: Any, chart: Chart) -> None:
 
 def _lying(axes: Any, chart: Chart, k: int) -> None:
     """One series' bars, one below another."""
-    from matplotlib.ticker import FuncFormatter
+    from matplotlib.ticker import FuncFormatter, MaxNLocator
 
     found, series = names(chart), chart.series[k]
     middle = [found.index(str(place)) for place, _ in series.points]
@@ -261,6 +261,7 @@ def _lying(axes: Any, chart: Chart, k: int) -> None:
     axes.errorbar(lengths, middle, xerr=_errors(series), **_WHISKERS)
     axes.set_yticks(range(len(found)), [typeset(name) for name in found], fontsize=8)
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: number(value, chart.percent)))
+    axes.xaxis.set_major_locator(MaxNLocator(2))
     axes.tick_params(axis="x", labelsize=8)
     axes.set_ylim(len(found) - 0.4, -0.6)
     axes.set_xlim(left=0)
