@@ -5,18 +5,15 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Sequence
-from fractions import Fraction
 from itertools import combinations, pairwise, product
 from random import Random
 
-from modern.edition.chapter3_claims import COUNT, points_of, triples
-from modern.edition.sampled_sets import Point, sampled_sets, through, value
-from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, Verdict, counterexample, seen
+from modern.edition.chapter3_claims import COUNT, points_of
+from modern.edition.sampled_sets import Point, sampled_sets, value
+from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, seen
 from modern.exact_hull import ExactHull, exact_hull
-from modern.formats.off import parse_off
 from modern.geometry.vectors import cross, dot, minus
 from modern.papers.appel_will import Method, appel_will, printed
-from modern.papers.appel_will.corners import preprocess
 from modern.papers.appel_will.edges import project
 from modern.papers.appel_will.star import as_corrected, as_printed, vorticity
 
@@ -125,14 +122,6 @@ def jarvis_deletions(kind: str = "") -> Seen:
     )
 
 
-def surface_three() -> Seen:
-    """The object of Fig. 4 with surface III as it is numbered: two of its lines are on no other surface."""
-    mesh = parse_off(counterexample("fig4_printed.off"), "fig4_printed.off")
-    sides = Counter(frozenset(pair) for face in mesh.faces for pair in zip(face, (*face[1:], face[0]), strict=True))
-    alone = sorted(tuple(sorted(k + 1 for k in side)) for side, n in sides.items() if n == 1)
-    return Seen(FAILS if alone else HOLDS, f"lines on one surface only: {', '.join(f'{a}-{b}' for a, b in alone)}")
-
-
 def properties(number: str) -> Seen:
     """A property of convex polyhedra, on the judge's hulls."""
     good = [right for points, judge in _hulls() for right in _PROPERTIES[number](points, judge)]
@@ -223,16 +212,6 @@ def numbers_of_combinations(kind: str) -> Seen:
     )
 
 
-def inside_corner_at_a_vertex(kind: str) -> Seen:
-    """A crown: rule ``any`` deletes a vertex of the hull."""
-    mesh = parse_off(counterexample("crown.off"), "crown.off")
-    points = [(int(x), int(y), int(z)) for x, y, z in mesh.points]
-    deleted = preprocess(points, mesh.faces, "any").deleted
-    lost = [k + 1 for k in deleted if k in exact_hull(points).vertices]
-    verdict: Verdict = HOLDS if kind == "figure" else CONDITION
-    return Seen(verdict if lost else FAILS, f"point {', '.join(map(str, lost))} is deleted")
-
-
 def outside_of_the_others() -> Seen:
     """The definition with all other images, against the judge's edges."""
     good = []
@@ -277,51 +256,6 @@ def star_by_the_letter() -> Seen:
     )
 
 
-def vertex_on_no_convex_plane() -> Seen:
-    """A pit in every face of a tetrahedron: no face of the object supports, its corners are vertices all the same."""
-    corners: list[Point] = [(0, 0, 0), (12, 0, 0), (0, 12, 0), (0, 0, 12)]
-    faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
-    points = list(corners)
-    surfaces: list[tuple[int, int, int]] = []
-    for face in faces:
-        middle = tuple(sum(corners[k][axis] for k in face) // 3 + (1 if face != (1, 2, 3) else -1) for axis in range(3))
-        points.append((middle[0], middle[1], middle[2]))
-        surfaces += [(a, b, len(points) - 1) for a, b in zip(face, (*face[1:], face[0]), strict=True)]
-    supporting = 0
-    for surface in surfaces:
-        values = [value(through(*(points[k] for k in surface)), point) for point in points]
-        supporting += max(values) <= 0 or min(values) >= 0
-    good = supporting == 0 and exact_hull(points).vertices == (0, 1, 2, 3)
-    return seen(good, f"{len(surfaces)} surfaces, {supporting} of them supporting; four vertices")
-
-
-def many_objects_one_hull() -> Seen:
-    """A cube with 1, 2 and 3 further points inside has the cube's hull."""
-    hulls = [
-        exact_hull([*((4 * x, 4 * y, 4 * z) for x, y, z in CUBE), *((k, k, 1) for k in range(1, 1 + n))])
-        for n in (1, 2, 3)
-    ]
-    return seen(all(h.vertices == tuple(range(8)) and len(h.facets) == 6 for h in hulls), "three objects, one hull")
-
-
-def unit_directions() -> Seen:
-    """x1 + a t passes through both ends, at t = 0 and at t = l; the plane's d puts its point on it."""
-    good = []
-    for p, q, r in triples():
-        square = dot(minus(q, p), minus(q, p))
-        good.append(all(a + Fraction(b - a, square) * square == b for a, b in zip(p, q, strict=True)))
-        plane = through(p, q, r)
-        good.append(plane[3] == -dot(plane[:3], q))
-    return seen(all(good), "exactly, for six lines and planes, t in units of the length")
-
-
-def product_of_directions() -> Seen:
-    """Two sides of a triangle that meet at an obtuse angle: the product of their directions is negative."""
-    p, corner, r = points_of("obtuse.csv")
-    product_ = dot(minus(p, corner), minus(r, corner))
-    return Seen(FAILS if product_ < 0 else HOLDS, f"the product is {product_}, the angle between 90 and 180 degrees")
-
-
 def step_by_the_letter(step: str) -> Seen:
     """A step of the appendix by the letter, on its counterexample."""
     name = {"step5": "fig14.csv", "step7": "octahedron.csv", "step9": "pentagon.csv", "step10": "fig14.csv"}[step]
@@ -357,11 +291,3 @@ def planar_graph() -> Seen:
         good.append(reached == {*hull.vertices})
         good.append(len(hull.vertices) - len(hull.edges()) + len(hull.facets) == 2)
     return seen(all(good), f"{len(good)} conditions of faces, vertices and hulls")
-
-
-def complex_object_simple_hull() -> Seen:
-    """A pit of 27 points in a cube's top, and the cube has its eight vertices and six faces still."""
-    cube = [(8 * x, 8 * y, 8 * z) for x, y, z in CUBE]
-    pit = [(x, y, 7 - (x + y) % 3) for x in range(1, 8, 1) for y in range(1, 8, 2)][:27]
-    hull = exact_hull([*cube, *pit])
-    return seen(hull.vertices == tuple(range(8)) and len(hull.facets) == 6, f"{8 + len(pit)} points, 8 vertices")

@@ -5,15 +5,13 @@ from __future__ import annotations
 from itertools import combinations, pairwise, product
 
 from modern.edition.appel_will_claims import CUBE, Flat
-from modern.edition.chapter3_claims import COUNT, points_of, triples
-from modern.edition.sampled_sets import Point, sampled_sets, through, value
+from modern.edition.chapter3_claims import COUNT, points_of
+from modern.edition.sampled_sets import Point, sampled_sets
 from modern.edition.statements import FAILS, HOLDS, Seen, seen
 from modern.exact_hull import exact_hull
-from modern.geometry.vectors import cross, dot, minus
 from modern.papers.appel_will import Method, appel_will
-from modern.papers.appel_will.corners import preprocess
 from modern.papers.appel_will.edges import project
-from modern.papers.appel_will.star import as_corrected, as_printed
+from modern.papers.appel_will.star import as_corrected, as_printed, star_polygon, vorticity
 
 
 def new_lines() -> Seen:
@@ -43,20 +41,21 @@ def points_in_line() -> Seen:
 def star_tells_inside(kind: str = "") -> Seen:
     """Grid points against five points of a plane: the senses around the star tell who is in their hull.
 
-    ``change``: outside, whenever a sense changes; a point on the border counts as outside.
+    A point on the border counts as inside (Fig. 12, III).  ``change``: outside, whenever two sides turn differently.
     """
-    five = [(0, 0), (6, 1), (7, 5), (2, 6), (3, 3)]
-    good = []
-    for x, y in product(range(-1, 9, 2), range(0, 8, 2)):
+    five = [(0, 0), (6, 0), (7, 5), (0, 6), (3, 3)]
+    good, border = [], 0
+    for x, y in product(range(-1, 9), range(0, 8, 2)):
         images = [(a - x, b - y) for a, b in five]
         if (0, 0) in images:
             continue
         hull = exact_hull([*((a, b, 0) for a, b in five), (x, y, 0)])
-        inside = 5 in hull.inside
-        outside = as_corrected(images)
-        if 5 not in hull.boundary:
-            good.append(outside != inside if not kind else not outside or not inside)
-    return seen(all(good), f"{len(good)} points")
+        held = 5 not in hull.vertices
+        border += 5 in hull.boundary
+        star = star_polygon(images)
+        senses = {turn > 0 for a, b in zip(star, (*star[1:], star[0]), strict=True) if (turn := vorticity(a, b))}
+        good.append(as_corrected(images) != held if not kind else len(senses) == 1 or not held)
+    return seen(all(good) and border > 0, f"{len(good)} points, {border} of them on the border")
 
 
 def closed_loops(kind: str = "") -> Seen:
@@ -82,39 +81,3 @@ def star_in_the_text() -> Seen:
     cube = points_of("cube.csv")
     found = appel_will(cube, method=Method(star=as_printed)).edges
     return Seen(FAILS if len(found) > 12 else HOLDS, f"{len(found)} edges of a cube")
-
-
-def normal_line() -> Seen:
-    """From a point of a plane along its normal: at t the value of the plane is t times the normal's square."""
-    good = []
-    for p, q, r in triples():
-        plane = through(p, q, r)
-        square = dot(plane[:3], plane[:3])
-        for t in (-2, 0, 3):
-            x, y, z = (a + t * n for a, n in zip(p, plane[:3], strict=True))
-            good.append(value(plane, (x, y, z)) == t * square)
-    return seen(all(good), f"{len(good)} points of normals; with unit normals the value is t")
-
-
-def line_must_run() -> Seen:
-    """Fig. 18's determinants with the line run the other way: each sign turns."""
-    rows = {"512": ((-1, 0, 0), (0, 0, -1), (0, -1, 0)), "723": ((-1, 0, 0), (0, -1, 0), (0, 0, -1))}
-    found = {}
-    for name, matrix in rows.items():
-        i, k, m = (tuple(row[column] for row in matrix) for column in range(3))
-        triple = dot(i, cross(k, m))  # type: ignore[arg-type]
-        back = dot(minus((0, 0, 0), i), cross(k, m))  # type: ignore[arg-type]
-        found[name] = (triple, back)
-    return seen(found == {"512": (1, -1), "723": (-1, 1)}, "[512] is 1 and [723] -1; run the other way -1 and 1")
-
-
-def corners_of_three_planes() -> Seen:
-    """An L of three cubes, where three planes meet at each point: no point of its inside corner is a vertex."""
-    ring: list[Flat] = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
-    points: list[Point] = [(x, y, z) for z in (0, 1) for x, y in ring]
-    faces = [tuple(range(5, -1, -1)), tuple(range(6, 12))]
-    faces += [(k, (k + 1) % 6, (k + 1) % 6 + 6, k + 6) for k in range(6)]
-    deleted = preprocess(points, faces, "any").deleted
-    meeting = {sum(k in face for face in faces) for k in range(12)}
-    good = {*deleted} == {3, 9} and meeting == {3} and not {*deleted} & {*exact_hull(points).vertices}
-    return seen(good, f"points {', '.join(str(points[k]) for k in sorted(deleted))} are deleted")

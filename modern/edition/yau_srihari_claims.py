@@ -1,4 +1,4 @@
-"""Claims of Yau and Srihari: convexity, continuous and digital, the two theorems, and each statement as printed."""
+"""Claims of Yau and Srihari: envelopes, the two theorems, floor and ceiling, and each statement as printed."""
 
 from __future__ import annotations
 
@@ -18,11 +18,8 @@ from modern.geometry.vectors import dot, minus
 from modern.papers.yau_srihari import OctreeHull, Printed, octree_hull
 from modern.papers.yau_srihari.convexity import (
     convex_deficiency,
-    half_cell_expansion,
     is_digitally_convex,
-    is_midpoint_convex,
     is_simple,
-    midpoint_cover,
 )
 from modern.papers.yau_srihari.search import normal_of
 
@@ -32,18 +29,18 @@ SOLID: tuple[Point, ...] = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (2, 1, 0), (2, 1, 1
 _GRID: tuple[Point, ...] = tuple((x, y, z) for x in range(3) for y in range(3) for z in range(3))
 
 
-def _array(voxels: tuple[Point, ...] | list[Point]) -> Voxels:
+def array_of(voxels: tuple[Point, ...] | list[Point]) -> Voxels:
     return listed(voxels).array
 
 
 @cache
 def _hull() -> OctreeHull:
-    return octree_hull(_array(SOLID))
+    return octree_hull(array_of(SOLID))
 
 
 def printed(name: str) -> Seen:
     """A statement as printed, on its counterexample: against the corrected algorithm."""
-    array = _array(points_of(f"yau_{name}.csv"))
+    array = array_of(points_of(f"yau_{name}.csv"))
     wrong, right = octree_hull(array, Printed.only(name)).filled, octree_hull(array).filled
     missing, more = int((right & ~wrong).sum()), int((wrong & ~right).sum())
     return Seen(
@@ -54,8 +51,8 @@ def printed(name: str) -> Seen:
 def no_unique_minimum() -> Seen:
     """Two voxels at a corner: two digitally convex solids with three voxels hold them, and no smaller one does."""
     both: list[Point] = [(0, 0, 0), (1, 1, 0)]
-    least = [is_digitally_convex(_array([*both, third])) for third in ((1, 0, 0), (0, 1, 0))]
-    return seen(all(least) and not is_simple(_array(both)), "either voxel beside both makes a convex solid of three")
+    least = [is_digitally_convex(array_of([*both, third])) for third in ((1, 0, 0), (0, 1, 0))]
+    return seen(all(least) and not is_simple(array_of(both)), "either voxel beside both makes a convex solid of three")
 
 
 def between_the_envelopes() -> Seen:
@@ -73,19 +70,12 @@ def between_the_envelopes() -> Seen:
 
 def convex_deficiency_() -> Seen:
     """Hull less deficiency is the solid."""
-    array = _array(SOLID)
+    array = array_of(SOLID)
     missing = convex_deficiency(array)
     return seen(
         bool((_hull().filled & ~missing == array).all()),
         f"{int(missing.sum())} voxels of the hull are not of the solid",
     )
-
-
-def definitions_differ() -> Seen:
-    """Two voxels at a corner are midpoint convex and not a convex solid; a bend is neither."""
-    corner, bend = _array([(0, 0, 0), (1, 1, 0)]), _array([(0, 0, 0), (1, 0, 0), (2, 0, 0), (2, 1, 0), (2, 2, 0)])
-    found = [(is_midpoint_convex(a), is_digitally_convex(a)) for a in (corner, bend)]
-    return seen(found[0] == (True, False) and not found[1][1], "two voxels at a corner: by 3.2.2 convex, by 3.2.3 not")
 
 
 def euclidean_convexity() -> Seen:
@@ -133,44 +123,6 @@ def voxels_fill_space() -> Seen:
     return seen(all(good), f"{len(good)} coordinates")
 
 
-def midpoint_convexity() -> Seen:
-    """Covers of one to eight voxels; a gap in a row is not convex."""
-    sizes = [len(midpoint_cover((0, 0, 0), other)) for other in ((2, 2, 2), (1, 2, 2), (1, 1, 2), (1, 1, 1))]
-    gap = is_midpoint_convex(_array([(0, 0, 0), (2, 0, 0)]))
-    return seen(sizes == [1, 2, 4, 8] and not gap, f"covers of {', '.join(map(str, sizes))} voxels")
-
-
-def half_cell_expansion_() -> Seen:
-    """One voxel meets eight of the lattice moved by half a cell."""
-    found = int(half_cell_expansion(_array([(0, 0, 0)])).sum())
-    return seen(found == 8, f"{found} of one voxel, {int(half_cell_expansion(_array(SOLID)).sum())} of {len(SOLID)}")
-
-
-def simple_with_a_tunnel() -> Seen:
-    """A ring of twelve voxels around a cube's diagonal: simple, and its Euler number is that of a ring."""
-    array = _array(points_of("tunnel.csv"))
-    cells: set[Point] = set()
-    for x, y, z in np.argwhere(array).tolist():
-        cells.update((2 * x + i, 2 * y + j, 2 * z + k) for i, j, k in product(range(3), repeat=3))
-    euler = sum((-1) ** sum(c % 2 for c in cell) for cell in cells)
-    return Seen(
-        FAILS if is_simple(array) and euler == 0 else HOLDS, f"simple, and its Euler number is {euler}, a ball's is 1"
-    )
-
-
-def nearness() -> Seen:
-    """Points with a whole coordinate, and distances below 1 on all axes."""
-    p, q, far = (Fraction(1), Fraction(1, 2), Fraction(1, 3)), (1, 1, 1), (2, 1, 1)
-
-    def near(other: tuple[int, int, int]) -> bool:
-        return max(abs(a - b) for a, b in zip(p, other, strict=True)) < 1
-
-    return seen(
-        any(c.denominator == 1 for c in p) and near(q) and not near(far),
-        "(1, 1/2, 1/3) is near (1, 1, 1), not (2, 1, 1)",
-    )
-
-
 def hull_is_simple() -> Seen:
     """The digital hull of a connected solid is simple and passes the convexity test."""
     found = _hull()
@@ -183,19 +135,6 @@ def floor_and_ceiling(kind: str = "") -> Seen:
     columns = {(x, y): sorted(z for a, b, z in SOLID if (a, b) == (x, y)) for x, y, _ in SOLID}
     good = all(_hull().floor[at] == zs[0] and _hull().ceiling[at] == zs[-1] for at, zs in columns.items())
     return Seen((CONDITION if kind else HOLDS) if good else FAILS, f"{len(columns)} columns")
-
-
-def convex_functions() -> Seen:
-    """x^2 on small numbers: convex, its negative concave, and points above its graph a convex set."""
-    xs, shares = range(-3, 4), (Fraction(1, 3), Fraction(1, 2))
-    good = []
-    for x, y, m in product(xs, xs, shares):
-        mixed, at = (1 - m) * x * x + m * y * y, ((1 - m) * x + m * y) ** 2
-        good += [mixed >= at, -mixed <= -at, (1 - m) * (x * x + 1) + m * (y * y + 2) >= at]
-        good.append((1 - m) * (-x * x - 1) + m * (-y * y - 2) <= -at)
-    ends, top = [-x * x for x in (-1, 1)], 0
-    above = 2 * top <= sum(ends)
-    return seen(all(good) and not above, f"{len(good)} combinations; what is above -x^2 is no convex set")
 
 
 def negative_of_the_ceiling() -> Seen:
@@ -285,16 +224,3 @@ def outward_normals() -> Seen:
         ways = [sum(n * (a - b) for n, a, b in zip(normal, p, first, strict=True)) for p in floor]
         good.append(max(ways) == 0 and normal[2] < 0 and normal_of(*face.vertices[:3])[2] < 0)
     return seen(bool(good) and all(good), f"{len(good)} faces")
-
-
-def midpoint_covers() -> Seen:
-    """Voxels that hold midpoints of quarters of two voxels: just those of the cover."""
-    quarters = [Fraction(k, 4) for k in range(-2, 2)]
-    good = []
-    for other in ((2, 2, 2), (1, 2, 2), (1, 1, 2), (1, 1, 1), (3, 0, 1)):
-        axes = []
-        for c in other:
-            middles = [(a + c + b) / 2 for a in quarters for b in quarters]
-            axes.append({v for m in middles for v in range(-1, 4) if m - Fraction(1, 2) < v <= m + Fraction(1, 2)})
-        good.append(set(product(*axes)) == {*map(tuple, midpoint_cover((0, 0, 0), other))})
-    return seen(all(good), f"{len(good)} pairs of voxels")

@@ -136,7 +136,7 @@ def _cut(polygon: list[Place], axis: int, at: Fraction) -> Iterator[Place]:
 def _covered(segment: tuple[Place, Place], points: list[Voxel]) -> bool:
     """Whether every point of a segment is near a digital point, that is less than 1 away on every axis."""
     p, q = segment
-    spans = sorted(span for point in points if (span := _near(p, q, point)))
+    spans = sorted(span for point in points if (span := near_span(p, q, point)))
     reached = Fraction(0)
     if not any(low < 0 for low, _ in spans):
         return False
@@ -146,7 +146,7 @@ def _covered(segment: tuple[Place, Place], points: list[Voxel]) -> bool:
     return reached > 1
 
 
-def _near(p: Place, q: Place, point: Voxel) -> tuple[Fraction, Fraction] | None:
+def near_span(p: Place, q: Place, point: Voxel) -> tuple[Fraction, Fraction] | None:
     """The open interval of t in which p + t (q - p) is near a digital point, None where it nowhere is."""
     low, high = Fraction(-1), Fraction(2)
     for a, b, c in zip(p, q, point, strict=True):
