@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from fractions import Fraction
+from functools import cache
 from itertools import combinations, product
 
 import numpy as np
@@ -97,12 +98,12 @@ def nearness(kind: str = "semidigital") -> Seen:
     span are those less than 1 away on every axis.
     """
     judge, good = exact_hull(SOLID), []
-    segments = [*semidigital_segments(judge)]
+    segments = sorted({(min(ends), max(ends)) for ends in semidigital_segments(judge)})
     if kind == "semidigital":
         for face in judge.facets:
             corners = [SOLID[k] for k in face.polygon]
             axes = [axis for axis in range(3) if len({corner[axis] for corner in corners}) > 1]
-            for i, j in product(range(4), repeat=2):
+            for i, j in ((i, j) for i in range(3) for j in range(4)):
                 at = _of_triangle(corners, Fraction(i, 3), Fraction((3 - i) * j, 9))
                 on = any(_on_segment(at, *ends) for ends in segments)
                 good.append(on or all(at[axis].denominator > 1 for axis in axes))
@@ -147,7 +148,7 @@ FUNCTIONS: tuple[Height, ...] = (
 
 SHARES = (Fraction(1, 3), Fraction(1, 2), Fraction(2, 3))
 
-PLACES = tuple((Fraction(x), Fraction(y)) for x in (-2, 0, 1, 3) for y in (-1, 0, 2))
+PLACES = tuple((Fraction(x), Fraction(y)) for x in (-2, 0, 1, 3) for y in (-1, 2))
 
 
 def in_epigraph(f: Height, x: Fraction, y: Fraction, z: Fraction) -> bool:
@@ -161,14 +162,13 @@ def in_hypograph(f: Height, x: Fraction, y: Fraction, z: Fraction) -> bool:
 
 
 def convex_functions(kind: str = "segment") -> Seen:
-    """Nine functions of two coordinates by the inequality, at shares of 1/3, 1/2 and 2/3 between twelve places.
+    """Nine functions of two coordinates by the inequality, at shares of 1/3, 1/2 and 2/3 between eight places.
 
     ``segment``: of a convex one no chord is below the graph, of a concave one none above.  ``negative``: the negative
     of a convex one, and of no other, is concave.  ``G+``, ``G-``: epigraph, or hypograph, of just the convex, or the
     concave, ones holds what lies between two of its points, at heights from the graph on.
     """
-    convex = [f for f in FUNCTIONS if all(chord >= graph for chord, graph in _chords(f))]
-    concave = [f for f in FUNCTIONS if all(chord <= graph for chord, graph in _chords(f))]
+    convex, concave = _kinds()
     words = f"{len(convex)} convex, {len(concave)} concave of {len(FUNCTIONS)}"
     good = [(len(convex), len(concave)) == (4, 3)]
     for f in FUNCTIONS:
@@ -178,6 +178,14 @@ def convex_functions(kind: str = "segment") -> Seen:
             above = kind == "G+"
             good.append((f in (convex if above else concave)) == _is_convex_set(f, above))
     return seen(all(good), words)
+
+
+@cache
+def _kinds() -> tuple[list[Height], list[Height]]:
+    """Which of the functions are convex, and which are concave."""
+    chords = {f: [*_chords(f)] for f in FUNCTIONS}
+    convex = [f for f in FUNCTIONS if all(chord >= graph for chord, graph in chords[f])]
+    return convex, [f for f in FUNCTIONS if all(chord <= graph for chord, graph in chords[f])]
 
 
 def _negative(f: Height) -> Height:

@@ -12,6 +12,7 @@ import modern.edition.chapter3_stages as stages
 import modern.edition.kovalevsky_schulz_claims as kovalevsky
 import modern.edition.kovalevsky_schulz_complexes as complexes
 import modern.edition.nakamae_nishita_claims as nakamae
+import modern.edition.nakamae_nishita_tables as nakamae_tables
 from modern.edition import chapter4_claims, sampled_sets, statements
 from modern.edition.sampled_sets import SampledSet
 from modern.edition.statements import CONDITION, FAILS, HOLDS
@@ -148,7 +149,7 @@ def test_a_wrong_number_of_a_meeting_is_noticed(value: int, wrong: int, monkeypa
         return wrong if found == value else found
 
     monkeypatch.setattr(Tables, "crossing_number", changed)
-    assert nakamae.formula("3").verdict == FAILS
+    assert nakamae_tables.formula("3").verdict == FAILS
 
 
 def test_a_list_as_large_as_the_triangles_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
