@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import random
 from collections import Counter
 from fractions import Fraction
@@ -13,6 +14,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from modern.exact_hull import exact_hull
 from modern.geometry.coplanar import join
 from modern.geometry.mesh import ExportError, sides
 from modern.papers.appel_will import appel_will, printed
@@ -181,6 +183,27 @@ def test_no_two_lines_of_the_map_cross_and_every_region_is_convex(seed: int) -> 
                 turn = (q[0] - p[0]) * (r[1] - q[1]) - (q[1] - p[1]) * (r[0] - q[0])
                 signs[order == outer, turn > 0] += 1
         assert len(signs) == 2, signs
+
+
+@pytest.mark.parametrize(("corners", "rings"), [(3, 33), (4, 25)])
+def test_a_tall_map_has_no_region_turned_over(corners: int, rings: int) -> None:
+    """Rings one above another, each turned a little: the map's regions lie one within another, many deep."""
+    points = []
+    for level in range(rings):
+        height = (2 * level + 1) / rings - 1
+        wide = 10_000 * math.sqrt(1 - height * height)
+        turns = [2 * math.pi * (k + 0.37 * level) / corners for k in range(corners)]
+        points += [(round(wide * math.cos(t)), round(wide * math.sin(t)), round(10_000 * height)) for t in turns]
+    surfaces = [facet.polygon for facet in exact_hull(points).facets]
+    for outer in (0, len(surfaces) // 2):
+        places = embedded(surfaces, outer)
+        areas = []
+        for order, surface in enumerate(surfaces):
+            ring = [places[k] for k in surface]
+            if order != outer:
+                areas.append(sum(a * d - b * c for (a, b), (c, d) in zip(ring, ring[1:] + ring[:1], strict=True)))
+        assert len({area > 0 for area in areas}) == 1
+        assert min(map(abs, areas)) > 1e-4
 
 
 def test_the_map_has_every_line_point_and_surface_once() -> None:
