@@ -1,6 +1,6 @@
 """``hull1620`` and ``python -m hull1620``: the command.
 
-Until it is ready to end in good order, Ctrl-C ends the process without a word.
+Until it can end properly, Ctrl-C ends the process without a word.
 """
 
 import signal

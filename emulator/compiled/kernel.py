@@ -1,4 +1,4 @@
-"""The kernel: one loop over object code and storage, on integers only, for runs that nobody watches.
+"""The kernel: one loop over object code and storage, on integers only, for runs without an operator or a trace.
 
 Storage is two sequences, mantissas and exponents (emulator/numbers/arithmetic.py); a fixed-point number is its value
 with the exponent FIXED_POINT.  The loop runs until something outside the arithmetic is needed (input, output, a

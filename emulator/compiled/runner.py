@@ -47,7 +47,7 @@ _CARD_CODES = "".join(sorted(CHARACTERS)).encode("ascii")
 def why_plain(options: Options) -> str:
     """Why the compiled engine cannot run with these options, one line; empty where it can.
 
-    Code that cannot be made or loaded comes to light in :class:`Runner`.
+    Code that cannot be made or loaded is found out by :class:`Runner`.
     """
     if not isinstance(options.numbers, DecimalNumbers):
         return f"the compiled engine has no {options.numbers.name} numbers: {INSTEAD}"
@@ -154,7 +154,7 @@ class Runner:
         self.rules = profile.rules
         flags = options.bounds == "strict", profile.announces, options.hopper == "any"
         self.setting = (options.limit, *map(int, flags))
-        # Kept code that is damaged, or a numba of another kind, comes to light here, before a deck is begun.
+        # Kept code that is damaged, or a numba of another kind, is found out here, before a deck is begun.
         self.kernel = run_decks().ready(*self._arguments([]))
 
     def runs(self, packed: Sequence[bytes | None]) -> Iterator[Run | None]:

@@ -109,7 +109,7 @@ def _exact_power(size: int, power_of_ten: int, count: int, rules: Rules) -> tupl
     """``(size * 10**power_of_ten) ** count`` cut to the digits of the rules, or rounded where products are."""
     whole, scale = size ** abs(count), power_of_ten * abs(count)
     if count < 0:
-        # So many digits of the reciprocal that its cut is the exact one's: a quotient cut is cut for good.
+        # So many digits of the reciprocal that its cut is the exact one's: a quotient's further digits are lost.
         more = decimal_length(whole) + rules[0] + 1
         whole, scale = 10**more // whole, -scale - more
     kept, exponent = cut_decimal(whole, scale, rules[0] + 1)

@@ -20,8 +20,8 @@ class StrangeCards(EmulatorError):
 class Claim:
     """What differs; points by place in the input, faces that were not found by place in ``Hull.faces``.
 
-    ``polygons`` are the vertices said to be on each face that is none, of two and more; ``others`` counts the faces
-    with fewer.
+    ``polygons`` are the vertices said to be on each face that the hull does not have, of two and more; ``others``
+    counts the faces with fewer.
     """
 
     missed: tuple[int, ...] = ()

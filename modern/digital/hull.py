@@ -102,7 +102,7 @@ def digital_hull(
     directions: where the voxels of an array lie, see :func:`modern.digital.world.world_of`; the hull's voxels do not
     depend on it, its ``world`` and ``volume`` do.
 
-    Raises VolumeError for other arrays, for a place that is none, and where ``fast`` is asked for without numba;
+    Raises VolumeError for other arrays, for a place that is not valid, and where ``fast`` is asked for without numba;
     NoVoxels, which is a PointsError, where there are no voxels.
     """
     source = placed(volume, spacing, origin, directions)

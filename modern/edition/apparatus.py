@@ -72,7 +72,7 @@ class Rejected:
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One emendation, with the fields an edition owes its reader (DESIGN, executable apparatus).
+    """One emendation, with what a reader of an edition has to know of it.
 
     ``cause`` says whose the departure is: of ``ocr``, ``typist``, ``author``, ``editor``, or ``undecidable``.
     ``page`` follows from the witness lines the row touches, ``certainty`` from layer, kind and ground; neither is

@@ -1,4 +1,4 @@
-"""Claims of Appel and Will: properties of convex polyhedra, their two-dimensional methods, steps by the letter."""
+"""Claims of Appel and Will: properties of convex polyhedra, their two-dimensional methods, steps as printed."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def deleting_passes() -> Seen:
 
 
 def deleting_makes_nonconvex() -> Seen:
-    """A polygon with a convex point that is none after a nonconvex one beside it has gone."""
+    """A polygon with a convex point that is nonconvex once a nonconvex one beside it is deleted."""
     ring = [(0, 0), (10, 0), (10, 10), (6, 1), (5, 5), (4, 1), (0, 10)]
     before = {p for k, p in enumerate(ring) if _area(ring[k - 1], p, ring[(k + 1) % len(ring)]) > 0}
     left = [p for p in ring if p in before]
@@ -257,7 +257,7 @@ def star_by_the_letter() -> Seen:
 
 
 def step_by_the_letter(step: str) -> Seen:
-    """A step of the appendix by the letter, on its counterexample."""
+    """A step of the appendix as printed, on its counterexample."""
     name = {"step5": "fig14.csv", "step7": "octahedron.csv", "step9": "pentagon.csv", "step10": "fig14.csv"}[step]
     points = points_of(name)
     also = ("step3",) if step == "step9" else ()

@@ -15,7 +15,7 @@ from modern.papers.appel_will.star import as_corrected, as_printed, star_polygon
 
 
 def new_lines() -> Seen:
-    """A polygon with a notch: its hull has fewer points, and a line that is none of the polygon's."""
+    """A polygon with a notch: its hull has fewer points, and a line that the polygon does not have."""
     ring: list[Flat] = [(0, 0), (6, 0), (6, 6), (3, 2), (0, 6)]
     polygon = exact_hull([(x, y, 0) for x, y in ring]).polygon
     sides = {frozenset((k, (k + 1) % len(ring))) for k in range(len(ring))}
@@ -77,7 +77,7 @@ def closed_loops(kind: str = "") -> Seen:
 
 
 def star_in_the_text() -> Seen:
-    """Of a cube by the letter of the text on Fig. 12 there are more edges than twelve."""
+    """Of a cube the text on Fig. 12, as printed, gives more edges than twelve."""
     cube = points_of("cube.csv")
     found = appel_will(cube, method=Method(star=as_printed)).edges
     return Seen(FAILS if len(found) > 12 else HOLDS, f"{len(found)} edges of a cube")

@@ -182,7 +182,7 @@ def _programs(theorem: Theorem, load: Load) -> Seen:
 
 
 def procedure_of_4_8(kind: str = "") -> Seen:
-    """The procedure on the nine points: H_1, H_2 and H_5 are the text's; by the letter of page 29 there is no H_1.
+    """The procedure on the nine points: H_1, H_2 and H_5 are the text's; as page 29 has it there is no H_1.
 
     In between the procedure takes the points in another order.  The last point is then outside of six planes, which is
     what the ``theorem`` needs.

@@ -186,7 +186,7 @@ def check_everything(rows: list[Row], transcripts: bool, whole: str = "", worker
 _CHUNK = 8
 """Rows a process takes at a time: neighbours have a program in common."""
 _MANY = 20
-"""Rows for which it pays to begin further processes."""
+"""Rows from which on further processes save time."""
 
 
 def _listed_transcripts(places: Mapping[tuple[str, str], int]) -> list[Proof]:

@@ -64,7 +64,7 @@ class Excerpt:
     stretches: tuple[Stretch, ...]
 
     def line(self, witness_line: int) -> int | None:
-        """The document's line a witness line is; None for one that is none (blank, between two stretches)."""
+        """The document's line a witness line is; None for one of ours (blank, between two stretches)."""
         for stretch in self.stretches:
             if stretch.first <= witness_line <= stretch.last:
                 return stretch.at + witness_line - stretch.first

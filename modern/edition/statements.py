@@ -169,7 +169,7 @@ def judge(statement: Statement, results: Results) -> Judged:
     if verdicts:
         return Judged(statement, max(verdicts, key=_FROM_BEST.index), "; ".join(words))
     if statement.tests:
-        return Judged(statement, None, f"held by {', '.join(statement.tests)}")
+        return Judged(statement, None, f"checked by {', '.join(statement.tests)}")
     return Judged(statement, None, "")
 
 

@@ -196,7 +196,7 @@ def another_vertex() -> Seen:
 
 
 def epigraph_at_inner_nodes() -> Seen:
-    """Heights 0, 1, 1, 1 of four columns: by the letter the root, of least height 0, is full; the epigraph is not."""
+    """Heights 0, 1, 1, 1 of four columns: as printed the root, of least height 0, is full; the epigraph is not."""
     heights = {(0, 0): 0, (0, 1): 1, (1, 0): 1, (1, 1): 1}
     root_value, root_low = min(heights.values()), 0
     by_letter = 8 if root_low >= root_value else 0
@@ -204,9 +204,7 @@ def epigraph_at_inner_nodes() -> Seen:
     by_greatest = root_low >= max(heights.values())
     leaves = all((z >= height) == (z in range(height, 2)) for height in heights.values() for z in (0, 1))
     good = by_letter == 8 > epigraph == 5 and not by_greatest and leaves
-    return Seen(
-        CONDITION if good else FAILS, f"{by_letter} voxels by the letter at the root, {epigraph} in the epigraph"
-    )
+    return Seen(CONDITION if good else FAILS, f"{by_letter} voxels as printed at the root, {epigraph} in the epigraph")
 
 
 def pairs_of_points() -> Seen:

@@ -155,7 +155,7 @@ class _Run:
         on = strike_repeats(table, steps.satisfied(table, places), len(places), self.progress)
         vertex = are_vertices(on, count, len(places))
         self.progress.boundary += places.names(slice(count, None)) + places.names(np.flatnonzero(~vertex[:count]))
-        # With no vertex left the listing looks for the vertices of a plane in vain (199).
+        # With no vertex left the listing finds no vertices of a plane (199).
         known = self.finished("program3 212") if vertex.any() else replace(self.finished("program3 133"), status=ERROR)
         return replace(
             known,

@@ -114,7 +114,7 @@ class Facing:
 
 @cache
 def facing(name: str) -> Facing:
-    """The facing text of a built-in program.  Raises KeyError for a name that is none."""
+    """The facing text of a built-in program.  Raises KeyError for another name."""
     entry = programs.built_in(name)
     text = programs.text(entry.text)
     lines = build(text, entry.layers)

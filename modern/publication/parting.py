@@ -180,7 +180,7 @@ def _drawn(points: Sequence[Whole], loop: Sequence[int]) -> tuple[int, ...]:
 
 
 def _compared(right: set[int], found: set[int], points: Sequence[Whole]) -> list[str]:
-    """Vertices missed and vertices that are none, points counted from 1; equal points are one."""
+    """Vertices missed and points wrongly called vertices, counted from 1; equal points are one."""
     at = {points[n] for n in right}, {points[n] for n in found}
     missed = [n + 1 for n in sorted(right) if points[n] not in at[1]]
     extra = [n + 1 for n in sorted(found) if points[n] not in at[0]]

@@ -1,4 +1,4 @@
-"""Ctrl-C while a study works: the first lets what is in hand be finished, the second stops at once.
+"""Ctrl-C while a study works: the first lets what is begun be finished, the second stops at once.
 
 Where nothing has been finished yet, as while code is still being compiled, the first stops at once too.
 """

@@ -56,7 +56,7 @@ def run_study(
     command line, for the manifest.
 
     Interrupted in whatever way, the chunks finished are kept, and ``resume`` does the others; a first Ctrl-C lets those
-    in hand be finished, a second stops at once, both with KeyboardInterrupt.  The rows, and so the report, do not
+    begun be finished, a second stops at once, both with KeyboardInterrupt.  The rows, and so the report, do not
     depend on interruptions, workers or machine.  Where a script calls this with more than one worker, it must do so
     under ``if __name__ == "__main__":``, as the processes begin by importing it.
 

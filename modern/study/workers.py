@@ -101,7 +101,7 @@ def in_processes(
 ) -> Generator[Done]:
     """Each chunk with its rows, in whatever order they are done; one worker is this process itself.
 
-    ``interrupt`` is told what is in hand; once it is asked for, only that is finished.  Raises PlanError
+    ``interrupt`` is told what is begun; once it is asked for, only that is finished.  Raises PlanError
     where a chunk cannot be carried out, or a worker dies.
     """
     interrupt = interrupt or Interrupt()

@@ -72,6 +72,6 @@ def statement_summary(found: Sequence[Judged], paint: Paint, indented: Indented)
         if not judged.agrees:
             yield from indented(paint(f"{judged.statement.id}: found {judged.found}: {judged.seen}", DIFFERENT))
     held = sum(judged.found is None and judged.statement.verdict != UNTESTABLE for judged in found)
-    yield f"  computed just now: {sum(judged.found is not None for judged in found)}; held by a test: {held}"
+    yield f"  computed just now: {sum(judged.found is not None for judged in found)}; checked by a test: {held}"
     yield "  in full: hull1620 reproduce DOCUMENT, or a statement's id"
     yield ""

@@ -25,7 +25,7 @@ class Method:
 
 CORRECTED = Method()
 PRINTED = ("star", "step3", "step5", "step7", "step9", "step10")
-"""The rules that can be taken by the letter: Fig. 12's, and steps of the appendix."""
+"""The rules that can be taken as printed: Fig. 12's, and steps of the appendix."""
 
 
 def printed(*names: str) -> Method:

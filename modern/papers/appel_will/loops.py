@@ -23,10 +23,10 @@ class Rules:
     ``dot_condition``: of the lines L2 that will do, prefer one whose direction has a positive product with that of
     L1 (the main text's condition for two lines that give a plane), else take the first.  Without it the first is
     taken always, as step 3 has it.
-    ``step_5``, ``step_7``: "go back to step 2" by the letter, so that an L2 rejected there costs its L1 the turn; the
+    ``step_5``, ``step_7``: "go back to step 2" as printed, so that an L2 rejected there costs its L1 the turn; the
     corrected number is step 3.
-    ``step_9``: by the letter, which leaves out L1 and L2 only, not the other lines already on the loop.
-    ``step_10``: "start another loop at step 1" by the letter, so that every loop begins with all counts 0; the
+    ``step_9``: as printed, which leaves out L1 and L2 only, not the other lines already on the loop.
+    ``step_10``: "start another loop at step 1" as printed, so that every loop begins with all counts 0; the
     corrected number is step 2.
     """
 

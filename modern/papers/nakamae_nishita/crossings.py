@@ -73,7 +73,7 @@ def clipped(values: Values, first: int, last: int) -> Passage:
 def as_printed(
     values: Values, first: int, last: int, ends: tuple[Homogeneous, Homogeneous], contour: Sequence[Homogeneous]
 ) -> Passage:
-    """The passage by the letter of the paper: only intersections with d = -4 of formula (3) count.
+    """The passage as the paper prints it: only intersections with d = -4 of formula (3) count.
 
     A segment that ends on the contour, or runs through its corner, loses that intersection.
     """

@@ -1,7 +1,7 @@
 """Digital convexity as section 3.2 defines it, three ways, and the convex deficiency of section 1.
 
 A digital region is a set of voxels, here the truth values of an array.  All tests are exact.  3.2.1 asks for a convex
-object whose image the region is; only an object that is at hand can be proved to be one (:func:`is_image_of_hull`).
+object whose image the region is; only an object that is given can be proved to be one (:func:`is_image_of_hull`).
 3.2.2 asks of every two voxels for a voxel at their midpoint.  3.2.3 asks for a convex solid with the image of the
 half-cell expansion; Kim and Rosenfeld's test for it looks at the semidigital points on the faces of the hull.
 """

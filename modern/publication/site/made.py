@@ -60,7 +60,7 @@ def names() -> tuple[str, ...]:
 
 
 def make(name: str, argument: str) -> Made:
-    """What the maker of that name makes of an argument.  Raises ValueError for a name or an argument that is none."""
+    """What the maker of that name makes of an argument.  Raises ValueError for another name or argument."""
     if name not in names():
         raise ValueError(f"nothing is made by the name of {name!r}; there are {', '.join(names())}")
     maker: Maker = import_module(f"{pages.__name__}.{name.replace('-', '_')}")

@@ -241,7 +241,7 @@ def test_a_deck_finds_nothing_of_the_one_before() -> None:
 
 
 def test_columns_beyond_the_card_are_blank() -> None:
-    """They are not those of the card behind it."""
+    """They are not those of the card after it."""
     lines = ["1 READ 2,A", "TYPE 3,A", "READ 4", "TYPE 4", "GO TO 1", "2 FORMAT(49X,29X,F5.1)", "3 FORMAT(F5.1)"]
     lines += ["4 FORMAT(49X,29X,4HABCD)", "END"]
     card = f"{'77':78}1."

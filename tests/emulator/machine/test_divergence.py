@@ -108,7 +108,7 @@ def test_decisions_after_the_runs_have_met() -> None:
 
 
 def test_a_loop_that_ends_earlier_in_one_run() -> None:
-    """N is 3 in one run and 2 in the other: the DO decides differently, and the runs meet behind it."""
+    """N is 3 in one run and 2 in the other: the DO decides differently, and the runs meet after it."""
     lines = ["A=1./3.", "B=A*9.", "N=B", "DO 5 I=1,N", "5 K=I", "M=7", "END"]
     found = compared(*lines)
     decision = found.first_decision

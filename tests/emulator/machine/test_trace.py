@@ -19,7 +19,7 @@ def traced(*lines: str, data: tuple[str, ...] = (), limit: int = 1000, arithmeti
 
 
 def values(*lines: str, **setting: object) -> list[str]:
-    """What stands behind the statement's words on each line of the trace."""
+    """What follows the statement's words on each line of the trace."""
     return [line[52:].strip() for line in traced(*lines, **setting)[1:]]  # type: ignore[arg-type]
 
 

@@ -1,4 +1,4 @@
-"""``hull1620 diff``: routes held against the judge, and disagreements that are seen."""
+"""``hull1620 diff``: routes compared with the judge, and disagreements that are seen."""
 
 from __future__ import annotations
 

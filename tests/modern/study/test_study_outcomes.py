@@ -130,7 +130,7 @@ def answered(run: HullRun, one: Sample) -> tuple[str, str]:
 
 
 def test_changed_cards_are_what_they_say() -> None:
-    """What no deck at hand brings about: a plane twice, a vertex, a plane or a point too many."""
+    """What no deck of ours brings about: a plane twice, a vertex, a plane or a point too many."""
     run, one = run_of("example5")
     cards = list(run.final.result.punched)
     equations = next(k for k, card in enumerate(cards) if card.startswith("EQUATIONS"))

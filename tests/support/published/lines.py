@@ -39,7 +39,7 @@ def load(operation: str) -> tuple[Vector, ...]:
 
 
 def parsed(text: str) -> Iterator[Vector]:
-    """The vectors of a file's text.  Raises ValueError with the line's number for a line that is none."""
+    """The vectors of a file's text.  Raises ValueError with the line's number for a line that is no vector."""
     said: dict[str, str] = {}
     seen: set[str] = set()
     for row, line in enumerate(text.splitlines(), 1):

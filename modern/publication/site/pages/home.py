@@ -1,4 +1,4 @@
-"""The parts of the home page that are made from data: pictures, verdicts at a glance, how to cite."""
+"""The parts of the home page that are made from data: pictures, how many verdicts, how to cite."""
 
 from __future__ import annotations
 

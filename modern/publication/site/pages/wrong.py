@@ -1,4 +1,4 @@
-"""A set for which the programs give a hull that is none, beside the true one."""
+"""A set of which the programs give a wrong hull, beside the true one."""
 
 from __future__ import annotations
 
