@@ -8,11 +8,12 @@ For each variant (:mod:`modern.edition.variants`) the first of these that notice
               it, and programs 2 and 3 on the printed intermediate decks; of a card the listing alone has, no longer in
               agreement with the print up to order
 ``machine``   a deck whose cards are known from a second restoration comes out otherwise
-``equation``  the card computes a formula of chapter 3 (:data:`EQUATIONS`), and reads otherwise than it
-``sibling``   the card has the form of two other cards at least, names and numbers exchanged, and no longer has it
+``equation``  the card computes a formula of chapter 3 (:data:`EQUATIONS`, found by reading) and reads otherwise
+``sibling``   the card has the form of two other cards at least of the three listings (:func:`alike`), and reads so that
+              it has the form of none: names and numbers stand in another order, or something else does
 ``nothing``   none of them
 
-The last two are comparisons a reader makes, not runs.  Only decks whose run reaches the card are run, up to the first
+Those two are comparisons a reader makes, not runs.  Only decks whose run reaches the card are run, up to the first
 that differs.  Answers are kept one by one in the folder, so that a run is resumed where it ended.
 """
 
@@ -32,6 +33,7 @@ from emulator.compiled.batch import run_batch
 from emulator.errors import EmulatorError, Refused
 from emulator.language.cards import Deck, deck_from_text
 from emulator.language.compiler import compile_deck
+from emulator.language.expressions import is_fixed_name
 from emulator.language.objectcode import Program
 from emulator.language.parser import parse_statement
 from emulator.language.statements import sources
@@ -52,17 +54,18 @@ EQUATIONS: tuple[tuple[str, str, str, str], ...] = (
     ("program1", "113", "113+2", "(3.1)"),
     ("program1", "114", "114+2", "(3.2)"),
     ("program1", "115", "115+2", "(3.3)"),
-    ("program1", "182", "183", "(3.1)"),
-    ("program1", "189", "190", "(3.2)"),
-    ("program1", "191", "192", "(3.3)"),
-    ("program1", "125", "226", "the formula for V"),
+    ("program1", "183", "183", "(3.1)"),
+    ("program1", "190", "190", "(3.2)"),
+    ("program1", "192", "192", "(3.3)"),
+    ("program1", "125+1", "226", "the formula for V"),
     ("program1", "194", "194+4", "(3.4)"),
     ("program1", "200", "200+4", "(3.4)"),
-    ("program2", "102+7", "102+21", "(3.5)"),
-    ("program2", "133+10", "133+18", "(3.5)"),
+    ("program2", "102+7", "102+8", "the point C"),
+    ("program2", "102+9", "102+21", "(3.5)"),
+    ("program2", "133+13", "133+15", "(3.5)"),
     ("program3", "130+3", "130+10", "(3.4)"),
 )
-"""Program, first and last card, and the formula of chapter 3 they compute."""
+"""Program, first and last card, and the formula of chapter 3 that the floating-point assignments of these compute."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -212,9 +215,11 @@ def _in_the_examples(variant: Variant) -> Program | None:
 def equation_of(name: str, place: str) -> str:
     """The formula of chapter 3 a card computes; empty where it is none."""
     order = [s.place for s in statements(name)]
-    for program, first, last, formula in EQUATIONS:
-        if program == name and order.index(first) <= order.index(place) <= order.index(last):
-            return formula
+    source = statements(name)[order.index(place)].source
+    if source.kind == "assignment" and not is_fixed_name(source.text):
+        for program, first, last, formula in EQUATIONS:
+            if program == name and order.index(first) <= order.index(place) <= order.index(last):
+                return formula
     return ""
 
 
@@ -232,8 +237,13 @@ def _form(text: str) -> str:
     return re.sub(r"[A-Z][A-Z0-9]*|\d+", lambda m: seen.setdefault(m[0], f"<{len(seen)}>"), text)
 
 
+def alike(text: str) -> int:
+    """How many other cards of the three listings have a card's form: its names and numbers by their order alone."""
+    return max(_forms()[_form(text)] - 1, 0)
+
+
 def _unlike(variant: Variant) -> bool:
-    return _forms()[_form(variant.was)] > 2 and not (variant.reads and _forms()[_form(variant.reads)])
+    return alike(variant.was) >= 2 and not (variant.reads and _forms()[_form(variant.reads)])
 
 
 def ordered(names: Iterable[str] = programs.TEXTS) -> list[Variant]:

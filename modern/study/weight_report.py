@@ -11,7 +11,7 @@ from pathlib import Path
 from emulator.files import write_text
 from modern.edition import programs
 from modern.edition.variants import Variant
-from modern.study.weight import NOTICED, by_card, equation_of, ordered, silent
+from modern.study.weight import EQUATIONS, NOTICED, alike, by_card, equation_of, ordered, silent
 
 SEEN = ("print", "machine", "equation", "sibling")
 """What vouches for a reading, besides that it compiles."""
@@ -34,11 +34,12 @@ def _table(rows: Iterator[tuple[str, ...]] | list[tuple[str, ...]]) -> str:
 
 
 def cards_table(answers: Mapping[str, str]) -> Iterator[tuple[str, ...]]:
-    """A row a card: its place and words, what notices how many of its variants, and its formula of chapter 3."""
-    yield ("program", "card", "place", "statement", *NOTICED, "no change", "formula")
+    """A row a card: place and words, what notices how many of its variants, its formula, how many cards are alike."""
+    yield ("program", "card", "place", "statement", *NOTICED, "no change", "formula", "alike")
     for one, count in by_card(answers):
         numbers = (str(count[name]) for name in (*NOTICED, "no change"))
-        yield (one.program, str(one.card), one.place, one.was, *numbers, equation_of(one.program, one.place))
+        formula = equation_of(one.program, one.place)
+        yield (one.program, str(one.card), one.place, one.was, *numbers, formula, str(alike(one.was)))
 
 
 def unvouched(answers: Mapping[str, str]) -> list[Variant]:
@@ -65,8 +66,8 @@ def report(answers: Mapping[str, str]) -> str:
             if len(judged) < len(everything)
             else "."
         ),
-        f"{len(judged) - len(counted):,} change nothing in the object code and are not counted. Of the other",
-        f"{len(counted):,} the compiler refuses {len(counted) - len(compiling):,};",
+        f"{len(judged) - len(counted):,} have the object code and the storage map of the listing, and are not counted.",
+        f"Of the other {len(counted):,} the compiler refuses {len(counted) - len(compiling):,};",
         f"of the {len(compiling):,} that compile",
         f"{len(compiling) - len(unseen):,} ({_share(len(compiling) - len(unseen), len(compiling))}) are noticed and",
         f"{len(unseen):,} ({_share(len(unseen), len(compiling))}) by nothing.",
@@ -81,11 +82,7 @@ def report(answers: Mapping[str, str]) -> str:
     for how in dict.fromkeys(sorted(v.how for v in counted)):
         seen = Counter(answers[v.key] for v in counted if v.how == how)
         lines.append(f"| {how} | " + " | ".join(str(seen[name]) for name in NOTICED) + " |")
-    lines += [
-        "",
-        "`equation` and `sibling` are comparisons by eye, not runs: the card computes a formula of chapter 3, or has",
-    ]
-    lines += ["the form of two others at least.", "", "## Cards nothing vouches for", ""]
+    lines += ["", *_how_noticed(), "## Cards nothing vouches for", ""]
     lines += [
         "Two or more of their variants judged compile, and none is noticed by print, machine, equation or sibling:",
         "",
@@ -100,6 +97,40 @@ def report(answers: Mapping[str, str]) -> str:
     ]
     lines += [f"nothing notices ({len(unseen):,})."]
     return "\n".join(lines) + "\n"
+
+
+_HOW = """\
+## How each of them notices
+
+In this order; what notices a variant first is counted.
+
+- `compiler`: the deck no longer compiles. A variant with the object code and the storage map of the listing is no
+  reading of its own, and is not counted.
+- `print`: a printed example of chapter 6 comes out otherwise. Of program 1 the state that made the examples is run,
+  which has the same card; where it has not, the listing, whose cards agree with the print up to their order.
+- `machine`: a deck of the second restoration comes out otherwise.
+- `equation`: every run is the same, and the card is an assignment of floating-point numbers among those below, which
+  compute a formula of chapter 3. They were found by reading chapter and listing side by side; who knows the formula
+  sees that another reading is not it. `formula` in `cards.csv` names the formula of a card.
+- `sibling`: every run is the same, no formula is computed, and two other cards or more of the three listings have the
+  card's form, while the variant has the form of none. The form is the statement with its names and numbers replaced
+  by the order in which they first stand in it: `X(K)=X(K+1)` and `Y(J)=Y(J+1)` have one form, `X(K)=X(J+1)` has
+  another. `alike` in `cards.csv` is how many other cards have a card's form.
+
+| formula of chapter 3 | cards |
+|---|---|"""
+
+
+def _how_noticed() -> Iterator[str]:
+    yield from _HOW.splitlines()
+    for formula in dict.fromkeys(formula for *_, formula in EQUATIONS):
+        spans = [
+            f"{name} {first}" + (f" to {last}" if last != first else "")
+            for name, first, last, of in EQUATIONS
+            if of == formula
+        ]
+        yield f"| {formula} | {'; '.join(spans)} |"
+    yield ""
 
 
 def _share(some: int, of: int) -> str:
