@@ -14,6 +14,7 @@ _PLAIN = (
     ('<aside class="toc-drawer no-toc">', '<aside class="toc-drawer no-toc" aria-label="On this page">'),
     ('<button class="theme-toggle"', '<button type="button" class="theme-toggle"'),
     ('<div class="highlight"><pre>', '<div class="highlight"><pre tabindex="0">'),
+    ('<div class="table-wrapper', '<div tabindex="0" class="table-wrapper'),
     ('<th class="head"><p></p></th>', '<td class="head"></td>'),
     ('<th class="head', '<th scope="col" class="head'),
     ('<p class="caption" role="heading">', '<p class="caption">'),
@@ -26,7 +27,8 @@ _ROLE = re.compile(r'<svg class="flow" ([^>]*)role="img"')
 def mended(page: str) -> str:
     """A page's HTML, mended.
 
-    A flow chart holds links, so it is a group and no single picture; code that is too wide is scrolled by keyboard too.
+    A flow chart holds links, so it is a group and no single picture; code and tables that are too wide are
+    scrolled by keyboard too.
     """
     for there, instead in _PLAIN:
         page = page.replace(there, instead)

@@ -26,7 +26,7 @@ TAGS = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]
 KINDS = (
     *("index.html", "program2.html", "chart2.html", "errors.html", "article.html", "genindex.html", "search.html"),
     *("programs.html", "reference/commands.html", "how-to/own-study.html", "explanation/studies.html"),
-    *("studies/seventy/report.html", "reference/storage.html", "papers/appel_will.html"),
+    *("studies/divergence/report.html", "reference/storage.html", "papers/appel_will.html"),
 )
 ALL = os.environ.get("HULL1620_AXE") == "all"
 Theme = Literal["light", "dark"]
