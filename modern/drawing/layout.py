@@ -56,22 +56,22 @@ def lay_out(picture: Scene, width: int) -> Layout:
     )
 
 
-def fit(images: Sequence[Flat], width: int, highest: int) -> tuple[Callable[[Flat], Pixel], int]:
+def fit(images: Sequence[Flat], width: int, highest: int, margin: int = MARGIN) -> tuple[Callable[[Flat], Pixel], int]:
     """The map of images to pixels that fits them into ``width``, and ``highest`` without the margins, true to scale;
     and the height with the margins."""
     left, right = _ends(image[0] for image in images)
     low, high = _ends(image[1] for image in images)
-    room = width - 2 * MARGIN
+    room = width - 2 * margin
     scales = [Fraction(size) / extent for size, extent in ((room, right - left), (highest, high - low)) if extent]
     scale = min(scales, default=Fraction(0))
     tall = max(_LOWEST, -int(-(high - low) * scale // 1))
 
     def pixel(image: Flat) -> Pixel:
         x = (image[0] - (left + right) / 2) * scale + Fraction(width, 2)
-        y = ((low + high) / 2 - image[1]) * scale + Fraction(tall, 2) + MARGIN
+        y = ((low + high) / 2 - image[1]) * scale + Fraction(tall, 2) + margin
         return Pixel(round(100 * x), round(100 * y))
 
-    return pixel, tall + 2 * MARGIN
+    return pixel, tall + 2 * margin
 
 
 def _ends(numbers: Iterable[Fraction]) -> tuple[Fraction, Fraction]:

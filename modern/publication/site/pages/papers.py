@@ -1,0 +1,306 @@
+"""The pictures of the four papers' pages: what each method does, drawn from its own results."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from fractions import Fraction
+from itertools import combinations
+
+from modern.drawing import svg
+from modern.drawing.labels import Label, place_labels
+from modern.drawing.layout import Pixel, fit
+from modern.drawing.view import Eye, view
+from modern.edition.published import PAPERS, printed_lines
+from modern.geometry.mesh import sides
+from modern.geometry.vectors import Vector
+from modern.papers.appel_will import appel_will
+from modern.papers.appel_will.hull import Assembled
+from modern.papers.appel_will.loops import Loop
+from modern.papers.appel_will.pictures import solid_svg, star, star_svg
+from modern.papers.appel_will.planar import embedded, map_svg
+from modern.papers.appel_will.results import Solid, found_solid, printed_solid
+from modern.papers.appel_will.star import vorticity
+from modern.papers.kovalevsky_schulz.tables import all_rows
+from modern.publication import steps
+from modern.publication.site.made import Made, Part, one_of
+from modern.publication.site.markup import element, escape, table, text
+from modern.publication.site.pictures import figure
+from modern.publication.steps import EDGE_OF_CONTOUR, EYE, HIDDEN, REMOVED, SEEN, Level, Plate, Stroke
+
+WIDTH = 328
+"""Of a picture of a strip, in pixels."""
+_MARGIN = 12
+_STYLES = {
+    SEEN: 'stroke="#000" stroke-width="1.1" stroke-linecap="round"',
+    EDGE_OF_CONTOUR: 'stroke="#000" stroke-width="1.8" stroke-linecap="round"',
+    HIDDEN: 'stroke="#777" stroke-width="0.9" stroke-dasharray="4 3"',
+    REMOVED: 'stroke="#777" stroke-width="0.8" stroke-dasharray="3 3"',
+}
+_FONT = f'font-family="{svg.FONT}" font-size="13" fill="#000" text-anchor="middle"'
+_USES = (
+    'stroke="#777" stroke-width="0.9" stroke-dasharray="3 3"',
+    'stroke="#000" stroke-width="1.4"',
+    'stroke="#000" stroke-width="3"',
+)
+"""An edge by how many loops have used it."""
+
+
+def make(argument: str) -> Made:
+    """The pictures of a paper: ``appel-will``, ``kovalevsky-schulz``, ``yau-srihari`` or ``nakamae-nishita``."""
+    makers = {
+        "appel-will": _appel_will,
+        "kovalevsky-schulz": _cells,
+        "yau-srihari": _octree,
+        "nakamae-nishita": _hidden_lines,
+    }
+    return Made(tuple(Part(html=html) for html in makers[one_of(argument, makers)]()))
+
+
+def _strip(figures: Iterable[str], name: str) -> str:
+    """Pictures side by side, as many as there is room for."""
+    return element("ol", "".join(element("li", each) for each in figures), cls="strip", role="list", aria_label=name)
+
+
+def _appel_will() -> Iterator[str]:
+    printed = printed_solid(printed_lines(next(paper for paper in PAPERS if paper.name == "appel-will")))
+    fig14 = appel_will(found_solid("fig14").points)
+    fig23 = appel_will(found_solid("fig23").points)
+    yield _strip((_solid(printed, "4"), _solid(found_solid("fig18"), "18")), "Convex edges")
+    fig4 = appel_will(printed.points, printed.surfaces)
+    yield _strip((_star(fig4, fig4.edges[0]), _star(fig4, within(fig4))), "Star polygons")
+    count = len(fig14.table.loops)
+    loops = (_loop(fig14, number, loop) for number, loop in enumerate(fig14.table.loops, 1))
+    yield text("p", f"The {count} loops of Fig. 22, one after another; beside an edge, how often it was used so far.")
+    yield _strip(loops, "Loops growing")
+    words = (
+        f"The topological map of the object of Fig. 23 in the plane: {len(fig23.vertices)} points, "
+        f"{len(fig23.edges)} edges, {len(fig23.surfaces)} surfaces; no two edges cross."
+    )
+    yield figure(map_svg(fig23.surfaces, fig23.edges, width=340), "map23", escape(words), words=words)
+
+
+def _solid(solid: Solid, number: str) -> str:
+    hull = appel_will(solid.points, solid.surfaces)
+    lines = {tuple(sorted(line)) for surface in solid.surfaces for line in sides(surface)}
+    gone = len(lines.difference(hull.edges))
+    made = len(set(hull.edges) - lines)
+    told = f"Fig. {number}: {len(lines)} lines; {gone} of them are no convex edges, and {made} convex edges are new."
+    points = [(str(x), str(y), str(z)) for x, y, z in solid.points]
+    return figure(solid_svg(hull, points, solid.surfaces, width=320), f"solid{number}", escape(told), words=told)
+
+
+def within(hull: Assembled) -> tuple[int, int]:
+    """The first pair of vertices whose image lies within its star polygon, off all its sides."""
+    for pair in combinations(hull.vertices, 2):
+        images = star(hull, pair).images
+        if all(vorticity(a, b) > 0 for a, b in zip(images, (*images[1:], images[0]), strict=True)):
+            return pair
+    raise ValueError("every line lies in the hull's surface")
+
+
+def _star(hull: Assembled, pair: tuple[int, int]) -> str:
+    a, b = pair
+    found = "outside: the line is a convex edge" if pair in hull.edges else "within: it is none"
+    told = f"Fig. 4, line {a + 1}-{b + 1} seen along itself: C is {found}."
+    return figure(star_svg(hull, pair, width=320), f"star{a + 1}-{b + 1}", escape(told), words=told)
+
+
+def _loop(hull: Assembled, number: int, loop: Loop) -> str:
+    points = ", ".join(str(index + 1) for index in hull.surfaces[number - 1])
+    entries = " ".join(map(str, loop.entries))
+    told = f"Loop {number}: lines {entries}, surface {points}."
+    return figure(loop_svg(hull, number), f"loop{number}", escape(told), words=told)
+
+
+def loop_svg(hull: Assembled, number: int) -> str:
+    """The map in the plane when a loop was closed: its surface grey, each edge drawn by its uses, which stand beside.
+
+    The loop that is drawn as the outside has its surface around the picture.
+    """
+    loop, surfaces = hull.table.loops[number - 1], hull.surfaces
+    outer = max(range(len(surfaces)), key=lambda k: (len(surfaces[k]), -k))
+    places = {k: (Fraction(x), Fraction(y)) for k, (x, y) in embedded(surfaces, outer).items()}
+    pixel, height = fit(list(places.values()), WIDTH, WIDTH, 26)
+    at = {index: pixel(place) for index, place in places.items()}
+    mine = [at[index] for index in surfaces[number - 1]]
+    lines = [(at[a].place, at[b].place) for a, b in hull.edges]
+    names = [Label(*at[index].place, str(index + 1)) for index in sorted(at)]
+    middles = [
+        Label((at[a].x + at[b].x) / 200, (at[a].y + at[b].y) / 200, str(uses), 11.0)
+        for (a, b), uses in zip(hull.edges, loop.uses, strict=True)
+    ]
+    put = place_labels([*names, *middles], lines, [], (float(WIDTH), float(height)))
+
+    def edges(uses: int) -> Iterator[str]:
+        for (a, b), count in zip(hull.edges, loop.uses, strict=True):
+            if count == uses:
+                yield svg.line(at[a], at[b], f'data-uses="{uses}"')
+
+    def words(labels: Sequence[Label], where: Sequence[tuple[float, float]]) -> Iterator[str]:
+        for label, (x, y) in zip(labels, where, strict=True):
+            yield svg.text(Pixel(round(100 * x), round(100 * (y + label.size * 0.35))), label.text)
+
+    if number - 1 == outer:
+        ring = [Pixel(100, 100), Pixel(100 * WIDTH - 100, 100)]
+        ring += [Pixel(p.x, 100 * height - 100) for p in reversed(ring)]
+        path = "M" + "L".join(f"{svg.number(p.x)} {svg.number(p.y)}" for p in ring) + "ZM"
+        path += "L".join(f"{svg.number(p.x)} {svg.number(p.y)}" for p in mine) + "Z"
+        ground = [f'<path d="{path}" fill="#ddd" fill-rule="evenodd"/>']
+    else:
+        ground = [svg.polygon(mine, 'fill="#ddd"')]
+    items = [
+        *ground,
+        *(item for uses, style in enumerate(_USES) for item in svg.group(f"uses-{uses}", style, edges(uses))),
+        *svg.group("points", svg.VERTEX.attributes, (svg.circle(at[index], svg.RADIUS) for index in sorted(at))),
+        *svg.group("numbers", f'{_FONT} font-weight="bold"', words(names, put[: len(names)])),
+        *svg.group("counts", _FONT.replace('"13"', '"11"'), words(middles, put[len(names) :])),
+    ]
+    return svg.page(WIDTH, height, f"Loop {number}", items)
+
+
+def plates_svg(plates: Sequence[Plate], eye: Eye, titles: Sequence[str]) -> tuple[str, ...]:
+    """Pictures of plates from one direction and on one scale, as the text of SVG files."""
+    sight = view(eye)
+
+    def ends(plate: Plate) -> Iterator[Vector]:
+        for stroke in plate.strokes:
+            yield from (stroke.start, stroke.end)
+        for pane in plate.panes:
+            yield from pane.corners
+        yield from (point for point, _ in plate.points)
+
+    pixel, height = fit([sight.project(p) for plate in plates for p in ends(plate)], WIDTH, WIDTH, _MARGIN)
+
+    def at(point: Vector) -> Pixel:
+        return pixel(sight.project(point))
+
+    def lines(strokes: Iterable[Stroke], kind: str) -> Iterator[str]:
+        return (svg.line(at(stroke.start), at(stroke.end)) for stroke in strokes if stroke.kind == kind)
+
+    def shades(plate: Plate) -> Iterator[str]:
+        for pane in plate.panes:
+            level = f"{150 + round(90 * pane.light):02x}"
+            yield svg.polygon(map(at, pane.corners), f'fill="#{level * 3}"')
+
+    def dots(plate: Plate) -> Iterator[str]:
+        for point, hidden in plate.points:
+            yield svg.circle(at(point), "3.6", more='fill="#fff"' if hidden else 'fill="#000"')
+
+    def drawn(plate: Plate, title: str) -> str:
+        items = [
+            *svg.group("faces", 'stroke="#000" stroke-width="0.8"', shades(plate)),
+            *(
+                item
+                for kind in (REMOVED, HIDDEN, SEEN, EDGE_OF_CONTOUR)
+                for item in svg.group(kind, _STYLES[kind], lines(plate.strokes, kind))
+            ),
+            *svg.group("points", 'stroke="#000" stroke-width="1.1"', dots(plate)),
+        ]
+        return svg.page(WIDTH, height, title, items)
+
+    return tuple(drawn(plate, title) for plate, title in zip(plates, titles, strict=True))
+
+
+def _hidden_lines() -> Iterator[str]:
+    eye, plates = steps.hidden_lines()
+    everything, facing, nearer, result = plates
+    captions = (
+        f"1. All {len(everything.strokes)} lines.",
+        f"2. Dashed: the {facing.count(REMOVED)} edges go that have no face turned to the eye. Bold: contours.",
+        f"3. Dashed: {nearer.count(REMOVED)} pieces behind a nearer contour go.",
+        f"4. Dashed: {result.count(REMOVED)} pieces go that only divide one object (ghost lines). "
+        f"What is left is the drawing, {result.count(SEEN)} pieces.",
+    )
+    yield _strip(_figures(plates, eye, captions, "hidden"), "Hidden lines removed step by step")
+
+
+def _figures(plates: Sequence[Plate], eye: Eye, captions: Sequence[str], key: str) -> Iterator[str]:
+    for plate, picture, caption in zip(plates, plates_svg(plates, eye, captions), captions, strict=True):
+        yield figure(picture, f"{key}-{plate.name.replace(' ', '-')}", escape(caption), words=caption)
+
+
+def _cells() -> Iterator[str]:
+    found = steps.cells()
+    (_, (_, _, _, voxels)), *_ = found.counts
+    hull = found.hull
+    back = sum(hidden for _, hidden in found.plates[1].points)
+    captions = (
+        f"The {voxels} voxels of a ball of diameter {found.diameter}: 3-cells.",
+        f"The hull's {len(hull.vertices)} vertices, 0-cells; the {back} hidden ones are hollow.",
+        f"Its {len(hull.edges)} edges, 1-cells; hidden ones are dashed.",
+        f"Its {len(hull.faces)} faces, 2-cells; {len(found.plates[3].panes)} are seen.",
+    )
+    yield _strip(_figures(found.plates, EYE, captions, "cells"), "The cells of a ball's hull")
+    head = ("complex", "0-cells", "1-cells", "2-cells", "3-cells")
+    rows = [(escape(name), *map(str, numbers)) for name, numbers in found.counts]
+    yield table(head, rows, "Numbers of cells", "Cells by dimension")
+    listed = element("pre", escape("\n".join(all_rows(hull))), tabindex="0", aria_label="the cell list")
+    yield element("details", text("summary", "Its cell list, as Tables 1 to 3 have it") + listed)
+
+
+def _octree() -> Iterator[str]:
+    hull, levels = steps.rods()
+    yield text(
+        "p",
+        f"Three rods of {steps.RODS} voxels along the axes, {hull.given} voxels together, have a digital hull of "
+        f"{hull.voxels} voxels. Its octree, level by level:",
+    )
+    rows = [
+        (str(level.number), str(hull.side >> level.number), *map(str, (level.full, level.divided, level.empty)))
+        for level in levels
+    ]
+    yield table(
+        ("level", "side of a cube", "full", "divided", "empty"), rows, "The octree", "Cubes of the hull's octree"
+    )
+    shown = [level for level in levels if level.plate.strokes]
+    told = [f"The cubes that are full down to level {level.number}." for level in shown]
+    yield _strip(_figures([level.plate for level in shown], steps.ABOVE, told, "octree"), "Full cubes of the octree")
+    yield text(
+        "p",
+        "And the ceiling above, a quadtree: in every square the greatest height; dotted, no column. x is to the right, "
+        "y upward.",
+    )
+    yield _strip((_square(level, hull.side) for level in levels), "Quadrants of the ceiling")
+
+
+def _square(level: Level, side: int) -> str:
+    columns = sum(quadrant.height is not None for quadrant in level.quadrants)
+    told = (
+        f"Level {level.number}: columns in {columns} of {len(level.quadrants)} squares."
+        if level.number
+        else "Level 0: the whole."
+    )
+    return figure(quadrants_svg(level, side), f"quadrants{level.number}", escape(told), words=told)
+
+
+def quadrants_svg(level: Level, side: int) -> str:
+    """The quadrants of a level as squares, x to the right and y upward, the higher the lighter."""
+    room = WIDTH - 2 * _MARGIN
+    unit = 100 * room // side
+
+    def squares(there: bool) -> Iterator[str]:
+        for quadrant in level.quadrants:
+            if (quadrant.height is not None) == there:
+                x = 100 * _MARGIN + quadrant.x * unit
+                y = 100 * _MARGIN + (side - quadrant.y - quadrant.side) * unit
+                wide = svg.number(quadrant.side * unit)
+                grey = f"{190 + 60 * (quadrant.height or 0) // side:02x}" * 3
+                fill = f"#{grey}" if there else "none"
+                yield (
+                    f'<rect x="{svg.number(x)}" y="{svg.number(y)}" width="{wide}" height="{wide}" fill="{fill}" '
+                    f'data-side="{quadrant.side}"/>'
+                )
+
+    def heights() -> Iterator[str]:
+        for quadrant in level.quadrants:
+            if quadrant.height is not None:
+                x = 100 * _MARGIN + quadrant.x * unit + quadrant.side * unit // 2
+                y = 100 * _MARGIN + (side - quadrant.y) * unit - quadrant.side * unit // 2 + 450
+                yield svg.text(Pixel(x, y), str(quadrant.height))
+
+    items = [
+        *svg.group("empty", 'stroke="#777" stroke-width="0.8" stroke-dasharray="1.5 2.5"', squares(False)),
+        *svg.group("there", 'stroke="#000" stroke-width="0.9"', squares(True)),
+        *svg.group("heights", _FONT, heights()),
+    ]
+    return svg.page(WIDTH, WIDTH, f"Quadrants of level {level.number}", items)

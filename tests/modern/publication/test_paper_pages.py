@@ -1,0 +1,169 @@
+"""The pictures on the papers' pages: counts and lengths in them against the papers' results, and against algebra."""
+
+from __future__ import annotations
+
+import math
+import re
+from fractions import Fraction
+from itertools import combinations
+
+import pytest
+from lxml import etree
+
+from modern.digital.solids import ball
+from modern.edition.published import PAPERS, printed_lines
+from modern.geometry.vectors import dot, minus
+from modern.papers.appel_will import appel_will
+from modern.papers.appel_will.results import found_solid, printed_solid
+from modern.papers.nakamae_nishita.hidden import draw
+from modern.papers.nakamae_nishita.scenes import scene
+from modern.publication import steps
+from modern.publication.site.made import make
+from modern.publication.site.pages import papers
+from modern.publication.steps import EDGE_OF_CONTOUR, REMOVED, SEEN, Plate
+
+SVG = "{http://www.w3.org/2000/svg}"
+NAMES = ("appel-will", "kovalevsky-schulz", "yau-srihari", "nakamae-nishita")
+
+
+@pytest.fixture(scope="module", params=NAMES)
+def html(request: pytest.FixtureRequest) -> etree._Element:
+    """What is made for a paper, which has to nest as XML does."""
+    made = make("papers", request.param)
+    return etree.fromstring(f"<div>{''.join(part.html for part in made.parts)}</div>")
+
+
+def test_pictures_have_words_and_ids_of_their_own(html: etree._Element) -> None:
+    ids = [str(id) for id in html.xpath("//@id")]
+    assert len(set(ids)) == len(ids)
+    pictures = html.findall(f".//{SVG}svg")
+    assert len(pictures) >= 4
+    for picture in pictures:
+        assert picture.findtext(f"{SVG}title")
+        assert picture.findtext(f"{SVG}desc")
+        assert {picture.get("aria-labelledby"), picture.get("aria-describedby")} <= set(ids)
+        assert int(picture.get("width", "")) <= 340
+
+
+def test_a_paper_that_is_none_is_refused() -> None:
+    with pytest.raises(ValueError, match="'bentley' is not one of appel-will, kovalevsky-schulz, yau-srihari"):
+        make("papers", "bentley")
+
+
+def test_lines_of_a_loop_are_as_thick_as_they_were_used() -> None:
+    """Fig. 22: each loop's IUC; at the end of processing all are 2."""
+    hull = appel_will(found_solid("fig14").points)
+    for number, loop in enumerate(hull.table.loops, 1):
+        picture = etree.fromstring(papers.loop_svg(hull, number))
+        drawn = [int(line.get("data-uses", "")) for line in picture.iter(f"{SVG}line")]
+        assert sorted(drawn) == sorted(loop.uses)
+        beside = [int(text.text or "") for text in picture.findall(f".//{SVG}g[@class='counts']/{SVG}text")]
+        assert beside == list(loop.uses)
+    assert set(drawn) == {2}
+
+
+def test_the_line_within_its_star_polygon_is_no_edge() -> None:
+    """The middle of the line lies inside of the hull: on the inner side of every plane through three vertices that has
+    all points on one side."""
+    solid = printed_solid(printed_lines(next(paper for paper in PAPERS if paper.name == "appel-will")))
+    hull = appel_will(solid.points, solid.surfaces)
+    a, b = papers.within(hull)
+    assert (a, b) not in hull.edges
+    for surface in hull.outward():
+        p, q, r = (solid.points[k] for k in surface[:3])
+        u, v = minus(q, p), minus(r, p)
+        normal = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+        assert dot(normal, minus(solid.points[a], p)) + dot(normal, minus(solid.points[b], p)) < 0
+
+
+def _length(plate: Plate, *kinds: str) -> float:
+    """The length in space of all strokes of these kinds."""
+    return sum(math.dist(s.start, s.end) for s in plate.strokes if s.kind in kinds)
+
+
+def test_what_a_step_removes_is_what_the_next_lacks() -> None:
+    _, (everything, facing, nearer, result) = steps.hidden_lines()
+    assert _length(everything, SEEN) == pytest.approx(_length(facing, SEEN, EDGE_OF_CONTOUR, REMOVED))
+    assert _length(facing, SEEN, EDGE_OF_CONTOUR) == pytest.approx(_length(nearer, SEEN, REMOVED))
+    assert _length(nearer, SEEN) == pytest.approx(_length(result, SEEN, REMOVED))
+    assert all(plate.count(REMOVED) for plate in (facing, nearer, result))
+
+
+def test_all_lines_are_the_edges_and_figures_of_the_scene() -> None:
+    given = scene("house").make()
+    edges = sum(sum(map(len, item.faces)) // 2 for item in given)
+    figures = sum(len(figure.corners) for item in given for figure in item.figures)
+    _, (everything, *_) = steps.hidden_lines()
+    assert len(everything.strokes) == edges + figures
+
+
+def test_the_last_step_is_the_drawing() -> None:
+    given = scene("house")
+    drawing = draw(given.make, given.sight.observer(given.make))
+    _, plates = steps.hidden_lines()
+    assert plates[-1].count(SEEN) == len(drawing.pieces)
+
+
+def test_cells_of_the_ball() -> None:
+    """Voxels by Pythagoras; of the closed surfaces Euler's formula, and two triangles more than twice the vertices."""
+    found = steps.cells()
+    counts = dict(found.counts)
+    radius = Fraction(found.diameter, 2)
+    reach = range(-found.diameter, found.diameter + 1)
+    inside = {(x, y, z) for x in reach for y in reach for z in reach if x * x + y * y + z * z <= radius**2}
+    corners, edges, squares, voxels = counts["the ball's voxels and their boundary"]
+    assert voxels == len(inside) == ball(found.diameter).count
+    pairs = sum(sum(abs(p - q) for p, q in zip(a, b, strict=True)) == 1 for a, b in combinations(inside, 2))
+    assert squares == 6 * voxels - 2 * pairs
+    assert (corners - edges + squares, 4 * squares) == (2, 2 * edges)
+    v, e, f, _ = counts["its hull, as triangles"]
+    assert (e, f) == (3 * v - 6, 2 * v - 4)
+    v, e, f, _ = counts["its hull, coplanar triangles merged"]
+    assert v - e + f == 2
+    _, vertices, lines, faces = found.plates
+    assert (len(vertices.points), len(lines.strokes)) == (v, e)
+    assert 0 < len(faces.panes) < f
+
+
+def test_the_hull_of_three_rods_is_a_corner_of_the_grid() -> None:
+    """Its voxels are those with x + y + z <= 7, 120 by the formula for tetrahedral numbers."""
+    hull, levels = steps.rods()
+    n = steps.RODS
+    assert (hull.given, hull.voxels) == (3 * n - 2, n * (n + 1) * (n + 2) // 6)
+    assert sum(level.full * (hull.side >> level.number) ** 3 for level in levels) == hull.voxels
+    for level, above in zip(levels[1:], levels[:-1], strict=True):
+        assert level.full + level.divided + level.empty == 8 * above.divided
+        assert sum(quadrant.side**2 for quadrant in level.quadrants) == hull.side**2
+        for quadrant in level.quadrants:
+            height = n - 1 - quadrant.x - quadrant.y
+            assert quadrant.height == (height if height >= 0 else None)
+
+
+def test_quadrants_are_drawn_to_scale() -> None:
+    hull, levels = steps.rods()
+    for level in levels:
+        picture = etree.fromstring(papers.quadrants_svg(level, hull.side))
+        squares = [each for each in picture.iter(f"{SVG}rect") if each.get("data-side")]
+        assert len(squares) == len(level.quadrants)
+        units = {float(each.get("width", "")) / int(each.get("data-side", "")) for each in squares}
+        assert len(units) == 1
+        heights = [int(each.text or "") for each in picture.iter(f"{SVG}text")]
+        assert sorted(heights) == sorted(q.height for q in level.quadrants if q.height is not None)
+
+
+def test_strips_share_direction_and_scale() -> None:
+    found = steps.cells()
+    pictures = papers.plates_svg(found.plates, steps.EYE, ("a", "b", "c", "d"))
+    sizes = {re.search(r'viewBox="([^"]+)"', picture)[1] for picture in pictures}  # type: ignore[index]
+    assert len(sizes) == 1
+    dots = [
+        (float(c.get("cx", "")), float(c.get("cy", ""))) for c in etree.fromstring(pictures[1]).iter(f"{SVG}circle")
+    ]
+    lines = [
+        tuple(float(line.get(name, "")) for name in ("x1", "y1", "x2", "y2"))
+        for line in etree.fromstring(pictures[2]).iter(f"{SVG}line")
+    ]
+    # An edge is drawn for its middle three quarters; drawn out by a sixth at both ends it meets two vertices.
+    for x1, y1, x2, y2 in lines:
+        for x, y in ((x1 - (x2 - x1) / 6, y1 - (y2 - y1) / 6), (x2 + (x2 - x1) / 6, y2 + (y2 - y1) / 6)):
+            assert min(math.dist((x, y), dot) for dot in dots) < 0.1
