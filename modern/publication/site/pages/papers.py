@@ -58,7 +58,7 @@ def make(argument: str) -> Made:
 
 def _strip(figures: Iterable[str], name: str) -> str:
     """Pictures side by side, as many as there is room for."""
-    return element("ol", "".join(element("li", each) for each in figures), cls="strip", role="list", aria_label=name)
+    return element("ol", "".join(element("li", each) for each in figures), cls="strip", aria_label=name)
 
 
 def _appel_will() -> Iterator[str]:
