@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib
-import io
 import json
 import os
 import subprocess
@@ -14,29 +13,8 @@ import pytest
 
 from modern.cli import main
 from modern.cli.arguments import COMMANDS
-from tests.support.commands import call
+from tests.support.commands import DECK, call
 from tests.support.paths import MACHINE_RUNS
-
-DECK = " 4\n" + "".join(
-    f"{x}{y}{z}\n"
-    for x, y, z in (
-        ("+.00000000E+00", "+.00000000E+00", "+.00000000E+00"),
-        ("+.10000000E+01", "+.00000000E+00", "+.00000000E+00"),
-        ("+.00000000E+00", "+.10000000E+01", "+.00000000E+00"),
-        ("+.00000000E+00", "+.00000000E+00", "+.10000000E+01"),
-    )
-)
-PROGRAM = "    1 READ 2,X\n      PUNCH 2,X\n      GO TO 1\n    2 FORMAT (E14.8)\n      END\n"
-
-
-@pytest.fixture
-def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """An empty folder to be in, with one good deck and one good program."""
-    monkeypatch.chdir(tmp_path)
-    Path("good.deck").write_text(DECK)
-    Path("good.f").write_text(PROGRAM)
-    Path("x.deck").write_text("2.\n3.\n")
-    return tmp_path
 
 
 def points(n: str, *cards: str) -> str:
@@ -151,17 +129,6 @@ def test_hull_puts_cards_out_and_types_on_stderr(room: Path, capsys: pytest.Capt
     assert code == 0
     assert "CONVEX HULL HAS BEEN DETERMINED" in out
     assert err == "POINTS ARE NOT COPLANAR\n"
-
-
-def test_files_instead(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    code, out, err = call(capsys, "hull", "good.deck", "--punch", "c", "--typewriter", "t", "--trace", "l")
-    assert (code, out, err) == (0, "", "")
-    assert Path("t").read_text() == "POINTS ARE NOT COPLANAR\n"
-    assert Path("c").read_text().endswith("DETERMINED\n\n\n\n")
-    trace = Path("l").read_text()
-    assert "* program1.f" in trace
-    assert "* program3.f" in trace
-    assert "X(2) = .10000000E+01" in trace
 
 
 def test_profile_in_a_narrow_terminal(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -340,13 +307,6 @@ def test_cards_truncates_when_told(room: Path, capsys: pytest.CaptureFixture[str
     assert "-.12345678E+04" in call(capsys, "cards", "p.csv", "--truncate")[1]
 
 
-def test_a_deck_from_standard_input(
-    room: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(DECK.encode())))
-    assert call(capsys, "hull", "-")[0] == 0
-
-
 def test_no_help_imports_what_only_a_run_needs() -> None:
     # Of the project's own modules help needs the errors and the names of the formats.
     code = f"""
@@ -376,99 +336,3 @@ def test_a_command_is_a_module_with_a_main_and_its_arguments_stand_with_those_of
 def test_every_module_of_the_room_is_a_command_or_serves_all() -> None:
     modules = {path.stem for path in Path(main.__file__).parent.glob("*.py")}
     assert modules == {name.replace("-", "_") for name in COMMANDS} | {"__init__", "main", "arguments"}
-
-
-def test_a_closed_pipe_is_no_error() -> None:
-    command = f"{sys.executable} -m modern.cli.main compile program3 | head -n 1"
-    done = subprocess.run(["bash", "-c", f"set -o pipefail; {command}"], capture_output=True, text=True, check=False)
-    assert done.stderr == ""
-    assert done.stdout.count("\n") == 1
-
-
-# What is written, and where.
-
-
-def test_a_device_is_written_not_replaced(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    os.mkfifo("pipe")
-    reader = subprocess.Popen(["cat", "pipe"], stdout=subprocess.PIPE, text=True)
-    assert call(capsys, "hull", "good.deck", "--trace", "pipe")[0] == 0
-    assert "* program3.f" in reader.communicate(timeout=10)[0]
-    assert Path("pipe").is_fifo()
-
-
-def test_neighbouring_files_are_left_alone(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("log.part").write_text("mine")
-    assert call(capsys, "hull", "good.deck", "--trace", "log")[0] == 0
-    assert Path("log.part").read_text() == "mine"
-
-
-def test_an_existing_file_keeps_its_mode_and_a_link_is_followed(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("cards").write_text("old")
-    Path("cards").chmod(0o600)
-    Path("link").symlink_to("cards")
-    assert call(capsys, "hull", "good.deck", "--punch", "link")[0] == 0
-    assert Path("link").is_symlink()
-    assert Path("cards").stat().st_mode & 0o777 == 0o600
-    assert "CONVEX HULL" in Path("cards").read_text()
-
-
-def test_work_done_before_a_bad_card_is_put_out(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("bad.deck").write_text("2.\nABC\n")
-    code, out, err = call(capsys, "run", "good.f", "bad.deck", "--trace", "log")
-    assert (code, out) == (2, " .20000000E+01\n")
-    assert err.count("\n") == 1
-    assert "READ 2,X" in Path("log").read_text()
-
-
-def test_blank_cards_after_the_deck(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("b.deck").write_text(DECK + "\n\n")
-    code, _, err = call(capsys, "hull", "b.deck")
-    assert code == 0
-    assert "warning: b.deck: card 6, column 1: blank cards after" in err
-
-
-def test_errors_of_the_arithmetic_are_always_mentioned(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    cards = "9.E+98        1.E+98        0.\n-9.E+98       2.E+98        0.            JUNK\n"
-    Path("big.deck").write_text(" 2\n" + cards)
-    code, _, err = call(capsys, "hull", "big.deck")
-    assert code == 0
-    assert "what stands after z is not read" in err
-    assert "note: program1.f: E3 on card 40: a product overflows" in err
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (["hull", "good.deck", "--punch", ""], "a file without a name"),
-        (["hull", "good.deck", "--punch", "a", "--typewriter", "a"], "two outputs are to go to one file"),
-        (["reproduce", "3", "--json", "nosuch/file"], "nosuch/file: no such file or directory"),
-        (["run", "a\nb.f"], "a\\nb.f: no such file"),
-    ],
-)
-def test_outputs_are_checked_first(
-    room: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], words: str
-) -> None:
-    code, out, err = call(capsys, *arguments)
-    assert (code, out) == (2, "")
-    assert words in err
-    assert err.count("\n") == 1
-
-
-@pytest.mark.parametrize("redirection", ["<&-", ">&-", "> /dev/full"])
-def test_closed_and_full_streams(room: Path, redirection: str) -> None:
-    if redirection.endswith("full") and not os.path.exists("/dev/full"):
-        pytest.skip("no /dev/full here")
-    command = f"{sys.executable} -m modern.cli.main hull {'-' if '<' in redirection else 'good.deck'} {redirection}"
-    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
-    assert done.returncode == 2
-    assert "Traceback" not in done.stderr
-    assert done.stderr.splitlines()[-1].startswith("hull1620: ")
-
-
-def test_one_example_named_twice_runs_once(capsys: pytest.CaptureFixture[str]) -> None:
-    assert call(capsys, "reproduce", "3", "3")[1] == call(capsys, "reproduce", "3")[1]
-
-
-def test_cards_takes_plain_digits_only(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("wide.csv").write_text("\uff11,2,3\n", encoding="utf-8")
-    assert call(capsys, "cards", "wide.csv")[0] == 2

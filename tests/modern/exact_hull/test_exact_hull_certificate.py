@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import random
-from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 from types import SimpleNamespace
@@ -11,19 +9,27 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from modern.exact_hull import CertificateError, ExactHull, Facet, certify, exact_hull
+from modern.exact_hull import CertificateError, Facet, certify, exact_hull
 from modern.exact_hull import build as build_module
 from modern.exact_hull import certificate as checks
 from modern.exact_hull import surface as surface_module
+from tests.support.corrupted import (
+    BIG,
+    GRID,
+    OCTAHEDRON,
+    PRISM,
+    ball,
+    exchanged,
+    facet_with,
+    mutations,
+    one_vertex_short,
+    promoted,
+    refused,
+)
 
-GRID = [(x, y, z) for x in range(3) for y in range(3) for z in range(3)] + [(1, 1, 1), (0, 0, 0)]
-OCTAHEDRON = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
-PENTAGON = [(0, 4), (4, 1), (2, -3), (-2, -3), (-4, 1)]
-PRISM = [(x, y, z) for x, y in PENTAGON for z in (0, 3)]
 SKEW_SQUARE = [(Fraction(x + 2 * y, 2), 3 * x - y, y - 2 * x) for x in range(3) for y in range(3)] * 2
 LINE = [(2 * k, 5 - k, 3 * k) for k in (4, 0, 1, 5, 3, 4)]
 POINT = [("1.5", 2, 3)] * 3
-BIG = [tuple(10**30 * number + 1 for number in point) for point in GRID]
 SETS = {
     "grid": GRID,
     "octahedron": OCTAHEDRON,
@@ -33,30 +39,6 @@ SETS = {
     "point": POINT,
     "big": BIG,
 }
-
-
-def mutations(value: object) -> Iterator[object]:
-    """Every tree that differs from ``value`` in one number by 1 or in sign, or in one member dropped, doubled or
-    exchanged with the next."""
-    if isinstance(value, Facet):
-        for plane in mutations(value.plane):
-            yield Facet(plane, value.polygon)
-        for polygon in mutations(value.polygon):
-            yield Facet(value.plane, polygon)
-    elif isinstance(value, tuple):
-        for k, member in enumerate(value):
-            yield value[:k] + value[k + 1 :]
-            yield (*value[: k + 1], *value[k:])
-            if k + 1 < len(value):
-                yield (*value[:k], value[k + 1], member, *value[k + 2 :])
-            for changed in mutations(member):
-                yield (*value[:k], changed, *value[k + 1 :])
-    elif isinstance(value, int):
-        yield value + 1
-        yield value - 1
-        yield -value
-    elif value is None:
-        yield (1, 0, 0, 0)
 
 
 @pytest.mark.parametrize("name", SETS)
@@ -87,20 +69,6 @@ def test_the_points_are_looked_at() -> None:
                 certify([*GRID[:index], moved, *GRID[index + 1 :]], hull)
     with pytest.raises(CertificateError, match="scaled points for"):
         certify(GRID[:-1], hull)
-
-
-def facet_with(hull: ExactHull, plane: tuple[int, ...]) -> int:
-    return next(k for k, facet in enumerate(hull.facets) if facet.plane == plane)
-
-
-def exchanged(hull: ExactHull, number: int, *new: Facet) -> ExactHull:
-    facets = [*hull.facets[:number], *hull.facets[number + 1 :], *new]
-    return replace(hull, facets=tuple(sorted(facets, key=lambda facet: facet.plane)))
-
-
-def refused(points, hull: ExactHull, message: str) -> None:
-    with pytest.raises(CertificateError, match=message):
-        certify(points, hull)
 
 
 TOP = (0, 0, 1, -2)
@@ -174,16 +142,6 @@ def test_a_face_left_in_two_triangles() -> None:
     refused(GRID, exchanged(hull, number, Facet(TOP, (a, b, c))), "holds other vertices than it names")
 
 
-def promoted(hull: ExactHull, index: int) -> ExactHull:
-    """The hull with one more vertex, not yet in any polygon."""
-    return replace(
-        hull,
-        vertices=tuple(sorted((*hull.vertices, index))),
-        boundary=tuple(k for k in hull.boundary if k != index),
-        inside=tuple(k for k in hull.inside if k != index),
-    )
-
-
 def test_a_point_of_a_face_called_a_vertex() -> None:
     hull = exact_hull(GRID)
     refused(GRID, promoted(hull, GRID.index((1, 1, 2))), "holds other vertices than it names")
@@ -210,10 +168,8 @@ def test_a_point_inside_called_a_vertex() -> None:
 
 def test_the_hull_of_all_points_but_one_vertex() -> None:
     """Faultless in itself, but a point is outside."""
-    points = [(0, 0, 0), (9, 0, 0), (0, 9, 0), (0, 0, 9), (5, 5, 5)]
-    hull = exact_hull(points[:4])
-    for name in ("inside", "boundary"):
-        refused(points, replace(hull, scaled=tuple(points), **{name: (4,)}), "point 4 is outside of facet")
+    for points, hull in one_vertex_short():
+        refused(points, hull, "point 4 is outside of facet")
 
 
 @pytest.mark.parametrize(("index", "taken_from", "given_to"), [(13, "inside", "boundary"), (4, "boundary", "inside")])
@@ -376,11 +332,6 @@ def test_dimension_by_rank() -> None:
     assert checks.rank([(2, 4, 6), (-3, -6, -9)]) == 1
     assert checks.rank([(0, 4, 6), (0, -6, -9), (0, 1, 1), (0, 7, -2)]) == 2
     assert checks.rank([(1, 10**30, 1), (1, 10**30 + 1, 1), (1, 10**30, 2)]) == 3
-
-
-def ball(count: int, seed: int) -> list[tuple[int, ...]]:
-    rng = random.Random(seed)
-    return [tuple(rng.randrange(10**8) for _ in range(3)) for _ in range(count)]
 
 
 def test_a_construction_that_forgets_points_is_caught(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -16,7 +16,7 @@ from modern.exact_hull import certificate as checks
 from modern.exact_hull.facets import lowest_terms, plane_through
 from modern.exact_hull.incidences import BOUND
 from modern.exact_hull.sides import images_of, normal_images, polygons
-from tests.modern.exact_hull.test_exact_hull_certificate import (
+from tests.support.corrupted import (
     BIG,
     GRID,
     OCTAHEDRON,
@@ -24,7 +24,9 @@ from tests.modern.exact_hull.test_exact_hull_certificate import (
     ball,
     exchanged,
     mutations,
+    one_vertex_short,
     promoted,
+    refused,
 )
 
 NEEDLE = [(x, y * 10**6, z) for x in range(3) for y in (0, 1, 5) for z in range(2)] + [(1, 5 * 10**6 + 1, 1)]
@@ -44,11 +46,6 @@ SETS = {
 def _by_convexity(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(checks, "MANY", 0)
     monkeypatch.setattr(checks, "_check_points", None)
-
-
-def refused(points, hull: ExactHull, message: str) -> None:
-    with pytest.raises(CertificateError, match=message):
-        certify(points, hull)
 
 
 @pytest.mark.parametrize("name", SETS)
@@ -185,10 +182,8 @@ def test_a_point_inside_called_a_vertex() -> None:
 
 
 def test_the_hull_of_all_points_but_one_vertex() -> None:
-    points = [(0, 0, 0), (9, 0, 0), (0, 9, 0), (0, 0, 9), (5, 5, 5)]
-    hull = exact_hull(points[:4])
-    for name in ("inside", "boundary"):
-        refused(points, replace(hull, scaled=tuple(points), **{name: (4,)}), "point 4 is outside of facet")
+    for points, hull in one_vertex_short():
+        refused(points, hull, "point 4 is outside of facet")
 
 
 @pytest.mark.parametrize("seed", range(3))

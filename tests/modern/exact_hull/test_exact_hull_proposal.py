@@ -20,7 +20,7 @@ from modern.exact_hull import certificate as checks
 from modern.exact_hull.coordinates import columns_of
 from modern.exact_hull.facets import merged, planes_of, rotated
 from modern.exact_hull.proposal import Proposal, _simplex, exact_signs, load, on_grid, propose
-from tests.modern.exact_hull.test_exact_hull_certificate import BIG, GRID, OCTAHEDRON, PRISM, ball
+from tests.support.corrupted import BIG, GRID, OCTAHEDRON, PRISM, ball
 
 LAW = settings(deadline=None, max_examples=200)
 WIDE = st.integers(-(2**61) + 1, 2**61 - 1)

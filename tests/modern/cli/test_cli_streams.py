@@ -1,0 +1,127 @@
+"""Where the commands write: files and devices, closed and full streams, what was done before an error."""
+
+from __future__ import annotations
+
+import io
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.support.commands import DECK, call
+
+
+def test_files_instead(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, err = call(capsys, "hull", "good.deck", "--punch", "c", "--typewriter", "t", "--trace", "l")
+    assert (code, out, err) == (0, "", "")
+    assert Path("t").read_text() == "POINTS ARE NOT COPLANAR\n"
+    assert Path("c").read_text().endswith("DETERMINED\n\n\n\n")
+    trace = Path("l").read_text()
+    assert "* program1.f" in trace
+    assert "* program3.f" in trace
+    assert "X(2) = .10000000E+01" in trace
+
+
+def test_a_deck_from_standard_input(
+    room: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(DECK.encode())))
+    assert call(capsys, "hull", "-")[0] == 0
+
+
+def test_a_closed_pipe_is_no_error() -> None:
+    command = f"{sys.executable} -m modern.cli.main compile program3 | head -n 1"
+    done = subprocess.run(["bash", "-c", f"set -o pipefail; {command}"], capture_output=True, text=True, check=False)
+    assert done.stderr == ""
+    assert done.stdout.count("\n") == 1
+
+
+# What is written, and where.
+
+
+def test_a_device_is_written_not_replaced(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    os.mkfifo("pipe")
+    reader = subprocess.Popen(["cat", "pipe"], stdout=subprocess.PIPE, text=True)
+    assert call(capsys, "hull", "good.deck", "--trace", "pipe")[0] == 0
+    assert "* program3.f" in reader.communicate(timeout=10)[0]
+    assert Path("pipe").is_fifo()
+
+
+def test_neighbouring_files_are_left_alone(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("log.part").write_text("mine")
+    assert call(capsys, "hull", "good.deck", "--trace", "log")[0] == 0
+    assert Path("log.part").read_text() == "mine"
+
+
+def test_an_existing_file_keeps_its_mode_and_a_link_is_followed(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("cards").write_text("old")
+    Path("cards").chmod(0o600)
+    Path("link").symlink_to("cards")
+    assert call(capsys, "hull", "good.deck", "--punch", "link")[0] == 0
+    assert Path("link").is_symlink()
+    assert Path("cards").stat().st_mode & 0o777 == 0o600
+    assert "CONVEX HULL" in Path("cards").read_text()
+
+
+def test_work_done_before_a_bad_card_is_put_out(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("bad.deck").write_text("2.\nABC\n")
+    code, out, err = call(capsys, "run", "good.f", "bad.deck", "--trace", "log")
+    assert (code, out) == (2, " .20000000E+01\n")
+    assert err.count("\n") == 1
+    assert "READ 2,X" in Path("log").read_text()
+
+
+def test_blank_cards_after_the_deck(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("b.deck").write_text(DECK + "\n\n")
+    code, _, err = call(capsys, "hull", "b.deck")
+    assert code == 0
+    assert "warning: b.deck: card 6, column 1: blank cards after" in err
+
+
+def test_errors_of_the_arithmetic_are_always_mentioned(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    cards = "9.E+98        1.E+98        0.\n-9.E+98       2.E+98        0.            JUNK\n"
+    Path("big.deck").write_text(" 2\n" + cards)
+    code, _, err = call(capsys, "hull", "big.deck")
+    assert code == 0
+    assert "what stands after z is not read" in err
+    assert "note: program1.f: E3 on card 40: a product overflows" in err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["hull", "good.deck", "--punch", ""], "a file without a name"),
+        (["hull", "good.deck", "--punch", "a", "--typewriter", "a"], "two outputs are to go to one file"),
+        (["reproduce", "3", "--json", "nosuch/file"], "nosuch/file: no such file or directory"),
+        (["run", "a\nb.f"], "a\\nb.f: no such file"),
+    ],
+)
+def test_outputs_are_checked_first(
+    room: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], words: str
+) -> None:
+    code, out, err = call(capsys, *arguments)
+    assert (code, out) == (2, "")
+    assert words in err
+    assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize("redirection", ["<&-", ">&-", "> /dev/full"])
+def test_closed_and_full_streams(room: Path, redirection: str) -> None:
+    if redirection.endswith("full") and not os.path.exists("/dev/full"):
+        pytest.skip("no /dev/full here")
+    command = f"{sys.executable} -m modern.cli.main hull {'-' if '<' in redirection else 'good.deck'} {redirection}"
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert "Traceback" not in done.stderr
+    assert done.stderr.splitlines()[-1].startswith("hull1620: ")
+
+
+def test_one_example_named_twice_runs_once(capsys: pytest.CaptureFixture[str]) -> None:
+    assert call(capsys, "reproduce", "3", "3")[1] == call(capsys, "reproduce", "3")[1]
+
+
+def test_cards_takes_plain_digits_only(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("wide.csv").write_text("\uff11,2,3\n", encoding="utf-8")
+    assert call(capsys, "cards", "wide.csv")[0] == 2
