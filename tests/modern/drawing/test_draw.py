@@ -5,85 +5,22 @@ from __future__ import annotations
 import itertools
 import math
 import os
-import re
 import subprocess
 import sys
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
-from xml.etree import ElementTree
 
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from modern.drawing import view
-from modern.drawing.draw import MOST_NUMBERS, draw_svg
-from modern.drawing.labels import HEIGHT, Label, crosses, place_labels
-from modern.drawing.scene import eye_of
-from modern.drawing.svg import escape, number
-from modern.geometry.hull import Hull
+from modern.drawing.draw import draw_svg
 from modern.geometry.mesh import ExportError
 from modern.port import convex_hull
+from tests.support.drawn import BOX, CUBE, EXAMPLE_6, SQUARE, Picture, Plane, Whole, draw
 from tests.support.paths import ROOT
-
-Whole = tuple[int, int, int]
-Plane = tuple[int, int, int, int]
-Place = tuple[float, float]
-
-CUBE: list[Whole] = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
-OCTAHEDRON: list[Whole] = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
-BOX: list[Whole] = [(4 * x, 4 * y, 4 * z) for x, y, z in CUBE] + [(2, 2, 2), (2, 0, 2), (2, 4, 2), (3, 4, 4), (0, 0, 3)]
-SQUARE: list[Whole] = [(0, 0, 1), (2, 0, 1), (2, 2, 1), (0, 2, 1), (1, 1, 1), (1, 0, 1)]
-EXAMPLE_6: list[Whole] = [
-    *((3, 4, 8), (6, -3, 7), (1, 2, -5), (4, 2, -3), (4, 2, 4), (4, 2, 0), (4, 2, -1)),
-    *((1, 2, 7), (0, 2, 0), (-2, 2, 0)),
-]
-
-
-# --- reading a picture
-
-
-class Picture:
-    """An SVG file, parsed: lines by the vertices they join, circles and crosses by class, numbers with places."""
-
-    def __init__(self, text: str) -> None:
-        self.root = ElementTree.fromstring(text)
-        self.groups = {group.get("class"): list(group) for group in self.root if group.get("class")}
-
-    def edges(self, key: str) -> dict[tuple[int, int], tuple[Place, Place]]:
-        found = {}
-        for line in self.groups.get(key, []):
-            a, b = map(int, line.attrib["data-vertices"].split())
-            x1, y1, x2, y2 = (float(line.attrib[name]) for name in ("x1", "y1", "x2", "y2"))
-            found[a - 1, b - 1] = ((x1, y1), (x2, y2))
-        return found
-
-    def vertices(self) -> dict[int, Place]:
-        """Places by number from 0, read from the title of every dot."""
-        found = {}
-        for dot in (*self.groups.get("vertices", []), *self.groups.get("vertices-hidden", [])):
-            named = re.match(r"vertex (\d+): ", dot[0].text or "")
-            assert named
-            found[int(named[1]) - 1] = (float(dot.attrib["cx"]), float(dot.attrib["cy"]))
-        return found
-
-    def titles(self, key: str) -> list[str]:
-        return [mark[0].text or "" for mark in self.groups.get(key, [])]
-
-    def numbers(self) -> dict[str, Place]:
-        return {
-            text.text or "": (float(text.attrib["x"]), float(text.attrib["y"]))
-            for text in self.groups.get("numbers", [])
-        }
-
-    def legend(self) -> list[str]:
-        return [item.text or "" for item in self.groups["legend"] if item.tag.endswith("text")]
-
-
-def draw(points: Sequence[Sequence[object]], eye: Sequence[int] | None = None) -> tuple[Hull, Picture]:
-    hull = convex_hull(points)  # type: ignore[arg-type]
-    return hull, Picture(draw_svg(hull, eye))
 
 
 def seen_from(picture: Picture) -> Whole:
@@ -361,94 +298,6 @@ def test_a_sliver_is_still_a_solid() -> None:
     assert (len(from_below.edges("seen")), len(from_below.edges("hidden"))) == (3, 3)
 
 
-# --- labels
-
-
-def boxes(picture: Picture) -> dict[str, tuple[float, float, float, float]]:
-    """The room a number takes, somewhat less than the font's."""
-    return {text: (x - 3.5 * len(text), y - 9.0, x + 3.5 * len(text), y) for text, (x, y) in picture.numbers().items()}
-
-
-@pytest.mark.parametrize("points", [CUBE, OCTAHEDRON, EXAMPLE_6, SQUARE, BOX])
-def test_numbers_stand_beside_their_vertex_and_off_lines_and_each_other(points: list[Whole]) -> None:
-    _, picture = draw(points)
-    places, found = picture.vertices(), boxes(picture)
-    lines = [*picture.edges("seen").values()]
-    for text, box in found.items():
-        x, y = places[int(text) - 1]
-        centre = ((box[0] + box[2]) / 2, (box[1] + box[3]) / 2)
-        assert math.dist(centre, (x, y)) < 24
-        assert min(places, key=lambda k, c=centre: math.dist(places[k], c)) == int(text) - 1
-        assert not any(crosses(line, box) for line in lines)
-    for a, b in itertools.combinations(found.values(), 2):
-        assert a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] or b[3] <= a[1]
-
-
-@pytest.mark.parametrize("apart", [8.0, 12.0, 20.0, 30.0])
-def test_labels_of_points_in_a_row_keep_off_each_other(apart: float) -> None:
-    labels = [Label(20.0 + apart * k, 50.0, str(100 + k)) for k in range(4)]
-    places = place_labels(labels, [], [], (150.0, 100.0))
-    for (x, y), (u, v) in itertools.combinations(places, 2):
-        assert abs(x - u) >= 2 * labels[0].half[0] or abs(y - v) >= HEIGHT
-
-
-def test_labels_stay_within_the_picture() -> None:
-    labels = [Label(2.0, 2.0, "1"), Label(98.0, 2.0, "100"), Label(50.0, 99.0, "12")]
-    for (x, y), label in zip(place_labels(labels, [], [], (100.0, 100.0)), labels, strict=True):
-        assert label.half[0] <= x <= 100 - label.half[0]
-        assert HEIGHT / 2 <= y <= 100 - HEIGHT / 2
-
-
-@given(*[st.tuples(st.integers(-9, 9), st.integers(-9, 9))] * 2)
-def test_crossing_a_box(a: tuple[int, int], b: tuple[int, int]) -> None:
-    """A line that meets a box has an end in it, or meets the line of a side within it."""
-    low, high = (-3, -2), (4, 5)
-    times = [Fraction(0), Fraction(1)]
-    for axis in (0, 1):
-        step = b[axis] - a[axis]
-        times += [Fraction(end - a[axis], step) for end in (low[axis], high[axis]) if step]
-    meets = any(0 <= t <= 1 and all(low[k] <= a[k] + t * (b[k] - a[k]) <= high[k] for k in (0, 1)) for t in times)
-    # Touching a corner is left to rounding.
-    corner = any((b[0] - a[0]) * (y - a[1]) == (b[1] - a[1]) * (x - a[0]) for x in (-3, 4) for y in (-2, 5))
-    if not corner:
-        assert crosses((a, b), (*low, *high)) == meets
-
-
-def test_many_vertices_are_not_numbered() -> None:
-    curve = [(k, k * k, 0) for k in range(MOST_NUMBERS + 1)]
-    _, picture = draw(curve)
-    assert picture.numbers() == {}
-    assert "vertices not numbered" in picture.legend()[0]
-    assert draw(curve[1:])[1].numbers()
-
-
-# --- the file
-
-
-def test_text_is_escaped_and_ascii() -> None:
-    text = draw_svg(convex_hull(CUBE), title='<a> & "b" \x00 \ud800 é 立')
-    assert text.isascii()
-    root = ElementTree.fromstring(text)
-    assert root[0].text == '<a> & "b" ? ? é 立'
-    assert escape("a<b>&c") == "a&lt;b&gt;&amp;c"
-
-
-def test_the_file_says_its_size_and_everything_is_within() -> None:
-    for points in (CUBE, EXAMPLE_6, SQUARE, [(0, 0, 0), (0, 0, 1)], [(0, 0, 0), (1, 0, 0)], [(0, 0, 0)]):
-        for width in (320, 640, 1000):
-            root = ElementTree.fromstring(draw_svg(convex_hull(points), width=width, title="a"))
-            wide, tall = int(root.attrib["width"]), int(root.attrib["height"])
-            assert root.attrib["viewBox"] == f"0 0 {wide} {tall}"
-            assert wide == width
-            for item in root.iter():
-                for names, limit in ((("x", "x1", "x2", "cx"), wide), (("y", "y1", "y2", "cy"), tall)):
-                    assert all(0 <= float(item.attrib[name]) <= limit for name in names if name in item.attrib)
-
-
-def test_numbers_in_the_file() -> None:
-    assert [number(n) for n in (1250, 100, -5, 0, -100, 7)] == ["12.5", "1", "-0.05", "0", "-1", "0.07"]
-
-
 def test_the_same_hull_gives_the_same_text_in_every_process() -> None:
     program = (
         "from modern.drawing.draw import draw_svg; from modern.port import convex_hull; import sys;"
@@ -477,11 +326,3 @@ def test_refusals() -> None:
     for width in (319, 4001):
         with pytest.raises(ExportError, match=f"a picture {width} pixels wide is not drawn"):
             draw_svg(hull, width=width)
-
-
-def test_directions_as_text() -> None:
-    assert eye_of(["1", "-2.5", " 1e-3"]) == (1, Fraction(-5, 2), Fraction(1, 1000))
-    with pytest.raises(ExportError, match="is 2 numbers; it has three"):
-        eye_of(["1", "2"])
-    with pytest.raises(ExportError, match="'x' is not a number"):
-        eye_of(["1", "2", "x"])

@@ -13,7 +13,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from emulator.errors import FileError
 from modern.formats.hulls import export_text, format_of, to_trimesh, write_hull
 from modern.formats.off import parse_off, read_off
 from modern.geometry.hull import Face, Hull, Stage
@@ -349,76 +348,6 @@ def test_a_file_is_written_whole_or_not_at_all(tmp_path: Path) -> None:
     assert [p.name for p in tmp_path.iterdir()] == ["hull.off"]
     assert read_off(str(path)).source == str(path)
     assert tiny_off(path.read_text()) == expected(convex_hull(CUBE))
-
-
-GOOD = "OFF\n3 1 3\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
-
-# name, text of the file
-GOOD_OFF = [
-    ("plain", GOOD),
-    ("no-heading", GOOD.removeprefix("OFF\n")),
-    ("one-line", GOOD.replace("OFF\n", "OFF ")),
-    ("no-edges", GOOD.replace("3 1 3", "3 1")),
-    ("comments", "# a\n\n" + GOOD.replace("\n", " # x\n")),
-    ("crlf", GOOD.replace("\n", "\r\n")),
-    ("colour", GOOD.replace("3 0 1 2", "3 0 1 2 0.5 0.5 0.5 1")),
-    ("no-end", GOOD.rstrip()),
-]
-
-
-@pytest.mark.parametrize("text", [g[1] for g in GOOD_OFF], ids=[g[0] for g in GOOD_OFF])
-def test_off_in_its_many_spellings(text: str) -> None:
-    read = parse_off(text, "a.off")
-    assert (read.points, read.faces) == ((("0", "0", "0"), ("1", "0", "0"), ("0", "1", "0")), ((0, 1, 2),))
-    assert [text.splitlines()[line - 1].split("#")[0].split() for line in read.lines] == [list(p) for p in read.points]
-
-
-# name, text of the file, the message behind the file's name
-BAD_OFF = [
-    ("empty", "", "line 1, column 1: there are no counts of vertices and faces"),
-    ("heading-only", "OFF\n", "line 2, column 1: there are no counts"),
-    ("coff", GOOD.replace("OFF", "COFF"), "line 1, column 1: 'COFF' is not read, only plain OFF"),
-    ("binary", GOOD.replace("OFF", "OFF BINARY"), "line 1, column 5: the counts of vertices, faces"),
-    ("count", GOOD.replace("3 1 3", "3 x 3"), "line 2, column 3: 'x' is not a count"),
-    ("negative", GOOD.replace("3 1 3", "-3 1 3"), "line 2, column 1: '-3' is not a count"),
-    ("four-counts", GOOD.replace("3 1 3", "3 1 3 4"), "line 2, column 1: the counts of vertices, faces"),
-    ("two-numbers", GOOD.replace("1 0 0", "1 0"), "line 4, column 3: a vertex is three numbers, x y z; here are 2"),
-    (
-        "four-numbers",
-        GOOD.replace("1 0 0", "1 0 0 7"),
-        "line 4, column 7: a vertex is three numbers",
-    ),
-    ("no-number", GOOD.replace("1 0 0", "1  nan 0"), "line 4, column 4: 'nan' is not a decimal number"),
-    ("quotient", GOOD.replace("1 0 0", "1 1/2 0"), "line 4, column 3: '1/2' is not a decimal number"),
-    ("digits", GOOD.replace("1 0 0", "1 \u0661 0"), "line 4, column 3: '\u0661' is not a decimal number"),
-    ("long", GOOD.replace("1 0 0", "1 " + "x" * 9000 + " 0"), f"line 4, column 3: '{'x' * 40}...' is not a decimal"),
-    ("exponent", GOOD.replace("1 0 0", "1 1e99999 0"), "line 4, column 3: the exponent of '1e99999' is not within"),
-    ("too-few", "OFF\n3 1 3\n0 0 0\n", "line 4, column 1: the file ends after 1 of 3 vertices"),
-    ("no-face", GOOD.replace("3 0 1 2\n", ""), "line 6, column 1: the file ends after 0 of 1 faces"),
-    ("short-face", GOOD.replace("3 0 1 2", "4 0 1 2"), "line 6, column 7: the face ends after 3 of 4 vertices"),
-    ("no-vertex", GOOD.replace("3 0 1 2", "3 0 1 3"), "line 6, column 7: there is no vertex 3; they count from 0 to 2"),
-    ("empty-face", GOOD.replace("3 0 1 2", "0"), "line 6, column 1: a face has at least one vertex"),
-    ("bad-colour", GOOD.replace("3 0 1 2", "3 0 1 2 red"), "line 6, column 9: 'red' is not a decimal number"),
-    ("more", GOOD + " 1\n", "line 7, column 2: the last face has been read"),
-]
-
-
-@pytest.mark.parametrize(("text", "words"), [b[1:] for b in BAD_OFF], ids=[b[0] for b in BAD_OFF])
-def test_bad_off(text: str, words: str) -> None:
-    with pytest.raises(FileError) as refused:
-        parse_off(text, "a.off")
-    message = str(refused.value)
-    assert message.startswith(f"a.off: {words}")
-    assert "\n" not in message
-    assert len(message) < 200
-
-
-def test_off_files_that_cannot_be_read(tmp_path: Path) -> None:
-    with pytest.raises(FileError, match="no such file"):
-        read_off(str(tmp_path / "none.off"))
-    (tmp_path / "bytes.off").write_bytes(b"OFF\n3 1\n0 0 \xff\n")
-    with pytest.raises(FileError, match=r"line 3, column 5: not a text file in UTF-8$"):
-        read_off(str(tmp_path / "bytes.off"))
 
 
 def test_trimesh_takes_the_vertices_as_they_stand() -> None:

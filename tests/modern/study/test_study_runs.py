@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import errno
-import io
 import json
 import os
 import random
@@ -11,9 +10,7 @@ import signal
 import sqlite3
 import subprocess
 import sys
-import threading
 import time
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -22,15 +19,10 @@ import pytest
 from modern.study import Plan, PlanError, Port, Programs, run_study
 from modern.study import store as study_store
 from modern.study.index import NAME as INDEX
-from modern.study.measures import MEASURES
-from modern.study.progress import Progress
-from modern.study.run import plain_lines
 from modern.study.store import BESIDE, Store, StudyFileError
-from modern.study.workers import in_processes
 from tests.support.paths import ROOT
 from tests.support.studied import PLAN, ROUTES
 
-LISTED = Programs("listed", limit=20_000)
 SCRIPT = """
 import sys
 from modern.study import run_study
@@ -323,48 +315,6 @@ def test_a_route_that_cannot_be_gone_is_refused_before_it_begins(
     assert not (tmp_path / "no").exists()
 
 
-MEASURED: dict[str, tuple[Programs | Port, set[str]]] = {
-    "machine_time": (LISTED, {f"seconds_{name}" for name in ("processor", "reader", "punch", "typewriter")}),
-    "operations": (LISTED, {"additions", "products", "quotients"}),
-    "plane_table": (Port("exact", history=True), {"planes_at_once"}),
-    "divergence": (LISTED, {"diverges"}),
-}
-"""Every measure: a route whose run it takes, and the figures it gives."""
-
-
-def test_every_measure_is_tried() -> None:
-    assert MEASURED.keys() == MEASURES.keys()
-
-
-@pytest.mark.parametrize("name", sorted(MEASURED))
-def test_a_measure_gives_its_figures(name: str, tmp_path: Path) -> None:
-    """Of a run it takes; of one of the other kind none."""
-    route, keys = MEASURED[name]
-    other = Port("exact") if isinstance(route, Programs) else LISTED
-    routes = replace(route, name="taken", measures=(name,)), replace(other, name="other", measures=(name,))
-    plan = replace(PLAN, cells=(replace(PLAN.cells[0], routes=routes, samples=1),))
-    run_study(plan, tmp_path / "m", workers=1, quiet=True)
-    for line in (tmp_path / "m/rows/0000-000000000.jsonl").read_text().splitlines():
-        runs = json.loads(line)["runs"]
-        assert keys <= runs["taken"]["figures"].keys()
-        assert not keys & runs["other"]["figures"].keys()
-
-
-def test_measures_become_figures(tmp_path: Path) -> None:
-    route = Programs("listed", measures=("machine_time", "operations", "modern.study.measures:operations"))
-    plan = replace(PLAN, cells=(replace(PLAN.cells[0], routes=(route,), samples=2),))
-    run_study(plan, tmp_path / "m", workers=1, quiet=True)
-    figures = json.loads((tmp_path / "m/rows/0000-000000000.jsonl").read_text().splitlines()[0])["runs"]["listed"]
-    assert {"seconds_processor", "seconds_reader", "additions", "products"} <= figures["figures"].keys()
-
-
-def test_a_measure_that_cannot_take_a_run_is_one_line(tmp_path: Path) -> None:
-    route = Programs("listed", measures=("os:getpid",))
-    plan = replace(PLAN, cells=(replace(PLAN.cells[0], routes=(route,), samples=1),))
-    with pytest.raises(PlanError, match=r"route listed: measure os:getpid: .* takes no arguments"):
-        run_study(plan, tmp_path / "m", workers=1, quiet=True)
-
-
 def test_reading_the_store(finished: Path) -> None:
     store = Store.open(finished, PLAN)
     try:
@@ -418,88 +368,3 @@ def test_a_damaged_row_file_is_named_and_not_counted(finished: Path, tmp_path: P
     path.unlink()
     run_study(PLAN, folder, workers=1, quiet=True, resume=True)
     assert contents(folder) == contents(finished)
-
-
-class Terminal(io.StringIO):
-    def isatty(self) -> bool:
-        return True
-
-
-def ticking(step: float) -> Iterator[float]:
-    now = 0.0
-    while True:
-        yield now
-        now += step
-
-
-def test_progress_on_a_terminal_elsewhere_and_quiet(monkeypatch: pytest.MonkeyPatch) -> None:
-    for columns in (100, 40, 20):
-        monkeypatch.setenv("COLUMNS", str(columns))
-        clock, file = ticking(1.0), Terminal()
-        progress = Progress(100, 20, file, clock=lambda clock=clock: next(clock))  # type: ignore[misc]
-        progress.add(10)
-        progress.add(70)
-        progress.close()
-        drawn = file.getvalue().split("\r")
-        assert all(len(line.rstrip("\n")) < columns for line in drawn)
-        assert file.getvalue().endswith("\n")
-        assert drawn[-1].lstrip("[#.] ").startswith("100 of 100"[:columns])
-    plain, clock = io.StringIO(), ticking(25.0)
-    progress = Progress(100, 0, plain, clock=lambda: next(clock))
-    for _ in range(10):
-        progress.add(10)
-    progress.close()
-    assert plain.getvalue().splitlines()[0].startswith("30 of 100 samples")
-    assert len(plain.getvalue().splitlines()) == 3
-    silent = Terminal()
-    progress = Progress(10, 0, silent, quiet=True)
-    progress.add(10)
-    progress.close()
-    assert silent.getvalue() == ""
-
-
-def test_progress_survives_its_reader() -> None:
-    class Broken(io.StringIO):
-        def write(self, _: str) -> int:
-            raise BrokenPipeError
-
-    clock = ticking(100.0)
-    progress = Progress(10, 0, Broken(), clock=lambda: next(clock))
-    progress.add(5)
-    progress.add(5)
-    progress.close()
-
-
-def test_the_work_is_given_out_as_it_is_wanted() -> None:
-    """Memory stays flat: of a plan of many chunks only those asked for are made."""
-    plan = replace(PLAN, cells=(replace(PLAN.cells[0], samples=5_000_000),))
-    chunks = [chunk for chunk, _ in zip(plan.chunks(), range(1000), strict=False)]
-    made = in_processes(plan, chunks, 1)
-    assert [next(made)[0] for _ in range(2)] == chunks[:2]
-    made.close()
-
-
-def test_threads_are_none_of_a_study() -> None:
-    """A study with one worker starts nothing beside itself."""
-    before = threading.active_count()
-    list(in_processes(PLAN, list(PLAN.chunks())[:1], 1))
-    assert threading.active_count() == before
-
-
-def test_arithmetics_that_cannot_be_compiled_are_named_once_each() -> None:
-    pytest.importorskip("numba")
-    wide = (Programs("a", arithmetic="truncating:20"), Programs("b", arithmetic="truncating:20", layers=("corrected",)))
-    other = (Programs("c"), Programs("d", arithmetic="exact"), Port("e", "truncating:20"))
-    lines = plain_lines(replace(PLAN, cells=tuple(replace(cell, routes=wide + other) for cell in PLAN.cells)))
-    assert [line.split(":")[0] for line in lines] == ["truncating", "the compiled engine has no exact numbers"]
-    assert "at most 9" in lines[0]
-
-
-def test_a_study_without_the_compiled_engine_says_so(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setattr("modern.study.run.why_plain", lambda options: "no compiled engine here")
-    run_study(PLAN, tmp_path / "loud", workers=1)
-    assert capsys.readouterr().err.count("no compiled engine here\n") == 1
-    run_study(PLAN, tmp_path / "quiet", workers=1, quiet=True)
-    assert capsys.readouterr().err == ""

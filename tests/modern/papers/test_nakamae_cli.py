@@ -1,0 +1,102 @@
+"""``hull1620 hidden-line``: what can be drawn, from where, the tables, and what is refused."""
+
+from __future__ import annotations
+
+import shutil
+from importlib.resources import files
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from modern.cli.main import main
+from tests.modern.papers.test_nakamae_scenes import CUBE, HEAD
+
+# --- the command
+
+
+def run(*arguments: str) -> int:
+    return main(["hidden-line", *arguments])
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "cube.off").write_text(CUBE)
+    (tmp_path / "points.csv").write_text("0,0,0\n1,0,0\n0,1,0\n0,0,1\n")
+    shutil.copy(str(files("modern.papers.nakamae_nishita").joinpath("scenes", "house.toml")), tmp_path / "mine.toml")
+    return tmp_path
+
+
+@pytest.mark.parametrize("source", ["cube.off", "points.csv", "mine.toml", "columns"])
+def test_what_can_be_drawn(folder: Path, source: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(source, "-o", "a.svg") == 0
+    assert run(source, "-o", "a.hpgl", "--hidden") == 0
+    ElementTree.parse(folder / "a.svg")
+    assert (folder / "a.hpgl").read_text().startswith("IN;")
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert said.err.splitlines()[0].split() == [
+        "polyhedra",
+        "vertices",
+        "faces",
+        "points",
+        "I",
+        "II",
+        "III",
+        "(seconds)",
+    ]
+    assert run(source) == 0
+    assert capsys.readouterr().out == (folder / "a.svg").read_text()
+
+
+def test_the_points_of_view(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    pictures = []
+    for more in ((), ("--eye=-1,2,3",), ("--eye", "9,8,7", "--perspective"), ("--without", "ghosts,ends")):
+        assert run("mine.toml", *more, *(("--eye", "60,-60,30") if more[-1:] == ("--perspective",) else ())) == 0
+        pictures.append(capsys.readouterr().out)
+    assert len(set(pictures)) == 4
+    assert run("mine.toml", "--perspective", "--eye", "60,-60,30", "--towards", "5,5,5") == 0
+    assert capsys.readouterr().out not in pictures
+
+
+def test_tables(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (folder / "two.toml").write_text(
+        HEAD
+        + "'cuboid'\nsize = [2, 2, 2]\n"
+        + HEAD
+        + "'cuboid'\nsize = [2, 2, 2]\nat = [1, 3, 0]\n[view]\neye = [2, -3, 1]\n"
+    )
+    assert run("two.toml", "--tables") == 0
+    said = capsys.readouterr().out
+    assert "V = 1, V' = 2: V = 1 is the nearer, by (4)" in said
+    assert said.count("-4") == 2
+    assert "2: 1-2 (contour), order 1\n  behind 1: -1 at 1/6\n" in said
+    assert "<svg" not in said
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("none.toml",), "none.toml: no such file or directory"),
+        ((".",), "is a directory"),
+        (("cube.off", "-o", "no/a.svg"), "no/a.svg: no such file or directory"),
+        (("cube.off", "--eye", "0,0,0"), "the direction of view is 0,0,0"),
+        (("cube.off", "--eye", "1,2"), "the direction of view is 2 numbers; it has three, X,Y,Z"),
+        (("cube.off", "--perspective"), "--perspective needs the observation point, --eye X,Y,Z"),
+        (("cube.off", "--perspective", "--eye", "0.5,0.5,0.5"), "the observation point is the point looked at"),
+        (("cube.off", "--perspective", "--eye", "0.5,0.5,0.6"), "cube.off: not wholly before the observation point"),
+        (("cube.off", "--towards", "1,2,3"), "--towards is for a perspective"),
+        (("cube.off", "--without", "all"), "'all' is not one of enclosed, touching, ends, ghosts"),
+        (("cube.off", "--width", "5"), "a picture 5 pixels wide is not drawn"),
+        (("flat.csv",), "flat.csv: a segment is no polyhedron"),
+    ],
+)
+def test_refusals(folder: Path, arguments: tuple[str, ...], message: str, capsys: pytest.CaptureFixture[str]) -> None:
+    (folder / "flat.csv").write_text("0,0,0\n1,0,0\n")
+    assert run(*arguments) == 2
+    said = capsys.readouterr()
+    assert message in said.err
+    assert said.err.count("\n") == 1
+    assert said.out == ""
+    assert not list(folder.glob("*.svg"))
