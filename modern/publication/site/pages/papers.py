@@ -56,22 +56,22 @@ def make(argument: str) -> Made:
     return Made(tuple(Part(html=html) for html in makers[one_of(argument, makers)]()))
 
 
-def _strip(figures: Iterable[str], name: str) -> str:
+def _strip(figures: Iterable[str]) -> str:
     """Pictures side by side, as many as there is room for."""
-    return element("ol", "".join(element("li", each) for each in figures), cls="strip", aria_label=name)
+    return element("ol", "".join(element("li", each) for each in figures), cls="strip")
 
 
 def _appel_will() -> Iterator[str]:
     printed = printed_solid(printed_lines(next(paper for paper in PAPERS if paper.name == "appel-will")))
     fig14 = appel_will(found_solid("fig14").points)
     fig23 = appel_will(found_solid("fig23").points)
-    yield _strip((_solid(printed, "4"), _solid(found_solid("fig18"), "18")), "Convex edges")
+    yield _strip((_solid(printed, "4"), _solid(found_solid("fig18"), "18")))
     fig4 = appel_will(printed.points, printed.surfaces)
-    yield _strip((_star(fig4, fig4.edges[0]), _star(fig4, within(fig4))), "Star polygons")
+    yield _strip((_star(fig4, fig4.edges[0]), _star(fig4, within(fig4))))
     count = len(fig14.table.loops)
     loops = (_loop(fig14, number, loop) for number, loop in enumerate(fig14.table.loops, 1))
     yield text("p", f"The {count} loops of Fig. 22, one after another; beside an edge, how often it was used so far.")
-    yield _strip(loops, "Loops growing")
+    yield _strip(loops)
     words = (
         f"The topological map of the object of Fig. 23 in the plane: {len(fig23.vertices)} points, "
         f"{len(fig23.edges)} edges, {len(fig23.surfaces)} surfaces; no two edges cross."
@@ -211,7 +211,7 @@ def _hidden_lines() -> Iterator[str]:
         f"4. Dashed: {result.count(REMOVED)} pieces go that only divide one object (ghost lines). "
         f"What is left is the drawing, {result.count(SEEN)} pieces.",
     )
-    yield _strip(_figures(plates, eye, captions, "hidden"), "Hidden lines removed step by step")
+    yield _strip(_figures(plates, eye, captions, "hidden"))
 
 
 def _figures(plates: Sequence[Plate], eye: Eye, captions: Sequence[str], key: str) -> Iterator[str]:
@@ -230,7 +230,7 @@ def _cells() -> Iterator[str]:
         f"Its {len(hull.edges)} edges, 1-cells; hidden ones are dashed.",
         f"Its {len(hull.faces)} faces, 2-cells; {len(found.plates[3].panes)} are seen.",
     )
-    yield _strip(_figures(found.plates, EYE, captions, "cells"), "The cells of a ball's hull")
+    yield _strip(_figures(found.plates, EYE, captions, "cells"))
     head = ("complex", "0-cells", "1-cells", "2-cells", "3-cells")
     rows = [(escape(name), *map(str, numbers)) for name, numbers in found.counts]
     yield table(head, rows, "Numbers of cells", "Cells by dimension")
@@ -254,13 +254,13 @@ def _octree() -> Iterator[str]:
     )
     shown = [level for level in levels if level.plate.strokes]
     told = [f"The cubes that are full down to level {level.number}." for level in shown]
-    yield _strip(_figures([level.plate for level in shown], steps.ABOVE, told, "octree"), "Full cubes of the octree")
+    yield _strip(_figures([level.plate for level in shown], steps.ABOVE, told, "octree"))
     yield text(
         "p",
         "And the ceiling above, a quadtree: in every square the greatest height; dotted, no column. x is to the right, "
         "y upward.",
     )
-    yield _strip((_square(level, hull.side) for level in levels), "Quadrants of the ceiling")
+    yield _strip(_square(level, hull.side) for level in levels)
 
 
 def _square(level: Level, side: int) -> str:
