@@ -112,7 +112,7 @@ def _empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_the_command_prints_what_the_paper_prints(capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = run(capsys, "ball:32", "--corners", "6", "--coplanar", "invisible", "-o", "ball.off")
-    assert (code, err) == (0, "")
+    assert (code, err) == (0, "coordinates: indices, voxel (x, y, z) from (x, y, z) to (x+1, y+1, z+1)\n")
     for number in ("17077", "776", "360", "1404", "266"):
         assert number in out.replace(",", "").split()
     found = parse_off(Path("ball.off").read_text(), "ball.off")
@@ -162,7 +162,7 @@ def test_fill_writes_the_filled_hull(capsys: pytest.CaptureFixture[str]) -> None
     assert code == 0
     assert "two.csv: 1 of 3 voxels are listed before" in err
     assert "(segment): 3 voxels" in out
-    assert "first voxel is (3, 0, 0)" in out
+    assert "note: the array's first voxel is (3,0,0)" in err
     assert np.load("filled.npy").tolist() == [[[True]], [[True]], [[True]]]
 
 
