@@ -216,7 +216,9 @@ _RUNNERS = (("sh", _sh), ("console", _console), ("py", _saved), ("toml", _saved)
 
 
 def _bash(command: str) -> subprocess.CompletedProcess[str]:
-    environment = {**os.environ, "PATH": f"{Path('.bin').resolve()}:{os.environ['PATH']}", "PYTHONPATH": str(ROOT)}
+    # Samples are as wide as where there is no terminal and nothing says otherwise.
+    place = {"PATH": f"{Path('.bin').resolve()}:{os.environ['PATH']}", "PYTHONPATH": str(ROOT)}
+    environment = {**{name: value for name, value in os.environ.items() if name != "COLUMNS"}, **place}
     return subprocess.run(
         ["bash", "-o", "pipefail", "-c", command],
         env=environment,

@@ -243,8 +243,8 @@ def test_a_hull_that_was_not_determined(
 ) -> None:
     """Exact arithmetic gives none by itself, so the hull is made here."""
     broken = Hull("exact", ERROR, 3, (("0", "0", "0"),), (), (), ())
-    monkeypatch.setattr(export_command, "exact_hull_of", lambda path, history=False, within=None: broken)
-    monkeypatch.setattr("modern.cli.draw.exact_hull_of", lambda path, history=False, within=None: broken)
+    monkeypatch.setattr(export_command, "exact_hull_of", lambda path, history=False, within=None: (broken, []))
+    monkeypatch.setattr("modern.cli.draw.exact_hull_of", lambda path, history=False, within=None: (broken, []))
     assert call(capsys, "export", "t.csv", "-o", "t.off") == (1, "", "hull1620: t.csv: ERROR IN PROGRAM\n")
     assert call(capsys, "draw", "t.csv", "-o", "t.svg") == (1, "", "hull1620: t.csv: ERROR IN PROGRAM\n")
     assert [path.name for path in room.iterdir()] == ["t.csv"]
