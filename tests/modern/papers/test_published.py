@@ -90,12 +90,14 @@ def test_the_command_says_every_verdict(paper: Paper, tmp_path: Path, capsys: py
 
 
 def test_a_result_that_does_not_come_out_is_an_exit_code(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], request: pytest.FixtureRequest
 ) -> None:
     module = import_module(PAPER.module)
     lines = dict(produced_by(PAPER))
     lines["fig14"] = ["1 1 3", *lines["fig14"][1:]]
     monkeypatch.setattr(module, "produced", lambda printed: lines)
+    produced_by.cache_clear()
+    request.addfinalizer(produced_by.cache_clear)
     assert main(["reproduce", PAPER.name]) == 1
     out = capsys.readouterr().out
     assert "Fig. 14: different" in out
