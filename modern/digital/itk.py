@@ -36,8 +36,8 @@ KINDS = {
     ".dcm": "DICOM",
 }
 """What a file is by the ending of its name."""
-LIMIT = 600
-"""Seconds a file may take to be read."""
+LIMIT = 60
+"""Seconds a file may take to be read, and one more for each megabyte."""
 _CHILD = str(Path(__file__).with_name("itk_child.py"))
 _DICOM = (128, b"DICM")
 
@@ -58,7 +58,7 @@ def read_itk(path: str, kind: str, series: str | None = None) -> Scan:
     millimetres where the format says so; a TIFF file has none.
 
     Raises FileError for a file that cannot be read, VolumeError where SimpleITK is not installed, says that it cannot
-    read the file, crashes, or takes longer than ``LIMIT`` seconds; where a voxel has several numbers, and for more than
+    read the file, crashes, or takes longer than ``LIMIT`` allows; where a voxel has several numbers, and for more than
     ``MAX_CELLS`` voxels.
     """
     if kind == SERIES:
@@ -68,7 +68,8 @@ def read_itk(path: str, kind: str, series: str | None = None) -> Scan:
     if importlib.util.find_spec("SimpleITK") is None:
         raise VolumeError(f"{path}: {kind} is read by SimpleITK: pip install 'hull1620[volumes]'")
     with tempfile.TemporaryDirectory(prefix="hull1620-") as folder:
-        code = _run([kind, os.path.abspath(path), folder, str(MAX_CELLS), series or ""], path)
+        seconds = LIMIT + _bytes(path) // 10**6
+        code = _run([kind, os.path.abspath(path), folder, str(MAX_CELLS), series or ""], path, seconds)
         facts = _facts(Path(folder, "facts.json"))
         if code != 0 or facts is None:
             raise VolumeError(f"{path}: SimpleITK {_ended(code)} while it read the file")
@@ -103,7 +104,20 @@ def _check_folder(path: str) -> None:
     raise VolumeError(f"{path}: is a directory without a DICOM file; a volume is a file, or a folder with a series")
 
 
-def _run(words: Sequence[str], path: str) -> int:
+def _bytes(path: str) -> int:
+    """How much there is to read: the file, all of a folder, or of the folder where a header's data may lie."""
+    try:
+        if path.lower().endswith(".mhd"):
+            path = os.path.dirname(os.path.abspath(path))
+        if not os.path.isdir(path):
+            return os.path.getsize(path)
+        with os.scandir(path) as entries:
+            return sum(entry.stat().st_size for entry in entries if entry.is_file())
+    except OSError:
+        return 0
+
+
+def _run(words: Sequence[str], path: str, seconds: float) -> int:
     """Run the child to its end; its exit code, negative for a signal.  Raises VolumeError where it takes too long."""
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "ITK_GLOBAL_DEFAULT_NUMBER_OF_THREADS": "1"}
     command = [sys.executable, "-P", "-W", "ignore", _CHILD, *words]
@@ -114,11 +128,11 @@ def _run(words: Sequence[str], path: str) -> int:
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
-            timeout=LIMIT,
+            timeout=seconds,
             check=False,
         )
     except subprocess.TimeoutExpired:
-        raise VolumeError(f"{path}: SimpleITK has not read it within {LIMIT} seconds") from None
+        raise VolumeError(f"{path}: SimpleITK has not read it within {seconds} seconds") from None
     except OSError as error:
         raise VolumeError(f"{path}: a process for SimpleITK cannot be started: {reason(error)}") from None
     return done.returncode

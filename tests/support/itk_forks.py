@@ -56,7 +56,7 @@ def forks(monkeypatch: pytest.MonkeyPatch, seconds: int = 60) -> Iterator[Counte
         answered.readline()
         endings: Counter[int] = Counter()
 
-        def run(words: Sequence[str], _: str) -> int:
+        def run(words: Sequence[str], _: str, __: float) -> int:
             asked.write(json.dumps(list(words)) + "\n")
             asked.flush()
             code = int(answered.readline())

@@ -303,3 +303,17 @@ def test_a_scan_by_the_library_is_chosen_from_as_any() -> None:
         read_volume("a.nii.gz", spacing=(1, 1, 1))
     with pytest.raises(VolumeError, match="only a folder of DICOM files has a series"):
         read_scan("a.nii.gz", Stated(series="1"))
+
+
+def test_the_time_allowed_grows_with_what_there_is_to_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    allowed = []
+    monkeypatch.setattr(itk, "_run", lambda words, path, seconds: allowed.append(seconds) or 1)
+    Path("far").mkdir()
+    for name in ("a.nii", "far/a.mhd"):
+        Path(name).write_bytes(b"header")
+    Path("far/a.raw").write_bytes(bytes(3 * 10**6))
+    Path("far/a.dcm").write_bytes(bytes(128) + b"DICM" + bytes(10**6))
+    for name in ("a.nii", "far/a.mhd", "far/a.dcm", "far"):
+        with pytest.raises(VolumeError, match="ended with exit code 1"):
+            read_scan(name)
+    assert allowed == [60, 64, 61, 64]
