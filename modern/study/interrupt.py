@@ -1,10 +1,14 @@
 """Ctrl-C while a study works: the first lets what is begun be finished, the second stops at once.
 
 Where nothing has been finished yet, as while code is still being compiled, the first stops at once too.
+
+A compiler's library calls back into Python, and what is raised there Python prints and drops.  A Ctrl-C that falls
+there is pressed again a moment later, until it is heeded.
 """
 
 from __future__ import annotations
 
+import _thread
 import multiprocessing
 import signal
 import sys
@@ -13,6 +17,10 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from types import FrameType
+from typing import Any
+
+_MOMENT = 0.05
+"""Seconds until a Ctrl-C that was dropped is pressed again."""
 
 
 @dataclass
@@ -53,10 +61,28 @@ def watching() -> Iterator[Interrupt]:
         threading.current_thread() is threading.main_thread()
         and signal.getsignal(signal.SIGINT) is signal.default_int_handler
     )
-    if ours:
-        signal.signal(signal.SIGINT, found.press)
+    if not ours:
+        yield found
+        return
+    dropped = sys.unraisablehook
+    presses: list[threading.Timer] = []
+
+    def again(unraisable: Any) -> None:
+        if not issubclass(unraisable.exc_type, KeyboardInterrupt):
+            dropped(unraisable)
+        elif not any(press.is_alive() for press in presses):
+            presses.append(threading.Timer(_MOMENT, _thread.interrupt_main))
+            presses[-1].start()
+
+    signal.signal(signal.SIGINT, found.press)
+    sys.unraisablehook = again
     try:
         yield found
     finally:
-        if ours:
+        try:
+            for press in presses:
+                press.cancel()
+                press.join()
+        finally:
+            sys.unraisablehook = dropped
             signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import os
 import random
 import signal
@@ -103,6 +104,38 @@ def test_with_nothing_finished_the_first_press_stops() -> None:
         Interrupt(in_hand=3).press()
     with pytest.raises(KeyboardInterrupt):
         Interrupt(finished=3).press()
+
+
+@pytest.mark.parametrize("falls", [1, 3])
+def test_a_press_within_a_librarys_callback_is_not_lost(falls: int, capfd: pytest.CaptureFixture[str]) -> None:
+    """Python drops what is raised in a function that C calls, as when numba's compiler hands over its code."""
+    left = [falls]
+
+    @ctypes.CFUNCTYPE(None)
+    def callback() -> None:
+        if left[0]:
+            left[0] -= 1
+            os.kill(os.getpid(), signal.SIGINT)
+            time.sleep(0.001)
+
+    deadline = time.monotonic() + 20
+
+    def work() -> None:
+        while left[0]:
+            callback()
+        while time.monotonic() < deadline:
+            time.sleep(0.005)
+
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    hook = sys.unraisablehook
+    try:
+        with pytest.raises(KeyboardInterrupt), watching():
+            work()
+        assert sys.unraisablehook is hook
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert time.monotonic() < deadline
+    assert capfd.readouterr().err == ""
 
 
 def test_what_ctrl_c_meant_before_it_means_after() -> None:
