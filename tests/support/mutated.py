@@ -122,14 +122,14 @@ def codes_of(
 ) -> set[int]:
     """The exit codes of a command over damaged files of one kind, in a folder of its own, which is the current one.
 
-    Raises AssertionError for a traceback, for an exit code other than 0, 1 and 2, for bad input told in more than one
-    line (but for ``check``, which lists its findings), and for a file written beside it.
+    Raises AssertionError where no whole file is taken, for a traceback, for an exit code other than 0, 1 and 2, for bad
+    input told in more than one line (but for ``check``, which lists its findings), and for a file written beside it.
     """
-    codes = set()
+    codes, taken = set(), set()
     for number in range(files):
         whole = make(random.Random(f"{name}:{number}"))
         Path(path).write_bytes(whole)
-        codes.add(call(capsys, *words)[0])
+        taken.add(call(capsys, *words)[0])
         for way in range(WAYS):
             for left in folder.iterdir():
                 left.unlink()
@@ -145,7 +145,8 @@ def codes_of(
             assert "Traceback" not in err
             if code == 2 and words[0] != "check":
                 assert (err.count("\n"), err.startswith("hull1620: "), there) == (1, True, set()), (number, way, err)
-    return codes
+    assert taken - {2}, "every whole file is refused"
+    return codes | taken
 
 
 def saved(array: np.ndarray) -> bytes:

@@ -34,7 +34,9 @@ def deck(draw: random.Random) -> bytes:
 
 
 def listed(separator: str) -> Make:
-    return lambda draw: ("x y z\n" + "\n".join(separator.join(p) for p in points(draw)) + "\n").encode()
+    return lambda draw: (
+        separator.join("xyz") + "\n" + "\n".join(separator.join(p) for p in points(draw)) + "\n"
+    ).encode()
 
 
 def exported(form: str) -> Make:
@@ -80,8 +82,8 @@ eye = [31, -46, 22]
 [[part]]
 name = "ground"
 shape = "cuboid"
-size = [{number}, 22.5, 1]
-at = [-9, -6, -1]
+size = [{number + 3}, 22.5, 3]
+at = [0, 0, 0]
 figures = [[[1.5, 0, 1], [1.5, 0, 2.5], [3.5, 0, 2.5], [3.5, 0, 1]]]
 [[part]]
 file = "{ROOT / "transcripts" / "counterexamples" / "crown.off"}"
