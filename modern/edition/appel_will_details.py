@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import combinations, pairwise, product
 
 from modern.edition.appel_will_claims import CUBE, Flat
 from modern.edition.chapter3_claims import COUNT, points_of
 from modern.edition.sampled_sets import Point, sampled_sets
-from modern.edition.statements import FAILS, HOLDS, Seen, seen
+from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, seen
 from modern.exact_hull import exact_hull
 from modern.papers.appel_will import Method, appel_will
 from modern.papers.appel_will.edges import project
@@ -68,12 +69,26 @@ def closed_loops(kind: str = "") -> Seen:
         hull = appel_will(points)
         found: list[int] = []
         for loop in hull.table.loops:
-            ends = [hull.edges[abs(e) - 1] if e > 0 else hull.edges[abs(e) - 1][::-1] for e in loop.entries]
-            good.append(all(a[1] == b[0] for a, b in pairwise([*ends, ends[0]])))
+            good.append(_joined(loop.entries, hull.edges))
             found += loop.entries
         signs.append(sorted(map(abs, found)) == sorted([*range(1, len(hull.edges) + 1)] * 2))
     words = f"{len(good)} loops"
     return seen(all(good) and all(signs), f"{words}, every line in two" if kind else words)
+
+
+def fourth_loop() -> Seen:
+    """Fig. 22's fourth loop: its last entry has a minus, and without it line 5 would begin where it ends."""
+    hull = appel_will(points_of("fig14.csv"))
+    (loop,) = (loop.entries for loop in hull.table.loops if {4, 6, 9} <= {*loop.entries})
+    as_it_is, without = (_joined(entries, hull.edges) for entries in (loop, (*loop[:-1], abs(loop[-1]))))
+    good = [*loop] == [4, 6, 9, -5] and as_it_is and not without
+    return Seen(CONDITION if good else FAILS, f"{' '.join(map(str, loop))} runs around a face, 4 6 9 5 does not")
+
+
+def _joined(entries: Sequence[int], edges: Sequence[tuple[int, int]]) -> bool:
+    """Whether each entry begins where the one before it ends, the first one where the last ends."""
+    ends = [edges[abs(e) - 1] if e > 0 else edges[abs(e) - 1][::-1] for e in entries]
+    return all(a[1] == b[0] for a, b in pairwise([*ends, ends[0]]))
 
 
 def star_in_the_text() -> Seen:

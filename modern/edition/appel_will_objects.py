@@ -229,6 +229,28 @@ def planes_of_surfaces() -> Seen:
     return seen(all(good), f"{len(good)} values of three planes")
 
 
+def normal_by_any_two_lines() -> Seen:
+    """Three objects: at each corner of each surface the cross product of its two lines stands upright on the surface.
+
+    Of unit directions it has the length 1 at right angles only; at a concave corner it points the other way.
+    """
+    good, turned, shorter = [], 0, 0
+    for solid in (fig_4(), crown(), bent()):
+        for ring in oriented(solid.points, solid.surfaces):
+            normal = area_normal(solid.points, ring)
+            for k, corner in enumerate(ring):
+                u, v = (
+                    minus(solid.points[b], solid.points[a])
+                    for a, b in ((ring[k - 1], corner), (corner, ring[k - len(ring) + 1]))
+                )
+                product_ = cross(u, v)
+                good.append(lowest(product_) in (lowest(normal), minus((0, 0, 0), lowest(normal))))
+                turned += dot(product_, normal) < 0
+                shorter += dot(product_, product_) < dot(u, u) * dot(v, v)
+    words = f"{len(good)} corners, {turned} where the product is turned over, {shorter} where its length is below 1"
+    return Seen(CONDITION if all(good) and 0 < turned < len(good) and 0 < shorter < len(good) else FAILS, words)
+
+
 def product_of_directions() -> Seen:
     """Two sides of a triangle that meet at an obtuse angle: the product of their directions is negative."""
     p, corner, r = points_of("obtuse.csv")

@@ -182,6 +182,32 @@ def _triangle_added(one: SampledSet) -> Iterator[bool]:
             yield now == (old or _in_triangle(point, a, b, one.points[new]))
 
 
+def _tetrahedra_added(one: SampledSet) -> Iterator[bool]:
+    """Points of a lattice are in H_k+1 if and only if in H_k or in a tetrahedron of the new point.
+
+    Its other three corners define an equation that the new point is outside of; where no equation but NETC is such,
+    it is the only one.
+    """
+    lattice: list[Point] = [(x, y, z) for x, y, z in product(range(-5, 6, 2), repeat=3)]
+    for before, after, news, new in _steps(one):
+        apex = one.points[new]
+        seen = [k for k, plane in enumerate(before.equations) if value(plane, apex) > 0]
+        yield news.checked - 1 in seen
+        corners = [[apex, *(one.points[k] for k in before.defining[at])] for at in seen]
+        for point in lattice:
+            old, now = (max(value(e, point) for e in stage.equations) <= 0 for stage in (before, after))
+            yield now == (old or any(_in_tetrahedron(point, four) for four in corners))
+
+
+def _in_tetrahedron(point: Point, corners: list[Point]) -> bool:
+    """Whether a point is on no other side of any face than the corner that is not on it."""
+    for k, corner in enumerate(corners):
+        plane = through(*(c for m, c in enumerate(corners) if m != k))
+        if value(plane, point) * value(plane, corner) < 0:
+            return False
+    return True
+
+
 def _in_triangle(point: Point, a: Point, b: Point, c: Point) -> bool:
     """Whether a point of the triangle's plane is a combination of its corners: none of the three areas turns back."""
     normal = cross(minus(b, a), minus(c, a))
@@ -223,9 +249,10 @@ _PROPERTIES = {
     "used": _vertices_among_used,
     "once": _vertex_once,
     "triangle": _triangle_added,
+    "tetrahedra": _tetrahedra_added,
     "convex": _convex_if,
 }
 KINDS = tuple(_PROPERTIES)
 _FLAT = ("lines", "moved", "triangle")
-_SPACE = ("convex",)
+_SPACE = ("convex", "tetrahedra")
 _WITH_CONDITION = ("planes",)

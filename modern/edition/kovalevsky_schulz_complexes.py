@@ -10,6 +10,7 @@ from collections import Counter
 from collections.abc import Collection, Iterable
 from functools import cache
 from itertools import combinations, product
+from operator import le
 from random import Random
 
 import numpy as np
@@ -58,6 +59,20 @@ def star(cells: Iterable[Point]) -> Cells:
 def interior(cells: Cells) -> Cells:
     """The cells all of whose bounded cells are there."""
     return frozenset(cell for cell in cells if bounded(cell) <= cells)
+
+
+def euclidean_cells() -> Seen:
+    """The cells of the block as closed boxes: two that meet have the box of a cell in common, their greatest one."""
+    low = {cell: [x - x % 2 for x in cell] for cell in SPACE}
+    high = {cell: [x + x % 2 for x in cell] for cell in SPACE}
+    meet, good = 0, []
+    for one, other in combinations(sorted(SPACE), 2):
+        common = [*map(max, low[one], low[other])], [*map(min, high[one], high[other])]
+        if all(map(le, *common)):
+            meet += 1
+            greatest = max(closure([one]) & closure([other]), key=dimension, default=None)
+            good.append(greatest is not None and (low[greatest], high[greatest]) == common)
+    return seen(meet > 0 and all(good), f"{meet} pairs of boxes meet, each in the box of a cell")
 
 
 def _subsets(number: int = 8) -> list[Cells]:

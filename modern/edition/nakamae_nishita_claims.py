@@ -15,7 +15,7 @@ from modern.geometry.vectors import cross, dot, minus
 from modern.papers.nakamae_nishita.contours import values
 from modern.papers.nakamae_nishita.crossings import CLEAR, ENCLOSED, clipped
 from modern.papers.nakamae_nishita.hidden import Drawing, draw
-from modern.papers.nakamae_nishita.polyhedron import Polyhedron
+from modern.papers.nakamae_nishita.polyhedron import Polyhedron, checked
 from modern.papers.nakamae_nishita.projection import parallel
 from modern.papers.nakamae_nishita.scenes import parse
 from modern.papers.nakamae_nishita.shapes import cuboid, moved, placed
@@ -105,18 +105,23 @@ def touching_is_undecided(kind: str = "") -> Seen:
     )
 
 
-def three_conditions(kind: str = "") -> Seen:
-    """Segments between grid points against a square: those with intersections go in, come out, or both."""
-    found = set()
-    grid = [(x, y) for x in (-3, 1, 2, 7) for y in (-1, 1, 3, 6)]
+def three_conditions() -> Seen:
+    """Segments between grid points against a square: those with intersections go in, come out, or both.
+
+    Some more meet a corner from outside, and are none of these.
+    """
+    found, touching = set(), 0
+    grid = [(x, y) for x in (-3, 1, 2, 7) for y in (-3, 1, 3, 6)]
     for a, b in combinations(grid, 2):
         of_square = values(lines_of(SQUARE), [(*a, 0, 1), (*b, 0, 1)])
         if of_square is not None:
             passage = clipped(of_square, 0, 1)
+            met = any(side(a, b, p) == 0 and min(a[0], b[0]) < p[0] < max(a[0], b[0]) for p in SQUARE)
+            touching += met and passage == CLEAR
             if passage.marks:
                 found.add(tuple(index for _, index in passage.marks))
-    good = found == {(1,), (-1,), (2, -2)}
-    return Seen((CONDITION if kind else HOLDS) if good else FAILS, "in; out; in and out")
+    good = found == {(1,), (-1,), (2, -2)} and touching > 0
+    return Seen(CONDITION if good else FAILS, f"in; out; in and out; {touching} touch a corner only")
 
 
 def sense() -> Seen:
@@ -188,17 +193,28 @@ def table_by_4() -> Seen:
 
 
 def nearer_within() -> Seen:
-    """A small box before a large one, its contour within the other's: inner edges of the large one are hidden."""
+    """A box before a frustum, its contour within the other's: sides of the top are hidden without an intersection.
 
-    def made() -> list[Polyhedron]:
-        large = cuboid("large", *map(Fraction, (8, 8, 8)))
-        small = cuboid("small", *map(Fraction, (1, 1, 1)))
-        x, y, z = map(Fraction, (9, 9, 9))
-        return [large, placed(small, moved((x, y, z)), "small")]
+    Of the frustum's contour nothing is hidden.
+    """
+    corners = [(x, y, z) for z, low, high in ((0, 0, 8), (2, 3, 5)) for x, y in _ring(low, high)]
+    walls = [(k, k + 4, (k + 1) % 4 + 4, (k + 1) % 4) for k in range(4)]
+    frustum = Polyhedron(
+        "frustum",
+        tuple((Fraction(x), Fraction(y), Fraction(z)) for x, y, z in corners),
+        ((0, 1, 2, 3), (7, 6, 5, 4), *walls),
+    )
+    box = placed(cuboid("box", *map(Fraction, (4, 4, 1))), moved((Fraction(2), Fraction(2), Fraction(4))), "box")
+    drawing = draw([checked(frustum), box], parallel((0, 0, 1)), hidden=True)
+    passages = [passage for found in drawing.passages if found.solid == 0 for _, passage in found.behind]
+    whole, met = passages.count(ENCLOSED), sum(bool(passage.marks) for passage in passages)
+    good = whole > 0 < met and _hidden(drawing, INNER) > 0 == _hidden(drawing, CONTOUR)
+    words = f"{met} inner edges of the frustum meet the contour of the box, {whole} are hidden and do not"
+    return Seen(CONDITION if good else FAILS, words)
 
-    drawing = draw(made, parallel((1, 1, 1)), hidden=True)
-    good = _hidden(drawing, INNER) > 0 == _hidden(drawing, CONTOUR)
-    return seen(good, f"{_hidden(drawing, INNER)} pieces of inner edges of the large box, none of its contour")
+
+def _ring(low: int, high: int) -> tuple[tuple[int, int], ...]:
+    return (low, low), (high, low), (high, high), (low, high)
 
 
 def counts_of_d() -> Seen:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from fractions import Fraction
 from itertools import combinations, permutations, product
 from random import Random
 
@@ -116,8 +117,11 @@ def correlations(kind: str = "") -> Seen:
     return Seen((HOLDS if kind else CONDITION) if fine else FAILS, words)
 
 
-def formula(number: str) -> Seen:
-    """A formula on small cases, by another way; (1) at points so far to the right of a line."""
+def formula(number: str, kind: str = "") -> Seen:
+    """A formula on small cases, by another way; (1) at points so far to the right of a line.
+
+    (3) ``in_line``: with sides that overlap in one line, of which d says nothing.
+    """
     good: list[bool] = []
     if number == "1":
         for (x1, y1), (x2, y2) in permutations(((0, 0), (0, 4), (3, -2), (5, 1)), 2):
@@ -134,6 +138,10 @@ def formula(number: str) -> Seen:
         good = [d == wanted for d, wanted in meetings] + [{-4, -2, -1, 0} == {d for d, _ in meetings}]
     elif number == "5":
         return _formula_5()
+    if kind:
+        overlap = overlap_in_a_line()
+        fine = all(good) and overlap.verdict == CONDITION
+        return Seen(CONDITION if fine else FAILS, f"{len(good)} cases; {overlap.words}")
     return seen(bool(good) and all(good), f"{len(good)} cases")
 
 
@@ -181,28 +189,46 @@ def crosses(v: tuple[Place, ...], i: int, w: tuple[Place, ...], j: int) -> bool:
 
 
 def table_properties(number: str) -> Seen:
-    """A property of the tables on pairs of convex polygons, some of which touch; what is said one way is tested so."""
+    """A property of the tables on pairs of convex polygons, some of which touch; what is said one way is tested so.
+
+    ``LP``: all four of LP, with rows for columns.
+    """
     good, touching = [], False
     for v, w in pairs():
         pl, lp = tables_of(v, w)
-        columns = [*zip(*pl, strict=True)]
-        if number == "1":
-            good.append(_apart(v, w) or all(1 in column for column in columns))
-        elif number == "2":
-            good.append((not any(-1 in row for row in pl)) == all(inside(p, v) for p in w))
-        elif number == "3":
-            good += [not any(crosses(v, i, w, j) for j in range(len(w))) for i, c in enumerate(columns) if -1 not in c]
-            tables = Tables(tuple(map(tuple, pl)), tuple(map(tuple, lp)))
-            met = [tables.crossing_number(i, j) for i, c in enumerate(columns) if -1 not in c for j in range(len(w))]
-            touching |= any(met)
-        elif number == "4":
-            good += [(-1 not in row) == inside(p, v) for row, p in zip(pl, w, strict=True)]
-        else:
-            good += [(-1 not in column) == inside(p, w) for column, p in zip(zip(*lp, strict=True), v, strict=True)]
-            good.append((not any(-1 in row for row in lp)) == all(inside(p, w) for p in v))
+        tables = Tables(tuple(map(tuple, pl)), tuple(map(tuple, lp)))
+        if number != "LP":
+            met = [[tables.crossing_number(i, j) for j in range(len(w))] for i in range(len(v))]
+            found, touches = _property(number, v, w, [*zip(*pl, strict=True)], met)
+            good += found
+            touching |= touches
+            continue
+        met = [[tables.crossing_number(i, j) for i in range(len(v))] for j in range(len(w))]
+        for each in "1234":
+            found, touches = _property(each, w, v, [(*row,) for row in lp], met)
+            good += found
+            touching |= touches
     if not all(good) or not good:
         return Seen(FAILS, f"{sum(good)} of {len(good)} cases")
     return Seen(CONDITION if touching else HOLDS, f"{len(good)} cases")
+
+
+def _property(
+    number: str, v: tuple[Place, ...], w: tuple[Place, ...], of_lines: list[tuple[int, ...]], met: list[list[int]]
+) -> tuple[list[bool], bool]:
+    """A property in each case, and whether lines that it says have no intersection touch something.
+
+    of_lines: a row for each line of v, with the vertices of w; met: the same of d, with the lines of w.
+    """
+    if number == "1":
+        return [_apart(v, w) or all(1 in line for line in of_lines)], False
+    if number == "2":
+        return [(not any(-1 in line for line in of_lines)) == all(inside(p, v) for p in w)], False
+    if number == "4":
+        return [(-1 not in at) == inside(p, v) for at, p in zip(zip(*of_lines, strict=True), w, strict=True)], False
+    clear = [i for i, line in enumerate(of_lines) if -1 not in line]
+    crossed = [any(crosses(v, i, w, j) for j in range(len(w))) for i in clear]
+    return [not one for one in crossed], any(any(met[i]) for i in clear)
 
 
 def overlap_in_a_line() -> Seen:
@@ -210,3 +236,33 @@ def overlap_in_a_line() -> Seen:
     pl, lp = tables_of(SQUARE, ((2, 2), (2, 4), (6, 4), (6, 2)))
     d = Tables(tuple(map(tuple, pl)), tuple(map(tuple, lp))).crossing_number(1, 1)
     return Seen(CONDITION if d == 0 else FAILS, f"d is {d} of two sides that overlap")
+
+
+def intersections() -> Seen:
+    """Segments between grid points against polygons: their places on the contour, whatever they meet there.
+
+    Two at most, unless the segment runs along a side; at a corner d of (3) is not 0 for both sides that meet there.
+    """
+    counts, along, more = set(), 0, 0
+    for v in _polygons():
+        for a, b in combinations([(x, y) for x in (-3, 0, 2, 4) for y in (-2, 0, 3, 4)], 2):
+            places, by_3 = set(), 0
+            for i, line in enumerate(lines_of(v)):
+                p, q = v[i], v[(i + 1) % len(v)]
+                at_a, at_b = value(line, (*a, 1)), value(line, (*b, 1))
+                if at_a == at_b == 0:
+                    axis = int(p[0] == q[0])
+                    mine, its = sorted((a[axis], b[axis])), sorted((p[axis], q[axis]))
+                    if max(mine[0], its[0]) < min(mine[1], its[1]):
+                        along += 1
+                        break
+                elif sign(at_a) * sign(at_b) <= 0 and side(a, b, p) * side(a, b, q) <= 0 and at_a != at_b:
+                    places.add(Fraction(at_a, at_a - at_b))
+                    by_3 += (sign(at_b) - sign(at_a)) * (side(a, b, q) - side(a, b, p)) != 0
+            else:
+                counts.add(len(places))
+                more += by_3 > 2
+    words = (
+        f"{', '.join(map(str, sorted(counts)))} places; {along} segments run along a side, {more} meet more than two"
+    )
+    return Seen(CONDITION if counts == {0, 1, 2} and along and more else FAILS, f"{words} sides")

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from fractions import Fraction
 from functools import cache
 from itertools import combinations, product
+from random import Random
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +23,8 @@ from modern.papers.yau_srihari.convexity import (
     is_digitally_convex,
     is_simple,
 )
+from modern.papers.yau_srihari.envelope import reduced_tree
+from modern.papers.yau_srihari.quadtree import Leaf, Place, heights, written
 from modern.papers.yau_srihari.search import normal_of
 
 Voxels = NDArray[np.bool_]
@@ -222,3 +226,29 @@ def outward_normals() -> Seen:
         ways = [sum(n * (a - b) for n, a, b in zip(normal, p, first, strict=True)) for p in floor]
         good.append(max(ways) == 0 and normal[2] < 0 and normal_of(*face.vertices[:3])[2] < 0)
     return seen(bool(good) and all(good), f"{len(good)} faces")
+
+
+def common_to_both_steps() -> Seen:
+    """Floors at random: what is extreme in its row and its column, and what is left after a step by rows and then one
+    by columns, by the program; either holds all vertices of the floor's hull, and the second sometimes more."""
+    random = Random(29)
+    good, more = [], 0
+    for _ in range(40):
+        heights_ = {(x, y): random.randint(0, 3) for x in range(4) for y in range(4) if random.random() < 0.8}
+        both = {place for place in heights_ if all(_extreme(place, axis, heights_) for axis in (0, 1))}
+        tree = written(None, 4, {place: Leaf(z) for place, z in heights_.items()})
+        left = {*heights(reduced_tree(tree, 4), 4)}
+        floor: list[Point] = [(x, y, z) for (x, y), z in heights_.items()]
+        hull = exact_hull([*floor, *((x, y, z + 9) for x, y, z in floor)])
+        good.append({floor[k][:2] for k in hull.vertices if k < len(floor)} <= both <= left)
+        more += both < left
+    words = f"{len(good)} floors; of {more} the second step keeps a point that is not extreme among all of its column"
+    return Seen(CONDITION if all(good) and more else FAILS, words)
+
+
+def _extreme(place: Place, axis: int, heights_: Mapping[Place, int]) -> bool:
+    """Whether a place is a vertex of the lower chain of its row or column: below every line of two others around it."""
+    at, z = place[axis], heights_[place]
+    line = [(p[axis], h) for p, h in heights_.items() if p[1 - axis] == place[1 - axis]]
+    around = product([one for one in line if one[0] < at], [one for one in line if one[0] > at])
+    return all((z - h) * (b - a) < (k - h) * (at - a) for (a, h), (b, k) in around)

@@ -68,6 +68,7 @@ def an_inner_point_added(hull: Hull) -> Hull:
     ("kind", "spoil"),
     [
         ("contain", an_inner_point_added),
+        ("tetrahedra", a_stage_left_out),
         ("hulls", without_an_equation),
         ("final", without_an_equation),
         ("struck", a_vertex_struck),

@@ -12,8 +12,11 @@ import pytest
 import modern.edition.appel_will_details as details
 import modern.edition.appel_will_objects as objects
 import modern.edition.kovalevsky_schulz_claims as kovalevsky
+import modern.edition.kovalevsky_schulz_complexes as complexes
 import modern.edition.kovalevsky_schulz_raster as raster
+import modern.edition.nakamae_nishita_claims as nakamae
 import modern.edition.nakamae_nishita_tables as tables
+import modern.edition.yau_srihari_claims as yau
 import modern.edition.yau_srihari_convexity as convexity
 from modern.digital.solids import Volume
 from modern.edition.statements import CONDITION, FAILS, HOLDS
@@ -152,6 +155,42 @@ def as_it_was(_: Right) -> object:
     return lambda region: region
 
 
+def without_its_minus(right: Right) -> object:
+    """Every entry of a loop is positive."""
+    return lambda entries, edges: right([*map(abs, entries)], edges)
+
+
+def joined_anyhow(_: Right) -> object:
+    return lambda entries, edges: True
+
+
+def a_sum_for_a_product(_: Right) -> object:
+    return lambda u, v: tuple(a + b for a, b in zip(u, v, strict=True))
+
+
+def the_greatest_side_missing(right: Right) -> object:
+    """A cell's closure has no sides."""
+    return lambda cells: frozenset(cells)
+
+
+def nothing_left(right: Right) -> object:
+    """A step loses a column."""
+    return lambda tree, side: {k: z for n, (k, z) in enumerate(right(tree, side).items()) if n}
+
+
+def extreme_nowhere(_: Right) -> object:
+    return lambda place, axis, floor: False
+
+
+def never_enclosed(_: Right) -> object:
+    """The edges wholly within count as clear."""
+    return nakamae.CLEAR
+
+
+def all_on_one_side(_: Right) -> object:
+    return lambda *arguments: 1
+
+
 @pytest.mark.parametrize(
     ("module", "claim", "name", "spoil"),
     [
@@ -167,6 +206,21 @@ def as_it_was(_: Right) -> object:
         (objects, "minimum_data", "fig_4", a_convex_object),
         (details, "star_tells_inside", "as_corrected", always_outside),
         (details, "star_tells_inside change", "star_polygon", unsorted),
+        (objects, "normal_by_any_two_lines", "cross", a_sum_for_a_product),
+        (objects, "normal_by_any_two_lines", "area_normal", lambda _: lambda points, ring: (1, 2, 3)),
+        (details, "fourth_loop", "_joined", without_its_minus),
+        (details, "fourth_loop", "_joined", joined_anyhow),
+        (complexes, "euclidean_cells", "closure", the_greatest_side_missing),
+        (yau, "common_to_both_steps", "heights", nothing_left),
+        (yau, "common_to_both_steps", "_extreme", extreme_nowhere),
+        (nakamae, "nearer_within", "ENCLOSED", never_enclosed),
+        (nakamae, "nearer_within", "_hidden", lambda _: lambda drawing, kind: 1),
+        (nakamae, "three_conditions", "side", all_on_one_side),
+        (tables, "intersections", "side", all_on_one_side),
+        (tables, "intersections", "lines_of", lambda right: lambda v: [*right(v)[:-1], right(v)[0]]),
+        (tables, "table_properties LP", "sign", turned_over),
+        (tables, "table_properties LP", "crosses", lambda _: lambda *arguments: True),
+        (tables, "formula 3 in_line", "crosses", never_crossing),
         (tables, "contour_is_convex", "side", turned_over),
         (tables, "correlations", "crosses", never_crossing),
         (tables, "correlations figure", "crosses", never_crossing),
@@ -199,9 +253,9 @@ def test_a_claim_of_a_paper_notices_a_break(
 def test_a_property_that_touching_breaks_needs_its_condition(monkeypatch: pytest.MonkeyPatch) -> None:
     """Without polygons that touch, property 3 would hold as it stands, and the three correlations are all."""
     apart = [(tables.SQUARE, tables.BESIDE), (tables.SQUARE, tables.WITHIN), (tables.SQUARE, tables.ACROSS)]
-    assert tables.table_properties("3").verdict == CONDITION
+    assert [tables.table_properties(name).verdict for name in ("3", "LP")] == [CONDITION] * 2
     monkeypatch.setattr(tables, "pairs", lambda: iter(apart))
-    assert tables.table_properties("3").verdict == HOLDS
+    assert [tables.table_properties(name).verdict for name in ("3", "LP")] == [HOLDS] * 2
     assert tables.correlations().verdict == FAILS
 
 
