@@ -10,7 +10,7 @@ from modern.edition.chapter3_claims import COUNT, points_of
 from modern.edition.sampled_sets import Point, sampled_sets
 from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, seen
 from modern.exact_hull import exact_hull
-from modern.papers.appel_will import Method, appel_will
+from modern.papers.appel_will import Method, appel_will, printed
 from modern.papers.appel_will.edges import project
 from modern.papers.appel_will.star import as_corrected, as_printed, star_polygon, vorticity
 
@@ -83,6 +83,29 @@ def fourth_loop() -> Seen:
     as_it_is, without = (_joined(entries, hull.edges) for entries in (loop, (*loop[:-1], abs(loop[-1]))))
     good = [*loop] == [4, 6, 9, -5] and as_it_is and not without
     return Seen(CONDITION if good else FAILS, f"{' '.join(map(str, loop))} runs around a face, 4 6 9 5 does not")
+
+
+def limit_of_searches() -> Seen:
+    """Step 9 as printed on a pentagon: without a limit it comes to a point again, and so on for ever.
+
+    With the limit the program ends, and says that the loop does not close.
+    """
+    points = points_of("pentagon.csv")
+    hull = appel_will(points, method=printed("step9", "step3"))
+    ring = exact_hull(points).polygon
+    endless = sum(_comes_again(hull.edges, ring[k - 2], ring[k - 1], ring[k]) for k in range(len(ring)))
+    ended = hull.fault.endswith("does not come back to its start")
+    return seen(ended and endless > 0, f"{endless} of {len(ring)} beginnings do not end; with the limit: {hull.fault}")
+
+
+def _comes_again(edges: Sequence[tuple[int, int]], start: int, common: int, match: int) -> bool:
+    """Whether steps 9 and 10 as printed, from the lines start-common-match on, come to a point twice."""
+    visited: set[int] = set()
+    while match != start and match not in visited:
+        visited.add(match)
+        line = next(edge for edge in edges if match in edge and common not in edge)
+        match = sum(line) - match
+    return match != start
 
 
 def _joined(entries: Sequence[int], edges: Sequence[tuple[int, int]]) -> bool:

@@ -228,6 +228,26 @@ def outward_normals() -> Seen:
     return seen(bool(good) and all(good), f"{len(good)} faces")
 
 
+def queue_both_ways_round() -> Seen:
+    """Edges removed from the queue, of solids at random: what is entered as u1 u3 or u3 u2 is met as its reverse.
+
+    As u1 u3 or u3 u2 itself none would ever be found there.
+    """
+    random = Random(8)
+    same, reverse, other = 0, 0, 0
+    for _ in range(6):
+        hull = octree_hull(array_of([p for p in _GRID if random.random() < 0.6]))
+        for step in (*hull.lower.steps, *hull.upper.steps):
+            ring = step.face.vertices if step.face else ()
+            entries = {*zip((*ring[1:], *ring[:1]), ring, strict=True)}
+            for p, q in step.removed:
+                same += (p, q) in entries
+                reverse += (q, p) in entries
+                other += (p, q) not in entries and (q, p) not in entries
+    words = f"{reverse} edges are met as their reverse, {same} as they were entered"
+    return Seen(CONDITION if reverse and not same and not other else FAILS, words)
+
+
 def common_to_both_steps() -> Seen:
     """Floors at random: what is extreme in its row and its column, and what is left after a step by rows and then one
     by columns, by the program; either holds all vertices of the floor's hull, and the second sometimes more."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from fractions import Fraction
 from types import ModuleType
 from typing import Any
@@ -160,6 +161,22 @@ def without_its_minus(right: Right) -> object:
     return lambda entries, edges: right([*map(abs, entries)], edges)
 
 
+def as_corrected_steps(_: Right) -> object:
+    """Step 9 takes no line twice."""
+    return lambda *names: details.Method()
+
+
+def removed_as_entered(right: Right) -> object:
+    """Edges met again have the direction they would be entered with."""
+
+    def turned(array: Right) -> object:
+        hull = right(array)
+        steps = tuple(replace(step, removed=tuple((q, p) for p, q in step.removed)) for step in hull.lower.steps)
+        return replace(hull, lower=replace(hull.lower, steps=steps))
+
+    return turned
+
+
 def joined_anyhow(_: Right) -> object:
     return lambda entries, edges: True
 
@@ -210,8 +227,11 @@ def all_on_one_side(_: Right) -> object:
         (objects, "normal_by_any_two_lines", "area_normal", lambda _: lambda points, ring: (1, 2, 3)),
         (details, "fourth_loop", "_joined", without_its_minus),
         (details, "fourth_loop", "_joined", joined_anyhow),
+        (details, "limit_of_searches", "printed", as_corrected_steps),
+        (details, "limit_of_searches", "_comes_again", never_crossing),
         (complexes, "euclidean_cells", "closure", the_greatest_side_missing),
         (yau, "common_to_both_steps", "heights", nothing_left),
+        (yau, "queue_both_ways_round", "octree_hull", removed_as_entered),
         (yau, "common_to_both_steps", "_extreme", extreme_nowhere),
         (nakamae, "nearer_within", "ENCLOSED", never_enclosed),
         (nakamae, "nearer_within", "_hidden", lambda _: lambda drawing, kind: 1),
