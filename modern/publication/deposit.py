@@ -11,6 +11,7 @@ from __future__ import annotations
 import argparse
 import gzip
 import hashlib
+import re
 import shutil
 import subprocess
 import sys
@@ -132,7 +133,8 @@ def readme(about: Work, parts: Parts, root: Path = ROOT) -> str:
     files = parts.files
     wheel = next(name for name in files if name.startswith("wheel/"))
     lock = (root / "locks" / "run.lock").read_text(encoding="utf-8")
-    pinned = [line.split(" ")[0].rstrip("\\").strip() for line in lock.splitlines() if "==" in line]
+    needed = {re.split(r"[^A-Za-z0-9_-]", each)[0] for each in about.needs}
+    pinned = [line.split(" ")[0] for line in lock.splitlines() if line.split("==")[0] in needed]
     held = "\n".join(f"  {name + '/':<10}{words}" for name, words in FOLDERS.items() if _has(files, name))
     whole = {name.removeprefix("source/"): data for name, data in files.items() if name.startswith("source/")}
     return f"""{about.title}
@@ -147,7 +149,7 @@ What is here (this folder is "data" of a BagIt bag, RFC 8493):
 Read first: site/index.html in any browser, or the book. source/README.md tells what the
 software does; source/LICENSE says file by file what is whose.
 
-To do it again you need Python {about.python} and four wheels: this one and those of
+To do it again you need Python {about.python} and some wheels: this one and those of
 {", ".join(pinned)} (their hashes stand in source/locks/run.lock). Without a network:
 
   python3 -m venv env

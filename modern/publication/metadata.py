@@ -115,7 +115,10 @@ def crate(found: Work, folders: Mapping[str, str], files: Mapping[str, tuple[str
 
 
 def data_package(found: Work, tables: Mapping[str, str]) -> str:
-    """datapackage.json: a Frictionless resource for each CSV table, by its path and text."""
+    """datapackage.json: a Frictionless resource for each CSV table, by its path and text.
+
+    Raises ValueError for a table with two columns of one name, by which no cell could be named.
+    """
     resources = [
         {
             "name": re.sub(r"[^a-z0-9]+", "-", path.lower().removesuffix(".csv")).strip("-"),
@@ -124,7 +127,7 @@ def data_package(found: Work, tables: Mapping[str, str]) -> str:
             "format": "csv",
             "mediatype": "text/csv",
             "encoding": "utf-8",
-            "schema": {"fields": _fields(text)},
+            "schema": {"fields": _fields(path, text)},
         }
         for path, text in sorted(tables.items())
     ]
@@ -141,9 +144,11 @@ def data_package(found: Work, tables: Mapping[str, str]) -> str:
     )
 
 
-def _fields(text: str) -> list[dict[str, str]]:
+def _fields(path: str, text: str) -> list[dict[str, str]]:
     """A table's columns: whole numbers, numbers or words, as all of their cells are."""
     head, *rows = list(csv.reader(StringIO(text)))
+    if twice := [name for name in head if head.count(name) > 1]:
+        raise ValueError(f"{path}: two columns are called {twice[0]}")
     return [{"name": name, "type": _kind([row[k] for row in rows])} for k, name in enumerate(head)]
 
 

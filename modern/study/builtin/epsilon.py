@@ -188,7 +188,8 @@ def _each(plan: Plan, rows: _Rows, name: str, title: str, routes: tuple[str, ...
         for number, cell in enumerate(plan.cells)
         for route in routes
     )
-    head = ("sets", "e", "of each", "found", "wrong", "of them swallowed", "refused or not ended", "found", "wrong")
+    counts = ("of each", "found", "wrong", "of them swallowed", "refused or not ended")
+    head = ("sets", "e", *counts, "share found", "share wrong")
     return Table(name, title, head, lines, INTERVALS)
 
 

@@ -19,8 +19,10 @@ from tests.support.paths import ROOT
 bagit = pytest.importorskip("bagit", reason="a bag is checked by bagit")
 TABLES = {
     "source/docs/studies/x/table.csv": b"kind,count,share\na,1,0.5\nb,2,1e-3\n",
-    "source/docs/weight/cards.csv": b"card,words\n1,IF\n",
+    "source/docs/studies/x/cards.csv": b"card,words\n1,IF\n",
 }
+REAL = {f"source/{name}": (ROOT / name).read_bytes() for name in source_files() if re.match(r"docs/.*\.csv$", name)}
+"""The tables that a deposit of the project holds."""
 
 
 def parts() -> Parts:
@@ -31,6 +33,7 @@ def parts() -> Parts:
         "book/hull1620.pdf": b"%PDF",
         "site/index.html": b"<p>",
         "tei/program1.xml": b"<TEI/>",
+        **REAL,
         **TABLES,
     }
     return Parts(files, frozenset({"source/.ci/run"}))
@@ -65,6 +68,7 @@ def test_frictionless_finds_the_tables_as_they_are_described(made: tuple[Path, P
     data = made[0] / "data"
     report = frictionless.Package(str(data / "datapackage.json")).validate()
     assert report.valid, report.flatten(["type", "note"])
+    assert len(report.tasks) == len(REAL) + 2 > 20
     table = data / "source" / "docs" / "studies" / "x" / "table.csv"
     before = table.read_text()
     table.write_text(before.replace("b,2", "b,two"))
@@ -72,6 +76,11 @@ def test_frictionless_finds_the_tables_as_they_are_described(made: tuple[Path, P
         assert not frictionless.Package(str(data / "datapackage.json")).validate().valid
     finally:
         table.write_text(before)
+
+
+def test_two_columns_of_one_name_are_refused() -> None:
+    with pytest.raises(ValueError, match=r"^a/b\.csv: two columns are called found$"):
+        data_package(described(), {"a/b.csv": "n,found,found\n1,2,3\n"})
 
 
 def test_a_column_is_what_all_its_cells_are() -> None:
