@@ -171,6 +171,7 @@ def test_the_readme_names_what_is_needed(made: tuple[Path, Path]) -> None:
         "swh:1:dir:",
     ):
         assert words in text
+    assert "setuptools" not in text, "the wheel does not need it"
     assert not re.search(r"\brows/", text), "what is not in the bag is not spoken of"
 
 
