@@ -177,20 +177,33 @@ def combination_is_inside() -> Seen:
 
 
 def theorem_4_6(kind: str = "") -> Seen:
-    """Values of a line and distances from it, squared, order points alike; ``bars``: with those of our text."""
-    a, b, c = 3, -2, 5
-    points = [(x, y) for x, y in product(range(-3, 4), repeat=2) if a * x + b * y + c >= 0]
-    values = [a * x + b * y + c for x, y in points]
-    feet = [Fraction(v, a * a + b * b) for v in values]
-    squares = [(a * t) ** 2 + (b * t) ** 2 for t in feet]
-    good = all((v >= w) == (s >= t) for (v, s), (w, t) in combinations(zip(values, squares, strict=True), 2))
-    words = f"{len(points)} points of a grid, all pairs"
+    """Values of three lines and distances from them order points alike; ``bars``: with those of our text.
+
+    The distance is that from the foot of the perpendicular; the formula says that times a root it is the value.
+    """
+    good, as_text = [], []
+    for (a, b, c), p, q in (((3, -2, 5), (1, 4), (3, 7)), ((4, -6, 2), (1, 1), (4, 3)), ((0, 5, -10), (0, 2), (1, 2))):
+        good += [a * x + b * y + c == 0 for x, y in (p, q)]
+        points = [(x, y) for x, y in product(range(-3, 4), repeat=2) if a * x + b * y + c >= 0]
+        values = [a * x + b * y + c for x, y in points]
+        squares = [_distance_squared(point, p, q) for point in points]
+        both = [*zip(values, squares, strict=True)]
+        good += [(v >= w) == (s >= t) for (v, s), (w, t) in combinations(both, 2)]
+        good += [s * (a * a + b * b) == v * v for v, s in both]
+        as_text += [
+            s * (a * a + b * b) == (abs(a * x) + b * y + c) ** 2 for (x, y), s in zip(points, squares, strict=True)
+        ]
+    words = "points of a grid, all pairs, about three lines"
     if kind:
-        as_text = all(
-            (abs(a * x) + b * y + c) ** 2 == s * (a * a + b * b) for (x, y), s in zip(points, squares, strict=True)
-        )
-        return Seen(CONDITION if good and not as_text else FAILS, words)
-    return seen(good, words)
+        return Seen(CONDITION if all(good) and not all(as_text) else FAILS, words)
+    return seen(all(good), words)
+
+
+def _distance_squared(x: tuple[int, int], p: tuple[int, int], q: tuple[int, int]) -> Fraction:
+    """The square of the distance of a point from the foot of its perpendicular on the line of two others."""
+    along = q[0] - p[0], q[1] - p[1]
+    t = Fraction((x[0] - p[0]) * along[0] + (x[1] - p[1]) * along[1], along[0] ** 2 + along[1] ** 2)
+    return (p[0] + t * along[0] - x[0]) ** 2 + (p[1] + t * along[1] - x[1]) ** 2
 
 
 def theorem_4_7(count: str = COUNT) -> Seen:

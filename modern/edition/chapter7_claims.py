@@ -214,7 +214,7 @@ def where_data_are_refused() -> Seen:
 
 
 def vertex_overlooked() -> Seen:
-    """A point a tenth above a plane, with e = 1, in the port."""
+    """A point about a tenth above a plane, in the port: exactly, and with e = 20."""
     from modern.port import convex_hull
 
     points = [("0", "0", "0"), ("4", "0", "0"), ("0", "4", "0"), ("0", "0", "4"), ("1.4", "1.4", "1.4")]

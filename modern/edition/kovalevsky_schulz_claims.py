@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from functools import cache
-from itertools import combinations, product
+from itertools import combinations, permutations, product
 from random import Random
 
 import numpy as np
@@ -263,18 +263,45 @@ def edge_in_line(treatment: Treatment = EXTENDED) -> Seen:
 
 @cache
 def _half_ball() -> CellList:
-    cells = convex_polyhedron(local_corners(half_ball(10), VERTICES))
+    return _straight(half_ball(10))
+
+
+def _straight(volume: Volume) -> CellList:
+    cells = convex_polyhedron(local_corners(volume, VERTICES))
     assert isinstance(cells, CellList)
     return straightened(merged(cells))
 
 
 def symmetry() -> Seen:
-    """The half-ball of diameter 10 and its vertices with x and y exchanged and x mirrored."""
-    points = {v.point for v in _half_ball().vertices}
-    turned = [{(y, x, z) for x, y, z in points}, {(2 - x, y, z) for x, y, z in points}]
-    shift = {x for x, _, _ in points}
-    mirrored = {(min(shift) + max(shift) - x, y, z) for x, y, z in points}
-    return seen(points in (turned[0], turned[1]) and points == mirrored, f"{len(points)} vertices")
+    """Of three bodies, the turns and reflections out of 48 that carry the voxels onto themselves: so they do the faces.
+
+    A half-ball has eight, an L of three voxels four, one of four voxels two.
+    """
+    short: list[Point] = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
+    numbers, good = [], []
+    for volume in (half_ball(10), listed(short), listed([*short, (0, 2, 0)])):
+        voxels = [(int(x), int(y), int(z)) for x, y, z in np.argwhere(volume.array)]
+        cells = _straight(volume)
+        points = [vertex.point for vertex in cells.vertices]
+        numbers.append(0)
+        for order, signs in product(permutations(range(3)), product((1, -1), repeat=3)):
+            if {*_moved(voxels, order, signs)} == {*_moved(voxels)}:
+                numbers[-1] += 1
+                turned, stays = (
+                    {frozenset(places[v - 1] for v in face.vertices) for face in cells.faces}
+                    for places in (_moved(points, order, signs), _moved(points))
+                )
+                good.append(turned == stays)
+    return seen(
+        all(good) and numbers == [8, 4, 2], f"{', '.join(map(str, numbers))} symmetries, all of them the hull's"
+    )
+
+
+def _moved(points: list[Point], order: tuple[int, ...] = (0, 1, 2), signs: tuple[int, ...] = (1, 1, 1)) -> list[Point]:
+    """Points turned about the middle of their box, in halves of a unit."""
+    middle = [min(axis) + max(axis) for axis in zip(*points, strict=True)]
+    turned = ([2 * p[k] - middle[k] for k in range(3)] for p in points)
+    return [(signs[0] * p[order[0]], signs[1] * p[order[1]], signs[2] * p[order[2]]) for p in turned]
 
 
 def symmetric_faces() -> Seen:

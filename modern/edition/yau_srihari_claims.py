@@ -24,7 +24,8 @@ from modern.papers.yau_srihari.convexity import (
     is_simple,
 )
 from modern.papers.yau_srihari.envelope import reduced_tree
-from modern.papers.yau_srihari.quadtree import Leaf, Place, heights, written
+from modern.papers.yau_srihari.octree import count
+from modern.papers.yau_srihari.quadtree import Leaf, Node, Place, graph_side, heights, written
 from modern.papers.yau_srihari.search import normal_of
 
 Voxels = NDArray[np.bool_]
@@ -200,14 +201,17 @@ def another_vertex() -> Seen:
 
 
 def epigraph_at_inner_nodes() -> Seen:
-    """Heights 0, 1, 1, 1 of four columns: as printed the root, of least height 0, is full; the epigraph is not."""
-    heights = {(0, 0): 0, (0, 1): 1, (1, 0): 1, (1, 1): 1}
-    root_value, root_low = min(heights.values()), 0
-    by_letter = 8 if root_low >= root_value else 0
-    epigraph = sum(z >= height for height in heights.values() for z in (0, 1))
-    by_greatest = root_low >= max(heights.values())
-    leaves = all((z >= height) == (z in range(height, 2)) for height in heights.values() for z in (0, 1))
-    good = by_letter == 8 > epigraph == 5 and not by_greatest and leaves
+    """Heights 0, 1, 1, 1 of four columns: as printed the root, of least height 0, is full; the epigraph is not.
+
+    By its greatest height, 1, the root is not full.
+    """
+    tops = {(0, 0): 0, (0, 1): 1, (1, 0): 1, (1, 1): 1}
+    tree = written(None, 2, {place: Leaf(top) for place, top in tops.items()})
+    assert isinstance(tree, Node)
+    by_letter = 8 if tree.low == 0 else 0
+    epigraph = count(graph_side(tree, 2, above=True), 2)
+    columns = sum(z >= top for top in tops.values() for z in (0, 1))
+    good = by_letter == 8 > epigraph == columns == 5 and tree.high == 1
     return Seen(CONDITION if good else FAILS, f"{by_letter} voxels as printed at the root, {epigraph} in the epigraph")
 
 

@@ -9,6 +9,7 @@ import pytest
 
 import modern.edition.chapter2_claims as chapter2
 import modern.edition.chapter3_stages as stages
+import modern.edition.chapter4_proofs as proofs
 import modern.edition.kovalevsky_schulz_claims as kovalevsky
 import modern.edition.kovalevsky_schulz_complexes as complexes
 import modern.edition.nakamae_nishita_claims as nakamae
@@ -128,6 +129,14 @@ def test_three_points_in_a_line_make_no_supporting_plane(monkeypatch: pytest.Mon
     assert chapter2.supporting_planes().verdict == FAILS
     monkeypatch.setattr(chapter2, "sampled_sets", lambda *_: (SampledSet(points, one.hull, judge),))
     assert chapter2.supporting_planes().verdict == HOLDS
+
+
+@pytest.mark.parametrize("kind", ["", "bars"])
+def test_the_distance_from_a_point_of_the_line_is_not_that_from_the_line(
+    kind: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(proofs, "_distance_squared", lambda x, p, q: (x[0] - p[0]) ** 2 + (x[1] - p[1]) ** 2)
+    assert proofs.theorem_4_6(kind).verdict == FAILS
 
 
 def test_an_index_without_its_number_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -19,7 +19,7 @@ import modern.edition.nakamae_nishita_claims as nakamae
 import modern.edition.nakamae_nishita_tables as tables
 import modern.edition.yau_srihari_claims as yau
 import modern.edition.yau_srihari_convexity as convexity
-from modern.digital.solids import Volume
+from modern.digital.solids import Volume, listed
 from modern.edition.statements import CONDITION, FAILS, HOLDS
 from modern.papers.appel_will.corners import preprocess
 from modern.papers.appel_will.results import Solid
@@ -161,6 +161,11 @@ def without_its_minus(right: Right) -> object:
     return lambda entries, edges: right([*map(abs, entries)], edges)
 
 
+def without_a_face(right: Right) -> object:
+    """The cell list lacks its last face."""
+    return lambda cells: replace(right(cells), faces=right(cells).faces[:-1])
+
+
 def as_corrected_steps(_: Right) -> object:
     """Step 9 takes no line twice."""
     return lambda *names: details.Method()
@@ -231,6 +236,9 @@ def all_on_one_side(_: Right) -> object:
         (details, "limit_of_searches", "_comes_again", never_crossing),
         (complexes, "euclidean_cells", "closure", the_greatest_side_missing),
         (yau, "common_to_both_steps", "heights", nothing_left),
+        (yau, "epigraph_at_inner_nodes", "graph_side", lambda _: lambda tree, side, above: True),
+        (kovalevsky, "symmetry", "straightened", without_a_face),
+        (kovalevsky, "symmetry", "half_ball", lambda _: lambda diameter: listed([(0, 0, 0), (0, 1, 0), (1, 2, 0)])),
         (yau, "queue_both_ways_round", "octree_hull", removed_as_entered),
         (yau, "common_to_both_steps", "_extreme", extreme_nowhere),
         (nakamae, "nearer_within", "ENCLOSED", never_enclosed),
