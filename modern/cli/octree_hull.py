@@ -81,16 +81,14 @@ def _lines(hull: OctreeHull, source: str, origin: Point, tables: bool, trace: bo
     x, y, z = origin
     over = f"an octree of {counted(nodes(hull.solid), 'node')} over a cube of side {hull.side}"
     yield f"{source}: {counted(hull.given, 'voxel')}, {over}"
-    floor = {(i + x, j + y): value + z for (i, j), value in hull.floor.items()}
-    ceiling = {(i + x, j + y): value + z for (i, j), value in hull.ceiling.items()}
     if tables:
-        yield from _table("floor", floor)
-        yield from _table("ceiling", ceiling)
-        yield from _side("floor", hull.lower, len(floor), origin, 1, trace)
-        yield from _side("ceiling", hull.upper, len(ceiling), origin, -1, trace)
+        for name, heights in (("floor", hull.floor), ("ceiling", hull.ceiling)):
+            yield from _table(name, {(i + x, j + y): value + z for (i, j), value in heights.items()})
+        yield from _side("floor", hull.lower, hull.columns, origin, 1, trace)
+        yield from _side("ceiling", hull.upper, hull.columns, origin, -1, trace)
     else:
-        yield _brief("floor", hull.lower, len(floor))
-        yield _brief("ceiling", hull.upper, len(ceiling))
+        yield _brief("floor", hull.lower, hull.columns)
+        yield _brief("ceiling", hull.upper, hull.columns)
     parts = hull.components
     what = "digital hull" if parts == 1 else f"digital points of the hull of {parts} 6-connected parts"
     yield f"{what}: {counted(hull.voxels, 'voxel')}, an octree of {counted(nodes(hull.hull), 'node')}"

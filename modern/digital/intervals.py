@@ -40,15 +40,16 @@ def below_facets(points: Grid, corner: Grid, plane: Grid, shape: tuple[int, int]
     high = np.zeros(shape, dtype=np.int64)
     down, up = plane[:, 2] < 0, plane[:, 2] > 0
     # Seen from above, the facets of the lower side run clockwise.
-    _write(low, points[corner[down][:, ::-1]], -plane[down], rounded_up=True)
-    _write(high, points[corner[up]], plane[up], rounded_up=False)
+    write_heights(low, points[corner[down][:, ::-1]], -plane[down], rounded_up=True)
+    write_heights(high, points[corner[up]], plane[up], rounded_up=False)
     return low, high
 
 
-def _write(grid: Grid, triangles: Grid, plane: Grid, rounded_up: bool) -> None:
-    """Write the height of every triangle at the places below it.
+def write_heights(grid: Grid, triangles: Grid, plane: Grid, rounded_up: bool) -> None:
+    """Write the height of every triangle at the places below it, its boundary included; a later one overwrites.
 
-    triangles: shape (n, 3, 3), counterclockwise seen from above; plane: with a positive third coefficient.
+    triangles: of grid points, shape (n, 3, 3), counterclockwise seen from above; plane: four coefficients each, with a
+    positive third one.  A height that is no whole number is rounded up, or down.
     """
     x, y = triangles[:, :, 0], triangles[:, :, 1]
     first, rows = x.min(axis=1), np.ptp(x, axis=1) + 1

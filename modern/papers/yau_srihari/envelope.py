@@ -7,25 +7,37 @@ the paper finds them by Sklansky's scan, which goes once along a polygon and bac
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Sized
 from dataclasses import dataclass
+from functools import cached_property, partial
 from itertools import pairwise
 
-from modern.digital.intervals import lower_chain
+import numpy as np
+
+from modern.digital.columns import Grid
+from modern.digital.intervals import lower_chain, write_heights
 from modern.papers.yau_srihari.printed import Printed
-from modern.papers.yau_srihari.quadtree import Leaf, Place, Point, Quadtree, heights, line, written
-from modern.papers.yau_srihari.search import Normal, Search, normal_of
+from modern.papers.yau_srihari.quadtree import (
+    NO_COLUMN,
+    Leaf,
+    Place,
+    Point,
+    Quadtree,
+    line,
+    no_columns,
+    with_columns,
+    written,
+)
+from modern.papers.yau_srihari.search import Candidates, Normal, Search, normal_of
 
 
-def reduced_tree(tree: Quadtree, side: int) -> Quadtree:
+def reduced_tree(tree: Quadtree) -> Quadtree:
     """The floor tree with only the columns that are vertices of the lower chain of their row, and among those of the
     rows' only the vertices of their own column's chain (sections 4.6.1 and 5)."""
     for axis in (0, 1):
-        kept: dict[Place, Leaf] = {}
-        for at in range(side):
-            for t, z in lower_chain(line(tree, side, axis, at)):
-                kept[(at, t) if axis == 0 else (t, at)] = Leaf(z)
-        tree = written(None, side, kept)
+        kept = [(at, t, z) for at in range(tree.side) for t, z in lower_chain(line(tree, axis, at))]
+        own, other, z = np.array(kept, dtype=np.int64).T
+        tree = with_columns(no_columns(tree.side), *((own, other) if axis == 0 else (other, own)), z)
     return tree
 
 
@@ -44,26 +56,27 @@ def outline(places: Iterable[Place]) -> list[Place]:
     return list(dict.fromkeys(down + up[::-1]))
 
 
-def chain_above(start: Place, end: Place, heights: Mapping[Place, int]) -> list[Point]:
-    """The lower chain of the points above the segment between two places, both included, from one to the other."""
+def chain_above(start: Place, end: Place, points: Grid) -> list[Point]:
+    """The lower chain of the points above the segment between two places, both included, from one to the other.
+
+    points: shape (n, 3), one over a place.
+    """
     dx, dy = end[0] - start[0], end[1] - start[1]
-    above: dict[int, Point] = {}
-    for (x, y), z in heights.items():
-        ahead, aside = dx * (x - start[0]) + dy * (y - start[1]), dx * (y - start[1]) - dy * (x - start[0])
-        if aside == 0 and 0 <= ahead <= dx * dx + dy * dy:
-            above[ahead] = (x, y, z)
-    return [above[t] for t, _ in lower_chain(sorted((t, point[2]) for t, point in above.items()))]
+    x, y = points[:, 0] - start[0], points[:, 1] - start[1]
+    ahead = dx * x + dy * y
+    above = np.flatnonzero((dx * y == dy * x) & (ahead >= 0) & (ahead <= dx * dx + dy * dy))
+    by_way: dict[int, Point] = {
+        t: (x, y, z) for t, (x, y, z) in zip(ahead[above].tolist(), points[above].tolist(), strict=True)
+    }
+    return [by_way[t] for t, _ in lower_chain(sorted((t, point[2]) for t, point in by_way.items()))]
 
 
-def over_edges(corners: list[Place], heights: Mapping[Place, int], whole: bool) -> list[tuple[Point, Point]]:
+def over_edges(corners: list[Place], points: Grid, whole: bool) -> list[tuple[Point, Point]]:
     """The edges above those of H(A), counterclockwise: all of the lower chains, or with ``whole`` one over each."""
     found: list[tuple[Point, Point]] = []
     for start, end in zip(corners, corners[1:] + corners[:1], strict=True):
-        if whole:
-            found.append(((*start, heights[start]), (*end, heights[end])))
-        else:
-            chain = chain_above(start, end, heights)
-            found.extend(pairwise(chain))
+        chain = chain_above(start, end, points)
+        found.extend([(chain[0], chain[-1])] if whole else pairwise(chain))
     return found
 
 
@@ -117,72 +130,115 @@ class Step:
     waiting: int
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False)
 class Envelope:
     """The convex envelope of a floor.
 
     ``reduced``: the points of the reduced set A; ``outline``: the corners of H(A), counterclockwise; ``faces``: none
     where A lies over one line, then ``chain`` has the envelope's vertices; ``tree``: the floor with the envelope's
     values; ``fault``: why the construction stopped early, which only a statement taken as printed can bring about.
+    ``construction``: what makes the paper's steps.
     """
 
     reduced: tuple[Point, ...]
     outline: tuple[Place, ...]
     faces: tuple[Face, ...]
     chain: tuple[Point, ...]
-    steps: tuple[Step, ...]
     tree: Quadtree
+    construction: Callable[[], tuple[Step, ...]]
     fault: str = ""
 
+    @cached_property
+    def steps(self) -> tuple[Step, ...]:
+        """The construction edge by edge, each face searched for in the quadtree; made when asked for first, as the
+        faces alone are found without it."""
+        return self.construction()
 
-def envelope(floor: Quadtree, side: int, printed: Printed) -> Envelope:
+
+def envelope(floor: Quadtree, printed: Printed) -> Envelope:
     """The convex envelope of the heights of a tree (algorithm Convex Envelope, sections 4.6 and 5)."""
-    tree = reduced_tree(floor, side)
-    points = heights(tree, side)
-    corners = outline(points)
+    tree = reduced_tree(floor)
+    x, y = np.nonzero(tree.there)
+    grid = np.stack((x, y, tree.values[x, y]), axis=1)
+    points: tuple[Point, ...] = tuple((x, y, z) for x, y, z in grid.tolist())
+    corners = outline((x, y) for x, y, _ in points)
     if len(corners) < 3:
-        chain = chain_above(corners[0], corners[-1], points)
-        tree = written(tree, side, _along(chain, printed))
-        return Envelope(_points(points), tuple(corners), (), tuple(chain), (), tree)
-    queue = {(end, start): _upright(start, end) for start, end in over_edges(corners, points, whole=printed.start)}
+        chain = chain_above(corners[0], corners[-1], grid)
+        return Envelope(points, tuple(corners), (), tuple(chain), written(tree, _along(chain, printed)), tuple)
+    edges = over_edges(corners, grid, whole=printed.start)
+    if printed.names():
+        steps, after, fault = _by_steps(edges, points, tree, printed)
+        found = tuple(step.face for step in steps if step.face is not None)
+        return Envelope(points, tuple(corners), found, (), after, lambda: steps, fault)
+    faces = _by_candidates(edges, points)
+    again = partial(_by_steps, edges, points, tree, printed)
+    return Envelope(points, tuple(corners), faces, (), _entered(tree, faces), lambda: again()[0])
+
+
+def _queue(edges: Iterable[Edge]) -> dict[Edge, Normal]:
+    """The edges above those of H(A), turned, each with the outward normal of the upright face over it."""
+    return {(end, start): normal_of(start, end, (start[0], start[1], start[2] + 1)) for start, end in edges}
+
+
+def _by_candidates(edges: list[Edge], points: tuple[Point, ...]) -> tuple[Face, ...]:
+    """The faces in the order of the queue, each found among all points at once."""
+    queue, candidates, faces = _queue(edges), Candidates(points), []
+    while queue:
+        edge = next(iter(queue))
+        found = candidates.face_on(*edge, queue.pop(edge))
+        if not found or len(faces) > _most(points):
+            raise AssertionError(f"no face stands on the edge {edge}")
+        face = Face(_polygon(*edge, found), normal_of(*edge, found[0]))
+        _join(face, edge, queue)
+        candidates.mark(found, face.vertices)
+        faces.append(face)
+    return tuple(faces)
+
+
+def _by_steps(
+    edges: list[Edge], points: tuple[Point, ...], tree: Quadtree, printed: Printed
+) -> tuple[tuple[Step, ...], Quadtree, str]:
+    """The steps of section 5, each face searched for in the tree; the tree after them; why they stopped early."""
+    queue = _queue(edges)
     steps: list[Step] = []
-    fault = ""
-    while queue and not fault:
-        edge, normal = next(iter(queue.items()))
-        del queue[edge]
-        step, tree = _step(edge, normal, queue, tree, side, printed)
+    while queue:
+        edge = next(iter(queue))
+        step, tree = _step(edge, queue.pop(edge), queue, tree, printed)
         steps.append(step)
         if step.face is None and not printed.names():
             raise AssertionError(f"no face stands on the edge {edge}")
-        if len(steps) > 8 * len(points) + 8:
-            fault = f"the queue is not empty after {len(steps)} faces"
-    faces = tuple(step.face for step in steps if step.face is not None)
-    if not fault and len(faces) < len(steps):
-        fault = f"no point is found for {len(steps) - len(faces)} of {len(steps)} edges"
-    return Envelope(_points(points), tuple(corners), faces, (), tuple(steps), tree, fault)
+        if len(steps) > _most(points):
+            return tuple(steps), tree, f"the queue is not empty after {len(steps)} faces"
+    open_ = sum(step.face is None for step in steps)
+    return tuple(steps), tree, f"no point is found for {open_} of {len(steps)} edges" if open_ else ""
 
 
-def _points(heights_: dict[Place, int]) -> tuple[Point, ...]:
-    return tuple(sorted((x, y, z) for (x, y), z in heights_.items()))
-
-
-def _upright(start: Point, end: Point) -> Normal:
-    """The outward normal of the upright face over an edge of the counterclockwise outline."""
-    return normal_of(start, end, (start[0], start[1], start[2] + 1))
+def _most(points: Sized) -> int:
+    """More faces than an envelope of so many points has."""
+    return 8 * len(points) + 8
 
 
 def _step(
-    edge: Edge, normal: Normal, queue: dict[Edge, Normal], tree: Quadtree, side: int, printed: Printed
+    edge: Edge, normal: Normal, queue: dict[Edge, Normal], tree: Quadtree, printed: Printed
 ) -> tuple[Step, Quadtree]:
     search = Search(*edge, normal, printed)
-    found = search.run(tree, side)
+    found = search.run(tree)
     if not found:
         return Step(edge, normal, None, (), (), 0, search.visited, len(queue)), tree
     start, end = edge
     vertices = (start, end, found[0]) if printed.triangles else _polygon(start, end, found)
     face = Face(vertices, normal_of(start, end, found[0]))
+    entered, removed = _join(face, edge, queue)
+    cells = _values(face, printed)
+    step = Step(edge, normal, face, entered, removed, len(cells), search.visited, len(queue))
+    return step, written(tree, cells)
+
+
+def _join(face: Face, edge: Edge, queue: dict[Edge, Normal]) -> tuple[tuple[Edge, ...], tuple[Edge, ...]]:
+    """Enter the sides of a face in the queue, but for the edge it stands on, and take off it those that wait there
+    already; both lists."""
     entered, removed = [], []
-    for p, q in zip(vertices, vertices[1:] + vertices[:1], strict=True):
+    for p, q in zip(face.vertices, face.vertices[1:] + face.vertices[:1], strict=True):
         if (p, q) == edge:
             continue
         waiting = next((other for other in ((p, q), (q, p)) if other in queue), None)
@@ -192,10 +248,26 @@ def _step(
         else:
             del queue[waiting]
             removed.append(waiting)
-    cells = _values(face, printed)
-    tree = written(tree, side, cells)
-    step = Step(edge, normal, face, tuple(entered), tuple(removed), len(cells), search.visited, len(queue))
-    return step, tree
+    return tuple(entered), tuple(removed)
+
+
+def _entered(tree: Quadtree, faces: Iterable[Face]) -> Quadtree:
+    """The tree with the heights of all faces; their places are marked, but for the vertices."""
+    triangles, planes = [], []
+    for face in faces:
+        first, *others = face.vertices
+        a, b, c = face.normal
+        plane = (-a, -b, -c, a * first[0] + b * first[1] + c * first[2])
+        for p, q in pairwise(others):
+            triangles.append((first, q, p))  # counterclockwise seen from above
+            planes.append(plane)
+    values = np.where(tree.there, tree.values, NO_COLUMN)
+    write_heights(values, np.array(triangles), np.array(planes), rounded_up=True)
+    there = values < NO_COLUMN
+    marked = there.copy()
+    x, y, _ = np.array([vertex for face in faces for vertex in face.vertices]).T
+    marked[x, y] = False
+    return Quadtree(np.where(there, values, 0), there, marked, np.ones_like(values))
 
 
 def _polygon(start: Point, end: Point, found: list[Point]) -> tuple[Point, ...]:

@@ -2,20 +2,30 @@
 
 Angles are compared exactly: the cosine of the angle between two integer normals p and q has the order of
 (p . q) |p . q| / (q . q), p being the same for all that are compared.
+
+``Search`` is the paper's, square after square, with its counts, and with statements taken as printed.  ``Candidates``
+finds the same points, in the same order, by one pass over arrays of all points.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
-from modern.papers.yau_srihari.octree import QUADRANTS
+import numpy as np
+
+from modern.digital.columns import Grid
+from modern.papers.yau_srihari.octree import QUADRANTS, interleaved
 from modern.papers.yau_srihari.printed import Printed
-from modern.papers.yau_srihari.quadtree import Point, Quadtree, sons_of
+from modern.papers.yau_srihari.quadtree import NO_COLUMN, Point, Quadtree, bounds_by_level
 
 Normal = tuple[int, int, int]
 Bounds = tuple[Fraction | None, Fraction | None]
+
+ROUNDED = 2.0**-48
+"""More than is rounded away of a score in float64: a product and a quotient, at most a part of 2 ** -53 each."""
 
 
 def normal_of(u: Point, v: Point, w: Point) -> Normal:
@@ -42,9 +52,10 @@ class Search:
     sure: Fraction | None = None
     visited: int = 0
 
-    def run(self, tree: Quadtree, side: int) -> list[Point]:
+    def run(self, tree: Quadtree) -> list[Point]:
         """The points of the tree, not marked, in the next face's plane beyond the edge; empty where there is none."""
-        self._visit(tree, 0, 0, side)
+        levels = bounds_by_level(tree)
+        self._visit(levels, len(levels) - 1, 0, 0)
         return self.points
 
     def score(self, point: Point) -> Fraction | None:
@@ -62,38 +73,41 @@ class Search:
         ex, ey = self.end[0] - self.start[0], self.end[1] - self.start[1]
         return ex * (y - self.start[1]) < ey * (x - self.start[0])
 
-    def _visit(self, tree: Quadtree, x: int, y: int, side: int) -> None:
+    def _visit(self, levels: list[tuple[Grid, Grid]], up: int, i: int, j: int) -> None:
+        """Look at the square (i, j) of the side 2 ** ``up``, and at those of its sons that are not ruled out."""
         self.visited += 1
-        if tree is None or tree.low is None or not any(self.beyond(i, j) for i, j in _corners(x, y, side)):
+        low, side = levels[up][0].item(i, j), 1 << up
+        if low == NO_COLUMN or not any(self.beyond(*corner) for corner in _corners(i * side, j * side, side)):
             return
-        if side == 1:
-            self._take((x, y, tree.low))
+        if not up:
+            self.take((i, j, low))
             return
+        least_of, most_of = levels[up - 1]
         half = side // 2
-        parts = []
-        for (i, j), son in zip(QUADRANTS, sons_of(tree), strict=True):
-            part = son, x + i * half, y + j * half, half
-            least, most = self.bounds(*part)
-            parts.append((part, most))
+        sons = []
+        for k, m in ((2 * i + a, 2 * j + b) for a, b in QUADRANTS):
+            low = least_of.item(k, m)
+            least = most = None
+            if low != NO_COLUMN:
+                least, most = self.bounds(low, most_of.item(k, m), k * half, m * half, half)
+            sons.append((k, m, most))
             if least is not None and (self.sure is None or least > self.sure):
                 self.sure = least
-        for part, most in parts:
+        for k, m, most in sons:
             if most is None or self.sure is None or most >= self.sure:
-                self._visit(*part)
+                self._visit(levels, up - 1, k, m)
 
-    def bounds(self, tree: Quadtree, x: int, y: int, side: int) -> Bounds:
-        """The paper's delta_1 and delta_2 of a square: some point of it scores no less than the one, none more than
-        the other.  None where they cannot be told from its corners.
+    def bounds(self, low: int, high: int, x: int, y: int, side: int) -> Bounds:
+        """The paper's delta_1 and delta_2 of a square at (x, y), by its least and greatest height: some point of it
+        scores no less than the one, none more than the other.  None where they cannot be told from its corners.
 
         The lower a point, the less the plane through it is turned from the other face.  So the square's least height
         bounds both: no point of it is lower, and one is as low.  For Theorem 2 as printed it is the greatest height.
         """
-        if tree is None or tree.low is None or tree.high is None:
-            return None, None
         places = list(_corners(x, y, side))
         if not self.printed.corners and not all(self.beyond(*place) for place in places):
             return None, None
-        z = tree.high if self.printed.bound or self.printed.angle else tree.low
+        z = high if self.printed.bound or self.printed.angle else low
         scores = [score for i, j in places if (score := self._corner((i, j, z))) is not None]
         return (min(scores), max(scores)) if scores else (None, None)
 
@@ -110,7 +124,8 @@ class Search:
         unturned = Fraction(a * a + b * b + c * c)
         return -unturned if self.printed.angle else unturned
 
-    def _take(self, point: Point) -> None:
+    def take(self, point: Point) -> None:
+        """A point found: it is kept if none found before scores more."""
         score = self.score(point)
         assert score is not None
         if self.best is None or score > self.best:
@@ -123,3 +138,51 @@ def _corners(x: int, y: int, side: int) -> Iterator[tuple[int, int]]:
     last = side - 1
     for i, j in QUADRANTS if last else QUADRANTS[:1]:
         yield x + i * last, y + j * last
+
+
+class Candidates:
+    """The points a face may have as vertices, as arrays, in the order in which a search of their quadtree meets them.
+
+    A face is found by one pass over all of them.  Of coordinates up to 1,024, the side of the largest cube, all sums of
+    products of a score are whole numbers below 2 ** 53, so that float64 has them exactly; only the quotient is rounded,
+    and all that may be the greatest are compared as fractions.
+    """
+
+    def __init__(self, points: Sequence[Point]) -> None:
+        x, y, z = np.array(points, dtype=np.int64).reshape(-1, 3).T
+        order = np.argsort(interleaved(x, y))
+        self._points = [points[k] for k in order.tolist()]
+        self._row = {point: k for k, point in enumerate(self._points)}
+        self._open = np.ones(len(points), dtype=np.bool_)
+        self._homogeneous = np.stack((x, y, z, np.ones_like(x)))[:, order].astype(np.float64)
+
+    def face_on(self, start: Point, end: Point, normal: Normal) -> list[Point]:
+        """The points of the face on an edge, beyond it and not marked, that ``Search.run`` finds."""
+        ex, ey, ez = end[0] - start[0], end[1] - start[1], end[2] - start[2]
+        divisor = math.gcd(*normal)
+        a, b, c = (number // divisor for number in normal)
+        # Rows: the normal of the plane of the edge and a point, and its product with the other face's normal.
+        rows = np.array(
+            [[0, -ez, ey], [ez, 0, -ex], [-ey, ex, 0], [b * ez - c * ey, c * ex - a * ez, a * ey - b * ex]],
+            dtype=np.int64,
+        )
+        forms = np.concatenate((rows, -(rows @ np.array(start))[:, None]), axis=1).astype(np.float64)
+        below = forms[2] @ self._homogeneous
+        beyond = np.flatnonzero((below < 0) & self._open)
+        if not len(beyond):
+            return []
+        p, q, r, product = forms @ self._homogeneous[:, beyond]
+        scores = product * np.abs(product) / (p * p + q * q + r * r)
+        best = scores.max()
+        near = beyond[scores >= best - abs(best) * ROUNDED]
+        if len(near) == 1:
+            return [self._points[near[0]]]
+        search = Search(start, end, normal, Printed())
+        for k in near.tolist():
+            search.take(self._points[k])
+        return search.points
+
+    def mark(self, found: Iterable[Point], vertices: Iterable[Point]) -> None:
+        """Points of a face are not found again, except those that are its vertices and so its neighbours' too."""
+        kept = {*vertices}
+        self._open[[self._row[point] for point in found if point not in kept]] = False
