@@ -26,8 +26,8 @@ from modern.papers.nakamae_nishita.projection import parallel
 from modern.papers.nakamae_nishita.scenes import scene
 from modern.papers.nakamae_nishita.shapes import cuboid, moved, placed
 from modern.papers.yau_srihari.hull import OctreeHull, octree_hull
-from modern.papers.yau_srihari.octree import QUADRANTS, Octree
-from modern.papers.yau_srihari.quadtree import Leaf, Node, Quadtree, ceiling
+from modern.papers.yau_srihari.octree import QUADRANTS, divided
+from modern.papers.yau_srihari.quadtree import Quadtree, ceiling, sons_of
 
 EYE: Eye = (24, -55, 29)
 """From the front, a little above and from the right."""
@@ -285,43 +285,32 @@ def rods() -> tuple[OctreeHull, tuple[Level, ...]]:
     """Three rods of voxels along the axes, their digital hull by octrees, and its levels."""
     along = [[k if axis == own else 0 for axis in range(3)] for own in range(3) for k in range(RODS)]
     hull = octree_hull(listed(np.unique(np.array(along), axis=0), "three rods"))
-    nodes = list(_nodes(hull.hull, hull.side))
-    top = ceiling(hull.hull, hull.side)
-    levels = []
+    top = ceiling(hull.hull)
+    cubes = zip(hull.hull.corners().tolist(), hull.hull.levels.tolist(), strict=True)
+    leaves = [(_cube((x, y, z), hull.side >> level), level) for (x, y, z), level in cubes]
+    levels: list[Level] = []
     for number in range(hull.side.bit_length()):
-        side = hull.side >> number
-        here = [tree for tree, _, size in nodes if size == side]
-        full = [_cube(low, size) for tree, low, size in nodes if tree is True and size >= side]
+        here = 8 * levels[-1].divided if levels else 1
+        full, parted = sum(level == number for _, level in leaves), divided(hull.hull, number)
+        drawn = [cube for cube, level in leaves if level <= number]
         levels.append(
             Level(
                 number,
-                tuple(_quadrants(top, hull.side, number)),
-                sum(tree is True for tree in here),
-                sum(isinstance(tree, tuple) for tree in here),
-                sum(tree is False for tree in here),
-                Plate(f"level {number}", _drawn(full, ABOVE) if full else ()),
+                tuple(_quadrants(top, number)),
+                full,
+                parted,
+                here - full - parted,
+                Plate(f"level {number}", _drawn(drawn, ABOVE) if drawn else ()),
             )
         )
     return hull, tuple(levels)
 
 
-def _nodes(
-    tree: Octree, side: int, low: tuple[int, int, int] = (0, 0, 0)
-) -> Iterator[tuple[Octree, tuple[int, int, int], int]]:
-    """Every node with its lowest corner and its side."""
-    yield tree, low, side
-    if isinstance(tree, tuple):
-        half = side // 2
-        for place, son in enumerate(tree):
-            i, j = QUADRANTS[place // 2]
-            yield from _nodes(son, half, (low[0] + i * half, low[1] + j * half, low[2] + place % 2 * half))
-
-
-def _quadrants(tree: Quadtree, side: int, levels: int, x: int = 0, y: int = 0) -> Iterator[Quadrant]:
-    if isinstance(tree, Node) and levels:
-        half = side // 2
-        for (i, j), son in zip(QUADRANTS, tree.sons, strict=True):
-            yield from _quadrants(son, half, levels - 1, x + i * half, y + j * half)
+def _quadrants(tree: Quadtree, levels: int, x: int = 0, y: int = 0) -> Iterator[Quadrant]:
+    whole = tree.is_leaf() or not tree.there.any()
+    if levels and not whole:
+        half = tree.side // 2
+        for (i, j), son in zip(QUADRANTS, sons_of(tree), strict=True):
+            yield from _quadrants(son, levels - 1, x + i * half, y + j * half)
     else:
-        height = None if tree is None else tree.value if isinstance(tree, Leaf) else tree.high
-        yield Quadrant(x, y, side, height, not isinstance(tree, Node))
+        yield Quadrant(x, y, tree.side, tree.high, whole)

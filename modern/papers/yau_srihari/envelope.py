@@ -182,7 +182,8 @@ def _queue(edges: Iterable[Edge]) -> dict[Edge, Normal]:
 
 def _by_candidates(edges: list[Edge], points: tuple[Point, ...]) -> tuple[Face, ...]:
     """The faces in the order of the queue, each found among all points at once."""
-    queue, candidates, faces = _queue(edges), Candidates(points), []
+    queue, candidates = _queue(edges), Candidates(points)
+    faces: list[Face] = []
     while queue:
         edge = next(iter(queue))
         found = candidates.face_on(*edge, queue.pop(edge))

@@ -54,6 +54,10 @@ class Octree:
         """How many voxels each leaf has."""
         return np.int64(1) << 3 * (self.depth - self.levels)
 
+    def corners(self) -> Grid:
+        """The lowest voxel of each leaf, shape (n, 3)."""
+        return np.stack([_gathered(self.codes, bit, self.depth) for bit in (ACROSS, UP, ALONG)], axis=1)
+
     def at_level(self, level: int) -> tuple[Grid, Grid, Grid]:
         """The full leaves of a level, counted in leaves along each axis, in the order of the sons."""
         codes = self.codes[self.levels == level] >> 3 * (self.depth - level)

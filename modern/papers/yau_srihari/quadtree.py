@@ -136,10 +136,9 @@ def line(tree: Quadtree, axis: int, at: int) -> Iterator[tuple[int, int]]:
 
 def with_columns(tree: Quadtree, x: Grid, y: Grid, z: Grid, marked: Truth | bool = False) -> Quadtree:
     """The tree with columns at places (x, y) written, each with a leaf of its own; all others stay as they are."""
-    grids = [grid.copy() for grid in (tree.values, tree.there, tree.marked, tree.sides)]
-    for grid, value in zip(grids, (z, True, marked, 1), strict=True):
-        grid[x, y] = value
-    return Quadtree(*grids)
+    found = Quadtree(tree.values.copy(), tree.there.copy(), tree.marked.copy(), tree.sides.copy())
+    found.values[x, y], found.there[x, y], found.marked[x, y], found.sides[x, y] = z, True, marked, 1
+    return found
 
 
 def written(tree: Quadtree, cells: Mapping[Place, Leaf]) -> Quadtree:

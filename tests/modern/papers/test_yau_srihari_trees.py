@@ -18,20 +18,23 @@ from modern.papers.yau_srihari import Printed, octree_hull
 from modern.papers.yau_srihari.envelope import outline, reduced_tree
 from modern.papers.yau_srihari.octree import QUADRANTS, count, intersection, nodes, octree, side_for, voxels_of
 from modern.papers.yau_srihari.quadtree import (
+    NO_COLUMN,
     Leaf,
-    Node,
     Quadtree,
+    bounds_by_level,
     ceiling,
     floor,
     graph_side,
     heights,
     line,
     mirrored,
+    no_columns,
     sons_of,
     written,
 )
 from modern.papers.yau_srihari.search import Search, normal_of
 from tests.support.digital_judge import random_solid, solid_of
+from tests.support.nested_trees import nested
 
 ARRAYS = arrays.arrays(np.bool_, st.tuples(*[st.integers(1, 9)] * 3))
 CUBES = st.sampled_from([1, 2, 4, 8]).flatmap(lambda side: arrays.arrays(np.bool_, (side, side, side)))
@@ -44,9 +47,10 @@ def test_an_octree_holds_its_array(array: np.ndarray) -> None:
     cube[tuple(slice(length) for length in array.shape)] = array
     tree = octree(array)
     assert tree == octree(cube)
-    assert np.array_equal(voxels_of(tree, side, array.shape), array)
-    assert np.array_equal(voxels_of(tree, side, cube.shape), cube)
-    assert count(tree, side) == np.count_nonzero(array)
+    assert np.array_equal(voxels_of(tree, array.shape), array)
+    assert np.array_equal(voxels_of(tree, cube.shape), cube)
+    assert tree.side == side
+    assert count(tree) == np.count_nonzero(array)
 
 
 @pytest.mark.parametrize(("length", "side"), [(0, 1), (1, 1), (2, 2), (3, 4), (8, 8), (9, 16)])
@@ -59,13 +63,13 @@ def test_sons_two_by_two_stand_over_quadrants() -> None:
         i, j = QUADRANTS[number // 2]
         cube = np.zeros((2, 2, 2), dtype=np.bool_)
         cube[i, j, number % 2] = True
-        assert octree(cube) == tuple(k == number for k in range(8))
+        assert nested(octree(cube)) == tuple(k == number for k in range(8))
 
 
 def test_uniform_octants_are_leaves() -> None:
     cube = np.zeros((4, 4, 4), dtype=np.bool_)
     cube[:2, :2, :2] = True
-    assert octree(cube) == (True, *[False] * 7)
+    assert nested(octree(cube)) == (True, *[False] * 7)
     assert nodes(octree(cube)) == 9
 
 
@@ -85,30 +89,39 @@ def test_floor_and_ceiling_are_the_ends_of_columns(cube: np.ndarray) -> None:
     for x, y, z in np.argwhere(cube).tolist():
         lowest.setdefault((x, y), z)
         highest[x, y] = z
-    assert heights(floor(tree, len(cube)), len(cube)) == lowest
-    assert heights(ceiling(tree, len(cube)), len(cube)) == highest
-    assert heights(mirrored(ceiling(tree, len(cube))), len(cube)) == {place: -z for place, z in highest.items()}
+    assert heights(floor(tree)) == lowest
+    assert heights(ceiling(tree)) == highest
+    assert heights(mirrored(ceiling(tree))) == {place: -z for place, z in highest.items()}
 
 
 def values_hold(tree: Quadtree) -> bool:
-    """Whether every node has the least and the greatest unmarked value below it."""
-    if not isinstance(tree, Node):
-        return True
-    there = [son for son in tree.sons if son is not None]
-    lows, highs = [son.low for son in there if son.low is not None], [s.high for s in there if s.high is not None]
-    fits = (tree.low, tree.high) == (min(lows, default=None), max(highs, default=None))
-    return fits and all(values_hold(son) for son in there)
+    """Whether every node has the least and the greatest unmarked value below it, and the levels have the same."""
+    levels = bounds_by_level(tree)
+    for part, x, y, side in squares(tree, tree.side):
+        below = [
+            int(z) for z, there, marked in zip(*map(np.ravel, cells_of(part)), strict=True) if there and not marked
+        ]
+        low, high = (grid[x // side, y // side] for grid in levels[side.bit_length() - 1])
+        if (part.low, part.high) != (min(below, default=None), max(below, default=None)):
+            return False
+        if (low, high) != (min(below, default=NO_COLUMN), max(below, default=-NO_COLUMN)):
+            return False
+    return True
+
+
+def cells_of(tree: Quadtree) -> tuple[Any, Any, Any]:
+    return tree.values, tree.there, tree.marked
 
 
 @given(CUBES)
 def test_lines_of_a_quadtree(cube: np.ndarray) -> None:
     side = len(cube)
-    tree = floor(octree(cube), side)
-    found = heights(tree, side)
+    tree = floor(octree(cube))
+    found = heights(tree)
     assert values_hold(tree)
     for at in range(side):
-        assert list(line(tree, side, 0, at)) == sorted((y, z) for (x, y), z in found.items() if x == at)
-        assert list(line(tree, side, 1, at)) == sorted((x, z) for (x, y), z in found.items() if y == at)
+        assert list(line(tree, 0, at)) == sorted((y, z) for (x, y), z in found.items() if x == at)
+        assert list(line(tree, 1, at)) == sorted((x, z) for (x, y), z in found.items() if y == at)
 
 
 @given(CUBES, st.data())
@@ -116,24 +129,23 @@ def test_written_leaves_stand_in_the_tree(cube: np.ndarray, data: st.DataObject)
     side = len(cube)
     places = st.tuples(*[st.integers(0, side - 1)] * 2)
     cells = data.draw(st.dictionaries(places, st.builds(Leaf, st.integers(-9, 9), st.booleans()), max_size=9))
-    tree = floor(octree(cube), side)
-    after = written(tree, side, cells)
-    assert heights(after, side) == heights(tree, side) | {place: leaf.value for place, leaf in cells.items()}
+    tree = floor(octree(cube))
+    after = written(tree, cells)
+    assert heights(after) == heights(tree) | {place: leaf.value for place, leaf in cells.items()}
     assert values_hold(after)
 
 
 def test_a_node_without_unmarked_leaves_has_no_value() -> None:
-    tree = written(None, 2, {(0, 0): Leaf(3, marked=True), (1, 0): Leaf(5, marked=True)})
-    assert isinstance(tree, Node)
+    tree = written(no_columns(2), {(0, 0): Leaf(3, marked=True), (1, 0): Leaf(5, marked=True)})
+    assert heights(tree) == {(0, 0): 3, (1, 0): 5}
     assert (tree.low, tree.high) == (None, None)
 
 
 @given(CUBES)
 def test_epigraph_and_hypograph(cube: np.ndarray) -> None:
-    side = len(cube)
     tree = octree(cube)
-    over = voxels_of(graph_side(floor(tree, side), side, above=True), side, cube.shape)
-    under = voxels_of(graph_side(ceiling(tree, side), side, above=False), side, cube.shape)
+    over = voxels_of(graph_side(floor(tree), above=True), cube.shape)
+    under = voxels_of(graph_side(ceiling(tree), above=False), cube.shape)
     assert np.array_equal(over, np.maximum.accumulate(cube, axis=2))
     assert np.array_equal(under, np.maximum.accumulate(cube[:, :, ::-1], axis=2)[:, :, ::-1])
 
@@ -165,7 +177,7 @@ def test_outlines(places: list[tuple[int, int]], corners: list[tuple[int, int]])
 
 
 def squares(tree: Quadtree, side: int, x: int = 0, y: int = 0) -> Iterator[tuple[Quadtree, int, int, int]]:
-    if tree is not None:
+    if tree.there.any():
         yield tree, x, y, side
         half = side // 2
         for (i, j), son in zip(QUADRANTS, sons_of(tree), strict=True):
@@ -173,9 +185,9 @@ def squares(tree: Quadtree, side: int, x: int = 0, y: int = 0) -> Iterator[tuple
                 yield from squares(son, half, x + i * half, y + j * half)
 
 
-def lower_tree(array: Any, side: int) -> Quadtree:
+def lower_tree(array: Any) -> Quadtree:
     """The reduced tree that the lower half of a solid's hull is searched in, made anew."""
-    return reduced_tree(floor(octree(array), side), side)
+    return reduced_tree(floor(octree(array)))
 
 
 def broken(array: Any, printed: Printed) -> tuple[int, int, int]:
@@ -184,16 +196,18 @@ def broken(array: Any, printed: Printed) -> tuple[int, int, int]:
     The edges and faces are those of the corrected algorithm.
     """
     hull = octree_hull(array)
-    tree = lower_tree(array, hull.side)
+    tree = lower_tree(array)
     seen = least_broken = most_broken = 0
     for step in hull.lower.steps:
         search = Search(*step.edge, step.normal, printed)
         for square in squares(tree, hull.side):
-            least, most = search.bounds(*square)
+            part, x, y, side = square
+            assert part.low is not None
+            assert part.high is not None
+            least, most = search.bounds(part.low, part.high, x, y, side)
             if least is None or most is None:
                 continue
-            part, x, y, side = square
-            found = [search.score((x + i, y + j, z)) for (i, j), z in heights(part, side).items()]
+            found = [search.score((x + i, y + j, z)) for (i, j), z in heights(part).items()]
             best = max(score for score in found if score is not None)
             seen += 1
             least_broken += best < least
@@ -214,7 +228,7 @@ def test_no_face_stands_over_a_square_on_the_known_side(seed: int) -> None:
     """Rule 1: there n_3(r) >= 0, and the next face has no corner there."""
     array = random_solid(random.Random(seed), side=9, steps=60)
     hull = octree_hull(array)
-    tree = lower_tree(array, hull.side)
+    tree = lower_tree(array)
     for step in hull.lower.steps:
         start, end = step.edge
         search = Search(start, end, step.normal, Printed())
@@ -224,7 +238,7 @@ def test_no_face_stands_over_a_square_on_the_known_side(seed: int) -> None:
         for part, x, y, side in squares(tree, hull.side):
             if any(search.beyond(x + i * (side - 1), y + j * (side - 1)) for i, j in QUADRANTS):
                 continue
-            points = [(x + i, y + j, z) for (i, j), z in heights(part, side).items()]
+            points = [(x + i, y + j, z) for (i, j), z in heights(part).items()]
             assert all(normal_of(start, end, point)[2] >= 0 for point in points)
             if step.face:
                 assert {*points} & {*step.face.vertices} <= {start, end}
@@ -241,14 +255,14 @@ def test_a_square_below_the_bound_or_empty_has_no_point_of_the_next_face(seed: i
     """Rule 2, with the least angle: the search looks at few squares, and finds what all points together give."""
     array = random_solid(random.Random(seed), side=9, steps=60)
     hull = octree_hull(array)
-    tree = lower_tree(array, hull.side)
+    tree = lower_tree(array)
     for step in hull.lower.steps:
         search = Search(*step.edge, step.normal, Printed())
-        every = [(x, y, z) for (x, y), z in heights(tree, hull.side).items() if search.beyond(x, y)]
+        every = [(x, y, z) for (x, y), z in heights(tree).items() if search.beyond(x, y)]
         scores = {point: score for point in every if (score := search.score(point)) is not None}
         best = max(scores.values(), default=None)
-        assert {*search.run(tree, hull.side)} == {point for point, score in scores.items() if score == best}
-        assert Search(*step.edge, step.normal, Printed()).run(None, hull.side) == []
+        assert {*search.run(tree)} == {point for point, score in scores.items() if score == best}
+        assert Search(*step.edge, step.normal, Printed()).run(no_columns(hull.side)) == []
 
 
 def test_z_max_does_not_bound_the_least_angle() -> None:
@@ -278,6 +292,6 @@ def test_the_search_does_not_look_everywhere() -> None:
     source = np.random.default_rng(5)
     array = source.random((32, 32, 32)) < 0.02
     hull = octree_hull(array)
-    whole = sum(1 for _ in squares(reduced_tree(floor(octree(array), 32), 32), 32))
+    whole = sum(1 for _ in squares(reduced_tree(floor(octree(array))), 32))
     visited = [step.visited for step in hull.lower.steps]
     assert sum(visited) < len(visited) * whole / 2
