@@ -25,7 +25,7 @@ from modern.papers.yau_srihari.convexity import (
 )
 from modern.papers.yau_srihari.envelope import reduced_tree
 from modern.papers.yau_srihari.octree import count
-from modern.papers.yau_srihari.quadtree import Leaf, Node, Place, graph_side, heights, written
+from modern.papers.yau_srihari.quadtree import Leaf, Place, graph_side, heights, no_columns, written
 from modern.papers.yau_srihari.search import normal_of
 
 Voxels = NDArray[np.bool_]
@@ -206,10 +206,9 @@ def epigraph_at_inner_nodes() -> Seen:
     By its greatest height, 1, the root is not full.
     """
     tops = {(0, 0): 0, (0, 1): 1, (1, 0): 1, (1, 1): 1}
-    tree = written(None, 2, {place: Leaf(top) for place, top in tops.items()})
-    assert isinstance(tree, Node)
+    tree = written(no_columns(2), {place: Leaf(top) for place, top in tops.items()})
     by_letter = 8 if tree.low == 0 else 0
-    epigraph = count(graph_side(tree, 2, above=True), 2)
+    epigraph = count(graph_side(tree, above=True))
     columns = sum(z >= top for top in tops.values() for z in (0, 1))
     good = by_letter == 8 > epigraph == columns == 5 and tree.high == 1
     return Seen(CONDITION if good else FAILS, f"{by_letter} voxels as printed at the root, {epigraph} in the epigraph")
@@ -260,8 +259,8 @@ def common_to_both_steps() -> Seen:
     for _ in range(40):
         heights_ = {(x, y): random.randint(0, 3) for x in range(4) for y in range(4) if random.random() < 0.8}
         both = {place for place in heights_ if all(_extreme(place, axis, heights_) for axis in (0, 1))}
-        tree = written(None, 4, {place: Leaf(z) for place, z in heights_.items()})
-        left = {*heights(reduced_tree(tree, 4), 4)}
+        tree = written(no_columns(4), {place: Leaf(z) for place, z in heights_.items()})
+        left = {*heights(reduced_tree(tree))}
         floor: list[Point] = [(x, y, z) for (x, y), z in heights_.items()]
         hull = exact_hull([*floor, *((x, y, z + 9) for x, y, z in floor)])
         good.append({floor[k][:2] for k in hull.vertices if k < len(floor)} <= both <= left)
