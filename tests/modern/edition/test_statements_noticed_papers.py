@@ -8,6 +8,7 @@ from fractions import Fraction
 from types import ModuleType
 from typing import Any
 
+import numpy as np
 import pytest
 
 import modern.edition.appel_will_details as details
@@ -24,6 +25,7 @@ from modern.edition.statements import CONDITION, FAILS, HOLDS
 from modern.papers.appel_will.corners import preprocess
 from modern.papers.appel_will.results import Solid
 from modern.papers.kovalevsky_schulz import CENTRES
+from modern.papers.yau_srihari.octree import octree
 
 Right = Any
 
@@ -177,7 +179,7 @@ def removed_as_entered(right: Right) -> object:
     def turned(array: Right) -> object:
         hull = right(array)
         steps = tuple(replace(step, removed=tuple((q, p) for p, q in step.removed)) for step in hull.lower.steps)
-        return replace(hull, lower=replace(hull.lower, steps=steps))
+        return replace(hull, lower=replace(hull.lower, construction=lambda: steps))
 
     return turned
 
@@ -197,7 +199,7 @@ def the_greatest_side_missing(right: Right) -> object:
 
 def nothing_left(right: Right) -> object:
     """A step loses a column."""
-    return lambda tree, side: {k: z for n, (k, z) in enumerate(right(tree, side).items()) if n}
+    return lambda tree: {k: z for n, (k, z) in enumerate(right(tree).items()) if n}
 
 
 def extreme_nowhere(_: Right) -> object:
@@ -236,7 +238,12 @@ def all_on_one_side(_: Right) -> object:
         (details, "limit_of_searches", "_comes_again", never_crossing),
         (complexes, "euclidean_cells", "closure", the_greatest_side_missing),
         (yau, "common_to_both_steps", "heights", nothing_left),
-        (yau, "epigraph_at_inner_nodes", "graph_side", lambda _: lambda tree, side, above: True),
+        (
+            yau,
+            "epigraph_at_inner_nodes",
+            "graph_side",
+            lambda _: lambda tree, above: octree(np.ones((2, 2, 2), dtype=np.bool_)),
+        ),
         (kovalevsky, "symmetry", "straightened", without_a_face),
         (kovalevsky, "symmetry", "half_ball", lambda _: lambda diameter: listed([(0, 0, 0), (0, 1, 0), (1, 2, 0)])),
         (yau, "queue_both_ways_round", "octree_hull", removed_as_entered),
