@@ -52,7 +52,7 @@ GROUPS: Mapping[str, Callable[[], Iterator[str]]] = {
     "engine": engine_lines,
     "hulls": hulls.lines,
     "papers": lambda: (figure.line() for figure in papers.figures()),
-    "digital": lambda: (figure.line() for figure in digital.figures()),
+    "digital": digital.lines,
 }
 
 

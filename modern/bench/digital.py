@@ -1,4 +1,9 @@
-"""Digital hulls: the filled hull of solid balls, beside scikit-image where it is installed, and its memory."""
+"""Digital hulls: the filled hull of solid balls, beside scikit-image where it is installed, and its memory; the octree
+hull beside them.
+
+``python -m modern.bench.digital FILE.svg`` measures how the time of solids' hulls grows with the number of voxels, and
+plots it with the slope of each curve (extra ``plot``).
+"""
 
 from __future__ import annotations
 
@@ -6,25 +11,38 @@ import statistics
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
 
-from modern.bench.timing import Figure, timed
+from modern.bench.hulls import STYLES, Table
+from modern.bench.peers import Work
+from modern.bench.timing import Curve, Figure, plotted, side_by_side, timed, timed_once
 from modern.digital.hull import digital_hull
-from modern.digital.solids import VERTEX, ball
+from modern.digital.solids import VERTEX, Volume, ball
 from modern.papers.yau_srihari import octree_hull
 
 BARS = {128: "bar 1 s", 256: "bar 4 s", 512: "bar 30 s"}
+
+DIAMETERS = (15, 31, 63, 127, 254)
+"""Of the balls whose octrees are measured: the cubes have sides of 16, 32, ... 256."""
+OCTREE_BARS = {127: "bar 2 s", 254: "bar 10 s"}
+SLOPES_FROM = 10_000
+"""Fewer voxels measure what a call costs."""
+OCTREE, FILLED, SCIKIT_IMAGE = "octree hull", "digital hull", "skimage"
+SCIKIT_UP_TO = 31
+"""The largest diameter for which scikit-image is waited for in a table, 63 in the picture: it takes half a minute."""
 
 PEAK = """
 import resource, sys
 from modern.digital.hull import digital_hull
 from modern.digital.solids import ball
-array = ball(int(sys.argv[1]), "vertex").array
-digital_hull(array, sys.argv[2] == "compiled")
+from modern.papers.yau_srihari import octree_hull
+side, way = int(sys.argv[1]), sys.argv[2]
+array = ball(side, "voxel" if way == "octree" else "vertex").array
+octree_hull(array) if way == "octree" else digital_hull(array, way == "compiled")
 peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)
 print(array.size, peak)
 """
@@ -50,8 +68,57 @@ def figures(largest: int = 512) -> Iterator[Figure]:
             what = f"filled hull of a ball of {side}^3, {name}"
             note = f"{BARS[side]}; {memory(side, name)}"
             yield timed(what, lambda array=array, fast=fast: digital_hull(array, fast), note)  # type: ignore[misc]
-    octrees = ball(32)
-    yield timed("octree hull (Yau and Srihari), ball of diameter 32", lambda: octree_hull(octrees))
+    for diameter, bar in OCTREE_BARS.items():
+        if diameter < largest:
+            note = f"{bar}; {peak(diameter, 'octree')[1] / 1e6:.0f} MB, bar 500 MB"
+            yield timed(f"octree-hull ball:{diameter}, a whole process", octree_process(diameter), note)
+
+
+def lines(largest: int = 512) -> Iterator[str]:
+    """Every figure as text, and the solids' hulls beside their peers."""
+    for figure in figures(largest):
+        yield figure.line()
+    for diameter in DIAMETERS:
+        if diameter < largest:
+            yield from table(ball(diameter), diameter <= SCIKIT_UP_TO).lines()
+
+
+def octree_process(diameter: int) -> Work:
+    """The command for a ball, its output thrown away."""
+    command = [sys.executable, "-m", "modern.cli.main", "octree-hull", f"ball:{diameter}"]
+    return lambda: subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+
+
+def works(volume: Volume) -> dict[str, Work]:
+    """What fills the hull of a solid: rows of the table and curves of the picture; the digital hull is the peer."""
+    return {
+        OCTREE: lambda: octree_hull(volume),
+        FILLED: lambda: digital_hull(volume, False),
+    }
+
+
+def table(volume: Volume, slow: bool) -> Table:
+    """The hulls of a solid, measured in turn in seconds of the processor; with ``slow`` scikit-image once too."""
+    rows = side_by_side(works(volume), clock=time.process_time)
+    peers = [FILLED]
+    same = np.array_equal(octree_hull(volume).filled, digital_hull(volume).filled)
+    if slow and find_spec("skimage"):
+        found: list[Any] = []
+        rows.append(timed_once(SCIKIT_IMAGE, lambda: found.append(by_scikit_image(volume.array))))
+        peers.append(SCIKIT_IMAGE)
+        same = same and np.array_equal(found[0], digital_hull(volume).filled)
+    name = f"{volume.source}, {volume.count:,} voxels" + ("" if same else ", OTHER HULLS")
+    return Table(name, tuple(rows), tuple(peers))
+
+
+def growth(diameters: Sequence[int] = DIAMETERS) -> list[Curve]:
+    """Median seconds by way and number of voxels, of digital balls; scikit-image once, and only of the smaller."""
+    found: dict[str, list[tuple[int, float]]] = {}
+    for diameter in diameters:
+        volume = ball(diameter)
+        for figure in table(volume, diameter <= 2 * SCIKIT_UP_TO + 1).rows:
+            found.setdefault(figure.what, []).append((volume.count, figure.median))
+    return [Curve(name, points, style) for (name, points), style in zip(found.items(), STYLES[::2], strict=False)]
 
 
 def scikit_image(array: Any) -> Figure | None:
@@ -59,31 +126,41 @@ def scikit_image(array: Any) -> Figure | None:
 
     ``offset_coordinates=False`` is the hull of the voxels' centres.  It takes long, so it is timed once.
     """
-    try:
-        from skimage.morphology import convex_hull_image
-    except ImportError:
+    if not find_spec("skimage"):
         return None
-    start = time.perf_counter()
-    filled = convex_hull_image(array, offset_coordinates=False)  # type: ignore[no-untyped-call]
-    seconds = time.perf_counter() - start
-    same = "same voxels" if np.array_equal(filled, digital_hull(array).filled) else "OTHER VOXELS"
-    return Figure(f"scikit-image, ball of {len(array)}^3, once, {same}", (seconds,))
+    found: list[Any] = []
+    figure = timed_once("", lambda: found.append(by_scikit_image(array)))
+    same = "same voxels" if np.array_equal(found[0], digital_hull(array).filled) else "OTHER VOXELS"
+    return Figure(f"scikit-image, ball of {len(array)}^3, once, {same}", figure.seconds)
+
+
+def by_scikit_image(array: Any) -> Any:
+    """The filled hull of the voxels' centres by scikit-image."""
+    from skimage.morphology import convex_hull_image
+
+    return convex_hull_image(array, offset_coordinates=False)  # type: ignore[no-untyped-call]
 
 
 def memory(side: int, way: str) -> str:
     """The most memory a process holds that makes the ball and fills its hull, beside the bar."""
-    peaks = []
+    size, most = peak(side, way)
+    return f"{most / 1e6:.0f} MB, bar {(4 * size + 300e6) / 1e6:.0f} MB"
+
+
+def peak(side: int, way: str) -> tuple[int, float]:
+    """How many voxels the box of a ball has, and the most bytes such a process holds, median of three."""
+    runs = []
     for _ in range(3):
         run = subprocess.run([sys.executable, "-c", PEAK, str(side), way], check=True, capture_output=True, text=True)
-        size, peak = map(int, run.stdout.split())
-        peaks.append(peak)
-    return f"{statistics.median(peaks) / 1e6:.0f} MB, bar {(4 * size + 300e6) / 1e6:.0f} MB"
+        runs.append([*map(int, run.stdout.split())])
+    return runs[0][0], statistics.median(most for _, most in runs)
 
 
 def main() -> None:
-    """Print every figure."""
-    for figure in figures():
-        print(figure.line(), flush=True)
+    """Print every figure, or measure the growth, print and plot it."""
+    what = f"voxels of a ball; slopes from {SLOPES_FROM:,} on"
+    for line in plotted(growth(), sys.argv[1], what, SLOPES_FROM) if len(sys.argv) == 2 else lines():
+        print(line, flush=True)
 
 
 if __name__ == "__main__":

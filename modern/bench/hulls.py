@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from modern.bench.peers import Peers, Work
-from modern.bench.timing import Curve, Figure, plot, side_by_side, timed, timed_once
+from modern.bench.timing import Curve, Figure, plotted, side_by_side, timed, timed_once
 from modern.exact_hull import exact_hull
 from modern.geometry.hull import all_of
 from modern.port import convex_hull
@@ -101,10 +101,14 @@ class Table:
 
     def lines(self) -> list[str]:
         """The table as text, 78 columns: median seconds, and how many times a peer's."""
-        found = [f"{self.points:<44}{'seconds':>10}" + "".join(f"{'/ ' + name:>12}" for name in self.peers)]
+        widths = [max(12, len(name) + 4) for name in self.peers]
+        first = 78 - 10 - sum(widths)
+        heads = "".join(f"{'/ ' + name:>{width}}" for name, width in zip(self.peers, widths, strict=True))
+        found = [f"{self.points:<{first}}{'seconds':>10}{heads}"]
         for row in self.rows:
-            ratios = "".join(f"{row.median / self.peer(name).median:>12.1f}" for name in self.peers)
-            found.append(f"  {row.what:<42}{row.median:>10.4f}{ratios}")
+            ratios = (row.median / self.peer(name).median for name in self.peers)
+            cells = "".join(f"{ratio:>{width}.1f}" for ratio, width in zip(ratios, widths, strict=True))
+            found.append(f"  {row.what:<{first - 2}}{row.median:>10.4f}{cells}")
         return found
 
 
@@ -176,16 +180,8 @@ def main() -> None:
     with Peers() as peers:
         curves = growth(peers)
         print(*peers.remarks, sep="\n", end="\n" if peers.remarks else "")
-    shown = []
-    for curve in curves:
-        slope = curve.slope(SLOPES_FROM)
-        print(
-            curve.name,
-            ", ".join(f"{count:,}: {seconds:.4f} s" for count, seconds in curve.points),
-            f"slope {slope:.2f}",
-        )
-        shown.append(Curve(f"{curve.name}: slope {slope:.2f}", curve.points, curve.style))
-    plot(shown, sys.argv[1], "points, uniform in a ball; slopes from 1,000 on")
+    for line in plotted(curves, sys.argv[1], f"points, uniform in a ball; slopes from {SLOPES_FROM:,} on", SLOPES_FROM):
+        print(line)
 
 
 if __name__ == "__main__":

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 import statistics
 import time
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 RUNS = 5
@@ -94,3 +94,15 @@ def plot(curves: Sequence[Curve], path: str, what: str) -> None:
     axes.legend()
     figure.tight_layout()
     figure.savefig(path, metadata={"Date": None})
+
+
+def plotted(curves: Sequence[Curve], path: str, what: str, least: int = 0) -> Iterator[str]:
+    """A line of figures for each curve; then they are plotted, each with its slope from ``least`` on in its name."""
+    shown = []
+    for curve in curves:
+        slope = curve.slope(least)
+        words = "" if slope is None else f"slope {slope:.2f}"
+        figures = ", ".join(f"{count:,}: {seconds:.4f} s" for count, seconds in curve.points)
+        yield f"{curve.name} {figures} {words}".rstrip()
+        shown.append(replace(curve, name=f"{curve.name}: {words}" if words else curve.name))
+    plot(shown, path, what)

@@ -1,0 +1,105 @@
+"""The bench of solids: octree hulls beside their peers, and how their times grow."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from modern.bench import __main__ as bench
+from modern.bench import digital
+from modern.bench.timing import Curve, Figure, plotted
+from modern.digital.solids import ball
+
+
+@pytest.fixture(autouse=True)
+def one_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("modern.bench.timing.RUNS", 1)
+
+
+def without_scikit_image(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(digital, "find_spec", lambda name: None)
+
+
+def test_an_octree_hull_stands_beside_the_digital_hull(monkeypatch: pytest.MonkeyPatch) -> None:
+    without_scikit_image(monkeypatch)
+    table = digital.table(ball(7), slow=True)
+    assert table.points == "ball:7:voxel, 179 voxels"
+    assert [row.what for row in table.rows] == ["octree hull", "digital hull"]
+    assert table.peers == ("digital hull",)
+    assert {len(line) for line in table.lines()} == {78}
+    assert table.lines()[0].endswith("seconds  / digital hull")
+
+
+def test_scikit_image_is_asked_once_for_small_solids(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = []
+
+    def fake(array: Any) -> Any:
+        asked.append(array)
+        return array
+
+    monkeypatch.setattr(digital, "find_spec", lambda name: name == "skimage" or None)
+    monkeypatch.setattr(digital, "by_scikit_image", fake)
+    assert digital.table(ball(7), slow=True).peers == ("digital hull", "skimage")
+    assert digital.table(ball(7), slow=False).peers == ("digital hull",)
+    assert len(asked) == 1
+    assert max(map(len, digital.table(ball(7), slow=True).lines())) == 78
+
+
+def test_scikit_image_finds_the_same() -> None:
+    pytest.importorskip("skimage")
+    assert np.array_equal(digital.by_scikit_image(ball(5).array), ball(5).array)
+
+
+@pytest.mark.parametrize("name", ["octree_hull", "by_scikit_image"])
+def test_another_hull_is_told(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    right = digital.octree_hull
+    wrong = {
+        "octree_hull": lambda volume: replace(right(volume), filled=~right(volume).filled),
+        "by_scikit_image": lambda array: ~array,
+    }
+    monkeypatch.setattr(digital, "find_spec", lambda name: name == "skimage" or None)
+    monkeypatch.setattr(digital, "by_scikit_image", lambda array: array)
+    assert "OTHER HULLS" not in digital.table(ball(5), slow=True).points
+    monkeypatch.setattr(digital, name, wrong[name])
+    assert digital.table(ball(5), slow=True).points.endswith(", OTHER HULLS")
+
+
+def test_every_group_has_its_lines(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert bench.GROUPS["digital"] is digital.lines
+    without_scikit_image(monkeypatch)
+    monkeypatch.setattr(digital, "figures", lambda largest: iter([Figure("a figure", (1.0,))]))
+    found = list(digital.lines(31))
+    assert [line.split()[0] for line in found] == ["a", "ball:15:voxel,", "octree", "digital"]
+
+
+def test_growth_is_printed_and_drawn_with_slopes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("matplotlib")
+    without_scikit_image(monkeypatch)
+    assert [curve.name for curve in digital.growth((3, 5))] == ["octree hull", "digital hull"]
+    assert [count for count, _ in digital.growth((3, 5))[0].points] == [ball(3).count, ball(5).count]
+    curves = [Curve("ours", [(10, 1.0), (100, 10.0), (1000, 100.0)], {}), Curve("theirs", [(10, 2.0)], {})]
+    monkeypatch.setattr(digital, "growth", lambda: curves)
+    monkeypatch.setattr(digital, "SLOPES_FROM", 100)
+    monkeypatch.setattr(sys, "argv", ["digital", str(tmp_path / "growth.svg")])
+    digital.main()
+    assert capsys.readouterr().out.splitlines() == [
+        "ours 10: 1.0000 s, 100: 10.0000 s, 1,000: 100.0000 s slope 1.00",
+        "theirs 10: 2.0000 s",
+    ]
+    assert "ours: slope 1.00" in (tmp_path / "growth.svg").read_text()
+
+
+def test_slopes_stand_in_the_names(monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn: list[Any] = []
+    monkeypatch.setattr("modern.bench.timing.plot", lambda curves, path, what: drawn.extend([*curves, path, what]))
+    assert list(plotted([Curve("one", [(1, 1.0), (2, 4.0)], {})], "p.svg", "voxels")) == [
+        "one 1: 1.0000 s, 2: 4.0000 s slope 2.00"
+    ]
+    assert (drawn[0].name, drawn[1:]) == ("one: slope 2.00", ["p.svg", "voxels"])
