@@ -31,7 +31,7 @@ CHAPTERS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("The algorithm", ("explanation/method.md", "explanation/eight-digits.md", "reference/concordance.md")),
     ("The text", ("explanation/doubts.md", "@text", "@transcripts")),
     ("The listings", ("@listings",)),
-    ("The flow charts", ("@charts",)),
+    ("The flow charts", ("charts.md", "@charts")),
     ("The examples", ("@examples",)),
     ("Faults and open questions", ("@faults", "@questions")),
     ("Statements and verdicts", ("explanation/verdicts.md", "@statements")),

@@ -21,8 +21,10 @@ _COMMENT = re.compile(r"<!--.*?-->\n?", re.DOTALL)
 _ROLE = re.compile(r"\{([a-z]+)\}\Z")
 _FURTHEST = 0x2E80
 """Where the scripts of East Asia begin, of which the fonts that Typst brings have nothing."""
-_SHORT, _LONG, _LINE = 24, 90, 100
-"""Letters: a column up to the first is as wide as it is; no column counts for more than the second; a table's width."""
+_LINE, _LONG, _WORD, _GAP = 104, 90, 12, 2
+"""Letters: a table's width; the most that a column counts for; a word where none is known; what is between columns."""
+_USUAL, _SMALL, _SMALLEST = 8.5, 6.5, 5.0
+"""Points: a table's letters; the least for cells each in a line; the least at all."""
 
 
 def string(words: str) -> str:
@@ -69,16 +71,33 @@ def to(place: str, content: str) -> str:
     return f"#to(<{place}>)[{content}]"
 
 
-def table(head: Sequence[str], rows: Iterable[Sequence[str]], widths: Sequence[int], size: str = "8.5pt") -> str:
-    """A table of markup; ``widths`` are the longest words of each column, in letters."""
-    shares = ", ".join(_share(width, sum(widths)) for width in widths)
+def table(
+    head: Sequence[str], rows: Iterable[Sequence[str]], widths: Sequence[int], words: Sequence[int] | None = None
+) -> str:
+    """A table of markup; ``widths`` are each column's longest cells, in letters, and ``words`` the longest words."""
+    size, columns = columns_of(widths, [min(width, _WORD) for width in widths] if words is None else words)
     cells = "".join(f"[{cell}], " for row in rows for cell in row)
     top = "".join(f"[{call('strong', cell)}], " for cell in head)
-    return f"#tabular({size}, ({shares},), ({top}), ({cells}))\n\n"
+    return f"#tabular({size:.1f}pt, ({', '.join(columns)},), ({top}), ({cells}))\n\n"
 
 
-def _share(width: int, whole: int) -> str:
-    return "auto" if whole <= _LINE or width <= _SHORT else f"{min(width, _LONG)}fr"
+def columns_of(widths: Sequence[int], words: Sequence[int]) -> tuple[float, list[str]]:
+    """The size of a table's letters in points, and how wide each of its columns is, as Typst has it.
+
+    Where all cells fit a column is as wide as it is, or in somewhat smaller letters as its cells.  Else no column is
+    narrower than its longest word, and what is left goes to those with longer cells; letters get smaller where the
+    words alone do not fit.
+    """
+    room = _LINE - _GAP * len(widths)
+    if sum(widths) <= room:
+        return _USUAL, ["auto"] * len(widths)
+    if sum(widths) * _SMALL <= room * _USUAL:
+        return _USUAL * room / sum(widths), [f"{width + _GAP}fr" for width in widths]
+    least = sum(words)
+    size = max(_SMALLEST, min(_USUAL, _USUAL * room / least))
+    more = [min(width, _LONG) - word if width > word else 0 for width, word in zip(widths, words, strict=True)]
+    spare = max(0.0, room * _USUAL / size - least) / max(1, sum(more))
+    return size, [f"{word + _GAP + spare * each:.1f}fr" for word, each in zip(words, more, strict=True)]
 
 
 @dataclass
@@ -163,9 +182,12 @@ class Markdown:
                 rows.append([])
             elif token.type == "inline":
                 rows[-1].append(token)
-        widths = [max(len(_plain(row[k])) for row in rows) for k in range(len(rows[0]))]
+        columns = [[_plain(row[k]) for row in rows] for k in range(len(rows[0]))]
+        words = [max(len(word) for cell in column for word in cell.split() or ("",)) for column in columns]
+        # A head may go on below; a cell is better in a line.
+        widths = [max(word, *map(len, column[1:])) for word, column in zip(words, columns, strict=True)]
         made = [[self._inline(cell) for cell in row] for row in rows]
-        return table(made[0], made[1:], widths)
+        return table(made[0], made[1:], widths, words)
 
     def _inline(self, token: Token) -> str:
         out: list[str] = []

@@ -91,6 +91,7 @@ def _entry(row: Row, found: Facing | None, where: str = "") -> str:
 
 def charts(keep: Keep) -> Iterator[str]:
     """Every sheet of every program's flow chart, a page each."""
+    yield "#pagebreak(weak: true)\n\n"
     for name in programs.NAMES:
         drawn = chart(flow(programs.program(name)))
         for number in range(1, len(drawn.pages) + 1):
@@ -157,8 +158,9 @@ def statements() -> Iterator[str]:
     for name in DOCUMENTS:
         yield heading(f"Statements: {name}", 2, label("statements", name))
         rows = [_statement(row) for row in statements_of(name)]
+        place = max(len(row.page) for row in statements_of(name))
         head = [say(words) for words in ("", "page", "what is stated", "verdict")]
-        yield table(head, rows, (6, 12, 90, 62), "8pt")
+        yield table(head, rows, (4, place, 90, 62), (4, min(place, 11), 12, 12))
 
 
 def _statement(row: Statement) -> list[str]:

@@ -14,7 +14,7 @@ from modern.edition import programs
 from modern.edition.checks import texts
 from modern.edition.statements import DOCUMENTS, statements_of
 from modern.publication.book import build as book
-from modern.publication.book.markup import Markdown, label, places, say, string, table
+from modern.publication.book.markup import Markdown, columns_of, label, places, say, string, table
 from modern.publication.book.parts import fitted, listings, statements
 from modern.publication.facing import facing
 
@@ -75,9 +75,28 @@ def test_a_role_is_a_reference_or_its_words() -> None:
     assert '#raw("program3 9+9");' in found
 
 
-def test_a_wide_table_breaks_its_widest_column() -> None:
-    assert "auto, 90fr" in table(["a", "b"], [["x", "y"]], (5, 200))
-    assert "auto, auto" in table(["a", "b"], [["x", "y"]], (5, 20))
+WIDTHS = st.lists(st.tuples(st.integers(1, 12), st.integers(0, 80)), min_size=1, max_size=12)
+
+
+@given(WIDTHS)
+def test_no_column_is_narrower_than_its_longest_word(columns: list[tuple[int, int]]) -> None:
+    words = [word for word, _ in columns]
+    widths = [word + more for word, more in columns]
+    size, shares = columns_of(widths, words)
+    assert 5 <= size <= 8.5
+    if set(shares) == {"auto"}:
+        assert sum(widths) + 2 * len(widths) <= 104
+        return
+    parts = [float(share.removesuffix("fr")) for share in shares]
+    room = 104 * 8.5 / size
+    if size > 5:
+        assert all(room * part / sum(parts) > word for part, word in zip(parts, words, strict=True))
+
+
+def test_a_wide_table_breaks_its_widest_column_or_is_set_smaller() -> None:
+    assert "#tabular(8.5pt, (7.0fr, 97.0fr,)" in table(["a", "b"], [["x", "y"]], (5, 200))
+    assert "#tabular(8.5pt, (auto, auto,)" in table(["a", "b"], [["x", "y"]], (5, 20))
+    assert "#tabular(7.1pt, (62fr, 62fr,)" in table(["a", "b"], [["x", "y"]], (60, 60))
 
 
 def test_pictures_have_the_fonts_of_the_book() -> None:
