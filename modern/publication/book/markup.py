@@ -21,8 +21,9 @@ _COMMENT = re.compile(r"<!--.*?-->\n?", re.DOTALL)
 _ROLE = re.compile(r"\{([a-z]+)\}\Z")
 _FURTHEST = 0x2E80
 """Where the scripts of East Asia begin, of which the fonts that Typst brings have nothing."""
-_LINE, _LONG, _WORD, _GAP = 104, 90, 12, 2
-"""Letters: a table's width; the most that a column counts for; a word where none is known; what is between columns."""
+_LINE, _LONG, _CELL, _WORD, _GAP = 104, 90, 40, 12, 2
+"""Letters: a table's width; the most that a column counts for; a cell that is no sentence; a word where none is known;
+what is between columns."""
 _USUAL, _SMALL, _SMALLEST = 8.5, 6.5, 5.0
 """Points: a table's letters; the least for cells each in a line; the least at all."""
 
@@ -84,14 +85,14 @@ def table(
 def columns_of(widths: Sequence[int], words: Sequence[int]) -> tuple[float, list[str]]:
     """The size of a table's letters in points, and how wide each of its columns is, as Typst has it.
 
-    Where all cells fit a column is as wide as it is, or in somewhat smaller letters as its cells.  Else no column is
-    narrower than its longest word, and what is left goes to those with longer cells; letters get smaller where the
-    words alone do not fit.
+    Where all cells fit a column is as wide as it is, or, without sentences, as its cells in somewhat smaller letters.
+    Else no column is narrower than its longest word, and what is left goes to those with longer cells; letters get
+    smaller where the words alone do not fit.
     """
     room = _LINE - _GAP * len(widths)
     if sum(widths) <= room:
         return _USUAL, ["auto"] * len(widths)
-    if sum(widths) * _SMALL <= room * _USUAL:
+    if sum(widths) * _SMALL <= room * _USUAL and max(widths) <= _CELL:
         return _USUAL * room / sum(widths), [f"{width + _GAP}fr" for width in widths]
     least = sum(words)
     size = max(_SMALLEST, min(_USUAL, _USUAL * room / least))

@@ -96,7 +96,8 @@ def test_no_column_is_narrower_than_its_longest_word(columns: list[tuple[int, in
 def test_a_wide_table_breaks_its_widest_column_or_is_set_smaller() -> None:
     assert "#tabular(8.5pt, (7.0fr, 97.0fr,)" in table(["a", "b"], [["x", "y"]], (5, 200))
     assert "#tabular(8.5pt, (auto, auto,)" in table(["a", "b"], [["x", "y"]], (5, 20))
-    assert "#tabular(7.1pt, (62fr, 62fr,)" in table(["a", "b"], [["x", "y"]], (60, 60))
+    assert "#tabular(6.8pt, (32fr, 32fr, 32fr, 32fr,)" in table("abcd", ["abcd"], (30, 30, 30, 30))
+    assert "#tabular(8.5pt" in table("ab", ["xy"], (60, 60)), "a sentence is broken"
 
 
 def test_pictures_have_the_fonts_of_the_book() -> None:
