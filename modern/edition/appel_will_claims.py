@@ -123,8 +123,8 @@ def jarvis_deletions(kind: str = "") -> Seen:
 
 
 def properties(number: str) -> Seen:
-    """A property of convex polyhedra, on the judge's hulls."""
-    good = [right for points, judge in _hulls() for right in _PROPERTIES[number](points, judge)]
+    """A property of convex polyhedra, on the judge's hulls, of which some have points inside."""
+    good = [right for points, judge in _hulls("4") for right in _PROPERTIES[number](points, judge)]
     return seen(bool(good) and all(good), f"{len(good)} cases")
 
 
@@ -179,13 +179,23 @@ def _projections(points: Sequence[Point], judge: ExactHull) -> list[bool]:
 _PROPERTIES = {"1": _inside_of_all, "2": _cones, "3": _dihedral, "4": _faces, "5": _projections}
 
 
+ARM = 9
+"""Cubes in each of the three arms of a star."""
+
+
 def surface_area() -> Seen:
-    """A hull inside of a box has less surface than the box; three spikes from the middle have none at all."""
+    """A hull inside of a box has less surface than the box; three arms of cubes have less than their hull."""
     octahedron: list[Point] = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
     box = [(2 * x - 1, 2 * y - 1, 2 * z - 1) for x, y, z in CUBE]
     inner, outer = _surface(octahedron), _surface(box)
-    words = f"an octahedron {inner:.2f} against {outer:.2f} of its cube; a star of segments 0"
-    return Seen(CONDITION if inner < outer else FAILS, words)
+    cubes = (
+        {(k, 0, 0) for k in range(ARM + 1)} | {(0, k, 0) for k in range(ARM + 1)} | {(0, 0, k) for k in range(ARM + 1)}
+    )
+    ways = [step for step in product((-1, 0, 1), repeat=3) if sum(map(abs, step)) == 1]
+    star = sum((x + i, y + j, z + k) not in cubes for x, y, z in cubes for i, j, k in ways)
+    around = _surface(sorted({(x + i, y + j, z + k) for x, y, z in cubes for i, j, k in CUBE}))
+    words = f"an octahedron {inner:.2f}, its cube {outer:.2f}; three arms of cubes {star}, their hull {around:.0f}"
+    return Seen(CONDITION if inner < outer and star < around else FAILS, words)
 
 
 def _surface(points: list[Point]) -> float:
@@ -226,13 +236,14 @@ def outside_of_the_others() -> Seen:
 
 def area_of_triangle() -> Seen:
     """The determinant is positive counterclockwise, negative clockwise, and 0 in line."""
-
-    def determinant(p: Flat, q: Flat, r: Flat) -> int:
-        return p[0] * (q[1] - r[1]) - p[1] * (q[0] - r[0]) + (q[0] * r[1] - q[1] * r[0])
-
     p, q, r = (0, 0), (4, 0), (0, 2)
     found = (determinant(p, q, r), determinant(p, r, q), determinant(p, q, (2, 0)), determinant(p, p, q))
     return seen(found == (8, -8, 0, 0), f"twice the area: {', '.join(map(str, found))}")
+
+
+def determinant(p: Flat, q: Flat, r: Flat) -> int:
+    """That of the rows x, y, 1 of three points."""
+    return p[0] * (q[1] - r[1]) - p[1] * (q[0] - r[0]) + (q[0] * r[1] - q[1] * r[0])
 
 
 def inside_a_triangle() -> Seen:

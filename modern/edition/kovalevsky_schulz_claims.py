@@ -167,8 +167,15 @@ def quadrangles() -> Seen:
 
 
 def formula_5() -> Seen:
-    """4.5 integers a triangle, where there are twice as many triangles as vertices."""
-    return Seen(CONDITION if triangulation_size(2) == 9 else FAILS, "N_V = N_T / 2: 3/2 + 3")
+    """Triangles of hulls, 2 V - 4 of them: three integers a vertex and three a triangle are 6 more than (5) says."""
+    good = []
+    for points, _ in grown():
+        cells = convex_polyhedron(points, "visible")
+        assert isinstance(cells, CellList)
+        corners, triangles = len(cells.vertices), len(cells.faces)
+        good.append(triangles == 2 * corners - 4)
+        good.append(3 * corners + 3 * triangles == triangulation_size(triangles) + 6)
+    return Seen(CONDITION if all(good) else FAILS, f"{len(good) // 2} hulls of triangles: 6 integers more than by (5)")
 
 
 def integers_a_face() -> Seen:
@@ -320,16 +327,17 @@ def _is_symmetric(ring: list[Point]) -> bool:
     return turns or any(marks == back[k:] + back[:k] for k in range(n))
 
 
+def bounds(a: Point, b: Point) -> bool:
+    """Whether a cell bounds another, by topological coordinates."""
+    return a != b and all(x == y or (y % 2 == 1 and abs(x - y) == 1) for x, y in zip(a, b, strict=True))
+
+
 def bounding_relation() -> Seen:
     """Cells of a voxel by topological coordinates: bounding is antisymmetric and transitive, incidence is not.
 
     The dimension, the number of odd coordinates, is less in the bounding cell.
     """
     cells: list[Point] = [(x, y, z) for x in range(3) for y in range(3) for z in range(3)]
-
-    def bounds(a: Point, b: Point) -> bool:
-        return a != b and all(x == y or (y % 2 == 1 and abs(x - y) == 1) for x, y in zip(a, b, strict=True))
-
     pairs = {(a, b) for a in cells for b in cells if bounds(a, b)}
     partial = not any((b, a) in pairs for a, b in pairs)
     partial &= all((a, d) in pairs for a, b in pairs for c, d in pairs if b == c)

@@ -12,7 +12,7 @@ from modern.edition.kovalevsky_schulz_claims import grown, solid_at_random
 from modern.edition.sampled_sets import Plane, Point, through, value
 from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, seen
 from modern.exact_hull import exact_hull
-from modern.geometry.vectors import cross, dot, minus
+from modern.geometry.vectors import cross, dot, minus, plus
 from modern.papers.kovalevsky_schulz import CENTRES, convex_polyhedron, local_corners
 from modern.papers.kovalevsky_schulz.cells import CellList
 
@@ -98,12 +98,15 @@ def polyhedron_is_a_complex() -> Seen:
 
 
 def maximum_of_the_highest() -> Seen:
-    """Means of a point with the largest value and one with less have less."""
+    """Means of a point with the largest value and one with less have less, those of two with the largest have it."""
     good = []
     for points, _ in grown():
         for direction in ((1, 0, 0), (1, -2, 1), (0, 3, -1)):
-            heights = [dot(direction, p) for p in points]
-            good += [h + max(heights) < 2 * max(heights) for h in heights if h < max(heights)]
+            most = max(dot(direction, p) for p in points)
+            for p, q in combinations(points, 2):
+                if most in (dot(direction, p), dot(direction, q)):
+                    both = dot(direction, p) == dot(direction, q)
+                    good.append((dot(direction, plus(p, q)) == 2 * most) == both)
     return seen(all(good), f"{len(good)} combinations")
 
 

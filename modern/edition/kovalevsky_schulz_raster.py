@@ -60,9 +60,14 @@ def topological_raster(kind: str = "") -> Seen:
     if kind == "cells":
         counts = Counter(sum(c % 2 for c in cell) for cell in product(range(3), repeat=3))
         return seen(counts == {0: 8, 1: 12, 2: 6, 3: 1}, "one voxel: 8 corners, 12 edges, 6 faces, 1 body")
-    ratios = {n: Fraction((2 * n + 1) ** 3, n**3) for n in (1, 10, 100)}
+    ratios = {n: Fraction(cells_of(n), n**3) for n in (1, 10, 100)}
     good = all(ratio > 8 for ratio in ratios.values()) and ratios[100] < Fraction(82, 10)
     return Seen(CONDITION if good else FAILS, ", ".join(f"n = {n}: {float(r):.2f} times" for n, r in ratios.items()))
+
+
+def cells_of(n: int) -> int:
+    """How many cells a cube of n voxels a side has, those on its border among them: 2 n + 1 on each axis."""
+    return len(range(2 * n + 1)) ** 3
 
 
 def single_voxel() -> Seen:
@@ -117,13 +122,18 @@ def labelled_besides() -> Seen:
 
 
 def edges_at_a_corner() -> Seen:
-    """1-cells at a 0-cell of a Cartesian complex: four in the plane, six in space."""
+    """1-cells at the 0-cells of a Cartesian complex: at most four in the plane, six in space."""
     numbers = {}
     for dimensions in (2, 3):
-        cells = [c for c in product(range(5), repeat=dimensions) if sum(x % 2 for x in c) == 1]
-        middle = (2,) * dimensions
-        numbers[dimensions] = sum(sum(abs(a - b) for a, b in zip(c, middle, strict=True)) == 1 for c in cells)
+        cells = [*product(range(5), repeat=dimensions)]
+        corners = [c for c in cells if not any(x % 2 for x in c)]
+        numbers[dimensions] = max(sum(ends_at(edge, corner) for edge in cells) for corner in corners)
     return Seen(CONDITION if numbers == {2: 4, 3: 6} else FAILS, f"{numbers[2]} in the plane, {numbers[3]} in space")
+
+
+def ends_at(edge: tuple[int, ...], corner: tuple[int, ...]) -> bool:
+    """Whether a cell has one odd coordinate and is beside a 0-cell."""
+    return sum(x % 2 for x in edge) == 1 == sum(abs(a - b) for a, b in zip(edge, corner, strict=True))
 
 
 def corners_of_eight_voxels(kind: str) -> Seen:
@@ -135,7 +145,7 @@ def corners_of_eight_voxels(kind: str) -> Seen:
     good = []
     for there in product((False, True), repeat=8):
         voxels = [v for v, here in zip(product((0, 1), repeat=3), there, strict=True) if here]
-        near = {tuple(v[k] if k == axis else 2 for k in range(3)) for v in voxels for axis in range(3)}
+        near = {cell for voxel in voxels for cell in _neighbours(voxel)}
         pairs = [tuple(side if k == axis else 2 for k in range(3)) for axis in range(3) for side in (0, 1)]
         opposite = [pairs[2 * axis] in near and pairs[2 * axis + 1] in near for axis in range(3)]
         if kind == "more":
@@ -145,3 +155,8 @@ def corners_of_eight_voxels(kind: str) -> Seen:
         else:
             good += [not any(opposite)] if len(voxels) == 1 else []
     return seen(all(good), f"{len(good)} of the 256 ways")
+
+
+def _neighbours(voxel: tuple[int, ...]) -> list[tuple[int, ...]]:
+    """A voxel's corners that are neighbours of the corner at which it stands: 0 or 1 on one axis, 2 on the others."""
+    return [tuple(voxel[k] if k == axis else 2 for k in range(3)) for axis in range(3)]

@@ -100,9 +100,8 @@ def touching_is_undecided(kind: str = "") -> Seen:
         _scene("stacked.toml"), CONTOUR
     )
     good = relation.by == "plane" and less
-    return Seen(
-        (FAILS if kind else CONDITION) if good else HOLDS, "decided by a separating plane; without it nothing is hidden"
-    )
+    words = "decided by a separating plane; without it nothing is hidden"
+    return seen(not good, words) if kind else Seen(CONDITION if good else FAILS, words)
 
 
 def three_conditions() -> Seen:
@@ -217,15 +216,20 @@ def _ring(low: int, high: int) -> tuple[tuple[int, int], ...]:
     return (low, low), (high, low), (high, high), (low, high)
 
 
+COUNTS = {"a": (11, 116, 80), "c": (60, 480, 360), "d": (30, 216, 158)}
+"""Table 1: polyhedra, vertices and faces."""
+
+
 def counts_of_d() -> Seen:
     """Table 1 (d): a solid of F faces has 2 F - 4 vertices at most, a plate none of that; the counts need plates.
 
     In (a) and (c) as many vertices as can be.
     """
-    most = {name: 2 * faces - 4 * parts for name, parts, faces in (("a", 11, 80), ("c", 60, 360), ("d", 30, 158))}
+    most = {name: 2 * faces - 4 * parts for name, (parts, _, faces) in COUNTS.items()}
     bases = [4] * 23 + [3] * 2
     plates = (len(bases) + 5, 2 * sum(bases) + 5 * 4, sum(bases) + 2 * len(bases) + 5 * 2)
-    good = most["a"] == 116 and most["c"] == 480 and most["d"] < 216 and plates == (30, 216, 158)
+    good = all(most[name] == COUNTS[name][1] for name in "ac")
+    good &= most["d"] < COUNTS["d"][1] and plates == COUNTS["d"]
     words = (
         f"30 solids with 158 faces have {most['d']} vertices at most; 25 prisms and five plates have the printed counts"
     )

@@ -110,22 +110,17 @@ def light_cap(kind: str = "") -> Seen:
     return seen(closed, f"{len(light)} light faces, {len(rim)} edges around them, each end on two")
 
 
-def halves_apart() -> Seen:
-    """Sorted points cut where x rises: the halves' greatest and least x; cut within one x they are equal."""
-    points = sorted(product((0, 1, 2), (0, 1), (0, 1)))
-    cut_well, cut_within = (points[3][0], points[4][0]), (points[5][0], points[6][0])
-    return Seen(
-        CONDITION if cut_well[0] < cut_well[1] and cut_within[0] == cut_within[1] else FAILS, "12 points of a grid"
-    )
-
-
 def voxels_fill_space() -> Seen:
     """Every quarter of a grid is in exactly one half-open voxel: x - 1/2 < V <= x + 1/2."""
-    half, good = Fraction(1, 2), []
+    good = []
     for k in range(-8, 9):
-        x = Fraction(k, 4)
-        good.append(sum(x - half < v <= x + half for v in range(-4, 5)) == 1)
+        good.append(sum(in_voxel(Fraction(k, 4), v) for v in range(-4, 5)) == 1)
     return seen(all(good), f"{len(good)} coordinates")
+
+
+def in_voxel(x: Fraction, v: int) -> bool:
+    """Whether a coordinate is in the voxel v."""
+    return x - Fraction(1, 2) < v <= x + Fraction(1, 2)
 
 
 def hull_is_simple() -> Seen:
@@ -160,13 +155,16 @@ def extreme_points() -> Seen:
 
 
 def integer_normals() -> Seen:
-    """Normals of the faces: whole numbers, at right angles to the face's sides, and not 0."""
-    good = []
-    for face in (*_hull().lower.faces, *_hull().upper.faces):
-        first, *others = face.vertices
-        good.append(any(face.normal) and all(type(n) is int for n in face.normal))
-        good += [dot(face.normal, minus(vertex, first)) == 0 for vertex in others]
-    return seen(bool(good) and all(good), f"{len(_hull().lower.faces) + len(_hull().upper.faces)} normals")
+    """Normals in the queue, of starting faces and others, and of all faces: whole, at right angles to edge or sides."""
+    good, upright = [], 0
+    for side in (_hull().lower, _hull().upper):
+        normals = [(face.normal, face.vertices) for face in side.faces]
+        normals += [(step.normal, step.edge) for step in side.steps]
+        upright += sum(normal[2] == 0 for normal, _ in normals)
+        for normal, (first, *others) in normals:
+            good.append(any(normal) and all(type(n) is int for n in normal))
+            good += [dot(normal, minus(vertex, first)) == 0 for vertex in others]
+    return seen(upright > 0 and all(good), f"{len(good)} conditions; {upright} normals of starting faces")
 
 
 def supporting_is_no_face() -> Seen:

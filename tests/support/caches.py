@@ -1,0 +1,25 @@
+"""Caches of modules, emptied around what a test changes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import ModuleType
+
+
+@contextmanager
+def cleared(*modules: ModuleType) -> Iterator[None]:
+    """Empty what the functions of the modules keep, before and after."""
+    kept = [
+        found
+        for module in modules
+        for found in vars(module).values()
+        if hasattr(found, "cache_clear") and found.__module__ == module.__name__
+    ]
+    for function in kept:
+        function.cache_clear()
+    try:
+        yield
+    finally:
+        for function in kept:
+            function.cache_clear()
