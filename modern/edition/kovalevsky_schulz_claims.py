@@ -120,11 +120,13 @@ def choice_of_q() -> Seen:
 def unseen_is_inside() -> Seen:
     """Points of a grid: those that see no face of a hull are in it."""
     points, judge = grown()[0]
-    good = []
-    for point in ((x, y, z) for x in (-4, 1) for y in (-1, 4) for z in (-4, 0)):
+    good, held = [], 0
+    for point in product((-4, -1, 0, 1, 4), repeat=3):
         unseen = max(value(f.plane, point) for f in judge.facets) <= 0
-        good.append(unseen == (point in points or len(points) not in exact_hull([*points, point]).vertices))
-    return seen(all(good), f"{len(good)} points")
+        inside = point in points or len(points) not in exact_hull([*points, point]).vertices
+        good.append(unseen == inside)
+        held += inside
+    return seen(all(good) and held > 0, f"{len(good)} points, {held} of them in the hull")
 
 
 def cube_seen_from_a_corner() -> Seen:

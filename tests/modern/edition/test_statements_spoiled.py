@@ -225,5 +225,4 @@ def test_a_claim_on_spoiled_ground_has_another_verdict(
     with cleared(module), monkeypatch.context() as patch:
         patch.setattr(module, name, spoil(getattr(module, name)))
         spoiled = getattr(module, function)(*arguments).verdict
-    assert spoiled != right
     assert (spoiled in (HOLDS, CONDITION)) != (right in (HOLDS, CONDITION))
