@@ -121,7 +121,7 @@ def unseen_is_inside() -> Seen:
     """Points of a grid: those that see no face of a hull are in it."""
     points, judge = grown()[0]
     good, held = [], 0
-    for point in product((-4, -1, 0, 1, 4), repeat=3):
+    for point in ((x, y, z) for x, y, z in product((-4, -1, 0, 1, 4), repeat=3)):
         unseen = max(value(f.plane, point) for f in judge.facets) <= 0
         inside = point in points or len(points) not in exact_hull([*points, point]).vertices
         good.append(unseen == inside)
