@@ -195,7 +195,7 @@ def less_reduced(hull: Right) -> object:
 
 
 def upside_down(hull: Right) -> object:
-    return replace(hull, floor=hull.ceiling, ceiling=hull.floor, upper=hull.lower, lower=hull.upper)
+    return replace(hull, lowest=hull.highest, highest=hull.lowest, upper=hull.lower, lower=hull.upper)
 
 
 def the_solid_alone(hull: Right) -> object:
