@@ -209,7 +209,7 @@ def inward(hull: Right) -> object:
 
 def starting_normals_in_halves(hull: Right) -> object:
     steps = tuple(replace(step, normal=tuple(Fraction(n, 2) for n in step.normal)) for step in hull.lower.steps)
-    return replace(hull, lower=replace(hull.lower, steps=steps))
+    return replace(hull, lower=replace(hull.lower, construction=lambda: steps))
 
 
 def as_corrected(right: Right) -> object:
