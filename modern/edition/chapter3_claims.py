@@ -98,6 +98,7 @@ def first_two() -> Seen:
         first, second, *_ = hull.history[0].added if hull.history else hull.vertices
         values = [point[axis] for point in points]
         good.append((points[first][axis], points[second][axis]) == (max(values), min(values)))
+        good.append(max(values) > min(values))
     return seen(all(good), "by x, where all x are equal by y, where all y are too by z")
 
 

@@ -88,6 +88,14 @@ def _eliminated(one: SampledSet) -> Iterator[bool]:
         gone |= inside
 
 
+def _contained(one: SampledSet) -> Iterator[bool]:
+    """What an H_j holds, inside or on its boundary, and is not one of its vertices, is no vertex of the last hull."""
+    for stage in one.stages():
+        for k, point in enumerate(one.points):
+            if k not in stage.vertices and all(value(plane, point) <= 0 for plane in stage.equations):
+                yield k not in one.judge.vertices
+
+
 def _never_back(one: SampledSet) -> Iterator[bool]:
     """N_j, the points still looked at, is that of the stage before less those struck, and no struck one is used."""
     left = len(one.points)
@@ -134,6 +142,14 @@ def _one_more(one: SampledSet) -> Iterator[bool]:
             made = [{*d} for d in after.defining if {*d} not in [{*k} for k in kept]]
             yield len(after.defining) == len(kept) + len(made) == len(before.defining) + one.judge.dimension - 1
             yield sorted(map(sorted, made)) == sorted(sorted({new} | (gone - {k})) for k in gone)
+
+
+def _both_new(one: SampledSet) -> Iterator[bool]:
+    """No given point is outside of both new lines; the corner they make is the new vertex."""
+    for _, after, _, new in _steps(one):
+        lines = [plane for plane, ends in zip(after.equations, after.defining, strict=True) if new in ends]
+        yield len(lines) == 2
+        yield all(min(value(plane, point) for plane in lines) <= 0 for point in one.points)
 
 
 def _counted(one: SampledSet) -> Iterator[bool]:
@@ -236,6 +252,7 @@ _PROPERTIES = {
     "final": _final,
     "struck": _struck,
     "struck_inside": _eliminated,
+    "contained": _contained,
     "never_back": _never_back,
     "finite": _finite,
     "settled": _settled,
@@ -243,6 +260,7 @@ _PROPERTIES = {
     "largest": _largest_of_all,
     "lines": _one_more,
     "planes": _one_more,
+    "both_new": _both_new,
     "counted": _counted,
     "moved": _moved_up,
     "next": _turned_at_one,
@@ -253,6 +271,6 @@ _PROPERTIES = {
     "convex": _convex_if,
 }
 KINDS = tuple(_PROPERTIES)
-_FLAT = ("lines", "moved", "triangle")
+_FLAT = ("lines", "moved", "both_new", "triangle")
 _SPACE = ("convex", "tetrahedra")
 _WITH_CONDITION = ("planes",)

@@ -73,12 +73,16 @@ def coplanar_iff(count: str = COUNT) -> Seen:
 
 
 def opening_is_shared(count: str = COUNT) -> Seen:
-    """The first three points of a set in space are those of the same points moved into a plane."""
+    """Flat sets, and the same with one point more that is not in their plane: the first three points are the same."""
     found = []
-    for one in sampled_sets(3, int(count)):
-        flat = [(x, y, x + y) for x, y, _ in one.points]
-        found.append(one.hull.dimension == 3 and convex_hull(flat).dimension == 2 and bool(one.hull.history))
-    return _all(found, "sets: the case is decided by the plane of the first three points")
+    for one in sampled_sets(2, int(count)):
+        size = 9 * len(one.points)
+        flat = [(size * x, size * y, size * z) for x, y, z in one.points]
+        x, y, z = (9 * sum(point[axis] for point in one.points) for axis in range(3))
+        hulls = [convex_hull(points, history=True) for points in (flat, [*flat, (x, y, z + 1)])]
+        firsts = [[hull.points[k] for k in hull.history[0].added[:3]] for hull in hulls]
+        found.append([hull.dimension for hull in hulls] == [2, 3] and firsts[0] == firsts[1])
+    return _all(found, "sets: the first three points are the same, and their plane decides the case")
 
 
 def perpendicular_projection() -> Seen:

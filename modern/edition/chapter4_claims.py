@@ -57,16 +57,19 @@ def worked_example(theorem: str, claim: str, kind: str = "") -> Seen:
     return replace(found, verdict=CONDITION) if kind and found.verdict == HOLDS else found
 
 
+EXTREMES_IN_A_PLANE: tuple[tuple[tuple[int, int, int], ...], ...] = (
+    ((0, 3, 3), (2, 4, 2), (4, 1, -3), (1, 2, -2)),
+    ((0, 2, -2), (3, 0, -3), (4, 2, -6), (1, 4, -5), (1, 1, -5)),
+    ((1, 0, 2), (0, 3, -6), (2, 4, -4), (4, 3, 2), (3, 1, 4), (1, 1, -5)),
+    ((0, 1, -1), (3, 1, 2), (4, 3, 1), (3, 4, -1), (1, 3, -2), (1, 0, 1), (1, 1, -1)),
+)
+"""Sets in space whose extreme points, three to six, lie in one plane; one point, the last, does not."""
+
+
 def extremes_of_any_number(claim: str) -> Seen:
     """Theorem 4.1 for three to six distinct extreme points, coplanar with one more point beside; and its example."""
-    sets: tuple[tuple[tuple[int, int, int], ...], ...] = (
-        ((0, 3, 3), (2, 4, 2), (4, 1, -3), (1, 2, -2)),
-        ((0, 2, -2), (3, 0, -3), (4, 2, -6), (1, 4, -5), (1, 1, -5)),
-        ((1, 0, 2), (0, 3, -6), (2, 4, -4), (4, 3, 2), (3, 1, 4), (1, 1, -5)),
-        ((0, 1, -1), (3, 1, 2), (4, 3, 1), (3, 4, -1), (1, 3, -2), (1, 0, 1), (1, 1, -1)),
-    )
     good = []
-    for points in sets:
+    for points in EXTREMES_IN_A_PLANE:
         extreme = {f(points, key=lambda p, k=k: p[k]) for f in (min, max) for k in range(3)}  # type: ignore[misc]
         good.append(extreme == {*points[:-1]})
         good.append((exact_hull(points[:-1]).dimension, exact_hull(points).dimension) == (2, 3))

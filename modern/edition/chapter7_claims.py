@@ -42,11 +42,13 @@ def deck_of(name: str) -> Deck:
 
 
 @cache
-def _run(name: str) -> HullRun:
+def run_of(name: str) -> HullRun:
+    """A counterexample that is a data deck through the listing."""
     return run_hull(deck_of(name), programs.program, Options(limit=100_000))
 
 
-def _typed(run: HullRun) -> str:
+def typed(run: HullRun) -> str:
+    """What the typewriter has of all programs of a run."""
     return " / ".join(line for step in run.steps for line in step.result.typed)
 
 
@@ -100,35 +102,36 @@ def _most_planes(points: np.ndarray) -> int:
 
 def plane_through_c() -> Seen:
     """The deck of KNOWN-FAULTS 3: what is typed, and that the judge has a hull."""
-    typed = _typed(_run("throughc.deck"))
+    words = typed(run_of("throughc.deck"))
     points = [[*map(Fraction, point)] for point in exact_points(deck_of("throughc.deck"))[0].values()]
     judge = exact_hull(points)
-    good = typed.endswith("ERROR IN PROGRAM") and judge.dimension == 3
+    good = words.endswith("ERROR IN PROGRAM") and judge.dimension == 3
     return Seen(
         FAILS if good else HOLDS,
-        f"typed: {typed}; the judge: {len(judge.vertices)} vertices, {len(judge.facets)} planes",
+        f"typed: {words}; the judge: {len(judge.vertices)} vertices, {len(judge.facets)} planes",
     )
 
 
 def roots_that_do_not_add_up() -> Seen:
     """The deck of KNOWN-FAULTS 14: the vertices the listing punches are not the judge's."""
-    found, judge = _vertices("between.deck")
+    found, judge = vertices_of("between.deck")
     words = f"{len(found ^ judge)} points differ between the punched vertices and the judge's"
     return Seen(CONDITION if found != judge else FAILS, words)
 
 
-def _vertices(name: str) -> tuple[set[int], set[int]]:
+def vertices_of(name: str) -> tuple[set[int], set[int]]:
+    """The vertices that the listing punches of a counterexample, and the judge's, by place."""
     points = [tuple(map(Fraction, point)) for point in exact_points(deck_of(name))[0].values()]
-    outcome = from_cards("listing", _run(name), points)
+    outcome = from_cards("listing", run_of(name), points)
     return set(outcome.vertices), set(exact_hull([*map(list, points)]).vertices)
 
 
 def silent_loss() -> Seen:
     """Four points of five digits: a wrong hull without a message."""
-    found, judge = _vertices("silent.deck")
-    typed = _typed(_run("silent.deck"))
-    good = found != judge and "NOT ACCEPTABLE" not in typed
-    return Seen(FAILS if good else HOLDS, f"{len(found)} of {len(judge)} vertices are punched; typed: {typed}")
+    found, judge = vertices_of("silent.deck")
+    words = typed(run_of("silent.deck"))
+    good = found != judge and "NOT ACCEPTABLE" not in words
+    return Seen(FAILS if good else HOLDS, f"{len(found)} of {len(judge)} vertices are punched; typed: {words}")
 
 
 def notation() -> Seen:
@@ -222,6 +225,22 @@ def vertex_overlooked() -> Seen:
     return seen(
         4 in without.vertices and 4 not in with_e.vertices, "(1.4, 1.4, 1.4) is a vertex, with e = 20 it is none"
     )
+
+
+def interval_is_a_solution() -> Seen:
+    """Points in space whose first three miss their own plane: refused, and with e = 10 the hull is right.
+
+    With e = 10,000,000 it is not.
+    """
+    from modern.port import convex_hull
+
+    points = [*_THREE, (101, 77, -340), (250, 333, 90)]
+    whole = [tuple(map(str, point)) for point in points]
+    hulls = [convex_hull(whole, "truncating", epsilon=e, on_refusal="return") for e in (None, "10", "10000000")]
+    judge = exact_hull(points)
+    right = [hull.determined and {*hull.vertices} == {*judge.vertices} for hull in hulls]
+    words = f"{hulls[0].status}; with e = 10 {hulls[1].status}; with e = 10,000,000 {len(hulls[2].vertices)} vertices"
+    return Seen(CONDITION if right == [False, True, False] else FAILS, words)
 
 
 def value_is_no_distance() -> Seen:

@@ -46,7 +46,7 @@ def convex_hull(
     the equation's largest coefficient A, B or C.  translate: the origin is moved to C and the constant terms tell how
     equations are turned (thesis p. 118).  history: the result tells every H_j.  fast: compiled kernels (numba, the
     extra ``fast``) for ``float64`` and ``float32``; None: where they are there and points are many.  The result is
-    the same.  text: the two steps that chapter 3 has otherwise than the listing, as chapter 3 has them (the fourth
+    the same.  text: two steps that chapter 3 has otherwise than the listing, as chapter 3 has them (the fourth
     point, p. 29; the order of the planes a point is outside of, p. 32).
 
     What the layer ``corrected`` changes is built in; :attr:`Hull.corrected` names the rows that mattered.  Numbers
