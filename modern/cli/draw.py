@@ -27,7 +27,7 @@ def main(args: argparse.Namespace) -> int:
         raise UsageError("--coplanar-within reads the hull alone: not with --stages, --animate or --against")
     if args.points == "-" == args.against:
         raise UsageError("points and cards cannot both come from standard input")
-    hull, notes = exact_hull_of(args.points, history=staged, within=args.coplanar_within)
+    hull, notes = exact_hull_of(args.points, procedure=True, history=staged, within=args.coplanar_within)
     if not hull.determined:
         say([f"hull1620: {args.points}: {hull.status}"])
         return DIFFERS

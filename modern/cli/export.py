@@ -15,7 +15,7 @@ from modern.geometry.hull import Hull
 def main(args: argparse.Namespace) -> int:
     """Read the points, find the hull, write the file."""
     form = args.format or _form(args.output)
-    hull, notes = exact_hull_of(args.points, within=args.coplanar_within)
+    hull, notes = exact_hull_of(args.points, procedure=form == "json", within=args.coplanar_within)
     if not hull.determined and form != "json":
         say([f"hull1620: {args.points}: {hull.status}"])
         return DIFFERS
@@ -24,17 +24,27 @@ def main(args: argparse.Namespace) -> int:
     return OK if hull.determined else DIFFERS
 
 
-def exact_hull_of(path: str, history: bool = False, within: str | None = None) -> tuple[Hull, list[str]]:
-    """The hull of a file's points in exact arithmetic, with its stages if asked; and what the user should know of it.
+def exact_hull_of(
+    path: str, *, procedure: bool, history: bool = False, within: str | None = None
+) -> tuple[Hull, list[str]]:
+    """The hull of a file's points in exact arithmetic; and what the user should know of it.
 
+    procedure: it is made by Butler's procedure, for its equations, their order and C, with its stages where ``history``
+    asks for them; else by the judge, which takes a fraction of the time where points are many.
     within: read faces as one whose vertices lie within this distance of a plane.
     """
     limit = None if within is None else distance(within)
     found = points_of(path)
     # Imported here, so that a fault of the file is told without waiting.
-    from modern.port import convex_hull
+    if procedure:
+        from modern.port import convex_hull
 
-    hull = convex_hull(found.points, "exact", history=history, on_refusal="return")
+        hull = convex_hull(found.points, "exact", history=history, on_refusal="return")
+    else:
+        from modern.comparison.outcome import as_hull
+        from modern.exact_hull import exact_hull
+
+        hull = as_hull(exact_hull(found.points))
     notes = [*found.notes]
     for point, first in hull.duplicates:
         notes.append(f"{found.source}: {found.places[point]}: the point of {found.places[first]} again")

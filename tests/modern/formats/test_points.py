@@ -13,10 +13,14 @@ import pytest
 
 from emulator.errors import EmulatorError
 from modern.cli import export as export_command
+from modern.comparison.outcome import as_hull
+from modern.exact_hull import exact_hull
 from modern.formats.deck import coordinate_field, data_deck, exact_points, with_epsilon
+from modern.formats.hulls import export_text
 from modern.formats.off import parse_off
 from modern.formats.points import Input, parse_input, read_input, recognise
 from modern.geometry.hull import ERROR, Hull
+from modern.port import convex_hull
 from tests.support.commands import call
 
 CARD = "+.10000000E+01-.25000000E+01+.30000000E-05\n"
@@ -238,13 +242,25 @@ def test_bad_arguments(room: Path, capsys: pytest.CaptureFixture[str], arguments
     assert sorted(path.name for path in room.iterdir()) == before
 
 
+def test_a_mesh_is_the_judges_hull_and_json_the_procedures(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    points = [(3, 4, 8), (6, -3, 7), (1, 2, -5), (4, 2, -3), (4, 2, 4), (1, 2, 7), (-2, 2, 0), (2, 2, 2)]
+    Path("e.csv").write_text("".join(f"{x},{y},{z}\n" for x, y, z in points))
+    made, judged = convex_hull(points), as_hull(exact_hull(points))
+    assert made.vertices != judged.vertices, "the order of the procedure is another than the input's"
+    for form in ("off", "obj", "ply", "stl", "html"):
+        assert call(capsys, "export", "e.csv", "--format", form) == (0, export_text(judged, form), "")
+    found = json.loads(call(capsys, "export", "e.csv", "--format", "json")[1])
+    assert tuple(found["vertices"]) == made.vertices
+    assert found["centre"] is not None
+
+
 def test_a_hull_that_was_not_determined(
     room: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Exact arithmetic gives none by itself, so the hull is made here."""
     broken = Hull("exact", ERROR, 3, (("0", "0", "0"),), (), (), ())
-    monkeypatch.setattr(export_command, "exact_hull_of", lambda path, history=False, within=None: (broken, []))
-    monkeypatch.setattr("modern.cli.draw.exact_hull_of", lambda path, history=False, within=None: (broken, []))
+    monkeypatch.setattr(export_command, "exact_hull_of", lambda *_, **__: (broken, []))
+    monkeypatch.setattr("modern.cli.draw.exact_hull_of", lambda *_, **__: (broken, []))
     assert call(capsys, "export", "t.csv", "-o", "t.off") == (1, "", "hull1620: t.csv: ERROR IN PROGRAM\n")
     assert call(capsys, "draw", "t.csv", "-o", "t.svg") == (1, "", "hull1620: t.csv: ERROR IN PROGRAM\n")
     assert [path.name for path in room.iterdir()] == ["t.csv"]
