@@ -62,7 +62,7 @@ def served(site: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str
     for entry in site.iterdir():
         if entry.name != "console":
             (folder / entry.name).symlink_to(entry)
-    assert lay(folder / "console", packed(room)) > 10_000_000
+    assert 7_000_000 < lay(folder / "console", packed(room)) < 10_000_000, "bytes to load, the largest file compressed"
     server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Quiet, directory=str(folder)))
     threading.Thread(target=server.serve_forever, daemon=True).start()
     yield f"http://127.0.0.1:{server.server_port}"
