@@ -15,7 +15,7 @@ from modern.digital.solids import NoVoxels, Volume, VolumeError, Voxels, as_volu
 from modern.digital.world import World, decimal_or_fraction
 from modern.geometry.mesh import Mesh
 from modern.papers.kovalevsky_schulz.cells import CellList, Economical, IntPoint, Plane, expanded
-from modern.papers.kovalevsky_schulz.corners import VERTICES, Of, Points, corner_mask, places, points_of
+from modern.papers.kovalevsky_schulz.corners import NEIGHBOURS, VERTICES, Of, Points, corners_by_neighbours
 from modern.papers.kovalevsky_schulz.polyhedron import VISIBLE, Coplanar, Flat, convex_polyhedron
 
 
@@ -152,12 +152,11 @@ def voxel_hull(
     volume = as_volume(volume)
     if not volume.count:
         raise NoVoxels(f"{volume.source}: there are no voxels")
-    array = places(volume, of)
-    masks = {count: corner_mask(array, count) for count in (6, 26)}
-    inserted = points_of(masks[neighbours], volume.origin)
+    corners = corners_by_neighbours(volume, of)
+    inserted = corners[neighbours]
     triangles = convex_polyhedron(inserted, coplanar)
     surface = triangles if isinstance(triangles, Flat) else _surface(triangles)
-    counts = {count: int(mask.sum()) for count, mask in masks.items()}
+    counts = {count: len(corners[count]) for count in NEIGHBOURS}
     return VoxelHull(volume.source, volume.count, counts, inserted, surface, of, volume.world)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from itertools import pairwise, permutations, product
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -23,13 +24,14 @@ from modern.papers.kovalevsky_schulz import (
     CellList,
     Flat,
     convex_polyhedron,
+    corners,
     local_corners,
     merged,
     reconstructed,
     straightened,
     voxel_hull,
 )
-from modern.papers.kovalevsky_schulz.corners import corner_mask, places
+from modern.papers.kovalevsky_schulz.corners import Of, corners_by_neighbours, places
 from modern.papers.kovalevsky_schulz.polyhedron import Planes
 
 PLACES = (CENTRES, VERTICES)
@@ -129,10 +131,31 @@ def is_corner(array: np.ndarray, at: tuple[int, ...], neighbours: int) -> bool:
 
 @given(VOLUMES, st.sampled_from([6, 26]))
 def test_local_corners_place_by_place(array: np.ndarray, neighbours: int) -> None:
-    mask = corner_mask(array, neighbours)
-    assert mask.dtype == np.bool_
+    mask = corner_mask(Volume(array, (2, -5, 0)), CENTRES, neighbours)
     for at in np.ndindex(array.shape):
         assert mask[at] == is_corner(array, at, neighbours)
+
+
+def corner_mask(volume: Volume, of: Of, neighbours: int) -> NDArray[np.bool_]:
+    """Which places of a volume are local corners."""
+    found = np.zeros_like(places(volume, of))
+    found[tuple((local_corners(volume, of, neighbours) - volume.origin).T)] = True
+    return found
+
+
+@given(VOLUMES, st.permutations(range(3)), st.integers(1, 40), st.sampled_from(PLACES))
+def test_local_corners_of_any_slabs_and_order_of_memory(array: np.ndarray, axes: list[int], slab: int, of: Of) -> None:
+    """Corners of voxels are the places of the volume that has a voxel for each of them."""
+    turned = array.transpose(axes)
+    whole = Volume(places(Volume(turned.copy(), (0, 0, 0)), of), (0, 0, 0))
+    with patch.object(corners, "_SLAB", slab):
+        parts = corners_by_neighbours(Volume(turned, (0, 0, 0)), of)
+    for neighbours, points in parts.items():
+        assert np.array_equal(points, local_corners(whole, CENTRES, neighbours))
+
+
+def test_a_box_without_places_has_no_local_corners() -> None:
+    assert local_corners(Volume(np.zeros((0, 3, 3), dtype=np.bool_), (0, 0, 0)), CENTRES).shape == (0, 3)
 
 
 def single_voxel_corners(volume: Volume) -> NDArray[np.bool_]:
@@ -152,12 +175,12 @@ def single_voxel_corners(volume: Volume) -> NDArray[np.bool_]:
 def test_a_corner_that_is_local_by_6_neighbours_bounds_one_voxel_only(array: np.ndarray) -> None:
     """Fig. 2, in the direction in which it holds."""
     volume = Volume(array, (0, 0, 0))
-    assert not (corner_mask(places(volume, VERTICES), 6) & ~single_voxel_corners(volume)).any()
+    assert not (corner_mask(volume, VERTICES, 6) & ~single_voxel_corners(volume)).any()
 
 
 @pytest.mark.parametrize("volume", [ball(32), ball(11), ball(12, "vertex"), half_ball(22)], ids=lambda v: v.source)
 def test_of_balls_the_corners_of_one_voxel_are_the_local_ones(volume: Volume) -> None:
-    assert np.array_equal(corner_mask(places(volume, VERTICES), 6), single_voxel_corners(volume))
+    assert np.array_equal(corner_mask(volume, VERTICES, 6), single_voxel_corners(volume))
 
 
 def test_a_corner_of_one_voxel_need_not_be_local() -> None:
@@ -167,7 +190,7 @@ def test_a_corner_of_one_voxel_need_not_be_local() -> None:
     array[0, 0, 0] = array[1, 1, 2] = True
     volume = Volume(array, (0, 0, 0))
     assert single_voxel_corners(volume)[1, 1, 1]
-    assert not corner_mask(places(volume, VERTICES), 6)[1, 1, 1]
+    assert not corner_mask(volume, VERTICES, 6)[1, 1, 1]
 
 
 @given(VOLUMES)
