@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
-from importlib.resources import files
 
 
 class EmulatorError(Exception):
@@ -128,6 +126,10 @@ class Explanation:
 @cache
 def explanations() -> Mapping[str, Explanation]:
     """Every error number and code with its explanation: 5 to 13 (C26-5619 p. 56), E1 to E8, F1 to F6, F8."""
+    # Imported here, for every command begins with this module and few explain.
+    import tomllib
+    from importlib.resources import files
+
     text = files("emulator").joinpath("explanations.toml").read_text(encoding="utf-8")
     rows = tomllib.loads(text).items()
     return {number: Explanation(**{**row, "example": tuple(row["example"])}) for number, row in rows}
