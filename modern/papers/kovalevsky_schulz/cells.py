@@ -7,20 +7,22 @@ the first from the second.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import chain, pairwise
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from emulator.errors import EmulatorError
-from modern.geometry.mesh import sides
-from modern.geometry.vectors import cross, minus
 
 IntPoint = tuple[int, int, int]
 Plane = tuple[int, int, int, int]
-_BLOCK = 1 << 18
+Numbers = NDArray[np.int64]
+Array = NDArray[Any]
+_BLOCK = 1 << 15
+"""So many values are computed at a time: they stay near the processor, and no second one is called in."""
 
 
 class CellListError(EmulatorError):
@@ -102,55 +104,88 @@ class CellList:
 
     def planes(self) -> tuple[Plane, ...]:
         """The plane of every face in lowest terms: H(x, y, z) = a x + b y + c z + d is at most 0 in the polyhedron."""
-        points = self.points
-        return tuple(plane_of([points[number - 1] for number in face.vertices]) for face in self.faces)
+        return tuple(planes_of(self.points, [face.vertices for face in self.faces]))
 
 
-def plane_of(polygon: Sequence[IntPoint]) -> Plane:
-    """The plane of a plane polygon in lowest terms, outward where the polygon is counterclockwise seen from outside.
+def planes_of(points: Sequence[IntPoint], cycles: Sequence[Sequence[int]]) -> list[Plane]:
+    """The planes of plane polygons in lowest terms, outward where a polygon is counterclockwise seen from outside.
 
-    Vertices in line with their neighbours do no harm.  Raises CellListError for a polygon without area.
+    cycles: of each polygon its vertices, numbers of points from 1.  Vertices in line with their neighbours do no harm.
+    Raises CellListError for a polygon without area.
     """
-    origin = polygon[0]
-    arms = [minus(point, origin) for point in polygon[1:]]
-    parts = [cross(one, other) for one, other in pairwise(arms)]
-    a, b, c = (sum(column) for column in zip(*parts, strict=True))
-    divisor = math.gcd(a, b, c)
-    if not divisor:
+    sizes, vertex = _flat(cycles)
+    low, near = _moved(points, sizes)
+    normals, rest = _planes(near, sizes, vertex)
+    moved = rest.astype(object) - normals.astype(object) @ np.array(low, dtype=object)
+    a, b, c = normals.T.tolist()
+    return list(zip(a, b, c, moved.tolist(), strict=True))
+
+
+def _moved(points: Sequence[IntPoint], sizes: Numbers) -> tuple[IntPoint, Array]:
+    """The least coordinates, and the points from there: in 64 bits where their planes surely fit, else Python's.
+
+    sizes: how many vertices polygons have.
+    """
+    x, y, z = (min(axis) for axis in zip(*points, strict=True))
+    near = [(p[0] - x, p[1] - y, p[2] - z) for p in points]
+    reach = max(map(max, near))
+    # A normal is a sum of vector products, each at most 2 reach^2, one for each vertex of the polygon at most; the
+    # value at a point has three products with coordinates, and what makes the value 0 on the polygon as many.
+    fits = 12 * int(sizes.max()) * reach**3 < 2**62
+    return (x, y, z), np.array(near, dtype=np.int64 if fits else object)
+
+
+def _flat(cycles: Sequence[Sequence[int]]) -> tuple[Numbers, Numbers]:
+    """How long cycles are, and what is in them, one after another."""
+    sizes = np.fromiter(map(len, cycles), np.int64, len(cycles))
+    return sizes, np.fromiter(chain.from_iterable(cycles), np.int64, int(sizes.sum()))
+
+
+def _planes(near: Array, sizes: Numbers, vertex: Numbers) -> tuple[Array, Array]:
+    """Normals without common divisor, shape (n, 3), and what makes the plane's value 0 on a polygon."""
+    first = np.cumsum(sizes) - sizes
+    corner = near[vertex - 1]
+    origin = near[vertex[first] - 1]
+    arm = corner - np.repeat(origin, sizes, axis=0)
+    (u1, u2, u3), (v1, v2, v3) = arm[:-1].T, arm[1:].T
+    part = np.zeros_like(arm)
+    part[:-1] = np.stack([u2 * v3 - u3 * v2, u3 * v1 - u1 * v3, u1 * v2 - u2 * v1], axis=1)
+    # A polygon's first arm is of no length: the product of its last arm with the next polygon's first is nothing.
+    normal = np.add.reduceat(part, first, axis=0)
+    divisor = np.gcd(np.gcd(normal[:, 0], normal[:, 1]), normal[:, 2])
+    if not divisor.all():
         raise CellListError("a face has no area")
-    a, b, c = a // divisor, b // divisor, c // divisor
-    return a, b, c, -(a * origin[0] + b * origin[1] + c * origin[2])
+    normal = normal // divisor[:, None]
+    return normal, -(normal * origin).sum(axis=1)
 
 
-def assembled(
-    points: Mapping[int, IntPoint], ends: Mapping[int, tuple[int, int]], cycles: Iterable[Sequence[int]]
-) -> CellList:
-    """A cell list from faces as cycles of signed edges: everything is numbered anew, without gaps and in order.
+def assembled(points: Sequence[IntPoint], starts: Numbers, ends: Numbers, sizes: Numbers, signed: Numbers) -> CellList:
+    """A cell list from faces as cycles of signed edges.
 
-    points: coordinates by vertex; ends: start and end by edge; cycles: of each face its edges as ``Face.pairs`` has
-    them.  A face's first pair becomes that of its vertex of lowest number.
+    starts, ends: of each edge, by number of the vertex from 1.  sizes: how many edges a face has; signed: these edges,
+    face after face, as ``Face.pairs`` has them.  A face's first pair becomes that of its vertex of lowest number.
     """
-    vertex_numbers = {old: new for new, old in enumerate(sorted(points), 1)}
-    edge_numbers = {old: new for new, old in enumerate(sorted(ends), 1)}
-    around: dict[int, list[int]] = {number: [] for number in vertex_numbers.values()}
-    pairs_of_ends = []
-    for old, edge in edge_numbers.items():
-        start, end = (vertex_numbers[vertex] for vertex in ends[old])
-        around[start].append(-edge)
-        around[end].append(edge)
-        pairs_of_ends.append((start, end))
-    sides: dict[int, int] = {}
-    faces = []
-    for face, cycle in enumerate(cycles, 1):
-        signed = [edge_numbers[edge] if edge > 0 else -edge_numbers[-edge] for edge in cycle]
-        sides.update((edge, face) for edge in signed)
-        pairs = [(pairs_of_ends[abs(edge) - 1][edge < 0], edge) for edge in signed]
-        first = pairs.index(min(pairs))
-        faces.append(Face((*pairs[first:], *pairs[:first])))
+    edge = abs(signed) - 1
+    vertex = np.where(signed > 0, starts[edge], ends[edge])
+    first = np.cumsum(sizes) - sizes
+    face = np.repeat(np.arange(len(sizes)), sizes)
+    lowest = np.flatnonzero(vertex == np.minimum.reduceat(vertex, first)[face])
+    shift = np.empty(len(sizes), np.int64)
+    shift[face[lowest[::-1]]] = lowest[::-1]
+    place = first[face] + (np.arange(len(face)) - 2 * first[face] + shift[face]) % sizes[face]
+    pairs = list(zip(vertex[place].tolist(), signed[place].tolist(), strict=True))
+    sides = np.empty((2, len(starts)), np.int64)
+    sides[(signed < 0).astype(np.int64), edge] = face + 1
+    number = np.arange(1, len(starts) + 1)
+    at, of = np.concatenate([starts, ends]), np.concatenate([-number, number])
+    order = np.lexsort((abs(of), at))
+    counts = np.cumsum(np.bincount(at, minlength=len(points) + 1)).tolist()
+    around = of[order].tolist()
+    bounds = [*first.tolist(), len(pairs)]
     return CellList(
-        tuple(Vertex(points[old], tuple(around[new])) for old, new in vertex_numbers.items()),
-        tuple(Edge(start, end, sides[edge], sides[-edge]) for edge, (start, end) in enumerate(pairs_of_ends, 1)),
-        tuple(faces),
+        tuple(Vertex(point, tuple(around[a:b])) for point, (a, b) in zip(points, pairwise(counts), strict=True)),
+        tuple(map(Edge, starts.tolist(), ends.tolist(), *sides.tolist())),
+        tuple(Face(tuple(pairs[a:b])) for a, b in pairwise(bounds)),
     )
 
 
@@ -161,35 +196,46 @@ def expanded(encoding: Economical) -> CellList:
     left.  Raises CellListError for what is not the surface of a convex polyhedron.
     """
     points, faces = encoding.points, encoding.faces
-    known: dict[tuple[int, int], int] = {}
-    ends: dict[int, tuple[int, int]] = {}
-    cycles = []
-    for number, face in enumerate(faces, 1):
-        if len(set(face)) != len(face) or len(face) < 3:
-            raise CellListError(f"face {number}: it has fewer than three vertices, or one of them twice")
-        cycle = []
-        for start, end in sides(face):
-            if not 1 <= start <= len(points):
-                raise CellListError(f"face {number}: there is no vertex {start}")
-            if (start, end) in known:
-                edge = known.pop((start, end))
-            else:
-                edge = len(ends) + 1
-                ends[edge] = (start, end)
-                known[end, start] = -edge
-            cycle.append(edge)
-        cycles.append(cycle)
-    if known:
-        end, start = next(iter(known))
-        raise CellListError(f"the edge from vertex {start} to {end} has a face on one side only")
-    unused = set(range(1, len(points) + 1)).difference(*faces)
-    if unused:
-        raise CellListError(f"vertex {min(unused)}: no face has it")
-    if len(points) - len(ends) + len(faces) != 2:
-        raise CellListError(f"{len(points)} vertices, {len(ends)} edges and {len(faces)} faces make no polyhedron")
-    cells = assembled(dict(enumerate(points, 1)), ends, cycles)
-    _check_convex(cells)
-    return cells
+    try:
+        sizes, start = _flat(faces)
+    except OverflowError:
+        raise CellListError("the number of a vertex is beyond 64 bits") from None
+    face = np.repeat(np.arange(len(faces)), sizes)
+    _check_cycles(sizes, start, face, len(points))
+    following = np.arange(1, len(start) + 1)
+    last = np.cumsum(sizes) - 1
+    following[last] = last + 1 - sizes
+    end = start[following]
+    _, first, same = np.unique(
+        np.minimum(start, end) * (len(points) + 1) + np.maximum(start, end), return_index=True, return_inverse=True
+    )
+    forward = start == start[first][same]
+    unpaired = np.bincount(same, np.where(forward, 1, -1)).astype(bool)
+    if unpaired.any():
+        edge = first[unpaired].min()
+        raise CellListError(f"the edge from vertex {start[edge]} to {end[edge]} has a face on one side only")
+    unused = np.setdiff1d(np.arange(1, len(points) + 1), start)
+    if unused.size:
+        raise CellListError(f"vertex {unused[0]}: no face has it")
+    if 2 * len(first) != len(start) or len(points) - len(first) + len(faces) != 2:
+        raise CellListError(f"{len(points)} vertices, {len(first)} edges and {len(faces)} faces make no polyhedron")
+    _check_convex(points, sizes, start, face)
+    first_used = np.sort(first)
+    number = np.searchsorted(first_used, first)[same] + 1
+    return assembled(points, start[first_used], end[first_used], sizes, np.where(forward, number, -number))
+
+
+def _check_cycles(sizes: Numbers, start: Numbers, face: Numbers, count: int) -> None:
+    """That faces have three vertices or more, each once, among those there are."""
+    few = np.flatnonzero(sizes < 3)
+    order = np.lexsort((start, face))
+    twice = (face[order][1:] == face[order][:-1]) & (start[order][1:] == start[order][:-1])
+    poor = np.concatenate([few, face[order][1:][twice]])
+    absent = np.flatnonzero((start < 1) | (start > count))
+    if poor.size and (not absent.size or poor.min() <= face[absent[0]]):
+        raise CellListError(f"face {poor.min() + 1}: it has fewer than three vertices, or one of them twice")
+    if absent.size:
+        raise CellListError(f"face {face[absent[0]] + 1}: there is no vertex {start[absent[0]]}")
 
 
 def decoded(numbers: Iterable[int]) -> Economical:
@@ -213,19 +259,24 @@ def _taken(row: Iterator[int], count: int) -> list[int]:
     return found
 
 
-def _check_convex(cells: CellList) -> None:
+def _check_convex(points: Sequence[IntPoint], sizes: Numbers, vertex: Numbers, face: Numbers) -> None:
     """Definition CP: no vertex outside of a face's plane; and each face's vertices in its plane."""
-    planes = cells.planes()
-    reach = max(1, *(abs(number) for point in cells.points for number in point))
-    kind = np.int64 if sum(max(abs(plane[k]) for plane in planes) for k in range(4)) * reach < 2**62 else object
-    columns = np.array([(*point, 1) for point in cells.points], dtype=kind).T
-    step = max(1, _BLOCK // len(cells.points))
-    for first in range(0, len(planes), step):
-        values = np.array(planes[first : first + step], dtype=kind) @ columns
-        outside = np.argwhere(values > 0)
-        if len(outside):
-            plane, place = (int(number) + 1 for number in outside[0])
-            raise CellListError(f"face {first + plane}: vertex {place} lies outside of its plane")
-        for number, (row, face) in enumerate(zip(values, cells.faces[first:], strict=False), first + 1):
-            if any(row[[vertex - 1 for vertex in face.vertices]]):
-                raise CellListError(f"face {number}: its vertices do not lie in one plane")
+    _, near = _moved(points, sizes)
+    normals, rest = _planes(near, sizes, vertex)
+    greatest = sum(int(abs(part).max()) * int(near.max()) for part in normals.T) + int(abs(rest).max())
+    # Products of whole numbers whose sums are so small are whole in floats too, in any order of addition.
+    kind = np.float64 if greatest < 2**53 else near.dtype
+    planes = np.column_stack([normals, rest]).astype(kind)
+    columns = np.array([*near.T, np.ones(len(points), np.int64)], dtype=kind)
+    width = min(len(points), _BLOCK)
+    height = max(1, _BLOCK // width)
+    for left in range(0, len(points), width):
+        block = np.ascontiguousarray(columns[:, left : left + width])
+        for first in range(0, len(planes), height):
+            values = planes[first : first + height] @ block
+            if values.max() > 0:
+                plane, place = (int(number) + 1 for number in np.argwhere(values > 0)[0])
+                raise CellListError(f"face {first + plane}: vertex {left + place} lies outside of its plane")
+    apart = np.flatnonzero((normals[face] * near[vertex - 1]).sum(axis=1) + rest[face])
+    if apart.size:
+        raise CellListError(f"face {face[apart[0]] + 1}: its vertices do not lie in one plane")

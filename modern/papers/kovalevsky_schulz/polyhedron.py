@@ -1,14 +1,29 @@
 """The current polyhedron and its extension by one local corner after another (section 2, Figs. 5 to 7).
 
-The surface is kept as a cell list whose edges name their faces, so that the boundary of what a point sees is found
-without a search.  All arithmetic is in integers: int64 where the coordinates' range proves that it suffices, Python's
-else.
+The surface is kept as edges that name their faces, so that what a point sees, and its boundary, are found from one
+face that it sees, without a search.  All arithmetic is in integers of any length.
+
+Where the first face is found.  The faces that a point sees are connected through edges, also where a face counts as
+seen whose plane holds the point: such a face, or others of its plane, borders on one that sees the point from above,
+or else the point lies in that plane's face itself.
+
+1. Points in raster order: a point further in that order than all vertices sees a face at the last of these, V.
+   Else the point would be in the cone of the faces at V, and V + t (P - V) with a small t in the polyhedron, further
+   than V.  The faces at V are those made last.  (Only points in the plane of the first, which wait for a fourth point,
+   may be found by a search of all faces.)
+2. Points in another order: every point that waits keeps one face that it sees, every face a list of these points.
+   Where faces go, the points of their lists are tried against the new ones and against no others.  Let P see a face
+   that goes, m be a point within it, and P still see a face.  The way from P to m meets the new surface first at a
+   point x of a face that P sees.  If that one is not new, x was in the polyhedron before.  But of that the way, in the
+   plane of m's face or above, meets only faces of this plane, which all go together: x lies on an edge between them and
+   the face that stays, hence on a boundary edge and in a new face, and P sees this one too.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any, Final, Literal
 
 import numpy as np
@@ -23,8 +38,10 @@ Coplanar = Literal["visible", "invisible"]
 VISIBLE: Final = "visible"
 INVISIBLE: Final = "invisible"
 _KINDS = ("point", "segment", "polygon")
-_HIDDEN = (0, 0, 0, -1)
-"""A plane that no point sees, in the places of removed faces."""
+_MANY = 128
+"""Points times faces from which on values are computed in one product."""
+Triangle = tuple[int, int, int, int, int, int, int]
+"""Three signed edges, and the plane: four numbers, positive outside."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,140 +60,164 @@ class Flat:
         return _KINDS[self.dimension]
 
 
-class Planes:
-    """The planes of the faces as rows of an array, so that one product tells which faces a point sees."""
-
-    def __init__(self, points: Sequence[IntPoint]) -> None:
-        columns = list(zip(*points, strict=True))
-        self.low = [min(column) for column in columns]
-        reach = max(max(column) - least for column, least in zip(columns, self.low, strict=True))
-        # Seen from the lowest corner of the points' box, a normal's components are at most 2 reach^2 and each of the
-        # four terms of a plane's value at most 6 reach^3.
-        self.dtype: Any = np.int64 if 24 * reach**3 < 2**63 else object
-        self.rows: NDArray[Any] = np.empty((64, 4), dtype=self.dtype)
-        self.rows[:] = _HIDDEN
-        self.faces: list[int] = []
-        self.free: list[int] = []
-
-    def add(self, face: int, p: IntPoint, q: IntPoint, r: IntPoint) -> int:
-        """Keep the plane of a face, three points counterclockwise seen from outside; returns its row."""
-        normal = cross(minus(q, p), minus(r, p))
-        if self.free:
-            row = self.free.pop()
-            self.faces[row] = face
-        else:
-            row = len(self.faces)
-            self.faces.append(face)
-            if row == len(self.rows):
-                more = np.empty_like(self.rows)
-                more[:] = _HIDDEN
-                self.rows = np.concatenate((self.rows, more))
-        self.rows[row] = (*normal, -dot(normal, self._moved(p)))
-        return row
-
-    def remove(self, row: int) -> None:
-        self.rows[row] = _HIDDEN
-        self.free.append(row)
-
-    def seen(self, p: IntPoint, coplanar: Coplanar) -> list[int]:
-        """The numbers of the faces visible from ``p`` (Definition VI), in order; coplanar ones as one is told."""
-        values = self.rows @ np.array((*self._moved(p), 1), dtype=self.dtype)
-        visible = values > 0 if coplanar == INVISIBLE else values >= 0
-        return sorted(self.faces[row] for row in np.flatnonzero(visible).tolist())
-
-    def _moved(self, p: IntPoint) -> IntPoint:
-        return p[0] - self.low[0], p[1] - self.low[1], p[2] - self.low[2]
-
-
 class CurrentPolyhedron:
-    """The paper's CP: vertices, edges and triangles by number, changed in place.
+    """The paper's CP: edges and triangles by number, in the order in which they are made, changed in place.
 
-    points: all that may become vertices, a vertex's number is its place from 0.  around: the edges at a vertex.
-    ends: start and end of an edge.  sides: the face on the left of edge e is sides[e], on its right sides[-e].
-    cycles: of a face its signed edges.
+    points: all that may become vertices, a vertex's number is its place from 0; moved: from the lowest corner of their
+    box.  ends: start and end of an edge.  sides: the face on the left of edge e is sides[e], on its right sides[-e].
+    least: the least value of its plane at which a face is seen.  made: the number of the last face; new: of the first
+    of those made together with it.
     """
 
-    def __init__(self, points: Sequence[IntPoint], simplex: Sequence[int]) -> None:
+    def __init__(self, points: Sequence[IntPoint], simplex: Sequence[int], coplanar: Coplanar) -> None:
         """The tetrahedron of four points that lie in no plane."""
         self.points = points
-        self.planes = Planes(points)
-        self.around: dict[int, set[int]] = {}
+        low = [min(column) for column in zip(*points, strict=True)]
+        self.moved = [(x - low[0], y - low[1], z - low[2]) for x, y, z in points]
+        self.least = 0 if coplanar == VISIBLE else 1
         self.ends: dict[int, tuple[int, int]] = {}
         self.sides: dict[int, int] = {}
-        self.cycles: dict[int, tuple[int, int, int]] = {}
-        self.row: dict[int, int] = {}
-        self._edges = self._faces = 0
+        self.faces: dict[int, Triangle] = {}
+        self.edges = self.made = self.new = 0
         a, b, c, d = simplex
         base = [points[number] for number in (a, b, c)]
         if dot(cross(minus(base[1], base[0]), minus(base[2], base[0])), minus(points[d], base[0])) > 0:
             b, c = c, b
         first, second, third = self._edge(a, b), self._edge(b, c), self._edge(c, a)
-        self._face(a, (first, second, third))
+        self._face(first, second, third, a, b, c)
         self._cone(d, (-first, -second, -third))
+        self.new = 1
 
-    def extend(self, number: int, coplanar: Coplanar) -> bool:
-        """Take a further point in, if it sees a face; returns whether it became a vertex.
+    def first_seen(self, number: int) -> int:
+        """A face that the point sees, one of those made last if it can be; 0 where there is none."""
+        x, y, z = self.moved[number]
+        last = range(self.new, self.made + 1)
+        for chosen in (last, self.faces):
+            for face in chosen:
+                _, _, _, a, b, c, d = self.faces[face]
+                if a * x + b * y + c * z + d >= self.least:
+                    return face
+        return 0
+
+    def extend(self, number: int, first: int) -> list[int]:
+        """Take in a point that sees the face ``first``; returns the faces that are no more.
 
         The visible faces go, with the edges between two of them and the vertices that have no other face; every edge
         of their boundary is joined to the point by a triangle.
         """
-        visible = self.planes.seen(self.points[number], coplanar)
-        if not visible:
-            return False
+        visible = self._visible(number, first)
         going = set(visible)
+        faces, sides, ends = self.faces, self.sides, self.ends
         boundary: list[int] = []
-        inner: set[int] = set()
+        inner: list[int] = []
         for face in visible:
-            for edge in self.cycles[face]:
-                if self.sides[-edge] in going:
-                    inner.add(abs(edge))
-                else:
+            for edge in faces.pop(face)[:3]:
+                if sides[-edge] not in going:
                     boundary.append(edge)
-            del self.cycles[face]
-            self.planes.remove(self.row.pop(face))
+                elif edge > 0:
+                    inner.append(edge)
         for edge in inner:
-            for vertex in self.ends.pop(edge):
-                self.around[vertex].discard(edge)
-                if not self.around[vertex]:
-                    del self.around[vertex]
-            del self.sides[edge], self.sides[-edge]
+            del ends[edge], sides[edge], sides[-edge]
+        self.new = self.made + 1
         self._cone(number, boundary)
-        return True
+        return visible
+
+    def _visible(self, number: int, first: int) -> list[int]:
+        """The numbers of the faces visible from a point (Definition VI), in order; one is known to be."""
+        x, y, z = self.moved[number]
+        faces, sides, least = self.faces, self.sides, self.least
+        found, known = [first], {first}
+        for face in found:
+            for edge in faces[face][:3]:
+                beyond = sides[-edge]
+                if beyond not in known:
+                    known.add(beyond)
+                    _, _, _, a, b, c, d = faces[beyond]
+                    if a * x + b * y + c * z + d >= least:
+                        found.append(beyond)
+        return sorted(found)
 
     def cell_list(self) -> CellList:
         """The cell list of the surface as it is: vertices in the order of the points, edges and faces as made."""
-        return assembled(
-            {vertex: self.points[vertex] for vertex in self.around},
-            self.ends,
-            (self.cycles[face] for face in sorted(self.cycles)),
-        )
+        edges, faces = sorted(self.ends), sorted(self.faces)
+        ends = np.array([self.ends[edge] for edge in edges])
+        vertices, renamed = np.unique(ends, return_inverse=True)
+        starts, ends = renamed.reshape(-1, 2).T + 1
+        signed = np.array([self.faces[face][:3] for face in faces]).ravel()
+        numbers = np.sign(signed) * (np.searchsorted(edges, abs(signed)) + 1)
+        points = [self.points[vertex] for vertex in vertices.tolist()]
+        return assembled(points, starts, ends, np.full(len(faces), 3), numbers)
 
     def _cone(self, top: int, boundary: Iterable[int]) -> None:
         """A triangle from ``top`` over every signed edge, each in the sense in which its new face follows it."""
         spokes: dict[int, int] = {}
         for edge in boundary:
-            near, far = self.ends[abs(edge)][:: 1 if edge > 0 else -1]
+            near, far = self.ends[edge] if edge > 0 else self.ends[-edge][::-1]
             if near not in spokes:
                 spokes[near] = self._edge(top, near)
             if far not in spokes:
                 spokes[far] = -self._edge(far, top)
-            self._face(top, (spokes[near], edge, -spokes[far]))
+            self._face(spokes[near], edge, -spokes[far], top, near, far)
 
     def _edge(self, start: int, end: int) -> int:
-        self._edges += 1
-        self.ends[self._edges] = (start, end)
-        for vertex in (start, end):
-            self.around.setdefault(vertex, set()).add(self._edges)
-        return self._edges
+        self.edges += 1
+        self.ends[self.edges] = (start, end)
+        return self.edges
 
-    def _face(self, first: int, cycle: tuple[int, int, int]) -> None:
-        self._faces += 1
-        self.cycles[self._faces] = cycle
-        for edge in cycle:
-            self.sides[edge] = self._faces
-        second, third = (self.ends[abs(edge)][edge > 0] for edge in cycle[:2])
-        corners = (self.points[first], self.points[second], self.points[third])
-        self.row[self._faces] = self.planes.add(self._faces, *corners)
+    def _face(self, first: int, second: int, third: int, p: int, q: int, r: int) -> None:
+        """A triangle by its signed edges and by its corners, counterclockwise seen from outside."""
+        self.made = face = self.made + 1
+        sides = self.sides
+        sides[first] = sides[second] = sides[third] = face
+        x, y, z = self.moved[p]
+        u1, u2, u3 = self.moved[q]
+        v1, v2, v3 = self.moved[r]
+        u1, u2, u3, v1, v2, v3 = u1 - x, u2 - y, u3 - z, v1 - x, v2 - y, v3 - z
+        a, b, c = u2 * v3 - u3 * v2, u3 * v1 - u1 * v3, u1 * v2 - u2 * v1
+        self.faces[face] = (first, second, third, a, b, c, -(a * x + b * y + c * z))
+
+
+class Waiting:
+    """Of each point that is still to come one face that it sees (2. above): ``face`` by point, ``lists`` by face."""
+
+    def __init__(self, polyhedron: CurrentPolyhedron, numbers: Iterable[int]) -> None:
+        self.polyhedron = polyhedron
+        self.face: dict[int, int] = {}
+        self.lists: dict[int, list[int]] = {}
+        reach = max(map(max, polyhedron.moved))
+        # A normal's components are at most 2 reach^2, and each of the four terms of a value at most 6 reach^3.
+        self.places: NDArray[Any] | None = np.array(polyhedron.moved) if 24 * reach**3 < 2**63 else None
+        self._give(list(numbers), range(1, polyhedron.made + 1))
+
+    def renew(self, gone: Iterable[int], inserted: int) -> None:
+        """After an extension: the points of the faces that went are given to new ones, those that see none are done."""
+        orphans = [number for face in gone for number in self.lists.pop(face, ()) if number != inserted]
+        for number in orphans:
+            del self.face[number]
+        self._give(orphans, range(self.polyhedron.new, self.polyhedron.made + 1))
+
+    def _give(self, numbers: list[int], faces: range) -> None:
+        if not numbers:
+            return
+        least = self.polyhedron.least
+        planes = [self.polyhedron.faces[face][3:] for face in faces]
+        if self.places is not None and len(numbers) * len(planes) >= _MANY:
+            table = np.array(planes)
+            seen = self.places[numbers] @ table[:, :3].T + table[:, 3] >= least
+            first = seen.argmax(axis=1)
+            for row in np.flatnonzero(seen[np.arange(len(numbers)), first]).tolist():
+                self._put(numbers[row], faces[first[row]])
+            return
+        for number in numbers:
+            x, y, z = self.polyhedron.moved[number]
+            for face, (a, b, c, d) in zip(faces, planes, strict=True):
+                if a * x + b * y + c * z + d >= least:
+                    self._put(number, face)
+                    break
+
+    def _put(self, number: int, face: int) -> None:
+        self.face[number] = face
+        self.lists.setdefault(face, []).append(number)
 
 
 def convex_polyhedron(points: Iterable[Sequence[int]], coplanar: Coplanar = VISIBLE) -> CellList | Flat:
@@ -194,14 +235,26 @@ def convex_polyhedron(points: Iterable[Sequence[int]], coplanar: Coplanar = VISI
         raise ValueError("there are no points")
     simplex = independent(distinct)
     if len(simplex) < 4:
-        flat = exact_hull(distinct)
-        return Flat(flat.dimension, tuple(distinct[number] for number in flat.polygon or flat.vertices))
-    polyhedron = CurrentPolyhedron(distinct, simplex)
-    used = set(simplex)
-    for number in range(len(distinct)):
-        if number not in used:
-            polyhedron.extend(number, coplanar)
+        return flat_hull(distinct)
+    polyhedron = CurrentPolyhedron(distinct, simplex, coplanar)
+    rest = sorted(set(range(len(distinct))).difference(simplex))
+    if all(p[::-1] < q[::-1] for p, q in pairwise(distinct)):
+        for number in rest:
+            first = polyhedron.first_seen(number)
+            if first:
+                polyhedron.extend(number, first)
+    else:
+        waiting = Waiting(polyhedron, rest)
+        for number in rest:
+            if number in waiting.face:
+                waiting.renew(polyhedron.extend(number, waiting.face.pop(number)), number)
     return polyhedron.cell_list()
+
+
+def flat_hull(points: Sequence[IntPoint]) -> Flat:
+    """The hull of distinct points in one plane."""
+    flat = exact_hull(points)
+    return Flat(flat.dimension, tuple(points[number] for number in flat.polygon or flat.vertices))
 
 
 def independent(points: Sequence[IntPoint]) -> list[int]:

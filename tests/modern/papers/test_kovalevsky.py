@@ -32,7 +32,7 @@ from modern.papers.kovalevsky_schulz import (
     voxel_hull,
 )
 from modern.papers.kovalevsky_schulz.corners import Of, corners_by_neighbours, places
-from modern.papers.kovalevsky_schulz.polyhedron import Planes
+from modern.papers.kovalevsky_schulz.polyhedron import CurrentPolyhedron, Waiting, independent
 
 PLACES = (CENTRES, VERTICES)
 WAYS = [(6, VISIBLE), (6, INVISIBLE), (26, VISIBLE), (26, INVISIBLE)]
@@ -236,28 +236,30 @@ def test_points_given_twice_and_anywhere(points: list[tuple[int, int, int]], cop
 
 
 def test_large_coordinates_are_exact() -> None:
-    """Beyond 64 bits the planes are kept as Python's integers, and one unit still decides."""
+    """Beyond 64 bits values are Python's integers, and one unit still decides, in raster order and in another."""
     far = 10**9
-    points = [(0, 0, 0), (far, 0, 0), (0, far, 0), (0, 0, far), (far // 2, far // 4, far // 4)]
-    assert Planes(points).dtype is object
-    assert Planes([(0, 0, 0), (700_000, 0, 0)]).dtype is np.int64
-    assert len(polyhedron(points, INVISIBLE).points) == 4
-    assert len(polyhedron([*points, (far // 2, far // 4, far // 4 + 1)], INVISIBLE).points) == 5
+    corners = [(0, 0, 0), (far, 0, 0), (0, far, 0), (0, 0, far)]
+    for height, count in ((far // 4, 4), (far // 4 + 1, 5)):
+        points = [*corners, (far // 2, far // 4, height)]
+        for order in (points, sorted(points, key=lambda p: p[::-1])):
+            cells = polyhedron(order, INVISIBLE)
+            assert set(straightened(merged(cells)).points) == set(points[:count])
+    assert len(polyhedron([*corners, (far // 2, far // 4, far // 4)], INVISIBLE).points) == 4
 
 
-def test_planes_fit_64_bits_at_the_bound() -> None:
+def test_values_fit_64_bits_at_the_bound() -> None:
     reach = int((2**63 / 24) ** (1 / 3)) - 1
-    corners = [tuple(reach * c for c in corner) for corner in product((0, 1), repeat=3)]
-    planes = Planes(corners)  # type: ignore[arg-type]
-    assert planes.dtype is np.int64
-    for p, q, r in permutations(corners, 3):
-        row = planes.add(1, p, q, r)  # type: ignore[arg-type]
-        exact = [int(number) for number in planes.rows[row]]
-        for x, y, z in corners:
-            value = exact[0] * x + exact[1] * y + exact[2] * z + exact[3]
-            assert int(planes.rows[row] @ np.array((x, y, z, 1))) == value
-        assert [sum(a * b for a, b in zip(exact, (*point, 1), strict=True)) for point in (p, q, r)] == [0, 0, 0]
-        planes.remove(row)
+    corners = [(reach * x, reach * y, reach * z) for x, y, z in product((0, 1), repeat=3)]
+    many = [*corners, *((reach // 2 + k, reach // 3, reach // 5 + k) for k in range(100))]
+    for more, there in ((0, True), (9, False)):
+        points = [(x + more * (x > 0), y, z) for x, y, z in many]
+        current = CurrentPolyhedron(points, independent(points), INVISIBLE)
+        waiting = Waiting(current, range(4, len(points)))
+        assert (waiting.places is not None) == there
+        for number, (x, y, z) in enumerate(points[4:], 4):
+            values = {f: a * x + b * y + c * z + d for f, (_, _, _, a, b, c, d) in current.faces.items()}
+            assert (number in waiting.face) == (max(values.values()) > 0)
+            assert number not in waiting.face or values[waiting.face[number]] > 0
 
 
 @pytest.mark.parametrize(

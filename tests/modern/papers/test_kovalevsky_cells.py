@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import replace
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -26,7 +27,8 @@ from modern.papers.kovalevsky_schulz import (
     straightened,
     voxel_hull,
 )
-from modern.papers.kovalevsky_schulz.cells import plane_of
+from modern.papers.kovalevsky_schulz import cells as cells_module
+from modern.papers.kovalevsky_schulz.cells import planes_of
 from modern.papers.kovalevsky_schulz.tables import all_rows, cube_triangles, economical_size
 
 POINTS = st.lists(st.tuples(*[st.integers(-3, 3)] * 3), min_size=4, max_size=40)
@@ -157,9 +159,29 @@ def test_a_row_with_a_count_below_zero(row: tuple[int, ...]) -> None:
 
 
 def test_plane_of_a_polygon_with_vertices_in_line() -> None:
-    assert plane_of([(0, 0, 5), (2, 0, 5), (4, 0, 5), (4, 4, 5), (0, 4, 5)]) == (0, 0, 1, -5)
-    with pytest.raises(CellListError):
-        plane_of([(0, 0, 0), (1, 1, 1), (2, 2, 2)])
+    polygon = [(0, 0, 5), (2, 0, 5), (4, 0, 5), (4, 4, 5), (0, 4, 5)]
+    assert planes_of(polygon, [range(1, 6), (5, 4, 2, 1)]) == [(0, 0, 1, -5), (0, 0, -1, 5)]
+    with pytest.raises(CellListError, match="no area"):
+        planes_of([*polygon, (1, 1, 1), (2, 2, 2), (3, 3, 3)], [range(1, 6), (6, 7, 8)])
+
+
+def test_planes_of_large_coordinates_are_exact() -> None:
+    far = 10**15
+    (plane,) = planes_of([(far, 0, 0), (0, far, 0), (0, 0, far + 1)], [(1, 2, 3)])
+    a, b, c, d = plane
+    assert (a, b, c) == (far + 1, far + 1, far)
+    assert d == -far * (far + 1)
+
+
+def test_a_vertex_one_unit_outside_of_a_large_hull_is_found() -> None:
+    """In floats, in 64 bits, in Python's integers; and where planes are tried block by block."""
+    for far in (2, 10**4, 10**6, 10**12):
+        points = tuple((x * far // 2, y * far // 2, z * far // 2) for x, y, z in CUBE.points)
+        assert expanded(replace(CUBE, points=points)).points == points
+        split = ((1, 3, 4), (1, 4, 2), *CUBE.faces[1:])
+        sunk = ((0, 0, 1), *points[1:])
+        with pytest.raises(CellListError, match="lies outside of its plane"), patch.object(cells_module, "_BLOCK", 3):
+            expanded(Economical(sunk, split))
 
 
 def test_marching_cubes_makes_two_triangles_less_four_of_every_square() -> None:
