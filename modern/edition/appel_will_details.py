@@ -11,8 +11,16 @@ from modern.edition.sampled_sets import Point, sampled_sets
 from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, seen
 from modern.exact_hull import exact_hull
 from modern.papers.appel_will import Method, appel_will, printed
+from modern.papers.appel_will.corners import triple_product
 from modern.papers.appel_will.edges import project
 from modern.papers.appel_will.star import as_corrected, as_printed, star_polygon, vorticity
+
+FIG_18: tuple[tuple[Point, Point, Point], ...] = (
+    ((-1, 0, 0), (0, 0, -1), (0, -1, 0)),
+    ((-1, 0, 0), (0, -1, 0), (0, 0, -1)),
+    ((1, 0, 0), (0, -1, 0), (0, 0, -1)),
+)
+"""I, K and L of [512], [723] and [643]."""
 
 
 def new_lines() -> Seen:
@@ -112,6 +120,17 @@ def _joined(entries: Sequence[int], edges: Sequence[tuple[int, int]]) -> bool:
     """Whether each entry begins where the one before it ends, the first one where the last ends."""
     ends = [edges[abs(e) - 1] if e > 0 else edges[abs(e) - 1][::-1] for e in entries]
     return all(a[1] == b[0] for a, b in pairwise([*ends, ends[0]]))
+
+
+def product_with_i_twice() -> Seen:
+    """Fig. 18's determinants with L as displayed, which is I again, and with the normal of l."""
+    found = []
+    for i, k, m in FIG_18:
+        found.append((triple_product(i, k, i), triple_product(i, k, m)))
+    words = (
+        f"{', '.join(str(right) for _, right in found)} with l, {', '.join(str(wrong) for wrong, _ in found)} with i"
+    )
+    return Seen(CONDITION if found == [(0, 1), (0, -1), (0, 1)] else FAILS, words)
 
 
 def star_in_the_text() -> Seen:

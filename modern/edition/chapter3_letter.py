@@ -6,22 +6,31 @@ Where the text leaves a step otherwise than the listing, the step is made here w
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
-from emulator.language.objectcode import code_positions
+from emulator.language.objectcode import Program, code_positions
+from emulator.machine.machine import Machine
 from modern.edition import programs
 from modern.edition.chapter3_claims import COUNT, lowest_terms, points_of
 from modern.edition.chapter3_stages import approximations
 from modern.edition.chapter3_steps import fourth_point_by_largest, visible_planes
 from modern.edition.chapter4_claims import EXTREMES_IN_A_PLANE
+from modern.edition.chapter6 import input_deck
 from modern.edition.sampled_sets import Point, SampledSet, sampled_sets, through, value
 from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, seen
 from modern.exact_hull import ExactHull, exact_hull
 from modern.geometry.vectors import cross, dot, minus
 from modern.port import convex_hull
+from modern.thesis.job import run_hull
 
 Pair = tuple[int, int]
+_ELIMINATE_CHECK_GROW = {
+    "program2.f": {106: "E", 124: "C", 133: "G"},
+    "program3.f": {103: "E", 114: "C", 125: "G"},
+}
+"""Statements of the listing where inside points are looked for, where a hull is checked, where a point is added."""
 
 
 def steps_of_the_listing() -> Seen:
@@ -142,6 +151,28 @@ def pairs_of_hulls(count: str = COUNT) -> Seen:
         larger = sum(a < b for a, b in pairwise(sizes))
         good.append(larger == len(sizes) - 1 and one.hull.history[0].number == 1)
     return Seen(CONDITION if all(good) else FAILS, f"{sum(good)} of {len(good)} sets: H_2 is the first with one before")
+
+
+def checked_after_elimination() -> Seen:
+    """The way of programs 2 and 3 in examples 4 to 6: for every hull inside points first, then whether it is the last.
+
+    Only where it is not another hull comes.
+    """
+    found = []
+    for example in (4, 5, 6):
+        way: list[str] = []
+
+        def watch(program: Program, machine: Machine, way: list[str] = way) -> None:
+            labels = _ELIMINATE_CHECK_GROW.get(program.source, {})
+            machine.tracer = lambda line, _: way.append(labels[line.label]) if line.label in labels else None
+
+        run_hull(input_deck(example), programs.program, watch=watch)
+        hulls = "".join(way)
+        found.append((bool(re.fullmatch("(EC+G)*EC*", hulls)), hulls.count("E")))
+    words = (
+        f"{', '.join(str(hulls) for _, hulls in found)} hulls in examples 4 to 6, each looked through for inside points"
+    )
+    return seen(all(good and hulls > 1 for good, hulls in found), f"{words} before it is checked")
 
 
 def six_in_a_plane() -> Seen:

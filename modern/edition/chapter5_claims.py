@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from fractions import Fraction
 from functools import cache
 
 from emulator.language.cards import deck_from_lines
+from emulator.language.formats import Literal
 from modern.comparison.difference import disagreement
 from modern.comparison.outcome import from_card_hull, from_judge
 from modern.edition import programs
-from modern.edition.chapter6 import EXAMPLES, input_deck, prints
+from modern.edition.chapter6 import EXAMPLES, Print, input_deck, prints
 from modern.edition.chapter7_claims import PLACES, deck_of, run_of, typed, vertices_of
 from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, seen
 from modern.exact_hull import exact_hull
@@ -113,6 +115,33 @@ def printed_hulls() -> Seen:
         found = from_card_hull("print", f"program{last.program}", read_hull(last.lines), points)
         good.append(disagreement(found, from_judge(exact_hull(points), points), points).agrees)
     return seen(all(good), f"{sum(good)} of {len(good)} printed hulls: vertices, boundary and inside points, equations")
+
+
+def possible_output() -> Seen:
+    """Headings and messages that the listings punch or type, and those on the cards that chapter 6 prints."""
+    missing: dict[str, set[str]] = {"PUNCH": set(), "PRINT": set()}
+    for number in (1, 2, 3):
+        program = programs.program(f"program{number}")
+        cards = [line for k in EXAMPLES for one in prints(k) if one.program == number for line in _punched(one)]
+        said = " ".join(line.text for line in program.statements)
+        for device, words in missing.items():
+            wanted = {int(found) for found in re.findall(rf"{device} *(\d+)", said)}
+            headings = [
+                item.text for k, form in program.formats if k in wanted for item in form.specs if _heading(item)
+            ]
+            words |= {heading for heading in headings if not any(heading in card for card in cards)}
+    typed_only = {"ERROR IN PROGRAM", "DATA NOT ACCEPTABLE", "POINTS ARE COPLANAR", "POINTS ARE NOT COPLANAR"}
+    good = not missing["PUNCH"] and missing["PRINT"] == typed_only
+    return Seen(CONDITION if good else FAILS, f"of the headings punched all; not {', '.join(sorted(missing['PRINT']))}")
+
+
+def _punched(one: Print) -> tuple[str, ...]:
+    return tuple(one.lines) if one.device == "punch" else ()
+
+
+def _heading(item: object) -> bool:
+    """Whether a part of a FORMAT is words, more than a column's name."""
+    return isinstance(item, Literal) and len(item.text.strip()) > len("NO.")
 
 
 def first_card() -> Seen:

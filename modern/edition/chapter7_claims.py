@@ -25,6 +25,7 @@ from modern.exact_hull import exact_hull
 from modern.formats.csv import points as csv_points
 from modern.formats.deck import coordinate_field, data_deck, exact_points
 from modern.geometry.vectors import dot
+from modern.port import convex_hull
 from modern.port.formulas import at, plane
 from modern.port.points import take
 from modern.thesis.job import HullRun, run_hull
@@ -93,8 +94,6 @@ def fifty_one() -> Seen:
 
 def _most_planes(points: np.ndarray) -> int:
     """Places in use at once: of each step those before it, three more for each plane replaced, one less at a time."""
-    from modern.port import convex_hull
-
     hull = convex_hull(points, history=True)
     pairs = zip(hull.history, hull.history[1:], strict=False)
     return max(len(before.equations) + 2 * after.outside + 1 for before, after in pairs)
@@ -218,8 +217,6 @@ def where_data_are_refused() -> Seen:
 
 def vertex_overlooked() -> Seen:
     """A point about a tenth above a plane, in the port: exactly, and with e = 20."""
-    from modern.port import convex_hull
-
     points = [("0", "0", "0"), ("4", "0", "0"), ("0", "4", "0"), ("0", "0", "4"), ("1.4", "1.4", "1.4")]
     without, with_e = convex_hull(points), convex_hull(points, epsilon="20")
     return seen(
@@ -232,8 +229,6 @@ def interval_is_a_solution() -> Seen:
 
     With e = 10,000,000 it is not.
     """
-    from modern.port import convex_hull
-
     points = [*_THREE, (101, 77, -340), (250, 333, 90)]
     whole = [tuple(map(str, point)) for point in points]
     hulls = [convex_hull(whole, "truncating", epsilon=e, on_refusal="return") for e in (None, "10", "10000000")]

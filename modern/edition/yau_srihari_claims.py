@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from functools import cache
 from itertools import combinations, product
@@ -11,7 +11,7 @@ from random import Random
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.digital.solids import listed
+from modern.digital.solids import VERTEX, ball, listed
 from modern.edition.chapter3_claims import points_of
 from modern.edition.sampled_sets import Point, sampled_sets, through, value
 from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, seen
@@ -26,7 +26,7 @@ from modern.papers.yau_srihari.convexity import (
 from modern.papers.yau_srihari.envelope import reduced_tree
 from modern.papers.yau_srihari.octree import count
 from modern.papers.yau_srihari.quadtree import Leaf, Place, graph_side, heights, no_columns, written
-from modern.papers.yau_srihari.search import normal_of
+from modern.papers.yau_srihari.search import Search, normal_of
 
 Voxels = NDArray[np.bool_]
 SOLID: tuple[Point, ...] = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (2, 1, 0), (2, 1, 1), (2, 2, 1), (2, 2, 2), (1, 2, 2))
@@ -265,6 +265,29 @@ def common_to_both_steps() -> Seen:
         more += both < left
     words = f"{len(good)} floors; of {more} the second step keeps a point that is not extreme among all of its column"
     return Seen(CONDITION if all(good) and more else FAILS, words)
+
+
+def angles_saved() -> Seen:
+    """Angles of the lower halves of two balls: one for each point beyond an edge, of the floor and of the reduced set.
+
+    And those that the search in the tree computes, for points and for the corners of squares.
+    """
+    found = []
+    for diameter in (16, 50):
+        hull = octree_hull(ball(diameter, VERTEX).array)
+        steps, reduced = hull.lower.steps, [(x, y) for x, y, _ in hull.lower.reduced]
+        all_, left = (sum(_beyond(step.edge, places) for step in steps) for places in (hull.floor, reduced))
+        found.append((all_, left, sum(step.angles for step in steps)))
+    (all_16, left_16, search_16), (all_50, left_50, search_50) = found
+    good = left_16 < all_16 and left_50 < all_50 and left_16 < search_16 and search_50 < left_50
+    words = "; ".join(f"{a:,} of the floor, {b:,} of the reduced set, {c:,} by the search" for a, b, c in found)
+    return Seen(CONDITION if good else FAILS, words)
+
+
+def _beyond(edge: tuple[Point, Point], places: Iterable[Place]) -> int:
+    """How many places can hold the third point of a face on an edge."""
+    search = Search(*edge, (0, 0, -1), Printed())
+    return sum(search.beyond(x, y) for x, y in places)
 
 
 def _extreme(place: Place, axis: int, heights_: Mapping[Place, int]) -> bool:

@@ -117,7 +117,7 @@ class Step:
 
     ``face`` is None where no point was found.  ``entered`` and ``removed``: edges entered in the queue and taken off
     it; ``marked``: places whose value was entered in the tree; ``visited``: nodes of the tree the search looked at;
-    ``waiting``: the length of the queue afterwards.
+    ``angles``: how many it computed; ``waiting``: the length of the queue afterwards.
     """
 
     edge: Edge
@@ -127,6 +127,7 @@ class Step:
     removed: tuple[Edge, ...]
     marked: int
     visited: int
+    angles: int
     waiting: int
 
 
@@ -225,13 +226,13 @@ def _step(
     search = Search(*edge, normal, printed)
     found = search.run(tree)
     if not found:
-        return Step(edge, normal, None, (), (), 0, search.visited, len(queue)), tree
+        return Step(edge, normal, None, (), (), 0, search.visited, search.angles, len(queue)), tree
     start, end = edge
     vertices = (start, end, found[0]) if printed.triangles else _polygon(start, end, found)
     face = Face(vertices, normal_of(start, end, found[0]))
     entered, removed = _join(face, edge, queue)
     cells = _values(face, printed)
-    step = Step(edge, normal, face, entered, removed, len(cells), search.visited, len(queue))
+    step = Step(edge, normal, face, entered, removed, len(cells), search.visited, search.angles, len(queue))
     return step, written(tree, cells)
 
 

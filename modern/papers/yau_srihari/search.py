@@ -40,7 +40,8 @@ class Search:
     """The face on the directed edge ``start`` to ``end``, whose other face has the outward normal ``normal``.
 
     ``best``: the score of the best point found, ``points``: all that reach it, in the order of the search; ``sure``:
-    the paper's w, a score that some point is known to reach; ``visited``: nodes looked at.
+    the paper's w, a score that some point is known to reach; ``visited``: nodes looked at; ``angles``: how often an
+    angle was computed, for a point or for a corner of a square.
     """
 
     start: Point
@@ -51,6 +52,7 @@ class Search:
     points: list[Point] = field(default_factory=list)
     sure: Fraction | None = None
     visited: int = 0
+    angles: int = 0
 
     def run(self, tree: Quadtree) -> list[Point]:
         """The points of the tree, not marked, in the next face's plane beyond the edge; empty where there is none."""
@@ -61,6 +63,7 @@ class Search:
     def score(self, point: Point) -> Fraction | None:
         """What is to be greatest: the cosine of the angle to the other face in order, negative for Theorem 2 as
         printed; None on the edge's own line."""
+        self.angles += 1
         a, b, c = normal_of(self.start, self.end, point)
         if not (a or b or c):
             return None

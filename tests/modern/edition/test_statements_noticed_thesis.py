@@ -118,6 +118,24 @@ def another_deck(_: Right) -> object:
     return lambda name: limits.run_hull(input_deck(4), limits.programs.program)
 
 
+def without_boundary_points(right: Right) -> object:
+    return lambda one: tuple(line for line in right(one) if "BOUNDARY" not in line)
+
+
+def checked_before_elimination(right: Right) -> object:
+    """What eliminates is taken for what checks."""
+    other = {"E": "C", "C": "E", "G": "G"}
+    return {program: {k: other[what] for k, what in labels.items()} for program, labels in right.items()}
+
+
+def without_an_interval(right: Right) -> object:
+    return lambda points, **named: right(points)
+
+
+def always_with_an_interval(right: Right) -> object:
+    return lambda points, **named: right(points, epsilon="20")
+
+
 def an_eight_misread(right: Right) -> object:
     """A print with a 9 for an 8."""
     return lambda example: (
@@ -196,6 +214,11 @@ def a_card_more(right: Right) -> object:
         (messages, "first_card", "data_deck", a_card_more),
         (messages, "cited_pages", "_WORKS", lambda right: {**right, 6: 200}),
         (messages, "cited_pages", "_CITED", lambda right: {**right, 12: (3,)}),
+        (messages, "possible_output", "_punched", without_boundary_points),
+        (messages, "possible_output", "EXAMPLES", lambda right: right[:-2]),
+        (letter, "checked_after_elimination", "_ELIMINATE_CHECK_GROW", checked_before_elimination),
+        (limits, "vertex_overlooked", "convex_hull", without_an_interval),
+        (limits, "vertex_overlooked", "convex_hull", always_with_an_interval),
         (limits, "interval_is_a_solution", "_THREE", lambda _: ((0, 0, 0), (1, 0, 0), (0, 1, 0))),
     ],
 )

@@ -12,6 +12,7 @@ import pytest
 
 import modern.edition.appel_will_claims as appel_will
 import modern.edition.appel_will_details as details
+import modern.edition.appel_will_graphs as graphs
 import modern.edition.appel_will_objects as objects
 import modern.edition.nakamae_nishita_claims as nakamae
 import modern.edition.nakamae_nishita_tables as tables
@@ -29,7 +30,7 @@ Right = Any
 @pytest.fixture(autouse=True)
 def nothing_kept() -> Iterator[None]:
     """What a claim keeps is made anew, before the spoiled run and after it."""
-    with cleared(appel_will, details, objects, nakamae, tables):
+    with cleared(appel_will, details, graphs, objects, nakamae, tables):
         yield
 
 
@@ -56,6 +57,31 @@ def a_face_twice(right: Right) -> object:
         return [
             (points, replace(judge, facets=(*judge.facets, judge.facets[0]))) for points, judge in right(*arguments)
         ]
+
+    return changed
+
+
+def a_face_cut_in_two(right: Right) -> object:
+    """A face of four corners is given as two triangles."""
+
+    def changed(points: Right) -> object:
+        judge = right(points)
+        whole = [facet for facet in judge.facets if len(facet.polygon) != 4]
+        cut = [facet for facet in judge.facets if len(facet.polygon) == 4]
+        parts = [replace(f, polygon=f.polygon[k : k + 3]) for f in cut for k in (0, 1)]
+        return replace(judge, facets=(*whole, *parts))
+
+    return changed
+
+
+def an_edge_less(right: Right) -> object:
+    """The graph lacks one edge."""
+
+    def changed(judge: Right) -> object:
+        graph = dict(right(judge))
+        one = min(graph)
+        other = min(graph[one])
+        return {**graph, one: graph[one] - {other}, other: graph[other] - {one}}
 
     return changed
 
@@ -183,6 +209,12 @@ def other_side_up(right: Right) -> object:
         (details, "new_lines", "exact_hull", all_are_vertices),
         (details, "points_in_line", "project", without_a_middle),
         (details, "star_in_the_text", "as_printed", lambda _: details.as_corrected),
+        (details, "product_with_i_twice", "triple_product", lambda right: lambda i, k, m: right(i, k, (0, -1, -1))),
+        (graphs, "coplanar_loops", "exact_hull", a_face_cut_in_two),
+        (graphs, "faces_without_dimensions", "_graph", an_edge_less),
+        (graphs, "faces_without_dimensions", "_connected", always(True)),
+        (graphs, "list_of_points", "value", always(0)),
+        (graphs, "list_of_points", "through", a_plane_beside),
         (objects, "complex_object_simple_hull", "exact_hull", all_are_vertices),
         (objects, "corners_of_three_planes", "preprocess", rule_two),
         (objects, "inside_corner_at_a_vertex fails", "preprocess", rule_two),

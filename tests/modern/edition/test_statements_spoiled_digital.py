@@ -17,7 +17,7 @@ import modern.edition.kovalevsky_schulz_lemmas as lemmas
 import modern.edition.kovalevsky_schulz_raster as raster
 import modern.edition.yau_srihari_claims as yau
 import modern.edition.yau_srihari_convexity as convexity
-from modern.digital.solids import listed
+from modern.digital.solids import ball, listed
 from modern.edition.statements import CONDITION, HOLDS
 from modern.papers.kovalevsky_schulz.coplanar import EXTENDED, QUADRANGLES
 from modern.papers.kovalevsky_schulz.hull import merged
@@ -224,6 +224,11 @@ def too_few_points(right: Right) -> object:
     return lambda *arguments: tuple(map(Few, right(*arguments)))
 
 
+def small_only(_: Right) -> object:
+    """Small solids only, in which the search takes more."""
+    return lambda diameter, centre: ball(8, centre)
+
+
 def closed_on_both_sides(_: Right) -> object:
     return lambda x, v: abs(x - v) <= Fraction(1, 2)
 
@@ -293,6 +298,8 @@ def closed_on_both_sides(_: Right) -> object:
         (raster, "edges_at_a_corner", "ends_at", diagonals_too),
         (raster, "topological_raster", "cells_of", lambda _: lambda n: 8 * n**3),
         (raster, "topological_raster cells", "product", lambda right: lambda r, repeat: right(range(2), repeat=repeat)),
+        (yau, "angles_saved", "ball", small_only),
+        (yau, "angles_saved", "_beyond", always(10**6)),
         (yau, "another_vertex", "normal_of", lambda right: lambda *points: right(*points[::-1])),
         (yau, "between_the_envelopes", "_hull", hulls(without_a_face)),
         (yau, "between_the_envelopes", "_hull", hulls(the_solid_alone)),
