@@ -81,9 +81,10 @@ def load(name: str) -> Steps:
     cloud = Cloud(some[:3].copy(), one, one, one)
     slots = Slots(some, np.zeros((3, 1), np.int64), some[0].copy(), np.ones(1, np.bool_))
     rules = Rules(some[:3, 0].copy(), False, some[0, 0], False, LISTED_PLANES, PLANES)
+    # No array is made: numba need not count the users of each it is given.
     return with_kernels(
-        Compiled(kernels.grow).ready(cloud, slots, one, rules, False, 1),
-        Compiled(kernels.satisfied).ready(slots, cloud.coordinates),
+        Compiled(kernels.grow, _nrt=False).ready(cloud, slots, workspace.room_for(1, name), one, rules, False, 1),
+        Compiled(kernels.satisfied, _nrt=False).ready(slots, cloud.coordinates, one, one),
     )
 
 
@@ -93,7 +94,8 @@ def with_kernels(grow: Function, find: Function) -> Steps:
     def stage(hull: Polyhedron, first: bool) -> growth.Grown | None:
         """One stage if somebody watches, else as many as come."""
         cloud, slots, state = _cloud(hull), _slots(hull.table, 6 * len(hull.table) + _SPARE), _state(hull)
-        code = grow(cloud, slots, state, _rules(hull), first, 1 if hull.watch else -1)
+        room = workspace.room_for(len(slots.alive), slots.coefficients.dtype)
+        code = grow(cloud, slots, room, state, _rules(hull), first, 1 if hull.watch else -1)
         _take_back(hull, cloud, slots, state)
         if not state[workspace.STAGES]:
             return None if code == kernels.ENDED else growth.stage(hull, first)
@@ -103,7 +105,11 @@ def with_kernels(grow: Function, find: Function) -> Steps:
         return growth.Grown((int(state[workspace.ADDED]),), hull.to_check + 1, int(state[workspace.OUTSIDE]), struck)
 
     def satisfied(table: Equations, places: Places) -> list[NDArray[np.int64]]:
-        counts, found = find(_slots(table, 0), np.array(places.coordinates, order="C"))
+        slots, coordinates = _slots(table, 0), np.array(places.coordinates, order="C")
+        counts, found = np.empty(len(table), np.int64), np.empty(4 * len(table), np.int64)
+        if (count := find(slots, coordinates, counts, found)) > len(found):
+            found = np.empty(count, np.int64)
+            find(slots, coordinates, counts, found)
         ends = np.cumsum(counts).tolist()
         return [found[start:end] for start, end in zip([0, *ends], ends, strict=False)]
 

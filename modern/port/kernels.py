@@ -81,28 +81,31 @@ def strike_inside(cloud: Any, slots: Any, state: NDArray[np.int64]) -> None:
     state[STRUCK] = state[GONE] > before
 
 
-def reaching(coordinates: NDArray[Any], start: int, end: int, found: Any, least: Any) -> int:
-    """How many points have at least that value: no branches, so that the compiler takes several points at a time."""
+def reaching(coordinates: NDArray[Any], start: int, end: int, found: Any, above: Any) -> int:
+    """How many points have a larger value: no branches, so that the compiler takes several points at a time."""
     x, y, z = coordinates[0, start:end], coordinates[1, start:end], coordinates[2, start:end]
     count = 0
     for k in range(len(x)):
-        count += at(found, (x[k], y[k], z[k])) >= least
+        count += at(found, (x[k], y[k], z[k])) > above
     return count
 
 
 def farthest_outside(coordinates: NDArray[Any], count: int, found: Any, e: Any) -> int:
     """The place of the largest value, the last of equals, if it is outside; else -1."""
-    least = np.nextafter(e if e > 0 else e - e, np.inf)
-    if not reaching(coordinates, 0, count, found, least):
-        return -1
+    largest = e if e > 0 else e - e
     place = -1
-    for start in range(0, count, BLOCK):
-        end = min(start + BLOCK, count)
-        if reaching(coordinates, start, end, found, least):
-            for k in range(start, end):
+    if not reaching(coordinates, 0, count, found, largest):
+        return place
+    # From the end on: a later one of equals is met first.
+    end = count
+    while end > 0:
+        start = max(end - BLOCK, 0)
+        if reaching(coordinates, start, end, found, largest):
+            for k in range(end - 1, start - 1, -1):
                 value = at(found, corner(coordinates, k))
-                if value >= least:
-                    place, least = k, value
+                if value > largest:
+                    place, largest = k, value
+        end = start
     return place
 
 
@@ -123,31 +126,45 @@ def outside_point(cloud: Any, slots: Any, state: NDArray[np.int64]) -> int:
     return -1
 
 
-def replaced(point: Any, slots: Any, state: NDArray[np.int64]) -> NDArray[np.int64]:
-    """The slots of the planes the point is outside of, in the order they are replaced.
+def replaced(point: Any, slots: Any, room: Any, state: NDArray[np.int64]) -> int:
+    """How many planes the point is outside of; ``room.order`` gets their slots in the order they are replaced.
 
-    None stands before the one to check: those have been put to every point that is left.
+    First is the one to check.  None stands before it: those have been put to every point that is left.
     """
-    above = np.empty(state[ALIVE], np.int64)
-    values = np.empty(state[ALIVE], slots.coefficients.dtype)
-    k = 0
+    order, values = room.order, room.values
+    order[0] = state[CHECK]
+    count = 1
     for slot in range(state[CHECK] + 1, state[MADE]):
         if slots.alive[slot]:
             value = at(equation(slots.coefficients, slot), point)
             if is_outside(value, slots.tolerances[slot]):
-                above[k], values[k] = slot, value
-                k += 1
-    order = np.empty(k + 1, np.int64)
-    order[0] = state[CHECK]
-    order[1:] = above[:k][np.argsort(values[:k], kind="mergesort")[::-1]]
-    return order
+                order[count], values[count] = slot, value
+                count += 1
+    fall(order, values, 1, count)
+    return count
 
 
-def three_planes(order: NDArray[np.int64], place: int, cloud: Any, slots: Any, state: Any, rules: Any) -> int:
+def fall(order: NDArray[np.int64], values: NDArray[Any], first: int, last: int) -> None:
+    """Sort from the largest value to the smallest, of equals the later slot first (Shell's method)."""
+    gap = 1
+    while gap < last - first:
+        gap = 3 * gap + 1
+    while gap > 0:
+        for k in range(first + gap, last):
+            slot, value, to = order[k], values[k], k - gap
+            while to >= first and (values[to] < value or (values[to] == value and order[to] < slot)):
+                order[to + gap], values[to + gap] = order[to], values[to]
+                to -= gap
+            order[to + gap], values[to + gap] = slot, value
+        gap //= 3
+
+
+def three_planes(count: int, place: int, cloud: Any, slots: Any, room: Any, state: Any, rules: Any) -> int:
     """``Polyhedron.three_planes`` into the slots after those used; the bits of corrections, -1 to stop the stage."""
     new, slot, corrections = state[VERTICES], state[MADE], 0
     point = corner(cloud.coordinates, place)
-    for old in order:
+    for k in range(count):
+        old = room.order[k]
         for turn in range(3):
             for i in range(3):
                 slots.defining[i, slot] = slots.defining[i, old]
@@ -173,19 +190,20 @@ def three_planes(order: NDArray[np.int64], place: int, cloud: Any, slots: Any, s
     return corrections
 
 
-def doubles(defining: NDArray[np.int64], first: int, last: int) -> NDArray[np.int64]:
-    """For each fresh plane from slot ``first`` on the other with the same three points, counted from 0; -1: none.
+def doubles(defining: NDArray[np.int64], first: int, last: int, room: Any) -> None:
+    """``room.partner``: for each fresh plane from slot ``first`` on the other with the same three points; -1: none.
 
-    Of three equal ones the first two are a pair.  Planes wait in chains, found by a hash of their points.
+    Both are counted from 0.  Of three equal ones the first two are a pair.  Planes wait in chains, found by a hash of
+    their points.
     """
+    partner, following, chains, keys = room.partner, room.following, room.chains, room.keys
     size = 4
     while size < 2 * (last - first):
         size *= 2
-    chains = np.full(size, -1, np.int64)
-    following = np.empty(last - first, np.int64)
-    partner = np.full(last - first, -1, np.int64)
-    keys = np.empty((2, last - first), np.int64)
+    for k in range(size):
+        chains[k] = -1
     for k in range(last - first):
+        partner[k] = -1
         a, b, c = defining[0, first + k], defining[1, first + k], defining[2, first + k]
         new = max(a, b, c)
         low, high = min(a, b, c), a + b + c - new - min(a, b, c)
@@ -203,13 +221,12 @@ def doubles(defining: NDArray[np.int64], first: int, last: int) -> NDArray[np.in
                 chains[bucket] = following[other]
             else:
                 following[before] = following[other]
-    return partner
 
 
-def takes_last_pair(partner: NDArray[np.int64]) -> bool:
+def takes_last_pair(partner: NDArray[np.int64], count: int) -> bool:
     """Whether a pair is struck with at most one plane left after it, as ``Polyhedron.single`` notes it."""
-    left = len(partner)
-    for k in range(len(partner)):
+    left = count
+    for k in range(count):
         if partner[k] < 0:
             left -= 1
         elif partner[k] > k:
@@ -219,26 +236,27 @@ def takes_last_pair(partner: NDArray[np.int64]) -> bool:
     return False
 
 
-def expand(place: int, cloud: Any, slots: Any, state: NDArray[np.int64], rules: Any) -> int:
+def expand(place: int, cloud: Any, slots: Any, room: Any, state: NDArray[np.int64], rules: Any) -> int:
     """``Polyhedron.expand``."""
-    order = replaced(corner(cloud.coordinates, place), slots, state)
+    gone = replaced(corner(cloud.coordinates, place), slots, room, state)
     made, new = state[MADE], state[VERTICES]
-    last = made + 3 * len(order)
+    last = made + 3 * gone
     if last > len(slots.alive):
         return FULL
-    peak = state[ALIVE] + 2 * len(order) + 1
-    corrections = three_planes(order, place, cloud, slots, state, rules)
+    peak = state[ALIVE] + 2 * gone + 1
+    corrections = three_planes(gone, place, cloud, slots, room, state, rules)
     if corrections < 0 or peak > max(rules.room, 4 * state[COUNT] - 11):
         return UNUSUAL
     if peak > rules.listed:
         corrections |= TABLE
-    partner = doubles(slots.defining, made, last)
-    if len(order) > 1 and takes_last_pair(partner):
+    doubles(slots.defining, made, last, room)
+    partner = room.partner
+    if gone > 1 and takes_last_pair(partner, 3 * gone):
         corrections |= PAIR
     if corrections & ~state[KNOWN]:
         return UNUSUAL
-    for slot in order:
-        slots.alive[slot] = False
+    for k in range(gone):
+        slots.alive[room.order[k]] = False
     to = made
     for k in range(last - made):
         if partner[k] < 0:
@@ -250,30 +268,30 @@ def expand(place: int, cloud: Any, slots: Any, state: NDArray[np.int64], rules: 
             slots.alive[to] = True
             to += 1
     state[MADE] = to
-    state[ALIVE] += to - made - len(order)
+    state[ALIVE] += to - made - gone
     for i in range(3):
         cloud.coordinates[i, place], cloud.coordinates[i, new] = cloud.coordinates[i, new], cloud.coordinates[i, place]
     cloud.who[place], cloud.who[new] = cloud.who[new], cloud.who[place]
     cloud.keeper[place] = cloud.keeper[new]
     state[VERTICES] += 1
-    state[ADDED], state[OUTSIDE] = cloud.who[new], len(order)
+    state[ADDED], state[OUTSIDE] = cloud.who[new], gone
     return GROWN
 
 
-def grow(cloud: Any, slots: Any, state: NDArray[np.int64], rules: Any, first: bool, stages: int) -> int:
+def grow(cloud: Any, slots: Any, room: Any, state: NDArray[np.int64], rules: Any, first: bool, stages: int) -> int:
     """So many stages, or all if negative; ``first``: the first of them is H_1 itself, which has no new vertex."""
     while True:
         if not first:
             if state[COUNT] == state[VERTICES] and not state[STRUCK]:
                 return ENDED
             if state[MADE] > state[ALIVE] + state[ALIVE] // 2 + 16:
-                pack(cloud, slots, state)
+                pack(cloud, slots, room, state)
             place = outside_point(cloud, slots, state)
             if place == -1:
                 return ENDED
             if place < state[VERTICES]:
                 return UNUSUAL
-            code = expand(place, cloud, slots, state, rules)
+            code = expand(place, cloud, slots, room, state, rules)
             if code != GROWN:
                 return code
         strike_inside(cloud, slots, state)
@@ -292,25 +310,22 @@ def touching(coordinates: NDArray[Any], start: int, end: int, found: Any, e: Any
     return count
 
 
-def satisfied(slots: Any, coordinates: NDArray[Any]) -> Any:
-    """``Equations.satisfied``: how many points satisfy each equation, and their places, equation after equation."""
-    counts = np.zeros(len(slots.alive), np.int64)
-    places = np.empty(4 * len(slots.alive), np.int64)
+def satisfied(slots: Any, coordinates: NDArray[Any], counts: NDArray[np.int64], places: NDArray[np.int64]) -> int:
+    """``Equations.satisfied``: how many points satisfy each equation, and their places, equation after equation.
+
+    All are counted; those beyond the end of ``places`` are not noted.
+    """
     k, count = 0, coordinates.shape[1]
     for slot in range(len(slots.alive)):
         found, e, first = equation(slots.coefficients, slot), slots.tolerances[slot], k
         e = e if e > 0 else e - e
         for start in range(0, count, BLOCK):
             end = min(start + BLOCK, count)
-            here = touching(coordinates, start, end, found, e)
-            if k + here > len(places):
-                longer = np.empty(2 * (k + here), np.int64)
-                longer[:k] = places[:k]
-                places = longer
-            if here:
+            if touching(coordinates, start, end, found, e):
                 for place in range(start, end):
                     if is_on(at(found, corner(coordinates, place)), e):
-                        places[k] = place
+                        if k < len(places):
+                            places[k] = place
                         k += 1
         counts[slot] = k - first
-    return counts, places[:k]
+    return k

@@ -45,6 +45,32 @@ class Slots(NamedTuple):
     alive: NDArray[np.bool_]
 
 
+class Room(NamedTuple):
+    """Room for what a stage works out, so that no kernel makes an array: numba compiles those that do far longer.
+
+    order, values: slots of planes, and their values at a point.  partner, following, keys (2, slots), chains: of pairs
+    of fresh planes, see :func:`modern.port.kernels.doubles`.
+    """
+
+    order: NDArray[np.int64]
+    values: NDArray[Any]
+    partner: NDArray[np.int64]
+    following: NDArray[np.int64]
+    keys: NDArray[np.int64]
+    chains: NDArray[np.int64]
+
+
+def room_for(slots: int, number: Any) -> Room:
+    """Room for tables of so many slots, their coefficients of the type ``number``."""
+    chains = 4
+    while chains < 2 * slots:
+        chains *= 2
+    one = [np.empty(slots, np.int64) for _ in range(3)]
+    return Room(
+        one[0], np.empty(slots, number), one[1], one[2], np.empty((2, slots), np.int64), np.empty(chains, np.int64)
+    )
+
+
 class Rules(NamedTuple):
     """What does not change: the point C, or whether the origin was moved to it; e, or -1, and whether it is relative.
 
@@ -94,12 +120,12 @@ def tolerance(found: Any, rules: Any) -> Any:
     return rules.size * largest
 
 
-def pack(cloud: Any, slots: Any, state: NDArray[np.int64]) -> None:
+def pack(cloud: Any, slots: Any, room: Any, state: NDArray[np.int64]) -> None:
     """Close up the slots."""
-    made = state[MADE]
-    to = np.full(made, -1, np.int64)
+    made, to = state[MADE], room.order
     check, tried, k = -1, -1, 0
     for slot in range(made):
+        to[slot] = -1
         if check < 0 and slot >= state[CHECK]:
             check = k
         if tried < 0 and slot >= state[TRIED]:
@@ -112,8 +138,8 @@ def pack(cloud: Any, slots: Any, state: NDArray[np.int64]) -> None:
                 slots.defining[i, k] = slots.defining[i, slot]
             slots.tolerances[k] = slots.tolerances[slot]
             k += 1
-    slots.alive[:k] = True
-    slots.alive[k:made] = False
+    for slot in range(made):
+        slots.alive[slot] = slot < k
     state[CHECK] = check if check >= 0 else k
     state[TRIED] = tried if tried >= 0 else k
     state[MADE] = k

@@ -206,6 +206,28 @@ def test_the_functions_stay_as_they_are(tmp_path: Path, kept: Path) -> None:
     assert type(module.twice) is type(made)
 
 
+def test_what_an_entry_calls_is_compiled_with_it(tmp_path: Path, kept: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Machine code is made for the entry alone; numba's own way makes it for each function, and computes the same."""
+    pytest.importorskip("numba")
+    from numba.core.codegen import JitEngine
+
+    from emulator.compiled import lean
+
+    def modules(source: str) -> int:
+        put: list[str] = []
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(JitEngine, "add_module", lambda engine, module: put.append(module) or add(engine, module))
+            assert made(tmp_path, source).ready(5)(5) == 11
+        return len(put)
+
+    add = JitEngine.add_module
+    made(tmp_path, SUM + "# numba's own functions are made first\n").ready(5)
+    assert lean.AVAILABLE
+    few = modules(SUM)
+    monkeypatch.setattr(lean, "AVAILABLE", False)
+    assert modules(SUM + "# otherwise\n") == few + 1
+
+
 SCRIPT = """
 import json, sys
 from emulator.compiled.batch import run_batch

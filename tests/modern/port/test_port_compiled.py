@@ -159,9 +159,20 @@ def test_doubles_pair_as_a_table_of_points_does(edges: list[tuple[int, int]]) ->
             partner[k], partner[other] = other, k
         else:
             waiting[key] = k
-    assert kernels.doubles(defining, 0, len(edges)).tolist() == partner
     shuffled = np.array([np.roll(column, k) for k, column in enumerate(defining.T)]).T
-    assert kernels.doubles(shuffled, 0, len(edges)).tolist() == partner
+    for columns in (defining, shuffled):
+        room = workspace.room_for(len(edges), float)
+        kernels.doubles(columns, 0, len(edges), room)
+        assert room.partner.tolist() == partner
+
+
+@given(st.lists(st.integers(1, 9).map(float), max_size=60))
+def test_planes_are_replaced_from_the_largest_value_on(values: list[float]) -> None:
+    """As a stable sort has it, turned round: of equals the later plane first."""
+    order, sorted_ = np.arange(len(values) + 1), np.array([0.0, *values])
+    kernels.fall(order, sorted_, 1, len(order))
+    assert order[1:].tolist() == (1 + np.argsort(values, kind="stable")[::-1]).tolist()
+    assert sorted_[1:].tolist() == sorted(values, reverse=True)
 
 
 def test_no_product_is_fused_with_a_sum() -> None:
@@ -171,9 +182,10 @@ def test_no_product_is_fused_with_a_sum() -> None:
     slots = workspace.Slots(
         np.array([[1 + e], [0.0], [0.0], [-1.0]]), np.zeros((3, 1), np.int64), np.array([-1.0]), np.array([True])
     )
-    given = slots, np.array([[1 - e, 1.0], [0.0, 0.0], [0.0, 0.0]])
-    counts, places = Compiled(kernels.satisfied).ready(*given)(*given)
-    assert (counts.tolist(), places.tolist()) == ([1], [0])
+    counts, places = np.zeros(1, np.int64), np.full(2, -1)
+    given = slots, np.array([[1 - e, 1.0], [0.0, 0.0], [0.0, 0.0]]), counts, places
+    assert Compiled(kernels.satisfied).ready(*given)(*given) == 1
+    assert (counts.tolist(), places.tolist()) == ([1], [0, -1])
 
 
 def test_numbers_that_may_overflow_are_left_to_numpy() -> None:
@@ -223,7 +235,9 @@ def test_kept_kernels_that_are_damaged_are_made_anew(tmp_path: Path, monkeypatch
     (index,) = tmp_path.rglob("*.nbi")
     index.write_bytes(b"")
     slots = workspace.Slots(np.zeros((4, 1)), np.zeros((3, 1), np.int64), np.zeros(1), np.array([True]))
-    counts, places = Compiled(kernels.satisfied).ready(slots, np.zeros((3, 2)))(slots, np.zeros((3, 2)))
+    counts, places = np.zeros(1, np.int64), np.full(2, -1)
+    given = slots, np.zeros((3, 2)), counts, places
+    assert Compiled(kernels.satisfied).ready(*given)(*given) == 2
     assert (counts.tolist(), places.tolist()) == ([2], [0, 1])
     assert not index.exists()
 
