@@ -137,7 +137,10 @@ class Markdown:
                 itself = f"#[] <{label(self.name)}>\n" if first else ""
                 return itself + heading(words, self.level + int(token.tag[1]) - 1, place)
             case "paragraph_open":
-                return self._inline(inner[0]) + ("\n" if token.hidden else "\n\n")
+                words = self._inline(inner[0])
+                if _is_title(inner[0]):
+                    return call("block", words, sticky="true") + "\n\n"
+                return words + ("\n" if token.hidden else "\n\n")
             case "bullet_list_open":
                 return call("list", *self._items(inner)) + "\n\n"
             case "ordered_list_open":
@@ -261,6 +264,12 @@ def places(name: str, source: str) -> tuple[str, ...]:
     """The labels of a document: its headings and its definitions, and itself, which is its first heading."""
     found = Markdown(name, (), 1, lambda file: "").typst(source)
     return (label(name), *re.findall(r" <([\w.-]+)>(?=\n|\])", found))
+
+
+def _is_title(paragraph: Token) -> bool:
+    """Whether a paragraph is strong words alone: the title of the table below it, which it is not to be parted from."""
+    kinds = [child.type for child in paragraph.children or () if child.type != "text" or child.content]
+    return kinds[:1] == ["strong_open"] and kinds.index("strong_close") == len(kinds) - 1
 
 
 def _end(tokens: Sequence[Token], at: int) -> int:

@@ -61,6 +61,12 @@ def test_markdown_becomes_typst() -> None:
     assert table_.startswith("#tabular(8.5pt, (auto, auto,), ")
 
 
+def test_the_title_of_a_table_stays_with_it() -> None:
+    assert typst("**Sizes**\n\n| a |\n|---|\n| 1 |\n").startswith("#block(sticky: true, [#strong[")
+    for other in ("**Sizes** of sets\n", "Of **sizes**\n", "Sizes\n"):
+        assert "sticky" not in typst(other)
+
+
 def test_a_link_within_the_book_has_its_page() -> None:
     known = (label("e.md", "f"), label("e.md"))
     assert f"#to(<{label('e.md', 'f')}>)" in typst("See [d](../e.md#f).", known=known)
