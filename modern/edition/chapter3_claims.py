@@ -16,6 +16,7 @@ from modern.formats.csv import points as csv_points
 from modern.geometry.vectors import dot
 from modern.port import convex_hull
 
+Line = tuple[int, int, int]
 COUNT = "2"
 """Sets of each dimension that ``reproduce`` looks at; the tests take more."""
 
@@ -113,14 +114,22 @@ def _three_point_one(p: Point, q: Point, _: Point) -> bool:
 
 
 def _upright(p: Point, q: Point, u: int, v: int) -> bool:
-    """(v2 - v1) U + (u1 - u2) V + (u2 - u1) v1 + (v1 - v2) u1 = 0 holds at both points and moved off the line fails."""
-    u1, v1, u2, v2 = p[u], p[v], q[u], q[v]
+    """The line as printed is 0 at both points, and moved off it not."""
+    return _through_both(line_as_printed(p[u], p[v], q[u], q[v]), (p[u], p[v]), (q[u], q[v]))
 
-    def left(a: int, b: int) -> int:
-        return (v2 - v1) * a + (u1 - u2) * b + (u2 - u1) * v1 + (v1 - v2) * u1
 
-    apart = (v2 - v1, u1 - u2)
-    return left(u1, v1) == left(u2, v2) == 0 and (apart == (0, 0) or left(u1 + apart[0], v1 + apart[1]) != 0)
+def line_as_printed(u1: int, v1: int, u2: int, v2: int) -> Line:
+    """(3.1), (3.2), (3.3): (v2 - v1) U + (u1 - u2) V + (u2 - u1) v1 + (v1 - v2) u1 = 0."""
+    return v2 - v1, u1 - u2, (u2 - u1) * v1 + (v1 - v2) * u1
+
+
+def _through_both(line: Line, p: tuple[int, int], q: tuple[int, int]) -> bool:
+    a, b, c = line
+
+    def left(u: int, v: int) -> int:
+        return a * u + b * v + c
+
+    return left(*p) == left(*q) == 0 and (p == q or left(p[0] + a, p[1] + b) != 0)
 
 
 def _three_point_four(p: Point, q: Point, r: Point) -> bool:
@@ -138,11 +147,12 @@ def plane_as_printed(i: Point, j: Point, k: Point) -> Plane:
 
 
 def _three_point_five(k: Point, m: Point, _: Point) -> bool:
-    def left(x: int, y: int) -> int:
-        return (k[1] - m[1]) * x + (m[0] - k[0]) * y + (k[0] - m[0]) * m[1] + (m[1] - k[1]) * m[0]
+    return _through_both(line_of_page_19(k, m), k[:2], m[:2])
 
-    normal = (k[1] - m[1], m[0] - k[0])
-    return left(k[0], k[1]) == left(m[0], m[1]) == 0 and left(k[0] + normal[0], k[1] + normal[1]) != 0
+
+def line_of_page_19(k: Point, m: Point) -> Line:
+    """(3.5) as page 19 prints it."""
+    return k[1] - m[1], m[0] - k[0], (k[0] - m[0]) * m[1] + (m[1] - k[1]) * m[0]
 
 
 _EQUATIONS = {

@@ -18,7 +18,7 @@ import modern.edition.chapter4_proofs as proofs
 import modern.edition.chapter5_claims as messages
 import modern.edition.chapter7_claims as limits
 from modern.edition.chapter6 import input_deck
-from modern.edition.sampled_sets import SampledSet
+from modern.edition.sampled_sets import SampledSet, sampled_sets
 from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen
 
 Right = Any
@@ -237,3 +237,18 @@ def test_a_counterexample_of_the_thesis_that_is_none_is_noticed(monkeypatch: pyt
     monkeypatch.setattr(letter, "points_of", lambda _: [(0, 0, 0), (4, 0, 0), (0, 4, 0), (5, 5, 0)])
     monkeypatch.setattr(messages, "vertices_of", lambda _: ({0, 1}, {0, 1}))
     assert [letter.line_struck_twice().verdict, messages.hull_has_been_determined().verdict] == [HOLDS, HOLDS]
+
+
+def test_the_first_hull_is_larger_than_that_of_the_six_as_often_as_its_row_says() -> None:
+    """More than a fifth of sets at random, in which the six extreme points are in no plane."""
+    found = [letter._first_and_six(one.points, one) for one in sampled_sets(3, 200)]
+    assert sum(first[0] > six[0] > 0 for first, six in found) > len(found) / 5
+
+
+def test_the_first_sets_have_points_inside_and_on_the_boundary_and_a_face_of_four_corners() -> None:
+    """Else claims on such points and faces would hold of nothing."""
+    for dimension in (2, 3):
+        judges = [one.judge for one in sampled_sets(dimension, 2)]
+        assert all(judge.inside for judge in judges)
+        assert any(judge.boundary for judge in judges)
+        assert dimension == 2 or any(len(facet.polygon) > 3 for judge in judges for facet in judge.facets)
