@@ -29,8 +29,8 @@ from modern.formats import MESHES
 from modern.formats.hulls import mesh_text
 from modern.papers.kovalevsky_schulz import (
     CENTRES,
+    SHUFFLED,
     VERTICES,
-    VISIBLE,
     CellList,
     Flat,
     Of,
@@ -70,7 +70,7 @@ def main(args: argparse.Namespace) -> int:
 
 def _hull(volume: Volume, args: argparse.Namespace) -> VoxelHull:
     of: Of = CENTRES if args.centres else VERTICES
-    return voxel_hull(volume, of, args.corners or 26, args.coplanar or VISIBLE)
+    return voxel_hull(volume, of, args.corners or 26, args.coplanar, args.order)
 
 
 def _check_options(args: argparse.Namespace) -> None:
@@ -79,6 +79,7 @@ def _check_options(args: argparse.Namespace) -> None:
         "--vertices": args.vertices,
         "--corners": args.corners,
         "--coplanar": args.coplanar,
+        "--order": args.order,
         "--cells": args.cells,
         "--straight": args.straight,
     }
@@ -174,16 +175,18 @@ def _count_lines(hull: VoxelHull) -> Iterator[str]:
         vertices = f" of {len(surface.vertices)} vertices" if surface.dimension == 2 else ""
         yield f"flat: the hull is a {surface.kind}{vertices} and has no cell list"
         return
-    triangles, faces, straight = len(surface.triangles.faces), surface.faces, surface.straight
-    yield f"inserted: {len(hull.inserted)} local corners; {triangles} triangles"
-    yield f"merged: {_cells(faces)}"
+    faces, straight, saved = surface.faces, surface.straight, ""
+    if surface.made is None:
+        yield f"hull of {len(hull.inserted)} local corners: {_cells(faces)}"
+    else:
+        triangles, shuffled = len(surface.made.faces), ", shuffled" if hull.order == SHUFFLED else ""
+        yield f"inserted: {len(hull.inserted)} local corners{shuffled}; {triangles} triangles"
+        yield f"merged: {_cells(faces)}"
+        saved = f"{triangulation_size(triangles)} for the triangles by (5), "
     if len(straight.vertices) < len(faces.vertices):
         yield f"with edges in one line merged too: {_cells(straight)}"
-    yield (
-        f"integers to save: {triangulation_size(triangles)} for the triangles by (5), "
-        f"{cell_list_size(len(faces.vertices), len(faces.faces))} for the cell list by (6), "
-        f"{economical_size(faces)} counted"
-    )
+    by_formula, counted_so = cell_list_size(len(faces.vertices), len(faces.faces)), economical_size(faces)
+    yield f"integers to save: {saved}{by_formula} for the cell list by (6), {counted_so} counted"
 
 
 def _cells(cells: CellList) -> str:

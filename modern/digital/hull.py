@@ -154,7 +154,7 @@ def _hull(solid: Truth, fast: bool | None) -> tuple[int, Truth]:
     lower = np.stack(reduced(x, y, low), axis=1)
     upper = np.stack(reduced(x, y, -high), axis=1) * (1, 1, -1)
     points = np.unique(np.concatenate((lower, upper)), axis=0)
-    simplex = _independent(points)
+    simplex = independent(points)
     if len(simplex) < 4:
         filled = np.zeros(solid.shape, dtype=np.bool_)
         if len(simplex) == 3:
@@ -180,7 +180,7 @@ def _compile(fast: bool | None, candidates: int) -> bool:
     return True
 
 
-def _independent(points: Grid) -> list[int]:
+def independent(points: Grid) -> list[int]:
     """Affinely independent points, as many as there are and at most four; two of them are the ends of a segment."""
     if len(points) == 1:
         return [0]

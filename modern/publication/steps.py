@@ -18,7 +18,7 @@ from modern.digital.solids import Volume, ball, listed
 from modern.drawing.view import Eye
 from modern.drawing.visible import BACK, CONTOUR, OUTLINE
 from modern.geometry.vectors import Vector, dot
-from modern.papers.kovalevsky_schulz import voxel_hull
+from modern.papers.kovalevsky_schulz import RASTER, voxel_hull
 from modern.papers.kovalevsky_schulz.cells import CellList
 from modern.papers.nakamae_nishita.hidden import GHOSTS, Drawing, draw
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron
@@ -159,7 +159,7 @@ def cells(diameter: int = 5) -> Cells:
     inside of a polyhedron.
     """
     volume = ball(diameter)
-    found = voxel_hull(volume).polyhedron
+    found = voxel_hull(volume, order=RASTER).polyhedron
     counts = [("the ball's voxels and their boundary", (*_boundary(volume), volume.count))]
     for name, cell_list in (
         ("its hull, as triangles", found.triangles),

@@ -139,7 +139,15 @@ def voxel_hull(parser: ArgumentParser) -> None:
         "--corners", type=int, choices=(6, 26), help="neighbours tested for local corners (default: 26)"
     )
     parser.add_argument(
-        "--coplanar", choices=("visible", "invisible"), help="faces in a plane with a new point (default: visible)"
+        "--order",
+        choices=("raster", "shuffled"),
+        help="insert the local corners one by one and count triangles: in the paper's order, or in a quicker one "
+        "(default: none is inserted, the cell list is of the hull alone; with --coplanar raster)",
+    )
+    parser.add_argument(
+        "--coplanar",
+        choices=("visible", "invisible"),
+        help="faces in a plane with a point inserted (default: visible)",
     )
     parser.add_argument("--straight", action="store_true", help="merge edges in one line too, for --cells and -o")
     parser.add_argument("--cells", action="store_true", help="print the cell list: vertices, edges and faces")

@@ -1,7 +1,7 @@
 """The paper's route from a set of voxels to the cell list of its convex hull.
 
 The last step is merging: triangles of one plane to one face, and edges in one line to one edge (section 2, Figs. 6
-and 7).
+and 7).  Where nobody asks how the points are inserted, the merged list is made without inserting them.
 """
 
 from __future__ import annotations
@@ -9,6 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Final, Literal
+
+import numpy as np
 
 from modern.digital.measures import Measures, measures
 from modern.digital.solids import NoVoxels, Volume, VolumeError, Voxels, as_volume
@@ -16,7 +19,14 @@ from modern.digital.world import World, decimal_or_fraction
 from modern.geometry.mesh import Mesh
 from modern.papers.kovalevsky_schulz.cells import CellList, Economical, IntPoint, Plane, expanded
 from modern.papers.kovalevsky_schulz.corners import NEIGHBOURS, VERTICES, Of, Points, corners_by_neighbours
+from modern.papers.kovalevsky_schulz.outcome import hull_cells
 from modern.papers.kovalevsky_schulz.polyhedron import VISIBLE, Coplanar, Flat, convex_polyhedron
+
+Order = Literal["raster", "shuffled"]
+"""In which order local corners are inserted."""
+RASTER: Final = "raster"
+SHUFFLED: Final = "shuffled"
+_SEED = 1963
 
 
 def merged(cells: CellList) -> CellList:
@@ -39,9 +49,12 @@ def merged(cells: CellList) -> CellList:
 def straightened(cells: CellList) -> CellList:
     """The cell list with edges in one line made one: without the vertices that have two edges only.
 
-    Of merged faces these lie straight between their neighbours, for three faces meet in a vertex of the hull.
+    Of merged faces these lie straight between their neighbours, for three faces meet in a vertex of the hull.  Where
+    there are none, the list is what it was.
     """
     dropped = {number for number, vertex in enumerate(cells.vertices, 1) if len(vertex.edges) == 2}
+    if not dropped:
+        return cells
     return _renewed(cells, [[v for v in face.vertices if v not in dropped] for face in cells.faces])
 
 
@@ -63,11 +76,20 @@ def _renewed(cells: CellList, cycles: list[list[int]]) -> CellList:
 
 @dataclass(frozen=True, slots=True)
 class Surface:
-    """The surface of a polyhedron as three cell lists: of ``triangles``; of ``faces``, coplanar triangles merged; and
-    ``straight``, edges in one line merged too, so that every vertex is one of the hull."""
+    """The surface of a polyhedron as cell lists: of ``faces``, coplanar triangles merged; ``straight``, edges in one
+    line merged too, so that every vertex is one of the hull; and of ``triangles``, where an order of insertion was
+    asked for.  ``made``: these, or None.
+    """
 
-    triangles: CellList
     faces: CellList
+    made: CellList | None = None
+
+    @property
+    def triangles(self) -> CellList:
+        """The triangles that the points inserted one by one leave.  Raises VolumeError where none were inserted."""
+        if self.made is None:
+            raise VolumeError("there are no triangles where no points are inserted: state an order, such as raster")
+        return self.made
 
     @property
     def straight(self) -> CellList:
@@ -80,9 +102,10 @@ class VoxelHull:
     """The convex hull of a solid and what was counted on the way.
 
     ``source``: what messages call the solid.  ``voxels``: how many it has.  ``corners``: how many local corners 6 and
-    26 neighbours leave.  ``inserted``: those that were inserted, shape (n, 3), in raster order.  ``surface``: the hull,
-    ``Flat`` where the places lie in one plane.  ``of``: whether places are centres or corners of voxels.  ``world``:
-    where voxels lie, by the coordinates of their centres.
+    26 neighbours leave.  ``inserted``: those that the hull is of, shape (n, 3), in raster order.  ``surface``: the
+    hull, ``Flat`` where the places lie in one plane.  ``of``: whether places are centres or corners of voxels.
+    ``world``: where voxels lie, by the coordinates of their centres.  ``order``: in which the local corners were
+    inserted, None where none was.
     """
 
     source: str
@@ -92,6 +115,7 @@ class VoxelHull:
     surface: Surface | Flat
     of: Of = VERTICES
     world: World | None = None
+    order: Order | None = None
 
     @property
     def polyhedron(self) -> Surface:
@@ -140,25 +164,50 @@ def _three(texts: Iterable[str]) -> tuple[str, str, str]:
 
 
 def voxel_hull(
-    volume: Volume | Voxels, of: Of = VERTICES, neighbours: int = 26, coplanar: Coplanar = VISIBLE
+    volume: Volume | Voxels,
+    of: Of = VERTICES,
+    neighbours: int = 26,
+    coplanar: Coplanar | None = None,
+    order: Order | None = None,
 ) -> VoxelHull:
     """The hull of a solid's voxels (``of="centres"``) or of their corners (``of="vertices"``).
 
     volume: a volume, or an array of truth values indexed [x, y, z].
     neighbours: 6 or 26, the test that chooses local corners.  coplanar: ``visible`` or ``invisible``, see
-    ``convex_polyhedron``.  The hull does not depend on either, the number of triangles does.  Raises VolumeError for a
-    picture of two dimensions, NoVoxels for a volume without voxels.
+    ``convex_polyhedron``.  order: ``raster``, the paper's, or ``shuffled``, which is quicker, the same for as many
+    points.  The hull does not depend on any of them, the number of triangles does, and which vertices there are in
+    line with others.  Where neither coplanar nor order is given, there are no triangles, and the cell list is that of
+    the hull; one alone stands for raster order, or for ``visible``.
+
+    Raises VolumeError for a picture of two dimensions, NoVoxels for a volume without voxels, ValueError for another
+    choice.
     """
     volume = as_volume(volume)
     if not volume.count:
         raise NoVoxels(f"{volume.source}: there are no voxels")
+    if neighbours not in NEIGHBOURS:
+        raise ValueError(f"6 or 26 neighbours are tested, not {neighbours}")
+    if order is None and coplanar is not None:
+        order = RASTER
     corners = corners_by_neighbours(volume, of)
-    inserted = corners[neighbours]
-    triangles = convex_polyhedron(inserted, coplanar)
-    surface = triangles if isinstance(triangles, Flat) else _surface(triangles)
     counts = {count: len(corners[count]) for count in NEIGHBOURS}
-    return VoxelHull(volume.source, volume.count, counts, inserted, surface, of, volume.world)
+    surface = _surface(corners[neighbours], order, coplanar or VISIBLE)
+    return VoxelHull(volume.source, volume.count, counts, corners[neighbours], surface, of, volume.world, order)
 
 
-def _surface(triangles: CellList) -> Surface:
-    return Surface(triangles, merged(triangles))
+def _surface(points: Points, order: Order | None, coplanar: Coplanar) -> Surface | Flat:
+    """The surface of the hull of local corners, in raster order."""
+    if order is None:
+        cells = hull_cells(points)
+        return cells if isinstance(cells, Flat) else Surface(cells)
+    triangles = convex_polyhedron(ordered(points, order), coplanar)
+    return triangles if isinstance(triangles, Flat) else Surface(merged(triangles), triangles)
+
+
+def ordered(points: Points, order: Order) -> Points:
+    """Points in raster order in the order in which they are to be inserted.  Raises ValueError for another order."""
+    if order == SHUFFLED:
+        return np.random.default_rng(_SEED).permutation(points)
+    if order != RASTER:
+        raise ValueError(f"points are inserted {RASTER} or {SHUFFLED}, not {order!r}")
+    return points

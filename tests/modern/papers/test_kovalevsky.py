@@ -35,7 +35,7 @@ from modern.papers.kovalevsky_schulz.corners import Of, corners_by_neighbours, p
 from modern.papers.kovalevsky_schulz.polyhedron import CurrentPolyhedron, Waiting, independent
 
 PLACES = (CENTRES, VERTICES)
-WAYS = [(6, VISIBLE), (6, INVISIBLE), (26, VISIBLE), (26, INVISIBLE)]
+WAYS = [(6, VISIBLE), (6, INVISIBLE), (26, VISIBLE), (26, INVISIBLE), (26, None)]
 SIZES = st.tuples(*[st.integers(1, 6)] * 3)
 VOLUMES = SIZES.flatmap(lambda shape: arrays.arrays(np.bool_, shape)).filter(lambda array: bool(array.any()))
 
@@ -73,7 +73,7 @@ def judged(volume: Volume, of: str) -> ExactHull:
     return exact_hull(np.array(sorted(corners)))
 
 
-def agrees(volume: Volume, of: str, neighbours: int, coplanar: str) -> bool:
+def agrees(volume: Volume, of: str, neighbours: int, coplanar: str | None) -> bool:
     """Whether the paper's route has the judge's dimension, vertices, planes and polygons."""
     surface, judge = voxel_hull(volume, of, neighbours, coplanar).surface, judged(volume, of)
     vertices = {judge.scaled[index] for index in judge.vertices}
@@ -101,7 +101,7 @@ def test_random_solids_have_the_hull_of_the_judge(seed: int) -> None:
 
 
 @given(VOLUMES, st.sampled_from(PLACES), st.sampled_from(WAYS))
-def test_any_set_of_voxels_has_the_hull_of_the_judge(array: np.ndarray, of: str, way: tuple[int, str]) -> None:
+def test_any_set_of_voxels_has_the_hull_of_the_judge(array: np.ndarray, of: str, way: tuple[int, str | None]) -> None:
     assert agrees(Volume(array, (-3, 0, 5)), of, *way)
 
 
@@ -357,7 +357,9 @@ def test_a_picture_of_two_dimensions_is_refused() -> None:
         voxel_hull(Volume(np.ones((2, 2), dtype=np.bool_), (0, 0)))
 
 
-@pytest.mark.parametrize("options", [{"of": "edges"}, {"neighbours": 18}, {"coplanar": "perhaps"}])
+@pytest.mark.parametrize(
+    "options", [{"of": "edges"}, {"neighbours": 18}, {"coplanar": "perhaps"}, {"order": "perhaps"}]
+)
 def test_options_that_do_not_exist(options: dict[str, object]) -> None:
     with pytest.raises((ValueError, KeyError)):
         voxel_hull(ball(4), **options)  # type: ignore[arg-type]

@@ -110,6 +110,15 @@ def _empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
 
 
+WAYS = (
+    "",
+    "--order raster",
+    "--coplanar visible",
+    "--order shuffled",
+    "--corners 6 --order shuffled --coplanar invisible",
+)
+
+
 def test_the_command_prints_what_the_paper_prints(capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = run(capsys, "ball:32", "--corners", "6", "--coplanar", "invisible", "-o", "ball.off")
     assert (code, err) == (0, "coordinates: indices, voxel (x, y, z) from (x, y, z) to (x+1, y+1, z+1)\n")
@@ -119,6 +128,24 @@ def test_the_command_prints_what_the_paper_prints(capsys: pytest.CaptureFixture[
     assert len(found.faces) == 266
     code, out, err = run(capsys, "ball:32", "--centres")
     assert "260 faces, 342 vertices, 600 edges" in out
+
+
+def test_triangles_are_counted_where_an_order_is_asked_for(capsys: pytest.CaptureFixture[str]) -> None:
+    """Without one, nothing is said of triangles; all else is the same."""
+    said = {words: run(capsys, "ball:32", *words.split())[1].splitlines() for words in WAYS}
+    assert said[""][2:4] == [
+        "hull of 360 local corners: 266 faces, 360 vertices, 624 edges",
+        "integers to save: 2410 for the cell list by (6), 2328 counted",
+    ]
+    assert said["--order raster"][2:5] == [
+        "inserted: 360 local corners; 716 triangles",
+        "merged: 266 faces, 360 vertices, 624 edges",
+        "integers to save: 3222 for the triangles by (5), 2410 for the cell list by (6), 2328 counted",
+    ]
+    assert said["--coplanar visible"] == said["--order raster"]
+    assert said["--order shuffled"][2] == "inserted: 360 local corners, shuffled; 716 triangles"
+    assert "1404 triangles" not in said["--corners 6 --order shuffled --coplanar invisible"][2]
+    assert {tuple(lines[:2] + lines[-4:]) for lines in said.values()} == {tuple(said[""][:2] + said[""][-4:])}
 
 
 def test_straight_edges_are_merged_where_asked(capsys: pytest.CaptureFixture[str]) -> None:
@@ -131,7 +158,7 @@ def test_straight_edges_are_merged_where_asked(capsys: pytest.CaptureFixture[str
 
 def test_cells_are_printed_as_tables(capsys: pytest.CaptureFixture[str]) -> None:
     Path("one.csv").write_text("0,0,0\n")
-    code, out, _ = run(capsys, "one.csv", "--cells")
+    code, out, _ = run(capsys, "one.csv", "--cells", "--order", "raster")
     assert code == 0
     table = [line.split("\t") for line in out.splitlines() if "\t" in line]
     assert [row[0] for row in table] == ["Vertex", *"12345678", "Edge", *map(str, range(1, 13)), "Face", *"123456"]
@@ -176,6 +203,7 @@ def test_fill_writes_the_filled_hull(capsys: pytest.CaptureFixture[str]) -> None
         (("ball:8", "--fill", "-o", "a.off"), "a.off: a filled hull is written as an array"),
         (("ball:8", "--fill", "--cells"), "--cells is not for it"),
         (("ball:8", "--fill", "--corners", "6"), "--corners is not for it"),
+        (("ball:8", "--fill", "--order", "raster"), "--order is not for it"),
         (("ball:8", "--shape", "2,2,x"), "--shape: '2,2,x' is not NX,NY,NZ"),
         (("ball:8", "--centres", "--vertices"), "not allowed with argument"),
         (("flat.npy",), "flat.npy: a picture of two dimensions"),
