@@ -60,8 +60,12 @@ def no_unique_minimum() -> Seen:
     return seen(all(least) and not is_simple(array_of(both)), "either voxel beside both makes a convex solid of three")
 
 
-def between_the_envelopes() -> Seen:
-    """Faces of floor and ceiling envelopes of a solid are those of the judge that look down, or up."""
+def between_the_envelopes(kind: str = "") -> Seen:
+    """Faces of floor and ceiling envelopes of a solid are those of the judge that look down, or up.
+
+    What lies between are the digital points of the Euclidean hull; of the counterexample they are no digitally convex
+    solid, a condition where the digital hull is said to be found.
+    """
     judge = exact_hull(SOLID)
     good = []
     for found, sign in ((_hull().lower, 1), (_hull().upper, -1)):
@@ -70,7 +74,10 @@ def between_the_envelopes() -> Seen:
         good.append(faces == wanted)
     inside = {p for p in _GRID if max(value(f.plane, p) for f in judge.facets) <= 0}
     good.append({*map(tuple, np.argwhere(_hull().filled).tolist())} == inside)
-    return seen(all(good), f"{len(SOLID)} voxels, {len(inside)} in the hull")
+    words = f"{len(SOLID)} voxels, {len(inside)} in the hull"
+    if kind:
+        return Seen(CONDITION if all(good) and points_of_a_path().verdict == FAILS else FAILS, words)
+    return seen(all(good), words)
 
 
 def convex_deficiency_() -> Seen:
@@ -123,11 +130,32 @@ def in_voxel(x: Fraction, v: int) -> bool:
     return x - Fraction(1, 2) < v <= x + Fraction(1, 2)
 
 
-def hull_is_simple() -> Seen:
-    """The digital hull of a connected solid is simple and passes the convexity test."""
+def points_of_a_path() -> Seen:
+    """The counterexample: six voxels, connected and simple, which are all digital points of their Euclidean hull.
+
+    The middle of two of them is on the hull with two whole coordinates and near none, so they are not digitally convex.
+    """
+    path = points_of("yau_path.csv")
+    array, middle = array_of(path), (Fraction(1), Fraction(1, 2), Fraction(1))
+    far = all(max(abs(a - b) for a, b in zip(middle, p, strict=True)) >= 1 for p in path)
+    within = {2 * a for a in middle} == {1, 2} and (2, 0, 0) in path and (0, 1, 2) in path
+    wrong = is_simple(array) and bool((octree_hull(array).filled == array).all()) and not is_digitally_convex(array)
+    words = f"{len(path)} voxels, no others in their hull; its point (1, 1/2, 1) is near none of them"
+    return Seen(FAILS if wrong and far and within else HOLDS, words)
+
+
+def smallest_convex_solid() -> Seen:
+    """Of a solid the digital points of the hull are simple and pass the convexity test; a path of six voxels does not.
+
+    Two solids of seven voxels that hold the path do: there is no smallest one.
+    """
     found = _hull()
     good = found.components == 1 and is_simple(found.filled) and is_digitally_convex(found.filled)
-    return Seen(CONDITION if good else FAILS, f"{found.given} voxels connected, {found.voxels} in the hull")
+    path = points_of("yau_path.csv")
+    more = [p for p in _GRID if p not in path and is_digitally_convex(array_of([*path, p]))]
+    good &= not is_digitally_convex(array_of(path)) and len(more) > 1
+    words = f"{found.given} voxels connected, {found.voxels} in the hull; {len(more)} voxels, each makes a path convex"
+    return Seen(CONDITION if good else FAILS, words)
 
 
 def floor_and_ceiling(kind: str = "") -> Seen:

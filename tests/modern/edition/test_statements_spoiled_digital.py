@@ -229,6 +229,11 @@ def small_only(_: Right) -> object:
     return lambda diameter, centre: ball(8, centre)
 
 
+def with_a_voxel_more(right: Right) -> object:
+    """The path has another voxel, and is digitally convex."""
+    return lambda name: [*right(name), (1, 1, 1)]
+
+
 def closed_on_both_sides(_: Right) -> object:
     return lambda x, v: abs(x - v) <= Fraction(1, 2)
 
@@ -308,7 +313,12 @@ def closed_on_both_sides(_: Right) -> object:
         (yau, "extreme_points", "_hull", hulls(less_reduced)),
         (yau, "floor_and_ceiling", "_hull", hulls(upside_down)),
         (yau, "floor_and_ceiling condition", "_hull", hulls(upside_down)),
-        (yau, "hull_is_simple", "_hull", hulls(the_solid_alone)),
+        (yau, "between_the_envelopes condition", "_hull", hulls(without_a_face)),
+        (yau, "between_the_envelopes condition", "is_digitally_convex", always(True)),
+        (yau, "points_of_a_path", "is_digitally_convex", always(True)),
+        (yau, "points_of_a_path", "points_of", with_a_voxel_more),
+        (yau, "smallest_convex_solid", "_hull", hulls(the_solid_alone)),
+        (yau, "smallest_convex_solid", "points_of", with_a_voxel_more),
         (yau, "integer_normals", "_hull", hulls(starting_normals_in_halves)),
         (yau, "light_cap", "value", by_the_first_coordinate),
         (yau, "light_cap complexity", "sampled_sets", too_few_points),

@@ -68,7 +68,7 @@ def test_a_straight_gap_is_not_midpoint_convex() -> None:
 
 
 def test_the_kim_rosenfeld_test_on_small_solids() -> None:
-    """Digital hulls of connected solids pass; a solid that is not its own hull does not."""
+    """Digital points of the hulls of these connected solids pass; a solid that is not its own hull does not."""
     passed = refused = 0
     for array in solids(40, 5):
         hull = octree_hull(array).filled
@@ -78,6 +78,16 @@ def test_the_kim_rosenfeld_test_on_small_solids() -> None:
         if (hull & ~array).any() and is_simple(array):
             refused += not is_digitally_convex(array)
     assert passed == 40
+
+
+def test_digital_points_of_the_hull_of_a_connected_solid_need_not_be_convex() -> None:
+    """A path of six voxels; and of solids at random a few."""
+    path = solid_of([(0, 0, 0), (1, 0, 0), (2, 0, 0), (0, 1, 0), (0, 1, 1), (0, 1, 2)])
+    assert is_simple(path)
+    assert np.array_equal(octree_hull(path).filled, path)
+    assert not is_digitally_convex(path)
+    refused = sum(not is_digitally_convex(octree_hull(array).filled) for array in solids(100, 6))
+    assert 0 < refused < 10
 
 
 def test_a_bend_and_a_ring_are_not_convex() -> None:
