@@ -1,5 +1,5 @@
 """Digital hulls: the filled hull of solid balls, beside scikit-image where it is installed, and its memory; the octree
-hull beside them.
+hull, and the cell list of Kovalevsky and Schulz, beside them.
 
 ``python -m modern.bench.digital FILE.svg`` measures how the time of solids' hulls grows with the number of voxels, and
 plots it with the slope of each curve (extra ``plot``).
@@ -22,16 +22,24 @@ from modern.bench.peers import Work
 from modern.bench.timing import Curve, Figure, plotted, side_by_side, timed, timed_once
 from modern.digital.hull import digital_hull
 from modern.digital.solids import VERTEX, Volume, ball
+from modern.papers.kovalevsky_schulz import CENTRES, reconstructed, voxel_hull
 from modern.papers.yau_srihari import octree_hull
 
 BARS = {128: "bar 1 s", 256: "bar 4 s", 512: "bar 30 s"}
 
 DIAMETERS = (15, 31, 63, 127, 254)
 """Of the balls whose octrees are measured: the cubes have sides of 16, 32, ... 256."""
-OCTREE_BARS = {127: "bar 2 s", 254: "bar 10 s"}
+COMMANDS = (
+    ("octree", 127, "bar 2 s, 500 MB"),
+    ("octree", 254, "bar 10 s, 500 MB"),
+    ("voxel", 255, "bar 1.4 s"),
+    ("voxel", 511, "bar 10 s"),
+)
+"""Whole processes: the hull, the diameter of a ball, and the bars."""
+CURVES = (STYLES[0], STYLES[1], STYLES[2], STYLES[4])
 SLOPES_FROM = 10_000
 """Fewer voxels measure what a call costs."""
-OCTREE, FILLED, SCIKIT_IMAGE = "octree hull", "digital hull", "skimage"
+OCTREE, CELLS, FILLED, SCIKIT_IMAGE = "octree hull", "voxel hull, cell list", "digital hull", "skimage"
 SCIKIT_UP_TO = 31
 """The largest diameter for which scikit-image is waited for in a table, 63 in the picture: it takes half a minute."""
 
@@ -39,10 +47,12 @@ PEAK = """
 import resource, sys
 from modern.digital.hull import digital_hull
 from modern.digital.solids import ball
+from modern.papers.kovalevsky_schulz import voxel_hull
 from modern.papers.yau_srihari import octree_hull
 side, way = int(sys.argv[1]), sys.argv[2]
-array = ball(side, "voxel" if way == "octree" else "vertex").array
-octree_hull(array) if way == "octree" else digital_hull(array, way == "compiled")
+hulls = {"octree": octree_hull, "voxel": voxel_hull}
+array = ball(side, "voxel" if way in hulls else "vertex").array
+hulls[way](array) if way in hulls else digital_hull(array, way == "compiled")
 try:
     with open("/proc/self/status") as status:  # the figure of getrusage has that of the starting process in it
         peak = next(int(line.split()[1]) * 1024 for line in status if line.startswith("VmHWM"))
@@ -72,10 +82,10 @@ def figures(largest: int = 512) -> Iterator[Figure]:
             what = f"filled hull of a ball of {side}^3, {name}"
             note = f"{BARS[side]}; {memory(side, name)}"
             yield timed(what, lambda array=array, fast=fast: digital_hull(array, fast), note)  # type: ignore[misc]
-    for diameter, bar in OCTREE_BARS.items():
+    for name, diameter, bars in COMMANDS:
         if diameter < largest:
-            note = f"{bar}; {peak(diameter, 'octree')[1] / 1e6:.0f} MB, bar 500 MB"
-            yield timed(f"octree-hull ball:{diameter}, a whole process", octree_process(diameter), note)
+            note = f"{peak(diameter, name)[1] / 1e6:.0f} MB; {bars}"
+            yield timed(f"{name}-hull ball:{diameter}, a whole process", process_of(name, diameter), note)
 
 
 def lines(largest: int = 512) -> Iterator[str]:
@@ -87,16 +97,17 @@ def lines(largest: int = 512) -> Iterator[str]:
             yield from table(ball(diameter), diameter <= SCIKIT_UP_TO).lines()
 
 
-def octree_process(diameter: int) -> Work:
-    """The command for a ball, its output thrown away."""
-    command = [sys.executable, "-m", "modern.cli.main", "octree-hull", f"ball:{diameter}"]
-    return lambda: subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+def process_of(name: str, diameter: int) -> Work:
+    """The command ``octree-hull`` or ``voxel-hull`` for a ball, its output thrown away."""
+    command = [sys.executable, "-m", "modern.cli.main", f"{name}-hull", f"ball:{diameter}"]
+    return lambda: subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
 def works(volume: Volume) -> dict[str, Work]:
-    """What fills the hull of a solid: rows of the table and curves of the picture; the digital hull is the peer."""
+    """Hulls of a solid's centres: rows of the table and curves of the picture; the digital hull is the peer."""
     return {
         OCTREE: lambda: octree_hull(volume),
+        CELLS: lambda: voxel_hull(volume, CENTRES),
         FILLED: lambda: digital_hull(volume, False),
     }
 
@@ -105,13 +116,16 @@ def table(volume: Volume, slow: bool) -> Table:
     """The hulls of a solid, measured in turn in seconds of the processor; with ``slow`` scikit-image once too."""
     rows = side_by_side(works(volume), clock=time.process_time)
     peers = [FILLED]
-    same = np.array_equal(octree_hull(volume).filled, digital_hull(volume).filled)
+    filled = digital_hull(volume).filled
+    cells = voxel_hull(volume, CENTRES).polyhedron.faces
+    same = np.array_equal(octree_hull(volume).filled, filled)
+    same = same and np.array_equal(reconstructed(cells.economical(), CENTRES).array, filled)
     if slow and find_spec("skimage"):
         found: list[Any] = []
         by_scikit_image(np.ones((2, 2, 2), dtype=np.bool_))  # loads it
         rows.append(timed_once(SCIKIT_IMAGE, lambda: found.append(by_scikit_image(volume.array))))
         peers.append(SCIKIT_IMAGE)
-        same = same and np.array_equal(found[0], digital_hull(volume).filled)
+        same = same and np.array_equal(found[0], filled)
     name = f"{volume.source}, {volume.count:,} voxels" + ("" if same else ", OTHER HULLS")
     return Table(name, tuple(rows), tuple(peers))
 
@@ -123,7 +137,7 @@ def growth(diameters: Sequence[int] = DIAMETERS) -> list[Curve]:
         volume = ball(diameter)
         for figure in table(volume, diameter <= 2 * SCIKIT_UP_TO + 1).rows:
             found.setdefault(figure.what, []).append((volume.count, figure.median))
-    return [Curve(name, points, style) for (name, points), style in zip(found.items(), STYLES[::2], strict=False)]
+    return [Curve(name, points, style) for (name, points), style in zip(found.items(), CURVES, strict=False)]
 
 
 def scikit_image(array: Any) -> Figure | None:

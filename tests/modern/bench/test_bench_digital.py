@@ -14,6 +14,7 @@ from modern.bench import __main__ as bench
 from modern.bench import digital
 from modern.bench.timing import Curve, Figure, plotted
 from modern.digital.solids import ball
+from modern.papers.kovalevsky_schulz import voxel_hull
 
 
 @pytest.fixture(autouse=True)
@@ -29,7 +30,7 @@ def test_an_octree_hull_stands_beside_the_digital_hull(monkeypatch: pytest.Monke
     without_scikit_image(monkeypatch)
     table = digital.table(ball(7), slow=True)
     assert table.points == "ball:7:voxel, 179 voxels"
-    assert [row.what for row in table.rows] == ["octree hull", "digital hull"]
+    assert [row.what for row in table.rows] == ["octree hull", "voxel hull, cell list", "digital hull"]
     assert table.peers == ("digital hull",)
     assert {len(line) for line in table.lines()} == {78}
     assert table.lines()[0].endswith("seconds  / digital hull")
@@ -55,11 +56,12 @@ def test_scikit_image_finds_the_same() -> None:
     assert np.array_equal(digital.by_scikit_image(ball(5).array), ball(5).array)
 
 
-@pytest.mark.parametrize("name", ["octree_hull", "by_scikit_image"])
+@pytest.mark.parametrize("name", ["octree_hull", "voxel_hull", "by_scikit_image"])
 def test_another_hull_is_told(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     right = digital.octree_hull
     wrong = {
         "octree_hull": lambda volume: replace(right(volume), filled=~right(volume).filled),
+        "voxel_hull": lambda volume, of: voxel_hull(ball(3), of),
         "by_scikit_image": lambda array: ~array,
     }
     monkeypatch.setattr(digital, "find_spec", lambda name: name == "skimage" or None)
@@ -74,7 +76,7 @@ def test_every_group_has_its_lines(monkeypatch: pytest.MonkeyPatch) -> None:
     without_scikit_image(monkeypatch)
     monkeypatch.setattr(digital, "figures", lambda largest: iter([Figure("a figure", (1.0,))]))
     found = list(digital.lines(31))
-    assert [line.split()[0] for line in found] == ["a", "ball:15:voxel,", "octree", "digital"]
+    assert [line.split()[0] for line in found] == ["a", "ball:15:voxel,", "octree", "voxel", "digital"]
 
 
 def test_growth_is_printed_and_drawn_with_slopes(
@@ -82,7 +84,11 @@ def test_growth_is_printed_and_drawn_with_slopes(
 ) -> None:
     pytest.importorskip("matplotlib")
     without_scikit_image(monkeypatch)
-    assert [curve.name for curve in digital.growth((3, 5))] == ["octree hull", "digital hull"]
+    assert [curve.name for curve in digital.growth((3, 5))] == [
+        "octree hull",
+        "voxel hull, cell list",
+        "digital hull",
+    ]
     assert [count for count, _ in digital.growth((3, 5))[0].points] == [ball(3).count, ball(5).count]
     curves = [Curve("ours", [(10, 1.0), (100, 10.0), (1000, 100.0)], {}), Curve("theirs", [(10, 2.0)], {})]
     monkeypatch.setattr(digital, "growth", lambda: curves)
@@ -105,8 +111,24 @@ def test_slopes_stand_in_the_names(monkeypatch: pytest.MonkeyPatch) -> None:
     assert (drawn[0].name, drawn[1:]) == ("one: slope 2.00", ["p.svg", "voxels"])
 
 
-def test_a_peak_is_that_of_the_process_alone() -> None:
+def test_whole_processes_are_measured(monkeypatch: pytest.MonkeyPatch) -> None:
+    run: list[list[str]] = []
+    monkeypatch.setattr(digital, "find_spec", lambda name: None)
+    monkeypatch.setattr(digital, "peak", lambda side, way: (side**3, 1e6))
+    monkeypatch.setattr("subprocess.run", lambda command, **options: run.append(command))
+    found = [figure for figure in digital.figures(256) if "a whole process" in figure.what]
+    assert [figure.what.split()[:2] for figure in found] == [
+        ["octree-hull", "ball:127,"],
+        ["octree-hull", "ball:254,"],
+        ["voxel-hull", "ball:255,"],
+    ]
+    assert [figure.note for figure in found[1:]] == ["1 MB; bar 10 s, 500 MB", "1 MB; bar 1.4 s"]
+    assert run[-1][-2:] == ["voxel-hull", "ball:255"]
+
+
+@pytest.mark.parametrize("way", ["octree", "voxel"])
+def test_a_peak_is_that_of_the_process_alone(way: str) -> None:
     held = np.ones(300_000_000, dtype=np.int8)
-    size, most = digital.peak(7, "octree")
+    size, most = digital.peak(7, way)
     assert size == 7**3
     assert 10e6 < most < held.nbytes
