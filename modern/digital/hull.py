@@ -2,8 +2,8 @@
 
 The hull is that of the two ends of every column; of these only the vertices of the rows' and columns' hulls are kept.
 Planes are of integers, and whether a voxel on a plane belongs is decided by integers.  For a 6-connected solid this is
-the digital convex hull of Yau and Srihari (section 3.3), and the grid points that Kovalevsky and Schulz's polyhedron of
-voxel centres contains.
+what Yau and Srihari take for its digital convex hull (section 3.3), and the grid points that Kovalevsky and Schulz's
+polyhedron of voxel centres contains.
 """
 
 from __future__ import annotations

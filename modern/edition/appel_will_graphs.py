@@ -47,7 +47,7 @@ def _graph(judge: ExactHull) -> Graph:
 
 def _cycles(graph: Graph) -> Iterator[frozenset[int]]:
     """Cycles without chords, each by its points and from its least one on, both ways round."""
-    paths = [(k,) for k in graph]
+    paths: list[tuple[int, ...]] = [(k,) for k in graph]
     while paths:
         path = paths.pop()
         for new in graph[path[-1]]:

@@ -124,12 +124,12 @@ def possible_output() -> Seen:
         program = programs.program(f"program{number}")
         cards = [line for k in EXAMPLES for one in prints(k) if one.program == number for line in _punched(one)]
         said = " ".join(line.text for line in program.statements)
-        for device, words in missing.items():
+        for device, lacking in missing.items():
             wanted = {int(found) for found in re.findall(rf"{device} *(\d+)", said)}
-            headings = [
-                item.text for k, form in program.formats if k in wanted for item in form.specs if _heading(item)
-            ]
-            words |= {heading for heading in headings if not any(heading in card for card in cards)}
+            headings = {
+                text for k, form in program.formats if k in wanted for text in map(_heading, form.specs) if text
+            }
+            lacking |= {heading for heading in headings if not any(heading in card for card in cards)}
     typed_only = {"ERROR IN PROGRAM", "DATA NOT ACCEPTABLE", "POINTS ARE COPLANAR", "POINTS ARE NOT COPLANAR"}
     good = not missing["PUNCH"] and missing["PRINT"] == typed_only
     return Seen(CONDITION if good else FAILS, f"of the headings punched all; not {', '.join(sorted(missing['PRINT']))}")
@@ -139,9 +139,9 @@ def _punched(one: Print) -> tuple[str, ...]:
     return tuple(one.lines) if one.device == "punch" else ()
 
 
-def _heading(item: object) -> bool:
-    """Whether a part of a FORMAT is words, more than a column's name."""
-    return isinstance(item, Literal) and len(item.text.strip()) > len("NO.")
+def _heading(item: object) -> str:
+    """The words of a part of a FORMAT that are more than a column's name."""
+    return item.text if isinstance(item, Literal) and len(item.text.strip()) > len("NO.") else ""
 
 
 def first_card() -> Seen:

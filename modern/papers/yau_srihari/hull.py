@@ -64,7 +64,7 @@ class OctreeHull:
     side: of the cube the trees divide.  solid, hull: octrees.  lowest, highest: quadtrees of floor and
     ceiling.  lower: the convex envelope of the floor; upper: that of the negative ceiling, heights negative.
     filled: the hull as truth values of the volume's shape.  components: how many 6-connected parts the volume has; of
-    one part the hull is the digital convex hull of section 3.3, of more it is the digital points of the Euclidean hull.
+    one part the hull, the digital points of the Euclidean one, is what section 3.3 takes for the digital convex hull.
     """
 
     side: int

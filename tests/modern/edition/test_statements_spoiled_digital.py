@@ -234,6 +234,11 @@ def with_a_voxel_more(right: Right) -> object:
     return lambda name: [*right(name), (1, 1, 1)]
 
 
+def with_a_voxel_beside(right: Right) -> object:
+    """The stairs hold a voxel beside the middle."""
+    return lambda name: [*right(name)[:-1], (2, 2, 1), right(name)[-1]]
+
+
 def closed_on_both_sides(_: Right) -> object:
     return lambda x, v: abs(x - v) <= Fraction(1, 2)
 
@@ -314,9 +319,9 @@ def closed_on_both_sides(_: Right) -> object:
         (yau, "floor_and_ceiling", "_hull", hulls(upside_down)),
         (yau, "floor_and_ceiling condition", "_hull", hulls(upside_down)),
         (yau, "between_the_envelopes condition", "_hull", hulls(without_a_face)),
-        (yau, "between_the_envelopes condition", "is_digitally_convex", always(True)),
-        (yau, "points_of_a_path", "is_digitally_convex", always(True)),
-        (yau, "points_of_a_path", "points_of", with_a_voxel_more),
+        (yau, "between_the_envelopes condition", "is_simple", always(True)),
+        (yau, "points_of_stairs", "is_simple", always(True)),
+        (yau, "points_of_stairs", "points_of", with_a_voxel_beside),
         (yau, "smallest_convex_solid", "_hull", hulls(the_solid_alone)),
         (yau, "smallest_convex_solid", "points_of", with_a_voxel_more),
         (yau, "integer_normals", "_hull", hulls(starting_normals_in_halves)),

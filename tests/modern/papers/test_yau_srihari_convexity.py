@@ -20,6 +20,7 @@ from modern.papers.yau_srihari.convexity import (
     midpoint_cover,
     voxels_of,
 )
+from modern.papers.yau_srihari.hull import components
 from tests.support.digital_judge import random_solid, solid_of
 
 RING = [
@@ -88,6 +89,16 @@ def test_digital_points_of_the_hull_of_a_connected_solid_need_not_be_convex() ->
     assert not is_digitally_convex(path)
     refused = sum(not is_digitally_convex(octree_hull(array).filled) for array in solids(100, 6))
     assert 0 < refused < 10
+
+
+def test_digital_points_of_the_hull_of_a_connected_solid_need_not_be_connected() -> None:
+    """Stairs of nine voxels: the middle of the ends is a voxel of the hull and touches no other by a face."""
+    steps = [(0, 0, 0), (0, 1, 0), (1, 1, 0), (1, 2, 0), (2, 2, 0), (3, 2, 0), (3, 2, 1), (4, 2, 1), (4, 2, 2)]
+    stairs = solid_of(steps)
+    assert components(stairs) == 1
+    filled = octree_hull(stairs).filled
+    assert {*voxels_of(filled)} - {*steps} == {(2, 1, 1)}
+    assert components(filled) == 2
 
 
 def test_a_bend_and_a_ring_are_not_convex() -> None:
