@@ -50,8 +50,18 @@ class Compiled:
         with suppress(RuntimeError):  # no folder can be written: the code is for this process only
             self.function = numba.njit(cache=True, **options)(self._entry)
 
+    @property
+    def keeps(self) -> bool:
+        """Whether there is a folder to keep the code in."""
+        return bool(self.function.stats.cache_path)
+
+    @property
+    def kept(self) -> bool:
+        """Whether code of this function is kept already, for whatever types."""
+        return any(self._indexes())
+
     def ready(self, *arguments: Any) -> Function:
-        """The function compiled for the types of these arguments, or loaded: seconds, once.
+        """The function compiled for the types of these arguments, or loaded: seconds, once, told on a terminal.
 
         Kept code that cannot be read is thrown away; what is compiled instead is for this process only.  Raises
         NotInstalled where numba cannot compile the function.
@@ -59,7 +69,8 @@ class Compiled:
         import numba
 
         types = tuple(map(numba.typeof, arguments))
-        with _without_collecting():
+        fresh = types not in self.function.overloads and self.keeps and not self.kept
+        with _said(f"compiling {self._entry.__name__}, once: some seconds" if fresh else ""), _without_collecting():
             try:
                 self.function.compile(types)
             except Exception:  # of no common kind: whatever a damaged file leads to
@@ -71,11 +82,27 @@ class Compiled:
                     raise _refused(error) from None
         return self.function  # type: ignore[no-any-return]
 
+    def _indexes(self) -> Iterator[Path]:
+        if self.keeps:
+            yield from Path(self.function.stats.cache_path).glob(f"*.{self._entry.__qualname__}-*.nbi")
+
     def _forget(self) -> None:
-        folder = self.function.stats.cache_path
-        for index in Path(folder).glob(f"*.{self._entry.__qualname__}-*.nbi") if folder else ():
+        for index in self._indexes():
             with suppress(OSError):
                 index.unlink()
+
+
+@contextmanager
+def _said(line: str) -> Iterator[None]:
+    """A line on the terminal, if there is one, wiped out at the end."""
+    file = sys.stderr if line and sys.stderr is not None and sys.stderr.isatty() else None
+    with suppress(OSError):
+        print(line, end="", file=file, flush=True) if file else None
+    try:
+        yield
+    finally:
+        with suppress(OSError):
+            print(f"\r{' ' * len(line)}\r", end="", file=file, flush=True) if file else None
 
 
 @contextmanager

@@ -44,11 +44,8 @@ _KINDS = {"E": devices.E_FIELD, "F": devices.F_FIELD, "I": devices.I_FIELD}
 _CARD_CODES = "".join(sorted(CHARACTERS)).encode("ascii")
 
 
-def why_plain(options: Options) -> str:
-    """Why the compiled engine cannot run with these options, one line; empty where it can.
-
-    Code that cannot be made or loaded is found out by :class:`Runner`.
-    """
+def unsuited(options: Options) -> str:
+    """Why the compiled engine cannot run with these options, wherever it is; one line, empty where it can."""
     if not isinstance(options.numbers, DecimalNumbers):
         return f"the compiled engine has no {options.numbers.name} numbers: {INSTEAD}"
     if options.uncut:
@@ -56,6 +53,16 @@ def why_plain(options: Options) -> str:
     profile = options.numbers.profile
     if profile.digits > MAX_DIGITS:
         return f"{profile.name} has {profile.digits} digits, the compiled engine has at most {MAX_DIGITS}: {INSTEAD}"
+    return ""
+
+
+def why_plain(options: Options) -> str:
+    """Why the compiled engine cannot run with these options here, one line; empty where it can.
+
+    Code that cannot be made or loaded is found out by :class:`Runner`.
+    """
+    if why := unsuited(options):
+        return why
     try:
         run_decks()
     except NotInstalled as error:

@@ -8,6 +8,7 @@ from contextlib import ExitStack, closing
 from pathlib import Path
 from typing import Any
 
+from emulator.compiled.making import being_made
 from emulator.compiled.runner import why_plain
 from emulator.language.cards import deck_from_lines
 from emulator.machine.machine import Machine
@@ -33,6 +34,8 @@ from modern.study.workers import connect, in_processes, on_cluster, processes
 
 MOST_FILES = 1_000_000
 """Files of rows a study may have: their names are held in memory while it runs."""
+COMPILING = "compiling the engine, once"
+"""What progress says while the plain engine runs because the other is being made."""
 
 Reporter = Callable[[Plan, Store], Report]
 
@@ -72,8 +75,10 @@ def run_study(
         for line in () if quiet or client else plain_lines(plan):
             print(line, file=sys.stderr)
         store = stack.enter_context(closing(Store.open(folder, plan)))
+        # A cluster's workers compile for themselves.
+        compiling = None if client or not _compiled(plan) else stack.enter_context(being_made())
         with watching() as interrupt:
-            _complete(plan, store, client, workers or processes(), quiet, interrupt)
+            _complete(plan, store, client, workers or processes(), quiet, interrupt, compiling)
         found = report(plan, store)
         without = can_plot()
         if without and not quiet:
@@ -89,17 +94,25 @@ def run_study(
 
 def plain_lines(plan: Plan) -> tuple[str, ...]:
     """Why routes of a plan run on the plain engine, a line for each reason; none where all can be compiled."""
-    routes = dict.fromkeys(route for cell in plan.cells for route in cell.routes if isinstance(route, Programs))
-    return tuple(line for line in dict.fromkeys(why_plain(options_of(route)) for route in routes) if line)
+    return tuple(line for line in dict.fromkeys(why_plain(options_of(route)) for route in _of_programs(plan)) if line)
+
+
+def _compiled(plan: Plan) -> bool:
+    """Whether the compiled engine has anything to run."""
+    return any(not why_plain(options_of(route)) for route in _of_programs(plan))
+
+
+def _of_programs(plan: Plan) -> Iterable[Programs]:
+    """Routes of a plan that run the programs, each once."""
+    return dict.fromkeys(route for cell in plan.cells for route in cell.routes if isinstance(route, Programs))
 
 
 def cut_lines(plan: Plan) -> tuple[str, ...]:
     """Where digits beyond those of a card are lost between the programs, a line a route."""
-    routes = dict.fromkeys(route for cell in plan.cells for route in cell.routes if isinstance(route, Programs))
     return tuple(
         f"route {route.name}: the cards between the programs hold {CARD_DIGITS} digits of a number; "
         "uncut = true keeps them all"
-        for route in routes
+        for route in _of_programs(plan)
         if not route.uncut and not _fits_cards(route)
     )
 
@@ -109,12 +122,27 @@ def _fits_cards(route: Programs) -> bool:
     return isinstance(found, DecimalNumbers) and found.profile.rules[0] <= CARD_DIGITS
 
 
-def _complete(plan: Plan, store: Store, client: Any, workers: int, quiet: bool, interrupt: Interrupt) -> None:
+def _complete(
+    plan: Plan,
+    store: Store,
+    client: Any,
+    workers: int,
+    quiet: bool,
+    interrupt: Interrupt,
+    compiling: Path | None,
+) -> None:
     """The chunks that are not there, done and kept one by one.  Raises KeyboardInterrupt after a first Ctrl-C."""
+
+    def aside() -> str:
+        return COMPILING if compiling and compiling.exists() else ""
+
     missing = store.missing()
     left = sum(chunk.stop - chunk.start for chunk in missing)
-    progress = Progress(plan.samples, plan.samples - left, quiet=quiet)
-    done = on_cluster(plan, missing, client) if client else in_processes(plan, missing, workers, interrupt)
+    progress = Progress(plan.samples, plan.samples - left, quiet=quiet, aside=aside)
+    if client:
+        done = on_cluster(plan, missing, client)
+    else:
+        done = in_processes(plan, missing, workers, interrupt, compiling)
     try:
         with closing(done):
             for chunk, text in done:

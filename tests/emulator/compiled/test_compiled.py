@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import io
 import json
 import linecache
 import os
@@ -195,6 +196,22 @@ def test_what_numba_cannot_compile_is_one_line(tmp_path: Path, kept: Path) -> No
     code = made(tmp_path, "def entry(x):\n    return open(x)\n")
     with pytest.raises(NotInstalled, match=r"^numba cannot make the compiled code: TypingError: [^\n]*$"):
         code.ready(5)
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+def test_compiling_is_told_on_a_terminal_and_loading_is_not(
+    tmp_path: Path, kept: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for file, written in ((Terminal(), True), (Terminal(), False), (io.StringIO(), False)):
+        monkeypatch.setattr(sys, "stderr", file)
+        made(tmp_path).ready(5)
+        line, _, wiped = file.getvalue().partition("\r")
+        assert bool(line) == written
+        assert (line, wiped) in (("", ""), ("compiling entry, once: some seconds", " " * len(line) + "\r"))
 
 
 def test_the_functions_stay_as_they_are(tmp_path: Path, kept: Path) -> None:
