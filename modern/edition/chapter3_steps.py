@@ -176,11 +176,14 @@ def between_by_distances() -> Seen:
     """On a line of a whole direction distances are whole, and the sums tell which point is between."""
     found = []
     for a, b, c in ((0, 5, 2), (0, 2, 5), (5, 0, -3), (1, 0, 2)):
-        d1, d2, d3 = (5 * abs(p - q) for p, q in ((b, a), (a, c), (b, c)))
-        middle = sorted((a, b, c))[1]
-        said = a if d1 + d2 - d3 == 0 else b if d1 + d3 - d2 == 0 else c
-        found.append(said == middle)
+        said = _between(a, b, c, *(5 * abs(p - q) for p, q in ((b, a), (a, c), (b, c))))
+        found.append(said == sorted((a, b, c))[1])
     return _all(found, "cases, points (3t, 4t)")
+
+
+def _between(a: int, b: int, c: int, ab: int, ac: int, bc: int) -> int:
+    """Which of three points of a line is between the others, by the sums of their distances."""
+    return a if ab + ac - bc == 0 else b if ab + bc - ac == 0 else c
 
 
 def doubled_lines() -> Seen:

@@ -136,7 +136,7 @@ def proof_of_4_4(part: str) -> Seen:
         xa, ya, xb, yb = (Fraction(random.randint(-9, 9)) for _ in range(4))
         share = Fraction(random.randint(1, 9), 10)
         xk, yk = (1 - share) * xa + share * xb, (1 - share) * ya + share * yb
-        c = xa * yb + xb * yk + ya * xk - yb * xk - xa * yk - xb * ya
+        c = _c_0((xa, ya), (xb, yb), (xk, yk))
         coefficient.append(c == (xb - xa) * (yk - ya) - (yb - ya) * (xk - xa))
         rest = 1 - share
         printed = [xa * yb, -xa * yb * share, -xa * yb * rest, xa * yb * rest, xa * yb * share, -xa * yb]
@@ -149,6 +149,12 @@ def proof_of_4_4(part: str) -> Seen:
     return Seen(
         CONDITION if all(total) and not any(terms) else FAILS, "both are 0; the terms differ from the substitution's"
     )
+
+
+def _c_0(a: tuple[Fraction, ...], b: tuple[Fraction, ...], k: tuple[Fraction, ...]) -> Fraction:
+    """C_0 of three points of the x-y plane as page 46 prints it."""
+    (xa, ya), (xb, yb), (xk, yk) = a, b, k
+    return xa * yb + xb * yk + ya * xk - yb * xk - xa * yk - xb * ya
 
 
 def _letters(p: Point, q: Point, r: Point) -> bool:
@@ -280,7 +286,7 @@ def lines_of_figure_3(kind: str = "") -> Seen:
     """P_3 at the origin, P_1 = (x1, y1), P_2 = (x1, y2) with y1 below y2: the printed lines, outward."""
     good = []
     for x1, y1, y2 in ((3, -1, 2), (5, -4, -1), (2, 1, 6)):
-        lines: tuple[tuple[int, int, int], ...] = ((1, 0, -x1), (y1, -x1, 0), (-y2, x1, 0))
+        lines = _printed_lines(x1, y1, y2)
         triangle = ((0, 0), (x1, y1), (x1, y2))
         for a, b, c in lines:
             values = [a * x + b * y + c for x, y in triangle]
@@ -292,6 +298,11 @@ def lines_of_figure_3(kind: str = "") -> Seen:
     if not all(good):
         return Seen(FAILS, words)
     return Seen(CONDITION if kind else HOLDS, words)
+
+
+def _printed_lines(x1: int, y1: int, y2: int) -> tuple[tuple[int, int, int], ...]:
+    """Equations (1), (2) and (3) of page 53."""
+    return (1, 0, -x1), (y1, -x1, 0), (-y2, x1, 0)
 
 
 def none_below_the_origin(count: str = COUNT) -> Seen:

@@ -86,6 +86,20 @@ def an_edge_less(right: Right) -> object:
     return changed
 
 
+def points(*found: tuple[int, int, int]) -> Callable[[Right], object]:
+    """Another counterexample, which is none."""
+    return lambda _: lambda name: [*found]
+
+
+def as_corrected_steps(_: Right) -> object:
+    return lambda *names: appel_will.Method()
+
+
+def closed(right: Right) -> object:
+    """A tetrahedron instead of the mesh."""
+    return lambda *arguments: SimpleNamespace(faces=[(0, 1, 2), (0, 2, 3), (0, 3, 1), (1, 3, 2)])
+
+
 def a_vertex_missing(right: Right) -> object:
     def changed(*arguments: Right) -> object:
         return [(points, replace(judge, vertices=judge.vertices[1:])) for points, judge in right(*arguments)]
@@ -203,6 +217,16 @@ def other_side_up(right: Right) -> object:
         (appel_will, "properties 5", "exact_hull", all_are_vertices),
         (appel_will, "surface_area", "ARM", lambda _: 0),
         (appel_will, "surface_area", "_surface", always(100)),
+        (
+            appel_will,
+            "jarvis_by_the_letter",
+            "points_of",
+            points((-9, -9, 0), (0, 0, 0), (9, 0, 0), (9, 9, 0), (0, 9, 0)),
+        ),
+        (appel_will, "step_by_the_letter step5", "printed", as_corrected_steps),
+        (appel_will, "step_by_the_letter step7", "printed", as_corrected_steps),
+        (appel_will, "step_by_the_letter step9", "printed", as_corrected_steps),
+        (appel_will, "step_by_the_letter step10", "printed", as_corrected_steps),
         (appel_will, "star_by_the_letter", "as_printed", lambda _: appel_will.as_corrected),
         (details, "closed_loops", "_joined", an_inner_line_too_many),
         (details, "closed_loops twice", "_joined", an_inner_line_too_many),
@@ -221,6 +245,8 @@ def other_side_up(right: Right) -> object:
         (objects, "line_must_run", "triple_product", lambda right: lambda *vectors: abs(right(*vectors))),
         (objects, "many_objects_one_hull", "exact_hull", fewer_points),
         (objects, "normal_line", "through", a_plane_beside),
+        (objects, "product_of_directions", "points_of", points((4, 0, 0), (0, 0, 0), (3, 2, 0))),
+        (objects, "surface_three", "parse_off", closed),
         (objects, "preprocessing_saves", "appel_will", no_inside_corners),
         (objects, "preprocessing_saves cheap", "appel_will", no_inside_corners),
         (objects, "surfaces_first redundant", "bent", a_surface_missing),

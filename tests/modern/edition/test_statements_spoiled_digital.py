@@ -9,6 +9,7 @@ from itertools import permutations
 from types import ModuleType
 from typing import Any
 
+import numpy as np
 import pytest
 
 import modern.edition.kovalevsky_schulz_claims as kovalevsky
@@ -239,6 +240,15 @@ def with_a_voxel_beside(right: Right) -> object:
     return lambda name: [*right(name)[:-1], (2, 2, 1), right(name)[-1]]
 
 
+def every_corner(_: Right) -> object:
+    """All corners of voxels are local corners."""
+    return lambda volume, *of: np.argwhere(raster.places(volume, raster.VERTICES))
+
+
+def without_faces(right: Right) -> object:
+    return lambda given: replace(right(given), facets=())
+
+
 def closed_on_both_sides(_: Right) -> object:
     return lambda x, v: abs(x - v) <= Fraction(1, 2)
 
@@ -264,6 +274,9 @@ def closed_on_both_sides(_: Right) -> object:
         (kovalevsky, "integers_a_face", "_table_5", one_integer_less_at_18),
         (kovalevsky, "integers_of_triangles", "triangulation_size", one_integer_more),
         (kovalevsky, "local_corners_are_enough", "local_corners", lacking_the_first),
+        (kovalevsky, "pairs_are_not_combinations", "local_corners", lambda right: lambda *given: right(*given)[:0]),
+        (kovalevsky, "pairs_are_not_combinations", "exact_hull", all_are_vertices),
+        (kovalevsky, "symmetric_faces", "_is_symmetric", always(True)),
         (kovalevsky, "quadrangles", "coplanar_hull", only_as(EXTENDED)),
         (kovalevsky, "third_treatment", "coplanar_hull", only_as(QUADRANGLES)),
         (kovalevsky, "third_treatment crossing", "coplanar_hull", only_as(QUADRANGLES)),
@@ -300,11 +313,15 @@ def closed_on_both_sides(_: Right) -> object:
         (lemmas, "polyhedron_is_a_complex", "grown", judges(a_face_of_one_corner)),
         (lemmas, "section", "_cosine", not_squared),
         (lemmas, "smaller_loses_a_vertex", "value", always(0)),
+        (lemmas, "coefficients_by_cosines", "_cosine", always(Fraction(1, 2))),
+        (lemmas, "smaller_polyhedron", "value", always(-1)),
+        (lemmas, "smaller_polyhedron moved", "value", always(-1)),
         (lemmas, "third_condition", "convex_polyhedron", beside_each_other),
         (lemmas, "two_do_not_do", "exact_hull", all_are_vertices),
         (lemmas, "two_do_not_do", "cross", always((0, 0, 0))),
         (raster, "corners_of_eight_voxels edge", "_neighbours", from_all_sides),
         (raster, "corners_of_eight_voxels more", "_neighbours", from_one_axis),
+        (raster, "single_voxel", "local_corners", every_corner),
         (raster, "edges_at_a_corner", "ends_at", diagonals_too),
         (raster, "topological_raster", "cells_of", lambda _: lambda n: 8 * n**3),
         (raster, "topological_raster cells", "product", lambda right: lambda r, repeat: right(range(2), repeat=repeat)),
@@ -340,8 +357,10 @@ def closed_on_both_sides(_: Right) -> object:
         (yau, "printed start", "octree_hull", as_corrected),
         (yau, "printed triangles", "octree_hull", as_corrected),
         (yau, "printed truncation", "octree_hull", as_corrected),
+        (yau, "supporting_is_no_face", "exact_hull", without_faces),
         (yau, "voxels_fill_space", "in_voxel", closed_on_both_sides),
         (convexity, "convex_functions negative", "_negative", as_it_is),
+        (convexity, "convex_functions", "FUNCTIONS", lambda right: right[1:]),
         (convexity, "definitions_differ", "is_midpoint_convex", lambda _: convexity.is_digitally_convex),
         (convexity, "half_cell_expansion_", "half_cell_expansion", as_it_is),
         (convexity, "midpoint_convexity", "is_midpoint_convex", always(True)),

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import Any
 
@@ -18,7 +20,7 @@ import modern.edition.chapter4_proofs as proofs
 import modern.edition.chapter7_claims as limits
 from modern.edition.chapter6 import input_deck
 from modern.edition.sampled_sets import SampledSet
-from modern.edition.statements import FAILS, HOLDS, Seen
+from modern.edition.statements import DOCUMENTS, FAILS, HOLDS, Seen, statements_of
 from modern.formats.deck import data_deck
 from tests.support.caches import cleared
 
@@ -171,6 +173,11 @@ def a_z_that_is_right(_: Right) -> object:
     return lambda name: data_deck([["1", "1", "1"]] * 3, "right")
 
 
+def with_two_lines_exchanged(right: Right) -> object:
+    """y1 and y2 change places."""
+    return lambda x1, y1, y2: right(x1, y2, y1)
+
+
 def a_constant_more(right: Right) -> object:
     return lambda *arguments: (*right(*arguments)[:-1], right(*arguments)[-1] + 1)
 
@@ -208,6 +215,7 @@ SAME = ({0, 1}, {0, 1})
         (chapter3, "procedure_is_right", "both", judges_lacking_a_face),
         (chapter3, "same_hull_in_any_order", "exact_hull", first_three_only),
         (stages, "eliminated", "convex_hull", hulls(without_boundary)),
+        (steps, "between_by_distances", "_between", lambda right: lambda a, b, c, *far: right(b, a, c, *far)),
         (steps, "between_the_ends", "exact_hull", all_are_vertices),
         (steps, "choice_of_projection", "_image_area", always(0)),
         (steps, "coplanar_iff", "plane_as_printed", always((0, 0, 0, 0))),
@@ -265,6 +273,10 @@ SAME = ({0, 1}, {0, 1})
         (proofs, "figure 4", "approximations", it_fails),
         (proofs, "inequalities_without_z", "points_of", points((0, 0, 0))),
         (proofs, "line_stays", "points_of", points((0, 0, 0), (4, 0, 0), (0, 4, 0), (5, 5, 0))),
+        (proofs, "lines_of_figure_3", "_printed_lines", with_two_lines_exchanged),
+        (proofs, "lines_of_figure_3 condition", "_printed_lines", with_two_lines_exchanged),
+        (proofs, "proof_of_4_4 coefficient", "_c_0", lambda right: lambda a, b, k: right(a, b, k) + 1),
+        (proofs, "proof_of_4_4 sum", "_c_0", lambda right: lambda a, b, k: right(a, b, k) + 1),
         (proofs, "none_below_the_origin", "value", turned_over),
         (proofs, "theorem_4_3", "value_v", it_fails),
         (proofs, "theorem_4_4", "exact_hull", all_are_vertices),
@@ -311,3 +323,11 @@ def test_a_claim_on_spoiled_ground_has_another_verdict(
         patch.setattr(module, name, spoil(getattr(module, name)))
         spoiled = getattr(module, function)(*arguments).verdict
     assert spoiled != right
+
+
+def test_every_claim_of_the_five_documents_is_spoiled_somewhere() -> None:
+    """Each claim's function is named in a test beside this one."""
+    texts = "".join(path.read_text(encoding="utf-8") for path in Path(__file__).parent.glob("test_statements_*.py"))
+    rows = (row for document in DOCUMENTS for row in statements_of(document))
+    functions = {row.claim.partition(".")[2].split()[0] for row in rows if row.claim}
+    assert sorted(name for name in functions if not re.search(rf'[".]{name}\b', texts)) == []
