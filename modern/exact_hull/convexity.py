@@ -10,7 +10,7 @@ d. at every edge, the polygon beyond it is strictly inside of this polygon's pla
 e. the ray from o through the middle of the first triangle meets no other triangle, where every polygon is cut into
    triangles from its first corner;
 f. every other point has been found in the cone from o over one triangle, and is inside of that facet's plane, or on
-   it if and only if it is called boundary; or, where the cone was in doubt, it has been put into every plane.
+   it if and only if it is called boundary; or, where no cone was found, it has been put into every plane.
 
 Why this proves it (Mehlhorn, Naeher, Seel, Seidel, Schilz, Schirra and Uhrig, Checking geometric programs or
 verification of geometric structures, Computational Geometry 12 (1999), 85-103, prove c, d and e enough for closed
@@ -36,7 +36,9 @@ simplicial surfaces of any dimension; for polygons in space it runs as follows).
 4. A point x in the cone over f has g(x) = L(f)(x): it is in K if and only if v(x) <= 0, and on the surface if and
    only if v(x) = 0.  By f every point is in K; and K is the hull of its corners, which are points.
 
-How a cone is found is of no account: a walk from cone to cone over planes through o that the point is beyond.
+How a cone is found is of no account: a walk from cone to cone over planes through o that the point is beyond, in
+float64, and where these leave a doubt in integers.  Points on an edge of the hull are always in doubt: they are in the
+plane through o and the edge, and so in the cones of both sides.
 
 Signs are computed in float64 first.  The points' box has the corner c, and each axis its own power of two s not less
 than the box's side: the image of x is (x - c) / s, from 0 to 1.  A normal's image is (A sx, B sy, C sz) / w, w the
@@ -61,8 +63,10 @@ Most points of a large set are nearer to o than any plane, which one distance ea
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from modern.exact_hull.coordinates import IntPoint
 from modern.exact_hull.incidences import BOUND, Incidences
@@ -84,6 +88,8 @@ _BLOCK = 1 << 12
 _BALL = 2.0**-40
 _STARTS = 256
 """Triangles among which a walk's first is chosen."""
+_STEPS = 64
+"""Steps of a walk in integers, which begins beside the cone."""
 
 
 class Undecided(Exception):
@@ -149,6 +155,11 @@ class _Proof:
     evaluations: int = 0
     in_integers: int = 0
 
+    @cached_property
+    def middle(self) -> tuple[IntPoint, int]:
+        """o as integers and what to divide them by."""
+        return self.images.exactly(self.o)
+
     def signs(self, facets: Ints, points: Ints) -> Ints:
         """Signs of planes at points, pair by pair."""
         base = self.images.places[self.sides.corner[self.sides.first[facets]]]
@@ -168,7 +179,7 @@ class _Proof:
         found = np.einsum("ij,ij->i", self.normals, self.o - bases)
         for facet in np.flatnonzero(~(found < -BOUND)).tolist():
             a, b, c, d = self.hull.facets[facet].plane
-            (x, y, z), weight = self.images.exactly(self.o)
+            (x, y, z), weight = self.middle
             self.in_integers += 1
             if a * x + b * y + c * z + d * weight >= 0:
                 raise Undecided(f"facet {facet} has the middle of the vertices outside")
@@ -184,7 +195,7 @@ class _Proof:
 
     def wall_sign(self, triangle: int, edge: int, place: Floats | int) -> int:
         """The exact sign of m . (x - o); x is a point, or what has an image."""
-        o, weight = self.images.exactly(self.o)
+        o, weight = self.middle
         corners = self.cones.corners[triangle].tolist()
 
         def from_o(point: IntPoint, divisor: int = 1) -> IntPoint:
@@ -230,7 +241,9 @@ class _Proof:
         facets = np.full(len(points), -1)
         for start in range(0, len(far), _BLOCK):
             block = far[start : start + _BLOCK]
-            triangles = self._located(away[block])
+            triangles, sure = self._located(away[block])
+            for k in np.flatnonzero(~sure).tolist():
+                triangles[k] = self._walked(int(triangles[k]), int(points[block[k]]))
             known = triangles >= 0
             facets[block[known]] = self.cones.facet[triangles[known]]
             found[block[known]] = self.signs(facets[block[known]], points[block[known]])
@@ -245,27 +258,36 @@ class _Proof:
             where = "not on" if found[place] else "on"
             raise CertificateError(f"point {points[place]} is {where} a facet, its class says otherwise")
 
-    def _located(self, away: Floats) -> Ints:
-        """For each of the differences from o the triangle whose cone it is in for certain, or -1."""
+    def _located(self, away: Floats) -> tuple[Ints, NDArray[np.bool_]]:
+        """For each of the differences from o the triangle whose cone it is in, and whether that is certain."""
         cones = self.cones
         some = np.linspace(0, len(cones.corners) - 1, min(_STARTS, len(cones.corners))).astype(np.int64)
         middles = self.images.places[cones.corners[some]].mean(axis=1) - self.o
         middles /= np.sqrt((middles**2).sum(axis=1))[:, None]
         at: Ints = some[(away @ middles.T).argmax(axis=1)]
+        sure = np.ones(len(away), np.bool_)
         walking = np.arange(len(away))
         for _ in range(len(cones.corners) + 1):
             found = np.einsum("ijk,ik->ij", cones.walls[at[walking]], away[walking])
             edge = found.argmin(axis=1)
             least: Floats = found[np.arange(len(found)), edge]
             beyond = least < -BOUND
-            doubtful = walking[~(least > BOUND) & ~beyond]
+            sure[walking[~(least > BOUND) & ~beyond]] = False
             walking, edge = walking[beyond], edge[beyond]
             at[walking] = cones.beyond[at[walking], edge]
-            at[doubtful] = -1
             if not walking.size:
                 break
-        at[walking] = -1
-        return at
+        sure[walking] = False
+        return at, sure
+
+    def _walked(self, triangle: int, point: int) -> int:
+        """The triangle whose cone a point is in, by exact signs, from a triangle beside it on; or -1."""
+        for _ in range(_STEPS):
+            beyond = [edge for edge in range(3) if self.wall_sign(triangle, edge, point) < 0]
+            if not beyond:
+                return triangle
+            triangle = int(self.cones.beyond[triangle, beyond[0]])
+        return -1
 
     def _in_every_plane(self, points: Ints) -> tuple[Ints, Ints]:
         """For each point a facet whose plane it is outside of, or else on, if there is one; and its sign there."""

@@ -216,11 +216,22 @@ def test_every_point_is_decided_in_its_cone_as_in_every_plane(name: str, monkeyp
     points = SETS[name]
     hull = exact_hull(points)
     cones = certify(points, hull)
-    monkeypatch.setattr(convexity._Proof, "_located", lambda proof, away: np.full(len(away), -1))
+    monkeypatch.setattr(convexity._Proof, "_located", lambda proof, away: (np.zeros(len(away), int), away[:, 0] > 9))
     monkeypatch.setattr(convexity, "_BALL", math.inf)
+    walked = certify(points, hull)
+    assert (walked.edges, walked.facets, walked.vertices) == (cones.edges, cones.facets, cones.vertices)
+    monkeypatch.setattr(convexity._Proof, "_walked", lambda proof, triangle, point: -1)
     planes = certify(points, hull)
     assert planes.evaluations >= cones.evaluations
     assert (planes.edges, planes.facets, planes.vertices) == (cones.edges, cones.facets, cones.vertices)
+
+
+@pytest.mark.parametrize("name", SETS)
+def test_a_point_on_an_edge_is_put_into_one_plane_alone(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    points = SETS[name]
+    hull = exact_hull(points)
+    monkeypatch.setattr(convexity._Proof, "_in_every_plane", None)
+    assert certify(points, hull).facets == len(hull.facets)
 
 
 def test_no_wrong_cone_is_believed() -> None:
@@ -234,13 +245,17 @@ def test_no_wrong_cone_is_believed() -> None:
     proof = convexity._Proof(hull, sides, None, images, None, o, cones)
     rng = np.random.default_rng(3)
     away = rng.normal(size=(500, 3)) * 0.2
-    found = proof._located(away)
-    assert (found >= 0).all()
+    found, sure = proof._located(away)
+    assert sure.all()
     for place, triangle in zip(away, found, strict=True):
         a, b, c = (images.places[k] - o for k in cones.corners[triangle])
         assert (np.linalg.solve(np.stack([a, b, c], axis=1), place) > 0).all()
     along = images.places[cones.corners[:, 0]] - o
-    assert (proof._located(along) == -1).all()
+    assert not proof._located(along)[1].any()
+    for triangle, corners in enumerate(cones.corners.tolist()):
+        holding = [k for k, others in enumerate(cones.corners.tolist()) if corners[0] in others]
+        assert proof._walked(triangle, corners[0]) == triangle
+        assert proof._walked((triangle + 7) % len(cones.corners), corners[0]) in holding
 
 
 @pytest.mark.parametrize(("digits", "long"), [(2, 0), (8, 0), (16, 0), (40, 0), (400, 0), (2, 90), (2, 1200)])
