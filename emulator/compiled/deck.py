@@ -33,8 +33,10 @@ from emulator.compiled.devices import (
     VERB,
     Cards,
     Code,
+    Desk,
     Forms,
     Report,
+    Tools,
     begin,
     end_record,
     error,
@@ -72,7 +74,15 @@ Setting = tuple[int, int, int, int]
 
 
 def run_decks(
-    code: Code, forms: Forms, start: Start, cards: Cards, core: Core, report: Report, rules: Rules, setting: Setting
+    code: Code,
+    forms: Forms,
+    start: Start,
+    cards: Cards,
+    core: Core,
+    tools: Tools,
+    report: Report,
+    rules: Rules,
+    setting: Setting,
 ) -> int:
     """Run one deck after the other; how many were run.
 
@@ -80,13 +90,18 @@ def run_decks(
     """
     used = 0
     for d in range(len(cards.first) - 1):
-        load(forms, start, core, report, d)
-        devices, ends = core.devices, report.ends[d]
+        devices, ends = tools.devices, report.ends[d]
+        registers, numbers, errors = report.registers[d], report.numbers[d], report.errors[d]
+        desk = Desk(tools.texts, devices, tools.line, tools.field, registers, numbers, errors, report.log)
+        load(forms, start, core, desk)
+        clear(report.counts[d])
+        clear(report.pauses[d])
         devices[USED] = used
         devices[NEXT] = cards.first[d]
         devices[FIRST_CARD] = cards.first[d]
         devices[LAST_CARD] = cards.first[d + 1]
-        reason = run_deck(code, forms, cards, core, report, d, rules, setting)
+        counts, before, pauses = report.counts[d], report.before[d], report.pauses[d]
+        reason = run_deck(code, forms, cards, core, desk, counts, before, pauses, rules, setting)
         if reason == LOG_FULL:
             return d
         ends[REASON] = reason
@@ -94,27 +109,25 @@ def run_decks(
         ends[LOG_FROM] = used
         used = devices[USED]
         ends[LOG_TO] = used
-        address = report.registers[d][ADDRESS]
+        address = registers[ADDRESS]
         ends[HELD] = core.exponents[address] if 0 <= address < len(core.exponents) else 0
     return len(cards.first) - 1
 
 
-def load(forms: Forms, start: Start, core: Core, report: Report, d: int) -> None:
-    """Core and row ``d`` of the report as they are before a run."""
+def load(forms: Forms, start: Start, core: Core, desk: Desk) -> None:
+    """Core and desk as they are before a run."""
     for k in range(len(start.mantissas)):
         core.mantissas[k] = start.mantissas[k]
         core.exponents[k] = start.exponents[k]
     for k in range(len(forms.texts)):
-        core.texts[k] = forms.texts[k]
+        desk.texts[k] = forms.texts[k]
     for k in range(DEVICES):
-        core.devices[k] = 0
-    core.devices[FIRST_READ] = -1
-    clear(report.registers[d])
-    clear(report.counts[d])
-    clear(report.numbers[d])
-    clear(report.errors[d])
-    clear(report.pauses[d])
-    report.registers[d][CHARACTERISTIC] = ZERO
+        desk.devices[k] = 0
+    desk.devices[FIRST_READ] = -1
+    clear(desk.registers)
+    clear(desk.numbers)
+    clear(desk.errors)
+    desk.registers[CHARACTERISTIC] = ZERO
 
 
 def clear(row: Row) -> None:
@@ -123,12 +136,21 @@ def clear(row: Row) -> None:
 
 
 def run_deck(
-    code: Code, forms: Forms, cards: Cards, core: Core, report: Report, d: int, rules: Rules, setting: Setting
+    code: Code,
+    forms: Forms,
+    cards: Cards,
+    core: Core,
+    desk: Desk,
+    counts: Row,
+    before: Row,
+    pauses: Row,
+    rules: Rules,
+    setting: Setting,
 ) -> int:
     """Run the deck the devices are set to; how it ended."""
     limit, strict, announces, any_read = setting
-    core.devices[ANY_READ] = any_read
-    registers, counts = report.registers[d], report.counts[d]
+    marks, devices, registers = code.marks, desk.devices, desk.registers
+    devices[ANY_READ] = any_read
     now = limit - min(LOOP_WINDOW, limit // 2)
     last = False
     while True:
@@ -137,15 +159,15 @@ def run_deck(
         address = registers[ADDRESS]
         status = GO_ON
         if reason == AT_ITEM:
-            status = item(code, forms, cards, core, report, d, rules, announces)
+            status = item(marks, forms, cards, core, desk, rules, announces)
         elif reason == AT_BEGIN:
-            status = begin(code, forms, cards, core, report, d)
+            status = begin(marks, forms, cards, desk)
         elif reason == AT_FINISH:
-            status = to_field(code, forms, cards, core, report, d, False)
-            if status == GO_ON and core.devices[VERB] != READ:
-                status = end_record(code, cards, core, report, d)
+            status = to_field(marks, forms, cards, desk, False)
+            if status == GO_ON and devices[VERB] != READ:
+                status = end_record(marks, cards, desk)
         elif reason == AT_EVENT:
-            status = error(registers[EVENT], code, core, report, d, announces)
+            status = error(registers[EVENT], marks, desk, announces)
         elif reason == AT_POWERX and (rules[POWERS_MULTIPLY] or -1 <= core.mantissas[address] <= 2):
             if registers[FAC] != 0 and not -1 <= core.mantissas[address] <= 2:
                 owe(registers, multiplied(core.mantissas[address]))
@@ -155,7 +177,7 @@ def run_deck(
             registers[FAC] = m
             registers[CHARACTERISTIC] = e
             if event:
-                status = error(event, code, core, report, d, announces)
+                status = error(event, marks, desk, announces)
         elif reason == AT_FUNCTION:
             if code.roots[address] == 0:
                 return NOT_HERE
@@ -165,12 +187,10 @@ def run_deck(
             registers[FAC] = m
             registers[CHARACTERISTIC] = e
         elif reason == AT_PAUSE:
-            pauses = report.pauses[d]
-            if pauses[code.statements[pc]] == 0:
-                core.devices[PAUSES] += 1
-                pauses[code.statements[pc]] = core.devices[PAUSES]
+            if pauses[marks.statements[pc]] == 0:
+                devices[PAUSES] += 1
+                pauses[marks.statements[pc]] = devices[PAUSES]
         elif reason == AT_LIMIT and not last:
-            before = report.before[d]
             for k in range(len(counts)):
                 before[k] = counts[k]
             now = limit

@@ -40,6 +40,12 @@ DEVICES = 13
 REASON, CARDS_READ, LOG_FROM, LOG_TO, HELD = range(5)
 ENDS = 5
 
+# Numbers of a FORMAT and of a specification.
+FIRST, LAST, AGAIN, FIELDS, CHARGE = range(5)
+FORM = 5
+KIND, WIDTH, DECIMALS, PLACE = range(4)
+PART = 4
+
 BEGUN, TAKEN, PUNCHED, TYPED, LINE_END = b"BRPT\n"
 F8 = 9
 """The error code F8 among the others, E1 to E8."""
@@ -51,31 +57,32 @@ STAMP = 6
 """Digits of a number in the log."""
 
 
-class Code(NamedTuple):
-    """Object code, the statement of each instruction, 1 for each function that is SQRT, and the verbs."""
+# The functions below are given few sequences: numba hands each over as seven numbers and more, in every call.
+class Marks(NamedTuple):
+    """What devices need of object code: the second number and the statement of each instruction, and the verbs."""
 
-    flat: Flat
+    seconds: Row
     statements: Row
-    roots: Row
     verbs: Row
 
 
-class Forms(NamedTuple):
-    """All FORMATs, one after the other: of each its bounds, where a longer list goes on, whether it has fields, and
-    what going through it once counts as; of each specification what it is.
+class Code(NamedTuple):
+    """Object code, what devices need of it, and 1 for each function that is SQRT."""
 
-    ``places`` is where the text of an H or X begins in ``texts``, ``widths`` its length.
+    flat: Flat
+    marks: Marks
+    roots: Row
+
+
+class Forms(NamedTuple):
+    """All FORMATs, one after the other, FORM numbers each: its bounds, where a longer list goes on, whether it has
+    fields, and what going through it once counts as; of each specification PART numbers: what it is.
+
+    PLACE is where the text of an H or X begins in ``texts``, WIDTH its length.
     """
 
-    first: Row
-    last: Row
-    again: Row
-    fields: Row
-    charges: Row
-    kinds: Row
-    widths: Row
-    decimals: Row
-    places: Row
+    formats: Row
+    specs: Row
     texts: Row
 
 
@@ -84,6 +91,28 @@ class Cards(NamedTuple):
 
     columns: Row
     first: Row
+
+
+class Tools(NamedTuple):
+    """What the devices use, deck after deck: texts of the FORMATs, which reading changes, registers, line, a field."""
+
+    texts: Row
+    devices: Row
+    line: Row
+    field: Row
+
+
+class Desk(NamedTuple):
+    """What the devices of one deck work on: the tools, and of the report its rows and the log."""
+
+    texts: Row
+    devices: Row
+    line: Row
+    field: Row
+    registers: Row
+    numbers: Row
+    errors: Row
+    log: Row
 
 
 class Report(NamedTuple):
@@ -99,17 +128,17 @@ class Report(NamedTuple):
     log: Row
 
 
-def begin(code: Code, forms: Forms, cards: Cards, core: Core, report: Report, d: int) -> int:
+def begin(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
     """An input or output statement begins."""
-    devices, pc = core.devices, report.registers[d][AT]
-    verb = code.verbs[report.registers[d][ADDRESS]]
-    number = code.flat.seconds[pc]
+    devices, pc = desk.devices, desk.registers[AT]
+    verb = marks.verbs[desk.registers[ADDRESS]]
+    number = marks.seconds[pc]
     devices[VERB] = verb
     devices[FORMAT] = number
-    devices[SPEC] = forms.first[number]
-    devices[LAST_SPEC] = forms.last[number]
+    devices[SPEC] = forms.formats[FORM * number + FIRST]
+    devices[LAST_SPEC] = forms.formats[FORM * number + LAST]
     devices[COLUMN] = 0
-    report.registers[d][WORK] += forms.charges[number]
+    desk.registers[WORK] += forms.formats[FORM * number + CHARGE]
     if verb == ACCEPT:
         return NOT_HERE
     if verb != READ:
@@ -117,35 +146,35 @@ def begin(code: Code, forms: Forms, cards: Cards, core: Core, report: Report, d:
     empty = devices[NEXT] == devices[LAST_CARD] and devices[NEXT] > devices[FIRST_CARD]
     if devices[FIRST_READ] < 0 or devices[FIRST_READ] == pc:
         devices[FIRST_READ] = pc
-        status = put(BEGUN, core.field, 0, core, report)
+        status = put(BEGUN, desk.field, 0, desk)
         if status != GO_ON:
             return status
         if empty:
             return AT_HOPPER
     elif empty and devices[ANY_READ]:
         return AT_HOPPER
-    return end_record(code, cards, core, report, d)
+    return end_record(marks, cards, desk)
 
 
-def to_field(code: Code, forms: Forms, cards: Cards, core: Core, report: Report, d: int, wanted: bool) -> int:
+def to_field(marks: Marks, forms: Forms, cards: Cards, desk: Desk, wanted: bool) -> int:
     """Go on to the next field of the FORMAT; if one is wanted, beyond its end to its start and a new record."""
-    devices = core.devices
+    devices = desk.devices
     while True:
         spec = devices[SPEC]
         status = GO_ON
         if spec == devices[LAST_SPEC]:
             if not wanted:
                 return GO_ON
-            if forms.fields[devices[FORMAT]] == 0:
+            if forms.formats[FORM * devices[FORMAT] + FIELDS] == 0:
                 return NOT_HERE
-            status = end_record(code, cards, core, report, d)
-            devices[SPEC] = forms.again[devices[FORMAT]]
-            report.registers[d][WORK] += forms.charges[devices[FORMAT]]
-        elif forms.kinds[spec] == SLASH:
-            status = end_record(code, cards, core, report, d)
+            status = end_record(marks, cards, desk)
+            devices[SPEC] = forms.formats[FORM * devices[FORMAT] + AGAIN]
+            desk.registers[WORK] += forms.formats[FORM * devices[FORMAT] + CHARGE]
+        elif forms.specs[PART * spec + KIND] == SLASH:
+            status = end_record(marks, cards, desk)
             devices[SPEC] = spec + 1
-        elif forms.kinds[spec] == TEXT:
-            status = text(forms.places[spec], forms.widths[spec], cards, core)
+        elif forms.specs[PART * spec + KIND] == TEXT:
+            status = text(forms.specs[PART * spec + PLACE], forms.specs[PART * spec + WIDTH], cards, desk)
             devices[SPEC] = spec + 1
         else:
             return GO_ON
@@ -153,19 +182,19 @@ def to_field(code: Code, forms: Forms, cards: Cards, core: Core, report: Report,
             return status
 
 
-def text(place: int, width: int, cards: Cards, core: Core) -> int:
+def text(place: int, width: int, cards: Cards, desk: Desk) -> int:
     """An H or X field: put out, or changed to what the card has."""
-    devices = core.devices
+    devices = desk.devices
     column = devices[COLUMN]
     devices[COLUMN] += width
     if devices[VERB] == READ:
         for k in range(width):
-            core.texts[place + k] = column_of(cards, devices[CARD], column + k)
+            desk.texts[place + k] = column_of(cards, devices[CARD], column + k)
         return GO_ON
     if column + width > LINE_ROOM:
         return NOT_HERE
     for k in range(width):
-        core.line[column + k] = core.texts[place + k]
+        desk.line[column + k] = desk.texts[place + k]
     return GO_ON
 
 
@@ -174,9 +203,9 @@ def column_of(cards: Cards, card: int, column: int) -> int:
     return cards.columns[card * COLUMNS + column] if column < COLUMNS else BLANK
 
 
-def end_record(code: Code, cards: Cards, core: Core, report: Report, d: int) -> int:
+def end_record(marks: Marks, cards: Cards, desk: Desk) -> int:
     """The next card is taken, or the line goes out."""
-    devices = core.devices
+    devices = desk.devices
     length = devices[COLUMN]
     devices[COLUMN] = 0
     if devices[VERB] == READ:
@@ -184,65 +213,65 @@ def end_record(code: Code, cards: Cards, core: Core, report: Report, d: int) -> 
             return NOT_HERE
         devices[CARD] = devices[NEXT]
         devices[NEXT] += 1
-        return put(TAKEN, core.field, 0, core, report)
-    line = core.line
+        return put(TAKEN, desk.field, 0, desk)
+    line = desk.line
     while length > 0 and line[length - 1] == BLANK:
         length -= 1
     if length > (PUNCH_COLUMNS if devices[VERB] == PUNCH else TYPEWRITER_COLUMNS):
         return NOT_HERE
-    report.registers[d][WORK] += 1
+    desk.registers[WORK] += 1
     if devices[VERB] == PUNCH:
-        return put(PUNCHED, line, length, core, report)
-    return put_typed(line, length, code, core, report, d)
+        return put(PUNCHED, line, length, desk)
+    return put_typed(line, length, marks, desk)
 
 
-def put(letter: int, line: Row, length: int, core: Core, report: Report) -> int:
+def put(letter: int, line: Row, length: int, desk: Desk) -> int:
     """Write to the log."""
-    log, used = report.log, core.devices[USED]
+    log, used = desk.log, desk.devices[USED]
     if used + length + 2 > len(log):
         return LOG_FULL
     log[used] = letter
     for k in range(length):
         log[used + 1 + k] = line[k]
     log[used + 1 + length] = LINE_END
-    core.devices[USED] = used + length + 2
+    desk.devices[USED] = used + length + 2
     return GO_ON
 
 
-def put_typed(line: Row, length: int, code: Code, core: Core, report: Report, d: int) -> int:
+def put_typed(line: Row, length: int, marks: Marks, desk: Desk) -> int:
     """Write a line typed to the log: before its text the statement that types it, and the last decision."""
-    registers, log, used = report.registers[d], report.log, core.devices[USED]
+    registers, log, used = desk.registers, desk.log, desk.devices[USED]
     if used + length + 2 + 2 * STAMP > len(log):
         return LOG_FULL
-    status = put(TYPED, line, 0, core, report)
-    core.devices[USED] = used + 1
-    stamp(code.statements[registers[AT]], core, report)
-    stamp(registers[DECISION], core, report)
-    used = core.devices[USED]
+    status = put(TYPED, line, 0, desk)
+    desk.devices[USED] = used + 1
+    stamp(marks.statements[registers[AT]], desk)
+    stamp(registers[DECISION], desk)
+    used = desk.devices[USED]
     for k in range(length):
         log[used + k] = line[k]
     log[used + length] = LINE_END
-    core.devices[USED] = used + length + 1
+    desk.devices[USED] = used + length + 1
     return status
 
 
-def stamp(number: int, core: Core, report: Report) -> None:
+def stamp(number: int, desk: Desk) -> None:
     """Write a number of STAMP digits to the log."""
-    used = core.devices[USED]
+    used = desk.devices[USED]
     for k in range(STAMP):
-        report.log[used + STAMP - 1 - k] = DIGIT + number % 10
+        desk.log[used + STAMP - 1 - k] = DIGIT + number % 10
         number = number // 10
-    core.devices[USED] = used + STAMP
+    desk.devices[USED] = used + STAMP
 
 
-def error(number: int, code: Code, core: Core, report: Report, d: int, announces: int) -> int:
+def error(number: int, marks: Marks, desk: Desk, announces: int) -> int:
     """Count an error code and, if the profile does, type it."""
-    registers = report.registers[d]
-    report.errors[d][CODES * code.statements[registers[AT]] + number] += 1
+    registers = desk.registers
+    desk.errors[CODES * marks.statements[registers[AT]] + number] += 1
     owe(registers, ERROR)
     if not announces:
         return GO_ON
-    field = core.field
+    field = desk.field
     for k in range(len(ERROR_WORDS)):
         field[k] = ERROR_WORDS[k]
     last = len(ERROR_WORDS) - 1
@@ -252,27 +281,26 @@ def error(number: int, code: Code, core: Core, report: Report, d: int, announces
     else:
         field[last] = DIGIT + number
     registers[WORK] += 1
-    return put_typed(field, last + 1, code, core, report, d)
+    return put_typed(field, last + 1, marks, desk)
 
 
-def item(
-    code: Code, forms: Forms, cards: Cards, core: Core, report: Report, d: int, rules: Rules, announces: int
-) -> int:
+def item(marks: Marks, forms: Forms, cards: Cards, core: Core, desk: Desk, rules: Rules, announces: int) -> int:
     """One number of a list, read or put out."""
-    devices, field, registers = core.devices, core.field, report.registers[d]
+    devices, field, registers = desk.devices, desk.field, desk.registers
     registers[WORK] += 1
-    status = to_field(code, forms, cards, core, report, d, True)
+    status = to_field(marks, forms, cards, desk, True)
     if status != GO_ON:
         return status
     spec, address = devices[SPEC], registers[ADDRESS]
     devices[SPEC] += 1
-    kind, width, decimals = forms.kinds[spec], forms.widths[spec], forms.decimals[spec]
-    fixed = code.flat.seconds[registers[AT]] < 0
+    part = PART * spec
+    kind, width, decimals = forms.specs[part + KIND], forms.specs[part + WIDTH], forms.specs[part + DECIMALS]
+    fixed = marks.seconds[registers[AT]] < 0
     column = devices[COLUMN]
     if (kind == I_FIELD) != fixed:
         return NOT_HERE
     if devices[VERB] == READ:
-        report.numbers[d][2 * kind] += 1
+        desk.numbers[2 * kind] += 1
         devices[COLUMN] += width
         for k in range(width):
             field[k] = column_of(cards, devices[CARD], column + k)
@@ -286,13 +314,13 @@ def item(
         core.mantissas[address] = m
         core.exponents[address] = e
         return GO_ON
-    report.numbers[d][2 * kind + 1] += 1
+    desk.numbers[2 * kind + 1] += 1
     m, e = core.mantissas[address], core.exponents[address]
     if e == UNDEFINED or (e == FIXED_POINT) != fixed or column + width + 14 > LINE_ROOM:
         return NOT_HERE
     if fixed:
-        devices[COLUMN] = write_fixed(core.line, column, width, m)
+        devices[COLUMN] = write_fixed(desk.line, column, width, m)
         return GO_ON
-    end, overflowed = write_floating(core.line, column, kind == E_FIELD, width, decimals, m, e, rules)
+    end, overflowed = write_floating(desk.line, column, kind == E_FIELD, width, decimals, m, e, rules)
     devices[COLUMN] = end
-    return error(F8, code, core, report, d, announces) if overflowed else GO_ON
+    return error(F8, marks, desk, announces) if overflowed else GO_ON

@@ -83,14 +83,10 @@ Row = MutableSequence[int]
 
 
 class Core(NamedTuple):
-    """What a run works on: storage, the texts of the FORMATs, which reading changes, the line, and a field."""
+    """What a run works on: storage and the sense switches."""
 
     mantissas: Row
     exponents: Row
-    texts: Row
-    devices: Row
-    line: Row
-    field: Row
     switches: Row
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
-from itertools import accumulate
+from itertools import accumulate, chain
 from typing import Any
 
 import numpy as np
@@ -141,11 +141,13 @@ class Runner:
         self.core = kernel.Core(
             mantissas=_row([0] * fields),
             exponents=_short([0] * fields),
+            switches=_row([int(n in options.switches) for n in (1, 2, 3, 4)]),
+        )
+        self.tools = devices.Tools(
             texts=_codes(bytes(self.forms.texts)),
             devices=_row([0] * devices.DEVICES),
             line=_codes(bytes(devices.LINE_ROOM)),
             field=_codes(bytes(MAX_RECORD)),
-            switches=_row([int(n in options.switches) for n in (1, 2, 3, 4)]),
         )
         widths = {
             "ends": devices.ENDS,
@@ -190,7 +192,7 @@ class Runner:
         """What the kernel is called with for these decks."""
         first = _row(accumulate((len(deck) // COLUMNS for deck in packed), initial=0))
         cards = devices.Cards(_codes(b"".join(packed)), first)
-        return self.code, self.forms, self.start, cards, self.core, self.report, self.rules, self.setting
+        return self.code, self.forms, self.start, cards, self.core, self.tools, self.report, self.rules, self.setting
 
     def _run(self, d: int) -> Run | None:
         report: Any = self.report
@@ -229,27 +231,25 @@ def _code(program: Program) -> devices.Code:
     roots = [int(name == "SQRT") for name in program.functions]
     verbs = [_VERBS.get(verb, devices.TYPE) for verb in program.verbs]
     flat = Flat._make(map(_short, flatten(program)))
-    return devices.Code(flat, *map(_short, (program.statement_numbers, roots, verbs)))
+    marks = devices.Marks(_short(flat.seconds), _short(program.statement_numbers), _short(verbs))
+    return devices.Code(flat, marks, _short(roots))
 
 
 def _forms(program: Program) -> devices.Forms:
-    first, last, again, fields, charges, texts = [], [], [], [], [], ""
-    rows: list[tuple[int, int, int, int]] = []
+    forms: list[tuple[int, int, int, int, int]] = []
+    parts: list[tuple[int, int, int, int]] = []
+    texts = ""
     for _, spec in program.formats:
-        first.append(len(rows))
-        again.append(len(rows) + spec.again)
+        first = len(parts)
         for part in spec.specs:
             if isinstance(part, Field):
-                rows.append((_KINDS[part.kind], part.width, part.decimals, 0))
+                parts.append((_KINDS[part.kind], part.width, part.decimals, 0))
             elif isinstance(part, Literal):
-                rows.append((devices.TEXT, len(part.text), 0, len(texts)))
+                parts.append((devices.TEXT, len(part.text), 0, len(texts)))
                 texts += part.text
             else:
-                rows.append((devices.SLASH, 0, 0, 0))
-        last.append(len(rows))
-        fields.append(int(spec.has_fields))
-        charges.append(spec.charge)
-    columns = ([row[k] for row in rows] for k in range(4))
-    return devices.Forms._make(
-        [*map(_row, (first, last, again, fields, charges, *columns)), _codes(texts.encode("ascii"))]
+                parts.append((devices.SLASH, 0, 0, 0))
+        forms.append((first, len(parts), first + spec.again, int(spec.has_fields), spec.charge))
+    return devices.Forms(
+        _row(chain.from_iterable(forms)), _row(chain.from_iterable(parts)), _codes(texts.encode("ascii"))
     )

@@ -296,6 +296,7 @@ def test_the_same_functions_run_as_python(number: int, name: str) -> None:
         lists(runner.start),
         unattended.Cards(list(columns), [0, 1]),
         lists(runner.core),
+        lists(runner.tools),
         report,
         profile(name).rules,
         runner.setting,
