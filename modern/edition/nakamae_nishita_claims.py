@@ -22,16 +22,28 @@ from modern.papers.nakamae_nishita.shapes import cuboid, moved, placed
 
 
 @cache
-def _cuboid() -> Drawing:
-    return draw(lambda: [cuboid("box", Fraction(2), Fraction(3), Fraction(4))], parallel((3, -5, 2)))
+def _cuboid(way: tuple[int, int, int] = (3, -5, 2)) -> Drawing:
+    return draw(lambda: [cuboid("box", Fraction(2), Fraction(3), Fraction(4))], parallel(way))
 
 
-def faces_and_edges() -> Seen:
-    """A cuboid: three front faces; three inner and six contour edges."""
+def faces_and_edges(kind: str = "") -> Seen:
+    """A cuboid: three front faces; three inner and six contour edges.
+
+    Along an axis, with a ``kind``: four faces are neither front nor back, and by the letter there is no contour edge;
+    with those as back faces there are four.
+    """
     (solid,) = _cuboid().solids
     kinds = [edge.kind for edge in solid.edges]
     good = (sum(s > 0 for s in solid.signs), kinds.count(INNER), kinds.count(CONTOUR)) == (3, 3, 6)
-    return seen(good, f"{kinds.count(INNER)} inner and {kinds.count(CONTOUR)} contour edges of a cuboid")
+    words = f"{kinds.count(INNER)} inner and {kinds.count(CONTOUR)} contour edges of a cuboid"
+    if not kind:
+        return seen(good, words)
+    (along,) = _cuboid((0, 0, 1)).solids
+    pairs_ = combinations(zip(along.polyhedron.faces, along.signs, strict=True), 2)
+    letter = sum(one * other == -1 and len({*a} & {*b}) == 2 for (a, one), (b, other) in pairs_)
+    contour = sum(edge.kind == CONTOUR for edge in along.edges)
+    good &= along.signs.count(0) == 4 == contour and not letter
+    return Seen(CONDITION if good else FAILS, f"{words}; along an axis {contour} and, by the letter, {letter}")
 
 
 def contour_edges_hidden_too() -> Seen:

@@ -8,9 +8,9 @@ from itertools import combinations, permutations, product
 from random import Random
 
 from modern.drawing.visible import line_through, sign, value
-from modern.edition.sampled_sets import sampled_sets
+from modern.edition.sampled_sets import Point, sampled_sets
 from modern.edition.statements import CONDITION, FAILS, HOLDS, Seen, seen
-from modern.exact_hull import exact_hull
+from modern.exact_hull import ExactHull, exact_hull
 from modern.geometry.vectors import cross, dot, minus
 from modern.papers.nakamae_nishita.contours import Tables
 from modern.papers.nakamae_nishita.results import contour_tables
@@ -70,15 +70,20 @@ def _apart(v: tuple[Place, ...], w: tuple[Place, ...]) -> bool:
     return any(all(value(line, p) <= 0 for p in flat(b)) for a, b in ((v, w), (w, v)) for line in lines_of(a))
 
 
-def contour_is_convex() -> Seen:
-    """Hulls seen aslant: edges between a front and a back face are one ring, and all its turns are clockwise.
+ROOF: tuple[Point, ...] = ((0, 0, 0), (4, 0, 0), (4, 0, 2), (2, 0, 3), (0, 0, 2), (2, 5, 1))
+"""A pyramid over an upright pentagon, which is seen edge-on along z."""
 
-    Its corners are those of the hull of all images.
+
+def contour_is_convex() -> Seen:
+    """Hulls seen aslant, and one along a face: edges of front faces and of no other are one ring that turns clockwise.
+
+    Its corners are those of the hull of all images; where a face is seen edge-on it may run straight at others.
     """
-    good = []
-    for one in sampled_sets(3, 3):
-        images = [(x + 31 * z, y + 17 * z) for x, y, z in one.points]
-        front = [face.polygon for face in one.judge.facets if dot(face.plane[:3], (-31, -17, 1)) > 0]
+    good, straight = [], 0
+    for points, judge, (u, v) in (*((one.points, one.judge, (31, 17)) for one in sampled_sets(3, 3)), _roof()):
+        images = [(x + u * z, y + v * z) for x, y, z in points]
+        values = [dot(face.plane[:3], (-u, -v, 1)) for face in judge.facets]
+        front = [face.polygon for face, seen_ in zip(judge.facets, values, strict=True) if seen_ > 0]
         sides = {(a, b) for ring in front for a, b in zip(ring, (*ring[1:], ring[0]), strict=True)}
         after = {b: a for a, b in sides if (b, a) not in sides}
         ring = [min(after)]
@@ -86,9 +91,17 @@ def contour_is_convex() -> Seen:
             ring.append(after[ring[-1]])
         contour = [images[k] for k in ring]
         turns = [side(contour[k - 2], contour[k - 1], contour[k]) for k in range(len(contour))]
-        corners = exact_hull([(x, y, 0) for x, y in images]).polygon
-        good.append(len(ring) == len(after) and {*turns} == {-1} and {*ring} == {*corners})
-    return seen(bool(good) and all(good), f"{len(good)} hulls: contours by their front faces turn clockwise only")
+        around = sorted({*images})
+        corners = {around[k] for k in exact_hull([(x, y, 0) for x, y in around]).polygon}
+        good.append(len(ring) == len(after) and {*turns} <= {-1, 0} and (0 in values or 0 not in turns))
+        good.append({contour[k - 1] for k, turn in enumerate(turns) if turn} == corners)
+        straight += turns.count(0)
+    words = f"{len(good) // 2} hulls: contours by their front faces turn clockwise only"
+    return seen(all(good) and straight > 0, f"{words}; one runs straight at a corner of a face seen edge-on")
+
+
+def _roof() -> tuple[tuple[Point, ...], ExactHull, tuple[int, int]]:
+    return ROOF, exact_hull(ROOF), (0, 0)
 
 
 def correlations(kind: str = "") -> Seen:

@@ -168,6 +168,15 @@ def seen_along_an_axis(_: Right) -> object:
     return drawn
 
 
+def seen_aslant_only(right: Right) -> object:
+    return lambda *way: right()
+
+
+def seen_from_above(right: Right) -> object:
+    """No face of the roof is seen edge-on."""
+    return lambda: (*right()[:2], (31, 17))
+
+
 def no_zeros(right: Right) -> object:
     def changed(v: Right, w: Right) -> object:
         return tuple([[n or 1 for n in row] for row in table] for table in right(v, w))
@@ -253,6 +262,8 @@ def other_side_up(right: Right) -> object:
         (nakamae, "contour_edges_hidden_too", "_hidden", lambda _: lambda drawing, kind: int(kind == nakamae.INNER)),
         (nakamae, "counts_of_d", "COUNTS", fewer_corners),
         (nakamae, "faces_and_edges", "_cuboid", seen_along_an_axis),
+        (nakamae, "faces_and_edges condition", "_cuboid", seen_aslant_only),
+        (tables, "contour_is_convex", "_roof", seen_from_above),
         (nakamae, "faces_are_convex", "dot", turned_over),
         (nakamae, "indices", "sign", turned_over),
         (nakamae, "indices k", "sign", turned_over),
