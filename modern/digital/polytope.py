@@ -195,7 +195,8 @@ def hull(at: Points, surface: Surface, a: int, b: int, c: int, d: int) -> int:
 def compiled_hull() -> Callable[..., Any]:
     """``hull`` compiled.  Raises NotInstalled."""
     one: Any = np.zeros(1, np.int64)
-    return Compiled(hull).ready(Points(one, one, one), Surface(*[one] * len(Surface._fields)), 0, 0, 0, 0)
+    # No array is made: numba need not count the users of each it is given.
+    return Compiled(hull, _nrt=False).ready(Points(one, one, one), Surface(*[one] * len(Surface._fields)), 0, 0, 0, 0)
 
 
 def polyhedron(points: Grid, simplex: tuple[int, int, int, int], fast: bool) -> tuple[Grid, Grid]:

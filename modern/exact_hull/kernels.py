@@ -61,6 +61,40 @@ def surface(grid: NDArray[np.int64]) -> Surface:
     )
 
 
+class Room(NamedTuple):
+    """Room for what a step works out, so that the kernel makes no array: numba compiles those that do far longer.
+
+    near: of each point whether it may lie on a triangle.  seen, fresh, heads: slots, and lists of points, of a step.
+    edges (n, 2), outer (n, 3): those of a horizon.  todo, queued: slots with points.  free: empty slots.
+    """
+
+    near: NDArray[np.bool_]
+    seen: NDArray[np.int64]
+    fresh: NDArray[np.int64]
+    heads: NDArray[np.int64]
+    edges: NDArray[np.int64]
+    outer: NDArray[np.int64]
+    todo: NDArray[np.int64]
+    queued: NDArray[np.bool_]
+    free: NDArray[np.int64]
+
+
+def room(count: int) -> Room:
+    """Room for so many points."""
+    seen, fresh, heads, todo = (np.empty(2 * count, np.int64) for _ in range(4))
+    return Room(
+        near=np.zeros(count, np.bool_),
+        seen=seen,
+        fresh=fresh,
+        heads=heads,
+        edges=np.empty((6 * count, 2), np.int64),
+        outer=np.empty((2 * count, 3), np.int64),
+        todo=todo,
+        queued=np.zeros(2 * count, np.bool_),
+        free=np.empty(4 * count, np.int64),
+    )
+
+
 def place_triangle(known: Any, slot: int, a: int, b: int, c: int) -> None:
     """Put a triangle into a slot, with its plane and no points."""
     grid, corners, normals, images = known.grid, known.corners, known.normals, known.images
@@ -142,15 +176,15 @@ def region(known: Any, p: int, start: int, step: int, seen: Any, edges: Any) -> 
     return count, border
 
 
-def grow(known: Any, start: NDArray[np.int64], exact: bool) -> Any:
-    """Triangles (m, 3) of the hull, and which points may lie on them; no triangles where the surface does not close."""
-    grid, corners, neighbours = known.grid, known.corners, known.neighbours
-    points = len(grid)
-    near = np.zeros(points, np.bool_)
-    seen, fresh = np.empty(2 * points, np.int64), np.empty(2 * points, np.int64)
-    edges, outer = np.empty((6 * points, 2), np.int64), np.empty((2 * points, 3), np.int64)
-    heads, todo = np.empty(2 * points, np.int64), np.empty(2 * points, np.int64)
-    queued, free = np.zeros(2 * points, np.bool_), np.empty(4 * points, np.int64)
+def grow(known: Any, work: Any, start: NDArray[np.int64], exact: bool) -> int:
+    """How many slots of triangles the hull has, those with a first corner below 0 empty; 0: the surface does not close.
+
+    ``work.near`` is which points may lie on it.
+    """
+    corners, neighbours = known.corners, known.neighbours
+    points = len(known.grid)
+    near, seen, fresh, heads = work.near, work.seen, work.fresh, work.heads
+    edges, outer, todo, queued, free = work.edges, work.outer, work.todo, work.queued, work.free
     a, b, c, d = start[0], start[1], start[2], start[3]
     place_triangle(known, 0, a, b, c)
     place_triangle(known, 1, b, a, d)
@@ -178,7 +212,7 @@ def grow(known: Any, start: NDArray[np.int64], exact: bool) -> Any:
         p = known.farthest[slot]
         count, border = region(known, p, slot, step, seen, edges)
         if border < 3 or made + max(0, border - count - spare) > 2 * points:
-            return corners[:0], near
+            return 0
         for k in range(border):
             inner, edge = edges[k, 0], edges[k, 1]
             u, v = corners[inner, edge], corners[inner, (edge + 1) % 3]
@@ -208,7 +242,7 @@ def grow(known: Any, start: NDArray[np.int64], exact: bool) -> Any:
             new = fresh[k]
             after = known.leaving[outer[k, 1]]
             if after < 0 or after >= made or corners[after, 0] != outer[k, 1] or corners[after, 2] != p:
-                return corners[:0], near
+                return 0
             neighbours[new, 1] = after
             neighbours[after, 2] = new
         for k in range(count):
@@ -223,5 +257,4 @@ def grow(known: Any, start: NDArray[np.int64], exact: bool) -> Any:
                 queued[fresh[k]] = True
                 todo[waiting] = fresh[k]
                 waiting += 1
-    standing = corners[:made]
-    return standing[standing[:, 0] >= 0], near
+    return made

@@ -74,8 +74,9 @@ def propose(points: Sequence[IntPoint], fast: bool | None = None) -> Proposal | 
         return None
     kernel = _chosen(fast, len(points))
     if kernel:
-        triangles, near = kernel(kernels.surface(grid), np.array(start), exact)
-        return Proposal(triangles, np.flatnonzero(near)) if len(triangles) else None
+        known, work = kernels.surface(grid), kernels.room(len(grid))
+        corners = known.corners[: kernel(known, work, np.array(start), exact)]
+        return Proposal(corners[corners[:, 0] >= 0], np.flatnonzero(work.near)) if len(corners) else None
     growing = _Growing(grid, exact, start)
     while growing.waiting.size:
         if not growing.round():
@@ -89,7 +90,8 @@ def propose(points: Sequence[IntPoint], fast: bool | None = None) -> Proposal | 
 def load() -> Function:
     """The kernel, compiled (seconds, once) or loaded.  Raises NotInstalled."""
     some = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], np.int64)
-    return Compiled(kernels.grow).ready(kernels.surface(some), np.arange(4), True)
+    # No array is made: numba need not count the users of each it is given.
+    return Compiled(kernels.grow, _nrt=False).ready(kernels.surface(some), kernels.room(4), np.arange(4), True)
 
 
 def _chosen(fast: bool | None, count: int) -> Function | None:
