@@ -308,13 +308,13 @@ def angles_saved() -> Seen:
     And those that the search in the tree computes, for points and for the corners of squares.
     """
     found = []
-    for diameter in (16, 50):
+    for diameter in (8, 40):
         hull = octree_hull(ball(diameter, VERTEX).array)
         steps, reduced = hull.lower.steps, [(x, y) for x, y, _ in hull.lower.reduced]
         all_, left = (sum(_beyond(step.edge, places) for step in steps) for places in (hull.floor, reduced))
         found.append((all_, left, sum(step.angles for step in steps)))
-    (all_16, left_16, search_16), (all_50, left_50, search_50) = found
-    good = left_16 < all_16 and left_50 < all_50 and left_16 < search_16 and search_50 < left_50
+    (all_8, left_8, search_8), (all_40, left_40, search_40) = found
+    good = left_8 < all_8 and left_40 < all_40 and left_8 < search_8 and search_40 < left_40
     words = "; ".join(f"{a:,} of the floor, {b:,} of the reduced set, {c:,} by the search" for a, b, c in found)
     return Seen(CONDITION if good else FAILS, words)
 
