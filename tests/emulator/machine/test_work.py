@@ -13,6 +13,7 @@ from emulator.language.cards import deck_from_lines
 from emulator.machine.machine import Machine
 from emulator.machine.result import Options
 from emulator.numbers import numbers, work
+from emulator.numbers.multiprecision import MultiprecisionNumbers
 from tests.support.deckwork import agreed, machine, program
 
 DEFAULTS = ("truncating", "ibm1962", "truncating:28", "rounding:28", "float64", "float32")
@@ -75,16 +76,13 @@ def test_costly_operations_count_in_proportion(arithmetic: str, statement: str, 
     assert least <= state.work - 3 <= most
 
 
-@pytest.mark.parametrize("statement", ["B=A**9999", "B=EXP(A)", "B=A**A"])
-def test_an_operation_far_beyond_the_limit_is_not_done(statement: str) -> None:
+@pytest.mark.parametrize("statement", ["B=EXP(A)", "B=A**A"])
+def test_an_operation_far_beyond_the_limit_is_not_done(statement: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """It would take seconds; the message names its statement and what to do."""
+    for name in ("function", "power"):
+        monkeypatch.setattr(MultiprecisionNumbers, name, None)
     found = machine("A=1.0000123", f"7 {statement}", "GO TO 7", "END", arithmetic="mp:100000", limit=50)
-    begun = time.process_time()
-    found.options.numbers.decimal(1, 0)
     ending = found.run().ending
-    if statement == "B=A**9999":
-        return  # less than the slack: done, and the run ends at the next statement
-    assert time.process_time() - begun < 0.5
     assert (ending.kind, ending.line and ending.line.label, ending.normal) == ("limit", 7, False)
     assert ending.message == (
         f"deck.f: card 2: the limit of work, 50 statements or what takes their time, ends the run in 7 {statement}; "
