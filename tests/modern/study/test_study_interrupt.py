@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -23,7 +24,7 @@ MOMENTS = int(os.environ.get("HULL1620_MOMENTS", "4"))
 """How many moments are tried; more with HULL1620_MOMENTS=40."""
 PLAN_FILE = """
 name = "long"
-samples = 60000
+samples = 200000
 [[route]]
 name = "exact"
 kind = "port"
@@ -34,6 +35,14 @@ parameters = { digits = 1, n = 4 }
 chunk = 20
 """
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+
+
+@pytest.fixture(autouse=True)
+def _ctrl_c_means_something() -> Iterator[None]:
+    """A shell that runs the tests in the background has every process it begins ignore Ctrl-C."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 def started(folder: Path, workers: int) -> subprocess.Popen[str]:
