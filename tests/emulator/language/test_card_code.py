@@ -161,5 +161,5 @@ def test_read_deck_without_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
 
 
 def test_read_deck_from_standard_input(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(b"A\n")))
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(b"A\n"), encoding="utf-8"))
     assert read_deck("-") == deck_from_lines("standard input", ["A"])

@@ -76,7 +76,7 @@ BAD_SOURCES = [
 @pytest.mark.parametrize(("text", "words"), [b[1:] for b in BAD_SOURCES], ids=[b[0] for b in BAD_SOURCES])
 @pytest.mark.parametrize("command", ["run", "compile", "map"])
 def test_bad_source(room: Path, capsys: pytest.CaptureFixture[str], command: str, text: str, words: str) -> None:
-    Path("bad.f").write_text(text)
+    Path("bad.f").write_text(text, encoding="utf-8")
     code, out, err = call(capsys, command, "bad.f")
     assert (code, out) == (2, "")
     assert err.count("\n") == 1
@@ -141,14 +141,14 @@ def test_profile_in_a_narrow_terminal(room: Path, capsys: pytest.CaptureFixture[
 def test_accepted_line_ends_and_blank_fields(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     Path("crlf.deck").write_bytes(DECK.replace("\n", "\r\n").rstrip().encode())
     assert call(capsys, "hull", "crlf.deck")[0] == 0
-    Path("blank.deck").write_text(DECK.replace("+.00000000E+00", " " * 14))
+    Path("blank.deck").write_text(DECK.replace("+.00000000E+00", " " * 14), encoding="utf-8")
     code, _, err = call(capsys, "hull", "blank.deck")
     assert code == 0
     assert "warning: blank.deck: card 2, column 1: x: a blank field is read as zero" in err
 
 
 def test_a_point_that_stands_twice_is_mentioned(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("twice.deck").write_text(DECK.replace(" 4", " 5") + "1.0           -.0           .0\n")
+    Path("twice.deck").write_text(DECK.replace(" 4", " 5") + "1.0           -.0           .0\n", encoding="utf-8")
     _, _, err = call(capsys, "hull", "twice.deck")
     assert "warning: twice.deck: card 6, column 1: the point of card 3 again" in err
 
@@ -159,7 +159,7 @@ def test_run_ends_normally_at_the_empty_hopper(room: Path, capsys: pytest.Captur
 
 def test_hopper_empty_at_a_later_read_ends_a_run(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Any READ may meet an empty hopper in ``run``; ``hull`` asks for whole data sets."""
-    Path("short.deck").write_text(" 3\n" + GOOD_POINT + "\n")
+    Path("short.deck").write_text(" 3\n" + GOOD_POINT + "\n", encoding="utf-8")
     assert call(capsys, "run", "program1", "short.deck")[:2] == (0, "")
     code, out, err = call(capsys, "hull", "short.deck")
     assert (code, out) == (2, "")
@@ -167,15 +167,15 @@ def test_hopper_empty_at_a_later_read_ends_a_run(room: Path, capsys: pytest.Capt
 
 
 def test_hopper_empty_in_the_middle_of_a_list(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("list.f").write_text("      READ 1,I,J\n    1 FORMAT(I4)\n      END\n")
-    Path("short.deck").write_text("   3\n")
+    Path("list.f").write_text("      READ 1,I,J\n    1 FORMAT(I4)\n      END\n", encoding="utf-8")
+    Path("short.deck").write_text("   3\n", encoding="utf-8")
     code, out, err = call(capsys, "run", "list.f", "short.deck")
     assert (code, out) == (2, "")
     assert "short.deck: card 1, column 1: the deck ends in the middle of a data set" in err
 
 
 def test_bad_field_in_run(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("bad.deck").write_text("2.\nABC\n")
+    Path("bad.deck").write_text("2.\nABC\n", encoding="utf-8")
     assert call(capsys, "run", "good.f", "bad.deck")[::2] == (
         2,
         "hull1620: bad.deck: card 2, column 1: 'ABC' is not a number\n",
@@ -209,7 +209,7 @@ def test_statement_limit_keeps_the_cards_punched_so_far(capsys: pytest.CaptureFi
 
 def test_reproduce_as_json(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, _, _ = call(capsys, "reproduce", "3", "--json", "v.json")
-    document = json.loads(Path("v.json").read_text())
+    document = json.loads(Path("v.json").read_text(encoding="utf-8"))
     assert code == 0
     assert document["reproduced"] is True
     assert {r["verdict"] for r in document["results"]} == {"exact"}
@@ -247,7 +247,7 @@ def test_reproduce_shows_the_cards_that_differ(
 
 
 def test_check_marks_card_and_column(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("bad.f").write_text("      A=B+\n      GO TO 3\n      END\n")
+    Path("bad.f").write_text("      A=B+\n      GO TO 3\n      END\n", encoding="utf-8")
     code, out, err = call(capsys, "check", "bad.f")
     assert (code, err) == (2, "")
     lines = out.splitlines()
@@ -274,12 +274,12 @@ def test_apparatus_lists_rows(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_cards_and_back(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("p.csv").write_text("x,y,z\n1,-2.5,3e-2\n\n0,.125,-0\n")
+    Path("p.csv").write_text("x,y,z\n1,-2.5,3e-2\n\n0,.125,-0\n", encoding="utf-8")
     code, out, err = call(capsys, "cards", "p.csv")
     assert (code, err) == (0, "")
     assert out == (" 2\n+.10000000E+01-.25000000E+01+.30000000E-01\n+.00000000E+00+.12500000E+00-.00000000E+00\n")
     assert call(capsys, "cards", "p.csv", "-o", "p.deck")[:2] == (0, "")
-    assert Path("p.deck").read_text() == out
+    assert Path("p.deck").read_text(encoding="utf-8") == out
 
 
 CSV_FAULTS = [
@@ -295,7 +295,7 @@ CSV_FAULTS = [
 
 @pytest.mark.parametrize(("text", "words"), CSV_FAULTS)
 def test_cards_refuses(room: Path, capsys: pytest.CaptureFixture[str], text: str, words: str) -> None:
-    Path("p.csv").write_text(text)
+    Path("p.csv").write_text(text, encoding="utf-8")
     code, out, err = call(capsys, "cards", "p.csv", "-o", "p.deck")
     assert (code, out) == (2, "")
     assert words in err
@@ -303,7 +303,7 @@ def test_cards_refuses(room: Path, capsys: pytest.CaptureFixture[str], text: str
 
 
 def test_cards_truncates_when_told(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("p.csv").write_text("1,2,-1234.56789\n")
+    Path("p.csv").write_text("1,2,-1234.56789\n", encoding="utf-8")
     assert "-.12345678E+04" in call(capsys, "cards", "p.csv", "--truncate")[1]
 
 

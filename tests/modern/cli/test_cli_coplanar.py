@@ -15,8 +15,8 @@ SAID = "36 faces are read as 12 within 1e-9; a vertex is off its plane by "
 @pytest.fixture(autouse=True)
 def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    Path("d.csv").write_text("".join(f"{x!r},{y!r},{z!r}\n" for x, y, z in dodecahedron()))
-    Path("flat.csv").write_text("0,0,0\n1,0,0\n0,1,0\n")
+    Path("d.csv").write_text("".join(f"{x!r},{y!r},{z!r}\n" for x, y, z in dodecahedron()), encoding="utf-8")
+    Path("flat.csv").write_text("0,0,0\n1,0,0\n0,1,0\n", encoding="utf-8")
 
 
 def test_export_and_draw_read_twelve_faces_and_say_so(capsys: pytest.CaptureFixture[str]) -> None:

@@ -24,13 +24,13 @@ def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """An empty folder to be in, with data decks for program 1 and for program 2."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "100")
-    Path("side.deck").write_text(" 4\n" + "".join(card(x, y, 1) for x, y in SIDE))
+    Path("side.deck").write_text(" 4\n" + "".join(card(x, y, 1) for x, y in SIDE), encoding="utf-8")
     points = [(0.12345, 0.2, 0.3), (1.1, 0.21234, 0.3), (0.1, 1.27654, 0.31), (0.1, 0.26543, 1.39876)]
-    Path("four.deck").write_text(" 4\n" + "".join(card(*p) for p in points))
+    Path("four.deck").write_text(" 4\n" + "".join(card(*p) for p in points), encoding="utf-8")
     assert main(["run", "program1", "side.deck", "--punch", "side.cards", "--typewriter", "typed"]) == 0
-    Path("sum.f").write_text("      A=1.\n      B=A+A\n      END\n")
-    Path("sine.f").write_text("      A=1.\n    7 B=SIN(A)\n      END\n")
-    Path("any.deck").write_text(" 1\n")
+    Path("sum.f").write_text("      A=1.\n      B=A+A\n      END\n", encoding="utf-8")
+    Path("sine.f").write_text("      A=1.\n    7 B=SIN(A)\n      END\n", encoding="utf-8")
+    Path("any.deck").write_text(" 1\n", encoding="utf-8")
     return tmp_path
 
 
@@ -62,7 +62,7 @@ def test_only_the_first_decision(room: Path, capsys: pytest.CaptureFixture[str])
 
 def test_a_document(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert call(capsys, "diverge", "program2", "side.cards", "--json", "d.json")[0] == 1
-    found = json.loads(Path("d.json").read_text())
+    found = json.loads(Path("d.json").read_text(encoding="utf-8"))
     first = found["decisions"]["first"]
     assert (first["card"], first["statement"], first["values"][1]) == (174, 157, "0")
     assert [target["statement"] for target in first["targets"]] == [1157, 2157]
@@ -154,7 +154,7 @@ def test_run_and_hull_over_other_numbers(room: Path, capsys: pytest.CaptureFixtu
     assert "-.60000000E+01  -.90000000E+01" in vertices
     assert "-.68750000E+01" not in vertices
     assert "time on a 1620" in err
-    assert "X(1) = -6" in Path("t").read_text()
+    assert "X(1) = -6" in Path("t").read_text(encoding="utf-8")
 
 
 def test_numbers_uncut_between_the_programs(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -169,7 +169,7 @@ def test_numbers_uncut_between_the_programs(room: Path, capsys: pytest.CaptureFi
 
 
 def test_all_digits_of_a_field_are_taken(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("long.deck").write_text(" 1\n" + ".1234567890123" + card(0, 1, 2)[14:])
+    Path("long.deck").write_text(" 1\n" + ".1234567890123" + card(0, 1, 2)[14:], encoding="utf-8")
     assert "beyond 8 are cut" in call(capsys, "hull", "long.deck")[2]
     code, _, err = call(capsys, "hull", "long.deck", "--arithmetic", "float64")
     assert (code, err) == (0, "CONVEX HULL\n")

@@ -36,7 +36,7 @@ SOURCE_DECKS = {"check", "compile", "diverge", "hull", "map", "run"}
 @pytest.fixture(autouse=True)
 def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    Path("good.deck").write_text(" 1\n")
+    Path("good.deck").write_text(" 1\n", encoding="utf-8")
     Path("folder").mkdir()
 
 
@@ -73,7 +73,7 @@ def test_standard_input_closed(
 def test_standard_input_that_cannot_be_read(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, reader: str
 ) -> None:
-    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BufferedReader(Folder())))
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BufferedReader(Folder()), encoding="utf-8"))
     assert refused(capsys, reader, "-") == "standard input: is a directory"
 
 
@@ -129,7 +129,7 @@ def test_points_beyond_doubles_are_one_line_in_diff(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    Path("far.csv").write_text("0,0,0\n1e400,0,0\n0,1e400,0\n0,0,1e400\n")
+    Path("far.csv").write_text("0,0,0\n1e400,0,0\n0,1e400,0\n0,0,1e400\n", encoding="utf-8")
     code, _, err = call(capsys, "diff", "far.csv")
     assert (code, err.count("\n")) == (2, 1)
     assert "too large for float64" in err

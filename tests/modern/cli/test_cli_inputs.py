@@ -200,13 +200,15 @@ def test_a_list_of_points_given_for_a_deck_is_told_what_makes_one(
     command: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    Path("mine.csv").write_text("76,-18,-21\n1,2,3\n4,5,7\n")
+    Path("mine.csv").write_text("76,-18,-21\n1,2,3\n4,5,7\n", encoding="utf-8")
     code, out, err = call(capsys, *command, "program1", "mine.csv")
     assert (code, out) == (2, "")
     assert "not a data deck; hull1620 cards mine.csv -o points.deck makes a deck of it" in err
     assert err.count("\n") == 1
     # A program of one's own reads what it likes, whatever it is called.
-    Path("program1.f").write_text("      READ 1,I\n      TYPE 1,I\n      STOP\n    1 FORMAT(I2)\n      END\n")
+    Path("program1.f").write_text(
+        "      READ 1,I\n      TYPE 1,I\n      STOP\n    1 FORMAT(I2)\n      END\n", encoding="utf-8"
+    )
     assert call(capsys, *command, "program1.f", "mine.csv")[0] == 0
 
 

@@ -24,9 +24,9 @@ SOURCE = "      READ 6,I\n      J=I*I\n      PUNCH 6,J\n      STOP\n    6 FORMAT
 @pytest.fixture(autouse=True)
 def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    Path("large.f").write_text(SOURCE)
-    Path("small.f").write_text("C  Squares\n" + SOURCE.lower())
-    Path("one.deck").write_text(" 12\n")
+    Path("large.f").write_text(SOURCE, encoding="utf-8")
+    Path("small.f").write_text("C  Squares\n" + SOURCE.lower(), encoding="utf-8")
+    Path("one.deck").write_text(" 12\n", encoding="utf-8")
 
 
 CALLS = {
@@ -61,7 +61,7 @@ def test_small_letters_are_named_once_with_the_option_that_reads_them(
 @pytest.mark.parametrize("command", CALLS)
 def test_upcase_makes_it_the_program_in_capitals(command: str, capsys: pytest.CaptureFixture[str]) -> None:
     """All that is put out is the same; the comment, in small letters, may stand in both."""
-    Path("large.f").write_text("C  Squares\n" + SOURCE)
+    Path("large.f").write_text("C  Squares\n" + SOURCE, encoding="utf-8")
     expected = call(capsys, command, "large.f", *CALLS[command])
     assert expected[0] == 0
     code, out, err = call(capsys, command, "small.f", *CALLS[command], "--upcase")
@@ -83,7 +83,7 @@ def test_a_period_program_is_run_by_the_operator_of_its_file(capsys: pytest.Capt
 
 
 def test_a_deck_of_data_is_never_read_as_capitals(capsys: pytest.CaptureFixture[str]) -> None:
-    Path("one.deck").write_text("1.e0\n")
+    Path("one.deck").write_text("1.e0\n", encoding="utf-8")
     code, out, err = call(capsys, "run", "small.f", "one.deck", "--upcase")
     assert (code, out) == (2, "")
     assert err == "hull1620: one.deck: card 1, column 3: 'e' is not in the card code: letters are capitals\n"
@@ -155,7 +155,7 @@ LARGE = "      DIMENSION X(3900)\n      X(1)=1.\n      STOP\n      END\n"
 
 def test_check_and_map_say_that_a_program_does_not_fit_and_what_it_fits(capsys: pytest.CaptureFixture[str]) -> None:
     """3,900 fields of ten positions, and 40,000 less 8,300 for the subroutines and 120 for the functions' names."""
-    Path("wide.f").write_text(LARGE)
+    Path("wide.f").write_text(LARGE, encoding="utf-8")
     code, out, err = call(capsys, "check", "wide.f")
     assert (code, err) == (2, "")
     words = (
@@ -172,12 +172,12 @@ def test_check_and_map_say_that_a_program_does_not_fit_and_what_it_fits(capsys: 
         assert (code, err) == (0, "")
         assert "OVERLAP" not in out
     # Where no machine has room there is no remedy to name.
-    Path("wide.f").write_text(LARGE.replace("3900", "5900"))
+    Path("wide.f").write_text(LARGE.replace("3900", "5900"), encoding="utf-8")
     assert call(capsys, "check", "wide.f")[1].endswith("has 31580 for them\n")
 
 
 def test_check_refuses_what_run_refuses(capsys: pytest.CaptureFixture[str]) -> None:
-    Path("wide.f").write_text(LARGE)
+    Path("wide.f").write_text(LARGE, encoding="utf-8")
     _, out, _ = call(capsys, "check", "wide.f")
     code, _, err = call(capsys, "run", "wide.f", "one.deck")
     assert code == 2

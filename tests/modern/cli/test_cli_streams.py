@@ -16,9 +16,9 @@ from tests.support.commands import DECK, call
 def test_files_instead(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = call(capsys, "hull", "good.deck", "--punch", "c", "--typewriter", "t", "--trace", "l")
     assert (code, out, err) == (0, "", "")
-    assert Path("t").read_text() == "POINTS ARE NOT COPLANAR\n"
-    assert Path("c").read_text().endswith("DETERMINED\n\n\n\n")
-    trace = Path("l").read_text()
+    assert Path("t").read_text(encoding="utf-8") == "POINTS ARE NOT COPLANAR\n"
+    assert Path("c").read_text(encoding="utf-8").endswith("DETERMINED\n\n\n\n")
+    trace = Path("l").read_text(encoding="utf-8")
     assert "* program1.f" in trace
     assert "* program3.f" in trace
     assert "X(2) = .10000000E+01" in trace
@@ -27,7 +27,7 @@ def test_files_instead(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
 def test_a_deck_from_standard_input(
     room: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(DECK.encode())))
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(DECK.encode()), encoding="utf-8"))
     assert call(capsys, "hull", "-")[0] == 0
 
 
@@ -50,31 +50,31 @@ def test_a_device_is_written_not_replaced(room: Path, capsys: pytest.CaptureFixt
 
 
 def test_neighbouring_files_are_left_alone(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("log.part").write_text("mine")
+    Path("log.part").write_text("mine", encoding="utf-8")
     assert call(capsys, "hull", "good.deck", "--trace", "log")[0] == 0
-    assert Path("log.part").read_text() == "mine"
+    assert Path("log.part").read_text(encoding="utf-8") == "mine"
 
 
 def test_an_existing_file_keeps_its_mode_and_a_link_is_followed(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("cards").write_text("old")
+    Path("cards").write_text("old", encoding="utf-8")
     Path("cards").chmod(0o600)
     Path("link").symlink_to("cards")
     assert call(capsys, "hull", "good.deck", "--punch", "link")[0] == 0
     assert Path("link").is_symlink()
     assert Path("cards").stat().st_mode & 0o777 == 0o600
-    assert "CONVEX HULL" in Path("cards").read_text()
+    assert "CONVEX HULL" in Path("cards").read_text(encoding="utf-8")
 
 
 def test_work_done_before_a_bad_card_is_put_out(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("bad.deck").write_text("2.\nABC\n")
+    Path("bad.deck").write_text("2.\nABC\n", encoding="utf-8")
     code, out, err = call(capsys, "run", "good.f", "bad.deck", "--trace", "log")
     assert (code, out) == (2, " .20000000E+01\n")
     assert err.count("\n") == 1
-    assert "READ 2,X" in Path("log").read_text()
+    assert "READ 2,X" in Path("log").read_text(encoding="utf-8")
 
 
 def test_blank_cards_after_the_deck(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("b.deck").write_text(DECK + "\n\n")
+    Path("b.deck").write_text(DECK + "\n\n", encoding="utf-8")
     code, _, err = call(capsys, "hull", "b.deck")
     assert code == 0
     assert "warning: b.deck: card 6, column 1: blank cards after" in err
@@ -82,7 +82,7 @@ def test_blank_cards_after_the_deck(room: Path, capsys: pytest.CaptureFixture[st
 
 def test_errors_of_the_arithmetic_are_always_mentioned(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     cards = "9.E+98        1.E+98        0.\n-9.E+98       2.E+98        0.            JUNK\n"
-    Path("big.deck").write_text(" 2\n" + cards)
+    Path("big.deck").write_text(" 2\n" + cards, encoding="utf-8")
     code, _, err = call(capsys, "hull", "big.deck")
     assert code == 0
     assert "what stands after z is not read" in err

@@ -100,7 +100,9 @@ def test_an_epsilon_lets_three_decimals_through(tmp_path: Path, capsys: pytest.C
 
     def statuses(epsilon: str) -> dict[str, tuple[str, bool]]:
         assert main(["diff", deck, "--epsilon", epsilon, "--json", out]) == 1
-        return {r["route"]: (r["status"], r["agrees"]) for r in json.loads(Path(out).read_text())["routes"]}
+        return {
+            r["route"]: (r["status"], r["agrees"]) for r in json.loads(Path(out).read_text(encoding="utf-8"))["routes"]
+        }
 
     absolute, scaled = statuses(".01"), statuses("rel:1e-9")
     assert absolute.pop("listing") == scaled.pop("listing") == ("DATA NOT ACCEPTABLE", False)

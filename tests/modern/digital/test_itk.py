@@ -208,7 +208,7 @@ def test_a_file_that_is_none_is_one_line(make: Callable[[], str], message: str, 
 
 def made_folder(name: str) -> str:
     Path(name).mkdir()
-    Path(name, "notes.txt").write_text("no slice")
+    Path(name, "notes.txt").write_text("no slice", encoding="utf-8")
     return name
 
 
@@ -246,7 +246,7 @@ def huge(name: str) -> str:
 def test_whatever_becomes_of_the_library_is_one_line(
     child: str, message: str, monkeypatch: pytest.MonkeyPatch, capfd: Any
 ) -> None:
-    Path("child.py").write_text(f"print('noise', flush=True)\n{child}\n")
+    Path("child.py").write_text(f"print('noise', flush=True)\n{child}\n", encoding="utf-8")
     monkeypatch.setattr(itk, "_CHILD", "child.py")
     if "sleep" in child:
         monkeypatch.setattr(itk, "LIMIT", 0.5)

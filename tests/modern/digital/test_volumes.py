@@ -267,7 +267,7 @@ def test_bad_names(name: str, message: str) -> None:
 
 
 def test_standard_input(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(npy(STEPS))))
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(npy(STEPS)), encoding="utf-8"))
     assert same(read_volume("-"), STEPS)
     monkeypatch.setattr("sys.stdin", None)
     with pytest.raises(EmulatorError, match="standard input is closed"):

@@ -177,7 +177,7 @@ def test_a_polygon_is_built_too_and_a_segment_is_not() -> None:
 
 def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    Path("s.csv").write_text("".join(f"{x},{y},{z}\n" for x, y, z in SOLID))
+    Path("s.csv").write_text("".join(f"{x},{y},{z}\n" for x, y, z in SOLID), encoding="utf-8")
     assert call(capsys, "cards", "s.csv", "-o", "s.deck")[0] == 0
     assert call(capsys, "hull", "s.deck", "--punch", "s.punch", "--typewriter", "s.typed")[0] == 0
     code, out, err = call(capsys, "draw", "s.csv", "--against", "s.punch", "--labels", "input", "--width", "800")
@@ -208,7 +208,7 @@ def test_what_cannot_be_drawn_is_a_line(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    Path("s.csv").write_text("0,0,0\n1,0,0\n0,1,0\n0,0,1\n")
+    Path("s.csv").write_text("0,0,0\n1,0,0\n0,1,0\n0,0,1\n", encoding="utf-8")
     code, out, err = call(capsys, "draw", *arguments)
     assert (code, out, err.count("\n")) == (2, "", 1)
     assert words in err

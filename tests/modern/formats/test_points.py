@@ -122,7 +122,7 @@ def test_recognising(text: str, source: str, kind: str) -> None:
 
 
 def test_standard_input(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(b"\xef\xbb\xbf" + CSV.encode())))
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(b"\xef\xbb\xbf" + CSV.encode()), encoding="utf-8"))
     found = read_input("-")
     assert (found.source, found.kind, len(found.points)) == ("standard input", "csv", 2)
 
@@ -187,7 +187,7 @@ def test_bad_points(
 def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """An empty folder to be in, with one tetrahedron."""
     monkeypatch.chdir(tmp_path)
-    Path("t.csv").write_text(TETRA)
+    Path("t.csv").write_text(TETRA, encoding="utf-8")
     return tmp_path
 
 
@@ -195,16 +195,16 @@ def test_export_to_every_format(room: Path, capsys: pytest.CaptureFixture[str]) 
     for form in ("off", "obj", "ply", "stl", "json"):
         code, out, err = call(capsys, "export", "t.csv", "-o", f"t.{form}")
         assert (code, out, err) == (0, "", "note: t.csv: line 6: the point of line 1 again\n")
-        text = Path(f"t.{form}").read_text()
+        text = Path(f"t.{form}").read_text(encoding="utf-8")
         assert call(capsys, "export", "t.csv", "--format", form)[:2] == (0, text)
-    read = parse_off(Path("t.off").read_text(), "t.off")
+    read = parse_off(Path("t.off").read_text(encoding="utf-8"), "t.off")
     assert sorted(read.points) == [("0", "0", "0"), ("0", "0", "1"), ("0", "1", "0"), ("1", "0", "0")]
     assert len(read.faces) == 4
-    document = json.loads(Path("t.json").read_text())
+    document = json.loads(Path("t.json").read_text(encoding="utf-8"))
     assert (document["inside"], document["duplicates"]) == ([4], [{"point": 5, "first": 0}])
     # What was written is an input again.
     assert call(capsys, "export", "t.off", "-o", "again.off") == (0, "", "")
-    assert set(parse_off(Path("again.off").read_text(), "").points) == set(read.points)
+    assert set(parse_off(Path("again.off").read_text(encoding="utf-8"), "").points) == set(read.points)
 
 
 def test_draw(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -234,7 +234,7 @@ BAD_ARGUMENTS = [
 
 @pytest.mark.parametrize(("arguments", "words"), BAD_ARGUMENTS, ids=[" ".join(b[0]) for b in BAD_ARGUMENTS])
 def test_bad_arguments(room: Path, capsys: pytest.CaptureFixture[str], arguments: tuple[str, ...], words: str) -> None:
-    Path("s.csv").write_text("0,0,0\n1,1,1\n")
+    Path("s.csv").write_text("0,0,0\n1,1,1\n", encoding="utf-8")
     before = sorted(path.name for path in room.iterdir())
     code, out, err = call(capsys, *arguments)
     assert (code, out) == (2, "")
@@ -244,7 +244,7 @@ def test_bad_arguments(room: Path, capsys: pytest.CaptureFixture[str], arguments
 
 def test_a_mesh_is_the_judges_hull_and_json_the_procedures(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     points = [(3, 4, 8), (6, -3, 7), (1, 2, -5), (4, 2, -3), (4, 2, 4), (1, 2, 7), (-2, 2, 0), (2, 2, 2)]
-    Path("e.csv").write_text("".join(f"{x},{y},{z}\n" for x, y, z in points))
+    Path("e.csv").write_text("".join(f"{x},{y},{z}\n" for x, y, z in points), encoding="utf-8")
     made, judged = convex_hull(points), as_hull(exact_hull(points))
     assert made.vertices != judged.vertices, "the order of the procedure is another than the input's"
     for form in ("off", "obj", "ply", "stl", "html"):

@@ -48,8 +48,8 @@ CROWN = """OFF
 @pytest.fixture
 def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
-    Path("fig4.off").write_text(FIG_4)
-    Path("crown.off").write_text(CROWN)
+    Path("fig4.off").write_text(FIG_4, encoding="utf-8")
+    Path("crown.off").write_text(CROWN, encoding="utf-8")
     return tmp_path
 
 
@@ -109,7 +109,7 @@ def test_literal_says_which_edges_are_none(room: Path, capsys: pytest.CaptureFix
 
 
 def test_literal_loops_are_those_of_the_letter(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("fig14.csv").write_text("0,0,4\n8,0,4\n4,8,4\n1,-2,0\n9,14,0\n17,-2,0\n")
+    Path("fig14.csv").write_text("0,0,4\n8,0,4\n4,8,4\n1,-2,0\n9,14,0\n17,-2,0\n", encoding="utf-8")
     _, preferred, _ = call(capsys, "fig14.csv")
     code, letter, err = call(capsys, "fig14.csv", "--printed", "step3")
     assert (code, err) == (0, "note: taken as printed: step3\n")
@@ -137,7 +137,7 @@ def test_output_is_an_off_file_of_the_hull(room: Path, capsys: pytest.CaptureFix
     assert code == 0
     assert out.count("kept as") == 6
     code, out, err = call(capsys, "fig4.off", "-o", "-")
-    assert out == Path("hull.off").read_text()
+    assert out == Path("hull.off").read_text(encoding="utf-8")
     assert "Loop table" in err
     assert call(capsys, "fig4.off", "--literal", "-o", "wrong.off")[0] == 1
     assert not Path("wrong.off").exists()
@@ -152,7 +152,7 @@ def test_output_is_an_off_file_of_the_hull(room: Path, capsys: pytest.CaptureFix
     ],
 )
 def test_flat_input(room: Path, capsys: pytest.CaptureFixture[str], text: str, words: str) -> None:
-    Path("flat.csv").write_text(text)
+    Path("flat.csv").write_text(text, encoding="utf-8")
     code, out, err = call(capsys, "flat.csv")
     assert code == 0
     assert words in out
@@ -177,12 +177,12 @@ def test_flat_input(room: Path, capsys: pytest.CaptureFixture[str], text: str, w
     ],
 )
 def test_misuse_is_one_line(room: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], words: str) -> None:
-    Path("bad.off").write_text("OFF\n4 4 6\n")
+    Path("bad.off").write_text("OFF\n4 4 6\n", encoding="utf-8")
     triangle = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n"
-    Path("two.off").write_text(triangle + "2 0 1\n")
-    Path("twice.off").write_text(triangle + "3 0 1 1\n")
-    Path("open.off").write_text(triangle + "3 0 1 2\n")
-    Path("points.csv").write_text("0,0,0\n1,0,0\n")
+    Path("two.off").write_text(triangle + "2 0 1\n", encoding="utf-8")
+    Path("twice.off").write_text(triangle + "3 0 1 1\n", encoding="utf-8")
+    Path("open.off").write_text(triangle + "3 0 1 2\n", encoding="utf-8")
+    Path("points.csv").write_text("0,0,0\n1,0,0\n", encoding="utf-8")
     try:
         code = main(["appel-will", *arguments])
     except SystemExit as left:

@@ -263,8 +263,8 @@ def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     draw = random.Random(5)
     rows = [",".join(str(draw.randrange(-99, 100)) for _ in range(3)) for _ in range(70)]
-    Path("many.csv").write_text("\n".join(rows) + "\n")
-    Path("d.csv").write_text("".join(f"{x!r},{y!r},{z!r}\n" for x, y, z in dodecahedron()))
+    Path("many.csv").write_text("\n".join(rows) + "\n", encoding="utf-8")
+    Path("d.csv").write_text("".join(f"{x!r},{y!r},{z!r}\n" for x, y, z in dodecahedron()), encoding="utf-8")
     return tmp_path
 
 
@@ -275,7 +275,7 @@ def test_the_command_draws_all_three(room: Path, capsys: pytest.CaptureFixture[s
         assert (code, err) == (0, "")
         assert "Convex edge list" in out
         ElementTree.parse("a.svg")
-        pictures.append(Path("a.svg").read_text())
+        pictures.append(Path("a.svg").read_text(encoding="utf-8"))
     assert len(set(pictures)) == 5
     code, out, err = call(capsys, "appel-will", "appel-will/fig23", "-o", "-", "--map")
     assert (code, "Convex edge list" in err) == (0, True)
@@ -298,11 +298,11 @@ def test_many_points_are_told_briefly(room: Path, capsys: pytest.CaptureFixture[
     assert everything.splitlines()[start + 1 + edges].split()[0] == str(edges)
     assert "IUC(L)" in call(capsys, "appel-will", "many.csv", "--trace")[1]
     assert call(capsys, "export", "many.csv", "-o", "hull.off")[0] == 0
-    vertices, faces, _ = Path("hull.off").read_text().splitlines()[1].split()
+    vertices, faces, _ = Path("hull.off").read_text(encoding="utf-8").splitlines()[1].split()
     inner = "".join(f"0 0 {k}\n" for k in range(30))
-    more = Path("hull.off").read_text().split("\n", 2 + int(vertices))
+    more = Path("hull.off").read_text(encoding="utf-8").split("\n", 2 + int(vertices))
     text = "\n".join(["OFF", f"{int(vertices) + 30} {faces} 0", *more[2:-1], inner + more[-1]])
-    Path("more.off").write_text(text)
+    Path("more.off").write_text(text, encoding="utf-8")
     out = call(capsys, "appel-will", "more.off", "--inside-corners", "two")[1]
     assert f"of the {faces} surfaces given {faces} kept, 0 respecified, 0 deleted; 0 added\n" in out
     assert "0 points deleted by rule two before any projection\n" in out
@@ -318,7 +318,7 @@ def test_faces_of_a_file_in_floats_are_kept(room: Path, capsys: pytest.CaptureFi
     assert "Topological map, faces within 1e-9 of a plane read as one\nsurface 1: " in out
     assert out.count(": kept as surface") == 12
     assert "added" not in out
-    assert Path("e.off").read_text().splitlines()[1] == "20 12 30"
+    assert Path("e.off").read_text(encoding="utf-8").splitlines()[1] == "20 12 30"
     flat = call(capsys, "appel-will", "appel-will/fig23", "--coplanar-within", "0")
     assert "no two of 7 faces lie within 0 of one plane" in flat[2]
 

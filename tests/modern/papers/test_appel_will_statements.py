@@ -65,7 +65,7 @@ def test_the_hull_grows_faster_than_hidden_lines() -> None:
 
 def test_the_sphere_of_the_row_is_one() -> None:
     path = Path(ROOT, "transcripts", "counterexamples", "sphere_40.csv")
-    points = [tuple(map(int, row)) for row in csv.reader(path.read_text().splitlines())]
+    points = [tuple(map(int, row)) for row in csv.reader(path.read_text(encoding="utf-8").splitlines())]
     assert len(set(points)) == 40
     assert len(appel_will(points).vertices) == 40
 

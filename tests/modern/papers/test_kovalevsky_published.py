@@ -124,7 +124,7 @@ def test_the_command_prints_what_the_paper_prints(capsys: pytest.CaptureFixture[
     assert (code, err) == (0, "coordinates: indices, voxel (x, y, z) from (x, y, z) to (x+1, y+1, z+1)\n")
     for number in ("17077", "776", "360", "1404", "266"):
         assert number in out.replace(",", "").split()
-    found = parse_off(Path("ball.off").read_text(), "ball.off")
+    found = parse_off(Path("ball.off").read_text(encoding="utf-8"), "ball.off")
     assert len(found.faces) == 266
     code, out, err = run(capsys, "ball:32", "--centres")
     assert "260 faces, 342 vertices, 600 edges" in out
@@ -152,12 +152,14 @@ def test_straight_edges_are_merged_where_asked(capsys: pytest.CaptureFixture[str
     options = ("half-ball:8", "--corners", "6", "--coplanar", "invisible", "-o")
     run(capsys, *options, "kept.off")
     run(capsys, *options, "straight.off", "--straight")
-    sizes = [len(parse_off(Path(f"{name}.off").read_text(), name).points) for name in ("kept", "straight")]
+    sizes = [
+        len(parse_off(Path(f"{name}.off").read_text(encoding="utf-8"), name).points) for name in ("kept", "straight")
+    ]
     assert sizes == [48, 44]
 
 
 def test_cells_are_printed_as_tables(capsys: pytest.CaptureFixture[str]) -> None:
-    Path("one.csv").write_text("0,0,0\n")
+    Path("one.csv").write_text("0,0,0\n", encoding="utf-8")
     code, out, _ = run(capsys, "one.csv", "--cells", "--order", "raster")
     assert code == 0
     table = [line.split("\t") for line in out.splitlines() if "\t" in line]
@@ -176,15 +178,15 @@ def test_cells_are_printed_as_tables(capsys: pytest.CaptureFixture[str]) -> None
     ],
 )
 def test_flat_solids(capsys: pytest.CaptureFixture[str], voxels: str, says: str, off: str) -> None:
-    Path("flat.csv").write_text(voxels)
+    Path("flat.csv").write_text(voxels, encoding="utf-8")
     code, out, _ = run(capsys, "flat.csv", "--centres", "-o", "flat.off")
     assert code == 0
     assert says in out
-    assert Path("flat.off").read_text().splitlines()[1] == off
+    assert Path("flat.off").read_text(encoding="utf-8").splitlines()[1] == off
 
 
 def test_fill_writes_the_filled_hull(capsys: pytest.CaptureFixture[str]) -> None:
-    Path("two.csv").write_text("3,0,0\n5,0,0\n3,0,0\n")
+    Path("two.csv").write_text("3,0,0\n5,0,0\n3,0,0\n", encoding="utf-8")
     code, out, err = run(capsys, "two.csv", "--fill", "-o", "filled.npy")
     assert code == 0
     assert "two.csv: 1 of 3 voxels are listed before" in err

@@ -101,7 +101,7 @@ def test_what_is_wrong_with_a_part_is_one_line(
     folder: Path, old: str, new: str, message: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert SCENE.count(old) == 1
-    Path("scenes/three.toml").write_text(SCENE.replace(old, new))
+    Path("scenes/three.toml").write_text(SCENE.replace(old, new), encoding="utf-8")
     code, out, err = call(capsys, "hidden-line", "scenes/three.toml", "-o", "a.svg")
     assert (code, out, err.count("\n")) == (2, "", 1), err
     assert message in err
@@ -127,8 +127,8 @@ def test_the_command_on_files_of_faces(folder: Path, capsys: pytest.CaptureFixtu
 
 def test_an_output_never_overwrites_a_file_of_the_scene(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     Path("scenes/ell.obj").rename("scenes/ell.svg")
-    before = Path("scenes/ell.svg").read_text()
-    Path("scenes/three.toml").write_text(SCENE.replace("ell.obj", "ell.svg"))
+    before = Path("scenes/ell.svg").read_text(encoding="utf-8")
+    Path("scenes/three.toml").write_text(SCENE.replace("ell.obj", "ell.svg"), encoding="utf-8")
     code, _, err = call(capsys, "hidden-line", "scenes/three.toml", "-o", "scenes/ell.svg")
     assert (code, err) == (2, "hull1620: scenes/ell.svg: is a file of the scene too; an output never overwrites it\n")
-    assert Path("scenes/ell.svg").read_text() == before
+    assert Path("scenes/ell.svg").read_text(encoding="utf-8") == before

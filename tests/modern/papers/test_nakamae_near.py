@@ -153,7 +153,7 @@ at = [0, -5, 0]
 
 def test_a_scene_with_a_near_plane(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys) -> None:
     monkeypatch.chdir(tmp_path)
-    Path("s.toml").write_text(SCENE)
+    Path("s.toml").write_text(SCENE, encoding="utf-8")
     code, _, err = call(capsys, "hidden-line", "s.toml", "-o", "a.svg")
     assert code == 0
     assert err.splitlines()[:2] == [
@@ -161,7 +161,7 @@ def test_a_scene_with_a_near_plane(tmp_path: Path, monkeypatch: pytest.MonkeyPat
         "note: 1 part behind the near plane, left out: s.toml: part 1 (near)",
     ]
     assert call(capsys, "hidden-line", "s.toml", "--near", "1/2", "-o", "b.svg")[2].startswith("polyhedra ")
-    assert Path("a.svg").read_text() != Path("b.svg").read_text()
+    assert Path("a.svg").read_text(encoding="utf-8") != Path("b.svg").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(
@@ -178,7 +178,7 @@ def test_a_scene_with_a_near_plane(tmp_path: Path, monkeypatch: pytest.MonkeyPat
 )
 def test_refusals(tmp_path: Path, monkeypatch, capsys, old: str, new: str, arguments, message: str) -> None:
     monkeypatch.chdir(tmp_path)
-    Path("s.toml").write_text(SCENE.replace(old, new))
+    Path("s.toml").write_text(SCENE.replace(old, new), encoding="utf-8")
     code, _, err = call(capsys, "hidden-line", "s.toml", *arguments, "-o", "a.svg")
     assert (code, err.count("\n"), Path("a.svg").exists()) == (2, 1, False), err
     assert message in err

@@ -21,7 +21,7 @@ VOXELS = [(0, 0, 0), (0, 1, 0), (0, 1, 1), (1, 0, 0), (1, 0, 1), (1, 1, 1), (1, 
 @pytest.fixture
 def stair(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
     monkeypatch.chdir(tmp_path)
-    Path("stair.csv").write_text(STAIR)
+    Path("stair.csv").write_text(STAIR, encoding="utf-8")
     return "stair.csv"
 
 
@@ -83,9 +83,9 @@ def test_the_mesh_is_the_hull_of_the_voxels_centres(
     stair: str, name: str, voxels: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """As another command makes it of the centres as points."""
-    Path("v.csv").write_text(voxels)
+    Path("v.csv").write_text(voxels, encoding="utf-8")
     rows = [row if row.count(",") == 2 else f"{row},0" for row in voxels.split()[1:]]
-    Path("p.csv").write_text("\n".join(rows) + "\n")
+    Path("p.csv").write_text("\n".join(rows) + "\n", encoding="utf-8")
     assert call(capsys, "octree-hull", "v.csv", "-o", "v.off")[0] == 0
     assert call(capsys, "export", "p.csv", "-o", "p.off")[0] == 0
     found, wanted = read_off("v.off"), read_off("p.off")
@@ -96,17 +96,17 @@ def test_the_mesh_is_the_hull_of_the_voxels_centres(
 
 
 def test_what_the_reader_says_comes_only_when_all_went_well(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("far.csv").write_text("0,0,0\n0,0,0\n999999999,0,0\n")
+    Path("far.csv").write_text("0,0,0\n0,0,0\n999999999,0,0\n", encoding="utf-8")
     code, out, err = call(capsys, "octree-hull", "far.csv", "-o", "far.npy")
     assert (code, out, err.count("\n")) == (2, "", 1), err
     assert call(capsys, "octree-hull", "far.csv")[2].endswith("is not divided\n")
-    Path("twice.csv").write_text("0,0,0\n0,0,0\n")
+    Path("twice.csv").write_text("0,0,0\n0,0,0\n", encoding="utf-8")
     said = "note: twice.csv: 1 of 2 voxels are listed before\n"
     assert call(capsys, "octree-hull", "twice.csv")[::2] == (0, said)
 
 
 def test_one_voxel_is_one(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("one.csv").write_text("4,5,6\n")
+    Path("one.csv").write_text("4,5,6\n", encoding="utf-8")
     out = call(capsys, "octree-hull", "one.csv")[1].splitlines()
     assert out[0] == "one.csv: 1 voxel, an octree of 1 node over a cube of side 1"
     assert out[-1] == "digital hull: 1 voxel, an octree of 1 node"
@@ -145,7 +145,7 @@ def test_the_letter_of_the_paper_differs(stair: str, capsys: pytest.CaptureFixtu
 
 
 def test_a_statement_that_does_no_harm_here(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("row.csv").write_text("0,0,0\n1,0,0\n2,0,0\n")
+    Path("row.csv").write_text("0,0,0\n1,0,0\n2,0,0\n", encoding="utf-8")
     code, out, err = call(capsys, "octree-hull", "row.csv", "--printed", "marks, start")
     assert code == 0
     assert out.endswith("against the corrected algorithm: 0 voxels missing, 0 too many\n")
@@ -160,7 +160,7 @@ def test_help_names_every_statement(capsys: pytest.CaptureFixture[str]) -> None:
 
 @pytest.mark.parametrize("command", [["octree-hull"], ["voxel-hull", "--fill"]])
 def test_the_filled_hull_as_an_array(stair: str, command: list[str], capsys: pytest.CaptureFixture[str]) -> None:
-    Path("far.csv").write_text("0,0,0\n3,3,3\n0,3,0\n3,0,0\n")
+    Path("far.csv").write_text("0,0,0\n3,3,3\n0,3,0\n3,0,0\n", encoding="utf-8")
     code, _, _ = call(capsys, *command, "far.csv", "-o", "hull.npy")
     assert code == 0
     expected = judged(solid_of([(0, 0, 0), (3, 3, 3), (0, 3, 0), (3, 0, 0)]))[1]
@@ -172,7 +172,7 @@ def test_where_an_array_begins_is_said(stair: str, capsys: pytest.CaptureFixture
 
 
 def test_what_is_not_connected_says_so(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
-    Path("apart.csv").write_text("0,0\n4,2\n")
+    Path("apart.csv").write_text("0,0\n4,2\n", encoding="utf-8")
     code, out, _ = call(capsys, "octree-hull", "apart.csv", "--tables")
     assert code == 0
     assert "over one line; vertices of its envelope:\n  (0,0,0) (4,2,0)\n" in out

@@ -181,10 +181,10 @@ def test_wrong_use_is_one_line(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    Path("bad.rng").write_text("<x")
-    Path("bad.xml").write_text("")
-    Path("other.xml").write_text("<TEI/>")
-    Path("good.xml").write_text(written("program2"))
+    Path("bad.rng").write_text("<x", encoding="utf-8")
+    Path("bad.xml").write_text("", encoding="utf-8")
+    Path("other.xml").write_text("<TEI/>", encoding="utf-8")
+    Path("good.xml").write_text(written("program2"), encoding="utf-8")
     code, out, err = call(capsys, *words)
     assert (code, out, err.count("\n")) == (2, "", 1)
     assert message in err

@@ -18,7 +18,7 @@ FOLDERS = sorted(path for path in RUNS.iterdir() if path.is_dir())
 
 def lines(path: Path) -> list[str]:
     """A file's lines without the blank ones at its end, which the record of the runs dropped."""
-    found = [line.rstrip() for line in path.read_text().split("\n")]
+    found = [line.rstrip() for line in path.read_text(encoding="utf-8").split("\n")]
     return trimmed(found)
 
 
