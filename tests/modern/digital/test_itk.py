@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import locale
 import math
 import os
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -33,6 +34,14 @@ TURNED = (math.cos(0.3), -math.sin(0.3), 0, math.sin(0.3), math.cos(0.3), 0, 0, 
 @pytest.fixture(autouse=True)
 def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
+
+
+@pytest.fixture(autouse=True)
+def _locale() -> Iterator[None]:
+    """Writing DICOM sets the locale of the process to C; the command reads in a process of its own."""
+    before = locale.setlocale(locale.LC_ALL)
+    yield
+    locale.setlocale(locale.LC_ALL, before)
 
 
 def written(name: str, direction: Any = (1, 0, 0, 0, -1, 0, 0, 0, 1), values: np.ndarray = VALUES) -> str:

@@ -198,13 +198,14 @@ def test_a_damaged_document_is_refused_in_a_line_or_read(tmp_path: Path, capsys:
         at = draw.randrange(len(source))
         damaged = tmp_path / "damaged.xml"
         damaged.write_text(
-            source[:at] + draw.choice(["", "<", "&", "9", '"', "</ab>"]) + source[at + draw.randrange(40) :]
+            source[:at] + draw.choice(["", "<", "&", "9", '"', "</ab>"]) + source[at + draw.randrange(40) :],
+            encoding="utf-8",
         )
         code, _, err = call(capsys, "tei", "--read", str(damaged), "--part", "example1/program1.deck")
         assert (code, err.count("\n")) in ((0, 0), (2, 1)), err
         seen.add(code)
     assert 2 in seen
     wide = tmp_path / "wide.xml"
-    wide.write_text(re.sub(r'quantity="\d+"', 'quantity="81"', source))
+    wide.write_text(re.sub(r'quantity="\d+"', 'quantity="81"', source), encoding="utf-8")
     code, _, err = call(capsys, "tei", "--read", str(wide), "--part", "example1/program1.deck")
     assert (code, err) == (2, f"hull1620: {wide}: a space of '81' characters; a card has 80 columns\n")
