@@ -45,6 +45,8 @@ FLOATING_ITEMS, FIXED_ITEMS = st.lists(_FLOATING_ITEM, max_size=4), st.lists(_FI
 ITEMS = st.lists(_FLOATING_ITEM | _FIXED_ITEM, max_size=4)
 
 
+_COLUMNS = 66
+"""Of a statement on one card."""
 START = ["I=1", "J=2", "N=2", "K=3", "A=1.5", "B=-2.", "Z=0.", "DO 5 I=1,3", "M(I)=I", "5 X(I)=A", "M(4)=0"]
 START += ["DO 6 I=1,2", "Y(I,1)=B", "6 Y(I,2)=-Z", "I=2"]
 
@@ -84,6 +86,8 @@ def programs(draw: st.DrawFn, functions: tuple[str, ...] = SHORT_FUNCTIONS, powe
         elif kind == 10:
             body = ",".join([f"{draw(st.sampled_from(['PUNCH', 'PRINT', 'TYPE']))} {form}", *draw(items)])
         else:
+            body = "CONTINUE"
+        if len(body) > _COLUMNS:
             body = "CONTINUE"
         cards.append(f"{10 * n} {body}")
         if body.startswith(f"DO {10 * n + 5} "):

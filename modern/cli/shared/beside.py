@@ -55,7 +55,7 @@ def beside(
     rows = list(_rows(first, second, columns))
     if not rows:
         return
-    longest = [max((len(row[k]) for row in rows), default=0) for k in (1, 2)]
+    longest = [max(max(len(row[k + 1]), len(row[3][k])) for row in rows) for k in (0, 1)]
     lead = " " * indent
     left = max(longest[0], len(heads[0]))
     used = [mark for mark in _WORDS if any(row[0] == mark for row in rows)]

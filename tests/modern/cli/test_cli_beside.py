@@ -80,6 +80,15 @@ def told(found: list[str]) -> tuple[str, ...]:
     return tuple(text.replace(" ", "") for text in texts)
 
 
+def test_marks_stand_below_what_they_mark_where_the_other_line_is_longer() -> None:
+    """Both lines are marked as far as the longer one goes."""
+    for one, other in (([], ["1" * 18]), (["1" * 18], []), (["12"], ["1" * 18])):
+        *_, line, marks = beside(one, other, 60)
+        at = line.index("|") + 2
+        assert marks[at:] == ("^" * 18 if "12" not in one else " " + "^" * 17)
+        assert max(map(len, beside(one, other, 50))) <= 50
+
+
 @given(TEXT, TEXT, st.integers(50, 140), st.booleans())
 def test_nothing_is_lost_and_no_line_is_too_long(one: list[str], other: list[str], width: int, columns: bool) -> None:
     found = list(beside(one, other, width, columns=columns))
