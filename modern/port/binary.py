@@ -60,8 +60,8 @@ class FloatArithmetic(Arithmetic):
 
     def surely_distinct(self, coordinates: Vector) -> bool:
         x, y, z = (row.astype(np.float64) for row in coordinates)
-        mixed = x + 0.7320508075688772 * y + 0.23606797749978969 * z
-        return len(np.unique(mixed)) == len(mixed)
+        mixed = np.sort(x + 0.7320508075688772 * y + 0.23606797749978969 * z)
+        return bool((mixed[1:] > mixed[:-1]).all())
 
     def exact(self, value: Scalar, degree: int) -> Exact:
         over, under = value.as_integer_ratio()

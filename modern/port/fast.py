@@ -24,6 +24,8 @@ _FIRST = 4
 """Vertices of H_1."""
 _SPARE = 1024
 """Slots to begin with, besides six for each equation: a stage needs at most four and a half, of those that stand."""
+_POINTS_A_SLOT = 8
+"""And one for so many points: most hulls are then grown without asking for more, which copies the points."""
 
 _MANY = 5_000
 """Points from which on loading the kernels costs less than it saves."""
@@ -93,7 +95,7 @@ def with_kernels(grow: Function, find: Function) -> Steps:
 
     def stage(hull: Polyhedron, first: bool) -> growth.Grown | None:
         """One stage if somebody watches, else as many as come."""
-        cloud, slots, state = _cloud(hull), _slots(hull.table, 6 * len(hull.table) + _SPARE), _state(hull)
+        cloud, slots, state = _cloud(hull), _slots(hull.table, _spare(hull)), _state(hull)
         room = workspace.room_for(len(slots.alive), slots.coefficients.dtype)
         code = grow(cloud, slots, room, state, _rules(hull), first, 1 if hull.watch else -1)
         _take_back(hull, cloud, slots, state)
@@ -114,6 +116,10 @@ def with_kernels(grow: Function, find: Function) -> Steps:
         return [found[start:end] for start, end in zip([0, *ends], ends, strict=False)]
 
     return Steps(stage, satisfied)
+
+
+def _spare(hull: Polyhedron) -> int:
+    return 6 * len(hull.table) + _SPARE + len(hull.places) // _POINTS_A_SLOT
 
 
 def _cloud(hull: Polyhedron) -> Cloud:
@@ -168,6 +174,8 @@ def _take_back(hull: Polyhedron, cloud: Cloud, slots: Slots, state: NDArray[np.i
     table.serial, table.made = standing, int(made)
     if table.tolerances is not None:
         table.tolerances = slots.tolerances[standing]
+    if state[workspace.KNOWN] & workspace.TABLE:
+        hull.progress.correct(TABLE_OF_PLANES)
     hull.vertices, hull.to_check = int(state[workspace.VERTICES]), int(state[workspace.CHECKED])
     remaining.keeper, remaining.tried = cloud.keeper[hull.vertices : count], int(state[workspace.TRIED])
     remaining.struck = bool(state[workspace.STRUCK])

@@ -2,8 +2,8 @@
 
 The steps are those of :mod:`modern.port.growth`, :mod:`modern.port.polyhedron` and :mod:`modern.port.growth`, and so
 are the decisions and the numbers, which come from the formulas those use.  What is not ordinary is left to them: a
-stage that stops, that meets a correction not yet noted, or that takes back a vertex returns UNUSUAL with nothing
-changed but the equation to check.
+stage that stops, that meets a correction of a pair or of C not yet noted, or that takes back a vertex returns UNUSUAL
+with nothing changed but the equation to check.
 """
 
 from __future__ import annotations
@@ -94,8 +94,6 @@ def farthest_outside(coordinates: NDArray[Any], count: int, found: Any, e: Any) 
     """The place of the largest value, the last of equals, if it is outside; else -1."""
     largest = e if e > 0 else e - e
     place = -1
-    if not reaching(coordinates, 0, count, found, largest):
-        return place
     # From the end on: a later one of equals is met first.
     end = count
     while end > 0:
@@ -253,8 +251,10 @@ def expand(place: int, cloud: Any, slots: Any, room: Any, state: NDArray[np.int6
     partner = room.partner
     if gone > 1 and takes_last_pair(partner, 3 * gone):
         corrections |= PAIR
-    if corrections & ~state[KNOWN]:
+    # The table of planes is larger than the listing's in every hull of many points: that is noted here.
+    if corrections & ~state[KNOWN] & ~TABLE:
         return UNUSUAL
+    state[KNOWN] |= corrections
     for k in range(gone):
         slots.alive[room.order[k]] = False
     to = made

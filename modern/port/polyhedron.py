@@ -189,13 +189,12 @@ def strike_repeats(table: Equations, on: On, places: int, progress: Progress) ->
     mm, nn, kk = table.defining
     struck_by = np.full(len(table), -1)
     member = np.zeros(places, np.bool_)
-    for k, points in enumerate(on):
-        if k and not (len(points) == 3 and set(points.tolist()) == {mm[k], nn[k], kk[k]}):
-            member[points] = True
-            earlier = np.flatnonzero(member[mm[:k]] & member[nn[:k]] & member[kk[:k]] & (struck_by[:k] < 0))
-            member[points] = False
-            if earlier.size:
-                struck_by[k] = earlier[0]
+    for k in _with_others(on, table.defining):
+        member[on[k]] = True
+        earlier = np.flatnonzero(member[mm[:k]] & member[nn[:k]] & member[kk[:k]] & (struck_by[:k] < 0))
+        member[on[k]] = False
+        if earlier.size:
+            struck_by[k] = earlier[0]
     wanted = struck_by < 0
     # The listing looks beyond the table when an equation has struck the last of those after it.
     last = np.flatnonzero(wanted)[-1]
@@ -203,6 +202,16 @@ def strike_repeats(table: Equations, on: On, places: int, progress: Progress) ->
         progress.correct(LAST_REPEAT)
     table.keep(wanted)
     return [points for k, points in enumerate(on) if wanted[k]]
+
+
+def _with_others(on: On, defining: NDArray[np.int64]) -> list[int]:
+    """The equations, but the first, that others than their three points satisfy, or not all of these."""
+    three = np.flatnonzero(np.fromiter(map(len, on), np.int64, len(on)) == 3)
+    alone = np.zeros(len(on), np.bool_)
+    if three.size:
+        found = np.sort(np.concatenate([on[k] for k in three.tolist()]).reshape(-1, 3))
+        alone[three] = (found == np.sort(defining[:, three].T)).all(axis=1)
+    return [k for k in np.flatnonzero(~alone).tolist() if k]
 
 
 def are_vertices(on: On, count: int, places: int) -> NDArray[np.bool_]:

@@ -104,11 +104,12 @@ class _Run:
     def hull(self) -> Hull:
         numbers = self.arithmetic
         duplicates: tuple[tuple[int, int], ...] = ()
-        names = np.arange(self.given.shape[1])
-        if not numbers.surely_distinct(self.given):
+        if numbers.surely_distinct(self.given):
+            places = Places(self.given.copy(), np.arange(self.given.shape[1]))
+        else:
             distinct, duplicates = first_of_equals(numbers.keys(self.given))
             names = np.array(distinct, dtype=np.int64)
-        places = Places(self.given[:, names], names)
+            places = Places(self.given[:, names], names)
         self.slack = Slack(numbers, *self.epsilon) if self.epsilon else None
         opening = open_hull(numbers, places, self.slack, self.text)
         self.result = Hull(
