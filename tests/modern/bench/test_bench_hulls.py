@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
 import sys
 import time
 from pathlib import Path
@@ -123,3 +125,11 @@ def test_seconds_of_the_processor() -> None:
     figure = side_by_side({"waits": lambda: time.sleep(0.02)}, clock=time.process_time)[0]
     assert figure.median < 0.01
     assert side_by_side({"waits": lambda: time.sleep(0.02)})[0].median >= 0.02
+
+
+def test_linear_algebra_has_one_thread_as_the_peers_have() -> None:
+    """A process of its own: what numpy reads when it is loaded."""
+    words = "import os, sys, modern.bench; print(os.environ['OPENBLAS_NUM_THREADS'], 'numpy' in sys.modules)"
+    environment = {name: value for name, value in os.environ.items() if name != "OPENBLAS_NUM_THREADS"}
+    found = subprocess.run([sys.executable, "-c", words], env=environment, capture_output=True, text=True, check=True)
+    assert found.stdout == "1 False\n"
