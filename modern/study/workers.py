@@ -12,6 +12,7 @@ import threading
 from collections.abc import Generator, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import suppress
 from importlib import import_module
 from itertools import islice
 from pathlib import Path
@@ -125,7 +126,9 @@ def in_processes(
     except BrokenProcessPool:
         raise PlanError("a worker process died (was it killed, or out of memory?); --resume goes on") from None
     finally:
-        pool.shutdown(wait=True, cancel_futures=True)
+        # Where Ctrl-C fell before the pool had begun its thread there is nothing to wait for, and it says so by this.
+        with suppress(RuntimeError):
+            pool.shutdown(wait=True, cancel_futures=True)
 
 
 def _from_pool(

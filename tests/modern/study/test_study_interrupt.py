@@ -8,8 +8,10 @@ import random
 import signal
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Iterator
+from concurrent.futures import process
 from pathlib import Path
 
 import pytest
@@ -106,6 +108,18 @@ def test_the_first_press_finishes_what_is_in_hand_and_says_so(
     assert list(work) == []
     with pytest.raises(KeyboardInterrupt):
         interrupt.press()
+
+
+def test_a_press_while_the_pool_begins_is_a_press(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The pool's own thread is made, and not begun: the pool cannot wait for it."""
+
+    def pressed(thread: threading.Thread) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(process, "_ExecutorManagerThread", type("Begun", (threading.Thread,), {"start": pressed}))
+    monkeypatch.setattr(process._ExecutorManagerThread, "__init__", lambda one, pool: threading.Thread.__init__(one))
+    with pytest.raises(KeyboardInterrupt):
+        list(in_processes(PLAN, list(PLAN.chunks()), 2, Interrupt()))
 
 
 def test_with_nothing_finished_the_first_press_stops() -> None:
