@@ -12,10 +12,12 @@ from tests.support import house
 from tests.support.paths import ROOT
 
 LIMITS = house.limits(ROOT)
-EMULATOR = ("compiled", "machine", "language", "numbers")
-MODERN = (
-    *("cli", "bench", "study", "edition", "papers", "drawing", "digital", "comparison", "thesis", "port", "exact_hull"),
-    *("formats", "geometry", "publication"),
+EMULATOR = ("compiled", "machine", "language", "numbers", "jit")
+MODERN = tuple(
+    (
+        "cli publication bench study claims papers drawing digital edition comparison "
+        "thesis port exact_hull formats geometry"
+    ).split()
 )
 
 
@@ -55,6 +57,7 @@ def made_up(tmp_path: Path) -> Path:
             (folder / "__init__.py").touch()
     (tmp_path / "emulator" / "errors.py").touch()
     (tmp_path / "emulator" / "files.py").touch()
+    (tmp_path / "emulator" / "progress.py").touch()
     (tmp_path / "hull1620" / "hulls.py").touch()
     return tmp_path
 
@@ -132,7 +135,7 @@ def test_a_long_module_and_an_exception_not_needed_are_found(made_up: Path) -> N
 
 
 def test_a_short_module_is_counted(made_up: Path) -> None:
-    empty = ["emulator/errors.py", "emulator/files.py", "hull1620/hulls.py"]
+    empty = ["emulator/errors.py", "emulator/files.py", "emulator/progress.py", "hull1620/hulls.py"]
     assert house.short(made_up, LIMITS) == empty
     module = made_up / "modern" / "port" / "a.py"
     module.write_text("x = 1\n" * (LIMITS.short - 1), encoding="utf-8")

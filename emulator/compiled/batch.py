@@ -14,8 +14,8 @@ from time import sleep
 from typing import TypeVar
 
 from emulator.compiled import devices, kernel
-from emulator.compiled.jit import NotInstalled
 from emulator.compiled.runner import BLOCK, INSTEAD, WAYS, Run, Runner, packed, packed_text, unsuited, why_plain
+from emulator.jit.functions import NotInstalled
 from emulator.language.cards import Deck, deck_from_text
 from emulator.language.objectcode import Program
 from emulator.machine.endings import Ending, Notice, decided, looped, out_of_bounds, stopped, too_costly, unfit

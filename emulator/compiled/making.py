@@ -16,8 +16,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from emulator.compiled.jit import NotInstalled
 from emulator.compiled.runner import Runner, run_decks
+from emulator.jit.functions import NotInstalled
 from emulator.language.cards import deck_from_lines
 from emulator.language.compiler import compile_deck
 from emulator.machine.result import Options

@@ -16,7 +16,7 @@ import numpy as np
 
 from emulator.compiled import deck as decks
 from emulator.compiled import devices, kernel
-from emulator.compiled.jit import Compiled, NotInstalled
+from emulator.jit.functions import Compiled, NotInstalled
 from emulator.language.cards import CHARACTERS, COLUMNS, MAX_CARDS, Deck
 from emulator.language.formats import MAX_RECORD, Literal
 from emulator.language.objectcode import Flat, Program, flatten
@@ -72,7 +72,7 @@ def why_plain(options: Options) -> str:
 
 @cache
 def run_decks() -> Compiled:
-    """:func:`emulator.compiled.deck.run_decks` for numba to compile.  Raises emulator.compiled.jit.NotInstalled."""
+    """:func:`emulator.compiled.deck.run_decks` for numba to compile.  Raises emulator.jit.functions.NotInstalled."""
     # Nothing is divided by zero and no array is made, so that numba need not look for the one nor count the other's
     # users.  The second option is named in the docstring of numba.extending.register_jitable only; without it a run
     # takes a sixth longer, as every call counts each array it is given.
@@ -126,7 +126,7 @@ class Run:
 class Runner:
     """One program in core, ready to be run over blocks of decks.
 
-    Raises what Machine does, and emulator.compiled.jit.NotInstalled.
+    Raises what Machine does, and emulator.jit.functions.NotInstalled.
     """
 
     def __init__(self, program: Program, options: Options) -> None:

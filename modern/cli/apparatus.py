@@ -10,10 +10,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from emulator.files import read_text
+from modern.claims.apparatus_checks import check_everything
 from modern.cli.shared.console import DIFFERS, OK, UsageError
 from modern.edition import programs
 from modern.edition.apparatus import Row
-from modern.edition.checks import check_everything
 from modern.edition.grounds import Proof
 from modern.edition.sources import place
 
@@ -24,8 +24,8 @@ _MOST = 4
 def main(args: argparse.Namespace) -> int:
     """List rows, check them, or weigh them."""
     if args.weigh:
-        from modern.study.weight import weigh
-        from modern.study.weight_report import write_weight
+        from modern.edition.weight import weigh
+        from modern.edition.weight_report import write_weight
 
         answers = weigh(Path(args.weigh), args.runs or "", max(args.workers, 1), args.most)
         print(write_weight(Path(args.weigh), answers), end="")

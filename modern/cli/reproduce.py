@@ -16,14 +16,14 @@ from typing import TextIO
 
 from emulator.files import check_writable, write_text
 from emulator.machine.endings import Ending
+from modern.claims.published import CANNOT, CORRECTED, EXPLAINED, PAPERS, Finding, Paper, findings
+from modern.claims.register import DOCUMENTS, THESIS, Judged, Judgements, Statement, judge, statements_of
 from modern.cli.shared.beside import beside
 from modern.cli.shared.console import DIFFERS, OK, UsageError
 from modern.cli.shared.statements import Indented, Paint, statement_lines, statement_summary, theorem_lines
 from modern.edition.chapter4 import THEOREMS
 from modern.edition.chapter6 import EXAMPLES
-from modern.edition.published import CANNOT, CORRECTED, EXPLAINED, PAPERS, Finding, Paper, findings
 from modern.edition.reproduce import DIFFERENT, EXACT, ORDER, SPACING, Part, Report, Verdict, reproduce, summary
-from modern.edition.statements import DOCUMENTS, THESIS, Judged, Judgements, Statement, judge, statements_of
 
 _STATES = {"examples": "as the examples were run (program1_examples.f)", "listing": "as listed (program1.f)"}
 _COLOURS = {EXACT: "32", SPACING: "33", ORDER: "33", DIFFERENT: "31"}

@@ -125,7 +125,7 @@ def _fill(volume: Volume, said: Iterable[str], output: str | None) -> None:
 
 def _each_label(args: argparse.Namespace, form: str | None) -> int:
     """The table of labels, and a file for each where the output has a place for it: all, or none of them."""
-    from modern.study.progress import Progress  # its room is loaded for many labels only
+    from emulator.progress import Progress  # its room is loaded for many labels only
 
     asked = choice_of(args).labels
     scan = scan_of(args)

@@ -17,7 +17,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from emulator.compiled.jit import NotInstalled
+from emulator.jit.functions import NotInstalled
 from modern.digital.columns import Grid, Truth, column_ends, fill, reduced
 from modern.digital.intervals import below_edges, below_facets, in_plane
 from modern.digital.polytope import compiled_hull, polyhedron

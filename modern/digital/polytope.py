@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from emulator.compiled.jit import Compiled
+from emulator.jit.functions import Compiled
 
 Integers = MutableSequence[int]
 Grid = NDArray[np.int64]

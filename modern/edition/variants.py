@@ -4,7 +4,7 @@ Tokens are altered one at a time: a statement number in every digit, and exchang
 name for every other of its statement and mode; an operator for every other; a constant up and down in every digit; a
 character for one it is confused with (``fortran_src/apparatus/confusables.toml``, both ways); a FORMAT's counts, signs
 and one letter of every text; and each card is left out once.  What a variant does is found out in
-:mod:`modern.study.weight`.
+:mod:`modern.edition.weight`.
 """
 
 from __future__ import annotations

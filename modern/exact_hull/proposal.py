@@ -27,7 +27,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from emulator.compiled.jit import Compiled, Function, NotInstalled
+from emulator.jit.functions import Compiled, Function, NotInstalled
 from modern.exact_hull import kernels
 from modern.exact_hull.coordinates import IntPoint, columns_of
 from modern.exact_hull.kernels import DOUBT, LOW, NEAR

@@ -9,7 +9,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from emulator.compiled.jit import Compiled, Function, NotInstalled
+from emulator.jit.functions import Compiled, Function, NotInstalled
 from modern.port import growth, kernels, workspace
 from modern.port.arithmetic import Arithmetic
 from modern.port.binary import FloatArithmetic

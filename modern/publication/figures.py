@@ -15,11 +15,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from emulator.files import read_text
+from modern.claims.published import PAPERS, findings
+from modern.claims.register import DOCUMENTS, VERDICTS, statements_of
 from modern.edition import programs
 from modern.edition.chapter6 import EXAMPLES
-from modern.edition.published import PAPERS, findings
 from modern.edition.reproduce import reproduce
-from modern.edition.statements import DOCUMENTS, VERDICTS, statements_of
 
 _PLACE = re.compile(r"\{\{ *([a-z][\w.-]*) *\}\}")
 

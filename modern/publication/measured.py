@@ -1,7 +1,7 @@
 """What is measured of every card: executions and machine time in a printed example, and the weight of its evidence.
 
 Times are those of :mod:`emulator.machine.timing`: processor seconds of a 1620 Model 1, known to about 10 %.  The weight
-of evidence is that of ``docs/weight/cards.csv`` (:mod:`modern.study.weight`), which is there in a checkout only.
+of evidence is that of ``docs/weight/cards.csv`` (:mod:`modern.edition.weight`), which is there in a checkout only.
 """
 
 from __future__ import annotations

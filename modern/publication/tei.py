@@ -16,9 +16,9 @@ from dataclasses import dataclass
 from importlib.resources import files
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
+from modern.claims.apparatus_checks import texts
 from modern.edition.apparatus import PAGE_MARK, Row, Text
 from modern.edition.chapter6_cards import Chapter, cards, device_files, device_layout, load_chapter
-from modern.edition.checks import texts
 from modern.edition.programs import BUILT_INS
 from modern.edition.segments import Piece, Segments, segments
 from modern.edition.sources import Document, read, sources

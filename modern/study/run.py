@@ -14,6 +14,7 @@ from emulator.language.cards import deck_from_lines
 from emulator.machine.machine import Machine
 from emulator.numbers import numbers
 from emulator.numbers.decimal import DecimalNumbers
+from emulator.progress import Progress
 from modern.edition import programs
 from modern.formats.deck import coordinate_field
 from modern.port import convex_hull
@@ -25,7 +26,6 @@ from modern.study.measures import measure_of
 from modern.study.parquet import write_parquet
 from modern.study.plan import Cell, Plan, PlanError, Programs, Route, StudyFileError
 from modern.study.plots import can_plot, draw
-from modern.study.progress import Progress
 from modern.study.report import Report, outcome_report, write_report
 from modern.study.routes import options_of, programs_of
 from modern.study.sample import CARD_DIGITS

@@ -8,6 +8,7 @@ from fractions import Fraction
 
 import pytest
 
+from modern.claims.apparatus_checks import chapter4_faults
 from modern.edition.apparatus import Row, build
 from modern.edition.chapter4 import (
     Theorem,
@@ -17,7 +18,6 @@ from modern.edition.chapter4 import (
     printed_point,
     theorem_faults,
 )
-from modern.edition.checks import chapter4_faults
 
 TEXT = load_text()
 THEOREMS = {theorem.id: theorem for theorem in load_theorems()}

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
+from modern.claims.register import CONDITION, DOCUMENTS, FAILS, HOLDS, UNTESTABLE, VERDICTS, Judged
 from modern.edition.reproduce import DIFFERENT, EXACT, ORDER
-from modern.edition.statements import CONDITION, DOCUMENTS, FAILS, HOLDS, UNTESTABLE, VERDICTS, Judged
 
 Paint = Callable[[str, str], str]
 """Colours words as a verdict of the given kind."""

@@ -9,13 +9,13 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 
+from modern.claims.register import DOCUMENTS, Statement, statements_of
 from modern.drawing.draw import draw_svg
 from modern.drawing.stages import frames, strip
 from modern.edition import programs
 from modern.edition.apparatus import Row
 from modern.edition.chapter6 import EXAMPLES, input_deck
 from modern.edition.reproduce import EXACT, ORDER
-from modern.edition.statements import DOCUMENTS, Statement, statements_of
 from modern.formats.points import parse_input
 from modern.geometry.mesh import ExportError
 from modern.port import convex_hull

@@ -21,7 +21,7 @@ from hypothesis import strategies as st
 from emulator.compiled import deck as unattended
 from emulator.compiled import runner
 from emulator.compiled.batch import run_batch
-from emulator.compiled.jit import Compiled, NotInstalled, called, digest
+from emulator.jit.functions import Compiled, NotInstalled, called, digest
 from emulator.language.cards import deck_from_lines
 from emulator.machine.machine import Machine
 from emulator.machine.result import Options
@@ -228,7 +228,7 @@ def test_what_an_entry_calls_is_compiled_with_it(tmp_path: Path, kept: Path, mon
     pytest.importorskip("numba")
     from numba.core.codegen import JitEngine
 
-    from emulator.compiled import lean
+    from emulator.jit import inlining as lean
 
     def modules(source: str) -> int:
         put: list[str] = []

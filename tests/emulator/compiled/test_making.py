@@ -12,8 +12,8 @@ import pytest
 
 from emulator.compiled import batch, making
 from emulator.compiled.batch import run_batch
-from emulator.compiled.jit import NotInstalled
 from emulator.compiled.runner import run_decks
+from emulator.jit.functions import NotInstalled
 from emulator.language.cards import Deck, deck_from_lines
 from emulator.machine.machine import Machine
 from emulator.machine.result import Options, Result

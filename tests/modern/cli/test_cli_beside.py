@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from modern.claims.published import PAPERS, findings
 from modern.cli.shared.beside import beside, by_column, by_words
 from modern.edition.chapter6 import prints
-from modern.edition.published import PAPERS, findings
 from tests.support.commands import call
 
 

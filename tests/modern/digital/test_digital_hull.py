@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
 import modern
-from emulator.compiled.jit import NotInstalled
+from emulator.jit.functions import NotInstalled
 from modern.digital import columns, intervals
 from modern.digital.hull import KINDS, WORTH_COMPILING, digital_hull
 from modern.digital.polytope import polyhedron

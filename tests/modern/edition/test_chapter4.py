@@ -7,9 +7,9 @@ from fractions import Fraction
 
 import pytest
 
+from modern.claims.register import HOLDS, THESIS, statements_of
+from modern.claims.thesis.chapter4_examples import claims, lost_candidates
 from modern.edition.chapter4 import THEOREMS, Theorem, load_theorems
-from modern.edition.chapter4_claims import claims, lost_candidates
-from modern.edition.statements import HOLDS, THESIS, statements_of
 
 BY_ID = {theorem.id: theorem for theorem in load_theorems()}
 

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from modern.claims.apparatus_checks import check_everything
 from modern.edition import programs
 from modern.edition.apparatus import ApparatusError, Text, load
-from modern.edition.checks import check_everything
 
 TEXT = """
 [text]

@@ -15,13 +15,13 @@ import pytest
 
 from emulator.errors import EmulatorError
 from emulator.language.cards import Deck
+from modern.claims.apparatus_checks import chapter4_faults, check_listing, paper_faults, places_of_pairs, texts
 from modern.edition import checks, grounds, programs, published
 from modern.edition.apparatus import ApparatusError, Change, Row, Text
 from modern.edition.chapter6 import LayoutError
 from modern.edition.chapter6_cards import TranscriptError, load_chapter, rebuilt
 from modern.edition.chapter6_checks import check_arithmetic, check_layout, check_tie
 from modern.edition.chapter6_grounds import row_faults
-from modern.edition.checks import chapter4_faults, check_listing, paper_faults, places_of_pairs, texts
 from modern.edition.readings import Step, attested, reading_faults, steps, table, without_step
 
 COUNT = int(os.environ.get("HULL1620_ALTERATIONS", "24"))

@@ -8,8 +8,8 @@ from itertools import combinations
 
 import pytest
 
+from modern.claims.apparatus_checks import texts
 from modern.edition.apparatus import Line, RowMisfit, Text, build
-from modern.edition.checks import texts
 from modern.edition.segments import Piece, Place, reading, segments
 
 TEXTS = texts()

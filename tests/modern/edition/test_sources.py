@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from modern.claims.apparatus_checks import check_sources, texts
 from modern.edition import sources
 from modern.edition.apparatus import ApparatusError
-from modern.edition.checks import check_sources, texts
 from modern.edition.sources import Stretch, digest, place, read
 from tests.support.paths import ROOT
 

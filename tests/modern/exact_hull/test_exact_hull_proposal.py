@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from emulator.compiled.jit import NotInstalled
+from emulator.jit.functions import NotInstalled
 from modern.exact_hull import CertificateError, ExactHull, exact_hull, kernels, proposal
 from modern.exact_hull import build as build_module
 from modern.exact_hull import certificate as checks

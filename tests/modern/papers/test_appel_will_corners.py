@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import pytest
 
-from modern.edition.published import PAPERS, printed_lines
+from modern.claims.published import PAPERS, printed_lines
 from modern.exact_hull import exact_hull
 from modern.papers.appel_will import RULES, MapError, Method, appel_will
 from modern.papers.appel_will.corners import corners, preprocess

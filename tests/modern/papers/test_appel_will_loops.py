@@ -6,7 +6,7 @@ from itertools import product
 
 import pytest
 
-from modern.edition.published import PAPERS, results_of
+from modern.claims.published import PAPERS, results_of
 from modern.papers.appel_will import PRINTED, Method, appel_will, printed
 from modern.papers.appel_will.loops import Rules, find_loops, intersect, surface
 from modern.papers.appel_will.results import found_solid

@@ -10,8 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from modern.edition.apparatus import ApparatusError
-from modern.edition.published import (
+from modern.claims.published import (
     CANNOT,
     CORRECTED,
     PAPERS,
@@ -22,6 +21,7 @@ from modern.edition.published import (
     results_of,
     text_of,
 )
+from modern.edition.apparatus import ApparatusError
 from modern.edition.reproduce import DIFFERENT, EXACT
 from modern.papers.appel_will.results import found_solid, printed_solid
 

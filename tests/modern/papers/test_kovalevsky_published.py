@@ -8,10 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modern.cli.main import main
-from modern.digital.volumes import half_ball
-from modern.edition.apparatus import build
-from modern.edition.published import (
+from modern.claims.published import (
     CANNOT,
     CORRECTED,
     EXPLAINED,
@@ -22,6 +19,9 @@ from modern.edition.published import (
     results_of,
     text_of,
 )
+from modern.cli.main import main
+from modern.digital.volumes import half_ball
+from modern.edition.apparatus import build
 from modern.edition.reproduce import DIFFERENT, EXACT
 from modern.formats.off import parse_off
 

@@ -6,8 +6,8 @@ from fractions import Fraction
 
 import pytest
 
+from modern.claims.published import CANNOT, CORRECTED, PAPERS, findings, judge, produced_by, results_of, text_of
 from modern.edition.apparatus import build
-from modern.edition.published import CANNOT, CORRECTED, PAPERS, findings, judge, produced_by, results_of, text_of
 from modern.edition.reproduce import DIFFERENT, EXACT
 from modern.papers.nakamae_nishita.hidden import draw
 from modern.papers.nakamae_nishita.projection import parallel

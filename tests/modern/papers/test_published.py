@@ -10,9 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from modern.cli.main import main
-from modern.edition.apparatus import ApparatusError
-from modern.edition.published import (
+from modern.claims.published import (
     CANNOT,
     CORRECTED,
     EXPLAINED,
@@ -24,6 +22,8 @@ from modern.edition.published import (
     produced_by,
     results_of,
 )
+from modern.cli.main import main
+from modern.edition.apparatus import ApparatusError
 from modern.edition.reproduce import DIFFERENT, EXACT
 
 PAPER = PAPERS[0]

@@ -15,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from emulator.compiled.jit import Compiled
+from emulator.jit.functions import Compiled
 from modern.geometry.hull import DETERMINED, ERROR, NOT_ACCEPTABLE, TABLE_FULL, Hull
 from modern.port import fast, kernels, workspace
 from modern.port.binary import FloatArithmetic

@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from modern.claims.apparatus_checks import texts
+from modern.claims.register import DOCUMENTS, statements_of
 from modern.edition import programs
-from modern.edition.checks import texts
-from modern.edition.statements import DOCUMENTS, statements_of
 from modern.publication.book import build as book
 from modern.publication.book.markup import Markdown, columns_of, label, places, say, string, table
 from modern.publication.book.parts import fitted, listings, statements

@@ -7,10 +7,10 @@ from xml.etree.ElementTree import fromstring
 
 import pytest
 
+from modern.claims.register import DOCUMENTS, statements_of
 from modern.edition.chapter6 import EXAMPLES, prints
 from modern.edition.chapter6_cards import load_chapter
 from modern.edition.sources import read
-from modern.edition.statements import DOCUMENTS, statements_of
 from modern.publication.examples import differing, example, homes, rest
 from modern.publication.numbered import numbered
 from modern.publication.site.made import make

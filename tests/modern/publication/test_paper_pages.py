@@ -10,8 +10,8 @@ from itertools import combinations
 import pytest
 from lxml import etree
 
+from modern.claims.published import PAPERS, printed_lines
 from modern.digital.solids import ball
-from modern.edition.published import PAPERS, printed_lines
 from modern.geometry.vectors import dot, minus
 from modern.papers.appel_will import appel_will
 from modern.papers.appel_will.results import found_solid, printed_solid

@@ -11,8 +11,8 @@ from xml.etree.ElementTree import Element, fromstring
 import pytest
 from lxml import etree
 
+from modern.claims.apparatus_checks import texts
 from modern.edition.chapter6_cards import device_files, load_chapter
-from modern.edition.checks import texts
 from modern.edition.programs import BUILT_INS, TEXTS
 from modern.edition.sources import read, sources
 from modern.publication import tei_reading as reading

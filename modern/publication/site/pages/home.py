@@ -8,13 +8,13 @@ from collections import Counter
 from pathlib import Path
 
 from emulator.language.cards import Deck
+from modern.claims.register import DOCUMENTS, THESIS, VERDICTS, statements_of
 from modern.drawing.draw import draw_svg
 from modern.drawing.punched import cards_svg
 from modern.edition import programs
 from modern.edition.chapter6 import EXAMPLES, input_deck
 from modern.edition.reproduce import reproduce, summary
 from modern.edition.sources import sources
-from modern.edition.statements import DOCUMENTS, THESIS, VERDICTS, statements_of
 from modern.formats.points import parse_input
 from modern.port import convex_hull
 from modern.publication.chart import chart

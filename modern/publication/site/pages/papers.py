@@ -6,11 +6,11 @@ from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from itertools import combinations
 
+from modern.claims.published import PAPERS, printed_lines
 from modern.drawing import svg
 from modern.drawing.labels import Label, place_labels
 from modern.drawing.layout import Pixel, fit
 from modern.drawing.view import Eye, view
-from modern.edition.published import PAPERS, printed_lines
 from modern.geometry.mesh import sides
 from modern.geometry.vectors import Vector
 from modern.papers.appel_will import appel_will

@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 
+from modern.claims.register import DOCUMENTS, THESIS, VERDICTS, Statement, Verdict, counterexample, statements_of
 from modern.edition.sources import Document, sources
-from modern.edition.statements import DOCUMENTS, THESIS, VERDICTS, Statement, Verdict, counterexample, statements_of
 from modern.publication.site.made import Made, Part, Target, one_of
 from modern.publication.site.markup import definitions, element, escape, text
 

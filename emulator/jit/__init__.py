@@ -1,0 +1,1 @@
+"""Functions compiled by numba, which both packages use."""

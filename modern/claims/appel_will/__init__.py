@@ -1,0 +1,1 @@
+"""Checks of statements of Appel and Will (1976)."""

@@ -1,0 +1,110 @@
+"""Claims of Appel and Will's appendix on faces: told by the graph of the edges alone, by three points, by a list.
+
+The hulls looked at are those of small sets, of a cube and of the objects of Figs. 14 and 23.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from itertools import combinations
+
+from modern.claims.appel_will.convexity import CUBE
+from modern.claims.register import Seen, seen
+from modern.claims.sampled_sets import Point, sampled_sets, through, value
+from modern.claims.thesis.chapter3_equations import COUNT
+from modern.exact_hull import ExactHull, exact_hull
+from modern.papers.appel_will import appel_will
+from modern.papers.appel_will.loops import TIMES
+from modern.papers.appel_will.results import found_solid
+
+Graph = Mapping[int, frozenset[int]]
+
+
+def _sets(count: str) -> list[tuple[Point, ...]]:
+    figures = [found_solid(name).points for name in ("fig14", "fig23")]
+    return [CUBE, *figures, *(one.points for one in sampled_sets(3, int(count)))]  # type: ignore[list-item]
+
+
+def faces_without_dimensions(count: str = COUNT) -> Seen:
+    """Faces found in the graph of a hull's edges, without coordinates, against the judge's faces.
+
+    Of a graph that stays connected without any two of its vertices the faces are the cycles that have no chord and
+    leave the rest connected (Tutte 1963); the graphs of convex polyhedra are such.
+    """
+    good, faces = [], 0
+    for points in _sets(count):
+        judge = exact_hull(points)
+        found = {cycle for cycle in _cycles(_graph(judge)) if _connected(_graph(judge), cycle)}
+        good.append(found == {frozenset(facet.polygon) for facet in judge.facets})
+        faces += len(found)
+    return seen(all(good), f"{faces} faces of {len(good)} hulls by their edges alone")
+
+
+def _graph(judge: ExactHull) -> Graph:
+    edges = judge.edges()
+    return {k: frozenset(sum(edge) - k for edge in edges if k in edge) for k in judge.vertices}
+
+
+def _cycles(graph: Graph) -> Iterator[frozenset[int]]:
+    """Cycles without chords, each by its points and from its least one on, both ways round."""
+    paths: list[tuple[int, ...]] = [(k,) for k in graph]
+    while paths:
+        path = paths.pop()
+        for new in graph[path[-1]]:
+            if new > path[0] and new not in path:
+                before = graph[new] & {*path[:-1]}
+                if before == {path[0]}:
+                    yield frozenset((*path, new))
+                elif not before:
+                    paths.append((*path, new))
+
+
+def _connected(graph: Graph, without: frozenset[int]) -> bool:
+    left = {*graph} - without
+    waiting = [left.pop()] if left else []
+    while waiting:
+        near = graph[waiting.pop()] & left
+        left -= near
+        waiting += near
+    return not left
+
+
+def coplanar_loops(count: str = COUNT) -> Seen:
+    """Two lines with a common end: their three points are on one loop at the most, and no two loops have one plane."""
+    good = []
+    for points in _sets(count):
+        judge = exact_hull(points)
+        for one, other in combinations(judge.edges(), 2):
+            three = {*one, *other}
+            if len(three) == len(one) + 1:
+                good.append(sum(three <= {*facet.polygon} for facet in judge.facets) <= 1)
+        good.append(len({facet.plane for facet in judge.facets}) == len(judge.facets))
+    return seen(all(good), f"{len(good)} pairs of lines and hulls")
+
+
+def list_of_points(count: str = COUNT) -> Seen:
+    """The points that step 10 puts into the plane of a loop, in the order of the steps: step 7 has put them all there.
+
+    The points that it finds in the plane are those of the loop, so a list of them tells the rest of the steps all.
+    """
+    good: list[bool] = []
+    asked = 0
+    for points in _sets(count):
+        hull = appel_will(points)
+        before = (0,) * len(hull.edges)
+        for loop, ring in zip(hull.table.loops, hull.surfaces, strict=True):
+            a, b, c = (hull.points[k] for k in ring[:3])
+            values = {k: value(through(a, b, c), hull.points[k]) for k in hull.vertices}
+            good.append({k for k, found in values.items() if not found} == {*ring})
+            taken, match = [abs(entry) - 1 for entry in loop.entries[:2]], loop.match
+            for entry in loop.entries[2:]:
+                chosen = abs(entry) - 1
+                for line, ends in enumerate(hull.edges[: chosen + 1]):
+                    if match in ends and before[line] < TIMES and line not in taken:
+                        beyond = sum(ends) - match
+                        asked += beyond != loop.start
+                        good.append((beyond in ring) == (not values[beyond]))
+                taken.append(chosen)
+                match = sum(hull.edges[chosen]) - match
+            before = loop.uses
+    return seen(all(good) and asked > 0, f"{asked} values of step 10 are known from step 7, in {len(good)} cases right")

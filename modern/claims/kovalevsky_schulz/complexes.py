@@ -1,0 +1,317 @@
+"""Claims of the appendix of Kovalevsky and Schulz: abstract cell complexes, on the cells of a block of voxels.
+
+A cell is a triple of topological coordinates: odd where it is a voxel's own, even where it is between two.  Subsets
+are drawn at random; what a definition calls the smallest or the greatest is looked for among all that would do.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Collection, Iterable
+from functools import cache
+from itertools import combinations, product
+from operator import le
+from random import Random
+
+import numpy as np
+
+from modern.claims.kovalevsky_schulz.polyhedra import grown, solid_at_random
+from modern.claims.register import Seen, seen
+from modern.claims.sampled_sets import Point
+from modern.papers.kovalevsky_schulz import VERTICES
+from modern.papers.kovalevsky_schulz.corners import places
+
+Cells = frozenset[Point]
+SIDE = 2
+SPACE: Cells = frozenset((x, y, z) for x, y, z in product(range(2 * SIDE + 1), repeat=3))
+"""The cells of a block of two voxels a side."""
+VOXELS: Cells = frozenset(c for c in SPACE if all(x % 2 for x in c))
+
+
+def dimension(cell: Point) -> int:
+    """How many of the coordinates are odd."""
+    return sum(x % 2 for x in cell)
+
+
+@cache
+def sides(cell: Point) -> Cells:
+    """The cells that bound it: some odd coordinates one less or one more."""
+    near = product(*((x - 1, x, x + 1) if x % 2 else (x,) for x in cell))
+    return frozenset((x, y, z) for x, y, z in near) - {cell}
+
+
+@cache
+def bounded(cell: Point) -> Cells:
+    """The cells of the block that it bounds, found by a search of all."""
+    return frozenset(other for other in SPACE if cell in sides(other))
+
+
+def closure(cells: Iterable[Point]) -> Cells:
+    """The cells and all that bound them."""
+    return frozenset(c for cell in cells for c in (cell, *sides(cell)))
+
+
+def star(cells: Iterable[Point]) -> Cells:
+    """The cells and all that they bound."""
+    return frozenset(c for cell in cells for c in (cell, *bounded(cell)))
+
+
+def interior(cells: Cells) -> Cells:
+    """The cells all of whose bounded cells are there."""
+    return frozenset(cell for cell in cells if bounded(cell) <= cells)
+
+
+def euclidean_cells() -> Seen:
+    """The cells of the block as closed boxes: two that meet have the box of a cell in common, their greatest one."""
+    low = {cell: [x - x % 2 for x in cell] for cell in SPACE}
+    high = {cell: [x + x % 2 for x in cell] for cell in SPACE}
+    meet, good = 0, []
+    for one, other in combinations(sorted(SPACE), 2):
+        common = [*map(max, low[one], low[other])], [*map(min, high[one], high[other])]
+        if all(map(le, *common)):
+            meet += 1
+            greatest = max(closure([one]) & closure([other]), key=dimension, default=None)
+            good.append(greatest is not None and (low[greatest], high[greatest]) == common)
+    return seen(meet > 0 and all(good), f"{meet} pairs of boxes meet, each in the box of a cell")
+
+
+def _subsets(number: int = 8) -> list[Cells]:
+    random = Random(14)
+    cells = sorted(SPACE)
+    return [frozenset(random.sample(cells, random.randint(2, 60))) for _ in range(number)]
+
+
+def _open(cells: Cells) -> bool:
+    return all(bounded(cell) <= cells for cell in cells)
+
+
+def _closed(cells: Cells) -> bool:
+    return all(sides(cell) <= cells for cell in cells)
+
+
+def _incident(one: Point, other: Point) -> bool:
+    return one == other or one in sides(other) or other in sides(one)
+
+
+def _components(cells: Collection[Point]) -> list[set[Point]]:
+    """By steps from a cell to an incident one."""
+    left, found = set(cells), []
+    while left:
+        part, waiting = set[Point](), [left.pop()]
+        while waiting:
+            cell = waiting.pop()
+            part.add(cell)
+            near = (sides(cell) | bounded(cell)) & left
+            left -= near
+            waiting += near
+        found.append(part)
+    return found
+
+
+def subcomplex() -> Seen:
+    """The relation restricted to random subsets stays irreflexive, antisymmetric and transitive, with dimensions.
+
+    It is the part of all pairs, found by a search, whose both cells are there.
+    """
+    good = []
+    everywhere = {(a, b) for a in SPACE for b in bounded(a)}
+    for cells in _subsets():
+        pairs = {(a, b) for b in cells for a in sides(b) & cells}
+        good.append(pairs == {(a, b) for a, b in everywhere if a in cells and b in cells})
+        after = {a: {d for c, d in pairs if c == a} for a, _ in pairs}
+        good.append(all(dimension(a) < dimension(b) and (b, a) not in pairs and a != b for a, b in pairs))
+        good.append(all(after.get(b, set()) <= after[a] for a, b in pairs))
+    return seen(all(good), f"{len(good) // 3} subsets of the {len(SPACE)} cells of eight voxels")
+
+
+def side_of_a_cell() -> Seen:
+    """Sides by dimension: of a voxel 8, 12 and 6, of a corner none."""
+    counts = Counter(dimension(c) for c in sides((1, 1, 1)))
+    return seen(counts == {0: 8, 1: 12, 2: 6} and not sides((2, 2, 2)), "a voxel has 26 sides, a corner none")
+
+
+def open_and_closed() -> Seen:
+    """A subset is open just if the rest is closed; unions and intersections of open ones are open; some are neither."""
+    good, neither = [], 0
+    for cells in _subsets():
+        up, down = star(cells), closure(cells)
+        good += [_open(up), _closed(SPACE - up), _closed(down), _open(SPACE - down)]
+        neither += not _open(cells) and not _closed(cells)
+    for one, other in combinations(map(star, _subsets(4)), 2):
+        good += [_open(one | other), _open(one & other)]
+    return seen(all(good) and neither > 0, f"{len(good)} cases; {neither} of the subsets drawn are neither")
+
+
+def smallest_neighbourhood() -> Seen:
+    """A cell with all it bounds: it is open, and without any one of its other cells it is not."""
+    good = []
+    for cell in SPACE:
+        near = star([cell])
+        good.append(_open(near) and all(not _open(near - {other}) for other in near if other != cell))
+    inner = star([(2, 2, 2)])
+    return seen(all(good) and len(inner) == 27, f"{len(good)} cells; of the middle corner it has {len(inner)} cells")
+
+
+def closure_is_smallest() -> Seen:
+    """The closure of some voxels is closed, and without any cell but the voxels it is not, or misses one."""
+    good = []
+    for voxels in (*combinations(sorted(VOXELS), 2), tuple(VOXELS)):
+        whole = closure(voxels)
+        good.append(_closed(whole) and all(not _closed(whole - {c}) for c in whole if c not in voxels))
+        corners = {c for c in whole if dimension(c) == 0}
+        good.append(all(corners >= {c for c in sides(v) if dimension(c) == 0} for v in voxels))
+    return seen(all(good), f"{len(good) // 2} sets of voxels, with all their corners")
+
+
+def interior_is_greatest() -> Seen:
+    """The interior is open, is what the closure of the rest leaves, and no cell more makes an open subset."""
+    good = []
+    for cells in (*_subsets(4), closure([(1, 1, 1)]), closure([(1, 1, 1), (3, 1, 1)])):
+        inside = interior(cells)
+        good.append(_open(inside) and inside == SPACE - closure(SPACE - cells))
+        good.append(all(not star([cell]) <= cells for cell in cells - inside))
+    two = {c for c in interior(closure([(1, 1, 1), (3, 1, 1)])) if dimension(c) == 3}
+    return seen(all(good) and two == {(1, 1, 1), (3, 1, 1)}, f"{len(good) // 2} subsets")
+
+
+def boundary() -> Seen:
+    """Closure of the faces that bound just one voxel: of one voxel its 26 sides, of two neighbours not their face."""
+
+    def border(voxels: Collection[Point]) -> Cells:
+        return closure(c for c in SPACE if dimension(c) == 2 and sum(c in sides(v) for v in voxels) == 1)
+
+    one, two, diagonal = border([(1, 1, 1)]), border([(1, 1, 1), (3, 1, 1)]), border([(1, 1, 1), (3, 3, 3)])
+    good = one == sides((1, 1, 1)) and (2, 1, 1) not in two and len(two) == 10 + 20 + 12
+    good &= diagonal == sides((1, 1, 1)) | sides((3, 3, 3)) and all(map(_closed, (one, two, diagonal)))
+    return seen(good, "one voxel, two with a face in common, two with a corner in common")
+
+
+def manifold(kind: str = "") -> Seen:
+    """Around each vertex of a hull's surface edges and faces are in a ring, at the rim of a ``patch`` in a row."""
+    good, rows = [], 0
+    for _, judge in grown():
+        rings = [facet.polygon for facet in judge.facets][1 if kind else 0 :]
+        rim = {*judge.facets[0].polygon}
+        for vertex in judge.vertices:
+            around = Counter(end for ring in rings if vertex in ring for end in _beside(ring, vertex))
+            faces = sum(vertex in ring for ring in rings)
+            row = len(around) == faces + 1 and sorted(around.values())[:2] == [1, 1]
+            rows += row
+            closed = len(around) == faces and {*around.values()} == {2}
+            good.append((row if kind and vertex in rim else closed) and bool(faces))
+    words = f"{len(good)} vertices"
+    return seen(all(good) and bool(kind) == (rows > 0), f"{words}, {rows} at the rim of a patch" if kind else words)
+
+
+def _beside(ring: tuple[int, ...], vertex: int) -> tuple[int, int]:
+    k = ring.index(vertex)
+    return ring[k - 1], ring[(k + 1) % len(ring)]
+
+
+def connected(kind: str = "") -> Seen:
+    """The least relation with the recursion of the definition is that of steps between incident cells.
+
+    ``region``: a star is open and connected, two stars of cells far from each other are open and are not.
+    """
+    if kind:
+        one, two = star([(2, 2, 2)]), star([(1, 1, 1)]) | star([(3, 3, 3)])
+        good = _open(one) and len(_components(one)) == 1 and _open(two) and len(_components(two)) == 2
+        return seen(good, "the neighbourhood of a corner is a region, two voxels without their sides are not")
+    good_ones = []
+    for cells in (frozenset(sorted(s)[:14]) for s in _subsets(3)):
+        related = {(a, b) for a in cells for b in cells if _incident(a, b)}
+        while more := {(a, d) for a, b in related for c, d in related if b == c} - related:
+            related |= more
+        parts = _components(cells)
+        good_ones.append(related == {(a, b) for part in parts for a in part for b in part})
+    return seen(all(good_ones), f"{len(good_ones)} subsets: the same parts")
+
+
+def solid() -> Seen:
+    """Interiors of closed sets of voxels are solid; the block without a corner in its middle is a region and is not."""
+
+    def is_solid(region: Cells) -> bool:
+        outside = VOXELS - region
+        return all(any(_incident(cell, voxel) for voxel in outside) for cell in SPACE - region)
+
+    good = [is_solid(interior(closure(voxels))) for voxels in ([(1, 1, 1)], [(1, 1, 1), (1, 3, 1)], sorted(VOXELS)[:7])]
+    holed = SPACE - closure([(2, 2, 2)])
+    good += [_open(holed), len(_components(holed)) == 1, not is_solid(holed)]
+    return seen(all(good), "three solid regions, and one that is not")
+
+
+def half_space() -> Seen:
+    """Voxels by an inequality, with the cells between them: an open, connected and solid subset."""
+    good = []
+    for a, b, c, d in ((1, 0, 0, 2), (1, 1, 0, 4), (1, 2, 3, 10), (1, 1, 1, 7)):
+        voxels = {v for v in VOXELS if a * v[0] + b * v[1] + c * v[2] <= d}
+        region = interior(closure(voxels))
+        outside = VOXELS - region
+        rest = all(any(_incident(cell, voxel) for voxel in outside) for cell in SPACE - region)
+        good.append(_open(region) and len(_components(region)) == 1 and rest and region & VOXELS == voxels)
+    return seen(all(good), f"{len(good)} half-spaces of the block")
+
+
+def topological_line() -> Seen:
+    """Cells numbered 0 to 2n, even ones bounding odd ones: all but the two ends are incident to two others."""
+    line = range(2 * SIDE + 1)
+    near = {x: [y for y in line if abs(x - y) == 1] for x in line}
+    product_pairs = {
+        (a, b) for a in SPACE for b in SPACE if a != b and all(_in_line(x, y) for x, y in zip(a, b, strict=True))
+    }
+    good = sorted(map(len, near.values())) == [1, 1] + [2] * (len(line) - 2)
+    good &= all(near[x] == [x - 1, x + 1] for x in line[1:-1])
+    good &= product_pairs == {(a, b) for b in SPACE for a in sides(b) & SPACE}
+    return seen(good, f"a line of {len(line)} cells; the product of three has {len(product_pairs)} bounding pairs")
+
+
+def _in_line(x: int, y: int) -> bool:
+    """Whether a cell of a line bounds another or is it."""
+    return x == y or (y % 2 == 1 and abs(x - y) == 1)
+
+
+def raster(kind: str) -> Seen:
+    """The topological raster: ``access`` one place a cell; ``incident`` neighbours by coordinates against a search.
+
+    The standard raster: ``shared`` by the eight cells of a voxel that are not farther from the origin than it.
+    """
+    if kind == "access":
+        array = np.zeros((2 * SIDE + 1,) * 3, dtype=np.int64)
+        for number, cell in enumerate(sorted(SPACE), 1):
+            array[cell] = number
+        return seen(
+            len({*array.ravel().tolist()}) == array.size == len(SPACE), f"{array.size} places for {len(SPACE)} cells"
+        )
+    if kind == "incident":
+        good = []
+        for cell in SPACE:
+            near = {(x, y, z) for x, y, z in product(*((x - 1, x, x + 1) for x in cell))} & SPACE
+            found = {c for c in near if all(_in_line(x, y) for x, y in zip(c, cell, strict=True))}
+            found |= {c for c in near if all(_in_line(y, x) for x, y in zip(c, cell, strict=True))}
+            good.append(found == {c for c in SPACE if _incident(c, cell)})
+        return seen(all(good), f"{len(good)} cells: those found by coordinates are those of a search")
+    held: dict[Point, list[int]] = {}
+    for cell in SPACE:
+        farthest = max(star([cell]) & VOXELS, default=None, key=sum)
+        if farthest and all(f >= c for f, c in zip(farthest, cell, strict=True)):
+            held.setdefault(farthest, []).append(dimension(cell))
+    eight = {tuple(sorted(of)) for of in held.values()} == {(0, 1, 1, 1, 2, 2, 2, 3)} and len(held) == len(VOXELS)
+    return seen(eight, "eight cells of four dimensions have the coordinates of one voxel")
+
+
+def no_loose_cells() -> Seen:
+    """Corners, edges and faces in the closure of some voxels: each is incident to one of them.
+
+    The corners are those that the program finds.
+    """
+    volume = solid_at_random(2, 3)
+    voxels = [tuple(2 * x + 1 for x in v) for v in volume.coordinates().tolist()]
+    whole = {c for v in voxels for c in (v, *sides(v))}
+    corners = {tuple(2 * x for x in c) for c in np.argwhere(places(volume, VERTICES)).tolist()}
+    counts = Counter(dimension(c) for c in whole)
+    good = corners == {c for c in whole if not any(x % 2 for x in c)}
+    good &= all(any(max(abs(a - b) for a, b in zip(c, v, strict=True)) <= 1 for v in voxels) for c in whole)
+    loose = whole | {(99, 98, 98)}
+    bad = [c for c in loose if not any(max(abs(a - b) for a, b in zip(c, v, strict=True)) <= 1 for v in voxels)]
+    words = f"{counts[0]} corners, {counts[1]} edges and {counts[2]} faces; an edge put in alone is found loose"
+    return seen(good and bad == [(99, 98, 98)], words)

@@ -1,0 +1,1 @@
+"""Checks of statements of Nakamae and Nishita (1972)."""

@@ -1,0 +1,281 @@
+"""Claims of Nakamae and Nishita on two contours: correlations, formulas (1) to (3) and (5), the tables PL and LP."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from itertools import combinations, permutations, product
+from random import Random
+
+from modern.claims.register import CONDITION, FAILS, HOLDS, Seen, seen
+from modern.claims.sampled_sets import Point, sampled_sets
+from modern.drawing.visible import line_through, sign, value
+from modern.exact_hull import ExactHull, exact_hull
+from modern.geometry.vectors import cross, dot, minus
+from modern.papers.nakamae_nishita.contours import Tables
+from modern.papers.nakamae_nishita.results import contour_tables
+from modern.papers.nakamae_nishita.solids import height, plane_through
+
+Place = tuple[int, int]
+
+SQUARE: tuple[Place, ...] = ((0, 0), (0, 4), (4, 4), (4, 0))
+
+WITHIN: tuple[Place, ...] = ((1, 1), (1, 3), (3, 3), (3, 1))
+
+ACROSS: tuple[Place, ...] = ((2, 2), (2, 6), (6, 6), (6, 2))
+
+BESIDE: tuple[Place, ...] = ((6, 0), (6, 4), (9, 4), (9, 0))
+AGAINST: tuple[Place, ...] = ((0, 2), (1, 3), (2, 2), (1, 1))
+
+
+def flat(places: tuple[Place, ...]) -> list[tuple[int, int, int]]:
+    return [(x, y, 1) for x, y in places]
+
+
+def lines_of(places: tuple[Place, ...]) -> list[tuple[int, int, int]]:
+    corners = flat(places)
+    return [line_through(a, b) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
+
+
+def tables_of(v: tuple[Place, ...], w: tuple[Place, ...]) -> tuple[list[list[int]], list[list[int]]]:
+    """PL and LP by (2), rows for V' and columns for V, whether the contours overlap or not."""
+    pl = [[sign(value(line, p)) for line in lines_of(v)] for p in flat(w)]
+    lp = [[sign(value(line, p)) for p in flat(v)] for line in lines_of(w)]
+    return pl, lp
+
+
+def _polygons() -> Iterator[tuple[Place, ...]]:
+    """Convex polygons, clockwise: the squares above and some at random."""
+    yield from (SQUARE, WITHIN, ACROSS, BESIDE, AGAINST)
+    random = Random(32)
+    for _ in range(4):
+        points = [(random.randint(-2, 6), random.randint(-2, 6), 0) for _ in range(6)]
+        ring = exact_hull(points).polygon
+        if ring:
+            yield tuple(points[k][:2] for k in ring[::-1])
+
+
+def pairs() -> Iterator[tuple[tuple[Place, ...], tuple[Place, ...]]]:
+    for v, w in combinations([*_polygons()], 2):
+        yield v, w
+        yield w, v
+
+
+def inside(p: Place, v: tuple[Place, ...]) -> bool:
+    return all(value(line, (*p, 1)) >= 0 for line in lines_of(v))
+
+
+def _apart(v: tuple[Place, ...], w: tuple[Place, ...]) -> bool:
+    """Whether a side of one has the other beyond it, or on it."""
+    return any(all(value(line, p) <= 0 for p in flat(b)) for a, b in ((v, w), (w, v)) for line in lines_of(a))
+
+
+ROOF: tuple[Point, ...] = ((0, 0, 0), (4, 0, 0), (4, 0, 2), (2, 0, 3), (0, 0, 2), (2, 5, 1))
+"""A pyramid over an upright pentagon, which is seen edge-on along z."""
+
+
+def contour_is_convex() -> Seen:
+    """Hulls seen aslant, and one along a face: edges of front faces and of no other are one ring that turns clockwise.
+
+    Its corners are those of the hull of all images; where a face is seen edge-on it may run straight at others.
+    """
+    good, straight = [], 0
+    for points, judge, (u, v) in (*((one.points, one.judge, (31, 17)) for one in sampled_sets(3, 3)), _roof()):
+        images = [(x + u * z, y + v * z) for x, y, z in points]
+        values = [dot(face.plane[:3], (-u, -v, 1)) for face in judge.facets]
+        front = [face.polygon for face, seen_ in zip(judge.facets, values, strict=True) if seen_ > 0]
+        sides = {(a, b) for ring in front for a, b in zip(ring, (*ring[1:], ring[0]), strict=True)}
+        after = {b: a for a, b in sides if (b, a) not in sides}
+        ring = [min(after)]
+        while len(ring) < len(after) and after[ring[-1]] != ring[0]:
+            ring.append(after[ring[-1]])
+        contour = [images[k] for k in ring]
+        turns = [side(contour[k - 2], contour[k - 1], contour[k]) for k in range(len(contour))]
+        around = sorted({*images})
+        corners = {around[k] for k in exact_hull([(x, y, 0) for x, y in around]).polygon}
+        good.append(len(ring) == len(after) and {*turns} <= {-1, 0} and (0 in values or 0 not in turns))
+        good.append({contour[k - 1] for k, turn in enumerate(turns) if turn} == corners)
+        straight += turns.count(0)
+    words = f"{len(good) // 2} hulls: contours by their front faces turn clockwise only"
+    return seen(all(good) and straight > 0, f"{words}; one runs straight at a corner of a face seen edge-on")
+
+
+def _roof() -> tuple[tuple[Point, ...], ExactHull, tuple[int, int]]:
+    return ROOF, exact_hull(ROOF), (0, 0)
+
+
+def correlations(kind: str = "") -> Seen:
+    """Pairs of polygons, each relation by itself: a line between, all corners within, or sides that cross.
+
+    Where they do not touch just one of the three is there; of those that touch some have none.
+    """
+    found: dict[str, int] = dict.fromkeys(("apart", "encloses", "partly", "touching"), 0)
+    good, loose = [], False
+    for v, w in pairs():
+        both = (v, w), (w, v)
+        relations = {
+            "apart": any(all(value(line, p) < 0 for p in flat(b)) for a, b in both for line in lines_of(a)),
+            "encloses": any(all(value(line, p) > 0 for line in lines_of(a) for p in flat(b)) for a, b in both),
+            "partly": any(crosses(v, i, w, j) for i in range(len(v)) for j in range(len(w))),
+        }
+        meet = any(d in (-1, -2) for d, _ in numbers_of_meetings(v, w)) or {*v} & {*w}
+        if meet:
+            loose |= not any(relations.values())
+            found["touching"] += 1
+        else:
+            good.append(sum(relations.values()) == 1)
+            found = {name: n + relations.get(name, False) for name, n in found.items()}
+    fine = all(good) and loose and all(found.values())
+    words = ", ".join(f"{name} {number}" for name, number in found.items())
+    return Seen((HOLDS if kind else CONDITION) if fine else FAILS, words)
+
+
+def formula(number: str, kind: str = "") -> Seen:
+    """A formula on small cases, by another way; (1) at points so far to the right of a line.
+
+    (3) ``in_line``: with sides that overlap in one line, of which d says nothing.
+    """
+    good: list[bool] = []
+    if number == "1":
+        for (x1, y1), (x2, y2) in permutations(((0, 0), (0, 4), (3, -2), (5, 1)), 2):
+            line, (x, y) = line_through((x1, y1, 1), (x2, y2, 1)), (x2 - x1, y2 - y1)
+            for along, right in product((-1, 0, 2), (-3, 0, 1)):
+                p = (x1 + along * x + right * y, y1 + along * y - right * x, 1)
+                good.append(value(line, p) == right * (x * x + y * y))
+    elif number == "2":
+        pl, lp = tables_of(SQUARE, ACROSS)
+        found = contour_tables(SQUARE, ACROSS)
+        good = [found.pl == tuple(map(tuple, pl)), found.lp == tuple(map(tuple, lp))]
+    elif number == "3":
+        meetings = [pair for v, w in pairs() for pair in numbers_of_meetings(v, w)]
+        good = [d == wanted for d, wanted in meetings] + [{-4, -2, -1, 0} == {d for d, _ in meetings}]
+    elif number == "5":
+        return _formula_5()
+    if kind:
+        overlap = overlap_in_a_line()
+        fine = all(good) and overlap.verdict == CONDITION
+        return Seen(CONDITION if fine else FAILS, f"{len(good)} cases; {overlap.words}")
+    return seen(bool(good) and all(good), f"{len(good)} cases")
+
+
+def _formula_5() -> Seen:
+    """By the determinant and by the program, against the side on which the eye is: a face z = 0 seen from above.
+
+    In the face the value is 0.
+    """
+    corners = [(0, 0, 0), (0, 4, 0), (4, 4, 0)]
+    plane, found = plane_through(*((*corner, 1) for corner in corners)), {}
+    for z in (-2, 0, 3):
+        rows = [(1, 2, z), *corners]
+        (a, b, c) = (minus(row, rows[0]) for row in rows[1:])
+        found[z] = (sign(dot(a, cross(b, c))), sign(height(plane, (1, 2, z, 1))))
+    fine = all(one == other == sign(z) for z, (one, other) in found.items())
+    return Seen(CONDITION if fine else FAILS, "positive above the face, negative below it, 0 in it")
+
+
+def numbers_of_meetings(v: tuple[Place, ...], w: tuple[Place, ...]) -> Iterator[tuple[int, int]]:
+    """d of each pair of segments, and what it is to be: whether they cross, touch in one end or in two, or neither."""
+    pl, lp = tables_of(v, w)
+    tables = Tables(tuple(map(tuple, pl)), tuple(map(tuple, lp)))
+    for i, j in product(range(len(v)), range(len(w))):
+        a, b, c, d = v[i], v[(i + 1) % len(v)], w[j], w[(j + 1) % len(w)]
+        touching = [p for p in {a, b} if _between(c, d, p)] + [p for p in {c, d} if _between(a, b, p)]
+        in_line = side(a, b, c) == side(a, b, d) == 0
+        same = {a, b} & {c, d}
+        wanted = 0 if in_line else -1 if same else -2 if touching else -4 if crosses(v, i, w, j) else 0
+        yield tables.crossing_number(i, j), wanted
+
+
+def _between(p: Place, q: Place, r: Place) -> bool:
+    """Whether r lies on the segment from p to q."""
+    along = (r[0] - p[0]) * (r[0] - q[0]) + (r[1] - p[1]) * (r[1] - q[1])
+    return side(p, q, r) == 0 and along <= 0
+
+
+def side(p: Place, q: Place, r: Place) -> int:
+    return sign((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]))
+
+
+def crosses(v: tuple[Place, ...], i: int, w: tuple[Place, ...], j: int) -> bool:
+    a, b, c, d = v[i], v[(i + 1) % len(v)], w[j], w[(j + 1) % len(w)]
+    return side(a, b, c) * side(a, b, d) == -1 == side(c, d, a) * side(c, d, b)
+
+
+def table_properties(number: str) -> Seen:
+    """A property of the tables on pairs of convex polygons, some of which touch; what is said one way is tested so.
+
+    ``LP``: all four of LP, with rows for columns.
+    """
+    good, touching = [], False
+    for v, w in pairs():
+        pl, lp = tables_of(v, w)
+        tables = Tables(tuple(map(tuple, pl)), tuple(map(tuple, lp)))
+        if number != "LP":
+            met = [[tables.crossing_number(i, j) for j in range(len(w))] for i in range(len(v))]
+            found, touches = _property(number, v, w, [*zip(*pl, strict=True)], met)
+            good += found
+            touching |= touches
+            continue
+        met = [[tables.crossing_number(i, j) for i in range(len(v))] for j in range(len(w))]
+        for each in "1234":
+            found, touches = _property(each, w, v, [(*row,) for row in lp], met)
+            good += found
+            touching |= touches
+    if not all(good) or not good:
+        return Seen(FAILS, f"{sum(good)} of {len(good)} cases")
+    return Seen(CONDITION if touching else HOLDS, f"{len(good)} cases")
+
+
+def _property(
+    number: str, v: tuple[Place, ...], w: tuple[Place, ...], of_lines: list[tuple[int, ...]], met: list[list[int]]
+) -> tuple[list[bool], bool]:
+    """A property in each case, and whether lines that it says have no intersection touch something.
+
+    of_lines: a row for each line of v, with the vertices of w; met: the same of d, with the lines of w.
+    """
+    if number == "1":
+        return [_apart(v, w) or all(1 in line for line in of_lines)], False
+    if number == "2":
+        return [(not any(-1 in line for line in of_lines)) == all(inside(p, v) for p in w)], False
+    if number == "4":
+        return [(-1 not in at) == inside(p, v) for at, p in zip(zip(*of_lines, strict=True), w, strict=True)], False
+    clear = [i for i, line in enumerate(of_lines) if -1 not in line]
+    crossed = [any(crosses(v, i, w, j) for j in range(len(w))) for i in clear]
+    return [not one for one in crossed], any(any(met[i]) for i in clear)
+
+
+def overlap_in_a_line() -> Seen:
+    """Two squares whose upper sides overlap in a line."""
+    pl, lp = tables_of(SQUARE, ((2, 2), (2, 4), (6, 4), (6, 2)))
+    d = Tables(tuple(map(tuple, pl)), tuple(map(tuple, lp))).crossing_number(1, 1)
+    return Seen(CONDITION if d == 0 else FAILS, f"d is {d} of two sides that overlap")
+
+
+def intersections() -> Seen:
+    """Segments between grid points against polygons: their places on the contour, whatever they meet there.
+
+    Two at most, unless the segment runs along a side; at a corner d of (3) is not 0 for both sides that meet there.
+    """
+    counts, along, more = set(), 0, 0
+    for v in _polygons():
+        for a, b in combinations([(x, y) for x in (-3, 0, 2, 4) for y in (-2, 0, 3, 4)], 2):
+            places, by_3 = set(), 0
+            for i, line in enumerate(lines_of(v)):
+                p, q = v[i], v[(i + 1) % len(v)]
+                at_a, at_b = value(line, (*a, 1)), value(line, (*b, 1))
+                if at_a == at_b == 0:
+                    axis = int(p[0] == q[0])
+                    mine, its = sorted((a[axis], b[axis])), sorted((p[axis], q[axis]))
+                    if max(mine[0], its[0]) < min(mine[1], its[1]):
+                        along += 1
+                        break
+                elif sign(at_a) * sign(at_b) <= 0 and side(a, b, p) * side(a, b, q) <= 0 and at_a != at_b:
+                    places.add(Fraction(at_a, at_a - at_b))
+                    by_3 += (sign(at_b) - sign(at_a)) * (side(a, b, q) - side(a, b, p)) != 0
+            else:
+                counts.add(len(places))
+                more += by_3 > 2
+    words = (
+        f"{', '.join(map(str, sorted(counts)))} places; {along} segments run along a side, {more} meet more than two"
+    )
+    return Seen(CONDITION if counts == {0, 1, 2} and along and more else FAILS, f"{words} sides")

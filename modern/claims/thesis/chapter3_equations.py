@@ -1,0 +1,164 @@
+"""Claims of chapters 1 and 3: what the procedure finds, few points, and the equations (3.1) to (3.5).
+
+Equations are transcribed as they are printed and compared with what they are to be, over integers.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from random import Random
+
+from modern.claims.register import CONDITION, FAILS, Seen, counterexample, seen
+from modern.claims.sampled_sets import Plane, Point, SampledSet, sampled_sets, through
+from modern.exact_hull import exact_hull
+from modern.formats.csv import points as csv_points
+from modern.geometry.vectors import dot
+from modern.port import convex_hull
+
+Line = tuple[int, int, int]
+COUNT = "2"
+"""Sets of each dimension that ``reproduce`` looks at; the tests take more."""
+
+
+def both(count: str) -> tuple[SampledSet, ...]:
+    """Sets in a plane and sets in space."""
+    return (*sampled_sets(2, int(count)), *sampled_sets(3, int(count)))
+
+
+def points_of(name: str) -> list[Point]:
+    """The points of a counterexample, which are whole."""
+    found, _ = csv_points(counterexample(name), name)
+    return [(int(x), int(y), int(z)) for x, y, z in found]
+
+
+def triples(count: int = 6) -> Iterator[tuple[Point, Point, Point]]:
+    """Three points at random, ``count`` times."""
+    random = Random(3)
+    for _ in range(count):
+        p, q, r = (tuple(random.randint(-9, 9) for _ in range(3)) for _ in range(3))
+        yield p, q, r  # type: ignore[misc]
+
+
+def procedure_is_right(count: str = COUNT) -> Seen:
+    """The procedure over exact numbers against the judge: vertices, boundary and inside points, planes."""
+    right = sets = 0
+    for one in both(count):
+        sets += 1
+        found = ({*one.hull.vertices}, {*one.hull.boundary}, {*one.hull.inside}, len(one.hull.faces))
+        right += found == ({*one.judge.vertices}, {*one.judge.boundary}, {*one.judge.inside}, len(one.judge.facets))
+    return Seen(CONDITION if right == sets else FAILS, f"{right} of {sets} sets as the exact judge, in exact numbers")
+
+
+def lowest_terms(plane: Plane) -> Plane:
+    divisor = math.gcd(*plane)
+    a, b, c, d = (number // divisor for number in plane)
+    return a, b, c, d
+
+
+def same_hull_in_any_order(count: str = COUNT) -> Seen:
+    """The judge's hull of the points backwards."""
+    same = [
+        {one.points[k] for k in one.judge.vertices}
+        == {one.points[::-1][k] for k in exact_hull(one.points[::-1]).vertices}
+        for one in both(count)
+    ]
+    return seen(all(same), f"{sum(same)} of {len(same)} sets, taken backwards, have the same vertices")
+
+
+def collinear_ends() -> Seen:
+    """Points on five lines: the ends, and that each point satisfies both equations."""
+    good = 0
+    lines: tuple[Point, ...] = ((1, 0, 0), (0, 2, 0), (0, 0, 3), (0, 1, -2), (3, -1, 2))
+    for x, y, z in lines:
+        points = [(1 + k * x, 2 + k * y, 3 + k * z) for k in (2, 0, -3, 5, 1)]
+        hull = convex_hull(points)
+        good += hull.dimension == 1 and {*hull.vertices} == {2, 3}
+        good += all(not dot(tuple(map(int, e[:3])), p) + int(e[3]) for e in hull.lines for p in points)  # type: ignore[arg-type]
+    return seen(good == 2 * len(lines), f"{good // 2} of {len(lines)} lines")
+
+
+def few_points() -> Seen:
+    """One, two and three points."""
+    hulls = [convex_hull([(1, 2, 3), (4, 0, 1), (0, 5, 5)][:n]) for n in (1, 2, 3)]
+    good = [(h.status, h.dimension, len(h.vertices)) for h in hulls]
+    return seen(good == [("determined", k, k + 1) for k in range(3)], "a point, a segment, a triangle")
+
+
+def first_two() -> Seen:
+    """Sets whose points differ in x, in y but not in x, in z alone: the largest and the smallest come first."""
+    base = [(3, 1), (-2, 5), (4, 0), (0, 2), (4, 4)]
+    sets = {
+        0: [(a, b, (3 * a + b) % 5) for a, b in base],
+        1: [(7, b, (2 * a + b) % 7) for a, b in base],
+        2: [(7, -1, a + 5 * b) for a, b in base],
+    }
+    good = []
+    for axis, points in sets.items():
+        hull = convex_hull(points, history=True)
+        first, second, *_ = hull.history[0].added if hull.history else hull.vertices
+        values = [point[axis] for point in points]
+        good.append((points[first][axis], points[second][axis]) == (max(values), min(values)))
+        good.append(max(values) > min(values))
+    return seen(all(good), "by x, where all x are equal by y, where all y are too by z")
+
+
+def equation(number: str) -> Seen:
+    """An equation as printed, against what it is to be, for points at random."""
+    good = all(_EQUATIONS[number](p, q, r) for p, q, r in triples())
+    return seen(good, "exactly, for six triples of points")
+
+
+def _three_point_one(p: Point, q: Point, _: Point) -> bool:
+    return _upright(p, q, 0, 1)
+
+
+def _upright(p: Point, q: Point, u: int, v: int) -> bool:
+    """The line as printed is 0 at both points, and moved off it not."""
+    return _through_both(line_as_printed(p[u], p[v], q[u], q[v]), (p[u], p[v]), (q[u], q[v]))
+
+
+def line_as_printed(u1: int, v1: int, u2: int, v2: int) -> Line:
+    """(3.1), (3.2), (3.3): (v2 - v1) U + (u1 - u2) V + (u2 - u1) v1 + (v1 - v2) u1 = 0."""
+    return v2 - v1, u1 - u2, (u2 - u1) * v1 + (v1 - v2) * u1
+
+
+def _through_both(line: Line, p: tuple[int, int], q: tuple[int, int]) -> bool:
+    a, b, c = line
+
+    def left(u: int, v: int) -> int:
+        return a * u + b * v + c
+
+    return left(*p) == left(*q) == 0 and (p == q or left(p[0] + a, p[1] + b) != 0)
+
+
+def _three_point_four(p: Point, q: Point, r: Point) -> bool:
+    return plane_as_printed(p, q, r) == through(p, q, r)
+
+
+def plane_as_printed(i: Point, j: Point, k: Point) -> Plane:
+    """(3.4) as page 15 prints it."""
+    (xi, yi, zi), (xj, yj, zj), (xk, yk, zk) = i, j, k
+    a = yi * zj + yj * zk + zi * yk - yk * zj - yi * zk - yj * zi
+    b = xk * zj + xi * zk + xj * zi - xi * zj - xj * zk - xk * zi
+    c = xi * yj + xj * yk + yi * xk - yj * xk - xi * yk - xj * yi
+    d = xk * yj * zi + yk * zj * xi + xj * yi * zk - xj * yk * zi - yi * zj * xk - xi * yj * zk
+    return a, b, c, d
+
+
+def _three_point_five(k: Point, m: Point, _: Point) -> bool:
+    return _through_both(line_of_page_19(k, m), k[:2], m[:2])
+
+
+def line_of_page_19(k: Point, m: Point) -> Line:
+    """(3.5) as page 19 prints it."""
+    return k[1] - m[1], m[0] - k[0], (k[0] - m[0]) * m[1] + (m[1] - k[1]) * m[0]
+
+
+_EQUATIONS = {
+    "3.1": _three_point_one,
+    "3.2": lambda p, q, _: _upright(p, q, 0, 2),
+    "3.3": lambda p, q, _: _upright(p, q, 1, 2),
+    "3.4": _three_point_four,
+    "3.5": _three_point_five,
+}

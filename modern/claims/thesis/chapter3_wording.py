@@ -1,0 +1,232 @@
+"""Claims of chapters 1 and 3 as they are written: against the listing's steps, and against other ways to begin.
+
+Where the text leaves a step otherwise than the listing, the step is made here word for word and its end is looked at.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+
+from emulator.language.objectcode import Program, code_positions
+from emulator.machine.machine import Machine
+from modern.claims.register import CONDITION, FAILS, HOLDS, Seen, seen
+from modern.claims.sampled_sets import Point, SampledSet, sampled_sets, through, value
+from modern.claims.thesis.chapter3_equations import COUNT, lowest_terms, points_of
+from modern.claims.thesis.chapter3_stages import approximations
+from modern.claims.thesis.chapter3_steps import fourth_point_by_largest, visible_planes
+from modern.claims.thesis.chapter4_examples import EXTREMES_IN_A_PLANE
+from modern.edition import programs
+from modern.edition.chapter6 import input_deck
+from modern.exact_hull import ExactHull, exact_hull
+from modern.geometry.vectors import cross, dot, minus
+from modern.port import convex_hull
+from modern.thesis.job import run_hull
+
+Pair = tuple[int, int]
+_ELIMINATE_CHECK_GROW = {
+    "program2.f": {106: "E", 124: "C", 133: "G"},
+    "program3.f": {103: "E", 114: "C", 125: "G"},
+}
+"""Statements of the listing where inside points are looked for, where a hull is checked, where a point is added."""
+
+
+def steps_of_the_listing() -> Seen:
+    """Four steps are not the listing's: two lead to no hull or lose a line, two change an order only."""
+    found = (fourth_point_by_largest(), line_struck_twice(), visible_planes("order"), repeats_from_behind())
+    good = [one.verdict for one in found] == [FAILS, FAILS, CONDITION, HOLDS]
+    return Seen(CONDITION if good else FAILS, "the fourth point, repeats of a line; the order of planes in two steps")
+
+
+def line_struck_twice() -> Seen:
+    """Repeats of a line as page 28 has it: of a side with three used points both equations go."""
+    points = points_of("line_lost.csv")
+    judge, hull = exact_hull(points), convex_hull(points, history=True)
+    used = [k for stage in hull.history for k in stage.added]
+    left = _by_letter(points, used, [(d[0], d[1]) for d in hull.history[-1].equations])
+    lines = len({frozenset(_on(points, *pair)) for pair in left})
+    right = len({face.lowest for face in hull.faces}) == len(judge.facets)
+    words = f"{lines} of {len(judge.facets)} lines stay as the text has it; the listing keeps all"
+    return Seen(FAILS if lines < len(judge.facets) and right else HOLDS, words)
+
+
+def _by_letter(points: Sequence[Point], used: Sequence[int], equations: Sequence[Pair]) -> list[Pair]:
+    """Pages 26 to 28: for each point and each equation that it satisfies and does not define, equation k is removed."""
+    left = list(equations)
+    for i in used:
+        for pair in [*left]:
+            if i not in pair and i in _on(points, *pair):
+                left.remove(pair)
+    return left
+
+
+def _on(points: Sequence[Point], a: int, b: int) -> list[int]:
+    p, q = points[a], points[b]
+    return [k for k, x in enumerate(points) if not any(cross(minus(q, p), minus(x, p)))]
+
+
+def repeats_from_behind(count: str = COUNT) -> Seen:
+    """Repeats of planes as page 34 has it: of each plane the last equation stays, of the listing's way the first."""
+    pyramid = [(x, y, 0) for x in (0, 1, 2) for y in (0, 1, 2)] + [(1, 1, 2)]
+    good, other = [], 0
+    for points in (pyramid, *(list(one.points) for one in sampled_sets(3, int(count)))):
+        last = convex_hull(points, history=True).history[-1].equations
+        planes = [through(points[a], points[b], points[c]) for a, b, c in last]
+        stay = [
+            j
+            for j, plane in enumerate(planes)
+            if not any(not any(value(plane, points[k]) for k in last[i]) for i in range(j + 1, len(last)))
+        ]
+        kept = [_unsigned(planes[j]) for j in stay]
+        good.append(sorted(kept) == sorted(_unsigned(facet.plane) for facet in exact_hull(points).facets))
+        other += stay != [j for j, one in enumerate(planes) if _unsigned(one) not in map(_unsigned, planes[:j])]
+    words = (
+        f"{sum(good)} of {len(good)} sets keep one equation of each plane; in {other} not the ones the listing keeps"
+    )
+    return seen(all(good) and other > 0, words)
+
+
+def _unsigned(plane: tuple[int, int, int, int]) -> tuple[int, int, int, int]:
+    found = lowest_terms(plane)
+    a, b, c, d = found
+    return max(found, (-a, -b, -c, -d))
+
+
+def last_equation(dimension: str) -> Seen:
+    """A set of which an H_j has NETC = NE while its last equation is not supporting; at the end all support."""
+    flat = dimension == "2"
+    points = [(0, 3, 0), (0, 2, 0), (4, 4, 0), (4, 3, 0)]
+    if not flat:
+        points = [(2, 4, 4), (0, 3, 4), (1, 4, 4), (1, 3, 0), (3, 2, 4)]
+    history = convex_hull(points, history=True).history
+    equal = [before.number for before, after in pairwise(history) if after.checked == len(before.equations)]
+    good = bool(equal) and approximations("final").verdict == HOLDS
+    words = f"H_{', H_'.join(map(str, equal))} has NETC = NE and a point is outside of that equation"
+    return Seen(CONDITION if good else FAILS, words)
+
+
+def collinear_if_both_hold() -> Seen:
+    """Two equations of the five kinds of lines: of the points of a lattice both are 0 on the line and nowhere else."""
+    found = []
+    for way in ((1, 0, 0), (0, 2, 0), (0, 0, 3), (0, 1, -2), (3, -1, 2)):
+        p: Point = (1, 2, 3)
+        q: Point = (1 + way[0], 2 + way[1], 3 + way[2])
+        lines = [tuple(map(int, line)) for line in convex_hull([p, q]).lines]
+        for x in ((x, y, z) for x in range(-3, 6) for y in range(-1, 5) for z in range(-1, 8)):
+            both = not any(value((a, b, c, d), x) for a, b, c, d in lines)
+            found.append(both == (not any(cross(way, minus(x, p)))))
+    return seen(all(found), f"{sum(found)} of {len(found)} points of a lattice, about five lines")
+
+
+def more_involved() -> Seen:
+    """Program 3 against program 2: its code, and the step that the plane has not."""
+    two, three = (programs.deck(f"program{k}").text() for k in (2, 3))
+    code = [code_positions(programs.program(f"program{k}")) for k in (2, 3)]
+    good = code[0] < code[1] and "ELIMINATING INSIDE PLANES" in three and "ELIMINATING INSIDE" not in two
+    return seen(good, f"about {code[0]:,} positions of code for program 2, {code[1]:,} for program 3")
+
+
+def fewer_substitutions() -> Seen:
+    """Values of equations at points: by the procedure at the most, and by all triples, where all points are vertices.
+
+    For each H_j every point left is put into every equation twice: for what is inside, and for what supports.
+    """
+    needed = {}
+    for n in (12, 24, 48):
+        points = [(k % 7 - 3, k // 7 - 3, (k % 7 - 3) ** 2 + (k // 7 - 3) ** 2) for k in range(n)]
+        history = convex_hull(points, history=True).history
+        needed[n] = sum(2 * n * len(stage.equations) for stage in history), math.comb(n, 3) * n
+    shares = [done / all_ for done, all_ in needed.values()]
+    words = ", ".join(f"{n} points: {done:,} at the most against {all_:,}" for n, (done, all_) in needed.items())
+    return seen(shares == sorted(shares, reverse=True) and shares[-1] < 1 / 3, words)
+
+
+def pairs_of_hulls(count: str = COUNT) -> Seen:
+    """H_1 to H_f make f - 1 pairs H_j, H_j+1: j + 1 begins at 2, for no hull comes before H_1."""
+    good = []
+    for one in (*sampled_sets(2, int(count)), *sampled_sets(3, int(count))):
+        sizes = [len(stage.vertices) for stage in one.stages()]
+        larger = sum(a < b for a, b in pairwise(sizes))
+        good.append(larger == len(sizes) - 1 and one.hull.history[0].number == 1)
+    return Seen(CONDITION if all(good) else FAILS, f"{sum(good)} of {len(good)} sets: H_2 is the first with one before")
+
+
+def checked_after_elimination() -> Seen:
+    """The way of programs 2 and 3 in examples 4 to 6: for every hull inside points first, then whether it is the last.
+
+    Only where it is not another hull comes.
+    """
+    found = []
+    for example in (4, 5, 6):
+        way: list[str] = []
+
+        def watch(program: Program, machine: Machine, way: list[str] = way) -> None:
+            labels = _ELIMINATE_CHECK_GROW.get(program.source, {})
+            machine.tracer = lambda line, _: way.append(labels[line.label]) if line.label in labels else None
+
+        run_hull(input_deck(example), programs.program, watch=watch)
+        hulls = "".join(way)
+        found.append((bool(re.fullmatch("(EC+G)*EC*", hulls)), hulls.count("E")))
+    words = (
+        f"{', '.join(str(hulls) for _, hulls in found)} hulls in examples 4 to 6, each looked through for inside points"
+    )
+    return seen(all(good and hulls > 1 for good, hulls in found), f"{words} before it is checked")
+
+
+def six_in_a_plane() -> Seen:
+    """Sets with their six extreme points in one plane: their hull has no volume, that of all points has."""
+    good = []
+    for points in EXTREMES_IN_A_PLANE:
+        six, whole = exact_hull(_six(points)), exact_hull(points)
+        good.append(six.dimension == 2 and whole.dimension == 3 and _volume(points, whole) > 0)
+    return seen(all(good), f"{sum(good)} of {len(good)} sets: the hull of the six is flat, that of all points is not")
+
+
+def first_hull_against_six(count: str = "12") -> Seen:
+    """The volume of H_1 against that of the hull of the six extreme points, and the planes of both.
+
+    In the sampled sets; where the six are in one plane; and in a counterexample, where they are not and H_1 is larger.
+    """
+    within, fewer = [], []
+    for one in sampled_sets(3, int(count)):
+        first, six = _first_and_six(one.points, one)
+        fewer.append(first[1] <= six[1] or not six[1])
+        if {one.points[k] for k in one.hull.history[0].added} <= {*_six(one.points)}:
+            within.append(six[0] - first[0])
+    flat = [_first_and_six(points, None) for points in EXTREMES_IN_A_PLANE]
+    first, six = _first_and_six(points_of("first_hull.csv"), None)
+    good = min(within, default=-1) >= 0 < max(within, default=0) and all(fewer)
+    good &= all(one[0] > other[0] == 0 for one, other in flat) and first[0] > six[0] > 0
+    words = f"H_1 is of the six in {len(within)} of {len(fewer)} sets, and never larger there; in the counterexample "
+    return Seen(CONDITION if good else FAILS, words + f"the volumes are {first[0]} and {six[0]}")
+
+
+def _first_and_six(points: Sequence[Point], one: SampledSet | None) -> tuple[tuple[int, int], tuple[int, int]]:
+    """Six times the volume and the number of planes of H_1, and of the hull of the six extreme points."""
+    hull = one.hull if one else convex_hull(points, history=True)
+    first = [points[k] for k in hull.history[0].added]
+    found = []
+    for some in (first, _six(points)):
+        judge = exact_hull(some)
+        found.append((_volume(some, judge), len(judge.facets) if judge.dimension == 3 else 0))
+    return found[0], found[1]
+
+
+def _six(points: Sequence[Point]) -> list[Point]:
+    """The extreme points of a set; of equals the last, as in program 1 (134 to 146)."""
+    extreme = {choose(reversed(points), key=lambda p, k=k: p[k]) for choose in (min, max) for k in range(3)}  # type: ignore[misc]
+    return [point for point in points if point in extreme]
+
+
+def _volume(points: Sequence[Point], judge: ExactHull) -> int:
+    """Six times the volume of a hull; 0 of a flat one."""
+    return sum(_cones(points, judge)) if judge.dimension == 3 else 0
+
+
+def _cones(points: Sequence[Point], judge: ExactHull) -> Iterator[int]:
+    apex = points[0]
+    for facet in judge.facets:
+        p, *rest = (minus(points[k], apex) for k in facet.polygon)
+        yield sum(abs(dot(p, cross(q, r))) for q, r in pairwise(rest))

@@ -1,0 +1,86 @@
+"""Claims beside the theorems: what a projection keeps, the coordinate planes, and inside of what is not convex."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import product
+
+from modern.claims.register import Seen, seen
+from modern.claims.sampled_sets import Point, sampled_sets, through, value
+from modern.claims.thesis.chapter3_equations import COUNT, triples
+from modern.claims.thesis.chapter4_examples import theorem_of
+from modern.exact_hull import ExactHull, exact_hull
+from modern.geometry.vectors import cross, dot, minus
+
+_RAY: Point = (101, 37, 11)
+"""A way that meets no edge of the polyhedron from the points looked at."""
+
+
+def coordinate_planes() -> Seen:
+    """Equations of the coordinate planes, by three points of each: one coefficient is not 0, that of its axis."""
+    found = []
+    for zero in range(3):
+        for three in triples():
+            p, q, r = (_with_0(point, zero) for point in three)
+            found.append([k for k, number in enumerate(through(p, q, r)) if number] == [zero])
+    return seen(all(found), f"{sum(found)} of {len(found)} planes have one coefficient that is not 0")
+
+
+def _with_0(point: Point, axis: int) -> Point:
+    x, y, z = (0 if k == axis else number for k, number in enumerate(point))
+    return x, y, z
+
+
+def projection_serves(count: str = COUNT) -> Seen:
+    """Flat sets and their projections: vertices, boundary and inside points, and the points of each line, are the same.
+
+    The judge's line of a set in space is the plane through it at right angles to the set's own plane.
+    """
+    good = []
+    for one in sampled_sets(2, int(count)):
+        plane = one.judge.plane
+        assert plane is not None
+        for axis in (k for k in range(3) if plane[k]):
+            image = [_with_0(point, axis) for point in one.points]
+            good.append(_parts(image, exact_hull(image)) == _parts(one.points, one.judge))
+    words = "projections: the same points are vertices, on the boundary, inside and on each line"
+    return seen(bool(good) and all(good), f"{sum(good)} of {len(good)} {words}")
+
+
+def _parts(points: Sequence[Point], hull: ExactHull) -> tuple[object, ...]:
+    lines = {frozenset(k for k, point in enumerate(points) if not value(f.plane, point)) for f in hull.facets}
+    return {*hull.vertices}, {*hull.boundary}, {*hull.inside}, lines
+
+
+def inside_is_not_told_by_signs() -> Seen:
+    """The polyhedron of theorem 4.2: points inside of it, by the faces a ray goes through, above zero in an equation.
+
+    Of its convex hull every such point is below zero in all equations.
+    """
+    theorem = theorem_of("4.2")
+    at = {point.name: _four_times(point.at) for point in theorem.points}
+    faces = [[at[name] for name in plane.vertices] for plane in theorem.planes]
+    planes = [(*_four_times(plane.coefficients[:3]), 16 * int(plane.coefficients[3])) for plane in theorem.planes]
+    inner = [
+        point
+        for point in product((-3, 1, 5, 10), (-9, -5, -2, 2, 5, 9), (-3, 1, 3, 5, 8))
+        if sum(_goes_through(point, face) for face in faces) % 2
+    ]
+    above = [point for point in inner if any(value(plane, point) > 0 for plane in planes)]
+    hull = exact_hull([*at.values()])
+    within = all(value(facet.plane, point) < 0 for facet in hull.facets for point in inner)
+    words = f"{len(above)} of {len(inner)} points inside are above zero in an equation of a face"
+    return seen(0 < len(above) < len(inner) and within, words)
+
+
+def _four_times(numbers: Sequence[object]) -> Point:
+    x, y, z = (int(4 * number) for number in numbers)  # type: ignore[operator]
+    return x, y, z
+
+
+def _goes_through(start: Point, face: Sequence[Point]) -> bool:
+    """Whether the ray from a point meets a triangle."""
+    a, b, c = (minus(corner, start) for corner in face)
+    turns = [dot(_RAY, cross(p, q)) > 0 for p, q in ((a, b), (b, c), (c, a))]
+    normal = cross(minus(b, a), minus(c, a))
+    return len({*turns}) == 1 and (dot(normal, a) > 0) == (dot(normal, _RAY) > 0)

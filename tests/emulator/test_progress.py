@@ -1,0 +1,120 @@
+"""What a study says while it works, and how its work is given out."""
+
+from __future__ import annotations
+
+import io
+import threading
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from emulator.progress import Progress
+from modern.study import Port, Programs, run_study
+from modern.study.run import plain_lines
+from modern.study.workers import in_processes
+from tests.support.studied import PLAN
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+def ticking(step: float) -> Iterator[float]:
+    now = 0.0
+    while True:
+        yield now
+        now += step
+
+
+def test_progress_on_a_terminal_elsewhere_and_quiet(monkeypatch: pytest.MonkeyPatch) -> None:
+    for columns in (100, 40, 20):
+        monkeypatch.setenv("COLUMNS", str(columns))
+        clock, file = ticking(1.0), Terminal()
+        progress = Progress(100, 20, file, clock=lambda clock=clock: next(clock))  # type: ignore[misc]
+        progress.add(10)
+        progress.add(70)
+        progress.close()
+        drawn = file.getvalue().split("\r")
+        assert all(len(line.rstrip("\n")) < columns for line in drawn)
+        assert file.getvalue().endswith("\n")
+        assert drawn[-1].lstrip("[#.] ").startswith("100 of 100"[:columns])
+    plain, clock = io.StringIO(), ticking(25.0)
+    progress = Progress(100, 0, plain, clock=lambda: next(clock))
+    for _ in range(10):
+        progress.add(10)
+    progress.close()
+    assert plain.getvalue().splitlines()[0].startswith("30 of 100 samples")
+    assert len(plain.getvalue().splitlines()) == 3
+    silent = Terminal()
+    progress = Progress(10, 0, silent, quiet=True)
+    progress.add(10)
+    progress.close()
+    assert silent.getvalue() == ""
+
+
+def test_what_is_waited_for_is_said_at_once_and_beside_the_count() -> None:
+    words, file = ["compiling the engine, once"], Terminal()
+    progress = Progress(100, 0, file, aside=lambda: words[0])
+    assert file.getvalue().rstrip().endswith("0 of 100 samples, compiling the engine, once")
+    words[0] = ""
+    progress.add(100)
+    progress.close()
+    assert "compiling" not in file.getvalue().split("\r")[-1]
+    assert Progress(100, 0, silent := Terminal(), aside=lambda: "").done == 0
+    assert silent.getvalue() == ""
+
+
+def test_rows_are_the_same_while_the_engine_is_compiled(tmp_path: Path) -> None:
+    chunks = list(PLAN.chunks())
+    (tmp_path / "compiling").touch()
+    assert list(in_processes(PLAN, chunks, 1, compiling=tmp_path / "compiling")) == list(in_processes(PLAN, chunks, 1))
+
+
+def test_progress_survives_its_reader() -> None:
+    class Broken(io.StringIO):
+        def write(self, _: str) -> int:
+            raise BrokenPipeError
+
+    clock = ticking(100.0)
+    progress = Progress(10, 0, Broken(), clock=lambda: next(clock))
+    progress.add(5)
+    progress.add(5)
+    progress.close()
+
+
+def test_the_work_is_given_out_as_it_is_wanted() -> None:
+    """Memory stays flat: of a plan of many chunks only those asked for are made."""
+    plan = replace(PLAN, cells=(replace(PLAN.cells[0], samples=5_000_000),))
+    chunks = [chunk for chunk, _ in zip(plan.chunks(), range(1000), strict=False)]
+    made = in_processes(plan, chunks, 1)
+    assert [next(made)[0] for _ in range(2)] == chunks[:2]
+    made.close()
+
+
+def test_threads_are_none_of_a_study() -> None:
+    """A study with one worker starts nothing beside itself."""
+    before = threading.active_count()
+    list(in_processes(PLAN, list(PLAN.chunks())[:1], 1))
+    assert threading.active_count() == before
+
+
+def test_arithmetics_that_cannot_be_compiled_are_named_once_each() -> None:
+    pytest.importorskip("numba")
+    wide = (Programs("a", arithmetic="truncating:20"), Programs("b", arithmetic="truncating:20", layers=("corrected",)))
+    other = (Programs("c"), Programs("d", arithmetic="exact"), Port("e", "truncating:20"))
+    lines = plain_lines(replace(PLAN, cells=tuple(replace(cell, routes=wide + other) for cell in PLAN.cells)))
+    assert [line.split(":")[0] for line in lines] == ["truncating", "the compiled engine has no exact numbers"]
+    assert "at most 9" in lines[0]
+
+
+def test_a_study_without_the_compiled_engine_says_so(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("modern.study.run.why_plain", lambda options: "no compiled engine here")
+    run_study(PLAN, tmp_path / "loud", workers=1)
+    assert capsys.readouterr().err.count("no compiled engine here\n") == 1
+    run_study(PLAN, tmp_path / "quiet", workers=1, quiet=True)
+    assert capsys.readouterr().err == ""

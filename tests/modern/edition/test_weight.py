@@ -1,0 +1,180 @@
+"""The weight of evidence: variants are made, judged, kept and reported; the misreads that README names are silent."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+from emulator.errors import FileError
+from modern.edition import programs
+from modern.edition.variants import Variant, deck_with, statements, variants
+from modern.edition.weight import EQUATIONS, NOTICED, Bench, alike, benches, equation_of, judged, ordered, weigh
+from modern.edition.weight_report import report, unvouched, write_weight
+from tests.support.paths import MACHINE_RUNS, ROOT
+
+COMMITTED = ROOT / "docs" / "weight"
+
+
+@pytest.fixture(scope="module")
+def known() -> dict[str, Bench]:
+    return benches(str(MACHINE_RUNS))
+
+
+def variant(program: str, place: str, reads: str) -> Variant:
+    """The variant of a card that reads so."""
+    (found,) = [v for v in variants(program) if v.place == place and v.reads == reads]
+    return found
+
+
+def test_misreads_that_pass_every_test(known: dict[str, Bench]) -> None:
+    """fortran_src/README.md names them."""
+    for program, place, reads in (
+        ("program1", "101+6", "IF(N-2)102,105,134"),
+        ("program2", "180+1", "IF(MM(K)-I)183,181,181"),
+        ("program3", "153", "IF(ID3-3)155,156,133"),
+    ):
+        assert judged(variant(program, place, reads), known) == "nothing", place
+
+
+@pytest.mark.parametrize(
+    ("program", "place", "reads", "answer"),
+    [
+        ("program1", "131+1", "", "machine or print"),
+        ("program1", "200+3", "DD=X(K)*Y(J)*Z(I)+Y(K)*Z(J)*X(I)-X(J)*Y(I)*Z(K)", "print"),
+        ("program1", "192", "E(I)=A3*Y(I)+B3*Z(I)*C3", "equation"),
+        ("program1", "146", "", "compiler"),
+        ("program2", "112+1", "GOTO104", "nothing"),
+        ("program3", "135+1", "DO136L=1,NV", "print"),
+    ],
+)
+def test_what_notices_a_variant(known: dict[str, Bench], program: str, place: str, reads: str, answer: str) -> None:
+    assert judged(variant(program, place, reads), known) in answer
+
+
+def test_variants_are_other_cards_each_once() -> None:
+    for name in programs.TEXTS:
+        found = variants(name)
+        assert len({v.key for v in found}) == len(found) > 4_000
+        assert all(v.was != v.reads for v in found)
+        assert {v.how for v in found} == {"number", "name", "operator", "constant", "character", "format", "card"}
+        assert len({v.card for v in found if v.how == "card"}) == len(statements(name)) - 1
+
+
+def test_a_deck_with_its_own_reading_is_the_deck() -> None:
+    """But for blanks: the card is set out anew."""
+    for name in programs.TEXTS:
+        text = programs.committed(name).text()
+        for statement in statements(name)[::7]:
+            if statement.source.kind != "format":
+                again = deck_with(name, statement.card, statement.source.text).text()
+                assert "".join(again.split()) == "".join(text.split())
+
+
+def test_formulas_of_chapter_3() -> None:
+    assert equation_of("program1", "113+1") == "(3.1)"
+    assert equation_of("program1", "226") == "the formula for V"
+    assert equation_of("program3", "130+9") == "(3.4)"
+    assert equation_of("program3", "131") == ""
+    assert equation_of("program2", "102+8") == "the point C"
+
+
+@pytest.mark.parametrize("place", ["102+12", "102+13", "133+10", "133+12", "133+16"])
+def test_a_card_that_only_counts_computes_no_formula(place: str) -> None:
+    """``MM(1)=1``, ``I1=MM(I)``, ``NE=NE+1`` stand among the cards of (3.5)."""
+    assert equation_of("program2", place) == ""
+
+
+def test_answers_are_kept_and_a_run_goes_on(tmp_path: Path) -> None:
+    first = weigh(tmp_path, "", most=6)
+    path = tmp_path / "variants.jsonl"
+    kept = path.read_text()
+    path.write_text(kept[:-9])
+    assert weigh(tmp_path, "", most=6) == first
+    assert path.read_text() == kept
+    assert set(first) == {v.key for v in ordered()[:6]}
+    text = write_weight(tmp_path, first)
+    assert "6 of " in text
+    assert {p.name for p in tmp_path.iterdir()} == {"variants.jsonl", "report.md", "cards.csv", "silent.csv"}
+    path.write_text('{"decks": "others"}\n')
+    with pytest.raises(FileError, match="holds answers of other listings"):
+        weigh(tmp_path, "", most=6)
+
+
+def test_a_folder_without_decks_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(FileError, match=r"no folder in it has a deck\.cards$"):
+        weigh(tmp_path / "out", str(tmp_path), most=1)
+    assert not (tmp_path / "out").exists()
+
+
+def committed() -> dict[str, str]:
+    lines = (COMMITTED / "variants.jsonl").read_text(encoding="utf-8").splitlines()
+    listings = "".join(programs.committed(name).text() for name in programs.NAMES)
+    assert json.loads(lines[0]) == {"decks": hashlib.sha256(listings.encode()).hexdigest()}
+    return dict(json.loads(line) for line in lines[1:])
+
+
+def test_the_committed_answers_are_to_every_variant_of_these_listings() -> None:
+    assert set(committed()) == {v.key for v in ordered()}
+
+
+@pytest.mark.parametrize("name", ["report.md", "cards.csv", "silent.csv"])
+def test_what_is_committed_is_made_of_the_committed_answers(name: str, tmp_path: Path) -> None:
+    """Answers are kept beside report and tables; these are made from them alone."""
+    write_weight(tmp_path, committed())
+    assert (COMMITTED / name).read_text(encoding="utf-8") == (tmp_path / name).read_text(encoding="utf-8")
+
+
+def test_the_report_counts_the_answers() -> None:
+    """Counted here from the answers again: every figure of its first lines and of its first table."""
+    answers, text = committed(), (COMMITTED / "report.md").read_text(encoding="utf-8")
+    kinds = Counter(answers.values())
+    compiling = len(answers) - kinds["no change"] - kinds["compiler"]
+    noticed = compiling - kinds["nothing"]
+    for words in (
+        f"{len(answers):,} of {len(answers):,} variants were judged.",
+        f"{kinds['no change']:,} have the object code and the storage map of the listing, and are not counted.",
+        f"the compiler refuses {kinds['compiler']:,};",
+        f"of the {compiling:,} that compile",
+        f"{noticed:,} ({100 * noticed / compiling:.1f} %) are noticed",
+        f"{kinds['nothing']:,} ({100 * kinds['nothing'] / compiling:.1f} %) by nothing.",
+    ):
+        assert words in " ".join(text.split())
+    for name in NOTICED:
+        by_program = [sum(a == name and key.startswith(f"{p} ") for key, a in answers.items()) for p in programs.TEXTS]
+        assert f"| {name} | {' | '.join(map(str, by_program))} | {kinds[name]} |" in text
+
+
+JUDGED_AGAIN = int(os.environ.get("HULL1620_WEIGHED", "12"))
+"""How many of the committed answers are found anew."""
+
+
+def test_committed_answers_are_what_is_found(known: dict[str, Bench]) -> None:
+    answers, found = committed(), ordered()
+    compiling = [v for v in found if answers[v.key] != "compiler"]
+    some = [*found[: JUDGED_AGAIN // 3], *compiling[: JUDGED_AGAIN - JUDGED_AGAIN // 3]]
+    assert {v.key: judged(v, known) for v in some} == {v.key: answers[v.key] for v in some}
+
+
+def test_what_nothing_vouches_for_is_named() -> None:
+    answers = committed()
+    named = report(answers).partition("## Cards nothing vouches for")[2]
+    assert all(f"{v.place} `{v.was.strip()}`" in named for v in unvouched(answers))
+    for card in unvouched(answers):
+        of_it = {answers[v.key] for v in ordered() if (v.program, v.card) == (card.program, card.card)}
+        assert of_it <= {"compiler", "nothing"}
+
+
+def test_a_sibling_has_the_form_of_two_other_cards() -> None:
+    """The form is the order of names and numbers; equations are cards of the listings, each of one formula."""
+    assert alike("X(L)=X(L+1)") >= 2
+    assert alike("X(L)=X(L+1)") == alike("Y(I)=Y(I+1)")
+    assert alike("X(L)=Y(I+2)") == 0
+    for name, first, last, formula in EQUATIONS:
+        places = [s.place for s in statements(name)]
+        assert places.index(first) <= places.index(last)
+        assert equation_of(name, first) == equation_of(name, last) == formula
