@@ -31,9 +31,8 @@ from modern.geometry.coplanar import coplanar, shown
 from modern.geometry.hull import Face, HullRefused, Stage, all_of
 from modern.geometry.hull import Hull as Record
 from modern.geometry.mesh import ExportError, Mesh, mesh
-from modern.geometry.numbers import AREA_DIGITS, coordinates, real, sum_of_roots
+from modern.geometry.numbers import AREA_DIGITS, coordinates, exact_text, real, sum_of_roots
 from modern.geometry.vectors import Vector, six_volumes
-from modern.port.arithmetic import exact_text
 from modern.port.outcome import PointTexts
 from modern.port.procedure import Epsilon, OnRefusal
 from modern.thesis import job

@@ -17,7 +17,7 @@ import numpy as np
 from emulator.machine.endings import Ending
 from modern.exact_hull import ExactHull
 from modern.geometry.hull import DETERMINED, Coefficients, Face, Hull
-from modern.port.arithmetic import exact_text
+from modern.geometry.numbers import exact_text
 from modern.thesis.cards import CardHull, read_hull
 from modern.thesis.job import HullRun
 

@@ -20,6 +20,8 @@ _DECIMAL = re.compile(r"([+-]?)([0-9]*)(?:\.([0-9]*))?(?:[eE]([+-]?[0-9]{1,6}))?
 _QUOTIENT = re.compile(r"([+-]?[0-9]+)/([0-9]+)")
 _SHOWN = 40
 _GUARD = 20
+_LONGEST = 80
+_SAFE_BITS = 10_000
 
 
 class PointsError(EmulatorError, ValueError):
@@ -109,8 +111,8 @@ def coordinates(point: Sequence[str]) -> tuple[Fraction, Fraction, Fraction]:
 
 
 def integer_text(value: int) -> str:
-    """All digits of an integer; ``str`` would refuse more than 4300."""
-    return str(Decimal(value))
+    """Return all digits of an integer of any length (``str`` refuses more than 4300)."""
+    return str(value) if value.bit_length() < _SAFE_BITS else str(Decimal(value))
 
 
 def decimal_text(text: str, digits: int | None = None) -> str:
@@ -148,18 +150,22 @@ def sum_of_roots(squares: Iterable[Fraction], digits: int) -> Decimal:
     return Context(prec=digits, Emin=MIN_EMIN, Emax=MAX_EMAX).plus(total)
 
 
-def finite_decimal(value: Fraction) -> str | None:
-    """The decimal string of a fraction, ``-0.25``, or None where it has no finite one.
+def decimal_places(denominator: int) -> int | None:
+    """Return the number of decimal places of 1 / denominator, or None if its decimal expansion does not end."""
+    twos = (denominator & -denominator).bit_length() - 1
+    rest, fives = denominator >> twos, 0
+    while rest % 5 == 0:
+        rest, fives = rest // 5, fives + 1
+    return max(twos, fives) if rest == 1 else None
 
-    Very large and very small numbers are written with an exponent: ``1E+90``.
+
+def finite_decimal(value: Fraction) -> str | None:
+    """Return a fraction as a decimal string such as ``-0.25``, or None if its decimal expansion does not end.
+
+    Very large and very small numbers have an exponent: ``1E+90``.
     """
-    rest, places = value.denominator, 0
-    for prime in (2, 5):
-        count = 0
-        while rest % prime == 0:
-            rest, count = rest // prime, count + 1
-        places = max(places, count)
-    if rest != 1:
+    places = decimal_places(value.denominator)
+    if places is None:
         return None
     sign, figures, _ = Decimal(value.numerator * 10**places // value.denominator).as_tuple()
     text = "".join(map(str, figures)).rstrip("0")
@@ -177,7 +183,33 @@ def finite_decimal(value: Fraction) -> str | None:
 
 
 def float_text(value: float | Exact) -> str:
-    """The exact decimal of a finite binary float, or of another number that has one."""
+    """Return the exact decimal of a finite binary float, or of another number with a finite decimal expansion."""
     text = finite_decimal(Fraction(*value.as_integer_ratio()))
     assert text is not None
     return text
+
+
+def scaled_decimal(integer: int, exponent: int) -> str:
+    """Return integer * 10**exponent as a decimal string of at most 80 digits, or with an exponent if it is longer."""
+    if integer == 0:
+        return "0"
+    sign, digits = ("-" if integer < 0 else ""), integer_text(abs(integer))
+    bare = digits.rstrip("0")
+    exponent += len(digits) - len(bare)
+    if exponent >= 0 and len(bare) + exponent <= _LONGEST:
+        return sign + bare + "0" * exponent
+    if -_LONGEST <= exponent < 0:
+        bare = bare.rjust(1 - exponent, "0")
+        return f"{sign}{bare[:exponent]}.{bare[exponent:]}"
+    return f"{sign}{bare}E{exponent:+d}"
+
+
+def exact_text(value: Exact) -> str:
+    """Return the text of a number in a hull: a decimal, or a fraction ``p/q`` if its decimal expansion does not end."""
+    numerator, denominator = value.numerator, value.denominator
+    if denominator == 1:
+        return scaled_decimal(numerator, 0) if abs(numerator) >= 10**_LONGEST else str(numerator)
+    places = decimal_places(denominator)
+    if places is None:
+        return f"{integer_text(numerator)}/{integer_text(denominator)}"
+    return scaled_decimal(numerator * 10**places // denominator, -places)

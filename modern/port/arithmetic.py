@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Sequence
-from decimal import Decimal
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -18,13 +17,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from emulator.errors import EmulatorError
+from modern.geometry.numbers import Exact
 
-Exact = int | Fraction
 Vector = NDArray[Any]
 Scalar = Any
 """One element of a vector."""
-
-_LONGEST = 80
 
 
 class RangeError(EmulatorError, ValueError):
@@ -133,40 +130,3 @@ class Arithmetic(ABC):
     def farthest(self, o1: Vector, o2: Vector, o3: Vector) -> int:
         """The place of the largest O1**2 + O2**2 + O3**2, the last of equals (thesis p. 15)."""
         return self.last_largest(o1 * o1 + o2 * o2 + o3 * o3)
-
-
-def _digits(size: int) -> str:
-    """Decimal digits; str() itself refuses numbers of more than a few thousand."""
-    return str(size) if size.bit_length() < 10_000 else str(Decimal(size))
-
-
-def scaled_decimal(number: int, exponent: int) -> str:
-    """number * 10**exponent as a decimal string: written out where that is short, else with an exponent."""
-    if number == 0:
-        return "0"
-    sign, digits = ("-" if number < 0 else ""), _digits(abs(number))
-    bare = digits.rstrip("0")
-    exponent += len(digits) - len(bare)
-    if exponent >= 0 and len(bare) + exponent <= _LONGEST:
-        return sign + bare + "0" * exponent
-    if -_LONGEST <= exponent < 0:
-        bare = bare.rjust(1 - exponent, "0")
-        return f"{sign}{bare[:exponent]}.{bare[exponent:]}"
-    return f"{sign}{bare}E{exponent:+d}"
-
-
-def exact_text(value: Exact) -> str:
-    """An exact number as a decimal string, or as a fraction ``p/q`` where no finite decimal exists."""
-    over = value.denominator
-    if over == 1:
-        return scaled_decimal(value.numerator, 0) if abs(value.numerator) >= 10**_LONGEST else str(value.numerator)
-    twos = (over & -over).bit_length() - 1
-    rest, fives = over >> twos, 0
-    while rest % 5 == 0:
-        rest //= 5
-        fives += 1
-    if rest != 1:
-        sign = "-" if value < 0 else ""
-        return f"{sign}{_digits(abs(value.numerator))}/{_digits(over)}"
-    places = max(twos, fives)
-    return scaled_decimal(value.numerator * 2 ** (places - twos) * 5 ** (places - fives), -places)

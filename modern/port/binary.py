@@ -12,7 +12,8 @@ from mpmath import MPContext
 from mpmath.libmp import from_rational, round_nearest
 from numpy.typing import NDArray
 
-from modern.port.arithmetic import Arithmetic, Exact, RangeError, Scalar, Vector, exact_text
+from modern.geometry.numbers import Exact, exact_text
+from modern.port.arithmetic import Arithmetic, RangeError, Scalar, Vector
 
 MIN_BITS, MAX_BITS = 2, 100_000
 

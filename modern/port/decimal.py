@@ -26,7 +26,8 @@ from emulator.numbers.arithmetic import (
 )
 from emulator.numbers.base import decimal_length
 from emulator.numbers.functions import function
-from modern.port.arithmetic import Arithmetic, Exact, RangeError, Vector, scaled_decimal
+from modern.geometry.numbers import Exact, scaled_decimal
+from modern.port.arithmetic import Arithmetic, RangeError, Vector
 
 
 class Number1620:

@@ -15,7 +15,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.port.arithmetic import Arithmetic, Exact, Scalar, Vector, exact_text
+from modern.geometry.numbers import Exact, exact_text
+from modern.port.arithmetic import Arithmetic, Scalar, Vector
 
 _SPARE_BITS = 5
 """A plane at a point adds up 24 products of three coordinates, fewer than 2**5."""

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from modern.geometry.hull import Coefficients, Face, Later, Stage
-from modern.port.arithmetic import Arithmetic, Exact, Scalar, Vector
+from modern.geometry.numbers import Exact
+from modern.port.arithmetic import Arithmetic, Scalar, Vector
 from modern.port.table import Equations, Places
 
 PLANE, LINE = (2, 2, 2, 3), (1, 1, 1, 2)

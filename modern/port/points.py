@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from emulator.numbers.arithmetic import FAMILIES, PROFILES, profile
-from modern.geometry.numbers import PointsError, real
-from modern.port.arithmetic import Arithmetic, Exact, RangeError, Vector
+from modern.geometry.numbers import Exact, PointsError, real
+from modern.port.arithmetic import Arithmetic, RangeError, Vector
 from modern.port.binary import MAX_BITS, MIN_BITS, FloatArithmetic, MultiprecisionArithmetic
 from modern.port.decimal import Arithmetic1620
 from modern.port.exact import exact_arithmetic

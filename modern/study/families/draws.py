@@ -8,7 +8,7 @@ from random import Random
 from typing import TypeVar
 
 from emulator.errors import EmulatorError
-from modern.port.arithmetic import scaled_decimal
+from modern.geometry.numbers import scaled_decimal
 
 T = TypeVar("T")
 Point = tuple[str, str, str]

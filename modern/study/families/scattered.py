@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from math import isqrt
 
-from modern.port.arithmetic import scaled_decimal
+from modern.geometry.numbers import scaled_decimal
 from modern.study.families.draws import DIGITS, Count, Draw, Drawn, FamilyError, Whole, drawn, size_of, whole_range
 
 FINE = 10**12

@@ -16,8 +16,8 @@ import modern
 from emulator.numbers.arithmetic import TRUNCATING
 from emulator.numbers.fields import FALLBACK, read_floating, write_floating
 from modern.geometry.hull import Later, all_of
+from modern.geometry.numbers import exact_text
 from modern.port import PointsError, convex_hull
-from modern.port.arithmetic import exact_text
 from modern.port.outcome import Faces
 from modern.port.points import NAMES, fixed_arithmetic
 from tests.support.punched import e_field
