@@ -25,7 +25,7 @@ from modern.exact_hull.coordinates import Points
 from modern.exact_hull.coordinates import read_points as exact_points
 from modern.exact_hull.result import Certificate
 from modern.formats import deck as decks
-from modern.formats.hulls import to_trimesh, write_hull
+from modern.formats.export import to_trimesh, write_hull
 from modern.formats.points import read_input
 from modern.geometry.coplanar import coplanar, shown
 from modern.geometry.hull import Face, HullRefused, Stage, all_of

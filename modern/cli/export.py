@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from modern.cli.shared.console import DIFFERS, OK, UsageError, say
 from modern.cli.shared.inputs import points_of
-from modern.formats.hulls import format_of, write_hull
+from modern.formats.export import format_of, write_hull
 from modern.geometry.coplanar import FLAT, CoplanarError, Joined, coplanar, described, distance
 from modern.geometry.hull import Hull
 

@@ -15,7 +15,7 @@ from modern.cli.shared.console import DIFFERS, OK, UsageError, counted, say
 from modern.cli.shared.volumes import array_note, coordinate_words, printable, volume_of
 from modern.digital.solids import Volume
 from modern.digital.volumes import ARRAYS, write_array
-from modern.formats.hulls import mesh_text
+from modern.formats.export import mesh_text
 from modern.papers.kovalevsky_schulz import CENTRES, voxel_hull
 from modern.papers.yau_srihari import OctreeHull, Printed, octree_hull
 from modern.papers.yau_srihari.envelope import Edge, Envelope, Step

@@ -26,7 +26,7 @@ from modern.digital.scans import label_boxes, label_volume
 from modern.digital.volumes import Volume, write_array
 from modern.digital.world import voxel_volume
 from modern.formats import MESHES
-from modern.formats.hulls import mesh_text
+from modern.formats.export import mesh_text
 from modern.papers.kovalevsky_schulz import (
     CENTRES,
     SHUFFLED,

@@ -10,7 +10,7 @@ from dataclasses import replace
 from fractions import Fraction
 from math import atan2
 
-from modern.comparison.claims import Claim
+from modern.comparison.card_differences import Claim
 from modern.drawing import svg
 from modern.drawing.draw import Show, marked, numbers, seen, width_of
 from modern.drawing.layout import MARGIN, Layout, Pixel, lay_out

@@ -37,8 +37,8 @@ from itertools import chain
 from modern.exact_hull.convexity import Undecided, prove
 from modern.exact_hull.coordinates import IntPoint, Points, read_points
 from modern.exact_hull.incidences import Incidences, incidences
+from modern.exact_hull.polygons import check_convex, difference, dot, product
 from modern.exact_hull.result import Certificate, CertificateError, ExactHull, require
-from modern.exact_hull.sides import check_convex, difference, dot, product
 
 MANY = 1 << 18
 """Points times facets from which on a polyhedron is proved by its convexity."""

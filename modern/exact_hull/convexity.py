@@ -70,8 +70,7 @@ from numpy.typing import NDArray
 
 from modern.exact_hull.coordinates import IntPoint
 from modern.exact_hull.incidences import BOUND, Incidences
-from modern.exact_hull.result import CertificateError, ExactHull
-from modern.exact_hull.sides import (
+from modern.exact_hull.polygons import (
     Floats,
     Images,
     Ints,
@@ -83,6 +82,7 @@ from modern.exact_hull.sides import (
     polygons,
     values,
 )
+from modern.exact_hull.result import CertificateError, ExactHull
 
 _BLOCK = 1 << 12
 _BALL = 2.0**-40

@@ -10,7 +10,7 @@ from emulator.errors import FileError
 from emulator.files import decoded
 from modern.formats import obj, off, stl
 from modern.formats.points import recognise
-from modern.formats.words import FileMesh
+from modern.formats.tokens import FileMesh
 
 SURFACES = ("off", "obj", "stl")
 """Kinds of file that faces are read from, of those that points are read from."""

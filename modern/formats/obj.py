@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import re
 
-from modern.formats.words import FileMesh, Word, error, lines, point
+from modern.formats.tokens import FileMesh, Word, error, lines, point
 from modern.geometry.mesh import Mesh
 from modern.geometry.numbers import Point, shown
 

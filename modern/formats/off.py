@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from emulator.errors import FileError
 from emulator.files import read_text, source_name
-from modern.formats.words import FileMesh, Word, count, decimal, error, last_line, point, take
-from modern.formats.words import lines as worded
+from modern.formats.tokens import FileMesh, Word, count, decimal, error, last_line, point, take
+from modern.formats.tokens import lines as worded
 from modern.geometry.mesh import Mesh
 from modern.geometry.numbers import Point, shown
 

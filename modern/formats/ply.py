@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from itertools import islice
 
 from emulator.errors import FileError
-from modern.formats.words import Line, count, decimal, error, last_line, lines, take
+from modern.formats.tokens import Line, count, decimal, error, last_line, lines, take
 from modern.geometry.mesh import Mesh
 from modern.geometry.numbers import Point, float_text, shown
 

@@ -14,7 +14,7 @@ import struct
 from fractions import Fraction
 
 from emulator.errors import FileError
-from modern.formats.words import FileMesh, Word, error, lines, point
+from modern.formats.tokens import FileMesh, Word, error, lines, point
 from modern.geometry.mesh import ExportError, Mesh
 from modern.geometry.numbers import Point, coordinates, float_text
 from modern.geometry.vectors import Vector, cross, dot, minus

@@ -18,7 +18,7 @@ from modern.exact_hull import exact_hull
 from modern.exact_hull.coordinates import IntPoint, common_scale, to_integers
 from modern.formats.meshes import kind_of, parse_mesh
 from modern.formats.points import parse_bytes
-from modern.formats.words import FileMesh
+from modern.formats.tokens import FileMesh
 from modern.geometry.coplanar import FLAT, CoplanarError, Joined, described, join, root_text
 from modern.geometry.hull import Hull
 from modern.geometry.mesh import mesh, sides

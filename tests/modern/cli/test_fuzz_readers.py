@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from emulator.errors import EmulatorError
-from modern.formats.hulls import export_text
+from modern.formats.export import export_text
 from modern.port import convex_hull
 from modern.study.tomlplan import read_plan
 from tests.support.mutated import FILES, WAYS, Make, codes_of, damaged, saved, solid

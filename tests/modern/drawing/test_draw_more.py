@@ -10,12 +10,12 @@ from xml.etree import ElementTree
 
 import pytest
 
-from modern.comparison.claims import Claim, StrangeCards, claim_of
+from modern.comparison.card_differences import Claim, StrangeCards, claim_of
 from modern.drawing.against import draw_against
 from modern.drawing.draw import Show, draw_svg
 from modern.drawing.stages import frames, played, strip
 from modern.edition.programs import loader
-from modern.formats.hulls import export_text
+from modern.formats.export import export_text
 from modern.geometry.hull import Hull
 from modern.geometry.mesh import ExportError
 from modern.port import convex_hull

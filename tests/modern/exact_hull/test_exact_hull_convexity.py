@@ -15,7 +15,7 @@ from modern.exact_hull import CertificateError, ExactHull, Facet, certify, conve
 from modern.exact_hull import certificate as checks
 from modern.exact_hull.facets import lowest_terms, plane_through
 from modern.exact_hull.incidences import BOUND
-from modern.exact_hull.sides import images_of, normal_images, polygons
+from modern.exact_hull.polygons import images_of, normal_images, polygons
 from tests.support.corrupted import (
     BIG,
     GRID,

@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from modern.formats.hulls import export_text, format_of, to_trimesh, write_hull
+from modern.formats.export import export_text, format_of, to_trimesh, write_hull
 from modern.formats.off import parse_off, read_off
 from modern.geometry.hull import Face, Hull, Stage
 from modern.geometry.mesh import ExportError, mesh

@@ -16,7 +16,7 @@ from modern.cli import export as export_command
 from modern.comparison.outcome import as_hull
 from modern.exact_hull import exact_hull
 from modern.formats.deck import coordinate_field, data_deck, exact_points, with_epsilon
-from modern.formats.hulls import export_text
+from modern.formats.export import export_text
 from modern.formats.off import parse_off
 from modern.formats.points import Input, parse_input, read_input, recognise
 from modern.geometry.hull import ERROR, Hull

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from emulator.errors import EmulatorError
 from modern.exact_hull import exact_hull
-from modern.formats.hulls import export_text
+from modern.formats.export import export_text
 from modern.formats.points import Input, parse_bytes
 from modern.port import convex_hull
 from tests.support.commands import call

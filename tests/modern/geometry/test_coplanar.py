@@ -15,7 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import hull1620
-from modern.formats.hulls import export_text
+from modern.formats.export import export_text
 from modern.geometry.coplanar import (
     CoplanarError,
     Joined,

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from emulator.errors import EmulatorError
 from modern.exact_hull import exact_hull
-from modern.formats.hulls import export_text
+from modern.formats.export import export_text
 from modern.formats.meshes import parse_mesh
-from modern.formats.words import FileMesh
+from modern.formats.tokens import FileMesh
 from modern.geometry.coplanar import CoplanarError
 from modern.papers.nakamae_nishita.bodies import Bodies, Reading, bodies, read_bodies
 from modern.papers.nakamae_nishita.hidden import draw

@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from modern.formats.hulls import export_text
+from modern.formats.export import export_text
 from modern.papers.nakamae_nishita.hidden import draw
 from modern.papers.nakamae_nishita.projection import parallel
 from modern.papers.nakamae_nishita.scenes import read

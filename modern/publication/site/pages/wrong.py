@@ -6,7 +6,7 @@ import re
 from fractions import Fraction
 
 from emulator.language.cards import deck_from_text
-from modern.comparison.claims import claim_of
+from modern.comparison.card_differences import claim_of
 from modern.drawing.against import draw_against
 from modern.drawing.draw import Show
 from modern.edition.programs import program
