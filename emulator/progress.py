@@ -16,10 +16,7 @@ _LINES = 60.0
 
 @dataclass
 class Progress:
-    """Counts samples (or ``what``) and shows the count on ``file``; ``before`` of them were there already.
-
-    ``aside`` is asked for words to show beside the count; where it has any at the beginning, they are shown at once.
-    """
+    """Counts samples (or ``what``) and shows the count on ``file``; ``before`` of them were there already."""
 
     total: int
     before: int = 0
@@ -27,7 +24,6 @@ class Progress:
     quiet: bool = False
     what: str = "samples"
     clock: Callable[[], float] = time.monotonic
-    aside: Callable[[], str] = lambda: ""
     done: int = field(init=False, default=0)
     _shown: float = field(init=False, default=0.0)
     _began: float = field(init=False, default=0.0)
@@ -36,8 +32,6 @@ class Progress:
         self._began = self._shown = self.clock()
         self.quiet = self.quiet or self.file is None
         self._bar = not self.quiet and self.file.isatty()
-        if self._bar and self.aside():
-            self._show(self._began)
 
     def add(self, samples: int) -> None:
         """So many samples more are done."""
@@ -58,8 +52,7 @@ class Progress:
         seconds = now - self._began
         rate = self.done / seconds if seconds > 0 else 0.0
         left = f", {_span((self.total - at) / rate)} left" if rate and at < self.total else ""
-        aside = self.aside()
-        words = f"{at:,} of {self.total:,} {self.what}, {aside or f'{rate:,.0f} a second{left}'}"
+        words = f"{at:,} of {self.total:,} {self.what}, {rate:,.0f} a second{left}"
         if not self._bar:
             self._say(words + "\n")
             return

@@ -7,14 +7,11 @@ memory does not grow with their number.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
-from itertools import chain, islice
-from pathlib import Path
-from time import sleep
+from itertools import islice
 from typing import TypeVar
 
 from emulator.compiled import devices, kernel
-from emulator.compiled.runner import BLOCK, INSTEAD, WAYS, Run, Runner, packed, packed_text, unsuited, why_plain
+from emulator.compiled.runner import BLOCK, INSTEAD, WAYS, Run, Runner, packed, packed_text, why_plain
 from emulator.jit.functions import NotInstalled
 from emulator.language.cards import Deck, deck_from_text
 from emulator.language.objectcode import Program
@@ -24,8 +21,6 @@ from emulator.machine.machine import Machine
 from emulator.machine.result import Event, Options, Result, begun, machine_errors
 
 T = TypeVar("T")
-SHORT = 500_000
-"""The limit of a plain run while the compiled engine is made, half a second: a longer one is left to that engine."""
 Note = Callable[[str], None]
 """Takes one line for the user."""
 
@@ -35,14 +30,12 @@ def run_batch(
     decks: Iterable[Deck],
     options: Options | None = None,
     note: Note | None = None,
-    compiling: Path | None = None,
 ) -> tuple[Result, ...]:
     """The result of each deck, as :meth:`emulator.machine.machine.Machine.run` gives it.  Raises what that raises.
 
-    ``note`` is told, once, why the compiled engine cannot be used, if it cannot.  ``compiling``: while this file is
-    there, another process makes that engine (:mod:`emulator.compiled.making`), and the plain one runs.
+    If the compiled engine cannot be used, ``note`` receives one line with the reason.
     """
-    return tuple(results(program, decks, options, note, compiling))
+    return tuple(results(program, decks, options, note))
 
 
 def results(
@@ -50,25 +43,11 @@ def results(
     decks: Iterable[Deck],
     options: Options | None = None,
     note: Note | None = None,
-    compiling: Path | None = None,
 ) -> Iterator[Result]:
     """As :func:`run_batch`, one result after the other as they are asked for."""
-    options, waiting = options or Options(), iter(decks)
-    if compiling and not unsuited(options):
-        short = replace(options, limit=min(options.limit, SHORT))
-        while compiling.exists() and (deck := next(waiting, None)) is not None:
-            result = Machine(program, deck, short).run()
-            if result.ending.kind == "limit" and options.limit > SHORT:
-                waiting = chain([deck], waiting)
-                while compiling.exists():
-                    sleep(0.02)
-            else:
-                yield result
-        if (deck := next(waiting, None)) is None:
-            return
-        waiting = chain([deck], waiting)
+    options = options or Options()
     runner = _runner(program, options, note)
-    for block in _blocks(waiting):
+    for block in _blocks(decks):
         runs = runner.runs([packed(deck) for deck in block]) if runner else iter([None] * len(block))
         for deck, run in zip(block, runs, strict=True):
             yield Machine(program, deck, options).run() if run is None else _result(program, deck, options, run)

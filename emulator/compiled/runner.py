@@ -17,7 +17,8 @@ import numpy as np
 from emulator.compiled import deck as decks
 from emulator.compiled import devices, kernel
 from emulator.jit.functions import Compiled, NotInstalled
-from emulator.language.cards import CHARACTERS, COLUMNS, MAX_CARDS, Deck
+from emulator.language.cards import CHARACTERS, COLUMNS, MAX_CARDS, Deck, deck_from_lines
+from emulator.language.compiler import compile_deck
 from emulator.language.formats import MAX_RECORD, Literal
 from emulator.language.objectcode import Flat, Program, flatten
 from emulator.machine.interpreter import AT_LIMIT
@@ -44,8 +45,11 @@ _KINDS = {"E": devices.E_FIELD, "F": devices.F_FIELD, "I": devices.I_FIELD}
 _CARD_CODES = "".join(sorted(CHARACTERS)).encode("ascii")
 
 
-def unsuited(options: Options) -> str:
-    """Why the compiled engine cannot run with these options, wherever it is; one line, empty where it can."""
+def why_plain(options: Options) -> str:
+    """Return one line saying why these options need the interpreter, or "" if the compiled engine can run them.
+
+    Only :class:`Runner` finds out whether the machine code can be compiled or loaded.
+    """
     if not isinstance(options.numbers, DecimalNumbers):
         return f"the compiled engine has no {options.numbers.name} numbers: {INSTEAD}"
     if options.uncut:
@@ -53,16 +57,6 @@ def unsuited(options: Options) -> str:
     profile = options.numbers.profile
     if profile.digits > MAX_DIGITS:
         return f"{profile.name} has {profile.digits} digits, the compiled engine has at most {MAX_DIGITS}: {INSTEAD}"
-    return ""
-
-
-def why_plain(options: Options) -> str:
-    """Why the compiled engine cannot run with these options here, one line; empty where it can.
-
-    Code that cannot be made or loaded is found out by :class:`Runner`.
-    """
-    if why := unsuited(options):
-        return why
     try:
         run_decks()
     except NotInstalled as error:
@@ -77,6 +71,15 @@ def run_decks() -> Compiled:
     # users.  The second option is named in the docstring of numba.extending.register_jitable only; without it a run
     # takes a sixth longer, as every call counts each array it is given.
     return Compiled(decks.run_decks, error_model="numpy", _nrt=False)
+
+
+def compile_engine() -> None:
+    """Compile the engine, or load it from numba's cache.
+
+    A study calls this before its worker processes start, so that they find the machine code in the cache.
+    Raises :class:`emulator.jit.functions.NotInstalled`.
+    """
+    Runner(compile_deck(deck_from_lines("empty", ["END"])), Options())
 
 
 def packed(deck: Deck) -> bytes | None:

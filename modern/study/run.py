@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterable, Sequence
-from contextlib import ExitStack, closing
+from contextlib import ExitStack, closing, suppress
 from pathlib import Path
 from typing import Any
 
-from emulator.compiled.making import being_made
-from emulator.compiled.runner import why_plain
+from emulator.compiled.runner import compile_engine, why_plain
+from emulator.jit.functions import NotInstalled
 from emulator.language.cards import deck_from_lines
 from emulator.machine.machine import Machine
 from emulator.numbers import numbers
@@ -34,8 +34,6 @@ from modern.study.workers import connect, in_processes, on_cluster, processes
 
 MOST_FILES = 1_000_000
 """Files of rows a study may have: their names are held in memory while it runs."""
-COMPILING = "compiling the engine, once"
-"""What progress says while the plain engine runs because the other is being made."""
 
 Reporter = Callable[[Plan, Store], Report]
 
@@ -75,10 +73,12 @@ def run_study(
         for line in () if quiet or client else plain_lines(plan):
             print(line, file=sys.stderr)
         store = stack.enter_context(closing(Store.open(folder, plan)))
-        # A cluster's workers compile for themselves.
-        compiling = None if client or not _compiled(plan) else stack.enter_context(being_made())
+        # The worker processes load the machine code from numba's cache. The workers of a cluster compile it themselves.
+        if not client and _needs_engine(plan):
+            with suppress(NotInstalled):
+                compile_engine()
         with watching() as interrupt:
-            _complete(plan, store, client, workers or processes(), quiet, interrupt, compiling)
+            _complete(plan, store, client, workers or processes(), quiet, interrupt)
         found = report(plan, store)
         without = can_plot()
         if without and not quiet:
@@ -97,8 +97,8 @@ def plain_lines(plan: Plan) -> tuple[str, ...]:
     return tuple(line for line in dict.fromkeys(why_plain(options_of(route)) for route in _of_programs(plan)) if line)
 
 
-def _compiled(plan: Plan) -> bool:
-    """Whether the compiled engine has anything to run."""
+def _needs_engine(plan: Plan) -> bool:
+    """Return True if the compiled engine can run at least one route of the plan."""
     return any(not why_plain(options_of(route)) for route in _of_programs(plan))
 
 
@@ -129,20 +129,15 @@ def _complete(
     workers: int,
     quiet: bool,
     interrupt: Interrupt,
-    compiling: Path | None,
 ) -> None:
     """The chunks that are not there, done and kept one by one.  Raises KeyboardInterrupt after a first Ctrl-C."""
-
-    def aside() -> str:
-        return COMPILING if compiling and compiling.exists() else ""
-
     missing = store.missing()
     left = sum(chunk.stop - chunk.start for chunk in missing)
-    progress = Progress(plan.samples, plan.samples - left, quiet=quiet, aside=aside)
+    progress = Progress(plan.samples, plan.samples - left, quiet=quiet)
     if client:
         done = on_cluster(plan, missing, client)
     else:
-        done = in_processes(plan, missing, workers, interrupt, compiling)
+        done = in_processes(plan, missing, workers, interrupt)
     try:
         with closing(done):
             for chunk, text in done:

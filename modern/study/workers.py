@@ -15,7 +15,6 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from importlib import import_module
 from itertools import islice
-from pathlib import Path
 from typing import Any
 
 from emulator.errors import EmulatorError
@@ -40,19 +39,18 @@ Stamped = tuple[dict[str, str], str, str]
 """Versions of the worker, a chunk's rows, or why there are none."""
 
 
-def chunk_text(cell: Cell, seed: int, chunk: Chunk, compiling: Path | None = None) -> str:
+def chunk_text(cell: Cell, seed: int, chunk: Chunk) -> str:
     """The chunk's rows as JSONL text, one line a sample; ``cell`` is the chunk's, ``seed`` the study's."""
-    return "".join(json.dumps(row, separators=(",", ":")) + "\n" for row in chunk_rows(cell, seed, chunk, compiling))
+    return "".join(json.dumps(row, separators=(",", ":")) + "\n" for row in chunk_rows(cell, seed, chunk))
 
 
-def chunk_rows(cell: Cell, seed: int, chunk: Chunk, compiling: Path | None = None) -> Iterator[Row]:
+def chunk_rows(cell: Cell, seed: int, chunk: Chunk) -> Iterator[Row]:
     """The chunk's rows: seed, deck, the judge's figures, and by route outcome, detail and figures.
 
-    ``compiling`` is that of :func:`emulator.compiled.batch.run_batch`.  Raises EmulatorError where the plan cannot be
-    carried out.
+    Raises EmulatorError where the plan cannot be carried out.
     """
     samples = [judge(draw_sample(cell, seed, index), f"sample {index}") for index in range(chunk.start, chunk.stop)]
-    runs = Runs(compiling)
+    runs = Runs()
     found = {route.name: carry_out(route, samples, runs) for route in cell.routes}
     reference = found[cell.reference or cell.routes[0].name]
     for place, sample in enumerate(samples):
@@ -79,10 +77,10 @@ def _row(cell: int, index: int, seed: str, sample: Sample, answers: dict[str, An
     return row
 
 
-def task(cell: Cell, seed: int, chunk: Chunk, compiling: Path | None = None) -> tuple[str, str]:
+def task(cell: Cell, seed: int, chunk: Chunk) -> tuple[str, str]:
     """A chunk's rows, or in a line why there are none; errors are sent as text, which every process can read."""
     try:
-        return chunk_text(cell, seed, chunk, compiling), ""
+        return chunk_text(cell, seed, chunk), ""
     except EmulatorError as error:
         return "", str(error)
 
@@ -104,12 +102,11 @@ def in_processes(
     chunks: Sequence[Chunk],
     workers: int,
     interrupt: Interrupt | None = None,
-    compiling: Path | None = None,
 ) -> Generator[Done]:
     """Each chunk with its rows, in whatever order they are done; one worker is this process itself.
 
-    ``interrupt`` is told what is begun; once it is asked for, only that is finished.  ``compiling`` is that of
-    :func:`emulator.compiled.batch.run_batch`.  Raises PlanError where a chunk cannot be carried out, or a worker dies.
+    ``interrupt`` receives the number of chunks in hand. After a request to stop, only these are finished. Raise
+    PlanError if a chunk fails or a worker process dies.
     """
     interrupt = interrupt or Interrupt()
     if workers == 1 or len(chunks) <= 1:
@@ -117,12 +114,12 @@ def in_processes(
         for chunk in chunks:
             if interrupt.asked:
                 return
-            yield chunk, rows_or_error(*task(plan.cells[chunk.cell], plan.seed, chunk, compiling))
+            yield chunk, rows_or_error(*task(plan.cells[chunk.cell], plan.seed, chunk))
         return
     context = multiprocessing.get_context("spawn")
     pool = ProcessPoolExecutor(min(workers, len(chunks)), context, initializer=_begin_worker)
     try:
-        yield from _from_pool(plan, chunks, pool, workers, interrupt, compiling)
+        yield from _from_pool(plan, chunks, pool, workers, interrupt)
     except BrokenProcessPool:
         raise PlanError("a worker process died (was it killed, or out of memory?); --resume goes on") from None
     finally:
@@ -137,13 +134,12 @@ def _from_pool(
     pool: ProcessPoolExecutor,
     workers: int,
     interrupt: Interrupt,
-    compiling: Path | None,
 ) -> Generator[Done]:
     waiting = iter(chunks)
     under_way: dict[Future[tuple[str, str]], Chunk] = {}
     while True:
         for chunk in islice(waiting, 0 if interrupt.asked else AHEAD * workers - len(under_way)):
-            under_way[pool.submit(task, plan.cells[chunk.cell], plan.seed, chunk, compiling)] = chunk
+            under_way[pool.submit(task, plan.cells[chunk.cell], plan.seed, chunk)] = chunk
         if interrupt.asked:
             for future in [future for future in under_way if future.cancel()]:
                 del under_way[future]

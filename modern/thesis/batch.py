@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 
 from emulator.compiled.batch import run_batch
 from emulator.errors import EmulatorError
@@ -19,10 +18,8 @@ class Runs:
     """Runs already made: the same program with the same options over the same deck is run once.
 
     Routes of a cell often share program 1 or 2.  The programs are kept, so that no other can take the identity of one.
-    ``compiling`` is that of :func:`emulator.compiled.batch.run_batch`.
     """
 
-    compiling: Path | None = None
     done: dict[tuple[int, Options, Deck], Result | EmulatorError] = field(default_factory=dict)
     programs: dict[int, Program] = field(default_factory=dict)
 
@@ -30,23 +27,21 @@ class Runs:
         """The result of each deck, or the error it raised: a card of numbers no program can read."""
         self.programs[id(program)] = program
         fresh = [deck for deck in dict.fromkeys(decks) if (id(program), options, deck) not in self.done]
-        for deck, result in zip(fresh, _results(program, fresh, options, self.compiling), strict=True):
+        for deck, result in zip(fresh, _results(program, fresh, options), strict=True):
             self.done[id(program), options, deck] = result
         return [self.done[id(program), options, deck] for deck in decks]
 
 
-def _results(
-    program: Program, decks: Sequence[Deck], options: Options, compiling: Path | None
-) -> Sequence[Result | EmulatorError]:
+def _results(program: Program, decks: Sequence[Deck], options: Options) -> Sequence[Result | EmulatorError]:
     try:
-        return run_batch(program, decks, options, compiling=compiling)
+        return run_batch(program, decks, options)
     except EmulatorError as error:
         if len(decks) == 1:
             return [error]
     # One deck stops a batch: halves are tried, so that the others' results are kept.
     half = len(decks) // 2
     halves = decks[:half], decks[half:]
-    return [result for some in halves for result in _results(program, some, options, compiling)]
+    return [result for some in halves for result in _results(program, some, options)]
 
 
 def run_hulls(

@@ -55,24 +55,6 @@ def test_progress_on_a_terminal_elsewhere_and_quiet(monkeypatch: pytest.MonkeyPa
     assert silent.getvalue() == ""
 
 
-def test_what_is_waited_for_is_said_at_once_and_beside_the_count() -> None:
-    words, file = ["compiling the engine, once"], Terminal()
-    progress = Progress(100, 0, file, aside=lambda: words[0])
-    assert file.getvalue().rstrip().endswith("0 of 100 samples, compiling the engine, once")
-    words[0] = ""
-    progress.add(100)
-    progress.close()
-    assert "compiling" not in file.getvalue().split("\r")[-1]
-    assert Progress(100, 0, silent := Terminal(), aside=lambda: "").done == 0
-    assert silent.getvalue() == ""
-
-
-def test_rows_are_the_same_while_the_engine_is_compiled(tmp_path: Path) -> None:
-    chunks = list(PLAN.chunks())
-    (tmp_path / "compiling").touch()
-    assert list(in_processes(PLAN, chunks, 1, compiling=tmp_path / "compiling")) == list(in_processes(PLAN, chunks, 1))
-
-
 def test_progress_survives_its_reader() -> None:
     class Broken(io.StringIO):
         def write(self, _: str) -> int:
