@@ -58,7 +58,7 @@ from emulator.machine.interpreter import (
     SLACK,
 )
 from emulator.machine.result import LOOP_WINDOW
-from emulator.numbers.arithmetic import POWERS_MULTIPLY, ZERO, Rules, square_root, whole_power
+from emulator.numbers.arithmetic import ZERO, Rules, square_root, whole_power
 from emulator.numbers.work import multiplied
 
 
@@ -168,7 +168,7 @@ def run_deck(
                 status = end_record(marks, cards, desk)
         elif reason == AT_EVENT:
             status = error(registers[EVENT], marks, desk, announces)
-        elif reason == AT_POWERX and (rules[POWERS_MULTIPLY] or -1 <= core.mantissas[address] <= 2):
+        elif reason == AT_POWERX and (rules.powers_multiply or -1 <= core.mantissas[address] <= 2):
             if registers[FAC] != 0 and not -1 <= core.mantissas[address] <= 2:
                 owe(registers, multiplied(core.mantissas[address]))
                 if registers[WORK] > limit + SLACK:

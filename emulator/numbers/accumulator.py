@@ -11,13 +11,9 @@ The functions use only what a compiler of integer loops accepts.
 from __future__ import annotations
 
 from emulator.numbers.arithmetic import (
-    KEEPS_LEFT_ZERO,
     MAX_EXPONENT,
     MIN_EXPONENT,
     MINUS_ZERO,
-    SIGNED_BY_ZERO,
-    SIGNED_SUMS,
-    SIGNED_UNDERFLOW,
     ZERO,
     Rules,
 )
@@ -44,7 +40,7 @@ State = tuple[int, int, int]
 def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
     """FAC + number.  A zero added changes nothing, but that two zeros give a plus zero where the profile says so."""
     if mb == 0:
-        if ma == 0 and not rules[KEEPS_LEFT_ZERO]:
+        if ma == 0 and not rules.keeps_left_zero:
             return 0, ZERO, 0
         return ma, ea, 0
     if ma == 0:
@@ -53,7 +49,7 @@ def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
     if e > MAX_EXPONENT:
         return largest(m, rules), MAX_EXPONENT, SUM_OVER
     if e < MIN_EXPONENT and m != 0:
-        return 0, (MINUS_ZERO if rules[SIGNED_SUMS] and m < 0 else ZERO), SUM_UNDER
+        return 0, (MINUS_ZERO if rules.signed_sums and m < 0 else ZERO), SUM_UNDER
     return m, e, 0
 
 
@@ -84,7 +80,7 @@ def multiply(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
 def divide(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
     """FAC / number.  Zero divided is a plus zero; division by zero gives the largest number."""
     if mb == 0:
-        return largest(-1 if rules[SIGNED_BY_ZERO] and ma < 0 else 1, rules), MAX_EXPONENT, ZERO_DIVISOR
+        return largest(-1 if rules.signed_by_zero and ma < 0 else 1, rules), MAX_EXPONENT, ZERO_DIVISOR
     if ma == 0:
         return 0, ZERO, 0
     m, e = divide_digits(ma, ea, mb, eb, rules)
@@ -104,12 +100,12 @@ def negate(m: int, e: int) -> tuple[int, int]:
 
 def largest(sign: int, rules: Rules) -> int:
     """The mantissa of the largest number, with the sign of ``sign``, which is not 0."""
-    return rules[1] - 1 if sign > 0 else 1 - rules[1]
+    return rules.limit - 1 if sign > 0 else 1 - rules.limit
 
 
 def vanished(sign: int, rules: Rules) -> int:
     """The exponent of the zero that a product or quotient becomes when it underflows."""
-    return MINUS_ZERO if rules[SIGNED_UNDERFLOW] and sign < 0 else ZERO
+    return MINUS_ZERO if rules.signed_underflow and sign < 0 else ZERO
 
 
 def divide_fixed(dividend: int, divisor: int) -> tuple[int, int]:

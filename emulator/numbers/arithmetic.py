@@ -6,13 +6,14 @@ minus zero, which the machine kept as a flag, is (0, MINUS_ZERO); a field nothin
 (0, UNDEFINED).  A field that holds a fixed-point number has its value and the exponent FIXED_POINT.
 Operations return an exponent that may lie out of range: emulator/numbers/accumulator.py decides what then.
 
-The functions use only what a compiler of integer loops accepts; ``rules`` is a plain tuple for that reason.
+The functions use only what a compiler of integer loops accepts; ``rules`` is a tuple of integers for that reason.
 Where each rule was obtained stands with :data:`PROFILES`.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 ZERO = -99
 MINUS_ZERO = -100
@@ -23,12 +24,34 @@ MIN_EXPONENT = -99
 
 MIN_DIGITS, MAX_DIGITS = 2, 28
 
-Rules = tuple[int, int, int, int, int, int, int, int, int, int, int, int, int]
-"""(digits, 10**digits, 10**(digits-1), guard digits, sticky, round sums, round products, round quotients), then those
-below."""
-KEEPS_LEFT_ZERO, SIGNED_UNDERFLOW, SIGNED_SUMS, SIGNED_BY_ZERO, POWERS_MULTIPLY = range(8, 13)
-"""Zero plus zero keeps the sign of FAC's zero; a product or quotient that underflows keeps its sign, and so does a sum;
-a number divided by zero keeps its sign; a whole power is multiplied out, each product cut, not the exact power cut."""
+
+class Rules(NamedTuple):
+    """The rules of a decimal arithmetic. Every field is an integer, because compiled code uses them too.
+
+    The flags, 0 or 1, begin with ``sticky``.
+
+    digits: digits of a mantissa.  limit: ``10**digits``, which every mantissa is less than.  least:
+    ``10**(digits - 1)``, the least normalized mantissa.  guard: digits of the smaller operand of a sum that are kept
+    beyond the last.  sticky: the digits lost beyond these still count as a fraction.  round_sums, round_products,
+    round_quotients: the result is rounded half up, not truncated.  keeps_left_zero: zero plus zero keeps the sign of
+    FAC's zero.  signed_underflow: a product or quotient that underflows keeps its sign; signed_sums: so does a sum.
+    signed_by_zero: a number divided by zero keeps its sign.  powers_multiply: an integer power is computed by repeated
+    multiplication, truncating each product; otherwise the exact power is truncated once.
+    """
+
+    digits: int
+    limit: int
+    least: int
+    guard: int
+    sticky: int
+    round_sums: int
+    round_products: int
+    round_quotients: int
+    keeps_left_zero: int
+    signed_underflow: int
+    signed_sums: int
+    signed_by_zero: int
+    powers_multiply: int
 
 
 def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
@@ -37,12 +60,12 @@ def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
     The operand of smaller exponent is moved right and its digits drop off *before* the addition, all of them or, in
     :func:`add_guarded`, those beyond some more.
     """
-    if rules[3]:
+    if rules.guard:
         return add_guarded(ma, ea, mb, eb, rules)
     if ea < eb:
         ma, ea, mb, eb = mb, eb, ma, ea
     shift = ea - eb
-    if shift >= rules[0]:
+    if shift >= rules.digits:
         return ma, ea
     if shift:
         mb = mb // 10**shift if mb > 0 else -(-mb // 10**shift)
@@ -50,10 +73,10 @@ def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
     if total == 0:
         return 0, ZERO
     size = total if total > 0 else -total
-    if size >= rules[1]:
+    if size >= rules.limit:
         size = size // 10
         ea += 1
-    while size < rules[2]:
+    while size < rules.least:
         size *= 10
         ea -= 1
     return (size if total > 0 else -size), ea
@@ -65,7 +88,7 @@ def add_guarded(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, 
     With ``sticky`` the lost part still counts as a fraction, so that the rounding which follows is that of the exact
     sum.
     """
-    digits, base, guard, sticky, rounding = rules[0], rules[1], rules[3], rules[4], rules[5]
+    digits, base, guard, sticky, rounding = rules.digits, rules.limit, rules.guard, rules.sticky, rules.round_sums
     if ea < eb:
         ma, ea, mb, eb = mb, eb, ma, ea
     shift = ea - eb
@@ -111,7 +134,7 @@ def add_guarded(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, 
 
 def multiply(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
     """Product of two numbers, neither zero: all 2P digits, then cut or rounded half up in magnitude."""
-    base, low = rules[1], rules[2]
+    base, low = rules.limit, rules.least
     product = ma * mb
     size = product if product > 0 else -product
     exponent = ea + eb
@@ -120,7 +143,7 @@ def multiply(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int
     else:
         unit = low
         exponent -= 1
-    if rules[6]:
+    if rules.round_products:
         size = (size + unit // 2) // unit
         if size >= base:
             size = size // 10
@@ -132,7 +155,7 @@ def multiply(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int
 
 def divide(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
     """Quotient of two numbers, neither zero, cut or rounded half up in magnitude."""
-    base, low = rules[1], rules[2]
+    base, low = rules.limit, rules.least
     size = ma if ma > 0 else -ma
     by = mb if mb > 0 else -mb
     exponent = ea - eb
@@ -142,7 +165,7 @@ def divide(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
     else:
         size = size * base
     quotient = size // by
-    if rules[7] and 2 * (size - quotient * by) >= by:
+    if rules.round_quotients and 2 * (size - quotient * by) >= by:
         # No carry to P + 1 digits: the quotient is at most base - 1 exactly, or below base - 1 as 1 < base / by.
         quotient += 1
     return (quotient if (ma > 0) == (mb > 0) else -quotient), exponent
@@ -153,11 +176,11 @@ def from_integer(value: int, rules: Rules) -> tuple[int, int]:
     if value == 0:
         return 0, ZERO
     size = value if value > 0 else -value
-    exponent = rules[0]
-    while size < rules[2]:
+    exponent = rules.digits
+    while size < rules.least:
         size *= 10
         exponent -= 1
-    while size >= rules[1]:
+    while size >= rules.limit:
         size = size // 10
         exponent += 1
     return (size if value > 0 else -size), exponent
@@ -168,7 +191,7 @@ def to_integer(mantissa: int, exponent: int, rules: Rules) -> int:
     if exponent <= 0:
         return 0
     size: int = mantissa if mantissa > 0 else -mantissa
-    digits = rules[0]
+    digits = rules.digits
     if exponent <= digits:
         size = size // 10 ** (digits - exponent)
     elif exponent - digits < 4:
@@ -188,22 +211,22 @@ def square_root(mantissa: int, exponent: int, rules: Rules) -> tuple[int, int]:
     """Square root of a number not zero, its sign dropped, cut or rounded half up as products are."""
     size = mantissa if mantissa > 0 else -mantissa
     # As a whole number of 2P-1 or 2P digits times an even power of ten.
-    power = exponent - 2 * rules[0]
+    power = exponent - 2 * rules.digits
     if power % 2:
         power += 1
-        size *= rules[2]
+        size *= rules.least
     else:
-        size *= rules[1]
-    root = rules[1]
+        size *= rules.limit
+    root = rules.limit
     better = (root + size // root) // 2
     while better < root:
         root = better
         better = (root + size // root) // 2
-    exponent = power // 2 + rules[0]
+    exponent = power // 2 + rules.digits
     # Above the half exactly when the rest is more than the root: (r+1/2)**2 is never whole.
-    if rules[6] and size - root * root > root:
+    if rules.round_products and size - root * root > root:
         root += 1
-        if root >= rules[1]:
+        if root >= rules.limit:
             root = root // 10
             exponent += 1
     return root, exponent
@@ -219,7 +242,7 @@ def whole_power(mantissa: int, exponent: int, count: int, rules: Rules) -> tuple
     if count == 0:
         return one, ones, 0
     if mantissa == 0:
-        return (0, ZERO, 0) if count > 0 else (rules[1] - 1, MAX_EXPONENT, 7)
+        return (0, ZERO, 0) if count > 0 else (rules.limit - 1, MAX_EXPONENT, 7)
     size = mantissa if mantissa > 0 else -mantissa
     times = count if count > 0 else -count
     m, e = size, exponent
@@ -238,9 +261,9 @@ def whole_power(mantissa: int, exponent: int, count: int, rules: Rules) -> tuple
     if mantissa < 0 and times % 2 == 1:
         m = -m
     if e > MAX_EXPONENT:
-        return (rules[1] - 1 if m > 0 else -(rules[1] - 1)), MAX_EXPONENT, 3
+        return (rules.limit - 1 if m > 0 else -(rules.limit - 1)), MAX_EXPONENT, 3
     if e < MIN_EXPONENT:
-        return 0, (MINUS_ZERO if rules[SIGNED_UNDERFLOW] and m < 0 else ZERO), 4
+        return 0, (MINUS_ZERO if rules.signed_underflow and m < 0 else ZERO), 4
     return m, e, 0
 
 
@@ -258,7 +281,7 @@ class Profile:
 
     @property
     def digits(self) -> int:
-        return self.rules[0]
+        return self.rules.digits
 
 
 def rules_of(
@@ -277,7 +300,7 @@ def rules_of(
     """Rules of that many digits; what is not said is cut, and zeros and nines have signs as under II-D."""
     low = 10 ** (digits - 1)
     rounding = guard, sticky, sums, products, quotients
-    return digits, 10 * low, low, *rounding, left_zero, 1, signed_sums, signed_by_zero, powers_multiply
+    return Rules(digits, 10 * low, low, *rounding, left_zero, 1, signed_sums, signed_by_zero, powers_multiply)
 
 
 TRUNCATING = Profile(

@@ -102,7 +102,7 @@ def read_floating(columns: MutableSequence[int], width: int, decimals: int, rule
                 lead += 1
                 if c != DIGIT:
                     significant = lead
-                if lead <= rules[0]:
+                if lead <= rules.digits:
                     mantissa = 10 * mantissa + c - DIGIT
         elif c == POINT and scale < 0:
             scale = 0
@@ -142,9 +142,9 @@ def read_floating(columns: MutableSequence[int], width: int, decimals: int, rule
     exponent = lead - scale + (-power if below else power)
     if exponent < MIN_EXPONENT or exponent > MAX_EXPONENT:
         return 0, ZERO, OUT_OF_RANGE
-    if significant > rules[0] and status == FINE:
+    if significant > rules.digits and status == FINE:
         status = CUT + significant
-    while lead < rules[0]:
+    while lead < rules.digits:
         mantissa *= 10
         lead += 1
     return (-mantissa if negative else mantissa), exponent, status
@@ -195,7 +195,7 @@ def write_e(
     if mantissa < 0 or exponent == MINUS_ZERO:
         columns[first - 1] = MINUS
     size = -mantissa if mantissa < 0 else mantissa
-    have = rules[0]
+    have = rules.digits
     while have > count:
         size = size // 10
         have -= 1
@@ -235,7 +235,7 @@ def write_f(
     columns[point] = POINT
     size = -mantissa if mantissa < 0 else mantissa
     # The digit of 10**p stands p+1 columns left of the point, or -p right of it; the first one is of 10**(exponent-1).
-    for digit in range(rules[0] - 1, -1, -1):
+    for digit in range(rules.digits - 1, -1, -1):
         p = exponent - 1 - digit
         if -decimals <= p:
             columns[point - p - 1 if p >= 0 else point - p] = DIGIT + size % 10

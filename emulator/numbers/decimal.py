@@ -39,7 +39,7 @@ class DecimalNumbers(Numbers):
     def decimal(self, whole: int, power: int, minus: bool = False) -> Pair:
         if whole == 0:
             return 0, MINUS_ZERO if minus else ZERO
-        return cut_decimal(whole, power, self._rules[0])
+        return cut_decimal(whole, power, self._rules.digits)
 
     def add(self, first: Pair, second: Pair) -> Pair:
         m, e, event = accumulator.add(first[0], first[1], second[0], second[1], self._rules)
@@ -93,14 +93,14 @@ class DecimalNumbers(Numbers):
         return 0 if operation == "SQRT" else work.decimal_function(first[1])
 
     def exact(self, value: Pair, digits: int) -> Fraction | int:
-        mantissa, power = value[0], value[1] - self._rules[0]
+        mantissa, power = value[0], value[1] - self._rules.digits
         if power >= 0:
             return mantissa * int(10**power)
         whole, rest = divmod(mantissa, 10**-power)
         return Fraction(mantissa, 10**-power) if rest else whole
 
     def cut(self, value: Pair, digits: int) -> Pair:
-        return value if value[0] == 0 else cut_decimal(value[0], value[1] - self._rules[0], digits)
+        return value if value[0] == 0 else cut_decimal(value[0], value[1] - self._rules.digits, digits)
 
     def traced(self, value: Pair) -> str:
         return write_floating(FALLBACK, *value, self._rules)[0].strip()

@@ -107,7 +107,7 @@ def read_floating(field: Field, text: str, rules: Rules) -> Read:
     if status == columns.OUT_OF_RANGE:
         raise FieldError(f"{text.strip()[:40]!r} is out of range: the exponent is -99 to 99")
     if status >= columns.CUT:
-        return Read(mantissa, exponent, Remark(columns.CUT, status - columns.CUT, rules[0]))
+        return Read(mantissa, exponent, Remark(columns.CUT, status - columns.CUT, rules.digits))
     return Read(mantissa, exponent, _remark(status))
 
 

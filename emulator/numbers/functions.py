@@ -18,7 +18,6 @@ from emulator.numbers.arithmetic import (
     MAX_EXPONENT,
     MIN_EXPONENT,
     MINUS_ZERO,
-    POWERS_MULTIPLY,
     ZERO,
     Rules,
     from_integer,
@@ -47,10 +46,10 @@ def function(name: str, mantissa: int, exponent: int, rules: Rules) -> Value:
     if name == "LOG" and mantissa < 0:
         value = function("LOG", -mantissa, exponent, rules)
         return Value(value.mantissa, value.exponent, "F3")
-    if name in ("SIN", "COS") and exponent > rules[0]:
-        return Value(rules[1] - 1, MAX_EXPONENT, "F1")
+    if name in ("SIN", "COS") and exponent > rules.digits:
+        return Value(rules.limit - 1, MAX_EXPONENT, "F1")
     if name == "EXP" and exponent > 3:
-        return Value(rules[1] - 1, MAX_EXPONENT, "F4") if mantissa > 0 else Value(0, ZERO, "F5")
+        return Value(rules.limit - 1, MAX_EXPONENT, "F4") if mantissa > 0 else Value(0, ZERO, "F5")
     return _transcendental(name, mantissa, exponent, rules)
 
 
@@ -71,7 +70,7 @@ def power(base: tuple[int, int], exponent: tuple[int, int], rules: Rules) -> Val
 
 def integer_power(mantissa: int, exponent: int, count: int, rules: Rules) -> Value:
     """``A ** J``: the exact power cut, or multiplied out where the profile says so (OPEN-QUESTIONS 8)."""
-    if mantissa == 0 or -1 <= count <= 2 or rules[POWERS_MULTIPLY]:
+    if mantissa == 0 or -1 <= count <= 2 or rules.powers_multiply:
         m, e, code = whole_power(mantissa, exponent, count, rules)
         return Value(m, e, f"E{code}" if code else "")
     size, times = abs(mantissa), abs(count)
@@ -82,7 +81,7 @@ def integer_power(mantissa: int, exponent: int, count: int, rules: Rules) -> Val
     elif far < 0:
         m, e = 1, MIN_EXPONENT - 1
     else:
-        m, e = _exact_power(size, exponent - rules[0], count, rules)
+        m, e = _exact_power(size, exponent - rules.digits, count, rules)
     value = _in_range(-m if minus else m, e, rules, "E3", "E4")
     return Value(0, MINUS_ZERO, "E4") if value.code == "E4" and minus else value
 
@@ -91,7 +90,7 @@ def integer_power_steps(mantissa: int, exponent: int, count: int, rules: Rules) 
     """Steps of :func:`integer_power` (:mod:`emulator.numbers.work`)."""
     if mantissa == 0 or -1 <= count <= 2:
         return 0
-    if rules[POWERS_MULTIPLY]:
+    if rules.powers_multiply:
         return work.multiplied(count)
     if _far(abs(mantissa), exponent, count, rules):
         return 0
@@ -101,7 +100,7 @@ def integer_power_steps(mantissa: int, exponent: int, count: int, rules: Rules) 
 
 def _far(size: int, exponent: int, count: int, rules: Rules) -> int:
     """1 for a power far beyond the largest number, -1 for one far below the least: it may have a million digits."""
-    decades = count * (math.log10(size) + exponent - rules[0])
+    decades = count * (math.log10(size) + exponent - rules.digits)
     return (decades > MAX_EXPONENT + 1) - (decades < MIN_EXPONENT - 2)
 
 
@@ -110,13 +109,13 @@ def _exact_power(size: int, power_of_ten: int, count: int, rules: Rules) -> tupl
     whole, scale = size ** abs(count), power_of_ten * abs(count)
     if count < 0:
         # So many digits of the reciprocal that its cut is the exact one's: a quotient's further digits are lost.
-        more = decimal_length(whole) + rules[0] + 1
+        more = decimal_length(whole) + rules.digits + 1
         whole, scale = 10**more // whole, -scale - more
-    kept, exponent = cut_decimal(whole, scale, rules[0] + 1)
+    kept, exponent = cut_decimal(whole, scale, rules.digits + 1)
     kept, last = divmod(kept, 10)
-    if rules[6] and last >= 5:
+    if rules.round_products and last >= 5:
         kept += 1
-    return (kept // 10, exponent + 1) if kept >= rules[1] else (kept, exponent)
+    return (kept // 10, exponent + 1) if kept >= rules.limit else (kept, exponent)
 
 
 def _sqrt(mantissa: int, exponent: int, rules: Rules) -> Value:
@@ -127,13 +126,13 @@ def _of_zero(name: str, rules: Rules) -> Value:
     if name in ("COS", "EXP"):
         return Value(*from_integer(1, rules))
     if name == "LOG":
-        return Value(-(rules[1] - 1), MAX_EXPONENT, "F2")
+        return Value(-(rules.limit - 1), MAX_EXPONENT, "F2")
     return Value(0, ZERO)
 
 
 def _transcendental(name: str, mantissa: int, exponent: int, rules: Rules) -> Value:
     def compute(context: Any) -> Any:
-        return getattr(context, name.lower())(context.mpf(mantissa) * context.mpf(10) ** (exponent - rules[0]))
+        return getattr(context, name.lower())(context.mpf(mantissa) * context.mpf(10) ** (exponent - rules.digits))
 
     # The digits before the point are lost when an angle is reduced.
     return _cut_value(compute, rules, max(exponent, 0) if name in ("SIN", "COS") else 0)
@@ -141,12 +140,12 @@ def _transcendental(name: str, mantissa: int, exponent: int, rules: Rules) -> Va
 
 def _power(mb: int, eb: int, mx: int, ex: int, rules: Rules) -> Value:
     def logarithm(context: Any) -> Any:
-        log = context.log(context.mpf(mb) * context.mpf(10) ** (eb - rules[0]))
-        return log * context.mpf(mx) * context.mpf(10) ** (ex - rules[0])
+        log = context.log(context.mpf(mb) * context.mpf(10) ** (eb - rules.digits))
+        return log * context.mpf(mx) * context.mpf(10) ** (ex - rules.digits)
 
     rough = logarithm(_context(30))
     if abs(rough) > 1000:
-        return Value(rules[1] - 1, MAX_EXPONENT, "F4") if rough > 0 else Value(0, ZERO, "F5")
+        return Value(rules.limit - 1, MAX_EXPONENT, "F4") if rough > 0 else Value(0, ZERO, "F5")
     return _cut_value(lambda context: context.exp(logarithm(context)), rules, 10)
 
 
@@ -163,7 +162,7 @@ def _cut_value(compute: Callable[[Any], Any], rules: Rules, more: int) -> Value:
     """The value cut to P digits, computed with more and more digits until the cut is certain."""
     extra = 15
     while True:
-        context = _context(rules[0] + extra + more)
+        context = _context(rules.digits + extra + more)
         value = compute(context)
         result = _cut_exactly(context, value, rules)
         if result is None and extra > 200:
@@ -188,7 +187,7 @@ def _cut_exactly(context: Any, value: Any, rules: Rules) -> tuple[int, int] | No
         return 0, ZERO
     number, power_of_ten = _digits(value, context)
     text = str(abs(number))
-    tail = text[rules[0] : -6]
+    tail = text[rules.digits : -6]
     if tail.strip("0") == "" or tail.strip("9") == "":
         return None
     return _cut(number, power_of_ten, rules)
@@ -199,8 +198,8 @@ def _nearest(context: Any, value: Any, rules: Rules) -> tuple[int, int]:
     number, power_of_ten = _digits(value, context)
     text = str(abs(number))
     exponent = power_of_ten + len(text)
-    kept = int(text[: rules[0]]) + (text[rules[0]] == "9")
-    if kept >= rules[1]:
+    kept = int(text[: rules.digits]) + (text[rules.digits] == "9")
+    if kept >= rules.limit:
         kept, exponent = kept // 10, exponent + 1
     return (kept if number > 0 else -kept), exponent
 
@@ -208,17 +207,17 @@ def _nearest(context: Any, value: Any, rules: Rules) -> tuple[int, int]:
 def _cut(size: int, power_of_ten: int, rules: Rules) -> tuple[int, int]:
     """A whole number of more than P digits times a power of ten: cut to P, or rounded where products are."""
     text = str(abs(size))
-    kept, exponent = int(text[: rules[0]]), power_of_ten + len(text)
-    if rules[6] and text[rules[0]] >= "5":
+    kept, exponent = int(text[: rules.digits]), power_of_ten + len(text)
+    if rules.round_products and text[rules.digits] >= "5":
         kept += 1
-    if kept >= rules[1]:
+    if kept >= rules.limit:
         kept, exponent = kept // 10, exponent + 1
     return (kept if size > 0 else -kept), exponent
 
 
 def _in_range(mantissa: int, exponent: int, rules: Rules, over: str, under: str) -> Value:
     if mantissa and exponent > MAX_EXPONENT:
-        return Value(rules[1] - 1 if mantissa > 0 else -(rules[1] - 1), MAX_EXPONENT, over)
+        return Value(rules.limit - 1 if mantissa > 0 else -(rules.limit - 1), MAX_EXPONENT, over)
     if mantissa and exponent < MIN_EXPONENT:
         return Value(0, ZERO, under)
     return Value(mantissa, exponent)

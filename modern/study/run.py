@@ -119,7 +119,7 @@ def cut_lines(plan: Plan) -> tuple[str, ...]:
 
 def _fits_cards(route: Programs) -> bool:
     found = numbers(route.arithmetic)
-    return isinstance(found, DecimalNumbers) and found.profile.rules[0] <= CARD_DIGITS
+    return isinstance(found, DecimalNumbers) and found.profile.rules.digits <= CARD_DIGITS
 
 
 def _complete(

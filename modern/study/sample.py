@@ -46,12 +46,12 @@ class Sample:
 
     def points_read(self, rules: Rules) -> Sequence[Vector]:
         """The points as an arithmetic of these rules reads them from the cards; below eight digits it cuts them."""
-        if rules[0] >= CARD_DIGITS:
+        if rules.digits >= CARD_DIGITS:
             return self.points
         points = []
         for card in self.deck.cards[1:]:
             reads = read_coordinates(card, rules)
-            points.append(tuple(read.mantissa * Fraction(10) ** (read.exponent - rules[0]) for read in reads))
+            points.append(tuple(read.mantissa * Fraction(10) ** (read.exponent - rules.digits) for read in reads))
         return points
 
 

@@ -122,8 +122,9 @@ def test_rounding_gives_the_exact_result_rounded(case: tuple[Profile, Number, Nu
 def test_ibm1962_rounds_products_only(case: tuple[Profile, Number, Number]) -> None:
     found, a, b = case
     p = found.digits
-    rules = (*found.rules[:6], 1, *found.rules[7:])
-    assert IBM1962.rules == (*TRUNCATING.rules[:6], 1, 0, 1, 1, 0, 0, 1)
+    rules = found.rules._replace(round_products=1)
+    zeros = {"keeps_left_zero": 1, "signed_underflow": 1, "signed_sums": 0, "signed_by_zero": 0}
+    assert IBM1962.rules == TRUNCATING.rules._replace(round_products=1, powers_multiply=1, **zeros)
     assert multiply(*a, *b, rules) == nearest(value(a, p) * value(b, p), p, half=True)
 
 

@@ -75,7 +75,7 @@ def expected(columns: str, decimals: int, digits: int) -> tuple[int, int, bool] 
 @settings(max_examples=400)
 @given(SCRAPS | NUMBERS, st.integers(0, 9), RULES)
 def test_floating_fields(columns: str, decimals: int, rules: tuple[int, ...]) -> None:
-    want = expected(columns, decimals, rules[0])
+    want = expected(columns, decimals, rules.digits)
     try:
         found = read_floating(Field("E", max(1, len(columns)), decimals), columns, rules)  # type: ignore[arg-type]
     except FieldError:
@@ -105,10 +105,10 @@ def test_fixed_fields(columns: str) -> None:
 @given(st.data(), RULES, st.integers(1, 30), st.integers(0, 12), st.sampled_from([-99, 99, *range(-10, 13)]))
 def test_written_fields(data: st.DataObject, rules: tuple[int, ...], width: int, decimals: int, exponent: int) -> None:
     """F: the decimal cut; E: the first digits; either in its width, or by E14.8 where it is too large."""
-    size = data.draw(st.integers(rules[2], rules[1] - 1))
+    size = data.draw(st.integers(rules.least, rules.limit - 1))
     mantissa = data.draw(st.sampled_from([size, -size]))
     minus = "-" if mantissa < 0 else ""
-    value = Decimal(size).scaleb(exponent - rules[0])
+    value = Decimal(size).scaleb(exponent - rules.digits)
     text, overflowed = write_floating(Field("F", width, decimals), mantissa, exponent, rules)  # type: ignore[arg-type]
     cut = f"{int(value.scaleb(decimals)):0{decimals + 1}d}"
     whole = cut[: len(cut) - decimals].lstrip("0")

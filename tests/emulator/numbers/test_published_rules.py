@@ -10,14 +10,10 @@ import pytest
 
 from emulator.numbers.arithmetic import (
     FAMILIES,
-    KEEPS_LEFT_ZERO,
     MAX_DIGITS,
     MIN_DIGITS,
-    POWERS_MULTIPLY,
-    SIGNED_BY_ZERO,
-    SIGNED_SUMS,
-    SIGNED_UNDERFLOW,
     Profile,
+    Rules,
     profile,
 )
 from emulator.numbers.arithmetic import PROFILES as OF_THE_TIME
@@ -170,33 +166,33 @@ def test_the_rules_as_they_are_give_every_line(name: str) -> None:
     assert noticed(profile(name)) == 0
 
 
-GUARD, STICKY, SUMS, PRODUCTS, QUOTIENTS = range(3, 8)
+GUARD, STICKY, SUMS, PRODUCTS, QUOTIENTS = Rules._fields[3:8]
+KEEPS_LEFT_ZERO, SIGNED_UNDERFLOW, SIGNED_SUMS, SIGNED_BY_ZERO, POWERS_MULTIPLY = Rules._fields[8:]
 OTHERWISE = [
     *(
-        (name, place, 1)
+        (name, rule, 1)
         for name in ("truncating", "truncating:4", "truncating:28")
-        for place in (GUARD, PRODUCTS, QUOTIENTS)
+        for rule in (GUARD, PRODUCTS, QUOTIENTS)
     ),
     *((name, GUARD, 0) for name in ("guarded:8", "guarded:4")),
     *(
-        (name, place, 0)
+        (name, rule, 0)
         for name in PROFILES
         if name.startswith("rounding")
-        for place in (STICKY, SUMS, PRODUCTS, QUOTIENTS)
-        # Of two digits the two beyond the last place lose nothing that a sum could be rounded by.
-        if (name, place) != ("rounding:2", STICKY)
+        for rule in (STICKY, SUMS, PRODUCTS, QUOTIENTS)
+        # Of two digits the two beyond the last digit lose nothing that a sum could be rounded by.
+        if (name, rule) != ("rounding:2", STICKY)
     ),
     *((name, GUARD, 1) for name in PROFILES if name.startswith("rounding")),
-    *(("ibm1962", place, 0) for place in (PRODUCTS, KEEPS_LEFT_ZERO, SIGNED_UNDERFLOW, POWERS_MULTIPLY)),
-    *(("ibm1962", place, 1) for place in (GUARD, QUOTIENTS, SIGNED_SUMS, SIGNED_BY_ZERO)),
-    *(("truncating", place, 0) for place in (SIGNED_UNDERFLOW, SIGNED_SUMS, SIGNED_BY_ZERO)),
-    *(("truncating", place, 1) for place in (KEEPS_LEFT_ZERO, POWERS_MULTIPLY)),
+    *(("ibm1962", rule, 0) for rule in (PRODUCTS, KEEPS_LEFT_ZERO, SIGNED_UNDERFLOW, POWERS_MULTIPLY)),
+    *(("ibm1962", rule, 1) for rule in (GUARD, QUOTIENTS, SIGNED_SUMS, SIGNED_BY_ZERO)),
+    *(("truncating", rule, 0) for rule in (SIGNED_UNDERFLOW, SIGNED_SUMS, SIGNED_BY_ZERO)),
+    *(("truncating", rule, 1) for rule in (KEEPS_LEFT_ZERO, POWERS_MULTIPLY)),
 ]
 
 
-@pytest.mark.parametrize(("name", "place", "value"), OTHERWISE)
-def test_a_rule_that_is_changed_is_noticed(name: str, place: int, value: int) -> None:
-    rules = list(profile(name).rules)
-    assert rules[place] != value
-    rules[place] = value
-    assert noticed(Profile(name, "changed", tuple(rules))) > 0  # type: ignore[arg-type]
+@pytest.mark.parametrize(("name", "rule", "value"), OTHERWISE)
+def test_a_rule_that_is_changed_is_noticed(name: str, rule: str, value: int) -> None:
+    rules = profile(name).rules
+    assert getattr(rules, rule) != value
+    assert noticed(Profile(name, "changed", rules._replace(**{rule: value}))) > 0

@@ -15,13 +15,15 @@ from emulator.numbers.functions import function
 def test_square_root(data: st.DataObject, digits: int, rounding: bool, exponent: int) -> None:
     rules = profile(f"{'rounding' if rounding else 'truncating'}:{digits}").rules
     squares = st.integers(1, 10 ** (digits // 2) - 1).map(lambda n: int(str(n * n).ljust(digits, "0")[:digits]))
-    size = data.draw(st.integers(rules[2], rules[1] - 1) | st.sampled_from([rules[2], rules[1] - 1]) | squares)
+    size = data.draw(
+        st.integers(rules.least, rules.limit - 1) | st.sampled_from([rules.least, rules.limit - 1]) | squares
+    )
     with localcontext() as context:
         context.prec = 100
         root = Decimal(size).scaleb(exponent - digits).sqrt()
         place = root.adjusted() + 1
         kept = int(root.scaleb(digits - place).to_integral_value(ROUND_HALF_UP if rounding else ROUND_DOWN))
-    if kept == rules[1]:
+    if kept == rules.limit:
         kept, place = kept // 10, place + 1
     for mantissa in (size, -size):
         found = function("SQRT", mantissa, exponent, rules)
