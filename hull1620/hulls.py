@@ -27,8 +27,8 @@ from modern.exact_hull.result import Certificate
 from modern.formats import deck as decks
 from modern.formats.export import to_trimesh, write_hull
 from modern.formats.points import read_input
-from modern.geometry.coplanar import coplanar, shown
-from modern.geometry.hull import Face, HullRefused, Stage, all_of
+from modern.geometry.coplanar import coplanar, distance_text
+from modern.geometry.hull import Face, HullRefused, Stage, as_tuple
 from modern.geometry.hull import Hull as Record
 from modern.geometry.mesh import ExportError, Mesh, mesh
 from modern.geometry.numbers import AREA_DIGITS, coordinates, exact_text, real, sum_of_roots
@@ -87,7 +87,7 @@ class Hull:
     @property
     def faces(self) -> tuple[Face, ...]:
         """The faces of a polyhedron or lines of a polygon: exact equations, vertices in order, other points on them."""
-        return all_of(self.record.faces)
+        return as_tuple(self.record.faces)
 
     @property
     def duplicates(self) -> tuple[tuple[int, int], ...]:
@@ -97,7 +97,7 @@ class Hull:
     @property
     def history(self) -> tuple[Stage, ...]:
         """The approximations H1, H2, ..., where ``convex_hull`` was asked for them."""
-        return all_of(self.record.history)
+        return as_tuple(self.record.history)
 
     @property
     def corrected(self) -> tuple[str, ...]:
@@ -234,7 +234,7 @@ class Hull:
         faces = f", {len(self.faces)} {'faces' if self.dimension == 3 else 'lines'}" if self.faces else ""
         vertices = f"{len(self.record.vertices)} {'vertices' if self.dimension else 'vertex'}"
         read = self.record.coplanar
-        within = "" if read is None else f", coplanar within {shown(Fraction(read.within))}"
+        within = "" if read is None else f", coplanar within {distance_text(Fraction(read.within))}"
         return f"<hull: {_KINDS[self.dimension]}, {vertices}{faces}; {count} points, {arithmetic}{within}>"
 
     def _repr_svg_(self) -> str | None:

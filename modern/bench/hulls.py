@@ -21,7 +21,7 @@ import numpy as np
 from modern.bench.peers import Peers, Work
 from modern.bench.timing import Curve, Figure, plotted, side_by_side, timed, timed_once
 from modern.exact_hull import exact_hull
-from modern.geometry.hull import all_of
+from modern.geometry.hull import as_tuple
 from modern.port import convex_hull
 
 COUNTS = (100, 1_000, 10_000, 100_000, 1_000_000)
@@ -84,7 +84,7 @@ def port(points: Any) -> dict[str, Work]:
     works: dict[str, Work] = {"port, numpy": lambda: convex_hull(points, "float64", fast=False)}
     if find_spec("numba"):
         works["port, fast"] = lambda: convex_hull(points, "float64", fast=True)
-        works[WITH_FACES] = lambda: all_of(convex_hull(points, "float64", fast=True).faces)
+        works[WITH_FACES] = lambda: as_tuple(convex_hull(points, "float64", fast=True).faces)
     return works
 
 

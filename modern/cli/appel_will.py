@@ -19,7 +19,16 @@ from modern.drawing.scene import eye_of
 from modern.formats import off
 from modern.formats.off import parse_off
 from modern.formats.points import Input, parse_bytes
-from modern.geometry.coplanar import FLAT, CoplanarError, Joined, described, distance, join, joined_mesh, shown
+from modern.geometry.coplanar import (
+    FLAT,
+    CoplanarError,
+    Joined,
+    distance_text,
+    join,
+    join_summary,
+    joined_mesh,
+    parse_distance,
+)
 from modern.geometry.mesh import Mesh
 from modern.papers.appel_will import PRINTED, Assembled, MapError, Method, appel_will, printed
 from modern.papers.appel_will.corners import Preprocessing, Rule
@@ -47,7 +56,7 @@ def main(args: argparse.Namespace) -> int:
     _check_options(args)
     check_writable(args.output)
     eye = None if args.eye is None else eye_of(args.eye.split(","))
-    within = None if args.coplanar_within is None else distance(args.coplanar_within)
+    within = None if args.coplanar_within is None else parse_distance(args.coplanar_within)
     data, name = read_given(args.points), source_name(args.points)
     found = parse_bytes(data, name)
     given = parse_off(decoded(data, name), name).faces if found.kind == "off" else ()
@@ -72,7 +81,7 @@ def main(args: argparse.Namespace) -> int:
         for index, first in hull.duplicates
     )
     if within is not None and surface is not None:
-        say([f"note: {found.source}: {FLAT if joined is None else described(joined)}"])
+        say([f"note: {found.source}: {FLAT if joined is None else join_summary(joined)}"])
     # A file on standard output must be alone there.
     out = sys.stderr if args.output == "-" else sys.stdout
     brief = len(found.points) > MOST and not (args.all or args.trace)
@@ -173,7 +182,7 @@ def _report(
         yield f"surface {number}: {_points(surface)}"
     if joined is not None:
         yield ""
-        yield f"Topological map, faces within {shown(joined.within)} of a plane read as one"
+        yield f"Topological map, faces within {distance_text(joined.within)} of a plane read as one"
         for number, surface in enumerate(joined_surfaces(hull, joined), 1):
             yield f"surface {number}: {_points(surface)}"
     if given and not hull.fault:
@@ -194,7 +203,8 @@ def _brief(found: Input, given: Sequence[Surface], hull: Assembled, joined: Join
     yield f"loop table: {counted(len(hull.table.loops), 'loop')}{_sizes([loop.entries for loop in hull.table.loops])}"
     if joined is not None:
         surfaces = joined_surfaces(hull, joined)
-        yield f"faces within {shown(joined.within)} read as one: {counted(len(surfaces), 'surface')}{_sizes(surfaces)}"
+        within = distance_text(joined.within)
+        yield f"faces within {within} read as one: {counted(len(surfaces), 'surface')}{_sizes(surfaces)}"
     if given and not hull.fault:
         fates = _compared(given, hull, joined)
         gone = sum(other is None for other in fates.of)

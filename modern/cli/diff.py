@@ -25,7 +25,7 @@ from modern.formats.deck import MAX_POINTS, UnfitPoint, data_deck, with_epsilon
 from modern.formats.points import Input
 from modern.port import convex_hull
 from modern.thesis.job import run_hull
-from modern.thesis.refusals import Cause, explained
+from modern.thesis.refusals import Cause, explain_run
 
 _LIMIT = 1_000_000
 _NOT_RUN = "not run"
@@ -97,7 +97,7 @@ def _routes(args: argparse.Namespace, found: Input, points: list[Vector]) -> Ite
         except ValueError as error:
             raise UsageError(f"--epsilon: {error}") from None
         options = Options(limit=_LIMIT, core=60000 if chosen else 40000)
-        run, cause = explained(partial(run_hull, data, programs.loader(chosen), options))
+        run, cause = explain_run(partial(run_hull, data, programs.loader(chosen), options))
         yield Route(from_cards(name, run, points), cause=cause, layers=chosen)
     for arithmetic in ("float64", "exact"):
         hull = convex_hull(found.points, arithmetic, epsilon=args.epsilon, on_refusal="return")

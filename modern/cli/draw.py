@@ -9,7 +9,7 @@ from emulator.files import write_text
 from emulator.language.cards import read_deck
 from modern.cli.export import exact_hull_of
 from modern.cli.shared.console import DIFFERS, OK, UsageError, say
-from modern.comparison.card_differences import claim_of
+from modern.comparison.card_differences import card_differences
 from modern.drawing.against import draw_against
 from modern.drawing.draw import Show, draw_svg
 from modern.drawing.scene import eye_of
@@ -38,7 +38,7 @@ def main(args: argparse.Namespace) -> int:
         text = strip(found, title) if args.stages else played(found, title)
     elif args.against is not None:
         cards = read_deck(args.against)
-        claim = claim_of(read_hull([card.text for card in cards.cards]), hull, cards.source)
+        claim = card_differences(read_hull([card.text for card in cards.cards]), hull, cards.source)
         text = draw_against(hull, claim, eye, title, args.width, show)
     else:
         text = draw_svg(hull, eye, title, args.width, show)

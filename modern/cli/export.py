@@ -8,7 +8,7 @@ from fractions import Fraction
 from modern.cli.shared.console import DIFFERS, OK, UsageError, say
 from modern.cli.shared.inputs import points_of
 from modern.formats.export import format_of, write_hull
-from modern.geometry.coplanar import FLAT, CoplanarError, Joined, coplanar, described, distance
+from modern.geometry.coplanar import FLAT, CoplanarError, Joined, coplanar, join_summary, parse_distance
 from modern.geometry.hull import Hull
 
 
@@ -33,7 +33,7 @@ def exact_hull_of(
     asks for them; else by the judge, which takes a fraction of the time where points are many.
     within: read faces as one whose vertices lie within this distance of a plane.
     """
-    limit = None if within is None else distance(within)
+    limit = None if within is None else parse_distance(within)
     found = points_of(path)
     # Imported here, so that a fault of the file is told without waiting.
     if procedure:
@@ -50,7 +50,7 @@ def exact_hull_of(
         notes.append(f"{found.source}: {found.places[point]}: the point of {found.places[first]} again")
     if limit is not None and hull.determined:
         hull, joined = read_coplanar(hull, limit, found.source)
-        notes.append(f"{found.source}: {described(joined) if joined else FLAT}")
+        notes.append(f"{found.source}: {join_summary(joined) if joined else FLAT}")
     return hull, notes
 
 

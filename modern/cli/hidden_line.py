@@ -14,8 +14,8 @@ from emulator.files import check_writable, source_name, write_text
 from modern.cli.shared.console import OK, UsageError, counted, say
 from modern.cli.shared.inputs import read_given
 from modern.drawing.scene import eye_of
-from modern.geometry.coplanar import distance
-from modern.geometry.numbers import number, shown
+from modern.geometry.coplanar import parse_distance
+from modern.geometry.numbers import number, quoted
 from modern.geometry.vectors import Vector
 from modern.papers.nakamae_nishita import picture, report
 from modern.papers.nakamae_nishita.bodies import Reading, read_bodies
@@ -62,7 +62,7 @@ def _scene(args: argparse.Namespace) -> SceneFile:
         if args.hull or args.coplanar_within is not None:
             raise UsageError("--hull and --coplanar-within are for a file of faces or points; a scene file has fields")
         return scene(path) if path in names() else read(path)
-    within = None if args.coplanar_within is None else distance(args.coplanar_within)
+    within = None if args.coplanar_within is None else parse_distance(args.coplanar_within)
     reading = Reading(args.hull, within, True, as_hull="--hull", as_within="--coplanar-within E")
     found = read_bodies(read_given(path), source_name(path), reading)
     return of_polyhedra(found.polyhedra, PurePath(source_name(path)).name, found.notes)
@@ -104,7 +104,7 @@ def _distance(text: str) -> Fraction:
     except ValueError as error:
         raise SceneError(f"--near: {error}") from None
     if found <= 0:
-        raise SceneError(f"--near: {shown(text)} is not a distance greater than 0")
+        raise SceneError(f"--near: {quoted(text)} is not a distance greater than 0")
     return found
 
 

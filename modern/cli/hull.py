@@ -30,7 +30,7 @@ from modern.cli.shared.machine import (
 from modern.edition import programs
 from modern.formats.deck import check, with_epsilon
 from modern.thesis.job import HullRun, run_hull
-from modern.thesis.refusals import Cause, explained
+from modern.thesis.refusals import Cause, explain_run
 
 
 def main(args: argparse.Namespace) -> int:
@@ -60,7 +60,7 @@ def main(args: argparse.Namespace) -> int:
         for i in range(len(checked.sets)):
             deck = checked.deck(i) if args.epsilon is None else _with_epsilon(checked.deck(i), args.epsilon)
             begun = partial(run_hull, deck, load, options, first, operator=who.operator, output=output)
-            runs.append(explained(begun, watch))
+            runs.append(explain_run(begun, watch))
     typed = [line for run, _ in runs for step in run.steps for line in step.result.typed]
     shown = who.show is not None and args.typewriter is None and is_terminal(sys.stderr)
     put_out(args, [card for run, _ in runs for card in run.final.result.punched], () if shown else typed)

@@ -12,12 +12,12 @@ from modern.geometry.hull import Hull
 from modern.thesis.cards import CardHull
 
 
-class StrangeCards(EmulatorError):
+class UnrelatedCards(EmulatorError):
     """Cards that are of no hull, or of the hull of other points; one line."""
 
 
 @dataclass(frozen=True, slots=True)
-class Claim:
+class CardDifferences:
     """What differs; points by place in the input, faces that were not found by place in ``Hull.faces``.
 
     ``polygons`` are the vertices said to be on each face that the hull does not have, of two and more; ``others``
@@ -31,17 +31,17 @@ class Claim:
     others: int = 0
 
 
-def claim_of(seen: CardHull, hull: Hull, source: str) -> Claim:
+def card_differences(seen: CardHull, hull: Hull, source: str) -> CardDifferences:
     """What the cards of ``source`` say differently from the exact hull of the points.
 
-    Raises StrangeCards where they hold no result, or points that are not among those of the hull.
+    Raises UnrelatedCards where they hold no result, or points that are not among those of the hull.
     """
     if not seen.vertices:
-        raise StrangeCards(f"{source}: there are no vertices on these cards; hull1620 hull punches them")
+        raise UnrelatedCards(f"{source}: there are no vertices on these cards; hull1620 hull punches them")
     points = [tuple(Fraction(number) for number in point) for point in hull.points]
     said = from_card_hull("cards", _program(seen), seen, points)
     if said.strange:
-        raise StrangeCards(
+        raise UnrelatedCards(
             f"{source}: {said.strange} of the points on these cards are not among the points of the file"
         )
     found = disagreement(said, from_hull("exact", hull), points)
@@ -54,7 +54,9 @@ def claim_of(seen: CardHull, hull: Hull, source: str) -> Claim:
             polygons.append(tuple(where[seen.vertices[number - 1]] for number in numbers))
     known = tuple(polygon for polygon in polygons if len(polygon) > 1)
     not_found = tuple(sorted(set(range(len(hull.faces))) - set(found.places))) if found.planes_missing else ()
-    return Claim(tuple(sorted(found.missed)), tuple(sorted(found.added)), not_found, known, len(polygons) - len(known))
+    return CardDifferences(
+        tuple(sorted(found.missed)), tuple(sorted(found.added)), not_found, known, len(polygons) - len(known)
+    )
 
 
 def _program(seen: CardHull) -> str:

@@ -14,7 +14,7 @@ from numpy.lib import format as npy
 from numpy.typing import NDArray
 
 from modern.digital.solids import MAX_CELLS, VolumeError
-from modern.geometry.numbers import shown
+from modern.geometry.numbers import quoted
 
 NPY, NPZ = b"\x93NUMPY", b"PK\x03\x04"
 _SAID = 120
@@ -40,7 +40,7 @@ def parse_npy(data: bytes, source: str) -> NDArray[Any]:
         # A damaged header ends in whatever error the reading meets: TokenError, IndexError, OverflowError ...
         raise VolumeError(f"{source}: no NPY array of numbers: {_said(error)}") from None
     if kind.kind not in "biufc" or kind.itemsize == 0:
-        raise VolumeError(f"{source}: no NPY array of numbers: its type is {shown(str(kind))}")
+        raise VolumeError(f"{source}: no NPY array of numbers: its type is {quoted(str(kind))}")
     number = math.prod(shape)
     count, found = number * kind.itemsize, len(data) - file.tell()
     if found != count:
@@ -82,7 +82,7 @@ def _member(names: Sequence[str], source: str, name: str | None) -> str:
     if name is None:
         raise VolumeError(f"{source}: {len(names)} arrays; --array names one of them: {there}")
     if name not in names:
-        raise VolumeError(f"{source}: there is no array {shown(name)}, only {there or 'none'}")
+        raise VolumeError(f"{source}: there is no array {quoted(name)}, only {there or 'none'}")
     return name
 
 
@@ -91,7 +91,9 @@ def parse_raw(data: bytes, source: str, shape: Sequence[int] | None, dtype: str)
     try:
         kind = np.dtype(dtype)
     except (TypeError, ValueError, SyntaxError, OverflowError):  # numpy reads a small language here
-        raise VolumeError(f"--dtype: {shown(dtype)} is not a type of numbers; for instance uint8, int16, >i2") from None
+        raise VolumeError(
+            f"--dtype: {quoted(dtype)} is not a type of numbers; for instance uint8, int16, >i2"
+        ) from None
     if kind.kind not in "biuf":
         raise VolumeError(f"--dtype: {kind} is not a type of numbers; for instance uint8, int16, >i2")
     if shape is None:
@@ -109,7 +111,7 @@ def parse_raw(data: bytes, source: str, shape: Sequence[int] | None, dtype: str)
 def check_size(shape: Sequence[int], source: str) -> None:
     """Refuse more than ``MAX_CELLS`` voxels.  Raises VolumeError, which names the limit."""
     if min(shape, default=0) < 0:
-        raise VolumeError(f"{source}: a shape of {shown(str(tuple(shape)))}")
+        raise VolumeError(f"{source}: a shape of {quoted(str(tuple(shape)))}")
     if max(math.prod(shape), *shape, 0) > MAX_CELLS:
         size = " x ".join(map(str, shape))
         raise VolumeError(f"{source}: {size if len(size) < 80 else 'these'} voxels; at most {MAX_CELLS} are read")

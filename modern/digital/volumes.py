@@ -26,7 +26,7 @@ from modern.digital.scans import Choice, Scan, chosen
 from modern.digital.solids import DIGITS, VERTEX, VOXEL, Volume, VolumeError, ball, half_ball, listed
 from modern.digital.world import world_of
 from modern.formats.csv import rows
-from modern.geometry.numbers import real, shown
+from modern.geometry.numbers import quoted, real
 
 __all__ = [
     "VERTEX",
@@ -191,7 +191,7 @@ def _listed(text: str, source: str) -> Volume:
             raise VolumeError(f"{source}: line {line}, column 1: {len(row)} fields; a voxel has {due}")
         for field, word in enumerate(row, 1):
             if not _WHOLE.fullmatch(word.strip()):
-                raise VolumeError(f"{source}: line {line}, field {field}: {shown(word.strip())} is not a whole number")
+                raise VolumeError(f"{source}: line {line}, field {field}: {quoted(word.strip())} is not a whole number")
             if len(word.strip().lstrip("+-")) > DIGITS:
                 raise VolumeError(f"{source}: line {line}, field {field}: more than {DIGITS} digits")
         found.append(tuple(int(word) for word in row))

@@ -14,7 +14,7 @@ from fractions import Fraction
 from itertools import permutations
 
 from emulator.errors import EmulatorError
-from modern.geometry.numbers import Exact, PointsError, decimal, finite_decimal, real, shown, split_decimal
+from modern.geometry.numbers import Exact, PointsError, decimal, finite_decimal, quoted, real, split_decimal
 
 Position = tuple[Fraction, ...]
 
@@ -152,7 +152,7 @@ def length_text(text: str) -> Fraction:
     """
     _, whole, fraction, exponent = split_decimal(text)
     if len(whole) + len(fraction) > _MOST_DIGITS or abs(exponent) > _MOST_EXPONENT:
-        raise ValueError(f"{shown(text)} has more than {_MOST_DIGITS} digits or an exponent beyond {_MOST_EXPONENT}")
+        raise ValueError(f"{quoted(text)} has more than {_MOST_DIGITS} digits or an exponent beyond {_MOST_EXPONENT}")
     return Fraction(decimal(text))
 
 

@@ -10,7 +10,7 @@ from dataclasses import replace
 from fractions import Fraction
 from math import atan2
 
-from modern.comparison.card_differences import Claim
+from modern.comparison.card_differences import CardDifferences
 from modern.drawing import svg
 from modern.drawing.draw import Show, marked, numbers, seen, width_of
 from modern.drawing.layout import MARGIN, Layout, Pixel, lay_out
@@ -34,7 +34,7 @@ _STEP, _RING, _HALF = 19, "6.5", 460
 
 def draw_against(
     hull: Hull,
-    claim: Claim,
+    claim: CardDifferences,
     eye: Sequence[Fraction | int] | None = None,
     title: str = "",
     width: int | None = None,
@@ -70,14 +70,14 @@ def _pixels(hull: Hull, picture: Scene, layout: Layout) -> dict[int, Pixel]:
     return found | {index: found[first] for index, first in hull.duplicates}
 
 
-def _faces(hull: Hull, claim: Claim, at: Mapping[int, Pixel]) -> Iterator[str]:
+def _faces(hull: Hull, claim: CardDifferences, at: Mapping[int, Pixel]) -> Iterator[str]:
     true = ([at[index] for index in hull.faces[k].polygon] for k in claim.not_found)
     yield from svg.group(NOT_FOUND.key, NOT_FOUND.attributes, (svg.polygon(corners) for corners in true))
     called = (_around([at[index] for index in polygon]) for polygon in claim.polygons)
     yield from svg.group(NO_FACE.key, NO_FACE.attributes, (svg.polygon(corners) for corners in called))
 
 
-def _points(hull: Hull, claim: Claim, at: Mapping[int, Pixel]) -> Iterator[str]:
+def _points(hull: Hull, claim: CardDifferences, at: Mapping[int, Pixel]) -> Iterator[str]:
     def title(index: int, style: Style) -> str:
         return f"{style.name}: point {index + 1} ({', '.join(hull.points[index])})"
 
@@ -94,7 +94,7 @@ def _around(corners: Sequence[Pixel]) -> list[Pixel]:
     return sorted(corners, key=lambda corner: atan2(count * corner.y - y, count * corner.x - x))
 
 
-def _legend(claim: Claim, top: int) -> Iterator[str]:
+def _legend(claim: CardDifferences, top: int) -> Iterator[str]:
     """A row for each kind of difference, with how many there are."""
     for k, (style, count) in enumerate(_counts(claim)):
         base = top + _STEP * k + 4
@@ -116,7 +116,7 @@ def _legend(claim: Claim, top: int) -> Iterator[str]:
         )
 
 
-def _counts(claim: Claim) -> list[tuple[Style, int]]:
+def _counts(claim: CardDifferences) -> list[tuple[Style, int]]:
     counts = (
         (MISSED, len(claim.missed)),
         (ADDED, len(claim.added)),

@@ -14,7 +14,7 @@ from modern.drawing.view import Eye, Flat, View, across, along, choose, root, to
 from modern.drawing.visible import BACK, FLAT, classify, facing
 from modern.geometry.hull import Hull
 from modern.geometry.mesh import ExportError, Mesh, mesh
-from modern.geometry.numbers import coordinates, number, shown
+from modern.geometry.numbers import coordinates, number, quoted
 from modern.geometry.vectors import Vector, area_vector, cross, dot, lowest, minus
 
 _ONE = Fraction(1)
@@ -189,5 +189,5 @@ def eye_of(texts: Sequence[str]) -> tuple[Fraction, ...]:
         try:
             found.append(number(text))
         except ValueError:
-            raise ExportError(f"the direction of view: {shown(text)} is not a number") from None
+            raise ExportError(f"the direction of view: {quoted(text)} is not a number") from None
     return tuple(found)

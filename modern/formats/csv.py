@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from emulator.errors import FileError
-from modern.geometry.numbers import Point, number, shown
+from modern.geometry.numbers import Point, number, quoted
 
 _NAME = re.compile(r"[^\W\d_].*", re.DOTALL)
 _NO_NUMBER = ("nan", "inf", "infinity")
@@ -60,7 +60,7 @@ def points(text: str, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
         for field, word in enumerate(row, 1):
             try:
                 if "/" in word:
-                    raise ValueError(f"{shown(word)} is not a decimal number")
+                    raise ValueError(f"{quoted(word)} is not a decimal number")
                 number(word)
             except ValueError as error:
                 raise FileError(f"{source}: line {line}, field {field}: {error}") from None

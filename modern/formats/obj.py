@@ -12,7 +12,7 @@ import re
 
 from modern.formats.tokens import FileMesh, Word, error, lines, point
 from modern.geometry.mesh import Mesh
-from modern.geometry.numbers import Point, shown
+from modern.geometry.numbers import Point, quoted
 
 KEYWORDS = frozenset(("v", "vn", "vt", "vp", "f", "l", "p", "o", "g", "s", "mtllib", "usemtl"))
 """Words that may begin the first line of an OBJ file."""
@@ -68,8 +68,8 @@ def _corner(source: str, line: int, word: Word, known: int, count: int) -> int:
     """A vertex of a face by place; one counted back is counted from the ``known`` ones before the face."""
     found = re.fullmatch(r"(-?)([0-9]{1,9})(?:/-?[0-9]*){0,2}", word[0])
     if not found:
-        raise error(source, line, word, f"{shown(word[0])} is not a vertex of a face")
+        raise error(source, line, word, f"{quoted(word[0])} is not a vertex of a face")
     place = known - int(found[2]) if found[1] else int(found[2]) - 1
     if not 0 <= place < (known if found[1] else count):
-        raise error(source, line, word, f"there is no vertex {shown(word[0])}; they count from 1 to {count}")
+        raise error(source, line, word, f"there is no vertex {quoted(word[0])}; they count from 1 to {count}")
     return place

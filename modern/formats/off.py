@@ -11,7 +11,7 @@ from emulator.files import read_text, source_name
 from modern.formats.tokens import FileMesh, Word, count, decimal, error, last_line, point, take
 from modern.formats.tokens import lines as worded
 from modern.geometry.mesh import Mesh
-from modern.geometry.numbers import Point, shown
+from modern.geometry.numbers import Point, quoted
 
 
 def write(mesh: Mesh, digits: int | None = None) -> str:
@@ -39,7 +39,7 @@ def parse_off(text: str, source: str) -> FileMesh:
     if head is not None and head[1][0][0][:1].isalpha():
         line, words = head
         if words[0][0] != "OFF":
-            raise error(source, line, words[0], f"{shown(words[0][0])} is not read, only plain OFF")
+            raise error(source, line, words[0], f"{quoted(words[0][0])} is not read, only plain OFF")
         head = (line, words[1:]) if len(words) > 1 else next(lines, None)
     if head is None:
         raise FileError(f"{source}: line {last}, column 1: there are no counts of vertices and faces")

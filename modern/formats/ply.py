@@ -16,7 +16,7 @@ from itertools import islice
 from emulator.errors import FileError
 from modern.formats.tokens import Line, count, decimal, error, last_line, lines, take
 from modern.geometry.mesh import Mesh
-from modern.geometry.numbers import Point, float_text, shown
+from modern.geometry.numbers import Point, float_text, quoted
 
 _UCHAR = 255
 
@@ -96,7 +96,7 @@ def _header(text: str, source: str) -> tuple[str, list[_Element]]:
         elif words[0] == "property" and elements and len(words) == 3 and words[1] in _CODES:
             elements[-1].properties.append((words[2], _CODES[words[1]]))
         else:
-            raise error(source, line, found[0], f"{shown(' '.join(words))} is not a line of a PLY header")
+            raise error(source, line, found[0], f"{quoted(' '.join(words))} is not a line of a PLY header")
     if not kind:
         raise FileError(f"{source}: line 2, column 1: the format (ascii, {', '.join(_ORDERS)}) is missing")
     return kind, elements

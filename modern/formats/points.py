@@ -17,7 +17,7 @@ from emulator.language.cards import deck_from_text
 from modern.formats import POINTS, csv, json, obj, ply, stl
 from modern.formats.deck import exact_points
 from modern.formats.off import parse_off
-from modern.geometry.numbers import Point, float_text, integer_text, real, shown
+from modern.geometry.numbers import Point, float_text, integer_text, quoted, real
 
 _NPY = b"\x93NUMPY"
 
@@ -99,7 +99,7 @@ def recognise(text: str, source: str) -> str:
     if kind or len(words) > 1:
         return kind or "csv"
     raise FileError(
-        f"{source}: line {line}, column 1: {shown(first)} is neither the first card of a deck (N in columns 1-2) "
+        f"{source}: line {line}, column 1: {quoted(first)} is neither the first card of a deck (N in columns 1-2) "
         "nor a point x,y,z nor the word OFF"
     )
 

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from emulator.errors import FileError
-from modern.geometry.numbers import Point, number, shown
+from modern.geometry.numbers import Point, number, quoted
 
 Word = tuple[str, int]
 """A word and the column it begins in, from 1."""
@@ -61,7 +61,7 @@ def point(source: str, line: int, words: list[Word]) -> Point:
 def count(source: str, line: int, word: Word) -> int:
     """A whole number of at most nine digits.  Raises FileError."""
     if not re.fullmatch(r"[0-9]{1,9}", word[0]):
-        raise error(source, line, word, f"{shown(word[0])} is not a count")
+        raise error(source, line, word, f"{quoted(word[0])} is not a count")
     return int(word[0])
 
 
@@ -69,7 +69,7 @@ def decimal(source: str, line: int, word: Word) -> str:
     """A decimal number, as the text that stands there.  Raises FileError."""
     try:
         if "/" in word[0]:
-            raise ValueError(f"{shown(word[0])} is not a decimal number")
+            raise ValueError(f"{quoted(word[0])} is not a decimal number")
         number(word[0])
     except ValueError as wrong:
         raise error(source, line, word, str(wrong)) from None

@@ -65,14 +65,14 @@ class Joined:
         return tuple(found[face] for face in range(len(found)))
 
 
-def distance(value: object) -> Fraction:
+def parse_distance(value: object) -> Fraction:
     """E as a fraction: of decimal text, a fraction ``p/q``, or any real number.  Raises CoplanarError."""
     try:
         found = Fraction(real(value))
     except ValueError as error:
         raise CoplanarError(f"the distance within which faces are coplanar: {error}") from None
     if found < 0:
-        raise CoplanarError(f"the distance within which faces are coplanar is 0 or more, not {shown(found)}")
+        raise CoplanarError(f"the distance within which faces are coplanar is 0 or more, not {distance_text(found)}")
     return found
 
 
@@ -96,7 +96,7 @@ def join(surface: Mesh, within: Fraction) -> Joined:
     order = sorted(range(len(normals)), key=lambda face: (-sizes[face], face))
     largest = order[0]
     if _depth(points, flanks[largest], surface.faces[largest][0], range(len(points))) <= limit * squares[largest]:
-        raise CoplanarError(f"all points lie within {shown(within)} of the plane of the largest face")
+        raise CoplanarError(f"all points lie within {distance_text(within)} of the plane of the largest face")
     for leader in order:
         if owner[leader] >= 0:
             continue
@@ -120,7 +120,7 @@ def join(surface: Mesh, within: Fraction) -> Joined:
         groups.append(group)
     if len(groups) < _LEAST:
         raise CoplanarError(
-            f"within {shown(within)} the {len(normals)} faces would be {len(groups)}; a solid has four at least"
+            f"within {distance_text(within)} the {len(normals)} faces would be {len(groups)}; a solid has four at least"
         )
     groups.sort(key=min)
     loops = tuple(_loop(surface, group, within) for group in groups)
@@ -147,7 +147,7 @@ def coplanar(hull: Hull, within: object) -> tuple[Hull, Joined | None]:
     A joined face has the equation of its largest face, and its vertices lie within that distance of it.  Vertices
     within joined faces become boundary points.  Raises CoplanarError, and ExportError where there is no hull.
     """
-    limit = distance(within)
+    limit = parse_distance(within)
     surface = mesh(hull)
     if surface.dimension < 3:
         return hull, None
@@ -178,9 +178,9 @@ def _face(hull: Hull, group: Sequence[int], loop: Sequence[int], gone: set[int])
     return replace(hull.faces[group[0]], polygon=polygon, on=(*on, *within))
 
 
-def described(found: Joined) -> str:
+def join_summary(found: Joined) -> str:
     """What was joined, how far a vertex is off its plane at the most, and from which distance on more would be."""
-    within = shown(found.within)
+    within = distance_text(found.within)
     more = "" if found.beyond is None else f"the next face would be joined from {root_text(found.beyond)} on"
     if len(found.groups) == found.faces:
         return f"no two of {found.faces} faces lie within {within} of one plane" + (more and f"; {more}")
@@ -206,7 +206,7 @@ def root_text(square: Fraction) -> str:
     return _plain(rounded)
 
 
-def shown(value: Fraction) -> str:
+def distance_text(value: Fraction) -> str:
     """A distance for a message: as it is where that is short, else to six digits."""
     exact = finite_decimal(value)
     text = str(value) if exact is None else _plain(Decimal(exact))
@@ -250,7 +250,7 @@ def _loop(surface: Mesh, group: Sequence[int], within: Fraction) -> tuple[int, .
         if len(found) > len(ahead):
             break
     if not found or len(found) != len(border):
-        raise CoplanarError(f"within {shown(within)} a joined face would not be one simple polygon")
+        raise CoplanarError(f"within {distance_text(within)} a joined face would not be one simple polygon")
     return tuple(found)
 
 
@@ -269,7 +269,9 @@ def _check_convex(
         for between in range(first + 1, last):
             off = dot(cross(along, minus(corners[between % len(corners)], p)), flank)
             if Fraction(off * off, length * scale * scale) > within * within:
-                raise CoplanarError(f"within {shown(within)} a joined face would not be convex, by more than that")
+                raise CoplanarError(
+                    f"within {distance_text(within)} a joined face would not be convex, by more than that"
+                )
 
 
 def _outer(corners: Sequence[IntVector], flank: IntVector) -> list[int]:

@@ -22,7 +22,7 @@ Coefficients = tuple[str, str, str, str]
 T = TypeVar("T")
 
 
-class Later(Sequence[T]):
+class LazyTuple(Sequence[T]):
     """A tuple whose members are made when one is first asked for; their number is known before.  Equal to the tuple."""
 
     def __init__(self, count: int, make: Callable[[], Iterable[T]]) -> None:
@@ -52,7 +52,7 @@ class Later(Sequence[T]):
         return iter(self.all())
 
     def __eq__(self, other: object) -> bool:
-        return self.all() == (other.all() if isinstance(other, Later) else other)
+        return self.all() == (other.all() if isinstance(other, LazyTuple) else other)
 
     def __hash__(self) -> int:
         return hash(self.all())
@@ -64,9 +64,9 @@ class Later(Sequence[T]):
         return tuple, (self.all(),)
 
 
-def all_of(members: Sequence[T]) -> tuple[T, ...]:
+def as_tuple(members: Sequence[T]) -> tuple[T, ...]:
     """The tuple of them; no copy of what is one."""
-    return members.all() if isinstance(members, Later) else tuple(members)
+    return members.all() if isinstance(members, LazyTuple) else tuple(members)
 
 
 @dataclass(frozen=True, slots=True)

@@ -31,7 +31,7 @@ class PointsError(EmulatorError, ValueError):
     """
 
 
-def shown(text: str) -> str:
+def quoted(text: str) -> str:
     """A text quoted for a message, cut to 40 characters."""
     return repr(text if len(text) <= _SHOWN else text[:_SHOWN] + "...")
 
@@ -73,12 +73,12 @@ def number(text: str) -> Fraction:
         if not quotient:
             return Fraction(decimal(stripped))
         if not int(quotient[2]):
-            raise ValueError(f"{shown(stripped)} has the denominator 0")
+            raise ValueError(f"{quoted(stripped)} has the denominator 0")
         return Fraction(int(quotient[1]), int(quotient[2]))
     except ValueError as error:
         if len(stripped) <= _SHOWN or len(str(error)) <= 2 * _SHOWN:
             raise
-        raise ValueError(f"{shown(stripped)} is not a decimal number of at most 4000 digits") from None
+        raise ValueError(f"{quoted(stripped)} is not a decimal number of at most 4000 digits") from None
 
 
 def real(value: object) -> Exact:
@@ -130,7 +130,7 @@ def decimal_text(text: str, digits: int | None = None) -> str:
     if exact is not None:
         return exact
     if digits is None:
-        raise ValueError(f"{shown(stripped)} has no finite decimal; state a number of digits to round it to")
+        raise ValueError(f"{quoted(stripped)} has no finite decimal; state a number of digits to round it to")
     if digits < 1:
         raise ValueError(f"{digits} is not a number of digits to round to")
     context = Context(prec=digits, rounding=ROUND_HALF_EVEN, Emin=MIN_EMIN, Emax=MAX_EMAX)

@@ -11,7 +11,7 @@ from typing import SupportsIndex, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.geometry.hull import Coefficients, Face, Later, Stage
+from modern.geometry.hull import Coefficients, Face, LazyTuple, Stage
 from modern.geometry.numbers import Exact
 from modern.port.arithmetic import Arithmetic, Scalar, Vector
 from modern.port.table import Equations, Places
@@ -59,7 +59,7 @@ class Faces:
 
         They are made when asked for: places, table and the rest must stay as they are.
         """
-        return Later(len(on), lambda: self._polyhedral(table, on, vertex))
+        return LazyTuple(len(on), lambda: self._polyhedral(table, on, vertex))
 
     def _polyhedral(self, table: Equations, on: list[NDArray[np.int64]], vertex: NDArray[np.bool_]) -> list[Face]:
         arithmetic, who, is_vertex = self.arithmetic, self.places.who.tolist(), vertex.tolist()
@@ -121,7 +121,7 @@ class Historian:
     def stages(self) -> Sequence[Stage]:
         """The stages noted so far."""
         notes = self._notes.copy()
-        return Later(len(notes), lambda: (_stage(number, *note) for number, note in enumerate(notes, 1)))
+        return LazyTuple(len(notes), lambda: (_stage(number, *note) for number, note in enumerate(notes, 1)))
 
 
 def _stage(

@@ -26,7 +26,7 @@ from modern.geometry.numbers import coordinates
 from modern.geometry.vectors import cross, dot, minus
 from modern.thesis.cards import read_hull
 from modern.thesis.job import HullRun, run_hull
-from modern.thesis.refusals import Cause, explained
+from modern.thesis.refusals import Cause, explain_run
 
 MOST = 51
 """Points of a data set, as many as the programs have places for."""
@@ -50,7 +50,7 @@ def parted(text: str) -> dict[str, Any]:
     if len(given.points) > MOST:
         return {"refused": f"{len(given.points)} points; the programs take {MOST}"}
     points = scaled([coordinates(point) for point in given.points])
-    run, cause = explained(partial(run_hull, deck, programs.program, Options(limit=LIMIT)))
+    run, cause = explain_run(partial(run_hull, deck, programs.program, Options(limit=LIMIT)))
     dimension, faces = true_hull(points)
     says, found = _found(run, cause, given.points)
     right = {n for face in faces for n in face}

@@ -52,7 +52,7 @@ class Cause:
     value: str = ""
 
 
-def explained(run: Callable[..., HullRun], watch: Watch | None = None) -> tuple[HullRun, Cause | None]:
+def explain_run(run: Callable[..., HullRun], watch: Watch | None = None) -> tuple[HullRun, Cause | None]:
     """A hull run, and why it came to no hull, if it did not.
 
     ``run``: :func:`modern.thesis.job.run_hull` with all its arguments but ``watch``, which is given here.

@@ -19,7 +19,7 @@ from modern.exact_hull.coordinates import IntPoint, common_scale, to_integers
 from modern.formats.meshes import kind_of, parse_mesh
 from modern.formats.points import parse_bytes
 from modern.formats.tokens import FileMesh
-from modern.geometry.coplanar import FLAT, CoplanarError, Joined, described, join, root_text
+from modern.geometry.coplanar import FLAT, CoplanarError, Joined, join, join_summary, root_text
 from modern.geometry.hull import Hull
 from modern.geometry.mesh import mesh, sides
 from modern.geometry.numbers import coordinates
@@ -75,7 +75,7 @@ def read_bodies(data: bytes, name: str, reading: Reading) -> Bodies:
     notes += (f"{name}: {given.places[k]}: the point of {given.places[first]} again" for k, first in hull.duplicates)
     joined = None if reading.within is None or hull.dimension < 3 else _joined(hull, reading.within, name)
     if reading.within is not None:
-        notes.append(f"{name}: {FLAT if joined is None else described(joined)}")
+        notes.append(f"{name}: {FLAT if joined is None else join_summary(joined)}")
     return Bodies((_of_hull(hull, name, joined),), tuple(notes))
 
 
@@ -139,7 +139,7 @@ def _body(found: FileMesh, component: _Component, reading: Reading) -> tuple[Pol
     if hull.dimension < 3:
         return _of_hull(hull, name, None) if reading.hull else checked(_as_given(_closed(found, component))), []
     joined = None if reading.within is None else _joined(hull, reading.within, name)
-    said = [] if joined is None else [described(joined)]
+    said = [] if joined is None else [join_summary(joined)]
     if fault:
         return _of_hull(hull, name, joined), ["not closed, its hull is taken", *said]
     closed = _closed(found, component)

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
-from modern.geometry.numbers import number, shown
+from modern.geometry.numbers import number, quoted
 from modern.geometry.vectors import Vector
 from modern.papers.nakamae_nishita.polyhedron import SceneError
 
@@ -101,7 +101,7 @@ class Fields:
     def done(self) -> None:
         """Refuse what nobody asked for."""
         for key in self._data:
-            raise SceneError(f"{self.place}: {shown(key)} is no field of this place")
+            raise SceneError(f"{self.place}: {quoted(key)} is no field of this place")
 
     def _list(self, key: str, due: str) -> list[Any]:
         found = self.take(key)

@@ -11,8 +11,8 @@ from functools import partial
 
 from emulator.errors import EmulatorError
 from emulator.files import read_bytes
-from modern.geometry.coplanar import distance
-from modern.geometry.numbers import shown
+from modern.geometry.coplanar import parse_distance
+from modern.geometry.numbers import quoted
 from modern.geometry.vectors import Vector, cross, dot, minus
 from modern.papers.nakamae_nishita.bodies import Reading, read_bodies
 from modern.papers.nakamae_nishita.fields import Fields
@@ -75,7 +75,7 @@ def part(fields: Fields, folder: str = "") -> Parts:
     else:
         shape = fields.text("shape", "")
         if shape not in _SHAPES:
-            raise fields.wrong("shape", f"{shown(shape)} is not one of {', '.join(_SHAPES)}")
+            raise fields.wrong("shape", f"{quoted(shape)} is not one of {', '.join(_SHAPES)}")
         made = Parts((Part(place, _SHAPES[shape](fields)),))
     count = fields.whole("count", 3) or (1, 1, 1)
     if min(count) < 1 or count[0] * count[1] * count[2] * len(made.parts) > MOST:
@@ -115,7 +115,7 @@ def _from_file(fields: Fields, folder: str, place: str) -> Parts:
     within = fields.take("coplanar_within")
     hull = fields.flag("hull")
     try:
-        limit = None if within is None else distance(within)
+        limit = None if within is None else parse_distance(within)
         named = os.path.join(folder, path) if path else path
         found = read_bodies(read_bytes(named, path), path, Reading(hull, limit))
     except EmulatorError as error:

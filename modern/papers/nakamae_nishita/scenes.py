@@ -18,7 +18,7 @@ from typing import Final, Literal
 
 from emulator.files import read_text, source_name
 from modern.drawing.view import EYES, choose
-from modern.geometry.numbers import number, shown
+from modern.geometry.numbers import number, quoted
 from modern.geometry.vectors import Vector
 from modern.papers.nakamae_nishita.fields import Fields
 from modern.papers.nakamae_nishita.parts import Part, make, part
@@ -83,7 +83,7 @@ def names() -> tuple[str, ...]:
 def scene(name: str) -> SceneFile:
     """A scene of the project by its name.  Raises SceneError where there is none."""
     if name not in names():
-        raise SceneError(f"{shown(name)} is not a scene of the project; there are {', '.join(names())}")
+        raise SceneError(f"{quoted(name)} is not a scene of the project; there are {', '.join(names())}")
     text = files("modern.papers.nakamae_nishita").joinpath("scenes", f"{name}.toml").read_text(encoding="utf-8")
     return parse(text, name)
 
@@ -140,7 +140,7 @@ def _sight(fields: Fields) -> Sight:
     eye = fields.vector("eye") or DEFAULT_EYE
     named = fields.text("projection", PARALLEL)
     if named not in (PARALLEL, PERSPECTIVE):
-        raise fields.wrong("projection", f"{shown(named)} is neither {PARALLEL} nor {PERSPECTIVE}")
+        raise fields.wrong("projection", f"{quoted(named)} is neither {PARALLEL} nor {PERSPECTIVE}")
     projection: Projection = PERSPECTIVE if named == PERSPECTIVE else PARALLEL
     towards = fields.vector("towards")
     if towards and projection == PARALLEL:

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from modern.comparison.card_differences import Claim, StrangeCards, claim_of
+from modern.comparison.card_differences import CardDifferences, UnrelatedCards, card_differences
 from modern.drawing.against import draw_against
 from modern.drawing.draw import Show, draw_svg
 from modern.drawing.stages import frames, played, strip
@@ -88,8 +88,8 @@ def punched(points: Sequence[tuple[int, int, int]]) -> list[str]:
 @pytest.mark.parametrize("points", [SOLID, [(0, 0, 1), (4, 0, 1), (4, 5, 1), (0, 5, 1), (1, 1, 1), (2, 0, 1)]])
 def test_a_right_result_differs_in_nothing(points: list[tuple[int, int, int]]) -> None:
     hull = convex_hull(points)
-    claim = claim_of(read_hull(punched(points)), hull, "cards")
-    assert claim == Claim()
+    claim = card_differences(read_hull(punched(points)), hull, "cards")
+    assert claim == CardDifferences()
     assert "nothing differs" in draw_against(hull, claim)
 
 
@@ -98,13 +98,13 @@ def test_a_vertex_taken_from_the_cards_is_missed_and_a_face_turned_is_none() -> 
     first = cards.index(next(card for card in cards if card.startswith("  1 ")))
     seen = read_hull(cards)
     gone = read_hull([card for k, card in enumerate(cards) if k != first])
-    claim = claim_of(gone, hull, "cards")
+    claim = card_differences(gone, hull, "cards")
     index = next(i for i, p in enumerate(hull.points) if tuple(map(float, p)) == tuple(map(float, seen.vertices[0])))
     assert claim.missed == (index,)
     equation = next(k for k, card in enumerate(cards) if k > first + len(seen.vertices) and card.startswith("  1 "))
     turned = list(cards)
     turned[equation] = turned[equation][:4] + "   .10000000E+01   .10000000E+01   .10000000E+01  -.90000000E+02"
-    claim = claim_of(read_hull(turned), hull, "cards")
+    claim = card_differences(read_hull(turned), hull, "cards")
     assert len(claim.not_found) == len(claim.polygons) == 1
     assert set(claim.polygons[0]) == set(hull.faces[claim.not_found[0]].polygon)
     text = draw_against(hull, claim)
@@ -116,7 +116,7 @@ def test_a_vertex_taken_from_the_cards_is_missed_and_a_face_turned_is_none() -> 
 
 def test_marks_of_points_and_their_legend() -> None:
     hull = convex_hull(BOX)
-    claim = Claim(missed=hull.vertices[:2], added=hull.inside[:1], others=3)
+    claim = CardDifferences(missed=hull.vertices[:2], added=hull.inside[:1], others=3)
     text = draw_against(hull, claim, show=Show(points=False))
     found = groups(text)
     assert [str(ring[0].text).split(":")[0] for ring in found["missed"]] == ["vertex missed"] * 2
@@ -126,10 +126,10 @@ def test_marks_of_points_and_their_legend() -> None:
 
 def test_cards_of_other_points_are_refused() -> None:
     hull = convex_hull(BOX)
-    with pytest.raises(StrangeCards, match=r"x.punch: there are no vertices on these cards"):
-        claim_of(read_hull(["", "N=  3"]), hull, "x.punch")
-    with pytest.raises(StrangeCards, match=r"x.punch: \d of the points on these cards are not among the points"):
-        claim_of(read_hull(punched(SOLID)), hull, "x.punch")
+    with pytest.raises(UnrelatedCards, match=r"x.punch: there are no vertices on these cards"):
+        card_differences(read_hull(["", "N=  3"]), hull, "x.punch")
+    with pytest.raises(UnrelatedCards, match=r"x.punch: \d of the points on these cards are not among the points"):
+        card_differences(read_hull(punched(SOLID)), hull, "x.punch")
 
 
 # --- the construction

@@ -20,12 +20,12 @@ from modern.geometry.coplanar import (
     CoplanarError,
     Joined,
     coplanar,
-    described,
-    distance,
+    distance_text,
     join,
+    join_summary,
     joined_mesh,
+    parse_distance,
     root_text,
-    shown,
 )
 from modern.geometry.hull import Hull
 from modern.geometry.mesh import Mesh, mesh, sides
@@ -69,7 +69,7 @@ def test_by_itself_nothing_is_joined() -> None:
     found, joined = coplanar(hull, 0)
     assert joined is not None
     assert (found.faces, found.vertices, joined.square) == (hull.faces, hull.vertices, 0)
-    assert "no two of 36 faces lie within 0 of one plane; the next face would be joined from " in described(joined)
+    assert "no two of 36 faces lie within 0 of one plane; the next face would be joined from " in join_summary(joined)
 
 
 noise = st.integers(-(10**3), 10**3)
@@ -143,7 +143,7 @@ def test_points_within_a_joined_face_are_left_out() -> None:
     assert len(joined_mesh(mesh(exact([*cube, *bumps])), joined).points) == 8
     # The largest triangle on top runs up to the bump in the middle, and its plane on to twice that height.
     words = "a vertex is off its plane by 0.002 at the most; 3 vertices within joined faces are left out"
-    assert described(joined).startswith(f"14 faces are read as 6 within 0.01; {words}; the next")
+    assert join_summary(joined).startswith(f"14 faces are read as 6 within 0.01; {words}; the next")
 
 
 OCTAHEDRON = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
@@ -199,12 +199,12 @@ def test_a_root_is_rounded_up_to_three_digits(value: Fraction) -> None:
 
 
 def test_distances() -> None:
-    assert [shown(Fraction(value)) for value in (0.001, 1e-9, "1/3", "0.25", 5, "1/1000003")] == [
+    assert [distance_text(Fraction(value)) for value in (0.001, 1e-9, "1/3", "0.25", 5, "1/1000003")] == [
         *("0.001", "1e-9", "1/3", "0.25", "5", "1/1000003"),
     ]
-    assert shown(Fraction(1, 10**20 + 7)) == "1e-20"
-    assert distance("1e-9") == Fraction(1, 10**9)
-    assert distance(np.float32(0.5)) == distance("1/2") == Fraction(1, 2)
+    assert distance_text(Fraction(1, 10**20 + 7)) == "1e-20"
+    assert parse_distance("1e-9") == Fraction(1, 10**9)
+    assert parse_distance(np.float32(0.5)) == parse_distance("1/2") == Fraction(1, 2)
 
 
 def test_the_reading_from_python() -> None:

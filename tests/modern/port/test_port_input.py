@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 import modern
 from emulator.numbers.arithmetic import TRUNCATING
 from emulator.numbers.fields import FALLBACK, read_floating, write_floating
-from modern.geometry.hull import Later, all_of
+from modern.geometry.hull import LazyTuple, as_tuple
 from modern.geometry.numbers import exact_text
 from modern.port import PointsError, convex_hull
 from modern.port.outcome import Faces
@@ -161,19 +161,19 @@ def test_faces_and_stages_are_made_when_asked_for() -> None:
         made.append(1)
         yield from "abc"
 
-    later = Later(3, make)
+    later = LazyTuple(3, make)
     assert len(later) == 3
     assert bool(later)
     assert not made
     assert later == ("a", "b", "c") == later
     assert later != ("a", "b")
-    assert later == Later(3, make)
+    assert later == LazyTuple(3, make)
     assert made == [1, 1]
     assert (later[0], later[-1], later[1:], list(later)) == ("a", "c", ("b", "c"), ["a", "b", "c"])
     assert (hash(later), repr(later)) == (hash(("a", "b", "c")), "('a', 'b', 'c')")
     assert pickle.loads(pickle.dumps(later)) == later
-    assert all_of(later) is all_of(later)
-    assert all_of(later) is all_of(all_of(later))
+    assert as_tuple(later) is as_tuple(later)
+    assert as_tuple(later) is as_tuple(as_tuple(later))
     with pytest.raises(IndexError):
         later[3]
     assert made == [1, 1]

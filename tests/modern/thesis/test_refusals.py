@@ -14,7 +14,7 @@ from modern.formats.deck import check, data_deck
 from modern.port.points import fixed_arithmetic
 from modern.thesis.cards import read_intermediate
 from modern.thesis.job import run_hull
-from modern.thesis.refusals import CORRECTED, Cause, explained
+from modern.thesis.refusals import CORRECTED, Cause, explain_run
 from tests.support.paths import ROOT
 
 SOLID = [
@@ -40,7 +40,7 @@ def ground(name: str) -> Deck:
 
 def cause_of(deck: Deck, layers: tuple[str, ...] = (), limit: int = 400_000) -> Cause:
     core = 60_000 if layers else 40_000
-    run, cause = explained(partial(run_hull, deck, programs.loader(layers), Options(limit=limit, core=core)))
+    run, cause = explain_run(partial(run_hull, deck, programs.loader(layers), Options(limit=limit, core=core)))
     assert not run.complete
     assert cause is not None
     return cause
@@ -73,7 +73,7 @@ def test_a_table_without_room_is_known(name: str, fault: int) -> None:
 def test_what_is_said_to_correct_a_fault_does(name: str) -> None:
     assert cause_of(ground(name)).fault in CORRECTED
     corrected = programs.loader(("corrected",))
-    assert explained(partial(run_hull, ground(name), corrected, Options(core=60_000)))[1] is None
+    assert explain_run(partial(run_hull, ground(name), corrected, Options(core=60_000)))[1] is None
 
 
 def test_a_long_search_cut_short_is_no_fault() -> None:
@@ -107,4 +107,4 @@ def test_four_points_none_of_which_satisfies_its_planes() -> None:
 
 def test_a_hull_has_no_cause() -> None:
     points = [("0", "0", "0"), ("4", "0", "0"), ("0", "4", "0"), ("0", "0", "4"), ("1", "1", "1")]
-    assert explained(partial(run_hull, data_deck(points, "points"), programs.loader(())))[1] is None
+    assert explain_run(partial(run_hull, data_deck(points, "points"), programs.loader(())))[1] is None

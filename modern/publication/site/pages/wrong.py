@@ -6,7 +6,7 @@ import re
 from fractions import Fraction
 
 from emulator.language.cards import deck_from_text
-from modern.comparison.card_differences import claim_of
+from modern.comparison.card_differences import card_differences
 from modern.drawing.against import draw_against
 from modern.drawing.draw import Show
 from modern.edition.programs import program
@@ -32,7 +32,7 @@ def make(argument: str) -> Made:
     run = run_hull(deck_from_text("silent.deck", source), program)
     punched = run.final.result.punched
     hull = convex_hull(points, "exact", on_refusal="return")
-    claim = claim_of(read_hull(punched), hull, "cards")
+    claim = card_differences(read_hull(punched), hull, "cards")
     answer = parted("\n".join(" ".join(point) for point in points))
     drawn = figure(
         draw_against(hull, claim, width=520, show=Show("input")),
