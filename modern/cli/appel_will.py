@@ -208,9 +208,9 @@ def _brief(found: Input, given: Sequence[Surface], hull: Assembled, joined: Join
     if given and not hull.fault:
         fates = _compared(given, hull, joined)
         gone = sum(other is None for other in fates.of)
-        respecified = len(given) - gone - len(fates.kept)
+        respecified = len(given) - gone - len(fates.unchanged)
         yield (
-            f"of the {counted(len(given), 'surface')} given {len(fates.kept)} kept, {respecified} respecified, "
+            f"of the {counted(len(given), 'surface')} given {len(fates.unchanged)} kept, {respecified} respecified, "
             f"{gone} deleted; {len(fates.added)} added"
         )
     yield "--all lists everything"
@@ -268,7 +268,8 @@ def _fates(given: Sequence[Surface], fates: Fates) -> Iterator[str]:
         if other is None:
             yield f"surface {number + 1}: deleted"
         else:
-            yield f"surface {number + 1}: {'kept' if number in fates.kept else 'respecified'} as surface {other + 1}"
+            fate = "kept" if number in fates.unchanged else "respecified"
+            yield f"surface {number + 1}: {fate} as surface {other + 1}"
     if fates.added:
         yield f"added: {', '.join(f'surface {number + 1}' for number in fates.added)}"
 

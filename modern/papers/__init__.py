@@ -1,10 +1,34 @@
-"""The later papers, one folder each: what they describe, exactly, with their published results."""
+"""Four later papers on hulls and hidden lines, one package each, implemented in exact arithmetic.
+
+How to add a fifth paper, ``NAME`` (with ``-`` for ``_`` on the command line):
+
+1. ``modern/papers/NAME/``: the algorithm, over integers or fractions. ``__init__.py`` cites the paper and exports the
+   entry point. If the print is wrong, implement the corrected step and keep the printed one as an option, as
+   ``yau_srihari/printed.py`` does.
+2. ``transcripts/FOLDER/``: ``witness.txt`` (the printed values exactly as the OCR text has them), ``apparatus.toml``
+   (the emendations) and ``results.toml`` (which lines of the corrected print are one published result). Add the
+   source to ``fortran_src/SOURCES.toml``. A paper that prints no values, such as Yau and Srihari's, skips steps 2
+   and 3.
+3. ``modern/papers/NAME/results.py``: the function ``produced`` described at :data:`Lines`. Add a ``Paper`` to
+   ``PAPERS`` in ``modern/claims/published.py``. ``hull1620 reproduce NAME`` then compares the results with the print.
+4. ``transcripts/statements/NAME.toml``: a row for each statement of the paper with its verdict, and the name in
+   ``DOCUMENTS`` in ``modern/claims/register.py``. A verdict that is quick to compute is a function in
+   ``modern/claims/NAME/``; a slow one names a test.
+5. ``modern/cli/NAME.py``: the command, with an entry in ``modern/cli/arguments.py``.
+6. ``docs/papers/NAME.md`` with its line in ``docs/papers/index.md``; ``docs/statements/NAME.md`` with its line in
+   ``docs/statements.md``; the pictures of the paper's page in ``modern/publication/site/pages/papers.py``.
+
+Tests go into ``tests/modern/papers/``: ``test_NAME.py`` compares the algorithm with the exact hull or another
+independent method on random input, ``test_NAME_cli.py`` runs the command, and ``test_NAME_published.py`` covers what
+``results.py`` computes. ``test_published.py`` there and ``tests/modern/claims/test_register.py`` check every paper in
+``PAPERS`` and every row of the register without further entries.
+"""
 
 from collections.abc import Mapping, Sequence
 
 Lines = Mapping[str, Sequence[str]]
-"""Lines printed or produced, by the id of the result they are; words separated by blanks.
+"""Printed or computed lines by the id of the published result they belong to.
 
-The module ``results`` of a paper has a function ``produced(printed: Lines) -> Lines``: it is given the corrected lines
-of the print and returns, for every result that can be computed, one line for each line of the print.
+The module ``results`` of a paper defines ``produced(printed: Lines) -> Lines``. It receives the lines of the corrected
+print and returns, for every result that can be computed, one line for each printed line. Comparison is word by word.
 """

@@ -102,7 +102,7 @@ def limit_of_searches() -> Seen:
     hull = appel_will(points, method=printed("step9", "step3"))
     ring = exact_hull(points).polygon
     endless = sum(_comes_again(hull.edges, ring[k - 2], ring[k - 1], ring[k]) for k in range(len(ring)))
-    ended = hull.fault.endswith("does not come back to its start")
+    ended = hull.fault.endswith("does not return to its start")
     return seen(ended and endless > 0, f"{endless} of {len(ring)} beginnings do not end; with the limit: {hull.fault}")
 
 

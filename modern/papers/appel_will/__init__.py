@@ -1,8 +1,12 @@
-"""The hull of a polyhedron from its convex edges (Appel & Will 1976), exactly.
+"""Appel and Will's algorithm (1976): the hull of a polyhedron from its convex edges, in exact arithmetic.
 
+``appel_will(points)`` projects all points parallel to the line through each pair of them. The pair is a convex edge, an
+edge of the hull, if its image is outside of the star polygon of the other images. The convex edges are then assembled
+into loops, and each loop bounds a face of the hull.
+
+References
+----------
 A. Appel and P. M. Will, "Determining the Three-dimensional Convex Hull of a Polyhedron", received 1975.
-``appel_will(points)`` projects the points parallel to every pair of them, keeps the pairs whose image is outside of
-the others' star polygon, and assembles these convex edges to the loops that bound the faces.
 """
 
 from modern.papers.appel_will.corners import RULES

@@ -1,4 +1,4 @@
-"""The whole method: duplicates, inside corners, convex edges, loops, map."""
+"""The complete method: remove duplicates and inside corners, find the convex edges, assemble loops and map."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from modern.papers.appel_will.surfaces import Fates, Surface, area_normal, check
 
 @dataclass(frozen=True, slots=True)
 class Method:
-    """Which star polygon test and which reading of the appendix; a rule for inside corners, or none."""
+    """A choice of the star polygon test, the reading of the appendix and the rule for inside corners, if any."""
 
     star: StarTest = in_one_pass
     rules: Rules = PREFERRED
@@ -25,14 +25,17 @@ class Method:
 
 CORRECTED = Method()
 PRINTED = ("star", "step3", "step5", "step7", "step9", "step10")
-"""The rules that can be taken as printed: Fig. 12's, and steps of the appendix."""
+"""The names of the rules that can be applied as printed: that of Fig. 12 and five steps of the appendix."""
 
 
 def printed(*names: str) -> Method:
-    """The method with these rules as printed, the others corrected.  Raises ValueError for an unknown name.
+    """Return the method with the named rules as printed and the others corrected.
 
-    ``star``: two images on one ray put C outside of the star polygon; ``step3``: the first L2 that will do is taken,
-    none is preferred; ``step5``, ``step7``, ``step9``, ``step10``: see :class:`~modern.papers.appel_will.loops.Rules`.
+    ``star``: two images on one ray put C outside of the star polygon. ``step3``: the first admissible L2 is taken, and
+    none is preferred. ``step5``, ``step7``, ``step9``, ``step10``: see
+    :class:`~modern.papers.appel_will.loops.Rules`.
+
+    Raise ValueError for an unknown name.
     """
     unknown = [name for name in names if name not in PRINTED]
     if unknown:
@@ -42,18 +45,31 @@ def printed(*names: str) -> Method:
 
 
 LITERAL = printed(*PRINTED)
-"""By the letter, all of it."""
+"""The method with every rule as printed."""
 
 
 @dataclass(frozen=True, slots=True)
 class Assembled:
-    """A hull assembled from its convex edges.  Points are named by index into the points as given, from 0.
+    """A hull assembled from its convex edges. Points are named by their index in the input, from 0.
 
-    points: integers, the given coordinates times ``scale``; duplicates: (index, index of the first equal point);
-    preprocessing: of inside corners, if it was asked for; deleted: points between two others, found in projections;
-    edges: the convex edge list; table: its loops; surfaces: the topological map, a surface for each loop.
-    dimension: of the points, 0 to 3.  Of a polygon the loop table has one loop and uses every edge once; of a
-    segment or a point it is empty.
+    Attributes
+    ----------
+    points
+        The input coordinates times ``scale``, as integers.
+    duplicates
+        Pairs (index, index of the first equal point).
+    preprocessing
+        The points deleted at inside corners, or None if no rule was chosen.
+    deleted
+        The points found between two others in the projections.
+    edges
+        The convex edge list.
+    table
+        The loop table. A polygon has one loop, which uses every edge once; a segment or a point has none.
+    surfaces
+        The topological map: the points of each loop.
+    dimension
+        The dimension of the point set, 0 to 3.
     """
 
     points: tuple[IntPoint, ...]
@@ -69,12 +85,15 @@ class Assembled:
 
     @property
     def vertices(self) -> tuple[int, ...]:
-        """The ends of the convex edges; of one point that point."""
+        """The ends of the convex edges, or the only point if there is just one."""
         return tuple(sorted({end for edge in self.edges for end in edge})) or (0,)
 
     @property
     def fault(self) -> str:
-        """Why edges and loops are no hull of this dimension, or nothing.  Only a literal method has faults."""
+        """The reason why edges and loops are not a hull, or an empty string.
+
+        Only a method with rules as printed has faults.
+        """
         v, e, f = len(self.vertices), len(self.edges), len(self.surfaces)
         if self.table.stopped:
             return self.table.stopped
@@ -87,58 +106,72 @@ class Assembled:
         return ""
 
     def outward(self) -> tuple[Surface, ...]:
-        """The topological map with every surface counterclockwise seen from outside; of a polygon as it is."""
-        turned = []
+        """Return the map with every surface counterclockwise as seen from outside; a polygon stays as it is."""
+        counterclockwise = []
         for points in self.surfaces:
             normal, origin = area_normal(self.points, points), self.points[points[0]]
-            above = any(dot(normal, minus(self.points[index], origin)) > 0 for index in self.vertices)
-            turned.append((points[0], *points[:0:-1]) if above else points)
-        return tuple(turned)
+            # The appendix fixes no sense of rotation. A normal with vertices in front of it points inwards.
+            inward = any(dot(normal, minus(self.points[index], origin)) > 0 for index in self.vertices)
+            counterclockwise.append((points[0], *points[:0:-1]) if inward else points)
+        return tuple(counterclockwise)
 
-    def fates(self, given: Sequence[Surface]) -> Fates:
-        """What became of the surfaces of the polyhedron (Fig. 4)."""
-        return fates(self.points, given, self.surfaces)
+    def fates(self, original: Sequence[Surface]) -> Fates:
+        """Compare the surfaces of the given polyhedron with those of the hull (Fig. 4)."""
+        return fates(self.points, original, self.surfaces)
 
 
 def appel_will(points: Points, surfaces: Sequence[Surface] = (), method: Method = CORRECTED) -> Assembled:
-    """The hull of at least one point, by Appel and Will's method, in exact arithmetic.
+    """Compute the hull of at least one point by Appel and Will's method, in exact arithmetic.
 
-    points: (x, y, z) each, of ints, Fractions, decimal strings or floats (taken as the binary numbers they are).
-    surfaces: the topological map of the polyhedron, where there is one; only preprocessing needs it.
-    Raises PointsError for invalid points, MapError for invalid surfaces.
+    Parameters
+    ----------
+    points
+        (x, y, z) each, as ints, Fractions, decimal strings, or floats (taken as the exact binary numbers they are).
+    surfaces
+        The topological map of the polyhedron, if known. Only the rules for inside corners need it.
+    method
+        The corrected method, or one with some rules as printed.
+
+    Raises
+    ------
+    PointsError
+        For invalid points.
+    MapError
+        For invalid surfaces.
     """
-    read = read_points(points)
-    scale = common_scale(read)
-    scaled = tuple(to_integers(read, scale))
+    coordinates = read_points(points)
+    scale = common_scale(coordinates)
+    scaled = tuple(to_integers(coordinates, scale))
     check_surfaces(len(scaled), surfaces)
     first: dict[IntPoint, int] = {}
     for index, point in enumerate(scaled):
         first.setdefault(point, index)
     duplicates = tuple((index, first[point]) for index, point in enumerate(scaled) if first[point] != index)
+    # A pair of equal points has no direction to project along, so only the first of them stays in the vertex list.
     live = set(first.values())
     preprocessing = None
     if method.inside_corners is not None:
-        same = tuple(tuple(first[scaled[index]] for index in surface) for surface in surfaces)
-        preprocessing = preprocess(scaled, same, method.inside_corners)
+        merged = tuple(tuple(first[scaled[index]] for index in surface) for surface in surfaces)
+        preprocessing = preprocess(scaled, merged, method.inside_corners)
         live.difference_update(preprocessing.deleted)
-    found = convex_edges(scaled, live, method.star)
-    table = find_loops(scaled, found.edges, method.rules)
+    convex = convex_edges(scaled, live, method.star)
+    table = find_loops(scaled, convex.edges, method.rules)
     return Assembled(
         scaled,
         scale,
         duplicates,
         preprocessing,
-        found.deleted,
-        found.projections,
-        found.edges,
+        convex.deleted,
+        convex.projections,
+        convex.edges,
         table,
-        tuple(surface(loop.entries, found.edges) for loop in table.loops),
+        tuple(surface(loop.entries, convex.edges) for loop in table.loops),
         _dimension(list(first)),
     )
 
 
 def _dimension(points: Sequence[IntPoint]) -> int:
-    """The dimension of distinct points."""
+    """Return the dimension of the affine hull of distinct points."""
     if len(points) == 1:
         return 0
     along = minus(points[1], points[0])

@@ -1,7 +1,7 @@
-"""Surface loops from convex edges (appendix, steps 1 to 10), and the topological map (Fig. 23).
+"""Assembly of the convex edges into loops (appendix, steps 1 to 10) and the topological map (Fig. 23).
 
-A line is an edge of the convex edge list, numbered L from 1, with the ends LC1(L) < LC2(L).  An entry of a loop is L
-where the loop runs from LC1 to LC2, else -L.
+A line is an edge of the convex edge list. Lines are numbered L from 1 and have the ends LC1(L) < LC2(L). A loop lists L
+if it runs along the line from LC1 to LC2, otherwise -L.
 """
 
 from __future__ import annotations
@@ -13,21 +13,22 @@ from modern.geometry.vectors import cross, dot, minus
 from modern.papers.appel_will.edges import IntPoint, Pair
 
 TIMES = 2
-"""How often each edge is used: an edge is the intersection of two convex planes."""
+"""The number of loops that use each edge: an edge is the intersection of two convex planes."""
 
 
 @dataclass(frozen=True, slots=True)
 class Rules:
-    """How the appendix is read.
+    """A reading of the appendix.
 
-    ``dot_condition``: of the lines L2 that will do, prefer one whose direction has a positive product with that of
-    L1 (the main text's condition for two lines that give a plane), else take the first.  Without it the first is
-    taken always, as step 3 has it.
-    ``step_5``, ``step_7``: "go back to step 2" as printed, so that an L2 rejected there costs its L1 the turn; the
-    corrected number is step 3.
-    ``step_9``: as printed, which leaves out L1 and L2 only, not the other lines already on the loop.
-    ``step_10``: "start another loop at step 1" as printed, so that every loop begins with all counts 0; the
-    corrected number is step 2.
+    ``dot_condition``: of the admissible lines L2, prefer one whose direction has a positive dot product with that of
+    L1 (the condition of the main text for two lines that define a plane), otherwise take the first. If False, the
+    first is always taken, as step 3 says.
+    ``step_5``, ``step_7``: True applies "go back to step 2" as printed, so that an L1 whose first L2 is rejected is
+    skipped. The correct target is step 3.
+    ``step_9``: True applies the step as printed, which excludes only L1 and L2, not the other lines already on the
+    loop.
+    ``step_10``: True applies "start another loop at step 1" as printed, so that every loop begins with all counts at
+    0. The correct target is step 2.
     """
 
     dot_condition: bool = True
@@ -38,15 +39,15 @@ class Rules:
 
 
 PREFERRED = Rules()
-"""The reading that gives all loops as printed, and every face of every hull."""
+"""The reading that reproduces all printed loops and finds every face of every hull."""
 
 
 @dataclass(frozen=True, slots=True)
 class Loop:
-    """A loop, and the table as it stood when it was closed.
+    """A loop and the state of the table when it was closed.
 
-    ``entries`` are LUP(N, 1), LUP(N, 2), ...; ``kind`` the type of the first intersection (Fig. 20); ``start`` and
-    ``match`` the points SP and MP of step 8; ``uses`` IUC(1), IUC(2), ... after the loop.
+    ``entries`` are LUP(N, 1), LUP(N, 2) and so on. ``kind`` is the type of the first intersection (Fig. 20). ``start``
+    and ``match`` are the points SP and MP of step 8. ``uses`` are the counts IUC(1), IUC(2) and so on after the loop.
     """
 
     entries: tuple[int, ...]
@@ -58,7 +59,7 @@ class Loop:
 
 @dataclass(frozen=True, slots=True)
 class LoopTable:
-    """All loops in the order they were found; ``stopped`` says why the search ended before its end, if it did."""
+    """All loops in the order of the search. ``stopped`` is the reason for a premature end, otherwise empty."""
 
     loops: tuple[Loop, ...]
     uses: tuple[int, ...]
@@ -66,17 +67,18 @@ class LoopTable:
 
     @property
     def closed(self) -> bool:
-        """Whether every edge is used twice."""
+        """True if every edge is used twice."""
         return bool(self.uses) and all(count == TIMES for count in self.uses)
 
 
 @dataclass(frozen=True, slots=True)
 class Intersection:
-    """Lines L1 and L2 with a common point, classified (Fig. 20), and the two entries they make (Fig. 21).
+    """Lines L1 and L2 with a common point, their type (Fig. 20) and the two loop entries they give (Fig. 21).
 
-    Type 1: both lines begin at the common point; 2: L1 begins and L2 ends there; 3: L1 ends and L2 begins there; 4:
-    both end there.  Figs. 20 and 21 are lost: type 1 and its signs are certain from Figs. 21 and 22, the signs of the
-    others follow from the sense of the loop, their numbers are this project's.
+    In type 1 both lines begin at the common point. In type 2 L1 begins and L2 ends there, in type 3 L1 ends and L2
+    begins there, and in type 4 both end there. The drawings of Figs. 20 and 21 are lost. Type 1 and its signs are
+    certain from the text of Figs. 21 and 22. The signs of the other types follow from the sense of the loop, and
+    their numbers are this project's choice.
     """
 
     first: int
@@ -89,19 +91,21 @@ class Intersection:
 
 
 def intersect(edges: Sequence[Pair], first: int, second: int) -> Intersection | None:
-    """Lines ``first`` and ``second`` (numbered from 0), or None where they have no end in common (step 4)."""
-    one, other = edges[first], edges[second]
+    """Classify lines ``first`` and ``second`` (numbered from 0). Return None if they share no end (step 4)."""
+    ends_1, ends_2 = edges[first], edges[second]
     for kind, (a, b) in enumerate(((0, 0), (0, 1), (1, 0), (1, 1)), 1):
-        if one[a] == other[b]:
+        if ends_1[a] == ends_2[b]:
+            # The loop runs along L1 to the common point and away from it along L2. A line is entered with a minus
+            # sign if that is against its direction from LC1 to LC2.
             entries = (-(first + 1) if a == 0 else first + 1, second + 1 if b == 0 else -(second + 1))
-            return Intersection(first, second, one[a], kind, entries, one[1 - a], other[1 - b])
+            return Intersection(first, second, ends_1[a], kind, entries, ends_1[1 - a], ends_2[1 - b])
     return None
 
 
 def find_loops(points: Sequence[IntPoint], edges: Sequence[Pair], rules: Rules) -> LoopTable:
-    """Steps 1 to 10.  The points that matter are the ends of the edges ("the vertex list" as reduced)."""
+    """Run steps 1 to 10. Only the ends of the edges are considered (the reduced "vertex list")."""
     vertices = sorted({end for edge in edges for end in edge})
-    uses = [0] * len(edges)
+    uses = [0] * len(edges)  # step 1: all counts IUC are 0
     table = _Table(points, vertices, edges, uses, [], rules)
     loops: list[Loop] = []
     while True:
@@ -111,24 +115,28 @@ def find_loops(points: Sequence[IntPoint], edges: Sequence[Pair], rules: Rules) 
         entries = _follow(table, begun)
         if entries is None:
             lines = f"lines {begun.first + 1} and {begun.second + 1}"
-            return LoopTable(tuple(loops), tuple(uses), f"the loop begun with {lines} does not come back to its start")
+            return LoopTable(tuple(loops), tuple(uses), f"the loop begun with {lines} does not return to its start")
+        # Step 10: count the uses of the lines, enter the loop and start the next one.
         for entry in entries:
             uses[abs(entry) - 1] += 1
         loops.append(Loop(tuple(entries), begun.kind, begun.start, begun.match, tuple(uses)))
         table.on_loops.append(frozenset(surface(entries, edges)))
         if rules.step_10:
+            # As printed the next loop starts at step 1, which clears the counts.
             uses[:] = [0] * len(edges)
 
 
 def surface(entries: Sequence[int], edges: Sequence[Pair]) -> tuple[int, ...]:
-    """A loop's points: of each entry the end it starts from, LC1 of a positive and LC2 of a negative one (Fig. 23)."""
+    """List the points of a loop: LC1 of each positive entry and LC2 of each negative one (Fig. 23)."""
     return tuple(edges[abs(entry) - 1][0 if entry > 0 else 1] for entry in entries)
 
 
 @dataclass(frozen=True, slots=True)
 class _Table:
-    """What the search for the next loop looks at: the reduced vertex list, the uses of the edges and the points of the
-    loops so far, which grow."""
+    """The state of the search: the reduced vertex list, the counts of the edges and the points of the loops so far.
+
+    ``uses`` and ``on_loops`` change during the search.
+    """
 
     points: Sequence[IntPoint]
     vertices: Sequence[int]
@@ -139,67 +147,71 @@ class _Table:
 
 
 def _begin(table: _Table) -> Intersection | None:
-    """Steps 2 to 8: the two lines the next loop begins with, or None when all edges were addressed in step 2."""
+    """Find the first two lines of the next loop (steps 2 to 8). Return None when step 2 has addressed all edges."""
     for first in range(len(table.edges)):
         if table.uses[first] == TIMES:
             continue
-        found = _seconds(table, first)
-        chosen = next(found, None)
+        admissible = _seconds(table, first)
+        chosen = next(admissible, None)
         if chosen is None:
             continue
+        # The first admissible L2 is the fallback: in a cube no two edges have a positive product.
         if table.rules.dot_condition and not _acute(table, chosen):
-            return next((other for other in found if _acute(table, other)), chosen)
+            return next((candidate for candidate in admissible if _acute(table, candidate)), chosen)
         return chosen
     return None
 
 
 def _seconds(table: _Table, first: int) -> Iterator[Intersection]:
-    """Steps 3 to 7: the lines that make a plane of the hull with line ``first``, on which no loop lies yet."""
+    """Yield the lines that define a plane of the hull with line ``first`` and have no loop on it (steps 3 to 7)."""
     for second in range(len(table.edges)):
         if second == first or table.uses[second] == TIMES:
             continue
-        both = intersect(table.edges, first, second)
-        if both is None:
+        crossing = intersect(table.edges, first, second)  # step 4
+        if crossing is None:
             continue
-        three = {both.common, both.start, both.match}
+        # Step 5: three points that already lie on one loop would give its plane again.
+        three = {crossing.common, crossing.start, crossing.match}
         if any(three <= loop for loop in table.on_loops):
             if table.rules.step_5:
                 return
-        elif _is_convex_plane(table, both):
-            yield both
+        elif _is_convex_plane(table, crossing):
+            yield crossing
         elif table.rules.step_7:
             return
 
 
-def _is_convex_plane(table: _Table, both: Intersection) -> bool:
-    """Steps 6 and 7: whether all points are in the plane of the two lines or on one side of it."""
-    normal, origin = _plane(table.points, both)
+def _is_convex_plane(table: _Table, crossing: Intersection) -> bool:
+    """Return True if all points lie in the plane of the two lines or on one side of it (steps 6 and 7)."""
+    normal, origin = _plane(table.points, crossing)
     heights = (dot(normal, minus(table.points[p], origin)) for p in table.vertices)
     sides = {(height > 0) - (height < 0) for height in heights}
     return not {1, -1} <= sides
 
 
-def _follow(table: _Table, both: Intersection) -> list[int] | None:
-    """Steps 9 and 10: the entries of the whole loop, or None if it does not close.
+def _follow(table: _Table, crossing: Intersection) -> list[int] | None:
+    """Complete the loop that two lines begin (steps 9 and 10). Return its entries, or None if it does not close.
 
-    The list is searched no more often than it has lines, as the appendix advises.
+    The list is searched at most once for each line, as the appendix advises.
     """
-    normal, origin = _plane(table.points, both)
-    entries = [*both.entries]
-    left_out = {both.first, both.second}
-    match = both.match
+    normal, origin = _plane(table.points, crossing)
+    entries = [*crossing.entries]
+    excluded = {crossing.first, crossing.second}
+    match = crossing.match
     for _ in table.edges:
-        for line, (one, other) in enumerate(table.edges):
-            if table.uses[line] == TIMES or line in left_out or match not in (one, other):
+        # Step 9: find a line L3 from the match point MP whose other end is SP or lies in the plane of the loop.
+        for line, (lc1, lc2) in enumerate(table.edges):
+            if table.uses[line] == TIMES or line in excluded or match not in (lc1, lc2):
                 continue
-            beyond = other if one == match else one
-            if beyond != both.start and dot(normal, minus(table.points[beyond], origin)):
+            beyond = lc2 if lc1 == match else lc1
+            if beyond != crossing.start and dot(normal, minus(table.points[beyond], origin)):
                 continue
-            entries.append(line + 1 if one == match else -(line + 1))
-            if beyond == both.start:
+            entries.append(line + 1 if lc1 == match else -(line + 1))
+            if beyond == crossing.start:
                 return entries
+            # Step 9 as printed excludes L1 and L2 only. The line just entered would then match from its other end.
             if not table.rules.step_9:
-                left_out.add(line)
+                excluded.add(line)
             match = beyond
             break
         else:
@@ -207,13 +219,13 @@ def _follow(table: _Table, both: Intersection) -> list[int] | None:
     return None
 
 
-def _plane(points: Sequence[IntPoint], both: Intersection) -> tuple[IntPoint, IntPoint]:
-    """A normal of the plane of two lines and their common point (step 6)."""
-    origin = points[both.common]
-    return cross(minus(points[both.start], origin), minus(points[both.match], origin)), origin
+def _plane(points: Sequence[IntPoint], crossing: Intersection) -> tuple[IntPoint, IntPoint]:
+    """Return a normal of the plane of two lines and their common point (step 6)."""
+    origin = points[crossing.common]
+    return cross(minus(points[crossing.start], origin), minus(points[crossing.match], origin)), origin
 
 
-def _acute(table: _Table, both: Intersection) -> bool:
-    """a_k a_l + b_k b_l + c_k c_l > 0 for the lines as directed from LC1 to LC2."""
-    points, (p, q), (r, s) = table.points, table.edges[both.first], table.edges[both.second]
+def _acute(table: _Table, crossing: Intersection) -> bool:
+    """Return True if a_k a_l + b_k b_l + c_k c_l > 0 for the lines directed from LC1 to LC2."""
+    points, (p, q), (r, s) = table.points, table.edges[crossing.first], table.edges[crossing.second]
     return dot(minus(points[q], points[p]), minus(points[s], points[r])) > 0

@@ -1,7 +1,7 @@
 """Pictures of the method: the hull with its convex edges, and the star polygon of one line.
 
-Points have the numbers of the input, convex edges those of the convex edge list (L).  What is decided is decided in
-integers; floating point only chooses where numbers are put.
+Points have their numbers in the input, convex edges their numbers L in the convex edge list. All decisions are made
+in integers. Floating point only places the labels.
 """
 
 from __future__ import annotations
@@ -32,31 +32,32 @@ from modern.papers.appel_will.surfaces import Surface
 
 WIDTH, WIDER = 640, 1000
 MOST_POINTS, MOST_LINES = 400, 60
-"""Beyond so many points, or convex edges, they are not numbered."""
+"""The greatest numbers of points and of convex edges that are numbered."""
 _SIZE, _SMALL = 13.0, 11.0
 _FONT = f'font-family="{svg.FONT}" font-size="13" fill="#000"'
 _LINE_FONT = f'font-family="{svg.FONT}" font-size="11" font-style="italic" fill="#444"'
 _HALO = 'stroke="#fff" stroke-width="3" paint-order="stroke"'
-"""White around a number, where lines cannot be avoided."""
+"""A white outline that keeps a number legible on top of lines."""
 _STEP = 19
-GIVEN = Style("given", "line given, no convex edge", "line", 'stroke="#777" stroke-width="0.8"')
+"""The distance of legend lines in pixels."""
+GIVEN = Style("given", "given line that is not a convex edge", "line", 'stroke="#777" stroke-width="0.8"')
 SIDE = Style("star", "star polygon", "line", 'stroke="#000" stroke-width="1.2" fill="none"')
 CLOCKWISE = Style("clockwise", "side that turns clockwise about C", "line", 'stroke="#000" stroke-width="3.4"')
 RAY = Style("rays", "ray from C", "line", 'stroke="#aaa" stroke-width="0.8"')
 Row = Callable[[int], Iterator[str]]
-"""A row of a legend, which is given its base line."""
+"""A row of a legend: a function that draws it on the given base line."""
 CENTRE = Style("centre", "C", "dot", 'fill="#fff" stroke="#000" stroke-width="1.6"')
 
 
 class PictureError(ExportError):
-    """A picture that cannot be drawn of this hull; one line."""
+    """A picture that cannot be drawn of this hull. The message is one line."""
 
 
-def checked_width(width: int | None, otherwise: int) -> int:
-    """The width of a picture.  Raises PictureError where it is out of range."""
+def checked_width(width: int | None, default: int) -> int:
+    """Return the width of a picture, or the default. Raise PictureError if it is out of range."""
     if width is not None and not 320 <= width <= 4000:
-        raise PictureError(f"a picture {width} pixels wide is not drawn; 320 to 4000 are")
-    return otherwise if width is None else width
+        raise PictureError(f"a picture cannot be {width} pixels wide; the width is from 320 to 4000")
+    return default if width is None else width
 
 
 def solid_svg(
@@ -68,10 +69,23 @@ def solid_svg(
     title: str = "",
     width: int | None = None,
 ) -> str:
-    """The hull with its convex edges, hidden ones dashed, and the lines of the polyhedron that are none of them.
+    """Draw the hull with its convex edges, hidden ones dashed, and the polyhedron's other lines.
 
-    points: as given, in text.  given: the polyhedron's surfaces, if there are any.  joined: which faces of the hull's
-    ``as_mesh`` are read as one.  eye, width: see ``modern.drawing.draw.draw_svg``.  Raises ExportError.
+    Parameters
+    ----------
+    points
+        The coordinates as text, as given.
+    given
+        The surfaces of the polyhedron, if known.
+    joined
+        The faces of ``as_mesh(hull)`` to merge, if any.
+    eye, width
+        As for ``modern.drawing.draw.draw_svg``.
+
+    Raises
+    ------
+    ExportError
+        If there is no hull or the view or the width is invalid.
     """
     record = as_record(hull, points, joined)
     picture = seen(scene(record, eye), Show())
@@ -82,20 +96,20 @@ def solid_svg(
         at |= {mark.index: place for mark, place in zip(marks, places, strict=True)}
     at |= {index: at[first] for index, first in record.duplicates}
     drawn = {tuple(sorted((record.vertices[e.start], record.vertices[e.end]))): e for e in picture.edges}
-    others = sorted(
+    nonconvex = sorted(
         {(min(a, b), max(a, b)) for surface in given for a, b in sides(surface) if (min(a, b), max(a, b)) not in drawn}
     )
     lines = [(number, pair) for number, pair in enumerate(hull.edges, 1) if pair in drawn]
     numbered = len(points) <= MOST_POINTS
     labelled = numbered and 0 < len(lines) <= MOST_LINES
-    rows = [sample_row(GIVEN)] if others else []
-    words = "in italics: the convex edges, by L of the convex edge list" if labelled else ""
-    rows += map(words_row, wrapped(words, width - 2 * MARGIN))
+    rows = [sample_row(GIVEN)] if nonconvex else []
+    legend = "in italics: the number L of each edge in the convex edge list" if labelled else ""
+    rows += map(text_row, wrapped(legend, width - 2 * MARGIN))
     top = layout.height + band_height(picture, width, title, numbered)
     items = [
         *marked(record, picture, layout),
-        *svg.group(GIVEN.key, GIVEN.attributes, (svg.line(at[a], at[b], _named(a, b)) for a, b in others)),
-        *(_numbers(at, lines if labelled else [], [*drawn, *others], (width, layout.height)) if numbered else ()),
+        *svg.group(GIVEN.key, GIVEN.attributes, (svg.line(at[a], at[b], _named(a, b)) for a, b in nonconvex)),
+        *(_numbers(at, lines if labelled else [], [*drawn, *nonconvex], (width, layout.height)) if numbered else ()),
         *svg.group("legend", _FONT, band(picture, width, layout.height, title, numbered)),
         *svg.group("more", _FONT, (item for k, row in enumerate(rows) for item in row(top + _STEP * k))),
     ]
@@ -103,21 +117,25 @@ def solid_svg(
 
 
 def as_mesh(hull: Assembled, points: Sequence[Point]) -> Mesh:
-    """The assembled hull as a surface, its points in the order of the vertex list."""
+    """Return the assembled hull as a mesh with its points in the order of the vertex list."""
     places = {index: place for place, index in enumerate(hull.vertices)}
     faces = tuple(tuple(places[index] for index in surface) for surface in hull.outward())
     return Mesh(hull.dimension, tuple(points[index] for index in hull.vertices), faces)
 
 
 def as_record(hull: Assembled, points: Sequence[Point], joined: Joined | None = None) -> Record:
-    """The assembled hull as a record that can be drawn, with faces joined if it says so.  Raises PictureError."""
+    """Return the assembled hull as a record that can be drawn, with the given faces merged.
+
+    Raise PictureError if edges and loops are not a hull.
+    """
     if hull.fault:
         raise PictureError(f"there is no hull to draw: {hull.fault}")
     surfaces = hull.outward() if joined is None else joined_surfaces(hull, joined)
     vertices = tuple(sorted({index for surface in surfaces for index in surface})) or hull.vertices
-    left_out = set(hull.vertices).difference(vertices)
-    again = dict(hull.duplicates)
-    rest = [index for index in range(len(points)) if index not in vertices and index not in again]
+    # Vertices that lie within a merged face are no longer vertices of the record, but boundary points.
+    merged_away = set(hull.vertices).difference(vertices)
+    first_equal = dict(hull.duplicates)
+    rest = [index for index in range(len(points)) if index not in vertices and index not in first_equal]
     planes = [(area_vector(hull.points, surface), hull.points[surface[0]]) for surface in hull.surfaces]
     on = {
         index
@@ -126,7 +144,7 @@ def as_record(hull: Assembled, points: Sequence[Point], joined: Joined | None = 
     }
     if hull.dimension == 3:
         within = [()] * len(surfaces) if joined is None else joined_points(hull, joined)
-        faces = [(surface, left_out.intersection(some)) for surface, some in zip(surfaces, within, strict=True)]
+        faces = [(surface, merged_away.intersection(inner)) for surface, inner in zip(surfaces, within, strict=True)]
     else:
         faces = [(side, set[int]()) for surface in surfaces for side in sides(surface)]
     return Record(
@@ -135,23 +153,23 @@ def as_record(hull: Assembled, points: Sequence[Point], joined: Joined | None = 
         dimension=hull.dimension,
         points=tuple(points),
         vertices=vertices,
-        boundary=tuple(index for index in rest if index in on or index in left_out),
-        inside=tuple(index for index in rest if index not in on and index not in left_out),
+        boundary=tuple(index for index in rest if index in on or index in merged_away),
+        inside=tuple(index for index in rest if index not in on and index not in merged_away),
         duplicates=hull.duplicates,
         faces=tuple(
-            Face(("0", "0", "0", "0"), (0, 0, 0, 0), polygon[:3], polygon, tuple(sorted(some)))
-            for polygon, some in faces
+            Face(("0", "0", "0", "0"), (0, 0, 0, 0), polygon[:3], polygon, tuple(sorted(inner)))
+            for polygon, inner in faces
         ),
     )
 
 
 def joined_surfaces(hull: Assembled, joined: Joined) -> tuple[Surface, ...]:
-    """The surfaces of a hull's ``as_mesh`` with faces joined, by points as given."""
+    """Return the surfaces after faces of ``as_mesh(hull)`` were merged, as indices of input points."""
     return tuple(tuple(hull.vertices[place] for place in loop) for loop in joined.loops)
 
 
 def joined_points(hull: Assembled, joined: Joined) -> list[tuple[int, ...]]:
-    """The points of every joined face, those within it too."""
+    """List the points of every merged face, including those within it."""
     return [tuple(index for face in group for index in hull.surfaces[face]) for group in joined.groups]
 
 
@@ -159,9 +177,9 @@ def joined_points(hull: Assembled, joined: Joined) -> list[tuple[int, ...]]:
 class Star:
     """The star polygon of a line (Figs. 8 to 12).
 
-    line: the points on it, the pair's ends first and last.  order: the points off it, by the angle of their images
-    about C; ``images`` theirs, relative to C.  outside: whether C is, so that the line is a convex edge; clockwise: the
-    sides of the polygon, by place, that turn clockwise about C, of which there is then one.
+    ``line`` lists the points on the line from end to end, ``order`` the points off it by the angle of their images
+    about C, and ``images`` those images relative to C. ``outside`` is True if C is outside, so that the line is a
+    convex edge. ``clockwise`` holds the indices of the sides that turn clockwise about C (at most one).
     """
 
     line: tuple[int, ...]
@@ -172,63 +190,68 @@ class Star:
 
 
 def star(hull: Assembled, pair: Pair) -> Star:
-    """The star polygon of a pair of points.  Raises PictureError for one that was deleted, or is no pair."""
+    """Compute the star polygon of a pair of points.
+
+    Raise PictureError if a point does not exist or was deleted, or if both are the same.
+    """
     a, b = pair
-    again = dict(hull.duplicates)
-    gone = {entry.point: f"it lies between {entry.between[0] + 1} and {entry.between[1] + 1}" for entry in hull.deleted}
+    reason = {
+        entry.point: f"it lies between {entry.between[0] + 1} and {entry.between[1] + 1}" for entry in hull.deleted
+    }
     if hull.preprocessing is not None:
-        gone |= dict.fromkeys(hull.preprocessing.deleted, "it is on an inside corner")
-    gone |= {index: f"it is point {first + 1} again" for index, first in again.items()}
+        reason |= dict.fromkeys(hull.preprocessing.deleted, "it is on an inside corner")
+    reason |= {index: f"it equals point {first + 1}" for index, first in hull.duplicates}
     for index in pair:
         if not 0 <= index < len(hull.points):
-            raise PictureError(f"there is no point {index + 1}; they count from 1 to {len(hull.points)}")
-        if index in gone:
-            raise PictureError(f"point {index + 1} was deleted: {gone[index]}")
+            raise PictureError(f"point {index + 1} does not exist; the points are 1 to {len(hull.points)}")
+        if index in reason:
+            raise PictureError(f"point {index + 1} was deleted: {reason[index]}")
     if a == b:
-        raise PictureError(f"a line has two points; {a + 1} is one")
-    live = [index for index in range(len(hull.points)) if index not in gone]
+        raise PictureError(f"a line needs two different points, found {a + 1} twice")
+    live = [index for index in range(len(hull.points)) if index not in reason]
     line = project(hull.points, pair, live).line
     images = {index: project(hull.points, pair, [index]).images[0] for index in live if index not in line}
-    places: dict[Image, list[int]] = {}
+    points_at: dict[Image, list[int]] = {}
     for index, image in images.items():
-        places.setdefault(image, []).append(index)
-    order = [index for image in dict.fromkeys(star_polygon(list(images.values()))) for index in places[image]]
-    found = tuple(images[index] for index in order)
-    around = [*pairwise(found), (found[-1], found[0])] if found else []
-    turned = tuple(k for k, (p, q) in enumerate(around) if vorticity(p, q) < 0)
-    one_ray = all(on_one_ray(found[0], image) for image in found)
-    return Star(tuple(line), tuple(order), found, one_ray or bool(turned), turned)
+        points_at.setdefault(image, []).append(index)
+    order = [index for image in dict.fromkeys(star_polygon(list(images.values()))) for index in points_at[image]]
+    polygon = tuple(images[index] for index in order)
+    polygon_sides = [*pairwise(polygon), (polygon[-1], polygon[0])] if polygon else []
+    clockwise = tuple(k for k, (p, q) in enumerate(polygon_sides) if vorticity(p, q) < 0)
+    one_ray = all(on_one_ray(polygon[0], image) for image in polygon)
+    return Star(tuple(line), tuple(order), polygon, one_ray or bool(clockwise), clockwise)
 
 
 def star_svg(hull: Assembled, pair: Pair, title: str = "", width: int | None = None) -> str:
-    """The star polygon of a pair of points, as it is seen along their line.  Raises PictureError.
+    """Draw the star polygon of a pair of points as seen along their line.
 
-    width: in pixels, by default 640.
+    ``width`` is in pixels, by default 640. Raise PictureError for an invalid pair or width.
     """
     width = checked_width(width, WIDTH)
-    found = star(hull, pair)
+    polygon = star(hull, pair)
     a, b = pair
+    # The test works on affine images. The picture shows the true parallel projection along the line.
     sight = view(lowest([Fraction(q - p) for p, q in zip(hull.points[a], hull.points[b], strict=True)]))
     flat = {}
-    for index in (a, *found.order):
+    for index in (a, *polygon.order):
         x, y, z = (Fraction(number) for number in hull.points[index])
         flat[index] = sight.project((x, y, z))
     pixel, height = fit(list(flat.values()), width, max(460, width * 460 // 640))
     at = {index: pixel(image) for index, image in flat.items()}
-    ends = list(zip(found.order, [*found.order[1:], *found.order[:1]], strict=True))
+    ends = list(zip(polygon.order, [*polygon.order[1:], *polygon.order[:1]], strict=True))
     shown = [(p, q) for p, q in ends if at[p] != at[q]]
-    bold = [ends[k] for k in found.clockwise]
+    bold = [ends[k] for k in polygon.clockwise]
     thin = [side for side in shown if side not in bold]
     together: dict[Pixel, list[int]] = {}
-    for index in found.order:
+    for index in polygon.order:
         together.setdefault(at[index], []).append(index)
     labels = [Label(*place.place, ",".join(str(k + 1) for k in group)) for place, group in together.items()]
-    line = found.line if found.line[0] < found.line[-1] else found.line[::-1]
+    line = polygon.line if polygon.line[0] < polygon.line[-1] else polygon.line[::-1]
     centre = Label(*at[a].place, f"C = {'-'.join(str(k + 1) for k in line)}")
-    segments = [(at[p].place, at[q].place) for p, q in shown] + [(at[a].place, at[k].place) for k in found.order]
-    put = place_labels([*labels, centre], segments, [], (float(width), float(height)))
-    words = wrapped(_verdict(found, pair), width - 2 * MARGIN)
-    rows = [*([words_row(title, bold=True)] if title else []), *map(words_row, words)]
+    segments = [(at[p].place, at[q].place) for p, q in shown] + [(at[a].place, at[k].place) for k in polygon.order]
+    label_places = place_labels([*labels, centre], segments, [], (float(width), float(height)))
+    legend = wrapped(_verdict(polygon, pair), width - 2 * MARGIN)
+    rows = [*([text_row(title, bold=True)] if title else []), *map(text_row, legend)]
     rows += [sample_row(style) for style in (SIDE, *([CLOCKWISE] if bold else []), RAY)]
     items = [
         *svg.group(RAY.key, RAY.attributes, (svg.line(at[a], place) for place in together)),
@@ -236,19 +259,19 @@ def star_svg(hull: Assembled, pair: Pair, title: str = "", width: int | None = N
         *svg.group(CLOCKWISE.key, CLOCKWISE.attributes, (svg.line(at[p], at[q], _named(p, q)) for p, q in bold)),
         *svg.group("points", svg.VERTEX.attributes, (svg.circle(place, svg.RADIUS) for place in together)),
         *svg.group(CENTRE.key, CENTRE.attributes, [svg.circle(at[a], "4.5")]),
-        *svg.group("numbers", f'{_FONT} text-anchor="middle" {_HALO}', texts([*labels, centre], put)),
+        *svg.group("numbers", f'{_FONT} text-anchor="middle" {_HALO}', texts([*labels, centre], label_places)),
         *svg.group("legend", _FONT, (item for k, row in enumerate(rows) for item in row(height + 12 + _STEP * k))),
     ]
     return svg.page(width, height + _STEP * len(rows) + 12, title or f"Star polygon of line {a + 1}-{b + 1}", items)
 
 
-def _verdict(found: Star, pair: Pair) -> str:
-    named = f"Star polygon of line {pair[0] + 1}-{pair[1] + 1}, seen along it: C, its image, is"
-    if found.outside:
-        how = "one side turns clockwise about it" if found.clockwise else "all images are on one ray"
-        how = how if found.order else "no point is off the line"
-        return f"{named} outside ({how}); the line is a convex edge"
-    return f"{named} within it or on a side; the line is no convex edge"
+def _verdict(polygon: Star, pair: Pair) -> str:
+    subject = f"Star polygon of line {pair[0] + 1}-{pair[1] + 1}, seen along the line: C, the image of the line, is"
+    if polygon.outside:
+        reason = "one side turns clockwise about it" if polygon.clockwise else "all images are on one ray"
+        reason = reason if polygon.order else "no point is off the line"
+        return f"{subject} outside ({reason}); the line is a convex edge"
+    return f"{subject} inside or on a side; the line is not a convex edge"
 
 
 def _named(a: int, b: int) -> str:
@@ -258,7 +281,7 @@ def _named(a: int, b: int) -> str:
 def _numbers(
     at: Mapping[int, Pixel], lines: Sequence[tuple[int, Pair]], edges: Sequence[Sequence[int]], size: tuple[int, int]
 ) -> Iterator[str]:
-    """Numbers of points and, in italics, of lines, all off the lines as far as there is room."""
+    """Draw the numbers of points and, in italics, of lines, placed off the lines if possible."""
     together: dict[Pixel, list[int]] = {}
     for index, place in sorted(at.items()):
         together.setdefault(place, []).append(index)
@@ -267,19 +290,19 @@ def _numbers(
         Label((at[a].x + at[b].x) / 200, (at[a].y + at[b].y) / 200, str(number), _SMALL) for number, (a, b) in lines
     ]
     segments = [(at[a].place, at[b].place) for a, b in edges]
-    put = place_labels([*points, *middles], segments, [], (float(size[0]), float(size[1])))
-    yield from svg.group("numbers", f'{_FONT} text-anchor="middle"', texts(points, put[: len(points)]))
-    yield from svg.group("lines", f'{_LINE_FONT} text-anchor="middle"', texts(middles, put[len(points) :]))
+    label_places = place_labels([*points, *middles], segments, [], (float(size[0]), float(size[1])))
+    yield from svg.group("numbers", f'{_FONT} text-anchor="middle"', texts(points, label_places[: len(points)]))
+    yield from svg.group("lines", f'{_LINE_FONT} text-anchor="middle"', texts(middles, label_places[len(points) :]))
 
 
 def texts(labels: Sequence[Label], places: Sequence[tuple[float, float]]) -> Iterator[str]:
-    """Labels where they were put."""
+    """Draw labels at their places."""
     for label, (x, y) in zip(labels, places, strict=True):
         yield svg.text(Pixel(round(100 * x), round(100 * (y + label.size * 0.35))), label.text)
 
 
 def sample_row(style: Style) -> Row:
-    """A row of a legend: a mark and its name."""
+    """Return a legend row with a sample of a style and its name."""
 
     def row(base: int) -> Iterator[str]:
         yield svg.sample(style, Pixel((MARGIN + 9) * 100, base * 100 - 450))
@@ -288,10 +311,10 @@ def sample_row(style: Style) -> Row:
     return row
 
 
-def words_row(words: str, bold: bool = False) -> Row:
-    """A row of a legend: words."""
+def text_row(text: str, bold: bool = False) -> Row:
+    """Return a legend row with text only."""
 
     def row(base: int) -> Iterator[str]:
-        yield svg.text(Pixel(MARGIN * 100, base * 100), words, 'font-weight="bold"' if bold else "")
+        yield svg.text(Pixel(MARGIN * 100, base * 100), text, 'font-weight="bold"' if bold else "")
 
     return row

@@ -1,9 +1,13 @@
-"""The topological map drawn in the plane: every surface a region, the largest one the outside.
+"""A planar drawing of the topological map: every surface is a region, and the largest surface is the outside.
 
-Points lie as Tutte (Proceedings of the London Mathematical Society 13 (1963)) puts them: those of the outside on a
-circle, every other one at a mean of its neighbours, so that no two lines cross and every region is convex.  Any
-positive weights do for the mean; here lines beside large regions count more, and more from round to round, so that
-regions become equal in size where they can.
+This is Tutte's embedding. The points of the outer surface lie on a circle, and every other point lies at a weighted
+mean of its neighbours. For any positive weights no two lines cross and every region is convex. Here the weights of
+lines that border large regions are increased from round to round, which makes the regions as equal in size as
+possible.
+
+References
+----------
+W. T. Tutte, "How to draw a graph", Proceedings of the London Mathematical Society 13 (1963).
 """
 
 from __future__ import annotations
@@ -25,34 +29,38 @@ from modern.papers.appel_will.pictures import (
     WIDTH,
     PictureError,
     checked_width,
+    text_row,
     texts,
-    words_row,
 )
 from modern.papers.appel_will.surfaces import Surface
 
 Place = tuple[float, float]
 MOST, CROWD = 100, 24
-"""Points beyond which the map is not drawn, as the middle could not be told apart, and beyond which it is wider."""
+"""The greatest number of points that can be told apart in a map, and the greatest number in a map of normal width."""
 _TURNS, _FIRST, _ROUNDS, _STEP = 150, 200, 10, 1.1
+"""Changes of the weights, relaxations before the first and before each later change, greatest factor of a change."""
 _LINE, _SMALLEST = 19, 160.0
+"""The distance of legend lines in pixels, and the smallest region, in square pixels, that has its number."""
 _LINES = f'font-family="{svg.FONT}" font-size="11" font-style="italic" fill="#444"'
 _FONT = f'font-family="{svg.FONT}" font-size="13" fill="#000"'
 _SURFACES = f'font-family="{svg.FONT}" font-size="15" fill="#999" text-anchor="middle"'
 
 
 def map_svg(surfaces: Sequence[Surface], edges: Sequence[Pair], title: str = "", width: int | None = None) -> str:
-    """The map of a polyhedron's surfaces, or of the one of a polygon, with points, lines and surfaces numbered.
+    """Draw the map of a polyhedron, or of a single polygon, with its points, lines and surfaces numbered.
 
-    edges: the convex edge list, for the lines' numbers; of more than ``MOST_LINES`` they have none.  width: in pixels,
-    by default 640, and 1000 for more than ``CROWD`` points.  Raises PictureError for a map without surfaces or of more
-    than ``MOST`` points, and for a width out of range.
+    ``edges`` is the convex edge list, from which the lines take their numbers. If it has more than ``MOST_LINES``
+    lines, they are not numbered. ``width`` is in pixels; the default is 640, or 1000 for more than ``CROWD`` points.
+
+    Raise PictureError for a map without surfaces or with more than ``MOST`` points, and for a width out of range.
     """
     if not surfaces:
         raise PictureError("there are no surfaces, so there is no map to draw")
     count = len({index for surface in surfaces for index in surface})
     if count > MOST:
-        raise PictureError(f"a map of {count} points is not drawn; of at most {MOST} it can be read")
+        raise PictureError(f"a map of {count} points cannot be drawn legibly; the limit is {MOST} points")
     width = checked_width(width, WIDTH if count <= CROWD else WIDER)
+    # The surface with most points becomes the outside, which leaves the most room for the others.
     outer = max(range(len(surfaces)), key=lambda number: (len(surfaces[number]), -number))
     places = embedded(surfaces, outer)
     exact = {index: (Fraction(x), Fraction(y)) for index, (x, y) in places.items()}
@@ -60,6 +68,7 @@ def map_svg(surfaces: Sequence[Surface], edges: Sequence[Pair], title: str = "",
     at = {index: pixel(place) for index, place in exact.items()}
     lines = sorted({(min(a, b), max(a, b)) for surface in surfaces for a, b in sides(surface)})
     number = {pair: str(k) for k, pair in enumerate(edges, 1)} if len(lines) <= MOST_LINES else {}
+    # The inside of a single polygon is its own region.
     inner = [(k, surface) for k, surface in enumerate(surfaces) if k != outer or len(surfaces) == 1]
     polygons = [(k, [at[index] for index in surface]) for k, surface in inner]
     regions = [(str(k + 1), _middle(corners)) for k, corners in polygons if _room(corners) >= _SMALLEST]
@@ -69,32 +78,32 @@ def map_svg(surfaces: Sequence[Surface], edges: Sequence[Pair], title: str = "",
         for a, b in lines
         if (a, b) in number
     ]
-    put = place_labels(
+    label_places = place_labels(
         [*points, *middles],
         [(at[a].place, at[b].place) for a, b in lines],
         [place.place for _, place in regions],
         (float(width), float(height)),
     )
-    words = "Topological map: points in black, "
-    words += "lines L of the convex edge list in italics, " if number else ""
-    words += "surfaces in grey" if len(regions) == len(inner) else "surfaces in grey where there is room"
-    words += f"; surface {outer + 1} is the outside." if len(surfaces) > 1 else "."
-    rows = [*([words_row(title, bold=True)] if title else []), *map(words_row, wrapped(words, width - 2 * MARGIN))]
+    legend = "Topological map: points in black, "
+    legend += "lines L of the convex edge list in italics, " if number else ""
+    legend += "surfaces in grey" if len(regions) == len(inner) else "surfaces in grey if there is room"
+    legend += f"; surface {outer + 1} is the outside." if len(surfaces) > 1 else "."
+    rows = [*([text_row(title, bold=True)] if title else []), *map(text_row, wrapped(legend, width - 2 * MARGIN))]
     items = [
         *svg.group("surfaces", _SURFACES, (svg.text(Pixel(p.x, p.y + 500), name) for name, p in regions)),
         *svg.group(VISIBLE.key, VISIBLE.attributes, _strokes(at, lines)),
         *svg.group(VERTEX.key, VERTEX.attributes, (svg.circle(at[index], svg.RADIUS) for index in sorted(at))),
-        *svg.group("numbers", f'{_FONT} text-anchor="middle"', texts(points, put[: len(points)])),
-        *svg.group("lines", f'{_LINES} text-anchor="middle"', texts(middles, put[len(points) :])),
+        *svg.group("numbers", f'{_FONT} text-anchor="middle"', texts(points, label_places[: len(points)])),
+        *svg.group("lines", f'{_LINES} text-anchor="middle"', texts(middles, label_places[len(points) :])),
         *svg.group("legend", _FONT, (item for k, row in enumerate(rows) for item in row(height + 12 + _LINE * k))),
     ]
     return svg.page(width, height + _LINE * len(rows) + 12, title or "Topological map", items)
 
 
 def embedded(surfaces: Sequence[Surface], outer: int) -> dict[int, Place]:
-    """Where every point lies, the outer surface on a circle about 0,0 of radius 1, its first line below.
+    """Place the points of the map, those of the outer surface on the unit circle with its first line at the bottom.
 
-    surfaces: each in either sense; a line is on two of them.
+    The surfaces may run in either sense. Every line must be on two of them.
     """
     border = surfaces[outer]
     count = len(border)
@@ -106,23 +115,26 @@ def embedded(surfaces: Sequence[Surface], outer: int) -> dict[int, Place]:
     for order, surface in enumerate(surfaces):
         for a, b in sides(surface):
             owners.setdefault((min(a, b), max(a, b)), []).append(order)
-    beside: dict[int, list[tuple[int, int, int]]] = {}
-    for line, (left, *right) in owners.items():
+    # For every inner point, its neighbours with the two surfaces on the sides of the common line.
+    neighbours: dict[int, list[tuple[int, int, int]]] = {}
+    for line, (first, *opposite) in owners.items():
         for a, b in (line, line[::-1]):
             if a not in places:
-                beside.setdefault(a, []).append((b, left, right[0]))
-    places |= dict.fromkeys(beside, (0.0, 0.0))
+                neighbours.setdefault(a, []).append((b, first, opposite[0]))
+    places |= dict.fromkeys(neighbours, (0.0, 0.0))
     weights = [1.0] * len(surfaces)
     for turn in range(_TURNS):
+        # Gauss-Seidel relaxation of Tutte's linear system: move every inner point to the mean of its neighbours.
         for _ in range(_FIRST if turn == 0 else _ROUNDS):
-            for index, around in beside.items():
+            for index, around in neighbours.items():
                 total = x = y = 0.0
-                for other, one, two in around:
-                    weight = weights[one] + weights[two]
+                for neighbour, first, second in around:
+                    weight = weights[first] + weights[second]
                     total += weight
-                    x += weight * places[other][0]
-                    y += weight * places[other][1]
+                    x += weight * places[neighbour][0]
+                    y += weight * places[neighbour][1]
                 places[index] = (x / total, y / total)
+        # Pull the lines of regions larger than the average tighter, by a bounded factor so that the rounds converge.
         sizes = [abs(_area([places[index] for index in surface])) for surface in surfaces]
         sizes[outer] = 0.0
         mean = sum(sizes) / max(1, len(sizes) - 1)
@@ -133,7 +145,7 @@ def embedded(surfaces: Sequence[Surface], outer: int) -> dict[int, Place]:
 
 
 def _area(corners: Sequence[Place]) -> float:
-    """Twice the area of a polygon."""
+    """Return twice the signed area of a polygon."""
     return sum(a * d - b * c for (a, b), (c, d) in zip(corners, [*corners[1:], corners[0]], strict=True))
 
 
@@ -143,10 +155,10 @@ def _strokes(at: Mapping[int, Pixel], lines: Sequence[Pair]) -> Iterator[str]:
 
 
 def _room(corners: Sequence[Pixel]) -> float:
-    """The area of a polygon in square pixels."""
+    """Return the area of a polygon in square pixels."""
     return abs(_area([corner.place for corner in corners])) / 2
 
 
 def _middle(corners: Sequence[Pixel]) -> Pixel:
-    """The centre of gravity of a polygon's corners."""
+    """Return the mean of a polygon's corners."""
     return Pixel(sum(c.x for c in corners) // len(corners), sum(c.y for c in corners) // len(corners))

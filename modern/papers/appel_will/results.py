@@ -1,7 +1,7 @@
-"""What the paper prints, computed: the lines of every published result, in the words of the print.
+"""The computed lines of every published result of the paper, in the words of the print.
 
-The object of Fig. 4 is read from the corrected print itself.  Other objects are drawn without data in the paper; their
-coordinates, found and not printed, are in ``coordinates.toml`` beside the print.
+The object of Fig. 4 is read from the corrected print. The paper draws the other objects without data. Coordinates that
+this project chose for them are in ``coordinates.toml`` next to the print.
 """
 
 from __future__ import annotations
@@ -23,24 +23,24 @@ from modern.papers.appel_will.star import as_corrected
 from modern.papers.appel_will.surfaces import Line, Surface, area_normal, oriented
 
 FOLDER = "appel_will_1976"
-"""Of the print under ``transcripts``."""
+"""The folder of the print under ``transcripts``."""
 BY_STAR = Method(star=as_corrected)
-"""With the star polygon itself, as the paper has it, not its short form."""
+"""The method with sorted star polygons, as in the paper, instead of the test in one pass."""
 ROMAN = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII")
 FIG_18_LINES = {5: (1, 2), 7: (2, 3), 6: (4, 3)}
-"""The lines of Fig. 18 by their labels: surface k, on which the line runs counterclockwise, and surface l."""
+"""The lines of Fig. 18 by label: surface k, on which the line runs counterclockwise, and surface l."""
 
 
 @dataclass(frozen=True, slots=True)
 class Solid:
-    """An object of a figure: points, and surfaces where it has a map, both from 0."""
+    """An object of a figure: its points and, if it has a map, its surfaces as indices from 0."""
 
     points: tuple[IntPoint, ...]
     surfaces: tuple[Surface, ...] = ()
 
 
 def found_solid(name: str) -> Solid:
-    """An object whose coordinates this project found, by its figure (``fig14``).  Raises KeyError."""
+    """Return the object of a figure, such as ``fig14``, with this project's coordinates. Raise KeyError if unknown."""
     text = files("transcripts").joinpath(FOLDER, "coordinates.toml").read_text(encoding="utf-8")
     entries = {entry["id"]: entry for entry in tomllib.loads(text)["solid"]}
     entry = entries[name]
@@ -49,24 +49,24 @@ def found_solid(name: str) -> Solid:
 
 
 def printed_solid(printed: Lines) -> Solid:
-    """The object of Fig. 4 as the corrected print has it."""
-    rows = [[int(word) for word in line.split()] for line in printed["fig4-vertex-list"]]
+    """Return the object of Fig. 4 from the corrected print."""
+    rows = [[int(number) for number in line.split()] for line in printed["fig4-vertex-list"]]
     points = tuple((x, y, z) for _, x, y, z in rows)
     maps = [line.split()[1] for line in printed["fig4-topological-map"]]
     return Solid(points, tuple(tuple(int(number) - 1 for number in text.split(",")) for text in maps))
 
 
 def produced(printed: Lines) -> Lines:
-    """The lines of every published result that can be computed, by its id in ``results.toml``."""
-    given = printed_solid(printed)
-    hull = appel_will(given.points, given.surfaces, BY_STAR)
+    """Compute the lines of every published result that can be computed, by its id in ``results.toml``."""
+    fig4 = printed_solid(printed)
+    hull = appel_will(fig4.points, fig4.surfaces, BY_STAR)
     fig14 = appel_will(found_solid("fig14").points, method=BY_STAR)
     fig23 = appel_will(found_solid("fig23").points, method=BY_STAR)
     return {
-        "fig4-vertex-list": list(_vertex_list(given)),
-        "fig4-topological-map": list(_map(given.surfaces)),
-        "fig4-hull": list(_changes(given, hull)),
-        "fig5": list(_parallel_lines(given.points, (0, 1))),
+        "fig4-vertex-list": list(_vertex_list(fig4)),
+        "fig4-topological-map": list(_map(fig4.surfaces)),
+        "fig4-hull": list(_changes(fig4, hull)),
+        "fig5": list(_parallel_lines(fig4.points, (0, 1))),
         "combinations": [_combinations(fig14)],
         "fig13": [f"interior points {_listed(_named(_deleted(found_solid('fig13'))))}"],
         "fig14": list(_edge_list(fig14)),
@@ -82,14 +82,18 @@ def produced(printed: Lines) -> Lines:
 
 
 def _vertex_list(solid: Solid) -> Iterator[str]:
-    """Every point as the intersection of its surfaces, each plane from the surface's other points."""
+    """Compute every point as the intersection of its three surfaces.
+
+    Each plane comes from the other points of its surface. A misread coordinate thus cannot confirm its own value.
+    """
     for index in range(len(solid.points)):
         planes = []
         for surface in solid.surfaces:
             if index in surface:
-                others = tuple(other for other in surface if other != index)
-                normal = area_normal(solid.points, others)
-                planes.append((normal, dot(normal, solid.points[others[0]])))
+                remaining = tuple(point for point in surface if point != index)
+                normal = area_normal(solid.points, remaining)
+                planes.append((normal, dot(normal, solid.points[remaining[0]])))
+        # Cramer's rule for the planes p x = a, q x = b, r x = c: x = (a q*r + b r*p + c p*q) / [pqr].
         (p, a), (q, b), (r, c) = planes
         parts = zip(cross(q, r), cross(r, p), cross(p, q), strict=True)
         at = [Fraction(a * u + b * v + c * w, triple_product(p, q, r)) for u, v, w in parts]
@@ -97,33 +101,33 @@ def _vertex_list(solid: Solid) -> Iterator[str]:
 
 
 def _map(surfaces: Sequence[Surface]) -> Iterator[str]:
-    """Every surface from its first point on, along the lines it has in common with another surface."""
+    """Follow every surface from its first point along the lines it has in common with other surfaces."""
     for number, surface in enumerate(surfaces):
-        others = [set(other) for place, other in enumerate(surfaces) if place != number]
-        way = [surface[0]]
-        while len(way) < len(surface):
-            beside = [p for p in surface if p not in way and any({p, way[-1]} <= other for other in others)]
-            # Of the two ways around, the print's second point chooses.
-            way.append(surface[1] if len(way) == 1 and surface[1] in beside else beside[0])
-        yield f"{ROMAN[number]} {','.join(_named(way))}"
+        others = [set(points) for k, points in enumerate(surfaces) if k != number]
+        path = [surface[0]]
+        while len(path) < len(surface):
+            neighbours = [p for p in surface if p not in path and any({p, path[-1]} <= points for points in others)]
+            # The print's second point decides between the two directions around the surface.
+            path.append(surface[1] if len(path) == 1 and surface[1] in neighbours else neighbours[0])
+        yield f"{ROMAN[number]} {','.join(_named(path))}"
 
 
-def _changes(given: Solid, hull: Assembled) -> Iterator[str]:
-    """The caption of Fig. 4."""
-    fates = hull.fates(given.surfaces)
-    deleted = [index for index in range(len(given.points)) if index not in hull.vertices]
-    gone = [number for number, other in enumerate(fates.of) if other is None]
-    changed = [number for number, other in enumerate(fates.of) if other is not None and number not in fates.kept]
+def _changes(fig4: Solid, hull: Assembled) -> Iterator[str]:
+    """Compute the caption of Fig. 4."""
+    fates = hull.fates(fig4.surfaces)
+    deleted = [index for index in range(len(fig4.points)) if index not in hull.vertices]
+    deleted_surfaces = [number for number, face in enumerate(fates.of) if face is None]
+    changed = [number for number, face in enumerate(fates.of) if face is not None and number not in fates.unchanged]
     yield f"Points {_listed(_named(deleted))} have been deleted"
-    yield f"surfaces {_listed(ROMAN[number] for number in gone)} have been deleted"
-    for place, number in enumerate(fates.added):
+    yield f"surfaces {_listed(ROMAN[number] for number in deleted_surfaces)} have been deleted"
+    for position, number in enumerate(fates.added):
         points = ", ".join(_named(_from_lowest(hull.surfaces[number])))
-        yield f"Surface {ROMAN[len(given.surfaces) + place]} with connectivity {points}"
+        yield f"Surface {ROMAN[len(fig4.surfaces) + position]} with connectivity {points}"
     yield f"surfaces {_listed(ROMAN[number] for number in changed)} must be respecified"
 
 
 def _parallel_lines(points: Sequence[IntPoint], pair: Pair) -> Iterator[str]:
-    """All lines that project to points together with ``pair``, and which of them are convex edges (Fig. 5)."""
+    """Find all lines that project to points together with ``pair`` and classify them as convex or not (Fig. 5)."""
     along = minus(points[pair[1]], points[pair[0]])
     lines = [
         (i, j) for i, j in combinations(range(len(points)), 2) if not any(cross(along, minus(points[j], points[i])))
@@ -150,17 +154,18 @@ def _edge_list(hull: Assembled) -> Iterator[str]:
 
 
 def _figure_with(names: Collection[str], *parts: str) -> str:
-    """The figure that the data of this project take all of ``parts`` from."""
+    """Name the one figure of which results with all of ``parts`` exist."""
     (figure,) = {name.split("-")[0] for name in names if all(f"{name.split('-')[0]}-{part}" in names for part in parts)}
     return f"As illustrated in Fig. {figure.removeprefix('fig')}"
 
 
 def _determinants(solid: Solid) -> Iterator[str]:
     surfaces = oriented(solid.points, solid.surfaces)
-    found = [corner.line for corner in corners(solid.points, surfaces)]
+    solid_lines = [corner.line for corner in corners(solid.points, surfaces)]
     for label, (on, beyond) in FIG_18_LINES.items():
-        (line,) = [line for line in found if {line.on, line.beyond} == {on - 1, beyond - 1}]
+        (line,) = [line for line in solid_lines if {line.on, line.beyond} == {on - 1, beyond - 1}]
         if line.on != on - 1:
+            # The figure directs the line as on the other surface.
             line = Line(line.ends[::-1], line.beyond, line.on)
         columns = vectors(solid.points, surfaces, line)
         rows = r" \\ ".join(" & ".join(map(str, row)) for row in zip(*columns, strict=True))
@@ -170,7 +175,7 @@ def _determinants(solid: Solid) -> Iterator[str]:
 
 
 def _first_three(hull: Assembled) -> Iterator[str]:
-    """Fig. 22's upper half: entries of three loops, then a row an edge."""
+    """Compute the upper half of Fig. 22: the entries of three loops, then a row for each edge."""
     loops = hull.table.loops[:3]
     yield " ".join(f"{_numbers(len(loop.entries))} {_joined(loop.entries)}" for loop in loops)
     for label in range(1, len(hull.edges) + 1):
@@ -178,7 +183,7 @@ def _first_three(hull: Assembled) -> Iterator[str]:
 
 
 def _last_two(hull: Assembled) -> Iterator[str]:
-    """Fig. 22's lower half, its rows grouped as the OCR has them: line 1, lines 2 to 6, lines 7 to 9."""
+    """Compute the lower half of Fig. 22 with its rows grouped as in the OCR: line 1, lines 2 to 6, lines 7 to 9."""
     loops = hull.table.loops[3:]
     yield " ".join(f"{_numbers(len(loop.entries))} {_joined(loop.entries)}" for loop in loops)
     for first, last in ((1, 1), (2, 6), (7, 9)):
@@ -188,34 +193,34 @@ def _last_two(hull: Assembled) -> Iterator[str]:
 
 
 def _loop_rows(hull: Assembled, groups: Iterable[Pair]) -> Iterator[str]:
-    """Fig. 23's loop table, its rows grouped as the OCR has them."""
+    """Compute the loop table of Fig. 23 with its rows grouped as in the OCR."""
     for first, last in groups:
         cells = (_joined(loop.entries[first:last]) for loop in hull.table.loops)
         yield f"{_numbers(last, first + 1)} {' '.join(cells)}"
 
 
 def _map_rows(hull: Assembled) -> Iterator[str]:
-    """Fig. 23's topological map: a column a surface."""
-    for place in range(max(map(len, hull.surfaces))):
-        cells = (str(surface[place] + 1) for surface in hull.surfaces if place < len(surface))
-        yield " ".join((str(place + 1), *cells))
+    """Compute the topological map of Fig. 23, which has a column for each surface."""
+    for row in range(max(map(len, hull.surfaces))):
+        cells = (str(surface[row] + 1) for surface in hull.surfaces if row < len(surface))
+        yield " ".join((str(row + 1), *cells))
 
 
 def _from_lowest(surface: Surface) -> Surface:
-    """A surface from its point of lowest number towards the lower of that point's neighbours."""
+    """List a surface from its lowest point towards the lower of that point's two neighbours."""
     start = surface.index(min(surface))
-    turned = surface[start:] + surface[:start]
-    return turned if turned[1] < turned[-1] else (turned[0], *turned[:0:-1])
+    cycle = surface[start:] + surface[:start]
+    return cycle if cycle[1] < cycle[-1] else (cycle[0], *cycle[:0:-1])
 
 
 def _named(indices: Iterable[int]) -> list[str]:
     return [str(index + 1) for index in indices]
 
 
-def _listed(words: Iterable[str]) -> str:
-    """``3 and 4``; ``2, 3, 6, and 7``."""
-    *some, last = words
-    return f"{', '.join(some)}{',' if len(some) > 1 else ''} and {last}" if some else last
+def _listed(names: Iterable[str]) -> str:
+    """Join names as the print does: ``3 and 4``, or ``2, 3, 6, and 7``."""
+    *front, last = names
+    return f"{', '.join(front)}{',' if len(front) > 1 else ''} and {last}" if front else last
 
 
 def _numbers(last: int, first: int = 1) -> str:

@@ -1,9 +1,9 @@
-"""Surfaces of a polyhedron given with its points (Fig. 4): their sense, their normals, what becomes of them."""
+"""The surfaces of the given polyhedron (Fig. 4): their orientation, their normals and their fate on the hull."""
 
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 
 from emulator.errors import EmulatorError
@@ -12,16 +12,16 @@ from modern.geometry.vectors import area_vector, cross, dot, minus
 from modern.papers.appel_will.edges import IntPoint, Pair
 
 Surface = tuple[int, ...]
-"""The points of a surface in the order they are connected, by index from 0."""
+"""The indices of a surface's points, from 0, in the order in which they are connected."""
 
 
 class MapError(EmulatorError):
-    """A topological map that describes no polyhedron; the message names the surface, from 1, and its points."""
+    """A topological map that does not describe a polyhedron. The message names the surface, from 1, and its points."""
 
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A line of the polyhedron: ``ends`` as it runs counterclockwise on surface ``on``; ``beyond`` the other one."""
+    """An edge of the polyhedron. It runs counterclockwise on surface ``on``; ``beyond`` is the other surface."""
 
     ends: Pair
     on: int
@@ -30,68 +30,75 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Fates:
-    """What becomes of the given surfaces on the hull (Fig. 4).
+    """The fate of the given surfaces on the hull (Fig. 4).
 
-    ``of`` has for every given surface the number of the hull's surface in whose plane it lies, from 0, or None where
-    it is to be deleted; ``kept`` those that are all of that surface; ``added`` the hull's surfaces without a given one.
+    ``of`` gives for every given surface the number, from 0, of the hull's surface in whose plane it lies, or None if
+    the surface is deleted. ``unchanged`` holds the given surfaces that are identical with a surface of the hull.
+    ``added`` holds the hull's surfaces that contain no given one.
     """
 
     of: tuple[int | None, ...]
-    kept: frozenset[int]
+    unchanged: frozenset[int]
     added: tuple[int, ...]
 
 
-def fates(points: Sequence[IntPoint], given: Sequence[Surface], hull: Sequence[Surface]) -> Fates:
+def fates(points: Sequence[IntPoint], original: Sequence[Surface], hull: Sequence[Surface]) -> Fates:
     """Compare the surfaces of a polyhedron with those of its hull."""
-    of: list[int | None] = []
-    for surface in given:
-        of.append(next((number for number, other in enumerate(hull) if _lies_in(points, surface, other)), None))
-    kept = {k for k, number in enumerate(of) if number is not None and set(given[k]) == set(hull[number])}
-    return Fates(tuple(of), frozenset(kept), tuple(number for number in range(len(hull)) if number not in of))
+    return _fates(
+        original,
+        hull,
+        lambda surface: next((number for number, face in enumerate(hull) if _lies_in(points, surface, face)), None),
+    )
 
 
-def fates_by_points(given: Sequence[Surface], faces: Sequence[Collection[int]], hull: Sequence[Surface]) -> Fates:
-    """Compare them where faces of the hull were joined: a surface lies in the joined face that has all of its points.
+def fates_by_points(original: Sequence[Surface], faces: Sequence[Collection[int]], hull: Sequence[Surface]) -> Fates:
+    """Compare the surfaces with a hull whose nearly coplanar faces were merged.
 
-    faces: all points of each joined face; hull: those of its polygon.
+    A surface lies in the merged face that contains all of its points. ``faces`` lists all points of each merged face,
+    ``hull`` those of its polygon.
     """
-    of = [
-        next((number for number, points in enumerate(faces) if set(points) >= set(surface)), None) for surface in given
-    ]
-    kept = {k for k, number in enumerate(of) if number is not None and set(given[k]) == set(hull[number])}
-    return Fates(tuple(of), frozenset(kept), tuple(number for number in range(len(hull)) if number not in of))
+    return _fates(
+        original,
+        hull,
+        lambda surface: next((number for number, face in enumerate(faces) if set(face) >= set(surface)), None),
+    )
+
+
+def _fates(original: Sequence[Surface], hull: Sequence[Surface], face_of: Callable[[Surface], int | None]) -> Fates:
+    of = tuple(map(face_of, original))
+    unchanged = frozenset(
+        k for k, number in enumerate(of) if number is not None and set(original[k]) == set(hull[number])
+    )
+    return Fates(of, unchanged, tuple(number for number in range(len(hull)) if number not in of))
 
 
 def area_normal(points: Sequence[IntPoint], surface: Surface) -> IntPoint:
-    """Twice the area of a plane surface along its normal, to the side from which its points run counterclockwise.
+    """Return the normal of a plane surface, twice as long as its area, on the side where it runs counterclockwise.
 
-    The paper takes the cross product of two of its lines, which has the wrong sense at a concave point.
+    The paper uses the cross product of two lines of the surface, which has the wrong sense at a concave point.
     """
     return area_vector(points, surface)
 
 
 def check_surfaces(count: int, surfaces: Sequence[Surface]) -> None:
-    """Refuse surfaces of fewer than three points, with a point twice or of none of the ``count`` points.
-
-    Raises MapError.
-    """
+    """Raise MapError for a surface with fewer than three points, a repeated point or an index beyond ``count``."""
     for number, surface in enumerate(surfaces, 1):
         if len(surface) < 3:
-            raise MapError(f"surface {number}: {len(surface)} points; a surface has at least three")
+            raise MapError(f"surface {number}: expected at least 3 points, found {len(surface)}")
         if len(set(surface)) < len(surface):
-            raise MapError(f"surface {number}: a point stands in it twice")
+            raise MapError(f"surface {number}: it contains a point twice")
         if not 0 <= min(surface) <= max(surface) < count:
-            raise MapError(f"surface {number}: it names a point that is not there")
+            raise MapError(f"surface {number}: it names a point that does not exist")
 
 
 def oriented(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> tuple[Surface, ...]:
-    """The surfaces with their points counterclockwise seen from outside, each from its own first point.
+    """Return the surfaces with their points counterclockwise as seen from outside, each from its own first point.
 
-    The map must be one closed surface: every line on two surfaces, all connected, every surface plane.  Its two
-    sides are told apart by the sign of the volume.  Raises MapError.
+    Raise MapError unless the map is one closed polyhedron: every surface is plane, every line is on two surfaces, all
+    surfaces are connected, and they enclose a volume, whose sign tells inside from outside.
     """
     check_surfaces(len(points), surfaces)
-    beside: defaultdict[frozenset[int], list[int]] = defaultdict(list)
+    surfaces_at: defaultdict[frozenset[int], list[int]] = defaultdict(list)
     for number, surface in enumerate(surfaces):
         normal = area_normal(points, surface)
         if not any(normal):
@@ -99,22 +106,22 @@ def oriented(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> tuple[S
         if any(dot(normal, minus(points[index], points[surface[0]])) for index in surface):
             raise MapError(f"surface {number + 1}: its points do not lie in one plane")
         for line in sides(surface):
-            beside[frozenset(line)].append(number)
-    for ends, numbers in beside.items():
+            surfaces_at[frozenset(line)].append(number)
+    for ends, numbers in surfaces_at.items():
         if len(numbers) != 2:
-            named = "-".join(str(end + 1) for end in sorted(ends))
+            line_name = "-".join(str(end + 1) for end in sorted(ends))
             count = f"{len(numbers)} surface{'s' if len(numbers) > 1 else ''}"
-            raise MapError(f"surface {numbers[0] + 1}: line {named} is on {count}; a line is on two")
-    turned = _one_sense(surfaces, beside)
-    # six times the volume: cones from the origin over the surfaces
-    volume = sum(dot(area_normal(points, surface), points[surface[0]]) for surface in turned)
+            raise MapError(f"surface {numbers[0] + 1}: line {line_name} is on {count}, expected 2")
+    consistent = _one_sense(surfaces, surfaces_at)
+    # Six times the signed volume is the sum over the cones from the origin to the surfaces.
+    volume = sum(dot(area_normal(points, surface), points[surface[0]]) for surface in consistent)
     if not volume:
         raise MapError("the surfaces enclose no volume")
-    return tuple(turned) if volume > 0 else tuple((s[0], *s[:0:-1]) for s in turned)
+    return tuple(consistent) if volume > 0 else tuple((s[0], *s[:0:-1]) for s in consistent)
 
 
 def lines(surfaces: Sequence[Surface]) -> tuple[Line, ...]:
-    """Every line of oriented surfaces once, with the surfaces on both sides of it, by its surface of lower number."""
+    """List every line of oriented surfaces once, directed as on its surface of lower number."""
     owner = {line: number for number, surface in enumerate(surfaces) for line in sides(surface)}
     return tuple(
         Line(line, number, owner[line[1], line[0]])
@@ -123,31 +130,35 @@ def lines(surfaces: Sequence[Surface]) -> tuple[Line, ...]:
     )
 
 
-def _one_sense(surfaces: Sequence[Surface], beside: dict[frozenset[int], list[int]]) -> list[Surface]:
-    """The surfaces so turned that two beside each other run along their line in opposite directions."""
-    turned: dict[int, Surface] = {0: surfaces[0]}
-    waiting = [0]
-    for number in waiting:
-        for start, end in sides(turned[number]):
-            for other in beside[frozenset((start, end))]:
-                if other == number:
+def _one_sense(surfaces: Sequence[Surface], surfaces_at: dict[frozenset[int], list[int]]) -> list[Surface]:
+    """Reverse surfaces so that any two neighbours run along their common line in opposite directions."""
+    oriented_so_far: dict[int, Surface] = {0: surfaces[0]}
+    queue = [0]
+    # Breadth-first search over neighbouring surfaces, starting with surface 1 as it is given.
+    for number in queue:
+        for start, end in sides(oriented_so_far[number]):
+            for neighbour in surfaces_at[frozenset((start, end))]:
+                if neighbour == number:
                     continue
-                surface = surfaces[other]
-                if (start, end) in sides(turned.get(other, surface)):
-                    if other in turned:
-                        raise MapError(f"surface {other + 1}: the surfaces have no outside, like a Moebius strip")
+                surface = surfaces[neighbour]
+                if (start, end) in sides(oriented_so_far.get(neighbour, surface)):
+                    if neighbour in oriented_so_far:
+                        raise MapError(f"surface {neighbour + 1}: the surfaces have no outside, like a Moebius strip")
                     surface = (surface[0], *surface[:0:-1])
-                if other not in turned:
-                    turned[other] = surface
-                    waiting.append(other)
-    if len(turned) < len(surfaces):
-        alone = next(number for number in range(len(surfaces)) if number not in turned)
-        raise MapError(f"surface {alone + 1}: it is not connected with surface 1")
-    return [turned[number] for number in range(len(surfaces))]
+                if neighbour not in oriented_so_far:
+                    oriented_so_far[neighbour] = surface
+                    queue.append(neighbour)
+    if len(oriented_so_far) < len(surfaces):
+        isolated = next(number for number in range(len(surfaces)) if number not in oriented_so_far)
+        raise MapError(f"surface {isolated + 1}: it is not connected with surface 1")
+    return [oriented_so_far[number] for number in range(len(surfaces))]
 
 
-def _lies_in(points: Sequence[IntPoint], surface: Surface, other: Surface) -> bool:
-    """Whether all points of a surface are in the plane of another, whose points are a convex polygon."""
-    origin = points[other[0]]
-    normal = cross(minus(points[other[1]], origin), minus(points[other[2]], origin))
+def _lies_in(points: Sequence[IntPoint], surface: Surface, face: Surface) -> bool:
+    """Return True if all points of a surface lie in the plane of a face of the hull.
+
+    Three points of the face define its plane, because the hull's faces have no points between their vertices.
+    """
+    origin = points[face[0]]
+    normal = cross(minus(points[face[1]], origin), minus(points[face[2]], origin))
     return not any(dot(normal, minus(points[index], origin)) for index in surface)

@@ -1,4 +1,4 @@
-"""``hull1620 appel-will`` as a user meets it."""
+"""The command ``hull1620 appel-will``: its tables, its options and its error messages."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ CROWN = """OFF
 
 
 @pytest.fixture
-def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     Path("fig4.off").write_text(FIG_4, encoding="utf-8")
     Path("crown.off").write_text(CROWN, encoding="utf-8")
@@ -60,13 +60,13 @@ def call(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str,
 
 
 def section(out: str, head: str) -> list[str]:
-    """The lines below a heading, up to the next empty line."""
+    """Return the lines below a heading, up to the next empty line."""
     lines = out.split("\n")
     start = lines.index(head) + 1
     return lines[start : lines.index("", start)]
 
 
-def test_tables_of_fig_4(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_tables_of_fig_4(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = call(capsys, "fig4.off")
     assert (code, err) == (0, "")
     assert "deleted as between two others: 4 (1-9), 3 (2-10)" in out
@@ -78,8 +78,8 @@ def test_tables_of_fig_4(room: Path, capsys: pytest.CaptureFixture[str]) -> None
     assert "IUC" not in out
 
 
-def test_trace_shows_the_use_of_every_edge_in_the_width_there_is(
-    room: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+def test_trace_fits_the_use_counts_to_the_width_of_the_terminal(
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for columns in ("40", "100"):
         monkeypatch.setenv("COLUMNS", columns)
@@ -88,12 +88,12 @@ def test_trace_shows_the_use_of_every_edge_in_the_width_there_is(
         table = section(out, "Loop table")
         assert max(map(len, table)) <= int(columns)
         first = [row for row in table[: table.index("LUP(2,N)  -1 3 -9 -5")] if "IUC" in row]
-        counts = [word for row in first for word in row.split()[1:]]
+        counts = [count for row in first for count in row.split()[1:]]
         assert counts == list("110101000000")
         assert "  type 1, SP 2, MP 6" in table
 
 
-def test_literal_says_which_edges_are_none(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_literal_lists_the_false_edges_of_the_star_test(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, _ = call(capsys, "fig4.off", "--literal")
     assert code == 1
     assert "edges are none, by images on one ray" in out
@@ -102,22 +102,22 @@ def test_literal_says_which_edges_are_none(room: Path, capsys: pytest.CaptureFix
     code, out, err = call(capsys, "fig4.off", "--literal", "--star", "corrected")
     assert (code, err) == (1, "note: taken as printed: star, step3, step5, step7, step9, step10\n")
     assert "edges are none" not in out
-    assert out.splitlines()[-1] == "no hull: the loop begun with lines 3 and 1 does not come back to its start"
+    assert out.splitlines()[-1] == "no hull: the loop begun with lines 3 and 1 does not return to its start"
     code, out, _ = call(capsys, "fig4.off", "--star", "printed")
     assert code == 1
     assert "edges are none" in out
 
 
-def test_literal_loops_are_those_of_the_letter(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_step_3_as_printed_reverses_a_loop(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     Path("fig14.csv").write_text("0,0,4\n8,0,4\n4,8,4\n1,-2,0\n9,14,0\n17,-2,0\n", encoding="utf-8")
     _, preferred, _ = call(capsys, "fig14.csv")
-    code, letter, err = call(capsys, "fig14.csv", "--printed", "step3")
+    code, as_printed, err = call(capsys, "fig14.csv", "--printed", "step3")
     assert (code, err) == (0, "note: taken as printed: step3\n")
     assert "LUP(3,N)  2 6 -7 -3" in preferred
-    assert "LUP(3,N)  -2 3 7 -6" in letter
+    assert "LUP(3,N)  -2 3 7 -6" in as_printed
 
 
-def test_inside_corners_say_what_they_rely_on(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_rule_any_reports_whether_its_condition_is_met(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     _, out, _ = call(capsys, "fig4.off", "--inside-corners", "any")
     assert "deleted by rule any before any projection: 3 4" in out
     assert "28 projections" in out
@@ -129,7 +129,7 @@ def test_inside_corners_say_what_they_rely_on(room: Path, capsys: pytest.Capture
     assert "a polyhedron of 5 points" in out
 
 
-def test_output_is_an_off_file_of_the_hull(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_output_is_an_off_file_of_the_hull(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert call(capsys, "fig4.off", "-o", "hull.off")[0] == 0
     mesh = read_off("hull.off")
     assert (len(mesh.points), len(mesh.faces)) == (8, 6)
@@ -144,39 +144,41 @@ def test_output_is_an_off_file_of_the_hull(room: Path, capsys: pytest.CaptureFix
 
 
 @pytest.mark.parametrize(
-    ("text", "words"),
+    ("text", "summary"),
     [
         ("1,2,3\n", "1 point\n0 projections; a point\n"),
         ("1,2,3\n1,2,3\n2,3,4\n", "a segment of 2 points"),
         ("0,0,0\n1,0,0\n0,1,0\n.25,.25,0\n", "a polygon of 3 points"),
     ],
 )
-def test_flat_input(room: Path, capsys: pytest.CaptureFixture[str], text: str, words: str) -> None:
+def test_flat_input_has_a_summary(folder: Path, capsys: pytest.CaptureFixture[str], text: str, summary: str) -> None:
     Path("flat.csv").write_text(text, encoding="utf-8")
     code, out, err = call(capsys, "flat.csv")
     assert code == 0
-    assert words in out
+    assert summary in out
     assert err == ("note: flat.csv: line 2: the point of line 1 again\n" if text.count("1,2,3") == 2 else "")
 
 
 @pytest.mark.parametrize(
-    ("arguments", "words"),
+    ("arguments", "message"),
     [
         (["nosuch.off"], "nosuch.off: no such file or directory"),
         (["."], ".: is a directory"),
         (["bad.off"], "bad.off: line 3, column 1: the file ends after 0 of 4 vertices"),
-        (["two.off"], "two.off: surface 1: 2 points; a surface has at least three"),
-        (["twice.off"], "twice.off: surface 1: a point stands in it twice"),
+        (["two.off"], "two.off: surface 1: expected at least 3 points, found 2"),
+        (["twice.off"], "twice.off: surface 1: it contains a point twice"),
         (["points.csv", "--inside-corners", "any"], "points.csv: --inside-corners needs the surfaces"),
         (["crown.off", "--printed", "step4"], "--printed: 'step4' is not one of star, step3, step5,"),
         (["crown.off", "--literal", "--printed", "star"], "not allowed with argument --literal"),
         (["crown.off", "--star", "both"], "argument --star: invalid choice: 'both'"),
-        (["open.off", "--inside-corners", "two"], "open.off: surface 1: line 1-2 is on 1 surface;"),
+        (["open.off", "--inside-corners", "two"], "open.off: surface 1: line 1-2 is on 1 surface,"),
         (["fig4.off", "-o", "nosuch/hull.off"], "nosuch/hull.off: no such file or directory"),
         (["fig4.off", "-o", "."], ".: is a directory"),
     ],
 )
-def test_misuse_is_one_line(room: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], words: str) -> None:
+def test_an_error_is_one_line(
+    folder: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], message: str
+) -> None:
     Path("bad.off").write_text("OFF\n4 4 6\n", encoding="utf-8")
     triangle = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n"
     Path("two.off").write_text(triangle + "2 0 1\n", encoding="utf-8")
@@ -185,17 +187,17 @@ def test_misuse_is_one_line(room: Path, capsys: pytest.CaptureFixture[str], argu
     Path("points.csv").write_text("0,0,0\n1,0,0\n", encoding="utf-8")
     try:
         code = main(["appel-will", *arguments])
-    except SystemExit as left:
-        code = int(left.code or 0)
+    except SystemExit as stop:
+        code = int(stop.code or 0)
     out, err = capsys.readouterr()
     assert (code, out, err.count("\n")) == (2, "", 1)
-    assert words in err
+    assert message in err
 
 
-def test_choices_of_the_command_are_the_rules(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_accepts_every_rule_for_inside_corners() -> None:
     for rule in RULES:
-        words = ["appel-will", "x", "--inside-corners", rule]
-        assert build_parser(words).parse_args(words).inside_corners == rule
+        arguments = ["appel-will", "x", "--inside-corners", rule]
+        assert build_parser(arguments).parse_args(arguments).inside_corners == rule
 
 
 def test_help_names_every_printed_rule(capsys: pytest.CaptureFixture[str]) -> None:

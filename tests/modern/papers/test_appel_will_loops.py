@@ -1,4 +1,4 @@
-"""The appendix, steps 1 to 10: types, readings of the letter, and the use of every edge (Figs. 20 to 23)."""
+"""The appendix, steps 1 to 10: types of intersection, steps as printed, and use counts (Figs. 20 to 23)."""
 
 from __future__ import annotations
 
@@ -32,36 +32,36 @@ def entries(points: list[tuple[int, int, int]] | tuple[tuple[int, int, int], ...
 def test_types_of_fig_20(
     edges: list[tuple[int, int]], kind: int, signs: tuple[int, int], start: int, match: int
 ) -> None:
-    """A loop runs from SP along L1 to the common point and along L2 to MP, whatever the type."""
-    both = intersect(edges, 0, 1)
-    assert both is not None
-    assert (both.kind, both.entries, both.start, both.match) == (kind, signs, start, match)
-    assert surface(both.entries, edges) == (start, both.common)
+    """In every type the loop runs from SP along L1 to the common point and along L2 to MP."""
+    crossing = intersect(edges, 0, 1)
+    assert crossing is not None
+    assert (crossing.kind, crossing.entries, crossing.start, crossing.match) == (kind, signs, start, match)
+    assert surface(crossing.entries, edges) == (start, crossing.common)
 
 
-def test_lines_without_common_point_do_not_intersect() -> None:
+def test_lines_without_a_common_point_do_not_intersect() -> None:
     assert intersect([(1, 2), (3, 4)], 0, 1) is None
 
 
 @pytest.mark.parametrize("points", [FIG_14, FIG_23, CUBE], ids=["fig14", "fig23", "cube"])
 @pytest.mark.parametrize("dot", [True, False])
-def test_every_loop_uses_its_edges_once_more_and_none_thrice(points: list[tuple[int, int, int]], dot: bool) -> None:
+def test_every_loop_adds_one_use_to_its_edges_and_none_has_three(points: list[tuple[int, int, int]], dot: bool) -> None:
     table = appel_will(points, method=Method(rules=Rules(dot_condition=dot))).table
     before = (0,) * len(table.uses)
     for loop in table.loops:
-        grown = [label for label, (a, b) in enumerate(zip(before, loop.uses, strict=True), 1) if a != b]
-        assert sorted(map(abs, loop.entries)) == grown
+        increased = [label for label, (a, b) in enumerate(zip(before, loop.uses, strict=True), 1) if a != b]
+        assert sorted(map(abs, loop.entries)) == increased
         assert max(loop.uses) <= 2
         before = loop.uses
     assert table.closed
     assert before == table.uses
 
 
-def test_readings_of_the_letter_find_the_same_faces_in_the_same_order() -> None:
-    """Without the dot-product condition three of the twelve printed loops run the other way round."""
+def test_step_3_as_printed_finds_the_same_faces_in_the_same_order() -> None:
+    """Without the dot-product condition three of the twelve printed loops run in the opposite sense."""
     for points in (FIG_14, FIG_23):
-        preferred, letter = (appel_will(points, method=m) for m in (Method(), Method(rules=printed("step3").rules)))
-        assert [set(s) for s in preferred.surfaces] == [set(s) for s in letter.surfaces]
+        preferred, as_printed = (appel_will(points, method=m) for m in (Method(), Method(rules=printed("step3").rules)))
+        assert [set(s) for s in preferred.surfaces] == [set(s) for s in as_printed.surfaces]
     differing = [
         (a, b)
         for points in (FIG_14, FIG_23)
@@ -72,54 +72,54 @@ def test_readings_of_the_letter_find_the_same_faces_in_the_same_order() -> None:
     assert all(abs(a[0]) == abs(b[0]) for a, b in differing)
 
 
-def test_step_2_for_step_3_cannot_give_the_second_printed_loop() -> None:
-    """Steps 5 and 7 say "go back to step 2": then line 1 gets no second try and the second loop begins elsewhere."""
-    (printed,) = (result.corrected for result in results_of(PAPER) if result.id == "fig22-loops-1-3")
-    second_loop = [int(word) for word in printed[0].split("\t")[3].split()]
+def test_step_5_as_printed_cannot_give_the_second_printed_loop() -> None:
+    """With "go back to step 2", line 1 gets no second try, and the second loop begins with another line."""
+    (fig22,) = (result.corrected for result in results_of(PAPER) if result.id == "fig22-loops-1-3")
+    second_loop = [int(entry) for entry in fig22[0].split("\t")[3].split()]
     for dot in (True, False):
         assert entries(FIG_14, Rules(dot, step_5=True))[1][0] != second_loop[0]
         assert entries(FIG_14, Rules(dot))[1] == second_loop
 
 
-def test_step_9_by_the_letter_takes_a_line_again_and_does_not_come_back() -> None:
-    """It leaves out L1 and L2 only.  The face of five points here needs lines 8, 7 in falling order."""
+def test_step_9_as_printed_reuses_a_line_and_does_not_close() -> None:
+    """It excludes L1 and L2 only. The face of five points here needs lines 8 and 7 in descending order."""
     points = [(-6, -6, 1), (-4, -4, 5), (-8, 14, 8), (-2, 0, 10), (0, 2, 14), (-4, 20, 17)]
-    letter = appel_will(points, method=Method(rules=Rules(False, step_9=True)))
-    assert "does not come back to its start" in letter.fault
+    as_printed = appel_will(points, method=Method(rules=Rules(False, step_9=True)))
+    assert "does not return to its start" in as_printed.fault
     assert not appel_will(points, method=Method(rules=Rules(False))).fault
 
 
-def test_step_7_by_the_letter_begins_loops_elsewhere() -> None:
-    """An L2 that makes no plane of the hull costs its L1 the turn, so loops come in another order."""
+def test_step_7_as_printed_finds_the_loops_in_another_order() -> None:
+    """An L1 whose first L2 defines no plane of the hull is skipped."""
     points = [(0, 0, 2), (1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, -2)]
-    letter, corrected = entries(points, printed("step7").rules), entries(points, Rules())
-    assert sorted(sorted(map(abs, loop)) for loop in letter) == sorted(sorted(map(abs, loop)) for loop in corrected)
-    assert letter != corrected
+    as_printed, corrected = entries(points, printed("step7").rules), entries(points, Rules())
+    assert sorted(sorted(map(abs, loop)) for loop in as_printed) == sorted(sorted(map(abs, loop)) for loop in corrected)
+    assert as_printed != corrected
 
 
-def test_step_10_by_the_letter_finds_every_loop_and_forgets_its_counts() -> None:
-    """Step 5 keeps loops apart, and step 2 ends when all lines were addressed; but no count ever becomes 2."""
+def test_step_10_as_printed_finds_every_loop_but_clears_the_counts() -> None:
+    """Step 5 prevents repeated loops, and step 2 ends when all lines were addressed. No count becomes 2."""
     hull = appel_will(FIG_14, method=printed("step10"))
     assert [set(s) for s in hull.surfaces] == [set(s) for s in appel_will(FIG_14).surfaces]
     assert all(max(loop.uses) == 1 for loop in hull.table.loops)
     assert hull.fault == "9 of 9 edges are not used twice"
 
 
-def test_rules_as_printed_have_names() -> None:
+def test_printed_selects_rules_by_name() -> None:
     assert printed() == Method()
     assert printed(*PRINTED).rules == Rules(False, True, True, True, True)
     with pytest.raises(ValueError, match="'step2' is not one of star, step3"):
         printed("step2")
 
 
-def test_cube_has_no_pair_with_a_positive_product_and_falls_back() -> None:
-    """All its angles are right: the condition alone would find no loop."""
+def test_a_cube_has_no_positive_product_and_uses_the_first_line() -> None:
+    """All angles are right angles, so the condition alone would find no loop."""
     assert entries(CUBE, Rules()) == entries(CUBE, Rules(dot_condition=False))
     assert len(entries(CUBE, Rules())) == 6
 
 
-def test_edges_that_bound_nothing_stop_the_search() -> None:
+def test_edges_that_bound_no_face_stop_the_search() -> None:
     table = find_loops([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1), (0, 2)], Rules())
     assert table.loops == ()
-    assert table.stopped == "the loop begun with lines 1 and 2 does not come back to its start"
+    assert table.stopped == "the loop begun with lines 1 and 2 does not return to its start"
     assert not table.closed

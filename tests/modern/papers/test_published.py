@@ -1,4 +1,4 @@
-"""The verdicts on published results, and ``hull1620 reproduce`` with the name of a paper."""
+"""The verdicts on published results of all papers, and ``hull1620 reproduce PAPER``."""
 
 from __future__ import annotations
 
@@ -75,21 +75,21 @@ def test_every_line_of_the_print_belongs_to_one_result(tmp_path: Path, lines: tu
 
 
 @pytest.mark.parametrize("paper", PAPERS, ids=lambda paper: paper.name)
-def test_the_command_says_every_verdict(paper: Paper, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_reports_every_verdict(paper: Paper, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "verdicts.json"
     assert main(["reproduce", paper.name, "--json", str(path)]) == 0
     out = " ".join(capsys.readouterr().out.split())
-    found = list(findings(paper))
-    kinds = Counter(finding.kind for finding in found)
+    verdicts = list(findings(paper))
+    kinds = Counter(finding.kind for finding in verdicts)
     assert out.startswith(paper.title)
     assert all(f"{count} {kind}" in out for kind, count in kinds.items())
-    assert all(finding.result.cannot in out and finding.result.differs in out for finding in found)
+    assert all(finding.result.cannot in out and finding.result.differs in out for finding in verdicts)
     assert out.endswith("Every printed result comes out, or it is said why it does not.")
     document = json.loads(path.read_text())["papers"]
-    assert [(entry["result"], entry["verdict"]) for entry in document] == [(f.result.id, f.kind) for f in found]
+    assert [(entry["result"], entry["verdict"]) for entry in document] == [(f.result.id, f.kind) for f in verdicts]
 
 
-def test_a_result_that_does_not_come_out_is_an_exit_code(
+def test_a_result_that_is_not_reproduced_gives_exit_code_1(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], request: pytest.FixtureRequest
 ) -> None:
     module = import_module(PAPER.module)
