@@ -1,13 +1,36 @@
-"""The formats of files, a module for each: decks, CSV, OFF, OBJ, PLY, STL, JSON.
+"""File formats of points and hulls, one module for each format: decks, CSV, OFF, OBJ, PLY, STL, JSON, HTML.
 
-Here are their names only: the command line shows them in its help before it needs to read or write one.
+This module only names the formats, so that the help of the commands can list them without importing their modules.
+
+How to add a format in which hulls are written:
+
+1. Write ``modern/formats/NAME.py`` with a function ``write(mesh, digits)`` that returns the text of the file
+   (``off.py`` is a short example).
+2. Add NAME to ``MESHES`` below.  ``export --format``, its help and ``Hull.save`` then know the format; NAME is also
+   the extension of the files.
+
+How to add a format from which points are read:
+
+1. Write the reader in ``modern/formats/NAME.py``.  It returns the points as decimal text and the place of each one.
+2. Add NAME to ``POINTS`` below.
+3. In ``points.py`` teach ``recognise`` how such a file begins, and call the reader in ``parse_input``.  A binary
+   format is recognised and read in ``parse_bytes`` instead.  Every command that accepts points then accepts the format.
+
+How to add a format from which faces are read (for ``hidden-line`` and its scenes): add it to points as above, write a
+function that returns a ``FileMesh`` (``tokens.py``), and add it to ``SURFACES`` and ``parse_mesh`` in ``meshes.py``.
+
+A format of voxels belongs to ``modern/digital/volumes.py`` (``nrrd.py`` there is an example).
+
+Tests: ``tests/modern/formats/test_export.py`` reads written files back with a reader of its own; ``test_points.py``
+has one row for each valid file and for each way in which a file can be invalid; ``tests/modern/cli/
+test_fuzz_readers.py`` damages files at random.  Documentation: ``docs/reference/files.md``.
 """
 
 MESHES = ("off", "obj", "ply", "stl")
-"""Formats of a surface: each is a module here with ``write(mesh, digits)``, and the ending of a file's name."""
+"""Formats of a surface.  Each name is both a module of this package and the extension of the files."""
 
 HULLS = (*MESHES, "json", "html")
-"""Formats of a hull: the surfaces, all of its data, and a page that turns it."""
+"""Formats of a hull: its surface, its complete data (JSON), or a page on which it can be turned (HTML)."""
 
 POINTS = {
     "deck": "a data deck",
@@ -19,4 +42,4 @@ POINTS = {
     "json": "JSON",
     "npy": "NPY",
 }
-"""Formats points are read from, and what help calls them; each has a reader in modern/formats/points.py."""
+"""Formats from which points are read, with their names in help and messages; ``points.py`` calls their readers."""

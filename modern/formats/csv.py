@@ -1,4 +1,4 @@
-"""Rows of fields, separated by commas, semicolons, tabs or blanks, and points of three decimal numbers a row."""
+"""Lists of points: rows of three decimal numbers, separated by commas, semicolons, tabs or blanks."""
 
 from __future__ import annotations
 
@@ -10,61 +10,74 @@ from emulator.errors import FileError
 from modern.geometry.numbers import Point, number, quoted
 
 _NAME = re.compile(r"[^\W\d_].*", re.DOTALL)
-_NO_NUMBER = ("nan", "inf", "infinity")
+_NOT_FINITE = ("nan", "inf", "infinity")
 
 
 def rows(text: str, source: str) -> Iterator[tuple[int, list[str]]]:
-    """The rows of a text with line numbers, fields stripped of blanks.
+    """Yield the line number and the fields of each row, without surrounding blanks.
 
-    What separates fields is found in the first row: a semicolon, else a comma, else a tab, else blanks.  Blank lines
-    and lines that begin with ``#`` are passed over, and so is a first row that is a heading: no field of it holds a
-    digit, or every field is a name, as in ``x1,y1,z1``.  Raises FileError.
+    The first row determines the separator: a semicolon, else a comma, else a tab, else blanks.  Blank lines and lines
+    that begin with ``#`` are skipped.  So is a first row that is a heading: no field has a digit, or every field is a
+    name such as ``x1``.  Raise FileError if the csv module cannot read a row.
     """
     lines = text.splitlines()
     first = next((line for line in lines if line.strip() and not line.lstrip().startswith("#")), "")
-    mark = next((mark for mark in ";,\t" if mark in first), "")
-    reader = csv.reader((_kept(line, mark) for line in lines), delimiter=mark or " ")
-    heading = True
+    separator = next((mark for mark in ";,\t" if mark in first), "")
+    reader = csv.reader((_normalised(line, separator) for line in lines), delimiter=separator or " ")
+    heading_possible = True
     try:
         for row in reader:
             fields = [field.strip() for field in row]
             if any(fields):
-                if not (heading and _is_heading(fields)):
+                if not (heading_possible and _is_heading(fields)):
                     yield reader.line_num, fields
-                heading = False
+                heading_possible = False
     except csv.Error as error:
         raise FileError(f"{source}: line {reader.line_num}, column 1: {error}") from None
 
 
-def _kept(line: str, mark: str) -> str:
-    """A line for the reader: a comment is left empty, several blanks are one."""
+def _normalised(line: str, separator: str) -> str:
+    """Return a line for the csv reader: empty for a comment, with single blanks if blanks separate the fields."""
     if line.lstrip().startswith("#"):
         return ""
-    return line if mark else " ".join(line.split())
+    return line if separator else " ".join(line.split())
 
 
 def _is_heading(fields: Sequence[str]) -> bool:
-    if any(field.lower().lstrip("+-") in _NO_NUMBER for field in fields):
+    if any(field.lower().lstrip("+-") in _NOT_FINITE for field in fields):
         return False
-    without = not any(c.isdigit() for field in fields for c in field)
-    return without or all(_NAME.fullmatch(field) for field in fields)
+    has_digit = any(c.isdigit() for field in fields for c in field)
+    return not has_digit or all(_NAME.fullmatch(field) for field in fields)
+
+
+def begins_with_point(text: str) -> bool:
+    """Return True if the first row of a list, after any heading, has three decimal numbers."""
+    try:
+        line, row = next(rows(text, ""))
+        _point(row, "", line)
+    except (FileError, StopIteration):
+        return False
+    return True
 
 
 def points(text: str, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
-    """The points of a text, x y z a row, and the line of each.  Raises FileError, naming line and field."""
-    found: list[Point] = []
-    lines: list[int] = []
-    for line, row in rows(text, source):
-        if len(row) != 3:
-            raise FileError(f"{source}: line {line}, column 1: {len(row)} fields; a point has three, x,y,z")
-        for field, word in enumerate(row, 1):
-            try:
-                if "/" in word:
-                    raise ValueError(f"{quoted(word)} is not a decimal number")
-                number(word)
-            except ValueError as error:
-                raise FileError(f"{source}: line {line}, field {field}: {error}") from None
-        x, y, z = row
-        found.append((x, y, z))
-        lines.append(line)
-    return tuple(found), tuple(lines)
+    """Return the points of a list, x y z in a row, and the line of each one.
+
+    Raise FileError, with line and field, if a row is not three decimal numbers.
+    """
+    numbered = [(_point(row, source, line), line) for line, row in rows(text, source)]
+    return tuple(point for point, _ in numbered), tuple(line for _, line in numbered)
+
+
+def _point(row: Sequence[str], source: str, line: int) -> Point:
+    if len(row) != 3:
+        raise FileError(f"{source}: line {line}, column 1: expected a point x,y,z, found {len(row)} fields")
+    for column, field in enumerate(row, 1):
+        try:
+            if "/" in field:
+                raise ValueError(f"{quoted(field)} is not a decimal number")
+            number(field)
+        except ValueError as error:
+            raise FileError(f"{source}: line {line}, field {column}: {error}") from None
+    x, y, z = row
+    return x, y, z

@@ -1,7 +1,7 @@
-"""A hull for other programs: as text in any format there is, or as a ``trimesh.Trimesh``.
+"""A hull for other programs: text in any of the formats, or a ``trimesh.Trimesh``.
 
-OFF, OBJ and PLY keep the faces as polygons, STL cuts them into triangles; JSON keeps everything.  The vertices of a
-mesh are those of ``Hull.vertices``, in that order; boundary and inside points are in JSON only.
+OFF, OBJ and PLY preserve the faces as polygons, STL splits them into triangles, and JSON has everything.  The vertices
+of a mesh are those of ``Hull.vertices``, in that order; only JSON also contains boundary and inside points.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ from modern.geometry.mesh import ExportError, Mesh, mesh
 
 
 def export_text(hull: Hull, form: str, digits: int | None = None) -> str:
-    """The hull as the text of a file in one of ``HULLS``.
+    """Return the text of a file in one of the formats ``HULLS``.
 
-    digits: significant digits to round those coordinates to that have no finite decimal; None refuses them.  All
-    other coordinates stay exact, and JSON keeps fractions.  Raises ExportError.
+    Coordinates are exact.  A coordinate without a finite decimal expansion is rounded to ``digits`` significant
+    digits, or raises ExportError if that is None; JSON preserves fractions.
     """
     if form == "json":
         return json.write(hull)
@@ -27,38 +27,38 @@ def export_text(hull: Hull, form: str, digits: int | None = None) -> str:
 
 
 def mesh_text(surface: Mesh, form: str, digits: int | None = None) -> str:
-    """A surface as the text of a file in one of ``MESHES``.
+    """Return a surface as the text of a file in one of the formats ``MESHES``; see ``export_text`` for ``digits``.
 
-    digits: as of ``export_text``.  Raises ExportError.
+    Raise ExportError if the format is unknown or cannot hold the surface.
     """
     if form not in MESHES:
-        raise ExportError(f"{form!r} is not a format of a mesh; they are {', '.join(MESHES)}")
+        raise ExportError(f"{form!r} is not a mesh format; the formats are {', '.join(MESHES)}")
     text: str = import_module(f"modern.formats.{form}").write(surface, digits)
     return text
 
 
 def format_of(path: str) -> str:
-    """The format a file's name ends with.  Raises ExportError."""
-    ending = path.rpartition(".")[2].lower() if "." in path else ""
-    if ending not in HULLS:
+    """Return the format for the extension of a file.  Raise ExportError if there is none."""
+    extension = path.rpartition(".")[2].lower() if "." in path else ""
+    if extension not in HULLS:
         raise ExportError(f"{path}: the name must end with one of {', '.join('.' + form for form in HULLS)}")
-    return ending
+    return extension
 
 
 def write_hull(hull: Hull, path: str, form: str | None = None, digits: int | None = None) -> None:
-    """Write a hull to a file (``-``: standard output), whole or not at all.
+    """Write a hull to a file (``-``: standard output); on failure an existing file is unchanged.
 
-    form: one of ``HULLS``; None takes it from the file's name.  Raises ExportError, and FileError where the file
-    cannot be written.
+    The format is ``form``, one of ``HULLS``, or the one for the extension of the file.  Raise ExportError if the
+    format cannot hold the hull, and FileError if the file cannot be written.
     """
     write_text(path, export_text(hull, form or format_of(path), digits))
 
 
 def to_trimesh(hull: Hull) -> Any:
-    """A ``trimesh.Trimesh`` of the hull's vertices in their order and its faces cut into triangles.
+    """Return a ``trimesh.Trimesh`` of the vertices, in their order, and of the faces split into triangles.
 
-    Coordinates are rounded to the nearest binary float; nothing is merged or reordered (``process=False``).
-    Raises ExportError where trimesh is not installed, for a hull without area and for numbers too large for a float.
+    Coordinates are rounded to the nearest binary float, and nothing is merged or reordered (``process=False``).
+    Raise ExportError if trimesh is not installed, the hull has no area, or a number is too large for a float.
     """
     surface = mesh(hull)
     if surface.dimension < 2:
@@ -67,7 +67,7 @@ def to_trimesh(hull: Hull) -> Any:
         trimesh = import_module("trimesh")
     except ImportError:
         raise ExportError("to_trimesh needs trimesh: pip install 'hull1620[mesh]'") from None
-    import numpy as np  # here, so that no other format waits for it
+    import numpy as np  # imported here because no other format needs it
 
     try:
         vertices = np.array([[float(number) for number in point] for point in surface.numbers()], dtype=np.float64)

@@ -1,7 +1,7 @@
-"""HTML: one page that shows a hull and turns it, with nothing fetched from anywhere.
+"""HTML: a page that shows a hull and turns it, and that loads nothing from elsewhere.
 
-The solid is turned by dragging or with the arrow keys; + and - and the wheel change its size, 0 sets it back.  Without
-scripts the page says so and still holds the vertices, exactly, as a table.
+The page responds to dragging, the arrow keys, the mouse wheel, +, - and 0.  Without JavaScript it says so and still has
+a table of the exact vertices.
 """
 
 from __future__ import annotations
@@ -14,22 +14,22 @@ from modern.geometry.mesh import ExportError, Mesh
 
 
 def write(mesh: Mesh, digits: int | None = None) -> str:
-    """The text of the page.  Its picture is drawn in doubles; its table has the vertices as they are.
+    """Return the text of the page.  Its picture uses binary floats, its table the exact vertices.
 
-    digits: as in the other formats, of the table.  Raises ExportError.
+    ``digits`` applies to the table, as in the other formats.  Raise ExportError if a coordinate cannot be written.
     """
     try:
         points = [[float(number) for number in point] for point in mesh.numbers()]
     except OverflowError:
         raise ExportError("a coordinate is too large for a picture in binary floats") from None
-    low, high = ([end(column) for column in zip(*points, strict=True)] for end in (min, max))
+    # The picture shows the hull centred at the origin and scaled to a largest extent of 1.
+    low, high = ([bound(column) for column in zip(*points, strict=True)] for bound in (min, max))
     size = max((b - a for a, b in zip(low, high, strict=True)), default=0.0) or 1.0
     middle = [a / 2 + b / 2 for a, b in zip(low, high, strict=True)]
     scaled = [[round((x - m) / size, 9) for x, m in zip(point, middle, strict=True)] for point in points]
-    lines = mesh.decimals(digits)
     rows = "".join(
-        f"<tr><td>{k}</td>" + "".join(f"<td>{escape(word)}</td>" for word in line.split()) + "</tr>"
-        for k, line in enumerate(lines, 1)
+        f"<tr><td>{number}</td>" + "".join(f"<td>{escape(text)}</td>" for text in line.split()) + "</tr>"
+        for number, line in enumerate(mesh.decimals(digits), 1)
     )
     faces, edges = [list(face) for face in mesh.faces], [list(edge) for edge in mesh.edges()]
     return _PAGE.substitute(
@@ -65,9 +65,9 @@ td, th { text-align: right; padding: 0 .8em 0 0; font-variant-numeric: tabular-n
 </head>
 <body>
 <h1>$title</h1>
-<p id="help">Turn it by dragging or with the arrow keys; + and - change its size, 0 sets it back.
+<p id="help">Drag or use the arrow keys to turn the hull. Press + or - to change its size, 0 to reset the view.
 <label><input type="checkbox" id="numbers" checked> numbers</label></p>
-<noscript><p>The picture needs scripts; the vertices stand below.</p></noscript>
+<noscript><p>The picture needs JavaScript. The vertices are listed below.</p></noscript>
 <svg id="view" viewBox="-1 -1 2 2" tabindex="0" role="img" aria-label="$title" aria-describedby="help"></svg>
 <details><summary>Vertices</summary>
 <table><thead><tr><th>no.</th><th>x</th><th>y</th><th>z</th></tr></thead><tbody>$rows</tbody></table>
@@ -85,11 +85,11 @@ function project(p) {
   const x = c * p[0] + s * p[1], y = c * p[1] - s * p[0];
   return [1.1 * size * x, -1.1 * size * (u * p[2] + v * y), u * y - v * p[2]];
 }
-function add(name, attributes, words) {
-  const made = document.createElementNS(NS, name);
-  for (const key in attributes) made.setAttribute(key, attributes[key]);
-  if (words) made.textContent = words;
-  view.append(made);
+function add(name, attributes, text) {
+  const element = document.createElementNS(NS, name);
+  for (const key in attributes) element.setAttribute(key, attributes[key]);
+  if (text) element.textContent = text;
+  view.append(element);
 }
 function draw() {
   const at = hull.points.map(project), near = new Set();
@@ -120,19 +120,19 @@ function draw() {
   if (numbers.checked && at.length <= 200) at.forEach((p, k) =>
     add("text", { x: 1.06 * p[0], y: 1.06 * p[1] + 0.012 }, String(k + 1)));
 }
-let held = null;
+let dragFrom = null;
 view.addEventListener("pointerdown", event => {
-  held = [event.clientX, event.clientY];
+  dragFrom = [event.clientX, event.clientY];
   view.setPointerCapture(event.pointerId);
 });
 view.addEventListener("pointermove", event => {
-  if (!held) return;
-  turn += (event.clientX - held[0]) / 150;
-  tilt = Math.max(-1.57, Math.min(1.57, tilt + (event.clientY - held[1]) / 150));
-  held = [event.clientX, event.clientY];
+  if (!dragFrom) return;
+  turn += (event.clientX - dragFrom[0]) / 150;
+  tilt = Math.max(-1.57, Math.min(1.57, tilt + (event.clientY - dragFrom[1]) / 150));
+  dragFrom = [event.clientX, event.clientY];
   draw();
 });
-view.addEventListener("pointerup", () => { held = null; });
+view.addEventListener("pointerup", () => { dragFrom = null; });
 view.addEventListener("wheel", event => { event.preventDefault(); size *= Math.exp(-event.deltaY / 600); draw(); },
   { passive: false });
 view.addEventListener("keydown", event => {

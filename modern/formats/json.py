@@ -1,8 +1,8 @@
-"""A hull as JSON: everything the result holds, every number exact.
+"""JSON: the complete data of a hull, with every number exact.
 
-Coordinates and coefficients are strings, decimals or fractions ``p/q``; the integers of the lowest terms are strings
-too, as many readers of JSON round large numbers.  Points are named by place in ``points``, from 0.  Read are points:
-of a hull, of any object with ``points`` or ``vertices``, or a list; numbers and strings, exactly.
+Coordinates and coefficients are strings, decimals or fractions ``p/q``.  The integers of equations in lowest terms are
+strings too, because many JSON readers round large numbers.  Indices refer to ``points``, from 0.  The reader returns
+the points of a hull, of any object with ``points`` or ``vertices``, or of a list; they may be numbers or strings.
 """
 
 from __future__ import annotations
@@ -12,12 +12,12 @@ from dataclasses import asdict
 from typing import Any
 
 from emulator.errors import FileError
-from modern.geometry.hull import Face, Hull, Stage
+from modern.geometry.hull import Face, Hull
 from modern.geometry.numbers import Point, integer_text, number
 
 
 def document(hull: Hull) -> dict[str, Any]:
-    """The hull as plain data.  It may be one that was not determined: ``status`` says so."""
+    """Return the hull as plain data.  A refused hull is allowed: its ``status`` gives the reason."""
     return {
         "type": "hull",
         "arithmetic": hull.arithmetic,
@@ -34,13 +34,13 @@ def document(hull: Hull) -> dict[str, Any]:
         "lines": [list(line) for line in hull.lines],
         "centre": None if hull.centre is None else list(hull.centre),
         "corrected": list(hull.corrected),
-        "history": [_stage(stage) for stage in hull.history],
+        "history": [asdict(stage) for stage in hull.history],
         "coplanar": None if hull.coplanar is None else asdict(hull.coplanar),
     }
 
 
 def write(hull: Hull) -> str:
-    """The text of a JSON file: a line for every member, and for every item of a list of lists or objects."""
+    """Return the text of a JSON file: one line for each member, and for each item of a list of lists or objects."""
     members = ",\n".join(f" {json.dumps(name)}: {_member(value)}" for name, value in document(hull).items())
     return "{\n" + members + "\n}\n"
 
@@ -52,6 +52,7 @@ def _member(value: Any) -> str:
 
 
 def _face(face: Face) -> dict[str, Any]:
+    # dataclasses.asdict would copy every number of what may be thousands of faces.
     return {
         "coefficients": list(face.coefficients),
         "lowest": [integer_text(number) for number in face.lowest],
@@ -61,44 +62,33 @@ def _face(face: Face) -> dict[str, Any]:
     }
 
 
-def _stage(stage: Stage) -> dict[str, Any]:
-    return {
-        "number": stage.number,
-        "added": list(stage.added),
-        "checked": stage.checked,
-        "outside": stage.outside,
-        "struck": list(stage.struck),
-        "equations": [list(equation) for equation in stage.equations],
-    }
-
-
 def parse(text: str, source: str) -> tuple[Point, ...]:
-    """The points of a JSON file, as the numbers stand there.  Raises FileError, naming line or point."""
+    """Return the points of a JSON file as text.  Raise FileError, with the line or the point, if they are invalid."""
     try:
-        found = json.loads(text, parse_float=str, parse_int=str, parse_constant=str)
+        data = json.loads(text, parse_float=str, parse_int=str, parse_constant=str)
     except json.JSONDecodeError as error:
         raise FileError(f"{source}: line {error.lineno}, column {error.colno}: not JSON: {error.msg}") from None
     except RecursionError:
         raise FileError(f"{source}: the JSON is nested too deeply") from None
-    if isinstance(found, dict):
-        name = next((name for name in ("points", "vertices") if isinstance(found.get(name), list)), "")
+    if isinstance(data, dict):
+        name = next((name for name in ("points", "vertices") if isinstance(data.get(name), list)), "")
         if not name:
             raise FileError(f'{source}: the JSON object has no list "points"')
-        found = found[name]
-    if not isinstance(found, list):
-        raise FileError(f"{source}: points in JSON are a list of x, y, z")
-    return tuple(_point(row, order, source) for order, row in enumerate(found, 1))
+        data = data[name]
+    if not isinstance(data, list):
+        raise FileError(f"{source}: expected a list of points [x, y, z] in the JSON")
+    return tuple(_point(row, point_number, source) for point_number, row in enumerate(data, 1))
 
 
-def _point(row: object, order: int, source: str) -> Point:
+def _point(row: object, point_number: int, source: str) -> Point:
     if not isinstance(row, list) or len(row) != 3:
-        raise FileError(f"{source}: point {order} is not a list of three numbers")
+        raise FileError(f"{source}: point {point_number} is not a list of three numbers")
     for axis, text in zip("xyz", row, strict=True):
         if not isinstance(text, str):
-            raise FileError(f"{source}: point {order}, {axis}: {json.dumps(text)[:40]} is not a number")
+            raise FileError(f"{source}: point {point_number}, {axis}: {json.dumps(text)[:40]} is not a number")
         try:
             number(text)
         except ValueError as error:
-            raise FileError(f"{source}: point {order}, {axis}: {error}") from None
+            raise FileError(f"{source}: point {point_number}, {axis}: {error}") from None
     x, y, z = (text.strip() for text in row)
     return x, y, z

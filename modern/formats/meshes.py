@@ -1,7 +1,7 @@
-"""Surfaces from files: OFF, OBJ and STL, in text or binary, told apart as points are (``modern.formats.points``).
+"""Surfaces read from OFF, OBJ and STL files (ASCII or binary), recognised as in ``modern.formats.points``.
 
-What is read is what stands there: points, and faces that name them.  Whether the faces close, and what they enclose,
-is for who uses them to say.  Of an STL file equal corners are one point; of OFF and OBJ every vertex is its own.
+The result holds the points and faces of the file.  The caller decides whether the faces close and what they enclose.
+Equal corners of an STL file are one point; every vertex of OFF and OBJ is a point of its own.
 """
 
 from __future__ import annotations
@@ -9,31 +9,24 @@ from __future__ import annotations
 from emulator.errors import FileError
 from emulator.files import decoded
 from modern.formats import obj, off, stl
-from modern.formats.points import recognise
+from modern.formats.points import kind_of
 from modern.formats.tokens import FileMesh
 
 SURFACES = ("off", "obj", "stl")
-"""Kinds of file that faces are read from, of those that points are read from."""
+"""The formats of points (``POINTS``) from which faces are also read."""
 
 
-def kind_of(data: bytes, source: str) -> str:
-    """Which of ``SURFACES`` a file is, empty where it is none (a list of points, a deck).
-
-    Raises FileError where it is nothing that is read.
-    """
-    if stl.is_binary(data):
-        return "stl"
-    if data.startswith((b"\x93NUMPY", b"ply\n", b"ply\r")):
-        return ""
-    kind = recognise(decoded(data, source), source)
+def surface_kind(data: bytes, source: str) -> str:
+    """Return which of ``SURFACES`` a file is, or "" for another format of points.  Raise FileError for other files."""
+    kind = kind_of(data, source)
     return kind if kind in SURFACES else ""
 
 
 def parse_mesh(data: bytes, source: str) -> FileMesh:
-    """The surface in a file's bytes; it may have no faces.  Raises FileError for a file of another kind."""
-    kind = kind_of(data, source)
+    """Return the surface in a file, which may have no faces.  Raise FileError if it is not OFF, OBJ or STL."""
+    kind = surface_kind(data, source)
     if not kind:
-        raise FileError(f"{source}: faces are read from OFF, OBJ and STL; this holds points only, or is another file")
+        raise FileError(f"{source}: expected faces in OFF, OBJ or STL; this file holds only points")
     if kind == "stl" and stl.is_binary(data):
         return stl.surface_binary(data, source)
     reader = {"off": off.parse_off, "obj": obj.surface, "stl": stl.surface}[kind]

@@ -1,75 +1,66 @@
-"""OBJ, the Wavefront object file: polygons and decimal text, both kept.
+"""The Wavefront OBJ format: polygons and decimal text, both preserved.
 
-A polyhedron is written with its faces (``f``), a polygon with one, a segment as a line (``l``), a point as ``p``.
-Read are its vertices (``v``), x y z and whatever follows them (a weight, a colour), and for a surface its faces; a
-vertex of a face is counted from 1, or back from the last one with a minus, and what follows it after a slash is passed
-over.
+A polyhedron is written with its faces (``f``), a polygon with one face, a segment as a line (``l``), a point as ``p``.
+The reader returns the vertices (``v``) and ignores anything after their x, y and z (a weight or a colour).  For a
+surface it also returns the faces.  A vertex of a face is numbered from 1, or backwards from the last vertex if the
+number is negative; anything after a slash is ignored.
 """
 
 from __future__ import annotations
 
 import re
 
-from modern.formats.tokens import FileMesh, Word, error, lines, point
+from modern.formats.tokens import FileMesh, Token, error, lines, vertex
 from modern.geometry.mesh import Mesh
 from modern.geometry.numbers import Point, quoted
 
 KEYWORDS = frozenset(("v", "vn", "vt", "vp", "f", "l", "p", "o", "g", "s", "mtllib", "usemtl"))
-"""Words that may begin the first line of an OBJ file."""
+"""The keywords with which an OBJ file may begin."""
 
 
 def write(mesh: Mesh, digits: int | None = None) -> str:
-    """The text of an OBJ file; vertices count from 1, as the programs number them.  Raises ExportError."""
+    """Return the text of an OBJ file.  Raise ExportError if a coordinate cannot be written."""
     lines = [f"v {point}" for point in mesh.decimals(digits)]
     elements = {0: ["p 1"], 1: ["l 1 2"]}
     lines += elements.get(mesh.dimension) or [
-        " ".join(("f", *(str(place + 1) for place in face))) for face in mesh.faces
+        " ".join(("f", *(str(index + 1) for index in face))) for face in mesh.faces
     ]
     return "".join(line + "\n" for line in lines)
 
 
 def parse(text: str, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
-    """The vertices of an OBJ file, as the text that stands there, and the line of each.
+    """Return the vertices as text and the line of each one.
 
-    Raises FileError, with line and column, for a vertex that is not three decimals.
+    Raise FileError, with line and column, if a vertex does not begin with three decimal numbers.
     """
-    points: list[Point] = []
-    places: list[int] = []
-    for line, words in lines(text):
-        if words[0][0] != "v":
-            continue
-        if len(words) < 4:
-            raise error(source, line, words[-1], f"a vertex is three numbers, x y z; here are {len(words) - 1}")
-        points.append(point(source, line, words[1:4]))
-        places.append(line)
-    return tuple(points), tuple(places)
+    vertices = [(vertex(source, line, tokens, 1, True), line) for line, tokens in lines(text) if tokens[0][0] == "v"]
+    return tuple(point for point, _ in vertices), tuple(line for _, line in vertices)
 
 
 def surface(text: str, source: str) -> FileMesh:
-    """The vertices and faces of an OBJ file.
+    """Return the vertices and faces.
 
-    Raises FileError, with line and column, for a vertex that is not three decimals and a face of vertices that are not
-    there.
+    Raise FileError, with line and column, for an invalid vertex and for a face with a missing vertex.
     """
-    points, places = parse(text, source)
+    points, point_lines = parse(text, source)
     faces = []
-    known = 0
-    for line, words in lines(text):
-        if words[0][0] == "v":
-            known += 1
-        elif words[0][0] == "f":
-            faces.append(tuple(_corner(source, line, word, known, len(points)) for word in words[1:]))
+    vertices_before = 0
+    for line, tokens in lines(text):
+        if tokens[0][0] == "v":
+            vertices_before += 1
+        elif tokens[0][0] == "f":
+            faces.append(tuple(_corner(source, line, token, vertices_before, len(points)) for token in tokens[1:]))
             if not faces[-1]:
-                raise error(source, line, words[0], "a face has at least one vertex")
-    return FileMesh(source, points, places, tuple(faces))
+                raise error(source, line, tokens[0], "a face has at least one vertex")
+    return FileMesh(source, points, point_lines, tuple(faces))
 
 
-def _corner(source: str, line: int, word: Word, known: int, count: int) -> int:
-    """A vertex of a face by place; one counted back is counted from the ``known`` ones before the face."""
-    found = re.fullmatch(r"(-?)([0-9]{1,9})(?:/-?[0-9]*){0,2}", word[0])
-    if not found:
-        raise error(source, line, word, f"{quoted(word[0])} is not a vertex of a face")
-    place = known - int(found[2]) if found[1] else int(found[2]) - 1
-    if not 0 <= place < (known if found[1] else count):
-        raise error(source, line, word, f"there is no vertex {quoted(word[0])}; they count from 1 to {count}")
-    return place
+def _corner(source: str, line: int, token: Token, vertices_before: int, count: int) -> int:
+    """Return the index of a vertex of a face; a negative number counts back from the vertices before the face."""
+    match = re.fullmatch(r"(-?)([0-9]{1,9})(?:/-?[0-9]*){0,2}", token[0])
+    if not match:
+        raise error(source, line, token, f"{quoted(token[0])} is not a vertex of a face")
+    index = vertices_before - int(match[2]) if match[1] else int(match[2]) - 1
+    if not 0 <= index < (vertices_before if match[1] else count):
+        raise error(source, line, token, f"there is no vertex {quoted(token[0])}; they are numbered from 1 to {count}")
+    return index

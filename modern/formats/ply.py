@@ -1,8 +1,9 @@
-"""ASCII PLY (Turk, "The PLY Polygon File Format", 1994): polygons and decimal text, both kept.
+"""PLY (Turk, "The PLY Polygon File Format", 1994): polygons and decimal text, both preserved.
 
-A polyhedron is written with its faces, a polygon with one, a segment as an element ``edge``, a point as one vertex.
-The properties are declared ``double``: a reader may round what it reads, the text stays exact.  Read are the
-vertices, in text or binary of either order of bytes; of an element before them with lists only text.
+Written files are ASCII.  A polyhedron is written with its faces, a polygon with one face, a segment as an element
+``edge``, a point as one vertex.  The properties are declared ``double``: a reader may round them, but the text is
+exact.  The reader returns the vertices of ASCII and binary files of either byte order.  In a binary file no list may
+precede the vertices or be among their properties.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ _UCHAR = 255
 
 
 def write(mesh: Mesh, digits: int | None = None) -> str:
-    """The text of a PLY file.  Raises ExportError."""
+    """Return the text of a PLY file.  Raise ExportError if a coordinate cannot be written."""
     size = "uchar" if all(len(face) <= _UCHAR for face in mesh.faces) else "int"
     lines = ["ply", "format ascii 1.0", f"element vertex {len(mesh.points)}"]
     lines += [f"property double {axis}" for axis in "xyz"]
@@ -46,7 +47,10 @@ _MOST_HEADER = 1 << 16
 
 @dataclass(frozen=True, slots=True)
 class _Element:
-    """What a header announces: a name, how many, and the name and type of each property (of a list: none)."""
+    """An element that a header announces.
+
+    properties: name and struct code of each property, with the code "" for a list.
+    """
 
     name: str
     count: int
@@ -54,9 +58,10 @@ class _Element:
 
 
 def parse(data: bytes, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
-    """The vertices of a PLY file, and the line of each (binary: its number, from 1).
+    """Return the vertices of a PLY file, and the line of each one or, in a binary file, its number from 1.
 
-    Of text the numbers are those that stand there, of binary floats exactly what they hold.  Raises FileError.
+    Coordinates are decimal text as in the file, or the exact decimals of binary floats.  Raise FileError for an invalid
+    file.
     """
     end = data.find(_END, 0, _MOST_HEADER)
     if end < 0:
@@ -64,80 +69,83 @@ def parse(data: bytes, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]
     line_end = data.find(b"\n", end)
     body = len(data) if line_end < 0 else line_end + 1
     kind, elements = _header(data[:end].decode("ascii", "replace"), source)
-    place = next((place for place, element in enumerate(elements) if element.name == "vertex"), None)
-    if place is None:
+    vertex_index = next((index for index, element in enumerate(elements) if element.name == "vertex"), None)
+    if vertex_index is None:
         raise FileError(f"{source}: line 1, column 1: the header announces no element vertex")
-    names = [name for name, _ in elements[place].properties]
+    names = [name for name, _ in elements[vertex_index].properties]
     if not {"x", "y", "z"} <= set(names):
         raise FileError(f"{source}: line 1, column 1: a vertex has no properties x, y and z")
     columns = [names.index(axis) for axis in "xyz"]
+    elements = elements[: vertex_index + 1]
     if kind in _ORDERS:
-        return _binary(data, body, elements[: place + 1], columns, _ORDERS[kind], source)
+        return _binary(data, body, elements, columns, _ORDERS[kind], source)
     try:
         text = data.decode("ascii")
     except UnicodeDecodeError as wrong:
         line = data.count(b"\n", 0, wrong.start) + 1
-        raise FileError(f"{source}: line {line}, column 1: not ASCII, as the header says") from None
-    return _text(text, data.count(b"\n", 0, body), elements[: place + 1], columns, source)
+        raise FileError(f"{source}: line {line}, column 1: not ASCII, although the header says so") from None
+    return _text(text, data.count(b"\n", 0, body), elements, columns, source)
 
 
 def _header(text: str, source: str) -> tuple[str, list[_Element]]:
+    """Return the format and the elements that a header announces."""
     kind, elements = "", list[_Element]()
-    for line, found in islice(lines(text, ""), 1, None):
-        words = [word for word, _ in found]
-        if words[0] in ("comment", "obj_info"):
-            continue
-        if words[0] == "format" and len(words) == 3 and words[1] in ("ascii", *_ORDERS):
-            kind = words[1]
-        elif words[0] == "element" and len(words) == 3:
-            elements.append(_Element(words[1], count(source, line, found[2])))
-        elif words[0] == "property" and elements and words[1:2] == ["list"] and len(words) == 5:
-            elements[-1].properties.append((words[4], ""))
-        elif words[0] == "property" and elements and len(words) == 3 and words[1] in _CODES:
-            elements[-1].properties.append((words[2], _CODES[words[1]]))
-        else:
-            raise error(source, line, found[0], f"{quoted(' '.join(words))} is not a line of a PLY header")
+    for line, tokens in islice(lines(text, ""), 1, None):
+        match [text for text, _ in tokens]:
+            case ["comment" | "obj_info", *_]:
+                continue
+            case ["format", ("ascii" | "binary_little_endian" | "binary_big_endian") as name, _]:
+                kind = name
+            case ["element", name, _]:
+                elements.append(_Element(name, count(source, line, tokens[2])))
+            case ["property", "list", _, _, name] if elements:
+                elements[-1].properties.append((name, ""))
+            case ["property", data_type, name] if elements and data_type in _CODES:
+                elements[-1].properties.append((name, _CODES[data_type]))
+            case header_line:
+                raise error(source, line, tokens[0], f"{quoted(' '.join(header_line))} is not a line of a PLY header")
     if not kind:
         raise FileError(f"{source}: line 2, column 1: the format (ascii, {', '.join(_ORDERS)}) is missing")
     return kind, elements
 
 
 def _text(
-    text: str, first: int, elements: list[_Element], columns: list[int], source: str
+    text: str, header_lines: int, elements: list[_Element], columns: list[int], source: str
 ) -> tuple[tuple[Point, ...], tuple[int, ...]]:
-    """The vertices of a text, whose header has ``first`` lines; every element but an empty one takes a line each."""
-    found: Iterator[Line] = (line for line in lines(text, "") if line[0] > first)
+    """Return the vertices of an ASCII file, the last of ``elements``; each item of an element is one line."""
+    rows: Iterator[Line] = (line for line in lines(text, "") if line[0] > header_lines)
     last = last_line(text)
     for element in elements[:-1]:
-        for _ in take(found, element.count, source, last, element.name):
+        for _ in take(rows, element.count, source, last, element.name):
             pass
     points: list[Point] = []
-    places: list[int] = []
-    for line, words in take(found, elements[-1].count, source, last, "vertices"):
-        if len(words) <= max(columns):
-            raise error(source, line, words[-1], f"the vertex ends after {len(words)} of its properties")
-        x, y, z = (decimal(source, line, words[column]) for column in columns)
+    point_lines: list[int] = []
+    for line, tokens in take(rows, elements[-1].count, source, last, "vertices"):
+        if len(tokens) <= max(columns):
+            raise error(source, line, tokens[-1], f"the vertex ends after {len(tokens)} of its properties")
+        x, y, z = (decimal(source, line, tokens[column]) for column in columns)
         points.append((x, y, z))
-        places.append(line)
-    return tuple(points), tuple(places)
+        point_lines.append(line)
+    return tuple(points), tuple(point_lines)
 
 
 def _binary(
     data: bytes, start: int, elements: list[_Element], columns: list[int], order: str, source: str
 ) -> tuple[tuple[Point, ...], tuple[int, ...]]:
+    """Return the vertices of a binary file, the last of ``elements``; the data begin at ``start``."""
     for element in elements:
         if not all(code for _, code in element.properties):
-            raise FileError(f"{source}: lists before or among the vertices of a binary file are not read")
-    shapes = [struct.Struct(order + "".join(code for _, code in element.properties)) for element in elements]
-    start += sum(shape.size * element.count for shape, element in zip(shapes[:-1], elements, strict=False))
-    wanted, shape = elements[-1].count, shapes[-1]
-    if start + wanted * shape.size > len(data):
-        raise FileError(f"{source}: the file ends after {max(0, len(data) - start) // shape.size} of {wanted} vertices")
+            raise FileError(f"{source}: lists before or among the vertices of a binary file are not supported")
+    rows = [struct.Struct(order + "".join(code for _, code in element.properties)) for element in elements]
+    start += sum(row.size * element.count for row, element in zip(rows[:-1], elements, strict=False))
+    vertices, row = elements[-1].count, rows[-1]
+    if start + vertices * row.size > len(data):
+        raise FileError(f"{source}: the file ends after {max(0, len(data) - start) // row.size} of {vertices} vertices")
     points: list[Point] = []
-    for number in range(wanted):
-        values = shape.unpack_from(data, start + number * shape.size)
+    for number in range(vertices):
+        values = row.unpack_from(data, start + number * row.size)
         x, y, z = (float(values[column]) for column in columns)
         if not (math.isfinite(x) and math.isfinite(y) and math.isfinite(z)):
             raise FileError(f"{source}: vertex {number + 1}: a coordinate is not finite")
         points.append((float_text(x), float_text(y), float_text(z)))
-    return tuple(points), tuple(range(1, wanted + 1))
+    return tuple(points), tuple(range(1, vertices + 1))

@@ -1,8 +1,8 @@
-"""Points from a file of any kind the command line takes: decks, lists, OFF, OBJ, PLY, STL, JSON and NPY.
+"""Points read from files of every supported format: decks, lists, OFF, OBJ, PLY, STL, JSON and NPY.
 
-The numbers are those that stand in the file, exactly; a binary float is the number it holds.  Of a deck's field all
-of its digits are taken, where the programs on the machine would cut the ninth.  What kind a file is, it says itself
-by its first bytes or line; only where that leaves it open does the ending of its name decide.
+Numbers are exact: a decimal has the value of its text, a binary float the value it stores.  All digits of a deck's
+field are read, whereas the programs on the machine would truncate it after the eighth digit.  A file is recognised by
+its first bytes or its first line, and by its extension only if these fit several formats.
 """
 
 from __future__ import annotations
@@ -26,7 +26,8 @@ _NPY = b"\x93NUMPY"
 class Input:
     """The points of a file, as decimal text.
 
-    ``places`` say where each stands, ``card 3`` or ``line 3``; ``notes`` what the reader should know, a line each.
+    kind: the format, a key of ``POINTS``.  places: where each point stands in the file, such as ``card 3`` or
+    ``line 3``.  notes: warnings for the user, one line each.
     """
 
     source: str
@@ -37,66 +38,97 @@ class Input:
 
 
 def read_input(path: str) -> Input:
-    """Read a file (``-``: standard input) and recognise what it is.  Raises EmulatorError (one line)."""
+    """Return the points of a file (``-``: standard input).  Raise EmulatorError with a one-line message."""
     return parse_bytes(read_bytes(path), source_name(path))
 
 
 def parse_bytes(data: bytes, source: str) -> Input:
-    """Points from a file's bytes, of text or of a binary kind.  Raises EmulatorError (one line)."""
-    if data.startswith(_NPY):
-        return _filled(_npy(data, source))
-    if data.startswith((b"ply\n", b"ply\r")):
-        return _filled(
-            _listed(source, "ply", *ply.parse(data, source), "line" if b"format ascii" in data else "vertex")
-        )
-    if stl.is_binary(data):
-        return _filled(_listed(source, "stl", *stl.parse_binary(data, source), "triangle"))
+    """Return the points of a text or binary file.  Raise EmulatorError with a one-line message."""
+    kind = _binary_kind(data)
+    if kind == "npy":
+        points = _npy(data, source)
+        return _input(source, kind, points, range(1, len(points) + 1), "row")
+    if kind == "ply":
+        return _input(source, kind, *ply.parse(data, source), "line" if b"format ascii" in data else "vertex")
+    if kind == "stl":
+        mesh = stl.surface_binary(data, source)
+        return _input(source, kind, mesh.points, mesh.lines, "triangle")
     return parse_input(decoded(data, source), source)
 
 
 def parse_input(text: str, source: str) -> Input:
-    """Points from a file's text.  Raises EmulatorError (one line)."""
+    """Return the points of a text file.  Raise EmulatorError with a one-line message."""
     kind = recognise(text, source)
     if kind == "deck":
-        points, notes = exact_points(deck_from_text(source, text))
-        return _filled(Input(source, kind, tuple(points.values()), _places("card", points), notes))
+        cards, notes = exact_points(deck_from_text(source, text))
+        return _input(source, kind, tuple(cards.values()), cards, "card", notes)
     if kind == "off":
-        found = parse_off(text, source)
-        return _filled(_listed(source, kind, found.points, found.lines))
+        mesh = parse_off(text, source)
+        return _input(source, kind, mesh.points, mesh.lines)
     if kind == "json":
-        points_read = json.parse(text, source)
-        return _filled(_listed(source, kind, points_read, range(1, len(points_read) + 1), "point"))
+        points = json.parse(text, source)
+        return _input(source, kind, points, range(1, len(points) + 1), "point")
     reader = {"csv": csv.points, "obj": obj.parse, "stl": stl.parse}[kind]
-    return _filled(_listed(source, kind, *reader(text, source)))
+    return _input(source, kind, *reader(text, source))
+
+
+def kind_of(data: bytes, source: str) -> str:
+    """Return the format of a file, a key of ``POINTS``, without reading its points.
+
+    Raise FileError if the file has none of these formats.
+    """
+    return _binary_kind(data) or recognise(decoded(data, source), source)
+
+
+def deck_or_points(data: bytes, source: str) -> str:
+    """Return the format of a file of points, or "deck" for every file that is not clearly one of the other formats.
+
+    The reader of decks then reports what is wrong with it.  A line of several words is a list only if it holds three
+    numbers, because the card with N may also hold e.
+    """
+    try:
+        kind = kind_of(data, source)
+        return "deck" if kind == "csv" and not csv.begins_with_point(decoded(data, source)) else kind
+    except FileError:
+        return "deck"
+
+
+def _binary_kind(data: bytes) -> str:
+    if data.startswith(_NPY):
+        return "npy"
+    if data.startswith((b"ply\n", b"ply\r")):
+        return "ply"
+    return "stl" if stl.is_binary(data) else ""
 
 
 def recognise(text: str, source: str) -> str:
-    """Which of ``POINTS`` a text is, by its first line that is neither blank nor a comment.
+    """Return the format of a text, a key of ``POINTS``, from its first line that is not blank or a comment.
 
-    A word that ends with OFF begins an OFF file, ``solid`` an STL file, a brace or bracket JSON, ``v`` or another
-    word of its own an OBJ file; a comma or semicolon makes it a list; a number alone is a deck's first card.  Else
-    the ending of the file's name decides, and blanks or tabs between words make a list.  Raises FileError.
+    A word that ends with OFF begins an OFF file, ``solid`` an STL file, a brace or bracket a JSON file, ``v`` or
+    another keyword of the format an OBJ file.  A comma or semicolon indicates a list, a single integer the first card
+    of a deck.  Otherwise the extension of the file decides, and several words separated by blanks or tabs are a list.
+    Raise FileError if none of this applies.
     """
-    lines = ((number_, row.strip()) for number_, row in enumerate(text.splitlines(), 1))
+    lines = ((line_number, row.strip()) for line_number, row in enumerate(text.splitlines(), 1))
     line, first = next(((n, row) for n, row in lines if row and not row.startswith("#")), (0, ""))
     if not first:
         raise FileError(f"{source}: there are no points")
-    words = first.split()
-    ending = source.rpartition(".")[2].lower()
-    kind = ending if ending in POINTS and ending not in ("npy", "ply") else ""
-    if words[0].isalnum() and words[0].upper().endswith("OFF"):
+    tokens = first.split()
+    extension = source.rpartition(".")[2].lower()
+    kind = extension if extension in POINTS and extension not in ("npy", "ply") else ""
+    if tokens[0].isalnum() and tokens[0].upper().endswith("OFF"):
         return "off"
     if first[0] in "[{":
         return "json"
-    if words[0].lower() == "solid":
+    if tokens[0].lower() == "solid":
         return "stl"
-    if words[0] in obj.KEYWORDS and kind in ("", "obj"):
+    if tokens[0] in obj.KEYWORDS and kind in ("", "obj"):
         return "obj"
     if "," in first or ";" in first:
         return "csv"
-    if len(words) == 1 and words[0].isdecimal() and words[0].isascii():
+    if len(tokens) == 1 and tokens[0].isdecimal() and tokens[0].isascii():
         return "deck"
-    if kind or len(words) > 1:
+    if kind or len(tokens) > 1:
         return kind or "csv"
     raise FileError(
         f"{source}: line {line}, column 1: {quoted(first)} is neither the first card of a deck (N in columns 1-2) "
@@ -104,42 +136,41 @@ def recognise(text: str, source: str) -> str:
     )
 
 
-def _listed(source: str, kind: str, points: tuple[Point, ...], places: Iterable[int], unit: str = "line") -> Input:
-    return Input(source, kind, points, _places(unit, places))
+def _input(
+    source: str,
+    kind: str,
+    points: tuple[Point, ...],
+    numbers: Iterable[int],
+    unit: str = "line",
+    notes: tuple[str, ...] = (),
+) -> Input:
+    if not points:
+        raise FileError(f"{source}: there are no points")
+    return Input(source, kind, points, tuple(f"{unit} {number}" for number in numbers), notes)
 
 
-def _places(unit: str, numbers: Iterable[int]) -> tuple[str, ...]:
-    return tuple(f"{unit} {number}" for number in numbers)
-
-
-def _filled(found: Input) -> Input:
-    if not found.points:
-        raise FileError(f"{found.source}: there are no points")
-    return found
-
-
-def _npy(data: bytes, source: str) -> Input:
-    """The rows of an array of shape (n, 3), counted from 1."""
-    import numpy as np  # here, so that no text waits for it
+def _npy(data: bytes, source: str) -> tuple[Point, ...]:
+    """Return the rows of an array of shape (n, 3)."""
+    import numpy as np  # imported here because text formats do not need it
 
     try:
         array = np.asarray(np.load(io.BytesIO(data), allow_pickle=False))
     except Exception as error:
-        # A damaged header ends in whatever error numpy's reader of it meets: TokenError, IndexError, OverflowError ...
-        said = " ".join(str(error).split()) or "it cannot be read"
-        raise FileError(f"{source}: no NPY array of numbers: {said[:120]}") from None
+        # numpy raises errors of many types for a damaged header: TokenError, IndexError, OverflowError and others.
+        reason = " ".join(str(error).split()) or "it cannot be read"
+        raise FileError(f"{source}: not an NPY array of numbers: {reason[:120]}") from None
     if array.dtype.kind not in "iuf" or array.ndim != 2 or array.shape[1] != 3:
         raise FileError(
-            f"{source}: an array of {array.dtype} and shape {array.shape}; points are numbers, shape (n, 3)"
+            f"{source}: expected an array of numbers of shape (n, 3), found {array.dtype} of shape {array.shape}"
         )
     points: list[Point] = []
-    for order, row in enumerate(array.tolist(), 1):
+    for row_number, row in enumerate(array.tolist(), 1):
         texts = []
         for axis, value in zip("xyz", row, strict=True):
             try:
                 exact = real(value)
             except ValueError as error:
-                raise FileError(f"{source}: row {order}, {axis}: {error}") from None
+                raise FileError(f"{source}: row {row_number}, {axis}: {error}") from None
             texts.append(integer_text(value) if isinstance(value, int) else float_text(exact))
         points.append((texts[0], texts[1], texts[2]))
-    return _listed(source, "npy", tuple(points), range(1, len(points) + 1), "row")
+    return tuple(points)

@@ -1,10 +1,11 @@
-"""ASCII STL (3D Systems, "StereoLithography Interface Specification", 1989): triangles only.
+"""ASCII and binary STL (3D Systems, "StereoLithography Interface Specification", 1989): triangles only.
 
-A face is cut into triangles from its first vertex.  Corners are exact decimal text, the same text for the same
-vertex; normals, which have no finite decimal, are cut to nine decimals.  A polygon becomes a sheet of triangles with
-one side; a segment and a point have no area and are refused.  Read are the corners of triangles, in text or binary,
-each point once, in order of appearance: a format that repeats every vertex in every triangle does not mean
-duplicates; for a surface also which corners make a triangle.
+Writing: each face is split into triangles from its first vertex.  Corners are exact decimal text, and a vertex always
+has the same text.  Unit normals have no finite decimal and are truncated to nine decimals.  A polygon becomes a
+one-sided sheet of triangles.  A segment or a point has no area and raises ExportError.
+
+Reading: STL repeats a vertex in each of its triangles, so equal corners become one point, in the order in which they
+first appear.
 """
 
 from __future__ import annotations
@@ -14,112 +15,111 @@ import struct
 from fractions import Fraction
 
 from emulator.errors import FileError
-from modern.formats.tokens import FileMesh, Word, error, lines, point
+from modern.formats.tokens import FileMesh, error, lines, vertex
 from modern.geometry.mesh import ExportError, Mesh
 from modern.geometry.numbers import Point, coordinates, float_text
 from modern.geometry.vectors import Vector, cross, dot, minus
 
-_PLACES = 9
+_DECIMALS = 9
 _HEAD, _TRIANGLE = 84, 50
+"""Bytes of the header of a binary file, and of each triangle."""
 
 
 def write(mesh: Mesh, digits: int | None = None) -> str:
-    """The text of an STL file.  Raises ExportError for a hull without area."""
+    """Return the text of an ASCII STL file.  Raise ExportError for a hull without area."""
     if mesh.dimension < 2:
-        what = ("a point", "a segment")[mesh.dimension]
-        raise ExportError(f"STL holds triangles; the hull is {what} and has no area")
+        kind = ("a point", "a segment")[mesh.dimension]
+        raise ExportError(f"STL holds triangles; the hull is {kind} and has no area")
     points, texts = mesh.numbers(), mesh.decimals(digits)
     lines = ["solid hull1620"]
     for a, b, c in mesh.triangles():
         normal = cross(minus(points[b], points[a]), minus(points[c], points[a]))
         lines += [f"facet normal {unit_text(normal)}", "outer loop"]
-        lines += [f"vertex {texts[place]}" for place in (a, b, c)]
+        lines += [f"vertex {texts[corner]}" for corner in (a, b, c)]
         lines += ["endloop", "endfacet"]
     lines.append("endsolid hull1620")
     return "".join(line + "\n" for line in lines)
 
 
 def unit_text(vector: Vector) -> str:
-    """The vector at length 1, three numbers of nine decimals, cut; zero stays zero.  No binary float is used."""
+    """Return the unit vector in the direction of ``vector`` as three numbers truncated to nine decimals.
+
+    The zero vector stays zero.  The calculation uses integers only, so that no binary float is rounded.
+    """
     square = dot(vector, vector)
-    return " ".join(_quotient(component, square) for component in vector)
+    return " ".join(_truncated_quotient(component, square) for component in vector)
 
 
-def _quotient(component: Fraction, square: Fraction) -> str:
+def _truncated_quotient(component: Fraction, square: Fraction) -> str:
+    """Return component / sqrt(square), truncated to nine decimals."""
     ratio = component * component / square if square else Fraction(0)
-    size = math.isqrt(ratio.numerator * 10 ** (2 * _PLACES) // ratio.denominator)
-    whole, fraction = divmod(size, 10**_PLACES)
-    text = f"{whole}.{fraction:0{_PLACES}d}".rstrip("0").rstrip(".")
+    scaled = math.isqrt(ratio.numerator * 10 ** (2 * _DECIMALS) // ratio.denominator)
+    whole, fraction = divmod(scaled, 10**_DECIMALS)
+    text = f"{whole}.{fraction:0{_DECIMALS}d}".rstrip("0").rstrip(".")
     return f"-{text}" if component < 0 and text != "0" else text
 
 
 def is_binary(data: bytes) -> bool:
-    """Whether bytes are a binary STL file, by the number of triangles they announce."""
+    """Return True if the length of the data is that of a binary STL file with the number of triangles in its header."""
     return len(data) >= _HEAD and len(data) == _HEAD + _TRIANGLE * int(struct.unpack_from("<I", data, _HEAD - 4)[0])
 
 
-def parse_binary(data: bytes, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
-    """The corners of a binary STL file, singles taken exactly, and the triangle each is first met in, from 1.
-
-    Raises FileError for a coordinate that is not finite.
-    """
-    found = surface_binary(data, source)
-    return found.points, found.lines
-
-
 def surface_binary(data: bytes, source: str) -> FileMesh:
-    """The triangles of a binary STL file; see ``parse_binary``."""
-    places: dict[Point, int] = {}
-    first: list[int] = []
+    """Return the triangles of a binary STL file, single-precision floats as exact decimals.
+
+    The "line" of a point is the number of its first triangle, from 1.  Raise FileError for a coordinate that is not
+    finite.
+    """
+    indices: dict[Point, int] = {}
+    first_triangles: list[int] = []
     faces = []
     for number in range(1, (len(data) - _HEAD) // _TRIANGLE + 1):
+        # Each record begins with the normal, three floats, which is ignored.
         values = struct.unpack_from("<9f", data, _HEAD + _TRIANGLE * (number - 1) + 12)
         if not all(map(math.isfinite, values)):
             raise FileError(f"{source}: triangle {number}: a coordinate is not finite")
         texts = [float_text(value) for value in values]
-        corners = [places.setdefault((texts[k], texts[k + 1], texts[k + 2]), len(places)) for k in range(0, 9, 3)]
-        first += [number] * (len(places) - len(first))
+        corners = [indices.setdefault((texts[k], texts[k + 1], texts[k + 2]), len(indices)) for k in range(0, 9, 3)]
+        first_triangles += [number] * (len(indices) - len(first_triangles))
         faces.append(tuple(corners))
-    return FileMesh(source, tuple(places), tuple(first), tuple(faces))
+    return FileMesh(source, tuple(indices), tuple(first_triangles), tuple(faces))
 
 
 def parse(text: str, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
-    """The corners of an STL file of text, as the text that stands there, and the line each is first met in.
+    """Return the distinct corners of an ASCII STL file as text, and the line in which each one first appears.
 
-    Raises FileError, with line and column, for a corner that is not three decimals.
+    Raise FileError, with line and column, for a corner that is not three decimal numbers.
     """
-    found: dict[Vector, tuple[Point, int]] = {}
-    for line, words in lines(text, ""):
-        if words[0][0].lower() == "vertex":
-            corner = _vertex(source, line, words)
-            found.setdefault(coordinates(corner), (corner, line))
-    return tuple(corner for corner, _ in found.values()), tuple(line for _, line in found.values())
+    mesh = surface(text, source, check_triangles=False)
+    return mesh.points, mesh.lines
 
 
-def surface(text: str, source: str) -> FileMesh:
-    """The triangles of an STL file of text.
+def surface(text: str, source: str, check_triangles: bool = True) -> FileMesh:
+    """Return the triangles of an ASCII STL file.
 
-    Raises FileError, with line and column, for a corner that is not three decimals and a loop that has not three.
+    Raise FileError, with line and column, for a corner that is not three decimal numbers and, unless
+    ``check_triangles`` is false, for a loop that does not have three corners.
     """
-    points, first = parse(text, source)
-    places = {coordinates(point): place for place, point in enumerate(points)}
+    indices: dict[Vector, int] = {}
+    points: list[Point] = []
+    first_lines: list[int] = []
     faces: list[tuple[int, ...]] = []
     loop: list[int] = []
-    for line, words in lines(text, ""):
-        word = words[0][0].lower()
-        if word == "vertex":
-            loop.append(places[coordinates(_vertex(source, line, words))])
-        elif word in ("endloop", "endfacet", "facet", "outer") and loop:
-            if len(loop) != 3:
-                raise error(source, line, words[0], f"a triangle ends here after {len(loop)} vertices")
+    for line, tokens in lines(text, ""):
+        keyword = tokens[0][0].lower()
+        if keyword == "vertex":
+            corner = vertex(source, line, tokens, 1)
+            # Corners are equal if their values are: 1 and 1.0 are one point.
+            index = indices.setdefault(coordinates(corner), len(points))
+            if index == len(points):
+                points.append(corner)
+                first_lines.append(line)
+            loop.append(index)
+        elif keyword in ("endloop", "endfacet", "facet", "outer") and loop:
+            if len(loop) != 3 and check_triangles:
+                raise error(source, line, tokens[0], f"expected a triangle of 3 vertices, found {len(loop)}")
             faces.append(tuple(loop))
             loop = []
-    if loop:
-        raise error(source, line, words[0], f"the file ends within a triangle, after {len(loop)} of its vertices")
-    return FileMesh(source, points, first, tuple(faces))
-
-
-def _vertex(source: str, line: int, words: list[Word]) -> Point:
-    if len(words) != 4:
-        raise error(source, line, words[-1], f"a vertex is three numbers, x y z; here are {len(words) - 1}")
-    return point(source, line, words[1:])
+    if loop and check_triangles:
+        raise error(source, line, tokens[0], f"the file ends after {len(loop)} of 3 vertices of a triangle")
+    return FileMesh(source, tuple(points), tuple(first_lines), tuple(faces))

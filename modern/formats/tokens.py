@@ -1,7 +1,4 @@
-"""Words of a text file with line and column, as the readers of OFF, OBJ, PLY and STL take them: decimals and counts.
-
-And the surface such a file holds.
-"""
+"""Tokens of a text file with their lines and columns, for the readers of OFF, OBJ, PLY and STL."""
 
 from __future__ import annotations
 
@@ -12,16 +9,19 @@ from dataclasses import dataclass
 from emulator.errors import FileError
 from modern.geometry.numbers import Point, number, quoted
 
-Word = tuple[str, int]
-"""A word and the column it begins in, from 1."""
-Line = tuple[int, list[Word]]
-"""A line's number, from 1, and its words; there is one at least."""
+Token = tuple[str, int]
+"""A token and the column in which it begins, from 1."""
+Line = tuple[int, list[Token]]
+"""The number of a line, from 1, and its tokens, at least one."""
 
 
 @dataclass(frozen=True, slots=True)
 class FileMesh:
-    """A file of a surface: its points as the text that stands there, where each stands (line, or triangle of a binary
-    file), and faces by place from 0."""
+    """The surface in a file.
+
+    points: decimal text as in the file.  lines: the line of each point, or its triangle in a binary file.
+    faces: tuples of indices into ``points``, from 0.
+    """
 
     source: str
     points: tuple[Point, ...]
@@ -30,52 +30,59 @@ class FileMesh:
 
 
 def lines(text: str, comment: str = "#") -> Iterator[Line]:
-    """Lines with words in them; what follows ``comment`` (empty: nothing) is passed over."""
-    for number_, line in enumerate(text.replace("\r\n", "\n").split("\n"), 1):
-        kept = line.split(comment, 1)[0] if comment else line
-        words = [(match[0], match.start() + 1) for match in re.finditer(r"\S+", kept)]
-        if words:
-            yield number_, words
+    """Yield the lines that have tokens.  A line is ignored from ``comment`` on unless that is empty."""
+    for line_number, line in enumerate(text.replace("\r\n", "\n").split("\n"), 1):
+        content = line.split(comment, 1)[0] if comment else line
+        tokens = [(match[0], match.start() + 1) for match in re.finditer(r"\S+", content)]
+        if tokens:
+            yield line_number, tokens
 
 
 def last_line(text: str) -> int:
-    """The number of the line a text ends in."""
+    """Return the number of the last line of a text."""
     return text.count("\n") + 1
 
 
-def take(found: Iterator[Line], count: int, source: str, last: int, what: str) -> Iterator[Line]:
-    """So many lines.  Raises FileError where the file ends before, in line ``last``."""
+def take(rows: Iterator[Line], count: int, source: str, last: int, what: str) -> Iterator[Line]:
+    """Yield the next ``count`` lines.  Raise FileError if the file ends earlier, in line ``last``."""
     for done in range(count):
-        line = next(found, None)
+        line = next(rows, None)
         if line is None:
             raise FileError(f"{source}: line {last}, column 1: the file ends after {done} of {count} {what}")
         yield line
 
 
-def point(source: str, line: int, words: list[Word]) -> Point:
-    """The three decimals of a point.  Raises FileError."""
-    x, y, z = (decimal(source, line, word) for word in words)
+def vertex(source: str, line: int, tokens: list[Token], first: int = 0, allow_more: bool = False) -> Point:
+    """Return the three coordinates in a line from token ``first`` on.
+
+    Raise FileError if there are not three numbers, or fewer than three with ``allow_more``.
+    """
+    numbers = len(tokens) - first
+    if numbers < 3 or (numbers > 3 and not allow_more):
+        where = tokens[min(first + 3, len(tokens) - 1)]
+        raise error(source, line, where, f"expected a vertex of 3 numbers, x y z; found {numbers}")
+    x, y, z = (decimal(source, line, token) for token in tokens[first : first + 3])
     return x, y, z
 
 
-def count(source: str, line: int, word: Word) -> int:
-    """A whole number of at most nine digits.  Raises FileError."""
-    if not re.fullmatch(r"[0-9]{1,9}", word[0]):
-        raise error(source, line, word, f"{quoted(word[0])} is not a count")
-    return int(word[0])
+def count(source: str, line: int, token: Token) -> int:
+    """Return a token as an integer of at most nine digits.  Raise FileError if it is not one."""
+    if not re.fullmatch(r"[0-9]{1,9}", token[0]):
+        raise error(source, line, token, f"{quoted(token[0])} is not a count")
+    return int(token[0])
 
 
-def decimal(source: str, line: int, word: Word) -> str:
-    """A decimal number, as the text that stands there.  Raises FileError."""
+def decimal(source: str, line: int, token: Token) -> str:
+    """Return the text of a token that is a decimal number.  Raise FileError if it is not one."""
     try:
-        if "/" in word[0]:
-            raise ValueError(f"{quoted(word[0])} is not a decimal number")
-        number(word[0])
+        if "/" in token[0]:
+            raise ValueError(f"{quoted(token[0])} is not a decimal number")
+        number(token[0])
     except ValueError as wrong:
-        raise error(source, line, word, str(wrong)) from None
-    return word[0]
+        raise error(source, line, token, str(wrong)) from None
+    return token[0]
 
 
-def error(source: str, line: int, word: Word, message: str) -> FileError:
-    """What is wrong with a word."""
-    return FileError(f"{source}: line {line}, column {word[1]}: {message}")
+def error(source: str, line: int, token: Token, message: str) -> FileError:
+    """Return an error whose message gives the place of a token."""
+    return FileError(f"{source}: line {line}, column {token[1]}: {message}")

@@ -10,13 +10,12 @@ from __future__ import annotations
 import os
 import re
 
-from emulator.errors import EmulatorError
 from emulator.files import read_bytes, source_name
 from emulator.language.cards import Deck, deck_from_bytes
 from modern.cli.shared.console import UsageError
 from modern.formats import POINTS
 from modern.formats.deck import data_deck
-from modern.formats.points import Input, parse_bytes
+from modern.formats.points import Input, deck_or_points, parse_bytes
 
 _EXAMPLE = re.compile(r"example([1-6])")
 _FIGURE = re.compile(r"appel-will/(fig[0-9]{1,2})")
@@ -35,23 +34,20 @@ def points_of(name: str) -> Input:
 
 
 def deck_of(name: str, points: bool = False) -> Deck:
-    """A deck from a file, or an example by name.  Raises EmulatorError.
+    """Return a deck from a file, or an example by name.  Raise EmulatorError.
 
-    points: it is to hold points; a file of points that is no deck is told from one, and the command that makes one is
-    named.
+    points: the deck must hold points.  If the file has points in another format, the message names the command that
+    makes a deck of it.
     """
     data, source = read_given(name), source_name(name)
-    if points or _FIGURE.fullmatch(name):
-        try:
-            found = parse_bytes(data, source)
-        except EmulatorError:
-            found = None  # what is wrong with the deck, its own reader says
-        if found is not None and found.kind != "deck":
-            if _FIGURE.fullmatch(name) and not os.path.exists(name):
-                return data_deck(found.points, name)
-            made = f"hull1620 cards {name} -o points.deck makes a deck of it"
-            raise UsageError(f"{source}: {POINTS[found.kind]}, not a data deck; {made}")
-    return deck_from_bytes(source, data)
+    is_figure = _FIGURE.fullmatch(name) is not None
+    kind = deck_or_points(data, source) if points or is_figure else "deck"
+    if kind == "deck":
+        return deck_from_bytes(source, data)
+    if is_figure and not os.path.exists(name):
+        return data_deck(parse_bytes(data, source).points, name)
+    command = f"hull1620 cards {name} -o points.deck makes a deck of it"
+    raise UsageError(f"{source}: {POINTS[kind]}, not a data deck; {command}")
 
 
 def deck_for(program: str, name: str) -> Deck:

@@ -16,7 +16,7 @@ from fractions import Fraction
 from modern.comparison.outcome import as_hull
 from modern.exact_hull import exact_hull
 from modern.exact_hull.coordinates import IntPoint, common_scale, to_integers
-from modern.formats.meshes import kind_of, parse_mesh
+from modern.formats.meshes import parse_mesh, surface_kind
 from modern.formats.points import parse_bytes
 from modern.formats.tokens import FileMesh
 from modern.geometry.coplanar import FLAT, CoplanarError, Joined, join, join_summary, root_text
@@ -63,7 +63,7 @@ class _Component:
 
 def read_bodies(data: bytes, name: str, reading: Reading) -> Bodies:
     """The components of a file's surface, or the hull of a file's points.  Raises EmulatorError."""
-    if kind_of(data, name):
+    if surface_kind(data, name):
         found = parse_mesh(data, name)
         if found.faces:
             return bodies(found, reading, name)

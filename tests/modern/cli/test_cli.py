@@ -27,10 +27,10 @@ GOOD_POINT = "+.10000000E+01+.20000000E+01+.30000000E+01"
 BAD_DECKS = [
     ("empty", "", "the deck is empty"),
     ("blank", "\n\n", "only blank cards"),
-    ("no-number", points("XX", GOOD_POINT), "card 1, column 1: N, in columns 1-2, is 'XX': no number"),
+    ("no-number", points("XX", GOOD_POINT), "card 1, column 1: N, in columns 1-2, is 'XX', which is not a number"),
     ("zero", points(" 0", GOOD_POINT), "card 1, column 1: N is 0"),
     ("negative", points("-3", GOOD_POINT), "card 1, column 1: N is -3"),
-    ("too-many", points("52", GOOD_POINT), "card 1, column 1: N is 52; the programs take 1 to 51"),
+    ("too-many", points("52", GOOD_POINT), "card 1, column 1: N is 52; the programs accept 1 to 51"),
     ("blank-n", points("  .", GOOD_POINT).replace(".", ""), "N, in columns 1-2, is blank"),
     ("too-few", points(" 3", GOOD_POINT, GOOD_POINT), "card 3, column 1: the deck ends after 2 of 3 points"),
     (
@@ -283,7 +283,7 @@ def test_cards_and_back(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
 
 
 CSV_FAULTS = [
-    ("1,2\n", "line 1, column 1: 2 fields"),
+    ("1,2\n", "line 1, column 1: expected a point x,y,z, found 2 fields"),
     ("1,2,x\n", "line 1, field 3: 'x' is not a decimal number"),
     ("1,2,123456789\n", "line 1, field 3: 9 significant digits"),
     ("1,2,1e100\n", "line 1, field 3: out of range"),

@@ -77,7 +77,7 @@ def test_blank_cards_after_the_deck(room: Path, capsys: pytest.CaptureFixture[st
     Path("b.deck").write_text(DECK + "\n\n", encoding="utf-8")
     code, _, err = call(capsys, "hull", "b.deck")
     assert code == 0
-    assert "warning: b.deck: card 6, column 1: blank cards after" in err
+    assert "warning: b.deck: card 6, column 1: the programs do not read the blank cards" in err
 
 
 def test_errors_of_the_arithmetic_are_always_mentioned(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -85,7 +85,7 @@ def test_errors_of_the_arithmetic_are_always_mentioned(room: Path, capsys: pytes
     Path("big.deck").write_text(" 2\n" + cards, encoding="utf-8")
     code, _, err = call(capsys, "hull", "big.deck")
     assert code == 0
-    assert "what stands after z is not read" in err
+    assert "the programs do not read the columns after z" in err
     assert "note: program1.f: E3 on card 40: a product overflows" in err
 
 

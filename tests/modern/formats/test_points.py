@@ -80,7 +80,7 @@ def test_all_digits_of_a_card_are_taken(field: str, value: str) -> None:
 def test_the_first_of_several_data_sets_is_taken_with_a_note() -> None:
     found = parse_input(DECK + " 1\n" + CARD + " 1\n 2.\n", "a.deck")
     assert len(found.points) == 2
-    assert found.notes == ("a.deck: 3 data sets; the first is taken",)
+    assert found.notes == ("a.deck: 3 data sets; only the first one is read",)
 
 
 def test_what_a_deck_warns_of_is_noted() -> None:
@@ -134,10 +134,10 @@ BAD = [
     ("heading-only", "x,y,z\n", "a.csv", "a.csv: there are no points"),
     ("no-vertices", "OFF\n0 0 0\n", "a.off", "a.off: there are no points"),
     ("unknown", "\nhello\n", "a.xyz", "a.xyz: line 2, column 1: 'hello' is neither the first card of a deck"),
-    ("text", "\nhello you three\n1 2\n", "a.xyz", "a.xyz: line 3, column 1: 2 fields; a point has three, x,y,z"),
+    ("text", "\nhello you three\n1 2\n", "a.xyz", "a.xyz: line 3, column 1: expected a point x,y,z, found 2 fields"),
     ("unknown-long", "y" * 9999, "a", f"a: line 1, column 1: '{'y' * 40}...' is neither"),
-    ("two-fields", "1,2,3\n4,5\n", "a.csv", "a.csv: line 2, column 1: 2 fields; a point has three, x,y,z"),
-    ("four-fields", "1,2,3,4\n", "a.csv", "a.csv: line 1, column 1: 4 fields"),
+    ("two-fields", "1,2,3\n4,5\n", "a.csv", "a.csv: line 2, column 1: expected a point x,y,z, found 2 fields"),
+    ("four-fields", "1,2,3,4\n", "a.csv", "a.csv: line 1, column 1: expected a point x,y,z, found 4 fields"),
     ("no-number", "1,2,3\n4,five,6\n", "a.csv", "a.csv: line 2, field 2: 'five' is not a decimal number"),
     ("no-field", "1,2,\n", "a.csv", "a.csv: line 1, field 3: '' is not a decimal number"),
     ("quotient", "1,2,1/3\n", "a.csv", "a.csv: line 1, field 3: '1/3' is not a decimal number"),
@@ -146,14 +146,14 @@ BAD = [
     ("long", "1,2," + "9" * 5000 + "\n", "a.csv", "a.csv: line 1, field 3: 5000 digits; at most 4000 are read"),
     ("exponent", "1,2,1e99999\n", "a.csv", "a.csv: line 1, field 3: the exponent of '1e99999' is not within"),
     ("wide-field", "1,2," + "a" * 200000 + "\n", "a.csv", "a.csv: line 1, column 1: field larger than field limit"),
-    ("deck-n", "XX\n" + CARD, "a.deck", "a.deck: card 1, column 1: N, in columns 1-2, is 'XX': no number"),
+    ("deck-n", "XX\n" + CARD, "a.deck", "a.deck: card 1, column 1: N, in columns 1-2, is 'XX', which is not a number"),
     ("deck-short", " 3\n" + CARD, "a", "a: card 2, column 1: the deck ends after 1 of 3 points"),
     ("deck-number", " 1\n+.10000000E+01  1.2.3\n", "a", "a: card 2, column 15: y: '1.2.3' is not a number"),
     ("deck-range", " 1\n.10000000E+100\n", "a", "a: card 2, column 1: x: "),
     ("deck-strange", " 1\n1.e0\n", "a", "a: card 2, column 3: 'e' is not in the card code"),
-    ("deck-52", "52\n" + 52 * CARD, "a", "a: card 1, column 1: N is 52; the programs take 1 to 51 points"),
-    ("off-vertex", "OFF\n2 0 0\n1 2 3\n4 5\n", "a.off", "a.off: line 4, column 3: a vertex is three numbers"),
-    ("coff", "COFF\n1 0 0\n1 2 3 0 0 0 1\n", "a.off", "a.off: line 1, column 1: 'COFF' is not read"),
+    ("deck-52", "52\n" + 52 * CARD, "a", "a: card 1, column 1: N is 52; the programs accept 1 to 51 points"),
+    ("off-vertex", "OFF\n2 0 0\n1 2 3\n4 5\n", "a.off", "a.off: line 4, column 3: expected a vertex of 3 numbers"),
+    ("coff", "COFF\n1 0 0\n1 2 3 0 0 0 1\n", "a.off", "a.off: line 1, column 1: 'COFF' is not supported"),
     ("latin-1", b"1,2,3\n1,\xe9,3\n", "a.csv", "a.csv: line 2, column 3: not a text file in UTF-8"),
     ("nul", "\0\0\0", "a", "a: line 1, column 1: '\\x00\\x00\\x00' is neither"),
 ]

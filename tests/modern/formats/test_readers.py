@@ -122,9 +122,9 @@ def test_json_of_others_is_read(text: str) -> None:
         ("[1", "line 1, column 3: not JSON"),
         ("[" * 100_000, "the JSON is nested too deeply"),
         ("[]", "there are no points"),
-        ("v 1 2\n", "line 1, column 5: a vertex is three numbers, x y z; here are 2"),
+        ("v 1 2\n", "line 1, column 5: expected a vertex of 3 numbers, x y z; found 2"),
         ("v 1 2 x\n", "line 1, column 7: 'x' is not a decimal number"),
-        ("solid a\nvertex 1 2\n", "line 2, column 10: a vertex is three numbers"),
+        ("solid a\nvertex 1 2\n", "line 2, column 10: expected a vertex of 3 numbers"),
         ("solid a\nendsolid a\n", "there are no points"),
         ("ply\nformat ascii 1.0\n", "line 1, column 1: the header has no line end_header"),
         ("ply\nelement vertex 0\nproperty int x\nend_header\n", "line 2, column 1: the format (ascii"),
@@ -132,7 +132,7 @@ def test_json_of_others_is_read(text: str) -> None:
         ("ply\nformat ascii 1.0\nelement vertex 1\nproperty int x\nend_header\n1\n", "no properties x, y and z"),
         ("ply\nformat ascii 1.0\nelement vertex x\nend_header\n", "line 3, column 16: 'x' is not a count"),
         ("ply\nformat ascii 1.0\nwhat\nend_header\n", "line 3, column 1: 'what' is not a line of a PLY header"),
-        (b"\x93NUMPY\x01\0\xff", "no NPY array of numbers"),
+        (b"\x93NUMPY\x01\0\xff", "not an NPY array of numbers"),
     ],
 )
 def test_what_is_damaged_is_one_line(data: str | bytes, words: str) -> None:
@@ -147,7 +147,7 @@ def test_what_is_damaged_is_one_line(data: str | bytes, words: str) -> None:
 def test_an_array_of_another_shape_is_refused(shape: tuple[int, ...]) -> None:
     file = io.BytesIO()
     np.save(file, np.zeros(shape))
-    with pytest.raises(EmulatorError, match="points are numbers, shape"):
+    with pytest.raises(EmulatorError, match="expected an array of numbers of shape"):
         read(file.getvalue())
 
 

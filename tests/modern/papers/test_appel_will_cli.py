@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from modern.cli.main import build_parser, main
-from modern.formats.off import read_off
+from modern.formats.off import parse_off
 from modern.papers.appel_will import PRINTED, RULES
 
 FIG_4 = """OFF
@@ -131,7 +131,7 @@ def test_rule_any_reports_whether_its_condition_is_met(folder: Path, capsys: pyt
 
 def test_the_output_is_an_off_file_of_the_hull(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert call(capsys, "fig4.off", "-o", "hull.off")[0] == 0
-    mesh = read_off("hull.off")
+    mesh = parse_off(Path("hull.off").read_text(encoding="utf-8"), "hull.off")
     assert (len(mesh.points), len(mesh.faces)) == (8, 6)
     code, out, _ = call(capsys, "hull.off")
     assert code == 0

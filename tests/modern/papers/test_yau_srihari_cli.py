@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from modern.cli.main import build_parser
-from modern.formats.off import read_off
+from modern.formats.off import parse_off
 from modern.papers.yau_srihari.printed import NAMES
 from tests.support.commands import call
 from tests.support.digital_judge import judged, solid_of
@@ -88,10 +88,10 @@ def test_the_mesh_is_the_hull_of_the_voxels_centres(
     Path("p.csv").write_text("\n".join(rows) + "\n", encoding="utf-8")
     assert call(capsys, "octree-hull", "v.csv", "-o", "v.off")[0] == 0
     assert call(capsys, "export", "p.csv", "-o", "p.off")[0] == 0
-    found, wanted = read_off("v.off"), read_off("p.off")
-    places = [set(mesh.points) for mesh in (found, wanted)]
+    meshes = [parse_off(Path(name).read_text(encoding="utf-8"), name) for name in ("v.off", "p.off")]
+    places = [set(mesh.points) for mesh in meshes]
     assert places[0] == places[1]
-    faces = [{frozenset(mesh.points[k] for k in face) for face in mesh.faces} for mesh in (found, wanted)]
+    faces = [{frozenset(mesh.points[k] for k in face) for face in mesh.faces} for mesh in meshes]
     assert faces[0] == faces[1]
 
 

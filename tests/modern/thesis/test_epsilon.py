@@ -139,7 +139,7 @@ def test_the_deck_check_takes_e() -> None:
     assert not checked(" 1").warnings
     assert checked(" 1+.10000000E-02", epsilon=False).warnings
     assert [w.message for w in checked(" 1+.10000000E-02 X").warnings] == [
-        "d: card 1, column 17: what stands after e is not read"
+        "d: card 1, column 17: the programs do not read the columns after e"
     ]
 
 
