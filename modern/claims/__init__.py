@@ -1,1 +1,30 @@
-"""The register of statements of the five documents, and the functions that compute the verdict of each statement."""
+"""The register of statements of the five documents, and the functions that compute the verdict of each statement.
+
+Every statement is a row of ``transcripts/statements/DOCUMENT.toml``.  A row names its evidence: a *claim* (a function
+of this package), a published *result* (:mod:`modern.claims.published`), or a *test* of the project.  The fields are
+documented by :class:`modern.claims.register.Statement` and in ``transcripts/README.md``.
+
+To add a verdict on a statement:
+
+1. Add a ``[[statement]]`` row to ``transcripts/statements/DOCUMENT.toml`` at its place in the order of the document,
+   with the next unused id.  ``words`` quotes at most eight words of our text of the document.
+2. Write a function that returns a :class:`~modern.claims.register.CheckResult` in the module of
+   ``modern/claims/DOCUMENT/`` that deals with the subject.  Use ``holds_if`` or ``fails_if``.  Its arguments are
+   strings, so that a row can pass them.  Sampled sets and counterexamples come from
+   :mod:`modern.claims.sampled_sets`.
+3. Name it in the row: ``claim = "package.module.function arguments"``.
+4. If the verdict is "does not hold", put the smallest counterexample into ``transcripts/counterexamples/`` and name it
+   in ``file``, and in ``run`` the command that shows it.
+5. Add a row to the table of the document in ``tests/modern/claims/`` that breaks what the claim relies on; the verdict
+   must then change.
+6. Run ``hull1620 reproduce DOCUMENT.NUMBER``.
+
+To add a document:
+
+1. Append its name to ``DOCUMENTS`` in :mod:`modern.claims.register`, and write its register
+   ``transcripts/statements/NAME.toml`` and its package of checks ``modern/claims/NAME/``.
+2. If it prints results, add a witness, an apparatus and ``results.toml`` to a folder of ``transcripts/``, a module with
+   a function ``produced`` to ``modern/papers/``, and a :class:`~modern.claims.published.Paper` to ``PAPERS``.
+3. Describe the document and its text in ``sources.toml``, which :mod:`modern.edition.sources` reads.
+4. Add a page ``docs/statements/NAME.md`` and name it in ``docs/statements.md``.
+"""

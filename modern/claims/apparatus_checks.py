@@ -29,10 +29,10 @@ from modern.papers import Lines
 
 def texts() -> dict[str, Text]:
     """Every text with an apparatus, by its id."""
-    found = [programs.text(name) for name in programs.TEXTS]
-    found += [chapter4.load_text(), load_chapter().text]
-    found += [published.text_of(paper) for paper in published.PAPERS]
-    return {text.id: text for text in found}
+    loaded_texts = [programs.text(name) for name in programs.TEXTS]
+    loaded_texts += [chapter4.load_text(), load_chapter().text]
+    loaded_texts += [published.text_of(paper) for paper in published.PAPERS]
+    return {text.id: text for text in loaded_texts}
 
 
 def places_of_pairs(all_texts: Mapping[str, Text]) -> Counter[tuple[str, str]]:
@@ -45,8 +45,8 @@ def check_sources(whole: str = "") -> Iterator[Proof]:
 
     Raises ApparatusError for a text that is no document's.
     """
-    for file, holds, words in (*sources.check_files(), *(sources.check_against(whole) if whole else ())):
-        yield Proof(file.removeprefix("fortran_src/").removeprefix("transcripts/"), holds, words)
+    for file, holds, message in (*sources.check_files(), *(sources.check_against(whole) if whole else ())):
+        yield Proof(file.removeprefix("fortran_src/").removeprefix("transcripts/"), holds, message)
 
 
 def check_listing(row: Row, places: Mapping[tuple[str, str], int]) -> Proof:
@@ -60,8 +60,8 @@ def check_transcripts(places: Mapping[tuple[str, str], int]) -> Iterator[Proof]:
     chapter = load_chapter()
     faults = [*_kinds(chapter.text, places), *check_chapter(chapter)]
     files = len({(d.example, d.program, d.device) for d in chapter.layout.devices})
-    words = f"{files} device files are witness, {len(chapter.text.rows)} rows and layout, each row needed"
-    yield _proof("chapter6", faults, words)
+    message = f"{files} device files are witness, {len(chapter.text.rows)} rows and layout, each row needed"
+    yield _proof("chapter6", faults, message)
     text = chapter4.load_text()
     faults = [*_kinds(text, places), *(fault for row in text.rows for fault in chapter4_faults(text, row))]
     for theorem in chapter4.load_theorems():
@@ -97,8 +97,10 @@ def chapter4_faults(text: Text, row: Row) -> tuple[str, ...]:
 
 
 def _sibling(row: Row, lines: tuple[Line, ...]) -> bool:
-    own, other = (solid("".join(line.text for line in lines if line.id in row.ground[k])) for k in ("own", "lines"))
-    return all(solid(words) in own and solid(words) in other for words in row.ground["words"])
+    own_lines, sibling_lines = (
+        solid("".join(line.text for line in lines if line.id in row.ground[k])) for k in ("own", "lines")
+    )
+    return all(solid(phrase) in own_lines and solid(phrase) in sibling_lines for phrase in row.ground["words"])
 
 
 def _arithmetic(row: Row, lines: tuple[Line, ...]) -> bool:
@@ -122,22 +124,22 @@ def paper_faults(paper: published.Paper, text: Text, row: Row) -> tuple[str, ...
     """Why a row of a paper does not stand: a result of its lines comes out with it, and without it does not."""
     if row.ground.get("kind") != "result":
         return (f"row {row.id}: there is no ground {row.ground.get('kind')!r}",)
-    seen = False
+    has_computed_result = False
     for first, last, result in spans(paper):
         span = _span(text, row, first, last)
         if result.cannot or not any(change.line in span for change in row.changes):
             continue
-        seen = True
-        wanted = [line.split() for line in _produced(paper.name).get(result.id, ())]
+        has_computed_result = True
+        computed_words = [line.split() for line in _produced(paper.name).get(result.id, ())]
         with_row, without = (
             [line.text.split() for line in build(text, None, left_out) if line.id in span]
             for left_out in ((), {row.id})
         )
-        if with_row != wanted and not result.differs:
+        if with_row != computed_words and not result.differs:
             return (f"row {row.id}: result {result.id} does not come out with it",)
-        if without == wanted:
+        if without == computed_words:
             return (f"row {row.id}: result {result.id} comes out without it",)
-    return () if seen else (f"row {row.id}: no result that is computed has its lines",)
+    return () if has_computed_result else (f"row {row.id}: no result that is computed has its lines",)
 
 
 def _span(text: Text, row: Row, first: str, last: str) -> list[str]:

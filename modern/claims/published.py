@@ -119,7 +119,7 @@ def results_of(paper: Paper, folder: Traversable | None = None) -> tuple[Publish
     witness = {line.id: line for line in text.witness}
     corrected = build(text)
     data = tomllib.loads(folder.joinpath("results.toml").read_text(encoding="utf-8"))
-    found: list[Published] = []
+    results: list[Published] = []
     free = [line.id for line in corrected]
     for entry in data["result"]:
         first, last = str(entry["lines"][0]), str(entry["lines"][-1])
@@ -128,7 +128,7 @@ def results_of(paper: Paper, folder: Traversable | None = None) -> tuple[Publish
         span = free[free.index(first) : free.index(last) + 1]
         free = [name for name in free if name not in span]
         lines = [line for line in corrected if line.id in span]
-        found.append(
+        results.append(
             Published(
                 entry["id"],
                 entry["place"],
@@ -143,7 +143,7 @@ def results_of(paper: Paper, folder: Traversable | None = None) -> tuple[Publish
         )
     if free:
         raise ApparatusError(f"{text.id}: lines {', '.join(free)} belong to no result")
-    return tuple(found)
+    return tuple(results)
 
 
 def judge(paper: Paper, result: Published, produced: Sequence[str]) -> Finding:

@@ -1,9 +1,10 @@
-"""A verdict on every statement of the five documents: what a row says, and what is found when it is computed.
+"""The register of statements of the five documents, and the computation of their verdicts.
 
-``transcripts/statements`` has a file for each document, a row a statement.  A verdict is not taken from the row: a
-*claim* is a function of this room that computes one; a *result* is one that ``reproduce`` judges anyway; a *test* is
-named where the check takes too long to be made each time (tests/modern/claims/test_register.py sees that it is
-there).  Only what cannot be tested has a reason and nothing else.
+``transcripts/statements`` holds one file for each document and one row for each statement.  A row records a verdict
+and names the evidence from which :func:`judge` computes it again: a *claim* is a function of this package, a *result*
+is a published result that ``reproduce`` judges as well, and a *test* replaces them if the check takes too long
+(``tests/modern/claims/test_register.py`` checks that the test exists).  A statement that cannot be tested has a reason
+instead.
 """
 
 from __future__ import annotations
@@ -37,33 +38,40 @@ _FIELDS = {"id", "page", "kind", "words", "says", "verdict", "why", "claim", "re
 
 
 class StatementError(ValueError):
-    """A row that cannot be read; one line naming document and row."""
+    """An invalid row of a register; the message is one line that names the document and the row."""
 
 
 @dataclass(frozen=True, slots=True)
-class Seen:
-    """What a claim function found: a verdict, and what it saw in words."""
+class CheckResult:
+    """The verdict that a claim function computed, and a message with the evidence."""
 
     verdict: Verdict
-    words: str
+    message: str
 
 
-def seen(holds: bool, words: str) -> Seen:
-    """What a claim that holds or not has found."""
-    return Seen(HOLDS if holds else FAILS, words)
+def holds_if(passed: object, message: str, conditional: object = False) -> CheckResult:
+    """Return HOLDS, or CONDITION if ``conditional``, for a check that passed, and FAILS otherwise."""
+    return CheckResult((CONDITION if conditional else HOLDS) if passed else FAILS, message)
+
+
+def fails_if(refuted: object, message: str) -> CheckResult:
+    """Return FAILS if a counterexample refutes the statement, and HOLDS otherwise."""
+    return CheckResult(FAILS if refuted else HOLDS, message)
 
 
 @dataclass(frozen=True, slots=True)
 class Statement:
     """A statement of a document.
 
-    ``page``: the page, or the section where our text has no page numbers; ``kind``: theorem, lemma, definition,
-    equation, figure, table, complexity, property, step, claim, slip, ...; ``words``: where it stands, at most eight
-    words of our text of the document; ``says``: what it says, in ours; ``why``: the condition, or why it fails or is
-    not tested.  ``claim``: ``module.function arguments`` of this room; ``results``: ids of what ``reproduce`` judges;
-    ``tests``: test functions, ``file::name``.  ``file``: the smallest counterexample known, in
-    ``transcripts/counterexamples``; ``run``: how a reader runs it.  ``part``: the theorem it belongs to, where the
-    worked examples of chapter 4 are concerned.
+    ``page`` is the page, or the section if our text has no page numbers.  ``kind`` is theorem, lemma, definition,
+    equation, figure, table, complexity, property, step, claim, slip and so on.  ``words`` quotes at most eight words of
+    our text of the document and so locates the statement; ``says`` paraphrases it.  ``why`` is the condition, the
+    reason why the statement fails, or the reason why it is not tested.
+
+    ``claim`` is ``module.function arguments`` below :mod:`modern.claims`, ``results`` are ids of published results,
+    and ``tests`` are test functions, ``file::name``.  ``file`` is the smallest known counterexample in
+    ``transcripts/counterexamples``, and ``run`` the command that shows it.  ``part`` is the theorem to which a worked
+    example of chapter 4 belongs.
     """
 
     document: str
@@ -84,111 +92,128 @@ class Statement:
 
 @dataclass(frozen=True, slots=True)
 class Judged:
-    """A statement and what was found: ``found`` is None where only a test or a reason stands for the verdict."""
+    """A statement with its computed verdict, which is None if the evidence is a test or a reason only."""
 
     statement: Statement
-    found: Verdict | None
-    seen: str
+    computed: Verdict | None
+    message: str
 
     @property
     def agrees(self) -> bool:
-        """Whether what was found is the verdict of the row."""
-        return self.found in (None, self.statement.verdict)
+        """Return True if the computed verdict, if any, is the recorded one."""
+        return self.computed in (None, self.statement.verdict)
 
 
 Results = Callable[[str, str], Verdict | None]
-"""The verdict on a result by document and id, None for an id that is not one."""
+"""Returns the verdict on a result by document and id, or None for an unknown id."""
 
 
 def statements_folder() -> Traversable:
-    """The data folder, in a checkout or an installed wheel."""
+    """Return the data folder, in a checkout or an installed wheel."""
     return files("transcripts").joinpath("statements")
 
 
 def counterexample(name: str) -> str:
-    """The text of a file of ``transcripts/counterexamples``."""
+    """Return the text of a file of ``transcripts/counterexamples``."""
     return files("transcripts").joinpath("counterexamples", name).read_text(encoding="utf-8")
 
 
 @cache
 def statements_of(document: str) -> tuple[Statement, ...]:
-    """The rows of a document in its order.  Raises StatementError."""
+    """Return the rows of a document in the order of its file.  Raise StatementError for an invalid row."""
     text = statements_folder().joinpath(f"{document}.toml").read_text(encoding="utf-8")
     return tuple(read_rows(document, text))
 
 
 def read_rows(document: str, text: str) -> Iterator[Statement]:
-    """The rows of a file.  Raises StatementError for a field that is not one, a verdict that is not, no evidence."""
+    """Yield the rows of a register.
+
+    Raises
+    ------
+    StatementError
+        If a row has an unknown or missing field, an unknown verdict, or evidence that does not fit its verdict.
+    """
     for raw in tomllib.loads(text).get("statement", ()):
         yield _row(document, raw)
 
 
 def _row(document: str, raw: Mapping[str, Any]) -> Statement:
-    where = f"{document}: {raw.get('id', 'a row without id')}"
-    strange = raw.keys() - _FIELDS
+    place = f"{document}: {raw.get('id', 'a row without id')}"
+    unknown = raw.keys() - _FIELDS
     missing = {"id", "page", "kind", "words", "says", "verdict"} - raw.keys()
-    if strange or missing:
-        raise StatementError(f"{where}: {', '.join(sorted(strange or missing))} {'unknown' if strange else 'missing'}")
+    if unknown or missing:
+        raise StatementError(
+            f"{place}: {'unknown' if unknown else 'missing'} field: {', '.join(sorted(unknown or missing))}"
+        )
     if not raw["id"].startswith(f"{document}."):
-        raise StatementError(f"{where}: an id is the document's name, a point and what tells it from its others")
-    if raw["verdict"] not in get_args(Verdict):
-        raise StatementError(f"{where}: a verdict is one of {', '.join(VERDICTS)}")
+        raise StatementError(f"{place}: expected an id of the form {document}.NUMBER")
+    verdict = raw["verdict"]
+    if verdict not in get_args(Verdict):
+        raise StatementError(f"{place}: expected one of the verdicts {', '.join(VERDICTS)}; found {verdict!r}")
     if len(raw["words"].split()) > MOST_WORDS:
-        raise StatementError(f"{where}: a locator has at most {MOST_WORDS} words")
-    results, tests = _several(raw.get("result", ())), _several(raw.get("test", ()))
-    computed = bool(raw.get("claim") or results or tests)
-    if computed == (raw["verdict"] == UNTESTABLE) and not (computed and results):
-        raise StatementError(f"{where}: {raw['verdict']} goes {'with' if not computed else 'without'} evidence")
-    if raw["verdict"] != HOLDS and not raw.get("why"):
-        raise StatementError(f"{where}: {raw['verdict']}: it is not said why")
-    if raw["verdict"] == FAILS and not (raw.get("file") and raw.get("run")):
-        raise StatementError(f"{where}: {FAILS}: there is no counterexample, or it is not said how it runs")
+        raise StatementError(f"{place}: expected a quotation of at most {MOST_WORDS} words")
+    results, tests = _as_tuple(raw.get("result", ())), _as_tuple(raw.get("test", ()))
+    has_evidence = bool(raw.get("claim") or results or tests)
+    if verdict == UNTESTABLE and has_evidence and not results:
+        raise StatementError(f"{place}: a row with the verdict {UNTESTABLE!r} must not name a claim or test")
+    if verdict != UNTESTABLE and not has_evidence:
+        raise StatementError(f"{place}: a row with the verdict {verdict!r} must name a claim, result or test")
+    if verdict != HOLDS and not raw.get("why"):
+        raise StatementError(f"{place}: a row with the verdict {verdict!r} needs a reason in the field 'why'")
+    if verdict == FAILS and not (raw.get("file") and raw.get("run")):
+        raise StatementError(f"{place}: a row with the verdict {FAILS!r} needs a counterexample in 'file' and 'run'")
     simple = {name: raw[name] for name in _FIELDS - {"result", "test"} if name in raw}
     return Statement(document, **simple, results=results, tests=tests)
 
 
-def _several(value: str | Iterable[str]) -> tuple[str, ...]:
+def _as_tuple(value: str | Iterable[str]) -> tuple[str, ...]:
     return (value,) if isinstance(value, str) else tuple(value)
 
 
 def judge(statement: Statement, results: Results) -> Judged:
-    """Compute what a row rests on; of several the worst.  Raises StatementError for one that does not exist."""
+    """Compute the verdict of a row from its evidence; the worst verdict counts.
+
+    Raises
+    ------
+    StatementError
+        If the row names a claim or result that does not exist.
+    """
     verdicts: list[Verdict] = []
-    words: list[str] = []
+    messages: list[str] = []
     if statement.claim:
-        found = claimed(statement.claim)
-        verdicts.append(found.verdict)
-        words.append(found.words)
+        check = run_claim(statement.claim)
+        verdicts.append(check.verdict)
+        messages.append(check.message)
     for name in statement.results:
         verdict = results(statement.document, name)
         if verdict is None:
             raise StatementError(f"{statement.document}: {statement.id}: there is no result {name}")
         verdicts.append(verdict)
     if statement.results:
-        words.append(f"judged above: {', '.join(statement.results)}")
+        messages.append(f"judged above: {', '.join(statement.results)}")
     if verdicts:
-        return Judged(statement, max(verdicts, key=_FROM_BEST.index), "; ".join(words))
+        return Judged(statement, max(verdicts, key=_FROM_BEST.index), "; ".join(messages))
     if statement.tests:
         return Judged(statement, None, f"checked by {', '.join(statement.tests)}")
     return Judged(statement, None, "")
 
 
 @cache
-def claimed(claim: str) -> Seen:
-    """Run a claim, ``module.function arguments``.  Raises StatementError for one that does not exist."""
+def run_claim(claim: str) -> CheckResult:
+    """Run a claim, ``module.function arguments``.  Raise StatementError if the function does not exist."""
     name, *arguments = claim.split()
-    module, _, function = name.rpartition(".")
+    module, _, function_name = name.rpartition(".")
     try:
-        found = getattr(import_module(f"modern.claims.{module}"), function)
+        function = getattr(import_module(f"modern.claims.{module}"), function_name)
     except (ImportError, AttributeError):
         raise StatementError(f"there is no claim {name}") from None
-    seen: Seen = found(*arguments)
-    return seen
+    result: CheckResult = function(*arguments)
+    return result
 
 
 EXAMPLE: Final = "example "
-"""How the id of a result of chapter 6 begins; its number follows."""
-_OF_FINDING: Mapping[str, Verdict] = {
+"""The prefix of the id of a result of chapter 6; the number of the example follows."""
+_VERDICT_OF_FINDING: Mapping[str, Verdict] = {
     EXACT: HOLDS,
     CORRECTED: HOLDS,
     EXPLAINED: FAILS,
@@ -198,31 +223,31 @@ _OF_FINDING: Mapping[str, Verdict] = {
 
 
 class Judgements:
-    """Verdicts on results: those judged already, and others judged when they are asked for."""
+    """The verdicts on results: those given at the start, and others computed at their first use."""
 
-    def __init__(self, reports: Iterable[Report] = (), found: Iterable[Finding] = ()) -> None:
+    def __init__(self, reports: Iterable[Report] = ()) -> None:
         self.known: dict[tuple[str, str], Verdict] = {}
-        self.reported(reports)
-        self.found(found)
+        self.add_examples(reports)
 
-    def reported(self, reports: Iterable[Report]) -> None:
-        """Take in examples of chapter 6, each complete."""
-        grouped: dict[int, list[Report]] = {}
+    def add_examples(self, reports: Iterable[Report]) -> None:
+        """Add the verdicts on complete examples of chapter 6."""
+        by_example: dict[int, list[Report]] = {}
         for report in reports:
-            grouped.setdefault(report.example, []).append(report)
-        for number, group in grouped.items():
-            self.known[THESIS, f"{EXAMPLE}{number}"] = HOLDS if summary(group)[0] else FAILS
+            by_example.setdefault(report.example, []).append(report)
+        for example, group in by_example.items():
+            self.known[THESIS, f"{EXAMPLE}{example}"] = HOLDS if summary(group)[0] else FAILS
 
-    def found(self, found: Iterable[Finding]) -> None:
-        """Take in results of the later papers."""
-        self.known.update({(finding.paper, finding.result.id): _OF_FINDING[finding.kind] for finding in found})
+    def add_findings(self, paper_findings: Iterable[Finding]) -> None:
+        """Add the verdicts on results of the later papers."""
+        for finding in paper_findings:
+            self.known[finding.paper, finding.result.id] = _VERDICT_OF_FINDING[finding.kind]
 
     def __call__(self, document: str, name: str) -> Verdict | None:
         if (document, name) not in self.known:
-            number = name.removeprefix(EXAMPLE)
-            if document == THESIS and number in map(str, EXAMPLES):
-                self.reported(reproduce((int(number),)))
+            example = name.removeprefix(EXAMPLE)
+            if document == THESIS and example in map(str, EXAMPLES):
+                self.add_examples(reproduce((int(example),)))
             for paper in PAPERS:
                 if paper.name == document:
-                    self.found(findings(paper))
+                    self.add_findings(findings(paper))
         return self.known.get((document, name))

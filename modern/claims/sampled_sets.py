@@ -1,27 +1,37 @@
-"""Small sets of whole points for the claims, always the same, with the construction and the judge's hull of each."""
+"""Data that the checks of several documents share: sampled point sets, random triples and counterexamples.
+
+The sampled sets are small sets of integer points, always the same ones, each with the hull that the port of Butler's
+procedure constructs and the hull that the exact judge computes.
+"""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from random import Random
 
+from modern.claims.register import counterexample
 from modern.exact_hull import ExactHull, exact_hull
+from modern.formats.csv import points as csv_points
 from modern.geometry.hull import Hull
 from modern.geometry.vectors import cross, dot, minus
 from modern.port import convex_hull
 
 Point = tuple[int, int, int]
 Plane = tuple[int, int, int, int]
-_SIZE, _LEAST, _MOST = 5, 7, 11
-_BEGIN = {2: 1965, 3: 313}
-"""So that the first two sets of each dimension have what claims are about: points inside, one on the boundary, and in
-space a face of four corners."""
+COUNT = "2"
+"""The number of sets of each dimension that ``reproduce`` samples; the tests sample more."""
+_COORDINATE_LIMIT, _FEWEST_POINTS, _MOST_POINTS = 5, 7, 11
+_SEEDS = {2: 1965, 3: 313}
+"""The first two sets of each dimension contain the cases that claims are about: points inside the hull, a point on its
+boundary and, in space, a face with four corners."""
 
 
 @dataclass(frozen=True, slots=True)
-class Grown:
-    """One H_j: the points that are vertices so far, and its equations, each outward, with their defining points."""
+class Approximation:
+    """A hull H_j of the construction: its vertices, and its outward equations with their defining points."""
 
     vertices: tuple[int, ...]
     equations: tuple[Plane, ...]
@@ -30,7 +40,7 @@ class Grown:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SampledSet:
-    """Distinct points, what the procedure of chapter 3 makes of them exactly, and the judge's hull."""
+    """Distinct points, the exact hull by the procedure of chapter 3, and the judge's hull."""
 
     points: tuple[Point, ...]
     hull: Hull
@@ -40,39 +50,49 @@ class SampledSet:
     def flat(self) -> bool:
         return self.judge.dimension == 2
 
-    def stages(self) -> tuple[Grown, ...]:
-        """H_1, H_2, ... with their equations as integers."""
-        found: list[Grown] = []
+    def stages(self) -> tuple[Approximation, ...]:
+        """Return H_1, H_2, ... with integer equations."""
+        approximations: list[Approximation] = []
         vertices: tuple[int, ...] = ()
+        start = self.hull.history[0].added
         for stage in self.hull.history:
             vertices += stage.added
-            start = self.hull.history[0].added
             planes = tuple(_outward(self.points, defining, start, self.flat) for defining in stage.equations)
-            found.append(Grown(vertices, planes, stage.equations))
-        return tuple(found)
+            approximations.append(Approximation(vertices, planes, stage.equations))
+        return tuple(approximations)
 
 
-def value(plane: Plane, point: Point) -> int:
-    """A x + B y + C z + D."""
+def plane_value(plane: Plane, point: Point) -> int:
+    """Return A x + B y + C z + D."""
     return dot(plane[:3], point) + plane[3]
 
 
-def through(p: Point, q: Point, r: Point) -> Plane:
-    """The plane through three points, by a cross product, not by (3.4)."""
+def plane_through(p: Point, q: Point, r: Point) -> Plane:
+    """Return the plane through three points, computed by a cross product and not by equation (3.4) of the thesis."""
     normal = cross(minus(q, p), minus(r, p))
     return (*normal, -dot(normal, p))
 
 
+def reduced_plane(plane: Plane) -> Plane:
+    """Divide the coefficients of a plane by their greatest common divisor."""
+    divisor = math.gcd(*plane)
+    a, b, c, d = (coefficient // divisor for coefficient in plane)
+    return a, b, c, d
+
+
 def _outward(points: tuple[Point, ...], defining: tuple[int, ...], start: tuple[int, ...], flat: bool) -> Plane:
-    """An equation with the mean of the first points on its negative side; of a line the upright plane through it."""
+    """Return an equation that is negative at the mean of the first points.
+
+    In a flat set an equation is a line; it is represented by the plane through the line perpendicular to the set.
+    """
     if flat:
         p, q = (points[k] for k in defining)
         normal = cross(_normal(points, start), minus(q, p))
         plane: Plane = (*normal, -dot(normal, p))
     else:
         p, q, r = (points[k] for k in defining)
-        plane = through(p, q, r)
-    mean = sum(value(plane, points[k]) for k in start)
+        plane = plane_through(p, q, r)
+    mean = sum(plane_value(plane, points[k]) for k in start)
     return (-plane[0], -plane[1], -plane[2], -plane[3]) if mean > 0 else plane
 
 
@@ -83,17 +103,40 @@ def _normal(points: tuple[Point, ...], start: tuple[int, ...]) -> Point:
 
 @cache
 def sampled_sets(dimension: int, count: int) -> tuple[SampledSet, ...]:
-    """``count`` sets in space (3) or in a plane that is no coordinate plane (2), some of them with points in line."""
-    random = Random(_BEGIN[dimension])
-    found: list[SampledSet] = []
-    while len(found) < count:
-        number = random.randint(_LEAST, _MOST)
-        drawn: dict[Point, None] = {}
-        while len(drawn) < number:
-            x, y, z = (random.randint(-_SIZE, _SIZE) for _ in range(3))
-            drawn[(x, y, z) if dimension == 3 else (x, y, x - 2 * y + 3)] = None
-        points = tuple(drawn)
+    """Return ``count`` sets in space (3) or in a plane that is not parallel to a coordinate axis (2).
+
+    Some sets have three collinear points.
+    """
+    random = Random(_SEEDS[dimension])
+    sets: list[SampledSet] = []
+    while len(sets) < count:
+        size = random.randint(_FEWEST_POINTS, _MOST_POINTS)
+        distinct: dict[Point, None] = {}
+        while len(distinct) < size:
+            x, y, z = (random.randint(-_COORDINATE_LIMIT, _COORDINATE_LIMIT) for _ in range(3))
+            distinct[(x, y, z) if dimension == 3 else (x, y, x - 2 * y + 3)] = None
+        points = tuple(distinct)
         judge = exact_hull(points)
+        # A few draws have another dimension, for example coplanar points in space.
         if judge.dimension == dimension:
-            found.append(SampledSet(points, convex_hull(points, history=True), judge))
-    return tuple(found)
+            sets.append(SampledSet(points, convex_hull(points, history=True), judge))
+    return tuple(sets)
+
+
+def flat_and_spatial_sets(count: str) -> tuple[SampledSet, ...]:
+    """Return ``count`` sets in a plane followed by ``count`` sets in space."""
+    return (*sampled_sets(2, int(count)), *sampled_sets(3, int(count)))
+
+
+def counterexample_points(name: str) -> list[Point]:
+    """Return the integer points of a CSV file of ``transcripts/counterexamples``."""
+    rows, _ = csv_points(counterexample(name), name)
+    return [(int(x), int(y), int(z)) for x, y, z in rows]
+
+
+def random_triples(count: int = 6) -> Iterator[tuple[Point, Point, Point]]:
+    """Yield ``count`` triples of random points, always the same ones."""
+    random = Random(3)
+    for _ in range(count):
+        p, q, r = (tuple(random.randint(-9, 9) for _ in range(3)) for _ in range(3))
+        yield p, q, r  # type: ignore[misc]

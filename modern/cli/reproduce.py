@@ -70,7 +70,7 @@ def main(args: argparse.Namespace) -> int:
     for line in theorem_lines(theorems, paint, indented):
         print(line, file=out)
     found_results = list(_papers(named, colour, width, out, args.show))
-    results.found(found_results)
+    results.add_findings(found_results)
     known = {judged.statement.id: judged for judged in theorems}
     stated = [known.get(row.id) or judge(row, results) for row in _rows(asked)]
     for line in statement_lines(stated, paint, indented) if asked else statement_summary(stated, paint, indented):
@@ -237,12 +237,12 @@ def _document(
                 "pages": judged.statement.page,
                 "claim": judged.statement.says,
                 "holds": judged.agrees,
-                "seen": judged.seen,
+                "seen": judged.message,
             }
             for judged in theorems
         ],
         "statements": [
-            {**asdict(judged.statement), "found": judged.found, "seen": judged.seen, "agrees": judged.agrees}
+            {**asdict(judged.statement), "found": judged.computed, "seen": judged.message, "agrees": judged.agrees}
             for judged in stated
         ],
         "results": [

@@ -9,9 +9,8 @@ from collections.abc import Iterator, Mapping
 from itertools import combinations
 
 from modern.claims.appel_will.convexity import CUBE
-from modern.claims.register import Seen, seen
-from modern.claims.sampled_sets import Point, sampled_sets, through, value
-from modern.claims.thesis.chapter3_equations import COUNT
+from modern.claims.register import CheckResult, holds_if
+from modern.claims.sampled_sets import COUNT, Point, plane_through, plane_value, sampled_sets
 from modern.exact_hull import ExactHull, exact_hull
 from modern.papers.appel_will import appel_will
 from modern.papers.appel_will.loops import TIMES
@@ -22,22 +21,22 @@ Graph = Mapping[int, frozenset[int]]
 
 def _sets(count: str) -> list[tuple[Point, ...]]:
     figures = [found_solid(name).points for name in ("fig14", "fig23")]
-    return [CUBE, *figures, *(one.points for one in sampled_sets(3, int(count)))]  # type: ignore[list-item]
+    return [CUBE, *figures, *(sampled.points for sampled in sampled_sets(3, int(count)))]  # type: ignore[list-item]
 
 
-def faces_without_dimensions(count: str = COUNT) -> Seen:
+def faces_from_graph(count: str = COUNT) -> CheckResult:
     """Faces found in the graph of a hull's edges, without coordinates, against the judge's faces.
 
     Of a graph that stays connected without any two of its vertices the faces are the cycles that have no chord and
     leave the rest connected (Tutte 1963); the graphs of convex polyhedra are such.
     """
-    good, faces = [], 0
+    checks, faces = [], 0
     for points in _sets(count):
         judge = exact_hull(points)
-        found = {cycle for cycle in _cycles(_graph(judge)) if _connected(_graph(judge), cycle)}
-        good.append(found == {frozenset(facet.polygon) for facet in judge.facets})
-        faces += len(found)
-    return seen(all(good), f"{faces} faces of {len(good)} hulls by their edges alone")
+        found_faces = {cycle for cycle in _cycles(_graph(judge)) if _connected(_graph(judge), cycle)}
+        checks.append(found_faces == {frozenset(facet.polygon) for facet in judge.facets})
+        faces += len(found_faces)
+    return holds_if(all(checks), f"{faces} faces of {len(checks)} hulls by their edges alone")
 
 
 def _graph(judge: ExactHull) -> Graph:
@@ -60,42 +59,42 @@ def _cycles(graph: Graph) -> Iterator[frozenset[int]]:
 
 
 def _connected(graph: Graph, without: frozenset[int]) -> bool:
-    left = {*graph} - without
-    waiting = [left.pop()] if left else []
-    while waiting:
-        near = graph[waiting.pop()] & left
-        left -= near
-        waiting += near
-    return not left
+    remaining = {*graph} - without
+    queue = [remaining.pop()] if remaining else []
+    while queue:
+        near = graph[queue.pop()] & remaining
+        remaining -= near
+        queue += near
+    return not remaining
 
 
-def coplanar_loops(count: str = COUNT) -> Seen:
+def coplanar_loops(count: str = COUNT) -> CheckResult:
     """Two lines with a common end: their three points are on one loop at the most, and no two loops have one plane."""
-    good = []
+    checks = []
     for points in _sets(count):
         judge = exact_hull(points)
-        for one, other in combinations(judge.edges(), 2):
-            three = {*one, *other}
-            if len(three) == len(one) + 1:
-                good.append(sum(three <= {*facet.polygon} for facet in judge.facets) <= 1)
-        good.append(len({facet.plane for facet in judge.facets}) == len(judge.facets))
-    return seen(all(good), f"{len(good)} pairs of lines and hulls")
+        for first_edge, second_edge in combinations(judge.edges(), 2):
+            three = {*first_edge, *second_edge}
+            if len(three) == len(first_edge) + 1:
+                checks.append(sum(three <= {*facet.polygon} for facet in judge.facets) <= 1)
+        checks.append(len({facet.plane for facet in judge.facets}) == len(judge.facets))
+    return holds_if(all(checks), f"{len(checks)} pairs of lines and hulls")
 
 
-def list_of_points(count: str = COUNT) -> Seen:
+def list_of_points(count: str = COUNT) -> CheckResult:
     """The points that step 10 puts into the plane of a loop, in the order of the steps: step 7 has put them all there.
 
     The points that it finds in the plane are those of the loop, so a list of them tells the rest of the steps all.
     """
-    good: list[bool] = []
+    checks: list[bool] = []
     asked = 0
     for points in _sets(count):
         hull = appel_will(points)
         before = (0,) * len(hull.edges)
         for loop, ring in zip(hull.table.loops, hull.surfaces, strict=True):
             a, b, c = (hull.points[k] for k in ring[:3])
-            values = {k: value(through(a, b, c), hull.points[k]) for k in hull.vertices}
-            good.append({k for k, found in values.items() if not found} == {*ring})
+            values = {k: plane_value(plane_through(a, b, c), hull.points[k]) for k in hull.vertices}
+            checks.append({k for k, plane_value in values.items() if not plane_value} == {*ring})
             taken, match = [abs(entry) - 1 for entry in loop.entries[:2]], loop.match
             for entry in loop.entries[2:]:
                 chosen = abs(entry) - 1
@@ -103,8 +102,10 @@ def list_of_points(count: str = COUNT) -> Seen:
                     if match in ends and before[line] < TIMES and line not in taken:
                         beyond = sum(ends) - match
                         asked += beyond != loop.start
-                        good.append((beyond in ring) == (not values[beyond]))
+                        checks.append((beyond in ring) == (not values[beyond]))
                 taken.append(chosen)
                 match = sum(hull.edges[chosen]) - match
             before = loop.uses
-    return seen(all(good) and asked > 0, f"{asked} values of step 10 are known from step 7, in {len(good)} cases right")
+    return holds_if(
+        all(checks) and asked > 0, f"{asked} values of step 10 are known from step 7, in {len(checks)} cases right"
+    )

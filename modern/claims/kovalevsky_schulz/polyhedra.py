@@ -10,9 +10,8 @@ from random import Random
 import numpy as np
 
 from modern.claims.published import PAPERS, printed_lines, produced_by
-from modern.claims.register import CONDITION, FAILS, HOLDS, Seen, seen
-from modern.claims.sampled_sets import Point, sampled_sets, value
-from modern.claims.thesis.chapter3_equations import COUNT, points_of
+from modern.claims.register import CheckResult, fails_if, holds_if
+from modern.claims.sampled_sets import COUNT, Point, counterexample_points, plane_value, sampled_sets
 from modern.digital.solids import Volume, half_ball, listed
 from modern.exact_hull import ExactHull, exact_hull
 from modern.geometry.vectors import dot, minus, plus
@@ -28,163 +27,169 @@ DIAMETERS = (8, 10, 12, 14, 16, 18, 20, 22)
 PYRAMID: tuple[Point, ...] = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 2))
 
 
-def solid_at_random(seed: int, side: int = 4) -> Volume:
+def random_solid(seed: int, side: int = 4) -> Volume:
     random = Random(seed)
     array = np.array([random.random() < 0.4 for _ in range(side**3)]).reshape(side, side, side)
     return Volume(array, (0, 0, 0))
 
 
 @cache
-def grown() -> tuple[tuple[tuple[Point, ...], ExactHull], ...]:
-    return tuple((one.points, one.judge) for one in sampled_sets(3, int(COUNT)))
+def sampled_hulls() -> tuple[tuple[tuple[Point, ...], ExactHull], ...]:
+    return tuple((sampled.points, sampled.judge) for sampled in sampled_sets(3, int(COUNT)))
 
 
-def algorithm_is_right(kind: str = "") -> Seen:
+def algorithm_against_judge(kind: str = "") -> CheckResult:
     """Both counts of coplanar faces, on grids with many, against the judge."""
-    good = _right_hulls()
-    return Seen((CONDITION if kind else HOLDS) if all(good) else FAILS, f"{len(good) // 2} hulls as the exact judge")
+    checks = _right_hulls()
+    return holds_if(all(checks), f"{len(checks) // 2} hulls as the exact judge", conditional=kind)
 
 
 @cache
 def _right_hulls() -> tuple[bool, ...]:
-    good = []
+    checks = []
     for coplanar in ("visible", "invisible"):
-        for points in (GRID, *(points for points, _ in grown())):
+        for points in (GRID, *(points for points, _ in sampled_hulls())):
             cells = convex_polyhedron(points, coplanar)
             assert isinstance(cells, CellList)
             straight = straightened(merged(cells))
             judge = exact_hull(points)
-            good.append({v.point for v in straight.vertices} == {points[k] for k in judge.vertices})
-            good.append(len(straight.faces) == len(judge.facets))
-    return tuple(good)
+            checks.append({v.point for v in straight.vertices} == {points[k] for k in judge.vertices})
+            checks.append(len(straight.faces) == len(judge.facets))
+    return tuple(checks)
 
 
-def local_corners_are_enough() -> Seen:
+def vertices_among_local_corners() -> CheckResult:
     """Vertices of the hull of some voxels are among their local corners."""
-    good = []
+    checks = []
     for seed in (1, 2):
-        volume = solid_at_random(seed)
+        volume = random_solid(seed)
         corners = {*map(tuple, local_corners(volume, CENTRES).tolist())}
         points = [*map(tuple, volume.coordinates().tolist())]
-        good.append({points[k] for k in exact_hull(points).vertices} <= corners and len(corners) < len(points))
-    return seen(all(good), f"{len(good)} solids")
+        checks.append({points[k] for k in exact_hull(points).vertices} <= corners and len(corners) < len(points))
+    return holds_if(all(checks), f"{len(checks)} solids")
 
 
-def vertices_satisfy_all() -> Seen:
+def vertices_within_planes() -> CheckResult:
     """All vertices and all planes of the judge's hulls."""
-    good = [value(f.plane, points[k]) <= 0 for points, judge in grown() for f in judge.facets for k in judge.vertices]
-    return seen(all(good), f"{len(good)} values")
+    checks = [
+        plane_value(f.plane, points[k]) <= 0
+        for points, judge in sampled_hulls()
+        for f in judge.facets
+        for k in judge.vertices
+    ]
+    return holds_if(all(checks), f"{len(checks)} values")
 
 
-def combinations_are_no_vertices(kind: str = "") -> Seen:
+def combinations_not_vertices(kind: str = "") -> CheckResult:
     """Midpoints of two points of a hull are no vertices when they are added; without a vertex it is not in the hull."""
-    good = _combined()
-    return Seen((CONDITION if kind else HOLDS) if all(good) else FAILS, f"{len(good)} points")
+    checks = _combined()
+    return holds_if(all(checks), f"{len(checks)} points", conditional=kind)
 
 
 @cache
 def _combined() -> tuple[bool, ...]:
-    good = []
-    for points, judge in grown()[:1]:
+    checks = []
+    for points, judge in sampled_hulls()[:1]:
         doubled = [plus(p, p) for p in points]
         for p, q in combinations(points[:5], 2):
-            good.append(len(points) not in exact_hull([*doubled, plus(p, q)]).vertices)
+            checks.append(len(points) not in exact_hull([*doubled, plus(p, q)]).vertices)
         for k in judge.vertices[:3]:
             rest = [p for i, p in enumerate(points) if i != k]
-            good.append(len(rest) in exact_hull([*rest, points[k]]).vertices)
-    return tuple(good)
+            checks.append(len(rest) in exact_hull([*rest, points[k]]).vertices)
+    return tuple(checks)
 
 
-def pairs_are_not_combinations() -> Seen:
+def local_corner_inside_hull() -> CheckResult:
     """A voxel of the counterexample: none of its 13 pairs is there, yet it lies within three of its neighbours."""
-    points = points_of("tripod.csv")
+    points = counterexample_points("tripod.csv")
     corners = {*map(tuple, local_corners(listed(points), CENTRES).tolist())}
     middle = points[-1]
     near = all(max(abs(a - b) for a, b in zip(p, middle, strict=True)) == 1 for p in points[:-1])
     wrong = middle in corners and near and len(points) - 1 not in exact_hull(points).vertices
-    return Seen(
-        FAILS if wrong else HOLDS, f"{middle} is a local corner and a combination of its {len(points) - 1} neighbours"
-    )
+    return fails_if(wrong, f"{middle} is a local corner and a combination of its {len(points) - 1} neighbours")
 
 
-def choice_of_q() -> Seen:
+def choice_of_q() -> CheckResult:
     """The product of the normal with P - Q for all corners Q of each face."""
-    good = []
-    for points, judge in grown():
+    checks = []
+    for points, judge in sampled_hulls():
         for facet in judge.facets:
             products = {dot(facet.plane[:3], minus(points[0], points[k])) for k in facet.polygon}
-            good.append(len(products) == 1)
-    return seen(all(good), f"{len(good)} faces")
+            checks.append(len(products) == 1)
+    return holds_if(all(checks), f"{len(checks)} faces")
 
 
-def unseen_is_inside() -> Seen:
+def points_that_see_no_face() -> CheckResult:
     """Points of a grid: those that see no face of a hull are in it."""
-    points, judge = grown()[0]
-    good, held = [], 0
+    points, judge = sampled_hulls()[0]
+    checks, held = [], 0
     for point in ((x, y, z) for x, y, z in product((-4, -1, 0, 1, 4), repeat=3)):
-        unseen = max(value(f.plane, point) for f in judge.facets) <= 0
+        unseen = max(plane_value(f.plane, point) for f in judge.facets) <= 0
         inside = point in points or len(points) not in exact_hull([*points, point]).vertices
-        good.append(unseen == inside)
+        checks.append(unseen == inside)
         held += inside
-    return seen(all(good) and held > 0, f"{len(good)} points, {held} of them in the hull")
+    return holds_if(all(checks) and held > 0, f"{len(checks)} points, {held} of them in the hull")
 
 
-def cube_seen_from_a_corner() -> Seen:
+def cube_visible_from_corner() -> CheckResult:
     """A cube and a point beyond one of its corners."""
     cube = [*product((0, 2), repeat=3)]
     judge, after = exact_hull(cube), exact_hull([*cube, (3, 3, 3)])
-    visible = [f for f in judge.facets if value(f.plane, (3, 3, 3)) > 0]
+    visible = [f for f in judge.facets if plane_value(f.plane, (3, 3, 3)) > 0]
     edges = [e for e in judge.edges() if sum({*e} <= {*f.polygon} for f in visible) == 2]
     gone = set(judge.vertices) - set(after.vertices)
-    return seen((len(visible), len(edges), len(gone)) == (3, 3, 1), "three faces, three edges and one vertex go")
+    return holds_if((len(visible), len(edges), len(gone)) == (3, 3, 1), "three faces, three edges and one vertex go")
 
 
-def coplanar_triangles() -> Seen:
+def coplanar_triangles() -> CheckResult:
     """Counting coplanar faces as visible makes more triangles than the hull has faces."""
     cells = convex_polyhedron(GRID, "visible")
     assert isinstance(cells, CellList)
-    return seen(len(cells.faces) > 6, f"{len(cells.faces)} triangles of a grid's cube, which has 6 faces")
+    return holds_if(len(cells.faces) > 6, f"{len(cells.faces)} triangles of a grid's cube, which has 6 faces")
 
 
-def third_treatment(kind: str = "") -> Seen:
+def extended_faces(kind: str = "") -> CheckResult:
     """Faces extended to a coplanar point: the judge's faces, and fewer new ones than by triangles."""
     if kind:
-        found = coplanar_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (2, 0, 0)], EXTENDED)
-        return seen(
-            found.extended == 2, f"{found.extended} faces are extended, {found.straightened} edges come into line"
+        hull = coplanar_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (2, 0, 0)], EXTENDED)
+        return holds_if(
+            hull.extended == 2, f"{hull.extended} faces are extended, {hull.straightened} edges come into line"
         )
-    extended, other = coplanar_hull(GRID, EXTENDED), coplanar_hull(GRID, QUADRANGLES)
+    extended, quadrangles_hull = coplanar_hull(GRID, EXTENDED), coplanar_hull(GRID, QUADRANGLES)
     right = list(extended.faces) == sorted(f.polygon for f in exact_hull(GRID).facets)
-    return seen(
-        right and extended.made < other.made, f"{extended.made} new faces of a grid's cube, {other.made} as in Fig. 7"
+    return holds_if(
+        right and extended.made < quadrangles_hull.made,
+        f"{extended.made} new faces of a grid's cube, {quadrangles_hull.made} as in Fig. 7",
     )
 
 
-def quadrangles() -> Seen:
+def quadrangles() -> CheckResult:
     """A point in the plane of a pyramid's square that sees two of its sides."""
-    found = coplanar_hull([*PYRAMID, (3, 3, 0)], QUADRANGLES)
-    return seen(
-        found.larger == 1 and found.merged > 0, f"{found.larger} new face with four corners, merged with the square"
+    hull = coplanar_hull([*PYRAMID, (3, 3, 0)], QUADRANGLES)
+    return holds_if(
+        hull.larger == 1 and hull.merged > 0, f"{hull.larger} new face with four corners, merged with the square"
     )
 
 
-def formula_5() -> Seen:
+def formula_5() -> CheckResult:
     """Triangles of hulls, 2 V - 4 of them: three integers a vertex and three a triangle are 6 more than (5) says."""
-    good = []
-    for points, _ in grown():
+    checks = []
+    for points, _ in sampled_hulls():
         cells = convex_polyhedron(points, "visible")
         assert isinstance(cells, CellList)
         corners, triangles = len(cells.vertices), len(cells.faces)
-        good.append(triangles == 2 * corners - 4)
-        good.append(3 * corners + 3 * triangles == triangulation_size(triangles) + 6)
-    return Seen(CONDITION if all(good) else FAILS, f"{len(good) // 2} hulls of triangles: 6 integers more than by (5)")
+        checks.append(triangles == 2 * corners - 4)
+        checks.append(3 * corners + 3 * triangles == triangulation_size(triangles) + 6)
+    return holds_if(
+        all(checks), f"{len(checks) // 2} hulls of triangles: 6 integers more than by (5)", conditional=True
+    )
 
 
-def integers_a_face() -> Seen:
+def integers_per_face() -> CheckResult:
     """The last column of Table 5: rounded at diameter 16, so that 1070 / 142 at 18 is 7.54, not 7.53."""
     sixteen, eighteen = (Fraction(100 * integers, faces) for _, _, faces, integers in _table_5()[4:6])
-    good = (int(sixteen), round(sixteen)) == (855, 856) and (int(eighteen), round(eighteen)) == (753, 754)
-    return Seen(CONDITION if good else FAILS, "1010 / 118 is printed rounded, 8.56; 1070 / 142 is 7.535")
+    passed = (int(sixteen), round(sixteen)) == (855, 856) and (int(eighteen), round(eighteen)) == (753, 754)
+    return holds_if(passed, "1010 / 118 is printed rounded, 8.56; 1070 / 142 is 7.535", conditional=True)
 
 
 @cache
@@ -196,7 +201,7 @@ def _table_5() -> tuple[tuple[int, int, int, int], ...]:
     return tuple((int(p[1]), int(p[2]), int(m[4]), int(m[5])) for p, m in rows)
 
 
-def memory() -> Seen:
+def memory_requirements() -> CheckResult:
     """Table 5, all half-balls: integers of the cell list against Marching Cubes' and those of triangles.
 
     By (6) the hull has as many vertices as are left of the integers; of V vertices the hull has 2 V - 4 triangles.
@@ -208,66 +213,68 @@ def memory() -> Seen:
         if cells > own:
             more[diameter] = f"{cells} against {own} at {diameter}"
     fewer.append(cell_list_size(60, 63) < triangulation_size(3560))
-    words = f"fewer than Marching Cubes in {sum(fewer)} of {len(fewer)}; more than triangles of the hull: "
-    return Seen(CONDITION if all(fewer) and {*more} == {10, 18} else FAILS, words + ", ".join(more.values()))
+    message = f"fewer than Marching Cubes in {sum(fewer)} of {len(fewer)}; more than triangles of the hull: "
+    return holds_if(all(fewer) and {*more} == {10, 18}, message + ", ".join(more.values()), conditional=True)
 
 
-def integers_of_triangles() -> Seen:
+def integers_of_triangles() -> CheckResult:
     """Table 5: integers to save by (5), 4.5 for each of the printed triangles."""
-    good = [triangulation_size(triangles) == integers for triangles, integers, _, _ in _table_5()]
-    return seen(len(good) == 8 and all(good), f"{sum(good)} of {len(good)} rows")
+    checks = [triangulation_size(triangles) == integers for triangles, integers, _, _ in _table_5()]
+    return holds_if(len(checks) == 8 and all(checks), f"{sum(checks)} of {len(checks)} rows")
 
 
-def faces_are_planar() -> Seen:
+def planar_faces() -> CheckResult:
     """The corners of each face of a half-ball's cell list satisfy one equation; some vertex has over four edges."""
     cells = _half_ball()
-    good = []
+    checks = []
     for face, plane in zip(cells.faces, cells.planes(), strict=True):
-        good.append(all(value(plane, cells.vertices[v - 1].point) == 0 for v in face.vertices))
+        checks.append(all(plane_value(plane, cells.vertices[v - 1].point) == 0 for v in face.vertices))
     most = max(len(vertex.edges) for vertex in cells.vertices)
-    return seen(all(good) and most > 4, f"{len(good)} faces; a vertex with {most} edges")
+    return holds_if(all(checks) and most > 4, f"{len(checks)} faces; a vertex with {most} edges")
 
 
-def halves_of_a_sorted_set() -> Seen:
+def halves_of_sorted_set() -> CheckResult:
     """Points sorted by x and halved: apart if all x differ; with equal x the halves' hulls can meet."""
     apart = []
-    for points, _ in grown():
+    for points, _ in sampled_hulls():
         distinct = sorted({p[0]: p for p in points}.values())
         half = len(distinct) // 2
         apart.append(max(p[0] for p in distinct[:half]) < min(p[0] for p in distinct[half:]))
     halves = ([(0, 0, 0), (0, 2, 0)], [(0, 1, 0), (1, 1, 0)])
     meet = sorted(p[0] for half in halves for p in half) == [p[0] for half in halves for p in half]
     meet &= 2 not in exact_hull([*halves[0], halves[1][0]]).vertices
-    words = "halves of distinct x are apart; (0, 1) lies between (0, 0) and (0, 2) of the other half"
-    return Seen(CONDITION if all(apart) and meet else FAILS, words)
+    message = "halves of distinct x are apart; (0, 1) lies between (0, 0) and (0, 2) of the other half"
+    return holds_if(all(apart) and meet, message, conditional=True)
 
 
-def what_goes() -> Seen:
+def cells_removed() -> CheckResult:
     """A hull and one point more: visible faces go, edges between two of them, vertices on them only; the rest stays."""
-    good = []
-    for points, judge in grown():
+    checks = []
+    for points, judge in sampled_hulls():
         for new in ((9, 1, 0), (-8, 3, 7)):
-            values = {f: value(f.plane, new) for f in judge.facets}
+            values = {f: plane_value(f.plane, new) for f in judge.facets}
             after = exact_hull([*points, new])
             if 0 in values.values():
                 continue
             hidden = {frozenset(f.polygon) for f, v in values.items() if v < 0}
             faces = {frozenset(f.polygon) for f in after.facets}
             rim = [e for e in judge.edges() if sum({*e} <= h for h in hidden) == 1]
-            good.append(faces == hidden | {frozenset((*edge, len(points))) for edge in rim})
-            good.append({*after.vertices} == {v for h in hidden for v in h} | {len(points)})
-            kept = {e for e in judge.edges() if any({*e} <= h for h in hidden)}
-            good.append({e for e in after.edges() if len(points) not in e} == kept)
-    return seen(bool(good) and all(good), f"{len(good) // 3} points outside of a hull, in the plane of no face")
+            checks.append(faces == hidden | {frozenset((*edge, len(points))) for edge in rim})
+            checks.append({*after.vertices} == {v for h in hidden for v in h} | {len(points)})
+            remaining_edges = {e for e in judge.edges() if any({*e} <= h for h in hidden)}
+            checks.append({e for e in after.edges() if len(points) not in e} == remaining_edges)
+    return holds_if(
+        bool(checks) and all(checks), f"{len(checks) // 3} points outside of a hull, in the plane of no face"
+    )
 
 
-def edge_in_line(treatment: Treatment = EXTENDED) -> Seen:
+def collinear_edges(treatment: Treatment = EXTENDED) -> CheckResult:
     """A square and a point on the line of one of its sides: the side's end is no vertex of the larger face."""
     square = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0), (1, 1, 5)]
     judge = exact_hull([*square, (8, 0, 0)])
-    found = coplanar_hull([*square, (8, 0, 0)], treatment)
-    good = judge.vertices == (0, 2, 3, 4, 5) and found.straightened > 0
-    return seen(good, f"{found.straightened} edges come into line; (4, 0, 0) is no vertex afterwards")
+    treated = coplanar_hull([*square, (8, 0, 0)], treatment)
+    passed = judge.vertices == (0, 2, 3, 4, 5) and treated.straightened > 0
+    return holds_if(passed, f"{treated.straightened} edges come into line; (4, 0, 0) is no vertex afterwards")
 
 
 @cache
@@ -281,13 +288,13 @@ def _straight(volume: Volume) -> CellList:
     return straightened(merged(cells))
 
 
-def symmetry() -> Seen:
+def symmetry() -> CheckResult:
     """Of three bodies, the turns and reflections out of 48 that carry the voxels onto themselves: so they do the faces.
 
     A half-ball has eight, an L of three voxels four, one of four voxels two.
     """
     short: list[Point] = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
-    numbers, good = [], []
+    numbers, checks = [], []
     for volume in (half_ball(10), listed(short), listed([*short, (0, 2, 0)])):
         voxels = [(int(x), int(y), int(z)) for x, y, z in np.argwhere(volume.array)]
         cells = _straight(volume)
@@ -300,9 +307,9 @@ def symmetry() -> Seen:
                     {frozenset(places[v - 1] for v in face.vertices) for face in cells.faces}
                     for places in (_moved(points, order, signs), _moved(points))
                 )
-                good.append(turned == stays)
-    return seen(
-        all(good) and numbers == [8, 4, 2], f"{', '.join(map(str, numbers))} symmetries, all of them the hull's"
+                checks.append(turned == stays)
+    return holds_if(
+        all(checks) and numbers == [8, 4, 2], f"{', '.join(map(str, numbers))} symmetries, all of them the hull's"
     )
 
 
@@ -313,11 +320,11 @@ def _moved(points: list[Point], order: tuple[int, ...] = (0, 1, 2), signs: tuple
     return [(signs[0] * p[order[0]], signs[1] * p[order[1]], signs[2] * p[order[2]]) for p in turned]
 
 
-def symmetric_faces() -> Seen:
+def symmetric_faces() -> CheckResult:
     """Of the half-ball of diameter 10, faces that some turn or reflection carries into themselves."""
     cells = _half_ball()
-    found = [_is_symmetric([cells.vertices[v - 1].point for v in face.vertices]) for face in cells.faces]
-    return seen(all(found), f"{sum(found)} of {len(found)} faces are")
+    symmetric = [_is_symmetric([cells.vertices[v - 1].point for v in face.vertices]) for face in cells.faces]
+    return holds_if(all(symmetric), f"{sum(symmetric)} of {len(symmetric)} faces are")
 
 
 def _is_symmetric(ring: list[Point]) -> bool:
@@ -334,7 +341,7 @@ def bounds(a: Point, b: Point) -> bool:
     return a != b and all(x == y or (y % 2 == 1 and abs(x - y) == 1) for x, y in zip(a, b, strict=True))
 
 
-def bounding_relation() -> Seen:
+def bounding_relation() -> CheckResult:
     """Cells of a voxel by topological coordinates: bounding is antisymmetric and transitive, incidence is not.
 
     The dimension, the number of odd coordinates, is less in the bounding cell.
@@ -346,4 +353,4 @@ def bounding_relation() -> Seen:
     apart = (0, 0, 0), (0, 0, 2)
     loose = (apart[0], (0, 0, 1)) in pairs and (apart[1], (0, 0, 1)) in pairs and apart not in pairs
     rising = all(sum(x % 2 for x in a) < sum(x % 2 for x in b) for a, b in pairs)
-    return seen(partial and rising and loose, f"{len(pairs)} pairs of the 27 cells of a voxel")
+    return holds_if(partial and rising and loose, f"{len(pairs)} pairs of the 27 cells of a voxel")

@@ -9,10 +9,9 @@ from itertools import product
 import numpy as np
 
 from modern.claims.kovalevsky_schulz.complexes import closure, dimension
-from modern.claims.kovalevsky_schulz.polyhedra import solid_at_random
-from modern.claims.register import CONDITION, FAILS, HOLDS, Seen, seen
-from modern.claims.sampled_sets import Point
-from modern.claims.thesis.chapter3_equations import points_of
+from modern.claims.kovalevsky_schulz.polyhedra import random_solid
+from modern.claims.register import CheckResult, fails_if, holds_if
+from modern.claims.sampled_sets import Point, counterexample_points
 from modern.digital.solids import Volume, half_ball, listed
 from modern.exact_hull import exact_hull
 from modern.papers.kovalevsky_schulz import CENTRES, VERTICES, local_corners
@@ -27,42 +26,42 @@ def _placed(volume: Volume, of: str) -> set[Point]:
     return {(x, y, z) for x, y, z in np.argwhere(array).tolist()}
 
 
-def corners_hold_centres(kind: str = "") -> Seen:
+def corners_against_centres(kind: str = "") -> CheckResult:
     """The two hulls of some voxels, in half units: that of the corners is that of the centres with a cube about each.
 
     ``first``: Int(M) has the voxels, of which there is one place each, Cl(M) their vertices besides.
     """
-    good, sizes = [], []
-    for volume in (solid_at_random(1, 3), listed([(0, 0, 0), (1, 0, 0), (1, 1, 0)]), half_ball(8)):
+    checks, sizes = [], []
+    for volume in (random_solid(1, 3), listed([(0, 0, 0), (1, 0, 0), (1, 1, 0)]), half_ball(8)):
         voxels, corners = _placed(volume, CENTRES), _placed(volume, VERTICES)
         if kind:
             cells = {(2 * x + 1, 2 * y + 1, 2 * z + 1) for x, y, z in voxels}
-            wanted = {tuple(c // 2 for c in cell) for cell in closure(cells) if dimension(cell) == 0}
-            good += [corners == wanted, {tuple(c // 2 for c in cell) for cell in cells} == voxels]
+            voxel_vertices = {tuple(c // 2 for c in cell) for cell in closure(cells) if dimension(cell) == 0}
+            checks += [corners == voxel_vertices, {tuple(c // 2 for c in cell) for cell in cells} == voxels]
             sizes.append(f"{len(voxels)} and {len(corners)}")
             continue
         grown = [(2 * x + 2 * i, 2 * y + 2 * j, 2 * z + 2 * k) for x, y, z in sorted(voxels) for i, j, k in STEPS]
         outer, inner = exact_hull([(2 * x, 2 * y, 2 * z) for x, y, z in sorted(corners)]), exact_hull(grown)
-        good.append({f.plane for f in outer.facets} == {f.plane for f in inner.facets})
+        checks.append({f.plane for f in outer.facets} == {f.plane for f in inner.facets})
         middles = [(2 * x + 1, 2 * y + 1, 2 * z + 1) for x, y, z in sorted(voxels)]
         most = [max(_value(outer.scale, plane.plane, middle) for plane in outer.facets) for middle in middles]
-        good.append(max(most) < 0)
+        checks.append(max(most) < 0)
         sizes.append(f"{len(middles)} within {len(corners)}")
-    return seen(all(good), f"places: {', '.join(sizes)}")
+    return holds_if(all(checks), f"places: {', '.join(sizes)}")
 
 
 def _value(scale: int, plane: tuple[int, ...], point: Point) -> int:
     return sum(n * scale * c for n, c in zip(plane, point, strict=False)) + plane[3]
 
 
-def topological_raster(kind: str = "") -> Seen:
+def topological_raster(kind: str = "") -> CheckResult:
     """Cells of a cube of n voxels a side: (2n + 1)^3; their dimension is the number of odd coordinates."""
     if kind == "cells":
         counts = Counter(sum(c % 2 for c in cell) for cell in product(range(3), repeat=3))
-        return seen(counts == {0: 8, 1: 12, 2: 6, 3: 1}, "one voxel: 8 corners, 12 edges, 6 faces, 1 body")
+        return holds_if(counts == {0: 8, 1: 12, 2: 6, 3: 1}, "one voxel: 8 corners, 12 edges, 6 faces, 1 body")
     ratios = {n: Fraction(cells_of(n), n**3) for n in (1, 10, 100)}
-    good = all(ratio > 8 for ratio in ratios.values()) and ratios[100] < Fraction(82, 10)
-    return Seen(CONDITION if good else FAILS, ", ".join(f"n = {n}: {float(r):.2f} times" for n, r in ratios.items()))
+    passed = all(ratio > 8 for ratio in ratios.values()) and ratios[100] < Fraction(82, 10)
+    return holds_if(passed, ", ".join(f"n = {n}: {float(r):.2f} times" for n, r in ratios.items()), conditional=True)
 
 
 def cells_of(n: int) -> int:
@@ -70,9 +69,9 @@ def cells_of(n: int) -> int:
     return len(range(2 * n + 1)) ** 3
 
 
-def single_voxel() -> Seen:
+def corner_of_single_voxel() -> CheckResult:
     """Corners of the counterexample's voxels that bound a single one and are no local corners by 6 neighbours."""
-    volume = listed(points_of("two_voxels.csv"))
+    volume = listed(counterexample_points("two_voxels.csv"))
     corners = {*map(tuple, local_corners(volume, VERTICES, 6).tolist())}
     array = np.pad(volume.array, 1)
     single = {
@@ -81,12 +80,10 @@ def single_voxel() -> Seen:
         if array[x : x + 2, y : y + 2, z : z + 2].sum() == 1
     }
     wrong = single - corners
-    return Seen(
-        FAILS if wrong and corners <= single else HOLDS, f"{', '.join(map(str, sorted(wrong)))} bounds one voxel only"
-    )
+    return fails_if(wrong and corners <= single, f"{', '.join(map(str, sorted(wrong)))} bounds one voxel only")
 
 
-def farthest_voxel(kind: str = "") -> Seen:
+def farthest_voxel_of_corner(kind: str = "") -> CheckResult:
     """Corners of the voxels of a raster, and of the voxels at each the one farthest from the origin.
 
     The farthest has the coordinates of the corner, so that no two corners have the same; the exception is the border
@@ -101,34 +98,36 @@ def farthest_voxel(kind: str = "") -> Seen:
             named[x, y, z] = max(beside, key=lambda c: c[0] ** 2 + c[1] ** 2 + c[2] ** 2)
     within = {corner: voxel for corner, voxel in named.items() if size not in corner}
     border = [voxel for corner, voxel in named.items() if size in corner]
-    good = all(corner == voxel for corner, voxel in within.items()) and {*within.values()} == raster
-    good &= len(within) == len(raster) and {*border} <= raster and len(border) == (7 if flat else 37)
-    return seen(good, f"{len(within)} corners, each by its voxel; {len(border)} in the border of the space share one")
+    passed = all(corner == voxel for corner, voxel in within.items()) and {*within.values()} == raster
+    passed &= len(within) == len(raster) and {*border} <= raster and len(border) == (7 if flat else 37)
+    return holds_if(
+        passed, f"{len(within)} corners, each by its voxel; {len(border)} in the border of the space share one"
+    )
 
 
-def labelled_besides() -> Seen:
+def additional_labels() -> CheckResult:
     """Elements beside some voxels: just those become labelled that lie behind a voxel, as seen from the origin."""
-    good, number = [], 0
-    for volume in (solid_at_random(2, 3), half_ball(8), listed([(0, 0, 0), (1, 0, 0), (1, 1, 0)])):
+    checks, labelled_count = [], 0
+    for volume in (random_solid(2, 3), half_ball(8), listed([(0, 0, 0), (1, 0, 0), (1, 1, 0)])):
         voxels = _placed(volume, CENTRES)
         labelled = _placed(volume, VERTICES) - voxels
         beside = {(x + i, y + j, z + k) for x, y, z in voxels for i, j, k in product((-1, 0, 1), repeat=3)} - voxels
-        good.append(labelled <= beside)
+        checks.append(labelled <= beside)
         for x, y, z in beside:
             behind = {(x - i, y - j, z - k) for i, j, k in STEPS} & voxels
-            good.append(((x, y, z) in labelled) == bool(behind))
-        number += len(labelled)
-    return seen(all(good), f"{number} elements, each behind a voxel as seen from the origin")
+            checks.append(((x, y, z) in labelled) == bool(behind))
+        labelled_count += len(labelled)
+    return holds_if(all(checks), f"{labelled_count} elements, each behind a voxel as seen from the origin")
 
 
-def edges_at_a_corner() -> Seen:
+def edges_at_corner() -> CheckResult:
     """1-cells at the 0-cells of a Cartesian complex: at most four in the plane, six in space."""
     numbers = {}
     for dimensions in (2, 3):
         cells = [*product(range(5), repeat=dimensions)]
         corners = [c for c in cells if not any(x % 2 for x in c)]
         numbers[dimensions] = max(sum(ends_at(edge, corner) for edge in cells) for corner in corners)
-    return Seen(CONDITION if numbers == {2: 4, 3: 6} else FAILS, f"{numbers[2]} in the plane, {numbers[3]} in space")
+    return holds_if(numbers == {2: 4, 3: 6}, f"{numbers[2]} in the plane, {numbers[3]} in space", conditional=True)
 
 
 def ends_at(edge: tuple[int, ...], corner: tuple[int, ...]) -> bool:
@@ -136,25 +135,25 @@ def ends_at(edge: tuple[int, ...], corner: tuple[int, ...]) -> bool:
     return sum(x % 2 for x in edge) == 1 == sum(abs(a - b) for a, b in zip(edge, corner, strict=True))
 
 
-def corners_of_eight_voxels(kind: str) -> Seen:
+def corners_of_eight_voxels(kind: str) -> CheckResult:
     """All ways in which the eight voxels at a corner can be there, and its six neighbours among their corners.
 
     ``more``: of two voxels or more some pair of opposite neighbours is there; ``edge``: where an edge at the corner
     is one of two in line there are two voxels; ``first``: of one voxel alone no pair is there.
     """
-    good = []
+    checks = []
     for there in product((False, True), repeat=8):
         voxels = [v for v, here in zip(product((0, 1), repeat=3), there, strict=True) if here]
         near = {cell for voxel in voxels for cell in _neighbours(voxel)}
         pairs = [tuple(side if k == axis else 2 for k in range(3)) for axis in range(3) for side in (0, 1)]
         opposite = [pairs[2 * axis] in near and pairs[2 * axis + 1] in near for axis in range(3)]
         if kind == "more":
-            good += [any(opposite)] if len(voxels) > 1 else []
+            checks += [any(opposite)] if len(voxels) > 1 else []
         elif kind == "edge":
-            good += [len(voxels) > 1] if any(opposite) else []
+            checks += [len(voxels) > 1] if any(opposite) else []
         else:
-            good += [not any(opposite)] if len(voxels) == 1 else []
-    return seen(all(good), f"{len(good)} of the 256 ways")
+            checks += [not any(opposite)] if len(voxels) == 1 else []
+    return holds_if(all(checks), f"{len(checks)} of the 256 ways")
 
 
 def _neighbours(voxel: tuple[int, ...]) -> list[tuple[int, ...]]:

@@ -7,7 +7,7 @@ from fractions import Fraction
 from itertools import combinations, permutations, product
 from random import Random
 
-from modern.claims.register import CONDITION, FAILS, HOLDS, Seen, seen
+from modern.claims.register import CONDITION, FAILS, HOLDS, CheckResult, holds_if
 from modern.claims.sampled_sets import Point, sampled_sets
 from modern.drawing.visible import line_through, sign, value
 from modern.exact_hull import ExactHull, exact_hull
@@ -74,16 +74,19 @@ ROOF: tuple[Point, ...] = ((0, 0, 0), (4, 0, 0), (4, 0, 2), (2, 0, 3), (0, 0, 2)
 """A pyramid over an upright pentagon, which is seen edge-on along z."""
 
 
-def contour_is_convex() -> Seen:
+def convex_contour() -> CheckResult:
     """Hulls seen aslant, and one along a face: edges of front faces and of no other are one ring that turns clockwise.
 
     Its corners are those of the hull of all images; where a face is seen edge-on it may run straight at others.
     """
-    good, straight = [], 0
-    for points, judge, (u, v) in (*((one.points, one.judge, (31, 17)) for one in sampled_sets(3, 3)), _roof()):
+    checks, straight = [], 0
+    for points, judge, (u, v) in (
+        *((sampled.points, sampled.judge, (31, 17)) for sampled in sampled_sets(3, 3)),
+        _roof(),
+    ):
         images = [(x + u * z, y + v * z) for x, y, z in points]
         values = [dot(face.plane[:3], (-u, -v, 1)) for face in judge.facets]
-        front = [face.polygon for face, seen_ in zip(judge.facets, values, strict=True) if seen_ > 0]
+        front = [face.polygon for face, face_value in zip(judge.facets, values, strict=True) if face_value > 0]
         sides = {(a, b) for ring in front for a, b in zip(ring, (*ring[1:], ring[0]), strict=True)}
         after = {b: a for a, b in sides if (b, a) not in sides}
         ring = [min(after)]
@@ -93,24 +96,24 @@ def contour_is_convex() -> Seen:
         turns = [side(contour[k - 2], contour[k - 1], contour[k]) for k in range(len(contour))]
         around = sorted({*images})
         corners = {around[k] for k in exact_hull([(x, y, 0) for x, y in around]).polygon}
-        good.append(len(ring) == len(after) and {*turns} <= {-1, 0} and (0 in values or 0 not in turns))
-        good.append({contour[k - 1] for k, turn in enumerate(turns) if turn} == corners)
+        checks.append(len(ring) == len(after) and {*turns} <= {-1, 0} and (0 in values or 0 not in turns))
+        checks.append({contour[k - 1] for k, turn in enumerate(turns) if turn} == corners)
         straight += turns.count(0)
-    words = f"{len(good) // 2} hulls: contours by their front faces turn clockwise only"
-    return seen(all(good) and straight > 0, f"{words}; one runs straight at a corner of a face seen edge-on")
+    message = f"{len(checks) // 2} hulls: contours by their front faces turn clockwise only"
+    return holds_if(all(checks) and straight > 0, f"{message}; one runs straight at a corner of a face seen edge-on")
 
 
 def _roof() -> tuple[tuple[Point, ...], ExactHull, tuple[int, int]]:
     return ROOF, exact_hull(ROOF), (0, 0)
 
 
-def correlations(kind: str = "") -> Seen:
+def correlations(kind: str = "") -> CheckResult:
     """Pairs of polygons, each relation by itself: a line between, all corners within, or sides that cross.
 
     Where they do not touch just one of the three is there; of those that touch some have none.
     """
-    found: dict[str, int] = dict.fromkeys(("apart", "encloses", "partly", "touching"), 0)
-    good, loose = [], False
+    counts: dict[str, int] = dict.fromkeys(("apart", "encloses", "partly", "touching"), 0)
+    checks, loose = [], False
     for v, w in pairs():
         both = (v, w), (w, v)
         relations = {
@@ -121,56 +124,56 @@ def correlations(kind: str = "") -> Seen:
         meet = any(d in (-1, -2) for d, _ in numbers_of_meetings(v, w)) or {*v} & {*w}
         if meet:
             loose |= not any(relations.values())
-            found["touching"] += 1
+            counts["touching"] += 1
         else:
-            good.append(sum(relations.values()) == 1)
-            found = {name: n + relations.get(name, False) for name, n in found.items()}
-    fine = all(good) and loose and all(found.values())
-    words = ", ".join(f"{name} {number}" for name, number in found.items())
-    return Seen((HOLDS if kind else CONDITION) if fine else FAILS, words)
+            checks.append(sum(relations.values()) == 1)
+            counts = {name: n + relations.get(name, False) for name, n in counts.items()}
+    fine = all(checks) and loose and all(counts.values())
+    message = ", ".join(f"{name} {number}" for name, number in counts.items())
+    return holds_if(fine, message, conditional=not kind)
 
 
-def formula(number: str, kind: str = "") -> Seen:
+def formula(number: str, kind: str = "") -> CheckResult:
     """A formula on small cases, by another way; (1) at points so far to the right of a line.
 
     (3) ``in_line``: with sides that overlap in one line, of which d says nothing.
     """
-    good: list[bool] = []
+    checks: list[bool] = []
     if number == "1":
         for (x1, y1), (x2, y2) in permutations(((0, 0), (0, 4), (3, -2), (5, 1)), 2):
             line, (x, y) = line_through((x1, y1, 1), (x2, y2, 1)), (x2 - x1, y2 - y1)
             for along, right in product((-1, 0, 2), (-3, 0, 1)):
                 p = (x1 + along * x + right * y, y1 + along * y - right * x, 1)
-                good.append(value(line, p) == right * (x * x + y * y))
+                checks.append(value(line, p) == right * (x * x + y * y))
     elif number == "2":
         pl, lp = tables_of(SQUARE, ACROSS)
-        found = contour_tables(SQUARE, ACROSS)
-        good = [found.pl == tuple(map(tuple, pl)), found.lp == tuple(map(tuple, lp))]
+        program_tables = contour_tables(SQUARE, ACROSS)
+        checks = [program_tables.pl == tuple(map(tuple, pl)), program_tables.lp == tuple(map(tuple, lp))]
     elif number == "3":
         meetings = [pair for v, w in pairs() for pair in numbers_of_meetings(v, w)]
-        good = [d == wanted for d, wanted in meetings] + [{-4, -2, -1, 0} == {d for d, _ in meetings}]
+        checks = [d == expected for d, expected in meetings] + [{-4, -2, -1, 0} == {d for d, _ in meetings}]
     elif number == "5":
         return _formula_5()
     if kind:
-        overlap = overlap_in_a_line()
-        fine = all(good) and overlap.verdict == CONDITION
-        return Seen(CONDITION if fine else FAILS, f"{len(good)} cases; {overlap.words}")
-    return seen(bool(good) and all(good), f"{len(good)} cases")
+        overlap = overlap_in_line()
+        fine = all(checks) and overlap.verdict == CONDITION
+        return holds_if(fine, f"{len(checks)} cases; {overlap.message}", conditional=True)
+    return holds_if(bool(checks) and all(checks), f"{len(checks)} cases")
 
 
-def _formula_5() -> Seen:
+def _formula_5() -> CheckResult:
     """By the determinant and by the program, against the side on which the eye is: a face z = 0 seen from above.
 
     In the face the value is 0.
     """
     corners = [(0, 0, 0), (0, 4, 0), (4, 4, 0)]
-    plane, found = plane_through(*((*corner, 1) for corner in corners)), {}
+    plane, signs = plane_through(*((*corner, 1) for corner in corners)), {}
     for z in (-2, 0, 3):
         rows = [(1, 2, z), *corners]
         (a, b, c) = (minus(row, rows[0]) for row in rows[1:])
-        found[z] = (sign(dot(a, cross(b, c))), sign(height(plane, (1, 2, z, 1))))
-    fine = all(one == other == sign(z) for z, (one, other) in found.items())
-    return Seen(CONDITION if fine else FAILS, "positive above the face, negative below it, 0 in it")
+        signs[z] = (sign(dot(a, cross(b, c))), sign(height(plane, (1, 2, z, 1))))
+    fine = all(by_determinant == by_program == sign(z) for z, (by_determinant, by_program) in signs.items())
+    return holds_if(fine, "positive above the face, negative below it, 0 in it", conditional=True)
 
 
 def numbers_of_meetings(v: tuple[Place, ...], w: tuple[Place, ...]) -> Iterator[tuple[int, int]]:
@@ -182,8 +185,8 @@ def numbers_of_meetings(v: tuple[Place, ...], w: tuple[Place, ...]) -> Iterator[
         touching = [p for p in {a, b} if _between(c, d, p)] + [p for p in {c, d} if _between(a, b, p)]
         in_line = side(a, b, c) == side(a, b, d) == 0
         same = {a, b} & {c, d}
-        wanted = 0 if in_line else -1 if same else -2 if touching else -4 if crosses(v, i, w, j) else 0
-        yield tables.crossing_number(i, j), wanted
+        expected = 0 if in_line else -1 if same else -2 if touching else -4 if crosses(v, i, w, j) else 0
+        yield tables.crossing_number(i, j), expected
 
 
 def _between(p: Place, q: Place, r: Place) -> bool:
@@ -201,29 +204,29 @@ def crosses(v: tuple[Place, ...], i: int, w: tuple[Place, ...], j: int) -> bool:
     return side(a, b, c) * side(a, b, d) == -1 == side(c, d, a) * side(c, d, b)
 
 
-def table_properties(number: str) -> Seen:
+def table_properties(number: str) -> CheckResult:
     """A property of the tables on pairs of convex polygons, some of which touch; what is said one way is tested so.
 
     ``LP``: all four of LP, with rows for columns.
     """
-    good, touching = [], False
+    checks, touching = [], False
     for v, w in pairs():
         pl, lp = tables_of(v, w)
         tables = Tables(tuple(map(tuple, pl)), tuple(map(tuple, lp)))
         if number != "LP":
             met = [[tables.crossing_number(i, j) for j in range(len(w))] for i in range(len(v))]
-            found, touches = _property(number, v, w, [*zip(*pl, strict=True)], met)
-            good += found
+            property_checks, touches = _property(number, v, w, [*zip(*pl, strict=True)], met)
+            checks += property_checks
             touching |= touches
             continue
         met = [[tables.crossing_number(i, j) for i in range(len(v))] for j in range(len(w))]
-        for each in "1234":
-            found, touches = _property(each, w, v, [(*row,) for row in lp], met)
-            good += found
+        for property_number in "1234":
+            property_checks, touches = _property(property_number, w, v, [(*row,) for row in lp], met)
+            checks += property_checks
             touching |= touches
-    if not all(good) or not good:
-        return Seen(FAILS, f"{sum(good)} of {len(good)} cases")
-    return Seen(CONDITION if touching else HOLDS, f"{len(good)} cases")
+    if not all(checks) or not checks:
+        return CheckResult(FAILS, f"{sum(checks)} of {len(checks)} cases")
+    return CheckResult(CONDITION if touching else HOLDS, f"{len(checks)} cases")
 
 
 def _property(
@@ -241,17 +244,17 @@ def _property(
         return [(-1 not in at) == inside(p, v) for at, p in zip(zip(*of_lines, strict=True), w, strict=True)], False
     clear = [i for i, line in enumerate(of_lines) if -1 not in line]
     crossed = [any(crosses(v, i, w, j) for j in range(len(w))) for i in clear]
-    return [not one for one in crossed], any(any(met[i]) for i in clear)
+    return [not has_crossing for has_crossing in crossed], any(any(met[i]) for i in clear)
 
 
-def overlap_in_a_line() -> Seen:
+def overlap_in_line() -> CheckResult:
     """Two squares whose upper sides overlap in a line."""
     pl, lp = tables_of(SQUARE, ((2, 2), (2, 4), (6, 4), (6, 2)))
     d = Tables(tuple(map(tuple, pl)), tuple(map(tuple, lp))).crossing_number(1, 1)
-    return Seen(CONDITION if d == 0 else FAILS, f"d is {d} of two sides that overlap")
+    return holds_if(d == 0, f"d is {d} of two sides that overlap", conditional=True)
 
 
-def intersections() -> Seen:
+def intersection_counts() -> CheckResult:
     """Segments between grid points against polygons: their places on the contour, whatever they meet there.
 
     Two at most, unless the segment runs along a side; at a corner d of (3) is not 0 for both sides that meet there.
@@ -275,7 +278,7 @@ def intersections() -> Seen:
             else:
                 counts.add(len(places))
                 more += by_3 > 2
-    words = (
+    message = (
         f"{', '.join(map(str, sorted(counts)))} places; {along} segments run along a side, {more} meet more than two"
     )
-    return Seen(CONDITION if counts == {0, 1, 2} and along and more else FAILS, f"{words} sides")
+    return holds_if(counts == {0, 1, 2} and along and more, f"{message} sides", conditional=True)

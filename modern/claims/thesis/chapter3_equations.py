@@ -5,87 +5,65 @@ Equations are transcribed as they are printed and compared with what they are to
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
-from random import Random
-
-from modern.claims.register import CONDITION, FAILS, Seen, counterexample, seen
-from modern.claims.sampled_sets import Plane, Point, SampledSet, sampled_sets, through
+from modern.claims.register import CheckResult, holds_if
+from modern.claims.sampled_sets import COUNT, Plane, Point, flat_and_spatial_sets, plane_through, random_triples
 from modern.exact_hull import exact_hull
-from modern.formats.csv import points as csv_points
 from modern.geometry.vectors import dot
 from modern.port import convex_hull
 
 Line = tuple[int, int, int]
-COUNT = "2"
-"""Sets of each dimension that ``reproduce`` looks at; the tests take more."""
 
 
-def both(count: str) -> tuple[SampledSet, ...]:
-    """Sets in a plane and sets in space."""
-    return (*sampled_sets(2, int(count)), *sampled_sets(3, int(count)))
-
-
-def points_of(name: str) -> list[Point]:
-    """The points of a counterexample, which are whole."""
-    found, _ = csv_points(counterexample(name), name)
-    return [(int(x), int(y), int(z)) for x, y, z in found]
-
-
-def triples(count: int = 6) -> Iterator[tuple[Point, Point, Point]]:
-    """Three points at random, ``count`` times."""
-    random = Random(3)
-    for _ in range(count):
-        p, q, r = (tuple(random.randint(-9, 9) for _ in range(3)) for _ in range(3))
-        yield p, q, r  # type: ignore[misc]
-
-
-def procedure_is_right(count: str = COUNT) -> Seen:
+def procedure_against_judge(count: str = COUNT) -> CheckResult:
     """The procedure over exact numbers against the judge: vertices, boundary and inside points, planes."""
     right = sets = 0
-    for one in both(count):
+    for sampled in flat_and_spatial_sets(count):
         sets += 1
-        found = ({*one.hull.vertices}, {*one.hull.boundary}, {*one.hull.inside}, len(one.hull.faces))
-        right += found == ({*one.judge.vertices}, {*one.judge.boundary}, {*one.judge.inside}, len(one.judge.facets))
-    return Seen(CONDITION if right == sets else FAILS, f"{right} of {sets} sets as the exact judge, in exact numbers")
+        classification = (
+            {*sampled.hull.vertices},
+            {*sampled.hull.boundary},
+            {*sampled.hull.inside},
+            len(sampled.hull.faces),
+        )
+        right += classification == (
+            {*sampled.judge.vertices},
+            {*sampled.judge.boundary},
+            {*sampled.judge.inside},
+            len(sampled.judge.facets),
+        )
+    return holds_if(right == sets, f"{right} of {sets} sets as the exact judge, in exact numbers", conditional=True)
 
 
-def lowest_terms(plane: Plane) -> Plane:
-    divisor = math.gcd(*plane)
-    a, b, c, d = (number // divisor for number in plane)
-    return a, b, c, d
-
-
-def same_hull_in_any_order(count: str = COUNT) -> Seen:
+def reversed_order(count: str = COUNT) -> CheckResult:
     """The judge's hull of the points backwards."""
     same = [
-        {one.points[k] for k in one.judge.vertices}
-        == {one.points[::-1][k] for k in exact_hull(one.points[::-1]).vertices}
-        for one in both(count)
+        {sampled.points[k] for k in sampled.judge.vertices}
+        == {sampled.points[::-1][k] for k in exact_hull(sampled.points[::-1]).vertices}
+        for sampled in flat_and_spatial_sets(count)
     ]
-    return seen(all(same), f"{sum(same)} of {len(same)} sets, taken backwards, have the same vertices")
+    return holds_if(all(same), f"{sum(same)} of {len(same)} sets, taken backwards, have the same vertices")
 
 
-def collinear_ends() -> Seen:
+def collinear_points() -> CheckResult:
     """Points on five lines: the ends, and that each point satisfies both equations."""
-    good = 0
+    passed = 0
     lines: tuple[Point, ...] = ((1, 0, 0), (0, 2, 0), (0, 0, 3), (0, 1, -2), (3, -1, 2))
     for x, y, z in lines:
         points = [(1 + k * x, 2 + k * y, 3 + k * z) for k in (2, 0, -3, 5, 1)]
         hull = convex_hull(points)
-        good += hull.dimension == 1 and {*hull.vertices} == {2, 3}
-        good += all(not dot(tuple(map(int, e[:3])), p) + int(e[3]) for e in hull.lines for p in points)  # type: ignore[arg-type]
-    return seen(good == 2 * len(lines), f"{good // 2} of {len(lines)} lines")
+        passed += hull.dimension == 1 and {*hull.vertices} == {2, 3}
+        passed += all(not dot(tuple(map(int, e[:3])), p) + int(e[3]) for e in hull.lines for p in points)  # type: ignore[arg-type]
+    return holds_if(passed == 2 * len(lines), f"{passed // 2} of {len(lines)} lines")
 
 
-def few_points() -> Seen:
+def few_points() -> CheckResult:
     """One, two and three points."""
     hulls = [convex_hull([(1, 2, 3), (4, 0, 1), (0, 5, 5)][:n]) for n in (1, 2, 3)]
-    good = [(h.status, h.dimension, len(h.vertices)) for h in hulls]
-    return seen(good == [("determined", k, k + 1) for k in range(3)], "a point, a segment, a triangle")
+    outcomes = [(h.status, h.dimension, len(h.vertices)) for h in hulls]
+    return holds_if(outcomes == [("determined", k, k + 1) for k in range(3)], "a point, a segment, a triangle")
 
 
-def first_two() -> Seen:
+def first_two_points() -> CheckResult:
     """Sets whose points differ in x, in y but not in x, in z alone: the largest and the smallest come first."""
     base = [(3, 1), (-2, 5), (4, 0), (0, 2), (4, 4)]
     sets = {
@@ -93,20 +71,20 @@ def first_two() -> Seen:
         1: [(7, b, (2 * a + b) % 7) for a, b in base],
         2: [(7, -1, a + 5 * b) for a, b in base],
     }
-    good = []
+    checks = []
     for axis, points in sets.items():
         hull = convex_hull(points, history=True)
         first, second, *_ = hull.history[0].added if hull.history else hull.vertices
         values = [point[axis] for point in points]
-        good.append((points[first][axis], points[second][axis]) == (max(values), min(values)))
-        good.append(max(values) > min(values))
-    return seen(all(good), "by x, where all x are equal by y, where all y are too by z")
+        checks.append((points[first][axis], points[second][axis]) == (max(values), min(values)))
+        checks.append(max(values) > min(values))
+    return holds_if(all(checks), "by x, where all x are equal by y, where all y are too by z")
 
 
-def equation(number: str) -> Seen:
+def equation(number: str) -> CheckResult:
     """An equation as printed, against what it is to be, for points at random."""
-    good = all(_EQUATIONS[number](p, q, r) for p, q, r in triples())
-    return seen(good, "exactly, for six triples of points")
+    passed = all(_EQUATIONS[number](p, q, r) for p, q, r in random_triples())
+    return holds_if(passed, "exactly, for six triples of points")
 
 
 def _three_point_one(p: Point, q: Point, _: Point) -> bool:
@@ -133,7 +111,7 @@ def _through_both(line: Line, p: tuple[int, int], q: tuple[int, int]) -> bool:
 
 
 def _three_point_four(p: Point, q: Point, r: Point) -> bool:
-    return plane_as_printed(p, q, r) == through(p, q, r)
+    return plane_as_printed(p, q, r) == plane_through(p, q, r)
 
 
 def plane_as_printed(i: Point, j: Point, k: Point) -> Plane:

@@ -12,10 +12,18 @@ from itertools import pairwise
 
 from emulator.language.objectcode import Program, code_positions
 from emulator.machine.machine import Machine
-from modern.claims.register import CONDITION, FAILS, HOLDS, Seen, seen
-from modern.claims.sampled_sets import Point, SampledSet, sampled_sets, through, value
-from modern.claims.thesis.chapter3_equations import COUNT, lowest_terms, points_of
-from modern.claims.thesis.chapter3_stages import approximations
+from modern.claims.register import CONDITION, FAILS, HOLDS, CheckResult, fails_if, holds_if
+from modern.claims.sampled_sets import (
+    COUNT,
+    Point,
+    SampledSet,
+    counterexample_points,
+    plane_through,
+    plane_value,
+    reduced_plane,
+    sampled_sets,
+)
+from modern.claims.thesis.chapter3_stages import stage_property
 from modern.claims.thesis.chapter3_steps import fourth_point_by_largest, visible_planes
 from modern.claims.thesis.chapter4_examples import EXTREMES_IN_A_PLANE
 from modern.edition import programs
@@ -33,33 +41,38 @@ _ELIMINATE_CHECK_GROW = {
 """Statements of the listing where inside points are looked for, where a hull is checked, where a point is added."""
 
 
-def steps_of_the_listing() -> Seen:
+def text_against_listing() -> CheckResult:
     """Four steps are not the listing's: two lead to no hull or lose a line, two change an order only."""
-    found = (fourth_point_by_largest(), line_struck_twice(), visible_planes("order"), repeats_from_behind())
-    good = [one.verdict for one in found] == [FAILS, FAILS, CONDITION, HOLDS]
-    return Seen(CONDITION if good else FAILS, "the fourth point, repeats of a line; the order of planes in two steps")
+    results = (
+        fourth_point_by_largest(),
+        line_duplicates_as_printed(),
+        visible_planes("order"),
+        plane_duplicates_as_printed(),
+    )
+    checks = [result.verdict for result in results] == [FAILS, FAILS, CONDITION, HOLDS]
+    return holds_if(checks, "the fourth point, repeats of a line; the order of planes in two steps", conditional=True)
 
 
-def line_struck_twice() -> Seen:
+def line_duplicates_as_printed() -> CheckResult:
     """Repeats of a line as page 28 has it: of a side with three used points both equations go."""
-    points = points_of("line_lost.csv")
+    points = counterexample_points("line_lost.csv")
     judge, hull = exact_hull(points), convex_hull(points, history=True)
     used = [k for stage in hull.history for k in stage.added]
-    left = _by_letter(points, used, [(d[0], d[1]) for d in hull.history[-1].equations])
-    lines = len({frozenset(_on(points, *pair)) for pair in left})
+    remaining = _by_letter(points, used, [(d[0], d[1]) for d in hull.history[-1].equations])
+    lines = len({frozenset(_on(points, *pair)) for pair in remaining})
     right = len({face.lowest for face in hull.faces}) == len(judge.facets)
-    words = f"{lines} of {len(judge.facets)} lines stay as the text has it; the listing keeps all"
-    return Seen(FAILS if lines < len(judge.facets) and right else HOLDS, words)
+    message = f"{lines} of {len(judge.facets)} lines stay as the text has it; the listing keeps all"
+    return fails_if(lines < len(judge.facets) and right, message)
 
 
 def _by_letter(points: Sequence[Point], used: Sequence[int], equations: Sequence[Pair]) -> list[Pair]:
     """Pages 26 to 28: for each point and each equation that it satisfies and does not define, equation k is removed."""
-    left = list(equations)
+    remaining = list(equations)
     for i in used:
-        for pair in [*left]:
+        for pair in [*remaining]:
             if i not in pair and i in _on(points, *pair):
-                left.remove(pair)
-    return left
+                remaining.remove(pair)
+    return remaining
 
 
 def _on(points: Sequence[Point], a: int, b: int) -> list[int]:
@@ -67,34 +80,37 @@ def _on(points: Sequence[Point], a: int, b: int) -> list[int]:
     return [k for k, x in enumerate(points) if not any(cross(minus(q, p), minus(x, p)))]
 
 
-def repeats_from_behind(count: str = COUNT) -> Seen:
+def plane_duplicates_as_printed(count: str = COUNT) -> CheckResult:
     """Repeats of planes as page 34 has it: of each plane the last equation stays, of the listing's way the first."""
     pyramid = [(x, y, 0) for x in (0, 1, 2) for y in (0, 1, 2)] + [(1, 1, 2)]
-    good, other = [], 0
-    for points in (pyramid, *(list(one.points) for one in sampled_sets(3, int(count)))):
+    checks, differing = [], 0
+    for points in (pyramid, *(list(sampled.points) for sampled in sampled_sets(3, int(count)))):
         last = convex_hull(points, history=True).history[-1].equations
-        planes = [through(points[a], points[b], points[c]) for a, b, c in last]
+        planes = [plane_through(points[a], points[b], points[c]) for a, b, c in last]
         stay = [
             j
             for j, plane in enumerate(planes)
-            if not any(not any(value(plane, points[k]) for k in last[i]) for i in range(j + 1, len(last)))
+            if not any(not any(plane_value(plane, points[k]) for k in last[i]) for i in range(j + 1, len(last)))
         ]
-        kept = [_unsigned(planes[j]) for j in stay]
-        good.append(sorted(kept) == sorted(_unsigned(facet.plane) for facet in exact_hull(points).facets))
-        other += stay != [j for j, one in enumerate(planes) if _unsigned(one) not in map(_unsigned, planes[:j])]
-    words = (
-        f"{sum(good)} of {len(good)} sets keep one equation of each plane; in {other} not the ones the listing keeps"
+        kept_planes = [_unsigned(planes[j]) for j in stay]
+        checks.append(sorted(kept_planes) == sorted(_unsigned(facet.plane) for facet in exact_hull(points).facets))
+        differing += stay != [
+            j for j, sampled in enumerate(planes) if _unsigned(sampled) not in map(_unsigned, planes[:j])
+        ]
+    message = (
+        f"{sum(checks)} of {len(checks)} sets keep one equation of each plane; "
+        f"in {differing} of them it is not the one that the listing keeps."
     )
-    return seen(all(good) and other > 0, words)
+    return holds_if(all(checks) and differing > 0, message)
 
 
 def _unsigned(plane: tuple[int, int, int, int]) -> tuple[int, int, int, int]:
-    found = lowest_terms(plane)
-    a, b, c, d = found
-    return max(found, (-a, -b, -c, -d))
+    reduced = reduced_plane(plane)
+    a, b, c, d = reduced
+    return max(reduced, (-a, -b, -c, -d))
 
 
-def last_equation(dimension: str) -> Seen:
+def last_equation_accepted(dimension: str) -> CheckResult:
     """A set of which an H_j has NETC = NE while its last equation is not supporting; at the end all support."""
     flat = dimension == "2"
     points = [(0, 3, 0), (0, 2, 0), (4, 4, 0), (4, 3, 0)]
@@ -102,33 +118,33 @@ def last_equation(dimension: str) -> Seen:
         points = [(2, 4, 4), (0, 3, 4), (1, 4, 4), (1, 3, 0), (3, 2, 4)]
     history = convex_hull(points, history=True).history
     equal = [before.number for before, after in pairwise(history) if after.checked == len(before.equations)]
-    good = bool(equal) and approximations("final").verdict == HOLDS
-    words = f"H_{', H_'.join(map(str, equal))} has NETC = NE and a point is outside of that equation"
-    return Seen(CONDITION if good else FAILS, words)
+    passed = bool(equal) and stage_property("last_hull").verdict == HOLDS
+    message = f"H_{', H_'.join(map(str, equal))} has NETC = NE and a point is outside of that equation"
+    return holds_if(passed, message, conditional=True)
 
 
-def collinear_if_both_hold() -> Seen:
+def collinearity_test() -> CheckResult:
     """Two equations of the five kinds of lines: of the points of a lattice both are 0 on the line and nowhere else."""
-    found = []
+    checks = []
     for way in ((1, 0, 0), (0, 2, 0), (0, 0, 3), (0, 1, -2), (3, -1, 2)):
         p: Point = (1, 2, 3)
         q: Point = (1 + way[0], 2 + way[1], 3 + way[2])
         lines = [tuple(map(int, line)) for line in convex_hull([p, q]).lines]
         for x in ((x, y, z) for x in range(-3, 6) for y in range(-1, 5) for z in range(-1, 8)):
-            both = not any(value((a, b, c, d), x) for a, b, c, d in lines)
-            found.append(both == (not any(cross(way, minus(x, p)))))
-    return seen(all(found), f"{sum(found)} of {len(found)} points of a lattice, about five lines")
+            both = not any(plane_value((a, b, c, d), x) for a, b, c, d in lines)
+            checks.append(both == (not any(cross(way, minus(x, p)))))
+    return holds_if(all(checks), f"{sum(checks)} of {len(checks)} points of a lattice, about five lines")
 
 
-def more_involved() -> Seen:
+def program3_against_program2() -> CheckResult:
     """Program 3 against program 2: its code, and the step that the plane has not."""
     two, three = (programs.deck(f"program{k}").text() for k in (2, 3))
     code = [code_positions(programs.program(f"program{k}")) for k in (2, 3)]
-    good = code[0] < code[1] and "ELIMINATING INSIDE PLANES" in three and "ELIMINATING INSIDE" not in two
-    return seen(good, f"about {code[0]:,} positions of code for program 2, {code[1]:,} for program 3")
+    passed = code[0] < code[1] and "ELIMINATING INSIDE PLANES" in three and "ELIMINATING INSIDE" not in two
+    return holds_if(passed, f"about {code[0]:,} positions of code for program 2, {code[1]:,} for program 3")
 
 
-def fewer_substitutions() -> Seen:
+def substitution_counts() -> CheckResult:
     """Values of equations at points: by the procedure at the most, and by all triples, where all points are vertices.
 
     For each H_j every point left is put into every equation twice: for what is inside, and for what supports.
@@ -139,26 +155,28 @@ def fewer_substitutions() -> Seen:
         history = convex_hull(points, history=True).history
         needed[n] = sum(2 * n * len(stage.equations) for stage in history), math.comb(n, 3) * n
     shares = [done / all_ for done, all_ in needed.values()]
-    words = ", ".join(f"{n} points: {done:,} at the most against {all_:,}" for n, (done, all_) in needed.items())
-    return seen(shares == sorted(shares, reverse=True) and shares[-1] < 1 / 3, words)
+    message = ", ".join(f"{n} points: {done:,} at the most against {all_:,}" for n, (done, all_) in needed.items())
+    return holds_if(shares == sorted(shares, reverse=True) and shares[-1] < 1 / 3, message)
 
 
-def pairs_of_hulls(count: str = COUNT) -> Seen:
+def consecutive_hulls(count: str = COUNT) -> CheckResult:
     """H_1 to H_f make f - 1 pairs H_j, H_j+1: j + 1 begins at 2, for no hull comes before H_1."""
-    good = []
-    for one in (*sampled_sets(2, int(count)), *sampled_sets(3, int(count))):
-        sizes = [len(stage.vertices) for stage in one.stages()]
+    checks = []
+    for sampled in (*sampled_sets(2, int(count)), *sampled_sets(3, int(count))):
+        sizes = [len(stage.vertices) for stage in sampled.stages()]
         larger = sum(a < b for a, b in pairwise(sizes))
-        good.append(larger == len(sizes) - 1 and one.hull.history[0].number == 1)
-    return Seen(CONDITION if all(good) else FAILS, f"{sum(good)} of {len(good)} sets: H_2 is the first with one before")
+        checks.append(larger == len(sizes) - 1 and sampled.hull.history[0].number == 1)
+    return holds_if(
+        all(checks), f"{sum(checks)} of {len(checks)} sets: H_2 is the first with one before", conditional=True
+    )
 
 
-def checked_after_elimination() -> Seen:
+def order_of_elimination() -> CheckResult:
     """The way of programs 2 and 3 in examples 4 to 6: for every hull inside points first, then whether it is the last.
 
     Only where it is not another hull comes.
     """
-    found = []
+    sequences = []
     for example in (4, 5, 6):
         way: list[str] = []
 
@@ -168,50 +186,51 @@ def checked_after_elimination() -> Seen:
 
         run_hull(input_deck(example), programs.program, watch=watch)
         hulls = "".join(way)
-        found.append((bool(re.fullmatch("(EC+G)*EC*", hulls)), hulls.count("E")))
-    words = (
-        f"{', '.join(str(hulls) for _, hulls in found)} hulls in examples 4 to 6, each looked through for inside points"
-    )
-    return seen(all(good and hulls > 1 for good, hulls in found), f"{words} before it is checked")
+        sequences.append((bool(re.fullmatch("(EC+G)*EC*", hulls)), hulls.count("E")))
+    counts = ", ".join(str(hulls) for _, hulls in sequences)
+    message = f"Examples 4, 5 and 6 make {counts} hulls; inside points of each are eliminated before it is checked."
+    return holds_if(all(in_order and hulls > 1 for in_order, hulls in sequences), message)
 
 
-def six_in_a_plane() -> Seen:
+def coplanar_extremes() -> CheckResult:
     """Sets with their six extreme points in one plane: their hull has no volume, that of all points has."""
-    good = []
+    checks = []
     for points in EXTREMES_IN_A_PLANE:
         six, whole = exact_hull(_six(points)), exact_hull(points)
-        good.append(six.dimension == 2 and whole.dimension == 3 and _volume(points, whole) > 0)
-    return seen(all(good), f"{sum(good)} of {len(good)} sets: the hull of the six is flat, that of all points is not")
+        checks.append(six.dimension == 2 and whole.dimension == 3 and _volume(points, whole) > 0)
+    return holds_if(
+        all(checks), f"{sum(checks)} of {len(checks)} sets: the hull of the six is flat, that of all points is not"
+    )
 
 
-def first_hull_against_six(count: str = "12") -> Seen:
+def first_hull_against_extremes(count: str = "12") -> CheckResult:
     """The volume of H_1 against that of the hull of the six extreme points, and the planes of both.
 
     In the sampled sets; where the six are in one plane; and in a counterexample, where they are not and H_1 is larger.
     """
     within, fewer = [], []
-    for one in sampled_sets(3, int(count)):
-        first, six = _first_and_six(one.points, one)
+    for sampled in sampled_sets(3, int(count)):
+        first, six = _first_and_six(sampled.points, sampled)
         fewer.append(first[1] <= six[1] or not six[1])
-        if {one.points[k] for k in one.hull.history[0].added} <= {*_six(one.points)}:
+        if {sampled.points[k] for k in sampled.hull.history[0].added} <= {*_six(sampled.points)}:
             within.append(six[0] - first[0])
     flat = [_first_and_six(points, None) for points in EXTREMES_IN_A_PLANE]
-    first, six = _first_and_six(points_of("first_hull.csv"), None)
-    good = min(within, default=-1) >= 0 < max(within, default=0) and all(fewer)
-    good &= all(one[0] > other[0] == 0 for one, other in flat) and first[0] > six[0] > 0
-    words = f"H_1 is of the six in {len(within)} of {len(fewer)} sets, and never larger there; in the counterexample "
-    return Seen(CONDITION if good else FAILS, words + f"the volumes are {first[0]} and {six[0]}")
+    first, six = _first_and_six(counterexample_points("first_hull.csv"), None)
+    passed = min(within, default=-1) >= 0 < max(within, default=0) and all(fewer)
+    passed &= all(sampled[0] > six_measures[0] == 0 for sampled, six_measures in flat) and first[0] > six[0] > 0
+    message = f"H_1 is of the six in {len(within)} of {len(fewer)} sets, and never larger there; in the counterexample "
+    return holds_if(passed, message + f"the volumes are {first[0]} and {six[0]}", conditional=True)
 
 
-def _first_and_six(points: Sequence[Point], one: SampledSet | None) -> tuple[tuple[int, int], tuple[int, int]]:
+def _first_and_six(points: Sequence[Point], sampled: SampledSet | None) -> tuple[tuple[int, int], tuple[int, int]]:
     """Six times the volume and the number of planes of H_1, and of the hull of the six extreme points."""
-    hull = one.hull if one else convex_hull(points, history=True)
+    hull = sampled.hull if sampled else convex_hull(points, history=True)
     first = [points[k] for k in hull.history[0].added]
-    found = []
+    measures = []
     for some in (first, _six(points)):
         judge = exact_hull(some)
-        found.append((_volume(some, judge), len(judge.facets) if judge.dimension == 3 else 0))
-    return found[0], found[1]
+        measures.append((_volume(some, judge), len(judge.facets) if judge.dimension == 3 else 0))
+    return measures[0], measures[1]
 
 
 def _six(points: Sequence[Point]) -> list[Point]:

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import product
 
-from modern.claims.register import Seen, seen
-from modern.claims.sampled_sets import Point, sampled_sets, through, value
-from modern.claims.thesis.chapter3_equations import COUNT, triples
+from modern.claims.register import CheckResult, holds_if
+from modern.claims.sampled_sets import COUNT, Point, plane_through, plane_value, random_triples, sampled_sets
 from modern.claims.thesis.chapter4_examples import theorem_of
 from modern.exact_hull import ExactHull, exact_hull
 from modern.geometry.vectors import cross, dot, minus
@@ -16,14 +15,14 @@ _RAY: Point = (101, 37, 11)
 """A way that meets no edge of the polyhedron from the points looked at."""
 
 
-def coordinate_planes() -> Seen:
+def coordinate_planes() -> CheckResult:
     """Equations of the coordinate planes, by three points of each: one coefficient is not 0, that of its axis."""
-    found = []
+    checks = []
     for zero in range(3):
-        for three in triples():
+        for three in random_triples():
             p, q, r = (_with_0(point, zero) for point in three)
-            found.append([k for k, number in enumerate(through(p, q, r)) if number] == [zero])
-    return seen(all(found), f"{sum(found)} of {len(found)} planes have one coefficient that is not 0")
+            checks.append([k for k, number in enumerate(plane_through(p, q, r)) if number] == [zero])
+    return holds_if(all(checks), f"{sum(checks)} of {len(checks)} planes have one coefficient that is not 0")
 
 
 def _with_0(point: Point, axis: int) -> Point:
@@ -31,28 +30,28 @@ def _with_0(point: Point, axis: int) -> Point:
     return x, y, z
 
 
-def projection_serves(count: str = COUNT) -> Seen:
+def hull_of_projection(count: str = COUNT) -> CheckResult:
     """Flat sets and their projections: vertices, boundary and inside points, and the points of each line, are the same.
 
     The judge's line of a set in space is the plane through it at right angles to the set's own plane.
     """
-    good = []
-    for one in sampled_sets(2, int(count)):
-        plane = one.judge.plane
+    checks = []
+    for sampled in sampled_sets(2, int(count)):
+        plane = sampled.judge.plane
         assert plane is not None
         for axis in (k for k in range(3) if plane[k]):
-            image = [_with_0(point, axis) for point in one.points]
-            good.append(_parts(image, exact_hull(image)) == _parts(one.points, one.judge))
-    words = "projections: the same points are vertices, on the boundary, inside and on each line"
-    return seen(bool(good) and all(good), f"{sum(good)} of {len(good)} {words}")
+            image = [_with_0(point, axis) for point in sampled.points]
+            checks.append(_parts(image, exact_hull(image)) == _parts(sampled.points, sampled.judge))
+    message = "projections: the same points are vertices, on the boundary, inside and on each line"
+    return holds_if(bool(checks) and all(checks), f"{sum(checks)} of {len(checks)} {message}")
 
 
 def _parts(points: Sequence[Point], hull: ExactHull) -> tuple[object, ...]:
-    lines = {frozenset(k for k, point in enumerate(points) if not value(f.plane, point)) for f in hull.facets}
+    lines = {frozenset(k for k, point in enumerate(points) if not plane_value(f.plane, point)) for f in hull.facets}
     return {*hull.vertices}, {*hull.boundary}, {*hull.inside}, lines
 
 
-def inside_is_not_told_by_signs() -> Seen:
+def inside_nonconvex_polyhedron() -> CheckResult:
     """The polyhedron of theorem 4.2: points inside of it, by the faces a ray goes through, above zero in an equation.
 
     Of its convex hull every such point is below zero in all equations.
@@ -66,11 +65,11 @@ def inside_is_not_told_by_signs() -> Seen:
         for point in product((-3, 1, 5, 10), (-9, -5, -2, 2, 5, 9), (-3, 1, 3, 5, 8))
         if sum(_goes_through(point, face) for face in faces) % 2
     ]
-    above = [point for point in inner if any(value(plane, point) > 0 for plane in planes)]
+    above = [point for point in inner if any(plane_value(plane, point) > 0 for plane in planes)]
     hull = exact_hull([*at.values()])
-    within = all(value(facet.plane, point) < 0 for facet in hull.facets for point in inner)
-    words = f"{len(above)} of {len(inner)} points inside are above zero in an equation of a face"
-    return seen(0 < len(above) < len(inner) and within, words)
+    within = all(plane_value(facet.plane, point) < 0 for facet in hull.facets for point in inner)
+    message = f"{len(above)} of {len(inner)} points inside are above zero in an equation of a face"
+    return holds_if(0 < len(above) < len(inner) and within, message)
 
 
 def _four_times(numbers: Sequence[object]) -> Point:

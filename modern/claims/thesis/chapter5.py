@@ -8,7 +8,7 @@ from functools import cache
 
 from emulator.language.cards import deck_from_lines
 from emulator.language.formats import Literal
-from modern.claims.register import CONDITION, FAILS, HOLDS, Seen, seen
+from modern.claims.register import CheckResult, fails_if, holds_if
 from modern.claims.thesis.chapter7 import PLACES, deck_of, run_of, typed, vertices_of
 from modern.comparison.difference import disagreement
 from modern.comparison.outcome import from_card_hull, from_judge
@@ -26,25 +26,27 @@ _SPACE = ((1, 2, 3), (2, 1, 5), (4, 4, 1), (3, 9, 2), (7, 1, 1))
 """Five points in no plane."""
 
 
-def error_in_program() -> Seen:
+def error_in_program() -> CheckResult:
     """Two decks end with the message: one meets a slip of program 3, the other none but has too many digits for it."""
     names = ("throughc.deck", "zeroplane.deck")
     ended = [typed(run_of(name)).endswith("ERROR IN PROGRAM") for name in names]
     hulls = [convex_hull([*exact_points(deck_of(name))[0].values()]) for name in names]
-    good = all(ended) and all(hull.determined for hull in hulls) and bool(hulls[0].corrected) and not hulls[1].corrected
-    words = (
+    passed = (
+        all(ended) and all(hull.determined for hull in hulls) and bool(hulls[0].corrected) and not hulls[1].corrected
+    )
+    message = (
         f"typed of both; over exact numbers {', '.join(hulls[0].corrected)} is needed of the one, nothing of the other"
     )
-    return Seen(CONDITION if good else FAILS, words)
+    return holds_if(passed, message, conditional=True)
 
 
-def hull_has_been_determined() -> Seen:
+def message_after_wrong_hull() -> CheckResult:
     """The last cards of a run that has lost vertices."""
     punched = run_of("silent.deck").final.result.punched
-    found, judge = vertices_of("silent.deck")
-    said = any("CONVEX HULL HAS BEEN DETERMINED" in card for card in punched)
-    wrong = said and found != judge
-    return Seen(FAILS if wrong else HOLDS, f"punched after {len(found)} of {len(judge)} vertices")
+    punched_vertices, hull_vertices = vertices_of("silent.deck")
+    announced = any("CONVEX HULL HAS BEEN DETERMINED" in card for card in punched)
+    wrong = announced and punched_vertices != hull_vertices
+    return fails_if(wrong, f"punched after {len(punched_vertices)} of {len(hull_vertices)} vertices")
 
 
 @cache
@@ -53,33 +55,33 @@ def _first_run(exponent: str) -> HullRun:
     return run_hull(deck_from_lines("small", [f"{len(cards):2}", *cards]), programs.program)
 
 
-def points_are_coplanar() -> Seen:
+def points_are_coplanar() -> CheckResult:
     """Five points in space: the message at 10 to the power of -17, where squares are below the smallest number."""
-    said = [COPLANAR in _first_run(exponent).steps[0].result.typed for exponent in ("E+01", "E-16", "E-17")]
-    good = said == [False, False, True] and exact_hull(_SPACE).dimension == 3
-    return Seen(CONDITION if good else FAILS, "typed of five points in no plane where coordinates are of 1E-18")
+    typed_coplanar = [COPLANAR in _first_run(exponent).steps[0].result.typed for exponent in ("E+01", "E-16", "E-17")]
+    passed = typed_coplanar == [False, False, True] and exact_hull(_SPACE).dimension == 3
+    return holds_if(passed, "typed of five points in no plane where coordinates are of 1E-18", conditional=True)
 
 
-def noughts_for_small_numbers() -> Seen:
+def underflow() -> CheckResult:
     """Numbers of one digit times a power of 10: none needs more than eight digits, and the result depends on the power.
 
     So this error is neither of coordinates nor of truncation.
     """
     hulls = [_first_run(exponent) for exponent in ("E+01", "E-17")]
     names = [run.final.name for run in hulls]
-    good = names == ["program3", "program2"]
-    return Seen(CONDITION if good else FAILS, f"the same points, times 1E-18: {names[0]} is asked for, and {names[1]}")
+    passed = names == ["program3", "program2"]
+    return holds_if(passed, f"the same points, times 1E-18: {names[0]} is asked for, and {names[1]}", conditional=True)
 
 
-def digits_of_calculations() -> Seen:
+def ninth_digit_of_product() -> CheckResult:
     """Products and sums of eight digits: those that need nine lose the ninth."""
     arithmetic, (coordinates, *_) = take([("99999999", "0", "0"), ("11", "0", "0")], "truncating")
     product = Fraction(arithmetic.exact(coordinates[0] * coordinates[1], 2))
-    good = product == 1_099_999_900 == 99_999_999 * 11 - 89
-    return seen(good, f"99999999 times 11 is {product}, for 1099999989")
+    passed = product == 1_099_999_900 == 99_999_999 * 11 - 89
+    return holds_if(passed, f"99999999 times 11 is {product}, for 1099999989")
 
 
-def places_for_planes() -> Seen:
+def plane_table_size() -> CheckResult:
     """98 places: as many as a hull of 51 points can have planes, which is 2N - 4; in between more are needed."""
     size = next(entry.size for entry in programs.program("program3").storage.arrays() if entry.name == "KK")
     hull = exact_hull([(k, k**2, k**3) for k in range(MOST_POINTS)])
@@ -89,54 +91,58 @@ def places_for_planes() -> Seen:
         len(before.equations) + 2 * after.outside + 1
         for before, after in zip(overrun.history, overrun.history[1:], strict=False)
     )
-    good = len(hull.vertices) == MOST_POINTS and planes == 2 * MOST_POINTS - 4 == size == PLACES < most
-    words = f"a hull of {len(hull.vertices)} vertices with {planes} planes fits; table.deck needs {most} places"
-    return Seen(CONDITION if good else FAILS, words)
+    passed = len(hull.vertices) == MOST_POINTS and planes == 2 * MOST_POINTS - 4 == size == PLACES < most
+    message = f"a hull of {len(hull.vertices)} vertices with {planes} planes fits; table.deck needs {most} places"
+    return holds_if(passed, message, conditional=True)
 
 
-def places_for_lines() -> Seen:
+def line_table_size() -> CheckResult:
     """Points of a parabola, all of them vertices: lines in use at once, against the 51 places of program 2."""
     size = next(entry.size for entry in programs.program("program2").storage.arrays() if entry.name == "MM")
     most = {}
     for n in (MOST_POINTS - 1, MOST_POINTS):
         history = convex_hull([(k, k * k, 0) for k in range(n)], history=True).history
         most[n] = max(len(stage.equations) for stage in history) + 1
-    good = most[MOST_POINTS - 1] == size < most[MOST_POINTS]
-    words = ", ".join(f"{n} vertices: {places} lines at once" for n, places in most.items())
-    return Seen(CONDITION if good else FAILS, words)
+    passed = most[MOST_POINTS - 1] == size < most[MOST_POINTS]
+    message = ", ".join(f"{n} vertices: {places} lines at once" for n, places in most.items())
+    return holds_if(passed, message, conditional=True)
 
 
-def printed_hulls() -> Seen:
+def printed_hulls() -> CheckResult:
     """The hulls of examples 1 to 6 as chapter 6 prints them, against the judge's of their points."""
-    good = []
+    checks = []
     for example in EXAMPLES:
         points = [tuple(map(Fraction, point)) for point in exact_points(input_deck(example))[0].values()]
-        last = [one for one in prints(example) if one.device == "punch"][-1]
-        found = from_card_hull("print", f"program{last.program}", read_hull(last.lines), points)
-        good.append(disagreement(found, from_judge(exact_hull(points), points), points).agrees)
-    return seen(all(good), f"{sum(good)} of {len(good)} printed hulls: vertices, boundary and inside points, equations")
+        last = [result for result in prints(example) if result.device == "punch"][-1]
+        printed_outcome = from_card_hull("print", f"program{last.program}", read_hull(last.lines), points)
+        checks.append(disagreement(printed_outcome, from_judge(exact_hull(points), points), points).agrees)
+    return holds_if(
+        all(checks), f"{sum(checks)} of {len(checks)} printed hulls: vertices, boundary and inside points, equations"
+    )
 
 
-def possible_output() -> Seen:
+def possible_output() -> CheckResult:
     """Headings and messages that the listings punch or type, and those on the cards that chapter 6 prints."""
     missing: dict[str, set[str]] = {"PUNCH": set(), "PRINT": set()}
     for number in (1, 2, 3):
         program = programs.program(f"program{number}")
-        cards = [line for k in EXAMPLES for one in prints(k) if one.program == number for line in _punched(one)]
-        said = " ".join(line.text for line in program.statements)
+        cards = [
+            line for k in EXAMPLES for result in prints(k) if result.program == number for line in _punched(result)
+        ]
+        statements = " ".join(line.text for line in program.statements)
         for device, lacking in missing.items():
-            wanted = {int(found) for found in re.findall(rf"{device} *(\d+)", said)}
+            format_labels = {int(label) for label in re.findall(rf"{device} *(\d+)", statements)}
             headings = {
-                text for k, form in program.formats if k in wanted for text in map(_heading, form.specs) if text
+                text for k, form in program.formats if k in format_labels for text in map(_heading, form.specs) if text
             }
             lacking |= {heading for heading in headings if not any(heading in card for card in cards)}
     typed_only = {"ERROR IN PROGRAM", "DATA NOT ACCEPTABLE", "POINTS ARE COPLANAR", "POINTS ARE NOT COPLANAR"}
-    good = not missing["PUNCH"] and missing["PRINT"] == typed_only
-    return Seen(CONDITION if good else FAILS, f"of the headings punched all; not {', '.join(sorted(missing['PRINT']))}")
+    passed = not missing["PUNCH"] and missing["PRINT"] == typed_only
+    return holds_if(passed, f"of the headings punched all; not {', '.join(sorted(missing['PRINT']))}", conditional=True)
 
 
-def _punched(one: Print) -> tuple[str, ...]:
-    return tuple(one.lines) if one.device == "punch" else ()
+def _punched(result: Print) -> tuple[str, ...]:
+    return tuple(result.lines) if result.device == "punch" else ()
 
 
 def _heading(item: object) -> str:
@@ -144,13 +150,13 @@ def _heading(item: object) -> str:
     return item.text if isinstance(item, Literal) and len(item.text.strip()) > len("NO.") else ""
 
 
-def first_card() -> Seen:
+def first_card() -> CheckResult:
     """N in columns 1 and 2, read by FORMAT 1, then a card for each point."""
     deck = data_deck([["1", "2", "3"]] * 8, "eight")
     cards = [card.text.rstrip() for card in deck.cards]
     listing = programs.deck("program1").text()
-    good = cards[0] in (" 8", "08") and len(cards) == 9 and "READ 1,N" in listing and "1 FORMAT (I2)" in listing
-    return seen(good, f"{len(cards)} cards of 8 points, the first one {cards[0]!r}")
+    passed = cards[0] in (" 8", "08") and len(cards) == 9 and "READ 1,N" in listing and "1 FORMAT (I2)" in listing
+    return holds_if(passed, f"{len(cards)} cards of 8 points, the first one {cards[0]!r}")
 
 
 _WORKS = {1: 73, 2: 180, 3: 38, 4: 136, 5: 297, 6: 290, 7: 94, 8: 302, 9: 329, 11: 306, 12: 301}
@@ -168,9 +174,9 @@ _CITED = {
 """What the text cites, by number and page (p. 2 to 50)."""
 
 
-def cited_pages() -> Seen:
+def cited_pages() -> CheckResult:
     """Every page cited is one of the work; eight works of twelve are cited by number."""
     within = [page <= _WORKS[work] for work, pages in _CITED.items() for page in pages]
     uncited = sorted({*_WORKS, 10} - {*_CITED})
-    words = f"{sum(within)} of {len(within)} pages; works {', '.join(map(str, uncited))} are cited nowhere by number"
-    return Seen(CONDITION if all(within) and uncited == [1, 4, 7, 12] else FAILS, words)
+    message = f"{sum(within)} of {len(within)} pages; works {', '.join(map(str, uncited))} are cited nowhere by number"
+    return holds_if(all(within) and uncited == [1, 4, 7, 12], message, conditional=True)

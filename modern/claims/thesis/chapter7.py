@@ -16,9 +16,8 @@ from emulator.language.cards import Deck, deck_from_text
 from emulator.language.objectcode import code_positions
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 from emulator.machine.result import Options
-from modern.claims.register import CONDITION, FAILS, HOLDS, Seen, counterexample, seen
-from modern.claims.sampled_sets import Point, SampledSet, sampled_sets, through
-from modern.claims.thesis.chapter3_equations import COUNT
+from modern.claims.register import FAILS, CheckResult, counterexample, fails_if, holds_if
+from modern.claims.sampled_sets import COUNT, Point, SampledSet, plane_through, sampled_sets
 from modern.comparison.outcome import from_cards
 from modern.edition import programs
 from modern.exact_hull import exact_hull
@@ -53,12 +52,12 @@ def typed(run: HullRun) -> str:
     return " / ".join(line for step in run.steps for line in step.result.typed)
 
 
-def programs_compile(kind: str = "") -> Seen:
+def programs_compile(kind: str = "") -> CheckResult:
     """The decks of the listing compile."""
     cards = {name: len(programs.deck(name).cards) for name in THREE}
     compiled = all(programs.program(name).code for name in THREE)
-    words = ", ".join(f"{name}: {n} cards" for name, n in cards.items())
-    return Seen((CONDITION if kind else HOLDS) if compiled else FAILS, words)
+    message = ", ".join(f"{name}: {n} cards" for name, n in cards.items())
+    return holds_if(compiled, message, conditional=kind)
 
 
 def _positions(name: str) -> int:
@@ -66,30 +65,31 @@ def _positions(name: str) -> int:
     return OBJECT_PROGRAM + FUNCTION_NAMES + code_positions(program) + program.storage.fields * FIELD
 
 
-def each_program_fits() -> Seen:
+def program_sizes() -> CheckResult:
     """Positions of each program with its data, by the estimate of the compiler's code; 20,000 would not do."""
-    found = [_positions(name) for name in THREE]
-    return seen(SMALLER_CORE < max(found) <= CORE, f"about {', '.join(f'{n:,}' for n in found)} positions")
+    sizes = [_positions(name) for name in THREE]
+    return holds_if(SMALLER_CORE < max(sizes) <= CORE, f"about {', '.join(f'{n:,}' for n in sizes)} positions")
 
 
-def three_programs_needed() -> Seen:
+def three_programs_needed() -> CheckResult:
     """One program of all three would need the code of each beside the data of the largest."""
     code = sum(code_positions(programs.program(name)) for name in THREE)
     data = max(programs.program(name).storage.fields * FIELD for name in THREE)
     total = OBJECT_PROGRAM + FUNCTION_NAMES + code + data
-    return Seen(
-        CONDITION if total > CORE else FAILS,
+    return holds_if(
+        total > CORE,
         f"about {total:,} positions for the code of all three and the data of the largest",
+        conditional=True,
     )
 
 
-def fifty_one() -> Seen:
+def fifty_one_points() -> CheckResult:
     """Arrays of 51 points, and a deck of fewer for which the places for planes do not do."""
     points, _ = exact_points(deck_of("table.deck"))
     sizes = {entry.size for entry in programs.program("program3").storage.arrays()}
     most = _most_planes(np.array([[int(Fraction(x)) for x in point] for point in points.values()], dtype=np.int64))
-    words = f"{len(points)} points need {most} places for planes at once; program 3 has {PLACES}"
-    return Seen(CONDITION if sizes == {51, PLACES} and len(points) <= 51 and most > PLACES else FAILS, words)
+    message = f"{len(points)} points need {most} places for planes at once; program 3 has {PLACES}"
+    return holds_if(sizes == {51, PLACES} and len(points) <= 51 and most > PLACES, message, conditional=True)
 
 
 def _most_planes(points: np.ndarray) -> int:
@@ -99,23 +99,20 @@ def _most_planes(points: np.ndarray) -> int:
     return max(len(before.equations) + 2 * after.outside + 1 for before, after in pairs)
 
 
-def plane_through_c() -> Seen:
+def plane_through_c() -> CheckResult:
     """The deck of KNOWN-FAULTS 3: what is typed, and that the judge has a hull."""
-    words = typed(run_of("throughc.deck"))
+    message = typed(run_of("throughc.deck"))
     points = [[*map(Fraction, point)] for point in exact_points(deck_of("throughc.deck"))[0].values()]
     judge = exact_hull(points)
-    good = words.endswith("ERROR IN PROGRAM") and judge.dimension == 3
-    return Seen(
-        FAILS if good else HOLDS,
-        f"typed: {words}; the judge: {len(judge.vertices)} vertices, {len(judge.facets)} planes",
-    )
+    passed = message.endswith("ERROR IN PROGRAM") and judge.dimension == 3
+    return fails_if(passed, f"typed: {message}; the judge: {len(judge.vertices)} vertices, {len(judge.facets)} planes")
 
 
-def roots_that_do_not_add_up() -> Seen:
+def truncated_roots() -> CheckResult:
     """The deck of KNOWN-FAULTS 14: the vertices the listing punches are not the judge's."""
-    found, judge = vertices_of("between.deck")
-    words = f"{len(found ^ judge)} points differ between the punched vertices and the judge's"
-    return Seen(CONDITION if found != judge else FAILS, words)
+    punched, judge = vertices_of("between.deck")
+    message = f"{len(punched ^ judge)} points differ between the punched vertices and the judge's"
+    return holds_if(punched != judge, message, conditional=True)
 
 
 def vertices_of(name: str) -> tuple[set[int], set[int]]:
@@ -125,68 +122,69 @@ def vertices_of(name: str) -> tuple[set[int], set[int]]:
     return set(outcome.vertices), set(exact_hull([*map(list, points)]).vertices)
 
 
-def silent_loss() -> Seen:
+def silent_loss() -> CheckResult:
     """Four points of five digits: a wrong hull without a message."""
-    found, judge = vertices_of("silent.deck")
-    words = typed(run_of("silent.deck"))
-    good = found != judge and "NOT ACCEPTABLE" not in words
-    return Seen(FAILS if good else HOLDS, f"{len(found)} of {len(judge)} vertices are punched; typed: {words}")
+    punched, judge = vertices_of("silent.deck")
+    message = typed(run_of("silent.deck"))
+    passed = punched != judge and "NOT ACCEPTABLE" not in message
+    return fails_if(passed, f"{len(punched)} of {len(judge)} vertices are punched; typed: {message}")
 
 
-def notation() -> Seen:
+def notation() -> CheckResult:
     """The names of chapter 3 among the variables of programs 2 and 3."""
     names = {entry.name for entry in programs.program("program3").storage.arrays()}
     text = programs.deck("program3").text() + programs.deck("program2").text()
-    wanted = ("NETC", "NE", "NV", "MM", "NN", "KK")
-    return seen(
-        {"MM", "NN", "KK"} <= names and all(f"{name}=" in text or name in names for name in wanted), ", ".join(wanted)
+    names_of_chapter_3 = ("NETC", "NE", "NV", "MM", "NN", "KK")
+    return holds_if(
+        {"MM", "NN", "KK"} <= names and all(f"{name}=" in text or name in names for name in names_of_chapter_3),
+        ", ".join(names_of_chapter_3),
     )
 
 
-def inside_heading() -> Seen:
+def inside_heading() -> CheckResult:
     """Program 3 punches FORMAT 5, the heading of inside points, once: INSID is 1 before, 2 after."""
     cards = [card.text.strip() for card in programs.deck("program3").cards]
     place = next(k for k, card in enumerate(cards) if card.endswith("PUNCH 5"))
     heading = next(card for card in cards if card.startswith("5 FORMAT"))
-    good = "INSIDE POINTS" in heading and cards[place + 1] == "INSID=2" and cards.index("INSID=1") < place
-    good &= cards[place - 1].endswith("GO TO (109,110), INSID") and cards[place].startswith("109")
-    return seen(good, f"{cards[place - 1]} / {cards[place]} / {cards[place + 1]}")
+    passed = "INSIDE POINTS" in heading and cards[place + 1] == "INSID=2" and cards.index("INSID=1") < place
+    passed &= cards[place - 1].endswith("GO TO (109,110), INSID") and cards[place].startswith("109")
+    return holds_if(passed, f"{cards[place - 1]} / {cards[place]} / {cards[place + 1]}")
 
 
-def eight_digits() -> Seen:
+def eight_digits() -> CheckResult:
     """A card's field has eight digits and no room for a ninth; a ninth digit of a product is dropped."""
     try:
         coordinate_field("1.23456789")
     except ValueError as error:
-        return seen(coordinate_field("1.2345678") == "+.12345678E+01", str(error))
-    return Seen(FAILS, "a ninth digit fits")
+        return holds_if(coordinate_field("1.2345678") == "+.12345678E+01", str(error))
+    return CheckResult(FAILS, "a ninth digit fits")
 
 
-def no_rounding() -> Seen:
+def quotient_truncated() -> CheckResult:
     """2/3 in eight digits ends in 6."""
     arithmetic, row = take([("2", "3", "1")], "truncating")
     quotient = arithmetic.text(arithmetic.quotient(row[0][0], 3), 1)
-    return seen(Fraction(quotient) == Fraction(66666666, 10**8), f"2 / 3 is {quotient}")
+    return holds_if(Fraction(quotient) == Fraction(66666666, 10**8), f"2 / 3 is {quotient}")
 
 
-def two_kinds_of_errors(kind: str = "") -> Seen:
+def two_kinds_of_error(kind: str = "") -> CheckResult:
     """A third cut to eight digits is another point; coefficients of exact points are cut, or exact with more digits."""
     third = coordinate_field("0.333333333", truncate=True)
     cut, exact = (_coefficients(_THREE, arithmetic) for arithmetic in ("truncating", "exact"))
-    wanted = [*map(Fraction, through(*_THREE))]
-    differ = [a != b for a, b in zip(cut, wanted, strict=True)]
-    good = third == "+.33333333E+00" and any(differ) and exact == wanted
+    exact_coefficients = [*map(Fraction, plane_through(*_THREE))]
+    differ = [a != b for a, b in zip(cut, exact_coefficients, strict=True)]
+    passed = third == "+.33333333E+00" and any(differ) and exact == exact_coefficients
     if kind:
-        good &= bool(_misses(_THREE)) and not _misses(_THREE, "exact")
-    return seen(
-        good, f"1/3 as a card holds it; {sum(differ)} coefficients of a plane cut, none of them in exact numbers"
+        passed &= bool(_misses(_THREE)) and not _misses(_THREE, "exact")
+    return holds_if(
+        passed, f"1/3 as a card holds it; {sum(differ)} coefficients of a plane cut, none of them in exact numbers"
     )
 
 
 def _coefficients(points: tuple[Point, ...], name: str) -> list[Fraction]:
     arithmetic, rows = take(points, name)
-    found = plane(*(tuple(rows[axis][k] for axis in range(3)) for k in range(3)))
-    return [Fraction(arithmetic.exact(x, degree)) for x, degree in zip(found, (2, 2, 2, 3), strict=True)]
+    coefficients = plane(*(tuple(rows[axis][k] for axis in range(3)) for k in range(3)))
+    return [Fraction(arithmetic.exact(x, degree)) for x, degree in zip(coefficients, (2, 2, 2, 3), strict=True)]
 
 
 def _misses(points: tuple[Point, ...], name: str = "truncating") -> list[int]:
@@ -197,34 +195,36 @@ def _misses(points: tuple[Point, ...], name: str = "truncating") -> list[int]:
     return [k for k, point in enumerate(all_points) if not arithmetic.is_zero(at(equation, point))]
 
 
-def own_plane_missed() -> Seen:
+def points_off_own_plane() -> CheckResult:
     """Three points of three digits that do not satisfy their own plane."""
     missed = _misses(_THREE)
-    return seen(bool(missed), f"points {', '.join(str(_THREE[k]) for k in missed)} of the plane through the three")
+    return holds_if(bool(missed), f"points {', '.join(str(_THREE[k]) for k in missed)} of the plane through the three")
 
 
-def fourth_point_missed() -> Seen:
+def fourth_point_off_plane() -> CheckResult:
     """A fourth point exactly in the plane of three that satisfy it."""
-    exactly = not any(sum(a * x for a, x in zip(through(*_FOURTH[:3]), (*_FOURTH[3], 1), strict=True)) for _ in (0,))
-    return seen(exactly and _misses(_FOURTH) == [3], f"{_FOURTH[3]} lies in the plane of the other three exactly")
+    exactly = not any(
+        sum(a * x for a, x in zip(plane_through(*_FOURTH[:3]), (*_FOURTH[3], 1), strict=True)) for _ in (0,)
+    )
+    return holds_if(exactly and _misses(_FOURTH) == [3], f"{_FOURTH[3]} lies in the plane of the other three exactly")
 
 
-def where_data_are_refused() -> Seen:
+def programs_rejecting_data() -> CheckResult:
     """Which programs have the message."""
     has = [name for name in THREE if "DATA NOT ACCEPTABLE" in programs.deck(name).text()]
-    return Seen(CONDITION if has == ["program2", "program3"] else FAILS, f"the message stands in {' and '.join(has)}")
+    return holds_if(has == ["program2", "program3"], f"the message stands in {' and '.join(has)}", conditional=True)
 
 
-def vertex_overlooked() -> Seen:
+def vertex_within_interval() -> CheckResult:
     """A point about a tenth above a plane, in the port: exactly, and with e = 20."""
     points = [("0", "0", "0"), ("4", "0", "0"), ("0", "4", "0"), ("0", "0", "4"), ("1.4", "1.4", "1.4")]
     without, with_e = convex_hull(points), convex_hull(points, epsilon="20")
-    return seen(
+    return holds_if(
         4 in without.vertices and 4 not in with_e.vertices, "(1.4, 1.4, 1.4) is a vertex, with e = 20 it is none"
     )
 
 
-def interval_is_a_solution() -> Seen:
+def interval_instead_of_rejection() -> CheckResult:
     """Points in space whose first three miss their own plane: refused, and with e = 10 the hull is right.
 
     With e = 10,000,000 it is not.
@@ -234,31 +234,31 @@ def interval_is_a_solution() -> Seen:
     hulls = [convex_hull(whole, "truncating", epsilon=e, on_refusal="return") for e in (None, "10", "10000000")]
     judge = exact_hull(points)
     right = [hull.determined and {*hull.vertices} == {*judge.vertices} for hull in hulls]
-    words = f"{hulls[0].status}; with e = 10 {hulls[1].status}; with e = 10,000,000 {len(hulls[2].vertices)} vertices"
-    return Seen(CONDITION if right == [False, True, False] else FAILS, words)
+    message = f"{hulls[0].status}; with e = 10 {hulls[1].status}; with e = 10,000,000 {len(hulls[2].vertices)} vertices"
+    return holds_if(right == [False, True, False], message, conditional=True)
 
 
-def value_is_no_distance() -> Seen:
+def value_against_distance() -> CheckResult:
     """A point at the distance 1 of a plane, with a value of a hundredth."""
-    found, _ = csv_points(counterexample("short_normal.csv"), "short_normal.csv")
-    p, q, r, x = (tuple(map(Fraction, map(str, point))) for point in found)
+    csv_rows, _ = csv_points(counterexample("short_normal.csv"), "short_normal.csv")
+    p, q, r, x = (tuple(map(Fraction, map(str, point))) for point in csv_rows)
     a, b, c, d = plane(p, q, r)  # type: ignore[arg-type]
     value = at((a, b, c, d), x)
     distance = value * value / (a * a + b * b + c * c)
-    return Seen(CONDITION if distance == 1 and abs(value) == Fraction(1, 100) else FAILS, "value 1/100, distance 1")
+    return holds_if(distance == 1 and abs(value) == Fraction(1, 100), "value 1/100, distance 1", conditional=True)
 
 
-def turned_by_c(count: str = COUNT) -> Seen:
+def orientation_by_c(count: str = COUNT) -> CheckResult:
     """The judge's planes of each H_j, which are outward, are negative at C; one that is struck may pass through C."""
-    good = []
-    for one in sampled_sets(3, int(count)):
-        added = one.hull.history[0].added
-        total = _sum(one.points, added)
-        for stage in one.stages():
-            planes = [f.plane for f in exact_hull([one.points[k] for k in stage.vertices]).facets]
-            good += [dot(plane[:3], total) + plane[3] * len(added) < 0 for plane in planes]
+    checks = []
+    for sampled in sampled_sets(3, int(count)):
+        added = sampled.hull.history[0].added
+        total = _sum(sampled.points, added)
+        for stage in sampled.stages():
+            planes = [f.plane for f in exact_hull([sampled.points[k] for k in stage.vertices]).facets]
+            checks += [dot(plane[:3], total) + plane[3] * len(added) < 0 for plane in planes]
     through_c = plane_through_c().verdict == FAILS
-    return Seen(CONDITION if all(good) and through_c else FAILS, f"{len(good)} planes of all H_j")
+    return holds_if(all(checks) and through_c, f"{len(checks)} planes of all H_j", conditional=True)
 
 
 def _sum(points: tuple[Point, ...], which: tuple[int, ...]) -> tuple[int, int, int]:
@@ -266,67 +266,71 @@ def _sum(points: tuple[Point, ...], which: tuple[int, ...]) -> tuple[int, int, i
     return x, y, z
 
 
-def constant_term_is_enough(count: str = COUNT) -> Seen:
+def orientation_by_constant_term(count: str = COUNT) -> CheckResult:
     """With the origin at C the constant term has the sign of the value at C, in the planes of all H_j, turned or not.
 
     Of any three points of the set too: where the plane passes through C both are 0.
     """
-    good = []
-    for one in sampled_sets(3, int(count)):
-        added = one.hull.history[0].added
-        x, y, z = total = _sum(one.points, added)
-        moved = [tuple(len(added) * x - t for x, t in zip(point, total, strict=True)) for point in one.points]
-        for defining in {*combinations(range(5), 3), *(d for stage in one.stages() for d in stage.defining)}:
-            a, b, c, d = through(*(one.points[k] for k in defining))
-            there, constant = a * x + b * y + c * z + d * len(added), through(*(moved[k] for k in defining))[3]  # type: ignore[arg-type]
-            good.append((constant > 0, constant < 0) == (there > 0, there < 0))
-    return Seen(CONDITION if all(good) and plane_through_c().verdict == FAILS else FAILS, f"{len(good)} constant terms")
+    checks = []
+    for sampled in sampled_sets(3, int(count)):
+        added = sampled.hull.history[0].added
+        x, y, z = total = _sum(sampled.points, added)
+        moved = [tuple(len(added) * x - t for x, t in zip(point, total, strict=True)) for point in sampled.points]
+        for defining in {*combinations(range(5), 3), *(d for stage in sampled.stages() for d in stage.defining)}:
+            a, b, c, d = plane_through(*(sampled.points[k] for k in defining))
+            there, constant = a * x + b * y + c * z + d * len(added), plane_through(*(moved[k] for k in defining))[3]  # type: ignore[arg-type]
+            checks.append((constant > 0, constant < 0) == (there > 0, there < 0))
+    return holds_if(
+        all(checks) and plane_through_c().verdict == FAILS, f"{len(checks)} constant terms", conditional=True
+    )
 
 
-def _equations_made(one: SampledSet) -> int:
-    stages = one.hull.history
+def _equations_made(sampled: SampledSet) -> int:
+    stages = sampled.hull.history
     first = len(stages[0].equations)
     return first + sum(3 * stage.outside for stage in stages[1:])
 
 
-def normalizing_an_equation() -> Seen:
+def cost_of_orientation() -> CheckResult:
     """Operations of the formula that puts C into an equation; the constant term is there and takes none."""
-    done: list[str] = []
+    operations: list[str] = []
 
     class Counted(int):
         def __mul__(self, other: int) -> Counted:
-            done.append("product")
+            operations.append("product")
             return Counted(int(self) * int(other))
 
         def __add__(self, other: int) -> Counted:
-            done.append("sum")
+            operations.append("sum")
             return Counted(int(self) + int(other))
 
     at(tuple(map(Counted, (1, -2, 3, -4))), tuple(map(Counted, (5, 6, 7))))
-    products, sums = done.count("product"), done.count("sum")
-    return seen(products > 0 < sums, f"{products} products and {sums} sums an equation; none with the origin at C")
+    products, sums = operations.count("product"), operations.count("sum")
+    return holds_if(products > 0 < sums, f"{products} products and {sums} sums an equation; none with the origin at C")
 
 
-def translation_depends(count: str = COUNT) -> Seen:
+def cost_of_translation(count: str = COUNT) -> CheckResult:
     """Sums saved, three an equation, against sums of the translation, six a point."""
-    few = [3 * _equations_made(one) - 6 * len(one.points) for one in sampled_sets(3, int(count))]
+    few = [3 * _equations_made(sampled) - 6 * len(sampled.points) for sampled in sampled_sets(3, int(count))]
     many = 3 * 4 - 6 * 51
-    return seen(max(few) > 0 > many, f"sums saved: {', '.join(map(str, few))}; of 51 points in a tetrahedron {many}")
+    return holds_if(
+        max(few) > 0 > many, f"sums saved: {', '.join(map(str, few))}; of 51 points in a tetrahedron {many}"
+    )
 
 
-def data_sheet(part: str) -> Seen:
+def data_sheet(part: str) -> CheckResult:
     """The sample cards of pages 58 and 59."""
     if part == "columns":
         points, _ = exact_points(deck_of("z_in_39.deck"))
         z = [point[2] for point in points.values()][-1]
-        return Seen(FAILS if Fraction(z) != 1 else HOLDS, f"a z of 1 punched in columns 39 to 52 is read as {z}")
+        return fails_if(Fraction(z) != 1, f"a z of 1 punched in columns 39 to 52 is read as {z}")
     if part == "blank":
         last = len(data_deck([["3", "12", ".0146"]], "one").cards[-1].text.rstrip())
-        return Seen(CONDITION if last == 42 else FAILS, f"three fields of 14 columns end in column {last}")
+        return holds_if(last == 42, f"three fields of 14 columns end in column {last}", conditional=True)
     if part == "digits":
         printed = "+.3000000E+01"
         whole = coordinate_field("3")
-        good = len(printed) == len(whole) - 1 and printed.replace("E", "0E") == whole
-        return Seen(CONDITION if good else FAILS, f"{printed} has {len(printed)} characters, a field {len(whole)}")
+        passed = len(printed) == len(whole) - 1 and printed.replace("E", "0E") == whole
+        return holds_if(passed, f"{printed} has {len(printed)} characters, a field {len(whole)}", conditional=True)
     numbers = {"12": "+.12000000E+02", ".0146": "+.14600000E-01", ".0261": "+.26100000E-01", "6": "+.60000000E+01"}
-    return seen(all(coordinate_field(value) == field for value, field in numbers.items()), ", ".join(numbers))
+    return holds_if(all(coordinate_field(value) == field for value, field in numbers.items()), ", ".join(numbers))

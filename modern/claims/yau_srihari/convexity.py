@@ -9,9 +9,8 @@ from itertools import combinations, product
 
 import numpy as np
 
-from modern.claims.register import CONDITION, FAILS, HOLDS, Seen, seen
-from modern.claims.sampled_sets import Point
-from modern.claims.thesis.chapter3_equations import points_of
+from modern.claims.register import CheckResult, fails_if, holds_if
+from modern.claims.sampled_sets import Point, counterexample_points
 from modern.claims.yau_srihari.envelopes import SOLID, array_of
 from modern.exact_hull import exact_hull
 from modern.papers.yau_srihari.convexity import (
@@ -26,43 +25,48 @@ from modern.papers.yau_srihari.convexity import (
 )
 
 
-def definitions_differ() -> Seen:
+def definitions_differ() -> CheckResult:
     """Two voxels at a corner are midpoint convex and not a convex solid; a bend is neither."""
     corner, bend = (
         array_of([(0, 0, 0), (1, 1, 0)]),
         array_of([(0, 0, 0), (1, 0, 0), (2, 0, 0), (2, 1, 0), (2, 2, 0)]),
     )
-    found = [(is_midpoint_convex(a), is_digitally_convex(a)) for a in (corner, bend)]
-    return seen(found[0] == (True, False) and not found[1][1], "two voxels at a corner: by 3.2.2 convex, by 3.2.3 not")
+    definitions = [(is_midpoint_convex(a), is_digitally_convex(a)) for a in (corner, bend)]
+    return holds_if(
+        definitions[0] == (True, False) and not definitions[1][1],
+        "two voxels at a corner: by 3.2.2 convex, by 3.2.3 not",
+    )
 
 
-def midpoint_convexity() -> Seen:
+def midpoint_convexity() -> CheckResult:
     """Covers of one to eight voxels; a gap in a row is not convex."""
-    sizes = [len(midpoint_cover((0, 0, 0), other)) for other in ((2, 2, 2), (1, 2, 2), (1, 1, 2), (1, 1, 1))]
+    sizes = [len(midpoint_cover((0, 0, 0), voxel)) for voxel in ((2, 2, 2), (1, 2, 2), (1, 1, 2), (1, 1, 1))]
     gap = is_midpoint_convex(array_of([(0, 0, 0), (2, 0, 0)]))
-    return seen(sizes == [1, 2, 4, 8] and not gap, f"covers of {', '.join(map(str, sizes))} voxels")
+    return holds_if(sizes == [1, 2, 4, 8] and not gap, f"covers of {', '.join(map(str, sizes))} voxels")
 
 
-def midpoint_covers() -> Seen:
+def midpoint_covers() -> CheckResult:
     """Voxels that hold midpoints of quarters of two voxels: just those of the cover."""
     quarters = [Fraction(k, 4) for k in range(-2, 2)]
-    good = []
-    for other in ((2, 2, 2), (1, 2, 2), (1, 1, 2), (1, 1, 1), (3, 0, 1)):
+    checks = []
+    for voxel in ((2, 2, 2), (1, 2, 2), (1, 1, 2), (1, 1, 1), (3, 0, 1)):
         axes = []
-        for c in other:
+        for c in voxel:
             middles = [(a + c + b) / 2 for a in quarters for b in quarters]
             axes.append({v for m in middles for v in range(-1, 4) if m - Fraction(1, 2) < v <= m + Fraction(1, 2)})
-        good.append(set(product(*axes)) == {*map(tuple, midpoint_cover((0, 0, 0), other))})
-    return seen(all(good), f"{len(good)} pairs of voxels")
+        checks.append(set(product(*axes)) == {*map(tuple, midpoint_cover((0, 0, 0), voxel))})
+    return holds_if(all(checks), f"{len(checks)} pairs of voxels")
 
 
-def half_cell_expansion_() -> Seen:
+def expansion_of_voxel() -> CheckResult:
     """One voxel meets eight of the lattice moved by half a cell."""
-    found = int(half_cell_expansion(array_of([(0, 0, 0)])).sum())
-    return seen(found == 8, f"{found} of one voxel, {int(half_cell_expansion(array_of(SOLID)).sum())} of {len(SOLID)}")
+    cell_count = int(half_cell_expansion(array_of([(0, 0, 0)])).sum())
+    return holds_if(
+        cell_count == 8, f"{cell_count} of one voxel, {int(half_cell_expansion(array_of(SOLID)).sum())} of {len(SOLID)}"
+    )
 
 
-def convexity_by_expansion() -> Seen:
+def convexity_by_expansion() -> CheckResult:
     """Solids and their half-cell expansions by the convexity test of 3.2.3: of a convex one the expansion passes too.
 
     So does that of nine voxels that are simple and not convex.
@@ -71,33 +75,37 @@ def convexity_by_expansion() -> Seen:
     steps: list[Point] = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (1, 1, 1)]
     rows = [steps[:2], steps[:3], steps[1:]]
     arrays = [array_of(row) for row in rows]
-    good = [is_digitally_convex(a) and is_digitally_convex(half_cell_expansion(a)) for a in arrays]
-    other = array_of(nine)
-    wider = is_simple(other) and not is_digitally_convex(other) and is_digitally_convex(half_cell_expansion(other))
-    words = f"{len(good)} convex solids and their expansions; nine voxels that are not convex and whose expansion is"
-    return Seen(CONDITION if all(good) and wider else FAILS, words)
+    checks = [is_digitally_convex(a) and is_digitally_convex(half_cell_expansion(a)) for a in arrays]
+    nonconvex = array_of(nine)
+    wider = (
+        is_simple(nonconvex)
+        and not is_digitally_convex(nonconvex)
+        and is_digitally_convex(half_cell_expansion(nonconvex))
+    )
+    message = (
+        f"{len(checks)} convex solids and their expansions; nine voxels that are not convex and whose expansion is"
+    )
+    return holds_if(all(checks) and wider, message, conditional=True)
 
 
-def simple_with_a_tunnel() -> Seen:
+def simple_with_a_tunnel() -> CheckResult:
     """A ring of twelve voxels around a cube's diagonal: simple, and its Euler number is that of a ring."""
-    array = array_of(points_of("tunnel.csv"))
+    array = array_of(counterexample_points("tunnel.csv"))
     cells: set[Point] = set()
     for x, y, z in np.argwhere(array).tolist():
         cells.update((2 * x + i, 2 * y + j, 2 * z + k) for i, j, k in product(range(3), repeat=3))
     euler = sum((-1) ** sum(c % 2 for c in cell) for cell in cells)
-    return Seen(
-        FAILS if is_simple(array) and euler == 0 else HOLDS, f"simple, and its Euler number is {euler}, a ball's is 1"
-    )
+    return fails_if(is_simple(array) and euler == 0, f"simple, and its Euler number is {euler}, a ball's is 1")
 
 
-def nearness(kind: str = "semidigital") -> Seen:
+def nearness(kind: str = "semidigital") -> CheckResult:
     """What the convexity test takes for semidigital, or near, on the faces of a solid's hull, by the definition.
 
     ``semidigital``: of thirds of its faces those with a whole coordinate, not counting one that the face has all
     over, are on the test's segments, and all that are have one.  ``near``: on each segment, the points of the test's
     span are those less than 1 away on every axis.
     """
-    judge, good = exact_hull(SOLID), []
+    judge, checks = exact_hull(SOLID), []
     segments = sorted({(min(ends), max(ends)) for ends in semidigital_segments(judge)})
     if kind == "semidigital":
         for face in judge.facets:
@@ -106,15 +114,15 @@ def nearness(kind: str = "semidigital") -> Seen:
             for i, j in ((i, j) for i in range(3) for j in range(4)):
                 at = _of_triangle(corners, Fraction(i, 3), Fraction((3 - i) * j, 9))
                 on = any(_on_segment(at, *ends) for ends in segments)
-                good.append(on or all(at[axis].denominator > 1 for axis in axes))
-                good.append(not on or any(c.denominator == 1 for c in at))
-        return seen(all(good) and segments != [], f"{len(good) // 2} points of faces, {len(segments)} segments")
+                checks.append(on or all(at[axis].denominator > 1 for axis in axes))
+                checks.append(not on or any(c.denominator == 1 for c in at))
+        return holds_if(all(checks) and segments != [], f"{len(checks) // 2} points of faces, {len(segments)} segments")
     for (start, end), voxel in product(segments, SOLID):
         span = near_span(start, end, voxel)
         for t in (Fraction(k, 4) for k in range(5)):
             far = max(abs(a + t * (b - a) - c) for a, b, c in zip(start, end, voxel, strict=True))
-            good.append((far < 1) == (span is not None and span[0] < t < span[1]))
-    return seen(all(good), f"{len(good)} points against voxels")
+            checks.append((far < 1) == (span is not None and span[0] < t < span[1]))
+    return holds_if(all(checks), f"{len(checks)} points against voxels")
 
 
 def _of_triangle(corners: list[Point], u: Fraction, v: Fraction) -> Place:
@@ -161,7 +169,7 @@ def in_hypograph(f: Height, x: Fraction, y: Fraction, z: Fraction) -> bool:
     return z <= f(x, y)
 
 
-def convex_functions(kind: str = "segment") -> Seen:
+def convex_functions(kind: str = "segment") -> CheckResult:
     """Nine functions of two coordinates by the inequality, at shares of 1/3, 1/2 and 2/3 between eight places.
 
     ``segment``: of a convex one no chord is below the graph, of a concave one none above.  ``negative``: the negative
@@ -169,15 +177,15 @@ def convex_functions(kind: str = "segment") -> Seen:
     concave, ones holds what lies between two of its points, at heights from the graph on.
     """
     convex, concave = _kinds()
-    words = f"{len(convex)} convex, {len(concave)} concave of {len(FUNCTIONS)}"
-    good = [(len(convex), len(concave)) == (4, 3)]
+    message = f"{len(convex)} convex, {len(concave)} concave of {len(FUNCTIONS)}"
+    checks = [(len(convex), len(concave)) == (4, 3)]
     for f in FUNCTIONS:
         if kind == "negative":
-            good.append((f in convex) == all(c <= g for c, g in _chords(_negative(f))))
+            checks.append((f in convex) == all(c <= g for c, g in _chords(_negative(f))))
         elif kind != "segment":
             above = kind == "G+"
-            good.append((f in (convex if above else concave)) == _is_convex_set(f, above))
-    return seen(all(good), words)
+            checks.append((f in (convex if above else concave)) == _is_convex_set(f, above))
+    return holds_if(all(checks), message)
 
 
 @cache

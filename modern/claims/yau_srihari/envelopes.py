@@ -11,9 +11,8 @@ from random import Random
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.claims.register import CONDITION, FAILS, HOLDS, Seen, seen
-from modern.claims.sampled_sets import Point, sampled_sets, through, value
-from modern.claims.thesis.chapter3_equations import points_of
+from modern.claims.register import FAILS, CheckResult, fails_if, holds_if
+from modern.claims.sampled_sets import Point, counterexample_points, plane_through, plane_value, sampled_sets
 from modern.digital.solids import VERTEX, ball, listed
 from modern.exact_hull import exact_hull
 from modern.geometry.vectors import dot, minus
@@ -43,86 +42,90 @@ def _hull() -> OctreeHull:
     return octree_hull(array_of(SOLID))
 
 
-def printed(name: str) -> Seen:
+def algorithm_as_printed(name: str) -> CheckResult:
     """A statement as printed, on its counterexample: against the corrected algorithm."""
-    array = array_of(points_of(f"yau_{name}.csv"))
+    array = array_of(counterexample_points(f"yau_{name}.csv"))
     wrong, right = octree_hull(array, Printed.only(name)).filled, octree_hull(array).filled
     missing, more = int((right & ~wrong).sum()), int((wrong & ~right).sum())
-    return Seen(
-        FAILS if missing or more else HOLDS, f"{missing} voxels missing, {more} too many, of {int(right.sum())}"
-    )
+    return fails_if(missing or more, f"{missing} voxels missing, {more} too many, of {int(right.sum())}")
 
 
-def no_unique_minimum() -> Seen:
+def minimum_not_unique() -> CheckResult:
     """Two voxels at a corner: two digitally convex solids with three voxels hold them, and no smaller one does."""
     both: list[Point] = [(0, 0, 0), (1, 1, 0)]
     least = [is_digitally_convex(array_of([*both, third])) for third in ((1, 0, 0), (0, 1, 0))]
-    return seen(all(least) and not is_simple(array_of(both)), "either voxel beside both makes a convex solid of three")
+    return holds_if(
+        all(least) and not is_simple(array_of(both)), "either voxel beside both makes a convex solid of three"
+    )
 
 
-def between_the_envelopes(kind: str = "") -> Seen:
+def envelopes_against_judge(kind: str = "") -> CheckResult:
     """Faces of floor and ceiling envelopes of a solid are those of the judge that look down, or up.
 
     What lies between are the digital points of the Euclidean hull; of the counterexample they are no digital solid, a
     condition where the digital hull is said to be found.
     """
     judge = exact_hull(SOLID)
-    good = []
-    for found, sign in ((_hull().lower, 1), (_hull().upper, -1)):
-        wanted = {frozenset(f.polygon) for f in judge.facets if sign * f.plane[2] < 0}
-        faces = {frozenset(SOLID.index((x, y, sign * z)) for x, y, z in face.vertices) for face in found.faces}
-        good.append(faces == wanted)
-    inside = {p for p in _GRID if max(value(f.plane, p) for f in judge.facets) <= 0}
-    good.append({*map(tuple, np.argwhere(_hull().filled).tolist())} == inside)
-    words = f"{len(SOLID)} voxels, {len(inside)} in the hull"
+    checks = []
+    for envelope, sign in ((_hull().lower, 1), (_hull().upper, -1)):
+        expected = {frozenset(f.polygon) for f in judge.facets if sign * f.plane[2] < 0}
+        faces = {frozenset(SOLID.index((x, y, sign * z)) for x, y, z in face.vertices) for face in envelope.faces}
+        checks.append(faces == expected)
+    inside = {p for p in _GRID if max(plane_value(f.plane, p) for f in judge.facets) <= 0}
+    checks.append({*map(tuple, np.argwhere(_hull().filled).tolist())} == inside)
+    message = f"{len(SOLID)} voxels, {len(inside)} in the hull"
     if kind:
-        return Seen(CONDITION if all(good) and points_of_stairs().verdict == FAILS else FAILS, words)
-    return seen(all(good), words)
+        return holds_if(all(checks) and disconnected_hull().verdict == FAILS, message, conditional=True)
+    return holds_if(all(checks), message)
 
 
-def convex_deficiency_() -> Seen:
+def deficiency_of_solid() -> CheckResult:
     """Hull less deficiency is the solid."""
     array = array_of(SOLID)
     missing = convex_deficiency(array)
-    return seen(
+    return holds_if(
         bool((_hull().filled & ~missing == array).all()),
         f"{int(missing.sum())} voxels of the hull are not of the solid",
     )
 
 
-def euclidean_convexity() -> Seen:
+def euclidean_convexity() -> CheckResult:
     """A hull is its own hull; midpoints of its points are in it; less a vertex it does not hold all."""
-    good = []
-    for one in sampled_sets(3, 1):
-        again = exact_hull([one.points[k] for k in one.judge.vertices])
-        good.append(len(again.facets) == len(one.judge.facets))
-        for i, j in combinations(one.judge.vertices, 2):
-            good.append(
-                max(value(f.plane, one.points[i]) + value(f.plane, one.points[j]) for f in one.judge.facets) <= 0
+    checks = []
+    for sampled in sampled_sets(3, 1):
+        again = exact_hull([sampled.points[k] for k in sampled.judge.vertices])
+        checks.append(len(again.facets) == len(sampled.judge.facets))
+        for i, j in combinations(sampled.judge.vertices, 2):
+            checks.append(
+                max(
+                    plane_value(f.plane, sampled.points[i]) + plane_value(f.plane, sampled.points[j])
+                    for f in sampled.judge.facets
+                )
+                <= 0
             )
-    return seen(all(good), f"{len(good)} cases")
+    return holds_if(all(checks), f"{len(checks)} cases")
 
 
-def light_cap(kind: str = "") -> Seen:
+def light_cap(kind: str = "") -> CheckResult:
     """A point outside of a hull in general position: light faces make one cap with one closed boundary."""
     points: list[Point] = [(0, 0, 0), (7, 1, 2), (1, 8, 3), (2, 3, 9), (9, 9, 8)]
     judge, new = exact_hull(points), (11, -4, 13)
-    light = [f for f in judge.facets if value(f.plane, new) > 0]
+    light = [f for f in judge.facets if plane_value(f.plane, new) > 0]
     rim = [e for e in judge.edges() if sum({*e} <= {*f.polygon} for f in light) == 1]
     after = [end for edge in rim for end in edge]
     closed = bool(rim) and all(after.count(end) == 2 for end in after)
     if kind:
-        bounds = [len(one.judge.edges()) <= 3 * len(one.points) - 6 for one in sampled_sets(3, 2)]
-        return seen(all(bounds), "n points, each with O(n) edges: at most 3n - 6")
-    return seen(closed, f"{len(light)} light faces, {len(rim)} edges around them, each end on two")
+        bounds = [len(sampled.judge.edges()) <= 3 * len(sampled.points) - 6 for sampled in sampled_sets(3, 2)]
+        return holds_if(all(bounds), "n points, each with O(n) edges: at most 3n - 6")
+    return holds_if(closed, f"{len(light)} light faces, {len(rim)} edges around them, each end on two")
 
 
-def voxels_fill_space() -> Seen:
+def voxels_fill_space() -> CheckResult:
     """Every quarter of a grid is in exactly one half-open voxel: x - 1/2 < V <= x + 1/2."""
-    good = []
+    checks = []
     for k in range(-8, 9):
-        good.append(sum(in_voxel(Fraction(k, 4), v) for v in range(-4, 5)) == 1)
-    return seen(all(good), f"{len(good)} coordinates")
+        checks.append(sum(in_voxel(Fraction(k, 4), v) for v in range(-4, 5)) == 1)
+    return holds_if(all(checks), f"{len(checks)} coordinates")
 
 
 def in_voxel(x: Fraction, v: int) -> bool:
@@ -130,110 +133,110 @@ def in_voxel(x: Fraction, v: int) -> bool:
     return x - Fraction(1, 2) < v <= x + Fraction(1, 2)
 
 
-def points_of_stairs() -> Seen:
+def disconnected_hull() -> CheckResult:
     """The counterexample: nine voxels, connected; the middle of the first and the last is in their hull and is a voxel.
 
     None of the six voxels beside it is in the hull.
     """
-    stairs = points_of("yau_stairs.csv")
-    found = octree_hull(array_of(stairs))
+    stairs = counterexample_points("yau_stairs.csv")
+    hull = octree_hull(array_of(stairs))
     (x, y, z), (u, v, w) = stairs[0], stairs[-1]
     middle = ((x + u) // 2, (y + v) // 2, (z + w) // 2)
-    inside = [(i, j, k) for i, j, k in np.argwhere(found.filled).tolist()]
+    inside = [(i, j, k) for i, j, k in np.argwhere(hull.filled).tolist()]
     alone = middle in inside and not any(sum(abs(a - b) for a, b in zip(p, middle, strict=True)) == 1 for p in inside)
     whole = tuple(2 * m for m in middle) == (x + u, y + v, z + w)
-    wrong = found.components == 1 and whole and alone and not is_simple(found.filled)
-    words = f"{len(stairs)} voxels connected, {len(inside)} in the hull, of which {middle} has no neighbour"
-    return Seen(FAILS if wrong else HOLDS, words)
+    wrong = hull.components == 1 and whole and alone and not is_simple(hull.filled)
+    message = f"{len(stairs)} voxels connected, {len(inside)} in the hull, of which {middle} has no neighbour"
+    return fails_if(wrong, message)
 
 
-def smallest_convex_solid() -> Seen:
+def smallest_convex_solid() -> CheckResult:
     """Of a solid the digital points of the hull are simple and pass the convexity test; a path of six voxels does not.
 
     It is all digital points of its hull, but a point of that with two whole coordinates is near none of the six.  Two
     solids of seven voxels that hold the path pass: there is no smallest one.
     """
-    found = _hull()
-    good = found.components == 1 and is_simple(found.filled) and is_digitally_convex(found.filled)
-    path, middle = points_of("yau_path.csv"), (Fraction(1), Fraction(1, 2), Fraction(1))
+    hull = _hull()
+    passed = hull.components == 1 and is_simple(hull.filled) and is_digitally_convex(hull.filled)
+    path, middle = counterexample_points("yau_path.csv"), (Fraction(1), Fraction(1, 2), Fraction(1))
     far = all(max(abs(a - b) for a, b in zip(middle, p, strict=True)) >= 1 for p in path)
-    good &= (
+    passed &= (
         far and (octree_hull(array_of(path)).filled == array_of(path)).all() and not is_digitally_convex(array_of(path))
     )
     more = [p for p in _GRID if p not in path and is_digitally_convex(array_of([*path, p]))]
-    words = f"{found.given} voxels connected, {found.voxels} in the hull; {len(more)} voxels, each makes a path convex"
-    return Seen(CONDITION if good and len(more) > 1 else FAILS, words)
+    message = f"{hull.given} voxels connected, {hull.voxels} in the hull; {len(more)} voxels, each makes a path convex"
+    return holds_if(passed and len(more) > 1, message, conditional=True)
 
 
-def floor_and_ceiling(kind: str = "") -> Seen:
+def floor_and_ceiling(kind: str = "") -> CheckResult:
     """Least and greatest z of each column; as alpha and beta they are named in this order."""
     columns = {(x, y): sorted(z for a, b, z in SOLID if (a, b) == (x, y)) for x, y, _ in SOLID}
-    good = all(_hull().floor[at] == zs[0] and _hull().ceiling[at] == zs[-1] for at, zs in columns.items())
-    return Seen((CONDITION if kind else HOLDS) if good else FAILS, f"{len(columns)} columns")
+    passed = all(_hull().floor[at] == zs[0] and _hull().ceiling[at] == zs[-1] for at, zs in columns.items())
+    return holds_if(passed, f"{len(columns)} columns", conditional=kind)
 
 
-def negative_of_the_ceiling() -> Seen:
+def ceiling_by_negation() -> CheckResult:
     """Heights of the envelope found for -beta are those of the upper hull, negated."""
     judge = exact_hull(SOLID)
-    found = {(x, y, -z) for face in _hull().upper.faces for x, y, z in face.vertices}
+    envelope_points = {(x, y, -z) for face in _hull().upper.faces for x, y, z in face.vertices}
     upper = {SOLID[k] for f in judge.facets if f.plane[2] > 0 for k in f.polygon}
-    return Seen(CONDITION if found == upper else FAILS, f"{len(found)} vertices, turned over")
+    return holds_if(envelope_points == upper, f"{len(envelope_points)} vertices, turned over", conditional=True)
 
 
-def extreme_points() -> Seen:
+def extreme_points() -> CheckResult:
     """Vertices of the faces of the floor's envelope are points of the floor and in the reduced set."""
     floor = {(x, y, z) for (x, y), z in _hull().floor.items()}
     vertices = {v for face in _hull().lower.faces for v in face.vertices}
-    return seen(
+    return holds_if(
         vertices <= floor and vertices <= {*_hull().lower.reduced}, f"{len(vertices)} vertices of {len(floor)} columns"
     )
 
 
-def integer_normals() -> Seen:
+def integer_normals() -> CheckResult:
     """Normals in the queue, of starting faces and others, and of all faces: whole, at right angles to edge or sides."""
-    good, upright = [], 0
+    checks, upright = [], 0
     for side in (_hull().lower, _hull().upper):
         normals = [(face.normal, face.vertices) for face in side.faces]
         normals += [(step.normal, step.edge) for step in side.steps]
         upright += sum(normal[2] == 0 for normal, _ in normals)
         for normal, (first, *others) in normals:
-            good.append(any(normal) and all(type(n) is int for n in normal))
-            good += [dot(normal, minus(vertex, first)) == 0 for vertex in others]
-    return seen(upright > 0 and all(good), f"{len(good)} conditions; {upright} normals of starting faces")
+            checks.append(any(normal) and all(type(n) is int for n in normal))
+            checks += [dot(normal, minus(vertex, first)) == 0 for vertex in others]
+    return holds_if(upright > 0 and all(checks), f"{len(checks)} conditions; {upright} normals of starting faces")
 
 
-def supporting_is_no_face() -> Seen:
+def supporting_triangle() -> CheckResult:
     """The counterexample: a plane that supports, of which three corners make a triangle that is not all of it."""
-    points = points_of("yau_triangles.csv")
+    points = counterexample_points("yau_triangles.csv")
     judge = exact_hull(points)
     larger = [f for f in judge.facets if f.plane[2] < 0 and len(f.polygon) > 3]
-    support = all(max(value(f.plane, p) for p in points) == 0 for f in larger)
-    words = ", ".join(str(len(f.polygon)) for f in larger)
-    return Seen(FAILS if larger and support else HOLDS, f"supporting planes that look down with {words} corners")
+    support = all(max(plane_value(f.plane, p) for p in points) == 0 for f in larger)
+    message = ", ".join(str(len(f.polygon)) for f in larger)
+    return fails_if(larger and support, f"supporting planes that look down with {message} corners")
 
 
-def opposite_sides() -> Seen:
+def opposite_sides() -> CheckResult:
     """Planes of an edge of the floor's envelope and a further point: whether they support, and what lies opposite."""
-    good = []
+    checks = []
     floor = [(x, y, z) for (x, y), z in _hull().floor.items()]
     for face in _hull().lower.faces:
         v1, v2, v3 = face.vertices[:3]
-        for plane in (through(v3, v2, other) for other in floor):
+        for plane in (plane_through(v3, v2, third_point) for third_point in floor):
             if any(plane[:3]):
-                values = [value(plane, p) for p in floor]
-                opposite = any(v * value(plane, v1) < 0 for v in values)
-                good.append((max(values) <= 0 or min(values) >= 0) == (not opposite))
-    return seen(all(good) and bool(good), f"{len(good)} planes")
+                values = [plane_value(plane, p) for p in floor]
+                opposite = any(v * plane_value(plane, v1) < 0 for v in values)
+                checks.append((max(values) <= 0 or min(values) >= 0) == (not opposite))
+    return holds_if(all(checks) and bool(checks), f"{len(checks)} planes")
 
 
-def another_vertex() -> Seen:
+def another_vertex() -> CheckResult:
     """Faces of the floor's envelope: turned over, as v3 v2 v1, their normals point up; the neighbours' point down."""
     normals = [normal_of(*reversed(face.vertices[:3])) for face in _hull().lower.faces]
-    good = all(n[2] > 0 for n in normals) and all(face.normal[2] < 0 for face in _hull().lower.faces)
-    return Seen(CONDITION if good else FAILS, f"{len(normals)} faces turned over")
+    passed = all(n[2] > 0 for n in normals) and all(face.normal[2] < 0 for face in _hull().lower.faces)
+    return holds_if(passed, f"{len(normals)} faces turned over", conditional=True)
 
 
-def epigraph_at_inner_nodes() -> Seen:
+def epigraph_at_inner_nodes() -> CheckResult:
     """Heights 0, 1, 1, 1 of four columns: as printed the root, of least height 0, is full; the epigraph is not.
 
     By its greatest height, 1, the root is not full.
@@ -243,34 +246,34 @@ def epigraph_at_inner_nodes() -> Seen:
     by_letter = 8 if tree.low == 0 else 0
     epigraph = count(graph_side(tree, above=True))
     columns = sum(z >= top for top in tops.values() for z in (0, 1))
-    good = by_letter == 8 > epigraph == columns == 5 and tree.high == 1
-    return Seen(CONDITION if good else FAILS, f"{by_letter} voxels as printed at the root, {epigraph} in the epigraph")
+    passed = by_letter == 8 > epigraph == columns == 5 and tree.high == 1
+    return holds_if(passed, f"{by_letter} voxels as printed at the root, {epigraph} in the epigraph", conditional=True)
 
 
-def pairs_of_points() -> Seen:
+def pairs_of_points() -> CheckResult:
     """Segments between n points, counted, for n up to 12."""
     counts = {n: len([*combinations(range(n), 2)]) for n in range(2, 13)}
-    return seen(all(2 * count == n * (n - 1) for n, count in counts.items()), "n from 2 to 12")
+    return holds_if(all(2 * count == n * (n - 1) for n, count in counts.items()), "n from 2 to 12")
 
 
-def outward_normals() -> Seen:
+def outward_normals() -> CheckResult:
     """Normals of the floor envelope's faces point away from all points of the floor, and down."""
     floor = [(x, y, z) for (x, y), z in _hull().floor.items()]
-    good = []
+    checks = []
     for face in _hull().lower.faces:
         normal, first = face.normal, face.vertices[0]
         ways = [sum(n * (a - b) for n, a, b in zip(normal, p, first, strict=True)) for p in floor]
-        good.append(max(ways) == 0 and normal[2] < 0 and normal_of(*face.vertices[:3])[2] < 0)
-    return seen(bool(good) and all(good), f"{len(good)} faces")
+        checks.append(max(ways) == 0 and normal[2] < 0 and normal_of(*face.vertices[:3])[2] < 0)
+    return holds_if(bool(checks) and all(checks), f"{len(checks)} faces")
 
 
-def queue_both_ways_round() -> Seen:
+def queued_edges_reversed() -> CheckResult:
     """Edges removed from the queue, of solids at random: what is entered as u1 u3 or u3 u2 is met as its reverse.
 
     As u1 u3 or u3 u2 itself none would ever be found there.
     """
     random = Random(8)
-    same, reverse, other = 0, 0, 0
+    same, reverse, neither = 0, 0, 0
     for _ in range(6):
         hull = octree_hull(array_of([p for p in _GRID if random.random() < 0.6]))
         for step in (*hull.lower.steps, *hull.upper.steps):
@@ -279,44 +282,48 @@ def queue_both_ways_round() -> Seen:
             for p, q in step.removed:
                 same += (p, q) in entries
                 reverse += (q, p) in entries
-                other += (p, q) not in entries and (q, p) not in entries
-    words = f"{reverse} edges are met as their reverse, {same} as they were entered"
-    return Seen(CONDITION if reverse and not same and not other else FAILS, words)
+                neither += (p, q) not in entries and (q, p) not in entries
+    message = f"{reverse} edges are met as their reverse, {same} as they were entered"
+    return holds_if(reverse and not same and not neither, message, conditional=True)
 
 
-def common_to_both_steps() -> Seen:
+def row_and_column_steps() -> CheckResult:
     """Floors at random: what is extreme in its row and its column, and what is left after a step by rows and then one
     by columns, by the program; either holds all vertices of the floor's hull, and the second sometimes more."""
     random = Random(29)
-    good, more = [], 0
+    checks, more = [], 0
     for _ in range(40):
         heights_ = {(x, y): random.randint(0, 3) for x in range(4) for y in range(4) if random.random() < 0.8}
-        both = {place for place in heights_ if all(_extreme(place, axis, heights_) for axis in (0, 1))}
+        extreme_in_both = {place for place in heights_ if all(_extreme(place, axis, heights_) for axis in (0, 1))}
         tree = written(no_columns(4), {place: Leaf(z) for place, z in heights_.items()})
-        left = {*heights(reduced_tree(tree))}
+        after_steps = {*heights(reduced_tree(tree))}
         floor: list[Point] = [(x, y, z) for (x, y), z in heights_.items()]
         hull = exact_hull([*floor, *((x, y, z + 9) for x, y, z in floor)])
-        good.append({floor[k][:2] for k in hull.vertices if k < len(floor)} <= both <= left)
-        more += both < left
-    words = f"{len(good)} floors; of {more} the second step keeps a point that is not extreme among all of its column"
-    return Seen(CONDITION if all(good) and more else FAILS, words)
+        checks.append({floor[k][:2] for k in hull.vertices if k < len(floor)} <= extreme_in_both <= after_steps)
+        more += extreme_in_both < after_steps
+    message = (
+        f"{len(checks)} floors; of {more} the second step keeps a point that is not extreme among all of its column"
+    )
+    return holds_if(all(checks) and more, message, conditional=True)
 
 
-def angles_saved() -> Seen:
+def angle_counts() -> CheckResult:
     """Angles of the lower halves of two balls: one for each point beyond an edge, of the floor and of the reduced set.
 
     And those that the search in the tree computes, for points and for the corners of squares.
     """
-    found = []
+    counts = []
     for diameter in (8, 40):
         hull = octree_hull(ball(diameter, VERTEX).array)
         steps, reduced = hull.lower.steps, [(x, y) for x, y, _ in hull.lower.reduced]
-        all_, left = (sum(_beyond(step.edge, places) for step in steps) for places in (hull.floor, reduced))
-        found.append((all_, left, sum(step.angles for step in steps)))
-    (all_8, left_8, search_8), (all_40, left_40, search_40) = found
-    good = left_8 < all_8 and left_40 < all_40 and left_8 < search_8 and search_40 < left_40
-    words = "; ".join(f"{a:,} of the floor, {b:,} of the reduced set, {c:,} by the search" for a, b, c in found)
-    return Seen(CONDITION if good else FAILS, words)
+        all_angles, reduced_angles = (
+            sum(_beyond(step.edge, places) for step in steps) for places in (hull.floor, reduced)
+        )
+        counts.append((all_angles, reduced_angles, sum(step.angles for step in steps)))
+    (all_8, left_8, search_8), (all_40, left_40, search_40) = counts
+    passed = left_8 < all_8 and left_40 < all_40 and left_8 < search_8 and search_40 < left_40
+    message = "; ".join(f"{a:,} of the floor, {b:,} of the reduced set, {c:,} by the search" for a, b, c in counts)
+    return holds_if(passed, message, conditional=True)
 
 
 def _beyond(edge: tuple[Point, Point], places: Iterable[Place]) -> int:
@@ -329,5 +336,5 @@ def _extreme(place: Place, axis: int, heights_: Mapping[Place, int]) -> bool:
     """Whether a place is a vertex of the lower chain of its row or column: below every line of two others around it."""
     at, z = place[axis], heights_[place]
     line = [(p[axis], h) for p, h in heights_.items() if p[1 - axis] == place[1 - axis]]
-    around = product([one for one in line if one[0] < at], [one for one in line if one[0] > at])
+    around = product([entry for entry in line if entry[0] < at], [entry for entry in line if entry[0] > at])
     return all((z - h) * (b - a) < (k - h) * (at - a) for (a, h), (b, k) in around)

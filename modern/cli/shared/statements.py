@@ -29,8 +29,8 @@ def theorem_lines(found: Sequence[Judged], paint: Paint, indented: Indented) -> 
                 {int(page) for one in found if one.statement.part == row.part for page in one.statement.page.split("-")}
             )
             yield f"Theorem {row.part} (p. {pages[0]}-{pages[-1]})"
-        yield f"  {paint(str(judged.found), EXACT if judged.agrees else DIFFERENT):<6} {row.says}"
-        yield from indented(judged.seen)
+        yield f"  {paint(str(judged.computed), EXACT if judged.agrees else DIFFERENT):<6} {row.says}"
+        yield from indented(judged.message)
     if found:
         yield ""
 
@@ -47,12 +47,12 @@ def statement_lines(found: Sequence[Judged], paint: Paint, indented: Indented) -
         yield from indented(f"{row.says} [{row.words}]")
         if row.why:
             yield from indented(f"{_WHY.get(row.verdict, 'why')}: {row.why}")
-        if judged.seen:
-            yield from indented(judged.seen)
+        if judged.message:
+            yield from indented(judged.message)
         if row.run:
             yield from indented(f"run: {row.run}")
         if not judged.agrees:
-            yield from indented(paint(f"BUT what is found: {judged.found}", DIFFERENT))
+            yield from indented(paint(f"BUT the computed verdict is: {judged.computed}", DIFFERENT))
     if found:
         yield ""
 
@@ -70,8 +70,9 @@ def statement_summary(found: Sequence[Judged], paint: Paint, indented: Indented)
             yield from indented(f"do not hold: {', '.join(failing)}")
     for judged in found:
         if not judged.agrees:
-            yield from indented(paint(f"{judged.statement.id}: found {judged.found}: {judged.seen}", DIFFERENT))
-    held = sum(judged.found is None and judged.statement.verdict != UNTESTABLE for judged in found)
-    yield f"  computed just now: {sum(judged.found is not None for judged in found)}; checked by a test: {held}"
+            message = f"{judged.statement.id}: computed: {judged.computed}: {judged.message}"
+            yield from indented(paint(message, DIFFERENT))
+    held = sum(judged.computed is None and judged.statement.verdict != UNTESTABLE for judged in found)
+    yield f"  computed just now: {sum(judged.computed is not None for judged in found)}; checked by a test: {held}"
     yield "  in full: hull1620 reproduce DOCUMENT, or a statement's id"
     yield ""

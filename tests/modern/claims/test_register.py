@@ -1,4 +1,4 @@
-"""A verdict on every statement: the rows, what they rest on, and that a wrong verdict is seen."""
+"""The register: its rows, the evidence that they name, and the detection of a wrong verdict."""
 
 from __future__ import annotations
 
@@ -19,32 +19,30 @@ from modern.claims.register import (
     HOLDS,
     MOST_WORDS,
     UNTESTABLE,
-    VERDICTS,
+    CheckResult,
     Judgements,
-    Seen,
-    Statement,
     StatementError,
     Verdict,
-    claimed,
     judge,
     read_rows,
+    run_claim,
     statements_of,
 )
-from modern.claims.thesis.chapter3_stages import KINDS
+from modern.claims.thesis.chapter3_stages import PROPERTY_NAMES
 from modern.cli.main import main
 from tests.support.paths import ROOT
 
 ROWS = [row for document in DOCUMENTS for row in statements_of(document)]
-FEW_POINTS = "thesis.chapter3_equations.few_points"
 COUNTEREXAMPLES = Path(ROOT, "transcripts", "counterexamples")
-GOOD = """[[statement]]
+CLAIM = 'claim = "thesis.chapter3_equations.few_points"'
+VALID_ROW = f"""[[statement]]
 id = "x.1"
 page = "1"
 kind = "claim"
 words = "some words"
 says = "Something."
 verdict = "holds"
-claim = "thesis.chapter3_equations.few_points"
+{CLAIM}
 """
 
 
@@ -55,71 +53,54 @@ def functions_of(path: str) -> frozenset[str]:
 
 
 @pytest.mark.parametrize("document", DOCUMENTS)
-def test_every_claim_finds_the_verdict_of_its_row(document: str) -> None:
+def test_computed_verdicts_are_the_recorded_ones(document: str) -> None:
     results = Judgements()
-    wrong = [
-        (judged.statement.id, judged.found, judged.seen)
+    disagreements = [
+        (judged.statement.id, judged.computed, judged.message)
         for judged in (judge(row, results) for row in statements_of(document))
         if not judged.agrees
     ]
-    assert wrong == []
+    assert disagreements == []
 
 
-@pytest.mark.parametrize("row", [row for row in ROWS if row.tests], ids=lambda row: row.id)
-def test_a_test_that_a_row_names_exists(row: Statement) -> None:
-    for name in row.tests:
-        path, _, function = name.partition("::")
-        assert function.startswith("test_")
-        assert function in functions_of(path), name
+@pytest.mark.parametrize("name", sorted({name for row in ROWS for name in row.tests}))
+def test_tests_named_in_rows_exist(name: str) -> None:
+    path, _, function = name.partition("::")
+    assert function.startswith("test_")
+    assert function in functions_of(path)
 
 
-def test_rows_have_distinct_ids_of_their_document_and_say_where_they_stand() -> None:
+def test_rows_have_unique_ids_and_quotations_and_end_in_a_full_stop() -> None:
     assert max(Counter(row.id for row in ROWS).values()) == 1
+    assert {place: n for place, n in Counter((row.document, row.words) for row in ROWS).items() if n > 1} == {}
     for row in ROWS:
         assert re.fullmatch(rf"{row.document}\.\d+", row.id)
         assert 1 <= len(row.words.split()) <= MOST_WORDS
-        assert row.verdict in VERDICTS
-        assert row.verdict == HOLDS or row.why
         assert row.says.endswith(".")
 
 
-def test_no_two_rows_of_a_document_stand_at_the_same_words() -> None:
-    assert {place: n for place, n in Counter((row.document, row.words) for row in ROWS).items() if n > 1} == {}
-
-
-def test_of_a_claim_and_its_results_the_worst_counts() -> None:
-    """Each alone spoils the verdict; a result that cannot be tested does not hide one that fails."""
-    row = replace(
-        statements_of("thesis")[0], claim="thesis.chapter3_equations.few_points", results=("one", "other"), tests=()
-    )
-    known: dict[str, Verdict] = {}
-
-    def results(_: str, name: str) -> Verdict | None:
-        return known.get(name)
-
-    for one, other, worst in (
+@pytest.mark.parametrize(
+    ("first", "second", "worst"),
+    [
         (HOLDS, HOLDS, HOLDS),
         (HOLDS, CONDITION, CONDITION),
         (FAILS, HOLDS, FAILS),
         (UNTESTABLE, CONDITION, UNTESTABLE),
         (UNTESTABLE, FAILS, FAILS),
-    ):
-        known.update(one=one, other=other)
-        assert judge(row, results).found == worst
-    assert judge(row, results).seen.startswith("a point, a segment, a triangle; judged above: one, other")
-    known.update(one=HOLDS, other=HOLDS)
-    wrong = replace(row, claim="thesis.chapter2.vertex_with_minus")
-    assert judge(wrong, results).found == FAILS
-
-
-def test_what_is_computed_needs_no_stored_verdict() -> None:
-    for row in ROWS:
-        computed = bool(row.claim or row.results)
-        assert computed or row.tests or row.verdict == UNTESTABLE, row.id
+    ],
+)
+def test_worst_verdict_of_claim_and_results_counts(first: Verdict, second: Verdict, worst: Verdict) -> None:
+    row = replace(ROWS[0], claim="thesis.chapter3_equations.few_points", results=("first", "second"), tests=())
+    results = {"first": first, "second": second}
+    judged = judge(row, lambda _, name: results[name])
+    assert judged.computed == worst
+    assert judged.message.endswith("; judged above: first, second")
+    failing_claim = replace(row, claim="thesis.chapter2.vertex_formula_with_minus")
+    assert judge(failing_claim, lambda *_: HOLDS).computed == FAILS
 
 
 @pytest.mark.parametrize(
-    ("document", "kind", "needed"),
+    ("document", "kind", "names"),
     [
         ("thesis", "theorem", ["4.1", "4.2", "4.3", "4.4", "4.5", "4.6", "4.7", "4.8"]),
         ("thesis", "equation", ["(3.1)", "(3.2)", "(3.3)", "(3.4)", "(3.5)", "V compares"]),
@@ -150,22 +131,17 @@ def test_what_is_computed_needs_no_stored_verdict() -> None:
         ("yau-srihari", "definition", ["3.2.1", "3.2.2", "3.2.3", "Half-cell", "semidigital", "Near"]),
     ],
 )
-def test_everything_with_a_number_has_a_row(document: str, kind: str, needed: list[str]) -> None:
-    said = " | ".join(row.says + " " + row.words for row in statements_of(document) if row.kind == kind)
-    assert [name for name in needed if name not in said] == []
+def test_every_numbered_item_has_a_row(document: str, kind: str, names: list[str]) -> None:
+    text = " | ".join(row.says + " " + row.words for row in statements_of(document) if row.kind == kind)
+    assert [name for name in names if name not in text] == []
 
 
-def test_what_does_not_hold_has_a_counterexample_and_every_one_is_used() -> None:
-    used = {row.file for row in ROWS if row.file}
-    assert used == {path.name for path in COUNTEREXAMPLES.iterdir()} - {"README.md"}
-    for row in ROWS:
-        if row.verdict == FAILS:
-            assert row.file
-            assert row.run
+def test_every_counterexample_is_named_in_a_row() -> None:
+    assert {row.file for row in ROWS if row.file} == {path.name for path in COUNTEREXAMPLES.iterdir()} - {"README.md"}
 
 
 @pytest.mark.parametrize("run", sorted({row.run for row in ROWS if row.run}))
-def test_a_counterexample_runs_as_its_row_says(
+def test_commands_that_show_counterexamples_run(
     run: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(ROOT)
@@ -175,90 +151,91 @@ def test_a_counterexample_runs_as_its_row_says(
     assert capsys.readouterr().out
 
 
-def test_a_wrong_verdict_is_seen(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
-    """Each computed row with another verdict disagrees; the command ends with 1 and says so."""
+def test_wrong_verdict_is_reported(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     results = Judgements()
-    some = [row for row in statements_of("thesis") if row.claim][::12]
-    for row in some:
-        other = FAILS if row.verdict != FAILS else HOLDS
-        assert not judge(replace(row, verdict=other), results).agrees
-    monkeypatch.setattr("modern.claims.register.claimed", lambda _: Seen(FAILS, "nothing"))
+    for row in [row for row in statements_of("thesis") if row.claim][::12]:
+        assert not judge(replace(row, verdict=FAILS if row.verdict != FAILS else HOLDS), results).agrees
+    monkeypatch.setattr("modern.claims.register.run_claim", lambda _: CheckResult(FAILS, "nothing"))
     row = next(row for row in statements_of("yau-srihari") if row.claim and row.verdict == HOLDS)
     assert main(["reproduce", row.id]) == 1
-    assert "BUT what is found: does not hold" in capsys.readouterr().out
+    assert "BUT the computed verdict is: does not hold" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
-    ("text", "words"),
+    ("original", "replacement", "message"),
     [
-        (GOOD.replace("kind", "sort"), "sort unknown"),
-        (GOOD.replace("x.1", "y.1"), "x: y.1: an id is the document's name, a point and "),
-        (GOOD.replace('page = "1"\n', ""), "page missing"),
-        (GOOD.replace('"holds"', '"perhaps"'), "a verdict is one of holds"),
-        (GOOD.replace("some words", "one two three four five six seven eight nine"), "at most 8 words"),
-        (GOOD.replace('"holds"', '"not testable"'), "without evidence"),
-        (GOOD.replace('claim = "thesis.chapter3_equations.few_points"\n', ""), "with evidence"),
-        (GOOD.replace('"holds"', '"holds with a condition"'), "it is not said why"),
-        (GOOD.replace('"holds"', '"does not hold"\nwhy = "so"'), "there is no counterexample"),
+        ("kind", "sort", "unknown field: sort"),
+        ("x.1", "y.1", "x: y.1: expected an id of the form x.NUMBER"),
+        ('page = "1"\n', "", "missing field: page"),
+        ('"holds"', '"perhaps"', "expected one of the verdicts holds"),
+        ("some words", "one two three four five six seven eight nine", "at most 8 words"),
+        ('"holds"', '"not testable"', "must not name a claim or test"),
+        (CLAIM, "", "must name a claim, result or test"),
+        ('"holds"', '"holds with a condition"', "needs a reason"),
+        ('"holds"', '"does not hold"\nwhy = "so"', "needs a counterexample"),
     ],
 )
-def test_a_row_that_is_none_is_refused(text: str, words: str) -> None:
-    assert list(read_rows("x", GOOD))
-    with pytest.raises(StatementError, match=re.escape(words)):
-        list(read_rows("x", text))
+def test_invalid_row_is_rejected(original: str, replacement: str, message: str) -> None:
+    assert list(read_rows("x", VALID_ROW))
+    with pytest.raises(StatementError, match=re.escape(message)):
+        list(read_rows("x", VALID_ROW.replace(original, replacement)))
 
 
-def test_claims_and_results_that_do_not_exist_are_named() -> None:
-    with pytest.raises(StatementError, match=r"no claim thesis\.chapter3_equations\.nothing"):
-        claimed("thesis.chapter3_equations.nothing")
-    with pytest.raises(StatementError, match=r"no claim nothing\.at_all"):
-        claimed("nothing.at_all")
-    text = GOOD.replace("x.1", "thesis.1").replace(
-        'claim = "thesis.chapter3_equations.few_points"', 'result = "example 9"'
-    )
+def test_unknown_claim_or_result_is_named() -> None:
+    for name in ("thesis.chapter3_equations.nothing", "nothing.at_all"):
+        with pytest.raises(StatementError, match=f"there is no claim {re.escape(name)}"):
+            run_claim(name)
+    text = VALID_ROW.replace("x.1", "thesis.1").replace(CLAIM, 'result = "example 9"')
     (row,) = read_rows("thesis", text)
-    with pytest.raises(StatementError, match="there is no result"):
+    with pytest.raises(StatementError, match="there is no result example 9"):
         judge(row, Judgements())
 
 
 @pytest.mark.parametrize(
     "claim",
     [
-        "thesis.chapter3_equations.procedure_is_right",
-        *(f"thesis.chapter3_stages.approximations {kind}" for kind in KINDS),
-        "thesis.chapter3_stages.eliminated",
-        "thesis.chapter2.all_triples",
-        "thesis.chapter2.all_pairs",
-        "thesis.chapter2.vertex_in_space",
-        "thesis.chapter2.rotations planes",
-        "thesis.chapter2.rotations lines",
-        "thesis.chapter4_theorems.none_below_the_origin",
-        "thesis.chapter3_steps.third_point",
-        "thesis.chapter3_steps.mean_is_inside",
-        "thesis.chapter3_steps.visible_planes counts",
-        "thesis.chapter3_steps.visible_planes pairs",
-        "thesis.chapter4_theorems.theorem_4_4",
-        "thesis.chapter4_theorems.theorem_4_5",
-        "thesis.chapter4_theorems.theorem_4_7",
-        "thesis.chapter7.turned_by_c",
-        "thesis.chapter7.constant_term_is_enough",
+        "chapter3_equations.procedure_against_judge",
+        *(f"chapter3_stages.stage_property {name}" for name in PROPERTY_NAMES),
+        "chapter3_stages.eliminated_points",
+        "chapter2.planes_from_triples",
+        "chapter2.lines_from_pairs",
+        "chapter2.vertex_in_space",
+        "chapter2.gift_wrapping planes",
+        "chapter2.gift_wrapping lines",
+        "chapter4_theorems.origin_is_third_point",
+        "chapter3_steps.third_point",
+        "chapter3_steps.mean_of_first_hull",
+        "chapter3_steps.visible_planes counts",
+        "chapter3_steps.visible_planes pairs",
+        "chapter4_theorems.theorem_4_4",
+        "chapter4_theorems.theorem_4_5",
+        "chapter4_theorems.theorem_4_7",
+        "chapter7.orientation_by_c",
+        "chapter7.orientation_by_constant_term",
     ],
 )
-def test_more_sets_than_the_command_takes(claim: str) -> None:
-    """The command looks at two sets of a dimension, this at twenty."""
-    assert claimed(f"{claim} 20").verdict == claimed(claim).verdict
+def test_verdict_is_the_same_for_twenty_sets(claim: str) -> None:
+    """The command samples two sets of each dimension."""
+    assert run_claim(f"thesis.{claim} 20").verdict == run_claim(f"thesis.{claim}").verdict
 
 
-def test_names_of_documents_and_statements(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["reproduce", "yau-srihari"]) == 0
+def test_reproduce_accepts_documents_theorems_and_statements(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["reproduce", "nakamae-nishita"]) == 0
     out = capsys.readouterr().out
-    assert out.count("\n  yau-srihari.") == len(statements_of("yau-srihari"))
-    assert "run: hull1620 octree-hull transcripts/counterexamples/yau_angle.csv --printed angle" in " ".join(
-        out.split()
-    )
-    assert main(["reproduce", "4.1", "thesis.1"]) == 0
+    assert out.count("\n  nakamae-nishita.") == len(statements_of("nakamae-nishita"))
+    assert main(["reproduce", "4.1", "thesis.1", "yau-srihari.61"]) == 0
     out = capsys.readouterr().out
     assert "Theorem 4.1 (p. 37-38)" in out
     assert "thesis.1 (abstract, claim): holds with a condition" in out
+    assert "run: hull1620 octree-hull transcripts/counterexamples/yau_angle.csv --printed angle" in " ".join(
+        out.split()
+    )
     assert main(["reproduce", "yau"]) == 2
     assert "the documents are thesis, appel-will" in capsys.readouterr().err
+
+
+def test_every_claim_function_is_named_in_a_test() -> None:
+    """The tests of each document spoil what its claims rely on."""
+    texts = "".join(path.read_text(encoding="utf-8") for path in Path(__file__).parent.glob("test_*.py"))
+    functions = {row.claim.split()[0].rpartition(".")[2] for row in ROWS if row.claim}
+    assert sorted(name for name in functions if not re.search(rf'[".]{name}\b', texts)) == []

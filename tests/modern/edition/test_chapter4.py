@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 
 from modern.claims.register import HOLDS, THESIS, statements_of
-from modern.claims.thesis.chapter4_examples import claims, lost_candidates
+from modern.claims.thesis.chapter4_examples import lost_candidates, worked_example_checks
 from modern.edition.chapter4 import THEOREMS, Theorem, load_theorems
 
 BY_ID = {theorem.id: theorem for theorem in load_theorems()}
@@ -16,7 +16,7 @@ BY_ID = {theorem.id: theorem for theorem in load_theorems()}
 
 @pytest.mark.parametrize("name", THEOREMS)
 def test_every_claim_of_theorem(name: str) -> None:
-    found = claims(BY_ID[name])
+    found = worked_example_checks(BY_ID[name])
     assert [claim for claim, seen in found.items() if seen.verdict != HOLDS] == []
     assert len(found) >= 3
     assert "programs" in found
@@ -32,13 +32,13 @@ def moved(theorem: Theorem, name: str) -> Theorem:
 
 @pytest.mark.parametrize(("theorem", "point"), [("4.1", "P5"), ("4.2", "P3"), ("4.8", "Q4"), ("4.8", "Q9")])
 def test_a_moved_point_fails_a_claim(theorem: str, point: str) -> None:
-    assert any(seen.verdict != HOLDS for seen in claims(moved(BY_ID[theorem], point)).values())
+    assert any(seen.verdict != HOLDS for seen in worked_example_checks(moved(BY_ID[theorem], point)).values())
 
 
 def test_an_equation_that_is_no_face_fails_the_table_of_4_8() -> None:
     theorem = BY_ID["4.8"]
     changed = replace(theorem.planes[0], coefficients=(*theorem.planes[0].coefficients[:3], Fraction(1)))
-    found = claims(replace(theorem, planes=(changed, *theorem.planes[1:])))
+    found = worked_example_checks(replace(theorem, planes=(changed, *theorem.planes[1:])))
     assert found["supporting"].verdict != HOLDS
 
 

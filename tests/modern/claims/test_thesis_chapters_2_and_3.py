@@ -1,0 +1,318 @@
+"""The claims of chapters 2 and 3 of the thesis change their verdict when what they rely on is spoiled."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from types import SimpleNamespace
+
+import pytest
+
+import modern.claims.thesis.chapter2 as chapter2
+import modern.claims.thesis.chapter3_stages as stages
+import modern.claims.thesis.chapter3_steps as steps
+import modern.claims.thesis.chapter3_wording as wording
+from modern.claims.register import CONDITION, FAILS, HOLDS
+from modern.claims.sampled_sets import SampledSet, sampled_sets
+from modern.exact_hull import exact_hull
+from modern.geometry.hull import Hull, Stage
+from tests.modern.claims.spoilers import (
+    Original,
+    Spoiler,
+    absolute,
+    all_points_vertices,
+    always,
+    assert_verdict_changes,
+    changed_result,
+    check_fails,
+    check_holds,
+    constant_plus_one,
+    counterexample,
+    flattened,
+    identity,
+    negated,
+    sum_instead_of_product,
+    three_vertices,
+    without_last_point,
+)
+
+HullChange = Callable[[Hull], Hull]
+
+
+def judge_without_facet(original: Original) -> object:
+    def spoiled(*arguments: Original) -> object:
+        return tuple(
+            replace(sampled, judge=replace(sampled.judge, facets=sampled.judge.facets[1:]))
+            for sampled in original(*arguments)
+        )
+
+    return spoiled
+
+
+def stage_without_point(original: Original) -> object:
+    """Append a stage that adds no point."""
+
+    def spoiled(sampled: SampledSet) -> SampledSet:
+        empty_stage = replace(sampled.hull.history[-1], added=())
+        return replace(sampled, hull=replace(sampled.hull, history=(*sampled.hull.history, empty_stage)))
+
+    return lambda *arguments: tuple(map(spoiled, original(*arguments)))
+
+
+def with_last_stage(hull: Hull, change: Callable[[Stage], Stage]) -> Hull:
+    *before, last = hull.history
+    return replace(hull, history=(*before, change(last)))
+
+
+def three_last_equations(hull: Hull) -> Hull:
+    return with_last_stage(hull, lambda stage: replace(stage, equations=stage.equations[:3]))
+
+
+three_equations = changed_result(three_last_equations)
+
+
+def two_equations(hull: Hull) -> Hull:
+    return with_last_stage(hull, lambda stage: replace(stage, equations=stage.equations[2:]))
+
+
+@changed_result
+def netc_always_one(hull: Hull) -> Hull:
+    return replace(hull, history=tuple(replace(stage, checked=1) for stage in hull.history))
+
+
+@changed_result
+def line_repeated(hull: Hull) -> Hull:
+    return replace(hull, lines=(hull.lines[0], hull.lines[0]))
+
+
+@changed_result
+def five_times_the_equations(hull: Hull) -> Hull:
+    return replace(hull, history=tuple(replace(stage, equations=stage.equations * 5) for stage in hull.history))
+
+
+@changed_result
+def third_point_first(hull: Hull) -> Hull:
+    """Exchange the first points of H_1 in space."""
+    if hull.dimension < 3:
+        return hull
+    first, *rest = hull.history
+    a, b, c, d = first.added
+    return replace(hull, history=(replace(first, added=(c, a, b, d)), *rest))
+
+
+def without_boundary(hull: Hull) -> Hull:
+    return replace(hull, boundary=())
+
+
+def without_last_face(hull: Hull) -> Hull:
+    return replace(hull, faces=hull.faces[:-1])
+
+
+def elimination_and_check_exchanged(original: Original) -> object:
+    exchanged = {"E": "C", "C": "E", "G": "G"}
+    return {program: {k: exchanged[step] for k, step in labels.items()} for program, labels in original.items()}
+
+
+@pytest.mark.parametrize(
+    ("claim", "attribute", "spoiler"),
+    [
+        (
+            "thesis.chapter2.vertex_formula_with_minus",
+            "counterexample_points",
+            counterexample((0, 0, 0), (1, 1, 1), (2, 2, 2)),
+        ),
+        (
+            "thesis.chapter3_wording.line_duplicates_as_printed",
+            "counterexample_points",
+            counterexample((0, 0, 0), (4, 0, 0), (0, 4, 0), (5, 5, 0)),
+        ),
+        ("thesis.chapter2.cost_of_triples", "math", lambda _: SimpleNamespace(comb=lambda n, k: 1)),
+        ("thesis.chapter2.gift_wrapping lines", "sampled_sets", judge_without_facet),
+        ("thesis.chapter2.gift_wrapping planes", "sampled_sets", judge_without_facet),
+        ("thesis.chapter2.lines_from_pairs", "sampled_sets", judge_without_facet),
+        ("thesis.chapter2.planes_from_triples", "sampled_sets", judge_without_facet),
+        ("thesis.chapter2.supporting_lines", "plane_value", negated),
+        ("thesis.chapter2.triangle_of_combinations", "_area", absolute),
+        ("thesis.chapter2.vertex_in_space", "plane_value", negated),
+        ("thesis.chapter2.vertex_of_hull", "exact_hull", all_points_vertices),
+        ("thesis.chapter2.weights_of_combination", "exact_hull", all_points_vertices),
+        (
+            "thesis.chapter3_equations.collinear_points",
+            "convex_hull",
+            lambda original: lambda points: original(points[:3]),
+        ),
+        ("thesis.chapter3_equations.equation 3.1", "line_as_printed", constant_plus_one),
+        ("thesis.chapter3_equations.equation 3.2", "line_as_printed", constant_plus_one),
+        ("thesis.chapter3_equations.equation 3.3", "line_as_printed", constant_plus_one),
+        ("thesis.chapter3_equations.equation 3.4", "plane_as_printed", constant_plus_one),
+        ("thesis.chapter3_equations.equation 3.5", "line_of_page_19", constant_plus_one),
+        ("thesis.chapter3_equations.few_points", "convex_hull", lambda original: lambda points: original(points[:2])),
+        ("thesis.chapter3_equations.first_two_points", "convex_hull", third_point_first),
+        ("thesis.chapter3_equations.procedure_against_judge", "flat_and_spatial_sets", judge_without_facet),
+        ("thesis.chapter3_equations.reversed_order", "exact_hull", three_vertices),
+        ("thesis.chapter3_stages.eliminated_points", "convex_hull", changed_result(without_boundary)),
+        (
+            "thesis.chapter3_steps.between_by_distances",
+            "_between",
+            lambda original: lambda a, b, c, *far: original(b, a, c, *far),
+        ),
+        ("thesis.chapter3_steps.boundary_points_on_edges", "exact_hull", all_points_vertices),
+        ("thesis.chapter3_steps.choice_of_projection", "_image_area", always(0)),
+        ("thesis.chapter3_steps.classification_by_signs", "plane_value", negated),
+        ("thesis.chapter3_steps.common_first_steps", "convex_hull", third_point_first),
+        ("thesis.chapter3_steps.common_first_steps", "convex_hull", flattened),
+        ("thesis.chapter3_steps.coplanarity_test", "plane_as_printed", always((0, 0, 0, 0))),
+        ("thesis.chapter3_steps.duplicate_lines", "convex_hull", changed_result(two_equations)),
+        ("thesis.chapter3_steps.duplicate_planes", "convex_hull", changed_result(without_last_face)),
+        ("thesis.chapter3_steps.duplicates_removed", "convex_hull", changed_result(three_last_equations)),
+        ("thesis.chapter3_steps.line_pairs 1", "convex_hull", line_repeated),
+        ("thesis.chapter3_steps.line_pairs 2", "convex_hull", line_repeated),
+        ("thesis.chapter3_steps.line_pairs 3", "convex_hull", line_repeated),
+        ("thesis.chapter3_steps.mean_of_first_hull", "dot", negated),
+        ("thesis.chapter3_steps.outside_convention", "counterexample_points", counterexample((1, 0, 0))),
+        ("thesis.chapter3_steps.perpendicular_projection", "_image_area", always(1)),
+        ("thesis.chapter3_steps.planes_at_vertex", "plane_value", always(1)),
+        ("thesis.chapter3_steps.planes_at_vertex condition", "plane_value", always(1)),
+        ("thesis.chapter3_steps.projection_along_axis", "cross", sum_instead_of_product),
+        ("thesis.chapter3_steps.remaining_points 2", "exact_hull", all_points_vertices),
+        ("thesis.chapter3_steps.remaining_points 3", "exact_hull", all_points_vertices),
+        ("thesis.chapter3_steps.third_point", "_square", negated),
+        ("thesis.chapter3_steps.used_boundary_point", "convex_hull", changed_result(without_boundary)),
+        ("thesis.chapter3_steps.used_points_in_planes", "exact_hull", all_points_vertices),
+        ("thesis.chapter3_steps.value_v", "moments", always((1, 0, 0))),
+        ("thesis.chapter3_steps.visible_planes counts", "_shared", always(())),
+        ("thesis.chapter3_steps.visible_planes letter", "_separated", always(False)),
+        ("thesis.chapter3_steps.visible_planes order", "convex_hull", without_last_point),
+        ("thesis.chapter3_steps.visible_planes pairs", "plane_value", always(1)),
+        ("thesis.chapter3_steps.without_constant_term", "plane_value", always(1)),
+        ("thesis.chapter3_wording.collinearity_test", "convex_hull", line_repeated),
+        ("thesis.chapter3_wording.consecutive_hulls", "sampled_sets", stage_without_point),
+        ("thesis.chapter3_wording.coplanar_extremes", "exact_hull", flattened),
+        (
+            "thesis.chapter3_wording.coplanar_extremes",
+            "EXTREMES_IN_A_PLANE",
+            lambda original: (*original, ((0, 0, 3), (3, 1, 0), (1, 4, 1), (-2, 0, -1))),
+        ),
+        ("thesis.chapter3_wording.first_hull_against_extremes", "_volume", always(1)),
+        ("thesis.chapter3_wording.first_hull_against_extremes", "_six", identity),
+        ("thesis.chapter3_wording.last_equation_accepted 2", "convex_hull", netc_always_one),
+        ("thesis.chapter3_wording.last_equation_accepted 3", "convex_hull", netc_always_one),
+        ("thesis.chapter3_wording.last_equation_accepted 3", "stage_property", check_fails),
+        ("thesis.chapter3_wording.order_of_elimination", "_ELIMINATE_CHECK_GROW", elimination_and_check_exchanged),
+        ("thesis.chapter3_wording.plane_duplicates_as_printed", "exact_hull", without_last_point),
+        ("thesis.chapter3_wording.plane_duplicates_as_printed", "convex_hull", three_equations),
+        ("thesis.chapter3_wording.program3_against_program2", "code_positions", negated),
+        ("thesis.chapter3_wording.substitution_counts", "convex_hull", five_times_the_equations),
+        ("thesis.chapter3_wording.text_against_listing", "plane_duplicates_as_printed", check_fails),
+        ("thesis.chapter3_wording.text_against_listing", "line_duplicates_as_printed", check_holds),
+        ("thesis.chapter3_wording.text_against_listing", "fourth_point_by_largest", check_holds),
+    ],
+)
+def test_verdict_changes_with_spoiled_attribute(claim: str, attribute: str, spoiler: Spoiler) -> None:
+    assert_verdict_changes(claim, attribute, spoiler)
+
+
+def without_equation(hull: Hull) -> Hull:
+    """Remove the first equation of the last hull."""
+    return with_last_stage(hull, lambda stage: replace(stage, equations=stage.equations[1:]))
+
+
+def vertex_eliminated(hull: Hull) -> Hull:
+    """Eliminate a vertex at the first stage and again at the last."""
+    first, *rest = hull.history
+    spoiled = replace(first, struck=(*first.struck, hull.vertices[-1]))
+    return with_last_stage(
+        replace(hull, history=(spoiled, *rest)), lambda stage: replace(stage, struck=(*stage.struck, hull.vertices[-1]))
+    )
+
+
+def second_stage_removed(hull: Hull) -> Hull:
+    return replace(hull, history=(hull.history[0], *hull.history[2:]))
+
+
+def netc_decreasing(hull: Hull) -> Hull:
+    first, *rest = hull.history
+    return replace(hull, history=(first, *(replace(stage, checked=9 - k) for k, stage in enumerate(rest))))
+
+
+def last_stage_repeated(hull: Hull) -> Hull:
+    return replace(hull, history=(*hull.history, *(hull.history[-1:] * len(hull.points))))
+
+
+def inner_point_added(hull: Hull) -> Hull:
+    """Let the last stage add a point that is inside."""
+    inside = {*range(len(hull.points))} - {*hull.vertices} - {*hull.boundary}
+    return with_last_stage(hull, lambda stage: replace(stage, added=(min(inside),)) if inside else stage)
+
+
+PROPERTIES: dict[str, HullChange] = {
+    "nested": inner_point_added,
+    "added_tetrahedra": second_stage_removed,
+    "equations": without_equation,
+    "last_hull": without_equation,
+    "struck_points": vertex_eliminated,
+    "struck_inside": vertex_eliminated,
+    "contained_points": second_stage_removed,
+    "decreasing": vertex_eliminated,
+    "finite": last_stage_repeated,
+    "accepted_planes": netc_decreasing,
+    "farthest_outside": inner_point_added,
+    "largest_of_all": inner_point_added,
+    "replaced_line": without_equation,
+    "replaced_plane": without_equation,
+    "two_new_lines": inner_point_added,
+    "counts": without_equation,
+    "renumbering": without_equation,
+    "netc_order": netc_decreasing,
+    "vertices_used": second_stage_removed,
+    "vertex_when_added": inner_point_added,
+    "added_triangle": without_equation,
+    "convexity": netc_decreasing,
+}
+
+
+@pytest.mark.parametrize("name", stages.PROPERTY_NAMES)
+def test_stage_property_fails_for_a_spoiled_construction(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert stages.stage_property(name, "6").verdict in (HOLDS, CONDITION)
+    flat, spatial = (
+        tuple(replace(sampled, hull=PROPERTIES[name](sampled.hull)) for sampled in sampled_sets(dimension, 6))
+        for dimension in (2, 3)
+    )
+    monkeypatch.setattr(stages, "sampled_sets", lambda dimension, _: flat if dimension == 2 else spatial)
+    monkeypatch.setattr(stages, "flat_and_spatial_sets", lambda _: (*flat, *spatial))
+    try:
+        verdict = stages.stage_property(name, "6").verdict
+    except (IndexError, ValueError, StopIteration):
+        verdict = FAILS
+    assert verdict == FAILS
+
+
+def test_condition_on_names_is_about_pairs_in_different_positions(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert steps.visible_planes("names").verdict == CONDITION
+    monkeypatch.setattr(steps, "_same_places", lambda *_: True)
+    assert steps.visible_planes("names").verdict == HOLDS
+
+
+def test_plane_with_three_collinear_points_does_not_support(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A plane that touches a cube along an edge with three points on it has three zeros."""
+    points = ((0, 0, 0), (1, 0, 0), (2, 0, 0), (0, 2, 0), (2, 2, 0), (0, 0, 2), (2, 0, 2), (0, 2, 2), (2, 2, 2))
+    judge = exact_hull(points)
+    wrong = replace(judge, facets=(replace(judge.facets[0], plane=(0, -1, -1, 0)), *judge.facets[1:]))
+    hull = sampled_sets(3, 1)[0].hull
+    for hull_of_judge, verdict in ((wrong, FAILS), (judge, HOLDS)):
+        monkeypatch.setattr(chapter2, "sampled_sets", lambda *_, used=hull_of_judge: (SampledSet(points, hull, used),))
+        assert chapter2.supporting_planes().verdict == verdict
+
+
+def test_first_hull_is_often_larger_than_the_hull_of_the_extremes() -> None:
+    """As the row says, it is larger in over a fifth of random sets whose six extreme points are not coplanar."""
+    measures = [wording._first_and_six(sampled.points, sampled) for sampled in sampled_sets(3, 120)]
+    assert sum(first[0] > six[0] > 0 for first, six in measures) > len(measures) / 5
+
+
+def test_first_sampled_sets_contain_the_cases_that_claims_are_about() -> None:
+    for dimension in (2, 3):
+        judges = [sampled.judge for sampled in sampled_sets(dimension, 2)]
+        assert all(judge.inside for judge in judges)
+        assert any(judge.boundary for judge in judges)
+        assert dimension == 2 or any(len(facet.polygon) > 3 for judge in judges for facet in judge.facets)
