@@ -1,7 +1,7 @@
-"""An IBM 1620 as its FORTRAN programmer knew it: cards, compiler, engine, arithmetic, FORMAT, devices, time.
+"""An emulator of the IBM 1620 as a FORTRAN programmer used it.
 
-The names below are the public interface; they are imported when first used, so that importing the package
-costs nothing.
+It covers cards, compiler, interpreter, arithmetic, FORMAT, devices and timing.  The names below are the public
+interface.  They are imported on first use, so that importing the package is fast.
 """
 
 from __future__ import annotations
@@ -68,15 +68,15 @@ __all__ = [
 
 
 def named(package: str, homes: Mapping[str, tuple[str, ...]], name: str) -> object:
-    """A package's name, from the module that has it, whence it is taken once: what its ``__getattr__`` gives.
+    """Implement ``__getattr__`` of a package: import a public name from its module and cache it in the package.
 
-    homes: modules and their names.  Raises AttributeError.
+    ``homes`` maps each module to its names.  Raise AttributeError for any other name.
     """
     for module, names in homes.items():
         if name in names:
-            found: object = getattr(import_module(module), name)
-            setattr(sys.modules[package], name, found)
-            return found
+            attribute: object = getattr(import_module(module), name)
+            setattr(sys.modules[package], name, attribute)
+            return attribute
     raise AttributeError(f"module {package!r} has no attribute {name!r}")
 
 

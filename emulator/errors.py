@@ -1,4 +1,4 @@
-"""What can go wrong outside the machine: every error is one line that names file, card and column."""
+"""The errors that bad input raises.  Each message is one line that names the file, the card and the column."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ from functools import cache
 
 
 class EmulatorError(Exception):
-    """Base of all errors raised for bad input; ``str`` is one line fit to be shown to a user."""
+    """The base class of all errors raised for bad input.  ``str`` is a one-line message for the user."""
 
 
 class FileError(EmulatorError):
-    """A file, or standard input or output, that cannot be read or written, or whose text is not of its format."""
+    """A file, or standard input or output, that cannot be read or written, or whose content is invalid."""
 
 
 class CardError(EmulatorError):
-    """A card that cannot be read: a character outside the code, too many columns, a field that holds no number.
+    """An invalid card: a character outside the card code, too many columns, or a field without a number.
 
-    ``unit`` is what the source is made of: cards, or lines typed.
+    ``unit`` is the unit of the source in messages: a card or a typed line.
     """
 
     def __init__(self, source: str, card: int, column: int, message: str, unit: str = "card") -> None:
@@ -28,20 +28,20 @@ class CardError(EmulatorError):
 
 
 class LowerCaseError(CardError):
-    """A small letter on a card.  A source program can be read with capitals (emulator/language/statements.py)."""
+    """A lower-case letter on a card.  ``capitals`` in emulator/language/statements.py converts a source program."""
 
 
 class DeckError(EmulatorError):
-    """A deck that cannot be used as a whole: empty, too long or too short."""
+    """A deck that is invalid as a whole: empty, too long or too short."""
 
 
 class OperatorError(EmulatorError):
-    """What an operator's file says and the run, as it stands, cannot take."""
+    """An action in an operator's file that the current state of the run does not allow."""
 
 
 @dataclass(frozen=True, slots=True, order=True)
 class Place:
-    """A place in the source deck: card number and column, both from 1."""
+    """A place in the source deck: card number and column, both counted from 1."""
 
     card: int
     column: int
@@ -49,9 +49,10 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class Diagnostic:
-    """A message of the compiler: ``number`` is IBM's error type where one is known (C26-5619 p. 56), else 0.
+    """A message of the compiler.
 
-    ``about``: a name or a statement of another FORTRAN, of which a deck's messages speak once (:func:`said_once`).
+    ``number`` is IBM's error type (C26-5619 p. 56), or 0.  Messages with the same ``about``, a name or a statement of
+    another FORTRAN, are combined by :func:`merge_repeated`.
     """
 
     card: int
@@ -67,8 +68,8 @@ class Diagnostic:
         return f"{source}: {where}: {kind}: {self.message}"
 
 
-def said_once(diagnostics: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
-    """The messages in order of cards; of those about one thing the first, with the cards of the others."""
+def merge_repeated(diagnostics: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
+    """Yield the messages in order of cards, with one message per subject that also lists the other cards."""
     ordered = sorted(dict.fromkeys(diagnostics), key=lambda d: (d.card, d.column))
     cards: dict[str, list[int]] = {}
     for message in ordered:
@@ -77,9 +78,9 @@ def said_once(diagnostics: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
     for message in ordered:
         if not message.about:
             yield message
-        elif also := list(dict.fromkeys(cards.pop(message.about, ()))):
-            more = also[1:]
-            yield replace(message, message=message.message + _also(more)) if more else message
+        elif first_and_others := list(dict.fromkeys(cards.pop(message.about, ()))):
+            others = first_and_others[1:]
+            yield replace(message, message=message.message + _also(others)) if others else message
 
 
 def _also(cards: list[int]) -> str:
@@ -88,9 +89,9 @@ def _also(cards: list[int]) -> str:
 
 
 class Refused(Exception):
-    """A statement or a specification the compiler refuses, while it is being read; it goes on with the next statement.
+    """A statement or specification that the compiler rejects.  The compiler continues with the next statement.
 
-    ``number`` and ``about`` are as of :class:`Diagnostic`.
+    ``number`` and ``about`` are those of :class:`Diagnostic`.
     """
 
     def __init__(self, place: Place, message: str, number: int = 0, about: str = "") -> None:
@@ -99,7 +100,7 @@ class Refused(Exception):
 
 
 class CompileError(EmulatorError):
-    """A source deck that does not compile; ``diagnostics`` holds every message, ``str`` the first."""
+    """A source deck that does not compile.  ``diagnostics`` holds every message, and ``str`` is the first error."""
 
     def __init__(self, source: str, diagnostics: Iterable[Diagnostic]) -> None:
         self.source = source
@@ -111,9 +112,10 @@ class CompileError(EmulatorError):
 
 @dataclass(frozen=True, slots=True)
 class Explanation:
-    """What an error number of the compiler (``5``) or an error code of the machine (``E3``) means.
+    """An explanation of an error type of the compiler (``5``) or an error code of the machine (``E3``).
 
-    ``example``: cards that give it when compiled or run.  ``source``: manual and page, or what was executed.
+    ``example`` is a deck that produces the error.  ``mend`` says how to correct it.  ``source`` names the manual and
+    page, or the program that was executed.
     """
 
     title: str
@@ -125,8 +127,8 @@ class Explanation:
 
 @cache
 def explanations() -> Mapping[str, Explanation]:
-    """Every error number and code with its explanation: 5 to 13 (C26-5619 p. 56), E1 to E8, F1 to F6, F8."""
-    # Imported here, for every command begins with this module and few explain.
+    """Return the explanations of all error types 5 to 13 (C26-5619 p. 56) and codes E1 to E8, F1 to F6 and F8."""
+    # Imported here because every command loads this module and few need explanations.
     import tomllib
     from importlib.resources import files
 

@@ -1,7 +1,7 @@
-"""Files read and written: every trouble with one is a ``FileError``, one clear line.
+"""Reading and writing of files.  Every failure is a ``FileError`` with a one-line message.
 
-Decks, points, volumes, scenes and plans all come from files and all results go to files, so this stands at the bottom,
-beside the errors.  A path ``-`` is standard input or output.
+All input files and results of the project pass through here.  Results are written atomically: the old file stays until
+the new one is complete.  The path ``-`` is standard input or output.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ from emulator.errors import FileError
 
 
 def source_name(path: str) -> str:
-    """What messages call a path that is read."""
+    """Return the name of an input path in messages."""
     return "standard input" if path == "-" else path
 
 
 def read_bytes(path: str, name: str = "") -> bytes:
-    """All bytes of a file.  ``name``: what messages call it.  Raises FileError."""
+    """Return the contents of a file.  ``name`` replaces its path in messages.  Raise FileError if it cannot be read."""
     if path == "-" and (sys.stdin is None or sys.stdin.closed):
         raise FileError("standard input is closed")
     if not path:
@@ -38,12 +38,12 @@ def read_bytes(path: str, name: str = "") -> bytes:
 
 
 def read_text(path: str) -> str:
-    """The text of a file in UTF-8, without a byte order mark.  Raises FileError, naming the line of a wrong byte."""
+    """Return the text of a UTF-8 file without its byte order mark.  Raise FileError, also for invalid bytes."""
     return decoded(read_bytes(path), source_name(path))
 
 
 def decoded(data: bytes, source: str) -> str:
-    """Bytes as text in UTF-8, without a byte order mark.  Raises FileError, naming the line of a wrong byte."""
+    """Decode UTF-8 without its byte order mark.  Raise FileError with the line and column of the first invalid byte."""
     data = data.removeprefix(BOM_UTF8)
     try:
         return data.decode("utf-8")
@@ -54,21 +54,18 @@ def decoded(data: bytes, source: str) -> str:
 
 
 def reason(error: OSError) -> str:
-    """Why the system refused, for the end of a message."""
+    """Return the system's explanation of an error, for the end of a message."""
     return (error.strerror or str(error)).lower()
 
 
 def write_text(path: str, text: str) -> None:
-    """Write a file whole or not at all.  Raises FileError when it cannot be written."""
+    """Write an ASCII file atomically.  Raise FileError if it cannot be written."""
     with writing(path) as file:
         file.write(text)
 
 
 def check_writable(*paths: str | None) -> None:
-    """Refuse a file that cannot be written before the run, not after it, and two outputs to one file.
-
-    Raises FileError.
-    """
+    """Check before a long run that all outputs can be written and that no two are the same file.  Raise FileError."""
     named = [path for path in paths if path is not None and path != "-"]
     for path in named:
         if not path:
@@ -82,56 +79,66 @@ def check_writable(*paths: str | None) -> None:
             raise FileError(f"{path}: permission denied")
     real = [os.path.realpath(path) for path in named if os.path.isfile(path) or not os.path.exists(path)]
     if len(set(real)) < len(real):
-        raise FileError("two outputs are to go to one file")
+        raise FileError("two outputs have the same file name")
+
+
+UNFINISHED = ".unfinished-"
+"""The beginning of the names of files that are still being written."""
 
 
 @contextmanager
 def writing(path: str) -> Iterator[TextIO]:
-    """A text file to write: beside its place first, then renamed, so that it appears whole or not at all.
+    """Open an ASCII file for writing and replace the old file when the block ends without an error.
 
-    A link is followed, an existing file keeps its mode, and what is not a plain file (a device, a pipe) is written
-    directly.  Raises FileError when it cannot be written.
+    The text goes to a temporary file in the same folder, which is then renamed.  A symbolic link is followed and the
+    mode of an existing file is kept.  A device or pipe is written directly.  Raise FileError if writing fails.
     """
-    how = {"mode": "w", "encoding": "ascii", "errors": "backslashreplace", "newline": ""}
-    with _writing(path, sys.stdout, how) as file:
+    open_arguments = {"mode": "w", "encoding": "ascii", "errors": "backslashreplace", "newline": ""}
+    with _writing(path, sys.stdout, open_arguments) as file:
         yield file
 
 
 @contextmanager
-def writing_bytes(path: str) -> Iterator[BinaryIO]:
-    """As ``writing``, for a file of bytes."""
-    with _writing(path, getattr(sys.stdout, "buffer", None), {"mode": "wb"}) as file:
+def writing_bytes(path: str, durable: bool = False) -> Iterator[BinaryIO]:
+    """Open a binary file for writing, like :func:`writing`.
+
+    If ``durable``, the contents are on disk before the old file is replaced, so that they survive a power failure.
+    """
+    with _writing(path, getattr(sys.stdout, "buffer", None), {"mode": "wb"}, durable) as file:
         yield file
 
 
 @contextmanager
-def _writing(path: str, standard: Any, how: dict[str, str]) -> Iterator[Any]:
-    """``standard`` is standard output in the form wanted, ``how`` the arguments of ``open``."""
+def _writing(path: str, standard: Any, open_arguments: dict[str, str], durable: bool = False) -> Iterator[Any]:
+    """Implement :func:`writing`.  ``standard`` is standard output as text or bytes."""
     if path == "-":
         yield standard
         standard.flush()
         return
     if not path:
         raise FileError("a file without a name cannot be written")
-    beside = ""
+    temporary = ""
     try:
         target = Path(path).resolve()
         if target.exists() and not target.is_file():
-            with target.open(**how) as file:  # type: ignore[call-overload]
+            with target.open(**open_arguments) as file:  # type: ignore[call-overload]
                 yield file
             return
         mode = target.stat().st_mode & 0o777 if target.exists() else 0o666 & ~_umask()
-        handle, beside = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
-        with os.fdopen(handle, **how) as file:  # type: ignore[call-overload]
+        handle, temporary = tempfile.mkstemp(prefix=UNFINISHED, dir=target.parent)
+        with os.fdopen(handle, **open_arguments) as file:  # type: ignore[call-overload]
             yield file
-        os.chmod(beside, mode)
-        os.replace(beside, target)
-        beside = ""
+            if durable:
+                file.flush()
+                os.fsync(file.fileno())
+        os.chmod(temporary, mode)
+        os.replace(temporary, target)
+        temporary = ""
     except OSError as error:
         raise FileError(f"{path}: {reason(error)}") from None
     finally:
-        if beside and os.path.exists(beside):
-            os.unlink(beside)
+        if temporary and os.path.exists(temporary):
+            os.unlink(temporary)
 
 
 def _umask() -> int:

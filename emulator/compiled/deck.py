@@ -148,7 +148,7 @@ def run_deck(
     setting: Setting,
 ) -> int:
     """Run the deck the devices are set to; how it ended."""
-    limit, strict, announces, any_read = setting
+    limit, strict, types_errors, any_read = setting
     marks, devices, registers = code.marks, desk.devices, desk.registers
     devices[ANY_READ] = any_read
     now = limit - min(LOOP_WINDOW, limit // 2)
@@ -159,7 +159,7 @@ def run_deck(
         address = registers[ADDRESS]
         status = GO_ON
         if reason == AT_ITEM:
-            status = item(marks, forms, cards, core, desk, rules, announces)
+            status = item(marks, forms, cards, core, desk, rules, types_errors)
         elif reason == AT_BEGIN:
             status = begin(marks, forms, cards, desk)
         elif reason == AT_FINISH:
@@ -167,7 +167,7 @@ def run_deck(
             if status == GO_ON and devices[VERB] != READ:
                 status = end_record(marks, cards, desk)
         elif reason == AT_EVENT:
-            status = error(registers[EVENT], marks, desk, announces)
+            status = error(registers[EVENT], marks, desk, types_errors)
         elif reason == AT_POWERX and (rules.powers_multiply or -1 <= core.mantissas[address] <= 2):
             if registers[FAC] != 0 and not -1 <= core.mantissas[address] <= 2:
                 owe(registers, multiplied(core.mantissas[address]))
@@ -177,7 +177,7 @@ def run_deck(
             registers[FAC] = m
             registers[CHARACTERISTIC] = e
             if event:
-                status = error(event, marks, desk, announces)
+                status = error(event, marks, desk, types_errors)
         elif reason == AT_FUNCTION:
             if code.roots[address] == 0:
                 return NOT_HERE

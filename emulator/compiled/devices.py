@@ -264,12 +264,12 @@ def stamp(number: int, desk: Desk) -> None:
     desk.devices[USED] = used + STAMP
 
 
-def error(number: int, marks: Marks, desk: Desk, announces: int) -> int:
+def error(number: int, marks: Marks, desk: Desk, types_errors: int) -> int:
     """Count an error code and, if the profile does, type it."""
     registers = desk.registers
     desk.errors[CODES * marks.statements[registers[AT]] + number] += 1
     owe(registers, ERROR)
-    if not announces:
+    if not types_errors:
         return GO_ON
     field = desk.field
     for k in range(len(ERROR_WORDS)):
@@ -284,7 +284,7 @@ def error(number: int, marks: Marks, desk: Desk, announces: int) -> int:
     return put_typed(field, last + 1, marks, desk)
 
 
-def item(marks: Marks, forms: Forms, cards: Cards, core: Core, desk: Desk, rules: Rules, announces: int) -> int:
+def item(marks: Marks, forms: Forms, cards: Cards, core: Core, desk: Desk, rules: Rules, types_errors: int) -> int:
     """One number of a list, read or put out."""
     devices, field, registers = desk.devices, desk.field, desk.registers
     registers[WORK] += 1
@@ -323,4 +323,4 @@ def item(marks: Marks, forms: Forms, cards: Cards, core: Core, desk: Desk, rules
         return GO_ON
     end, overflowed = write_floating(desk.line, column, kind == E_FIELD, width, decimals, m, e, rules)
     devices[COLUMN] = end
-    return error(F8, marks, desk, announces) if overflowed else GO_ON
+    return error(F8, marks, desk, types_errors) if overflowed else GO_ON

@@ -164,7 +164,7 @@ class Runner:
         rows: dict[str, Any] = {name: np.zeros((BLOCK, width), np.int64) for name, width in widths.items()}
         self.report = devices.Report(**rows, log=_codes(bytes(LOG_ROOM)))
         self.rules = profile.rules
-        flags = options.bounds == "strict", profile.announces, options.hopper == "any"
+        flags = options.bounds == "strict", profile.types_errors, options.hopper == "any"
         self.setting = (options.limit, *map(int, flags))
         # Kept code that is damaged, or a numba of another kind, is found out here, before a deck is begun.
         self.kernel = run_decks().ready(*self._arguments([]))

@@ -1,1 +1,38 @@
-"""The language: a source deck becomes object code.  Nothing here runs a program."""
+"""The FORTRAN language: the compiler, from a deck of cards to object code.  Nothing here runs a program.
+
+A deck passes through ``cards.py`` (card code), ``statements.py`` (statements and their kinds), ``parser.py`` with
+``dialect.lark`` and ``formats.py`` (syntax tree of ``tree.py``), and ``compiler.py`` with ``expressions.py`` and
+``storage.py`` (the object code of ``objectcode.py``).
+
+To add a kind of statement:
+
+1. ``tree.py``: a frozen dataclass with the manual's page, and its name in ``Body``.
+2. ``dialect.lark``: a rule for the text of the statement without its number and blanks.
+3. ``statements.py``: a row of ``_PREFIXES`` that names the rule.  The first prefix that matches decides.
+4. ``parser.py``: the rule in ``_FORMS``, with its form for messages and its error type, and a method of ``_Builder``
+   that makes the dataclass.  A rule named like a keyword of Python needs an alias (``-> if_``).
+5. ``foreign.py``: remove the statement if it is listed there as one of another FORTRAN.
+6. ``compiler.py``: a case of ``_Translation._body`` that emits operations, an entry of ``_NO_DO_END`` if no DO may end
+   with the statement, and an entry of ``_EFFECTS`` if a trace should show its effect.
+7. ``modern/bench/translate.py``: a case.  mypy reports steps 6 and 7 while they are missing.
+8. Only if no operation fits: a name and its meaning in ``objectcode.py`` (``MEANINGS`` and the names below it in the
+   same order, ``_LENGTHS``, and ``flatten`` if it branches), its action in ``emulator/machine/interpreter.py``, or in
+   ``session.py`` or ``devices.py`` if it concerns the operator or a device, the same in ``emulator/compiled/kernel.py``
+   or ``NOT_HERE`` in ``emulator/compiled/deck.py``, and its time in ``emulator/machine/timing.py``.  An operation that
+   branches needs an entry in ``emulator/machine/postdominators.py`` and in ``_DECISIONS`` of ``divergence.py`` as well.
+9. Tests: ``tests/emulator/language/`` (``test_statements.py``, ``test_parser.py``, ``test_compiler_code.py``,
+   ``test_compiler_messages.py``), ``tests/emulator/machine/test_programs.py``, where the fixture ``engines`` runs a
+   program on both engines, and ``tests/support/decks_at_random.py``.
+
+To add a FORMAT code that transfers a number:
+
+1. ``emulator/numbers/fields.py``: its letter in ``FieldKind``, and functions that read and write the field, with the
+   column arithmetic in ``emulator/numbers/columns.py``.
+2. ``formats.py``: the letter in ``_KINDS`` and its widths in ``_Reader.one``.  Remove it from ``FOREIGN_FIELDS`` in
+   ``foreign.py``.
+3. ``emulator/machine/devices.py`` and ``emulator/compiled/devices.py``: which of these functions an ITEM uses.
+4. Tests: ``tests/emulator/language/test_formats.py`` and ``tests/emulator/numbers/test_fields.py``.
+
+A code that transfers no number, like X and H, is a class next to ``Literal`` in ``formats.py``, a member of ``Spec``,
+and a case in step 3.
+"""

@@ -1,8 +1,8 @@
-"""From the syntax tree to object code: statement numbers, DO loops, input and output, storage.
+"""The compiler: from the syntax tree to object code, with statement numbers, DO loops, input, output and storage.
 
-Sources: C26-5619 (statement forms; p. 56 for the compiler's error types); the DO as executed on IBM's object
-code: the variable is stepped and compared at the bottom, so a loop runs at least once and leaves the first
-value past its limit.
+Sources: C26-5619 for the forms of statements and, on p. 56, for the error types.  The DO follows IBM's object code as
+executed: its variable is stepped and compared at the bottom of the loop, so a loop runs at least once and leaves the
+first value beyond its limit.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import assert_never
 
-from emulator.errors import CompileError, DeckError, Diagnostic, Refused, said_once
+from emulator.errors import CompileError, DeckError, Diagnostic, Refused, merge_repeated
 from emulator.language import objectcode as op
 from emulator.language import tree
 from emulator.language.cards import Deck
@@ -50,7 +50,7 @@ _NO_DO_END = (
 def compile_deck(deck: Deck) -> Program:
     """Compile a source deck.
 
-    Raises CompileError with every message of the compiler, DeckError for a deck without statements.
+    Raise CompileError with every message of the compiler, or DeckError for a deck without statements.
     """
     program, diagnostics = translate(deck)
     if program is None:
@@ -59,14 +59,16 @@ def compile_deck(deck: Deck) -> Program:
 
 
 def translate(deck: Deck) -> tuple[Program | None, tuple[Diagnostic, ...]]:
-    """Compile a source deck; the program (None if there are errors) and all messages in order of cards."""
+    """Compile a source deck.  Return the program, or None if there are errors, and all messages in order of cards."""
     parsed = parse(deck)
     if not parsed.statements and not parsed.diagnostics:
         raise DeckError(f"{deck.source}: the source deck has no statement")
-    translation = _Translation(deck.source, parsed.statements, refused=parsed.refused, strangers=parsed.strangers)
+    translation = _Translation(
+        deck.source, parsed.statements, refused=parsed.refused, foreign_names=parsed.foreign_names
+    )
     translation.diagnostics.extend(parsed.diagnostics)
     translation.run(broken=any(not message.warning for message in parsed.diagnostics))
-    messages = tuple(said_once(translation.diagnostics))
+    messages = tuple(merge_repeated(translation.diagnostics))
     failed = any(not d.warning for d in messages)
     return (None if failed else translation.program()), messages
 
@@ -81,6 +83,13 @@ class _OpenDo:
 
 @dataclass
 class _Translation:
+    """The state of one compilation.
+
+    ``jumps`` holds each statement number that is branched to, with the place of the branch.  ``opened`` counts the
+    open DO loops by the number of their last statement.  ``refused`` and ``foreign_names`` are those of
+    :class:`~emulator.language.parser.Parsed`.
+    """
+
     source: str
     statements: tuple[tree.Statement, ...]
     emitter: Emitter = field(default_factory=Emitter)
@@ -96,10 +105,11 @@ class _Translation:
     labels: dict[int, tree.Place] = field(default_factory=dict)
     lines: list[Line] = field(default_factory=list)
     refused: frozenset[str] = frozenset()
-    strangers: frozenset[str] = frozenset()
+    foreign_names: frozenset[str] = frozenset()
     ended: bool = False
 
     def run(self, broken: bool) -> None:
+        # FORMATs come first, because a statement may use a FORMAT that follows it.
         self._collect_formats()
         self._check_labels()
         self._check_functions()
@@ -107,7 +117,7 @@ class _Translation:
             try:
                 self._statement(statement)
             except Refused as refused:
-                if not any(reference.name in self.strangers for reference in references(statement.body)):
+                if not any(reference.name in self.foreign_names for reference in references(statement.body)):
                     self.diagnostics.append(refused.diagnostic)
             self._close_dos(statement)
         for do in self.open_dos:
@@ -119,6 +129,7 @@ class _Translation:
             self.diagnostics.append(Diagnostic(card, 0, "the deck has no END card", warning=True))
         if self.emitter.allocator.used > _LARGEST:
             self._error(tree.Place(1, 0), f"OVERLAP: the data need {self.emitter.allocator.used * FIELD} positions")
+        # A deck with errors from the parser may lack statements, so their numbers cannot be checked.
         if not broken:
             for label, place in self.jumps:
                 if label not in self.targets and str(label) not in self.refused:
@@ -179,19 +190,20 @@ class _Translation:
             self.labels.setdefault(statement.label, statement.place)
 
     def _check_functions(self) -> None:
-        """Every function there is not, also beside another mistake of its statement."""
+        """Report every unknown function, also in a statement that has another error."""
         bodies = [statement.body for statement in self.statements]
         arrays = {name for body in bodies if isinstance(body, tree.Dimension) for name, _, _ in body.arrays}
         for body in bodies:
-            read = body.value if isinstance(body, tree.Assignment) else body
-            for found in references(read):
-                known = found.name in arrays or found.name in self.strangers or function_of(found, self.emitter.arrays)
-                if found.arguments and not known:
-                    self.diagnostics.append(unknown_function(found).diagnostic)
+            expressions = body.value if isinstance(body, tree.Assignment) else body
+            for reference in references(expressions):
+                name = reference.name
+                is_known = name in arrays or name in self.foreign_names or function_of(reference, self.emitter.arrays)
+                if reference.arguments and not is_known:
+                    self.diagnostics.append(unknown_function(reference).diagnostic)
 
     def _why_no_target(self, label: int) -> str:
         if label in self.formats:
-            return f"statement {label} is a FORMAT; a program cannot go there"
+            return f"statement {label} is a FORMAT; a program cannot branch to it"
         if label in self.labels:
             return f"statement {label} cannot be executed"
         return f"there is no statement number {label}"
@@ -206,7 +218,7 @@ class _Translation:
             self._dimension(body)
             return
         index = len(self.lines)
-        line = Line(statement.label, statement.place, _words(statement), index=index)
+        line = Line(statement.label, statement.place, _statement_text(statement), index=index)
         self.lines.append(line)
         if statement.label:
             self.targets.setdefault(statement.label, len(self.emitter.code))
@@ -214,6 +226,7 @@ class _Translation:
         self.emitter.modes.clear()
         self.emitter.count(index, True, "statement")
         self._body(body, statement, index)
+        # The last instruction shows what the statement did: a store, a test or the end of a list.
         effect = _EFFECTS.get(self.emitter.code[-1].operation)
         if effect:
             self.lines[index] = replace(line, effect=effect)
@@ -256,6 +269,7 @@ class _Translation:
             raise Refused(target.place, message, about=target.name)
         to_fixed, from_fixed = is_fixed_name(target.name), emitter.fixed(body.value)
         place = emitter.variable(target)
+        # A copy within one mode is a transmission of the field, which bypasses the accumulator.
         source = emitter.simple(body.value)
         if source is not None and to_fixed == from_fixed:
             emitter.emit(op.SEND, source)
@@ -286,22 +300,22 @@ class _Translation:
 
     def _fixed_variable(self, reference: tree.Reference, what: str) -> Operand:
         if reference.name in self.emitter.arrays or reference.arguments or not is_fixed_name(reference.name):
-            raise Refused(reference.place, f"{what} is a fixed-point variable without subscript")
+            raise Refused(reference.place, f"{what} must be a fixed-point variable without subscript")
         return self.emitter.variable(reference)
 
     def _loop(self, loop: tree.Do | tree.Loop, place: tree.Place) -> tuple[int, int, int]:
-        """Code that sets a loop's variable; the fields of variable, step and limit."""
+        """Emit code that sets the variable of a loop.  Return the fields of variable, step and limit."""
         variable = self._fixed_variable(loop.variable, "the variable of a DO")
         bounds = []
         for bound in (loop.first, loop.last, loop.step or tree.Number("1", place)):
             if isinstance(bound, tree.Number) and not bound.floating:
                 if int(bound.text) == 0:
-                    raise Refused(bound.place, "the bounds and the step of a DO are greater than zero")
+                    raise Refused(bound.place, "the bounds and the step of a DO must be greater than zero")
                 bounds.append(self.emitter.constant(bound))
             elif isinstance(bound, tree.Reference):
                 bounds.append(self._fixed_variable(bound, "a bound of a DO"))
             else:
-                raise Refused(bound.place, "a bound of a DO is a whole number or a fixed-point variable")
+                raise Refused(bound.place, "a bound of a DO must be an integer or a fixed-point variable")
         first, last, step = bounds
         self.emitter.emit(op.TOFIX, first)
         self.emitter.emit(op.FMFIX, variable)
@@ -309,7 +323,7 @@ class _Translation:
 
     def _do(self, body: tree.Do, statement: tree.Statement, index: int) -> None:
         if body.label in self.labels and self.labels[body.label] <= statement.place:
-            raise Refused(statement.place, f"the last statement of this DO, number {body.label}, stands before it")
+            raise Refused(statement.place, f"the last statement of this DO, number {body.label}, is before the DO")
         variable, step, limit = self._loop(body, statement.place)
         self.emitter.allocator.place("statement number", str(body.label))
         self.loops.append((variable, step, limit, len(self.emitter.code)))
@@ -321,13 +335,14 @@ class _Translation:
             return
         if isinstance(statement.body, _NO_DO_END):
             self._error(statement.place, "a DO cannot end with this statement; use CONTINUE")
+        # Close the innermost DO first.  One with another last statement has a range that crosses this one.
         while self.opened[statement.label]:
             do = self.open_dos.pop()
             self.opened[do.label] -= 1
             if do.label != statement.label:
                 self._error(
                     do.place,
-                    f"the range of this DO, to {do.label}, is not inside the one that ends with {statement.label}",
+                    f"the range of this DO, to {do.label}, must be inside the range that ends with {statement.label}",
                 )
                 continue
             self.emitter.count(do.statement, False, "closing of the DO")
@@ -346,6 +361,7 @@ class _Translation:
 
     def _item(self, item: tree.Item, statement: tree.Statement, index: int, depth: int = 0) -> None:
         emitter = self.emitter
+        # An indexed list is a loop: set the variable, transfer the items, step and test at the bottom.
         if isinstance(item, tree.Loop):
             if depth > 2:
                 raise Refused(statement.place, "lists are nested too deep")
@@ -359,6 +375,7 @@ class _Translation:
             emitter.count(index, False, op.LIST_REST)
             return
         sign = -1 if is_fixed_name(item.name) else 1
+        # An array without subscripts stands for all of its elements.
         if item.name in emitter.arrays and not item.arguments:
             entry = emitter.allocator.place("array", item.name)
             emitter.emit(op.ITEM, Operand(entry.first), second=sign * entry.size)
@@ -366,7 +383,7 @@ class _Translation:
         emitter.emit(op.ITEM, emitter.variable(item), second=sign)
 
 
-def _words(statement: tree.Statement) -> str:
-    """The statement's columns without its number and the blanks around it."""
+def _statement_text(statement: tree.Statement) -> str:
+    """Return the text of a statement without its number and the blanks around it."""
     text = " ".join(line[:72].strip() for line in statement.text.split("\n"))
     return text.lstrip("0123456789 ") if statement.label else text

@@ -1,9 +1,9 @@
-"""Code for expressions: what the accumulator does, in what order, and so with which sign a zero comes out.
+"""Code for expressions: the operations, their order, and therefore the sign of every zero result.
 
-The order was read off the object code of two compilers of the time and agrees with every zero the thesis
-prints: a term that must itself be computed is computed into FAC and the other operand subtracted from it,
-then the sign is reversed (FSBR), so that a cancellation there gives minus zero; a unary minus, of a factor
-too, is a reversal after everything else.  Left to right otherwise (C26-5619 p. 19).
+The order was determined from the object code of two compilers of the time, and agrees with every zero that the thesis
+prints.  Operations run from left to right (C26-5619 p. 19), with two exceptions.  A right operand that must itself be
+computed is computed in FAC, the left operand is subtracted from it, and the sign is reversed (FSBR), so a cancellation
+gives minus zero.  A unary minus, also that of a factor, reverses the sign after everything else.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 from emulator.errors import Refused
 from emulator.language import objectcode as op
-from emulator.language.foreign import advice
+from emulator.language.foreign import suggest_function
 from emulator.language.objectcode import Counter, Instruction, Subscript
 from emulator.language.storage import Allocator
 from emulator.language.tree import Expression, Number, Power, Product, Reference, Sum
@@ -20,7 +20,7 @@ from emulator.numbers.arithmetic import TRUNCATING
 from emulator.numbers.fields import FieldError, parse_constant
 
 LIBRARY = ("SIN", "COS", "ATAN", "EXP", "LOG", "SQRT")
-"""The library functions; each is also known by its name with a final F (C26-5619 p. 63, 66)."""
+"""The library functions.  Each may also be written with a final F (C26-5619 p. 63, 66)."""
 
 _FLOATING = {
     "to": op.TOFAC,
@@ -48,7 +48,7 @@ _FLIPPED = {"+": "-", "-": "+"}
 
 @dataclass(frozen=True, slots=True)
 class Operand:
-    """Something an instruction can address: a field, or an element by subscript."""
+    """An operand of an instruction: a field, or an array element with a subscript."""
 
     address: int
     subscript: int = -1
@@ -56,7 +56,7 @@ class Operand:
 
 @dataclass
 class Emitter:
-    """Collects code, subscripts and fields while a program is translated."""
+    """The code, subscripts and fields of a program, collected during its translation."""
 
     allocator: Allocator = field(default_factory=Allocator)
     code: list[Instruction] = field(default_factory=list)
@@ -64,10 +64,10 @@ class Emitter:
     arrays: dict[str, tuple[int, ...]] = field(default_factory=dict)
     counters: list[Counter] = field(default_factory=list)
     elements: dict[tuple[str, str], Operand] = field(default_factory=dict)
-    """Elements by array and the name that is all of their subscript: most are used many times."""
+    """Array elements by array name and subscript, for subscripts that are a single name: these repeat most often."""
     temporaries: int = 0
     modes: dict[int, bool] = field(default_factory=dict)
-    """Of expressions of the present statement, by identity: fixed point or not."""
+    """True for fixed point, by the identity of an expression of the current statement."""
 
     def emit(self, operation: int, operand: Operand | None = None, address: int = 0, second: int = 0) -> None:
         if operand is None:
@@ -76,12 +76,12 @@ class Emitter:
             self.code.append(Instruction(operation, operand.address, operand.subscript, second))
 
     def count(self, statement: int, begins: bool, what: str) -> None:
-        """Begin a stretch of code that always runs from its first instruction to its last."""
+        """Begin a section of code that always runs from its first instruction to its last."""
         self.counters.append(Counter(statement, begins, what))
         self.emit(op.COUNT, address=len(self.counters) - 1)
 
     def temporary(self) -> Operand:
-        """A field for an intermediate result; a statement uses as many as it must and the next uses them again."""
+        """Return a field for an intermediate result.  Every statement reuses the temporaries of the one before."""
         self.temporaries += 1
         return Operand(self.allocator.place("temporary", f"temporary {self.temporaries}").first)
 
@@ -94,7 +94,7 @@ class Emitter:
         return Operand(self.allocator.place("constant", f"constant {number.text}").first)
 
     def variable(self, reference: Reference) -> Operand:
-        """The operand of a variable or an array element.  Raises Refused."""
+        """Return the operand of a variable or array element.  Raise Refused if the reference is invalid."""
         shape = self.arrays.get(reference.name)
         if shape is None:
             if reference.arguments:
@@ -103,6 +103,7 @@ class Emitter:
         if not reference.arguments:
             raise Refused(reference.place, f"the array {reference.name} needs a subscript here")
         (first, *others) = reference.arguments
+        # Only a single name as subscript is cached: it is frequent and cheap to recognise.
         key = (reference.name, first.name) if isinstance(first, Reference) and not (first.arguments or others) else None
         if key is None:
             return self._element(reference, shape)
@@ -111,7 +112,7 @@ class Emitter:
         return self.elements[key]
 
     def _element(self, reference: Reference, shape: tuple[int, ...]) -> Operand:
-        """The operand of an array's element.  Raises Refused."""
+        """Return the operand of an array element.  Raise Refused if its subscripts are invalid."""
         if len(reference.arguments) != len(shape):
             raise Refused(
                 reference.place,
@@ -119,6 +120,8 @@ class Emitter:
             )
         entry = self.allocator.place("array", reference.name, shape)
         parts = [self.subscript(argument) for argument in reference.arguments]
+        # Constant subscripts within the array give a fixed address.  Others are computed at run time unchecked, so
+        # they may reach outside the array as they did on the machine.
         if all(v < 0 for v, _, _ in parts) and all(1 <= o <= d for (_, _, o), d in zip(parts, shape, strict=True)):
             offset = parts[0][2] - 1 + (shape[0] * (parts[1][2] - 1) if len(parts) > 1 else 0)
             return Operand(entry.first + offset)
@@ -129,7 +132,7 @@ class Emitter:
         return Operand(entry.first, self.subscripts.setdefault(description, len(self.subscripts)))
 
     def subscript(self, argument: Expression) -> tuple[int, int, int]:
-        """(variable's field or -1, factor, addend) of a subscript c*v+k (C26-5619 p. 18).  Raises Refused."""
+        """Return (field of v or -1, c, k) of a subscript c*v+k (C26-5619 p. 18).  Raise Refused for any other form."""
         term, addend = argument, 0
         if isinstance(argument, Sum):
             if argument.minus or len(argument.rest) != 1:
@@ -155,16 +158,16 @@ class Emitter:
     @staticmethod
     def _whole(expression: Expression) -> int:
         if not isinstance(expression, Number) or expression.floating:
-            raise Refused(expression.place, "a subscript's constants are whole numbers")
+            raise Refused(expression.place, "the constants of a subscript must be integers")
         return int(expression.text)
 
     def fixed(self, expression: Expression) -> bool:
-        """Whether an expression is fixed point.  Raises Refused (error 5) where the modes are mixed."""
-        # Asked at every level of parentheses again: remembered, so that a deep expression takes no longer than a long.
-        found = self.modes.get(id(expression))
-        if found is None:
-            found = self.modes[id(expression)] = self._mode(expression)
-        return found
+        """Return True for a fixed-point expression.  Raise Refused (error type 5) if it mixes the modes."""
+        # The mode is asked for at every level of parentheses, so it is cached to keep deep expressions linear.
+        mode = self.modes.get(id(expression))
+        if mode is None:
+            mode = self.modes[id(expression)] = self._mode(expression)
+        return mode
 
     def _mode(self, expression: Expression) -> bool:
         if isinstance(expression, Number):
@@ -185,7 +188,7 @@ class Emitter:
         return mode
 
     def load(self, expression: Expression) -> None:
-        """Code that leaves the value of ``expression`` in the accumulator of its mode."""
+        """Emit code that leaves the value of ``expression`` in the accumulator of its mode."""
         table = _FIXED if self.fixed(expression) else _FLOATING
         operand = self.simple(expression)
         if operand is not None:
@@ -200,7 +203,7 @@ class Emitter:
             self._function(expression)
 
     def simple(self, expression: Expression) -> Operand | None:
-        """The operand of an expression that needs no computing, or None."""
+        """Return the operand of an expression that needs no computation, or None."""
         if isinstance(expression, Number):
             return self.constant(expression)
         if isinstance(expression, Reference) and not function_of(expression, self.arrays):
@@ -208,12 +211,14 @@ class Emitter:
         return None
 
     def _sum(self, expression: Sum, table: dict[str, int]) -> None:
+        # -a + b is computed as -(a - b): all signs of the terms are flipped, and the result is reversed at the end.
         rest = tuple((_FLIPPED[s], t) for s, t in expression.rest) if expression.minus else expression.rest
         self._chain(expression.first, rest, table)
         if expression.minus:
             self.emit(op.RSGX if table is _FIXED else op.RSGN)
 
     def _product(self, expression: Product, table: dict[str, int]) -> None:
+        # The signs of the factors are removed.  An odd number of them reverses the sign of the product.
         first, odd = _unsigned(expression.first)
         rest = []
         for sign, factor in expression.rest:
@@ -225,7 +230,11 @@ class Emitter:
             self.emit(op.RSGX if table is _FIXED else op.RSGN)
 
     def _chain(self, first: Expression, rest: tuple[tuple[str, Expression], ...], table: dict[str, int]) -> None:
-        """Operands from left to right; an operand to be computed takes the accumulator, the other waits."""
+        """Emit code for operands from left to right.
+
+        ``waiting`` is the left operand while it is in a field.  An operand that must be computed takes the accumulator
+        while the left operand waits in a field, in a temporary if necessary, and the operation is then reversed.
+        """
         waiting = self.simple(first)
         if waiting is None:
             self.load(first)
@@ -247,6 +256,7 @@ class Emitter:
 
     def _power(self, expression: Power) -> None:
         base, exponent = expression.base, expression.exponent
+        # A ** B is POWER, A ** 2 is a product, and any other A ** J is POWERX.
         operand = self.simple(base)
         if not self.fixed(exponent):
             if operand is None:
@@ -282,12 +292,12 @@ class Emitter:
 
 
 def is_fixed_name(name: str) -> bool:
-    """Names beginning with I, J, K, L, M or N are fixed point (C26-5619 p. 16)."""
+    """Return True for a name that begins with I, J, K, L, M or N (C26-5619 p. 16)."""
     return name[0] in "IJKLMN"
 
 
 def function_of(reference: Reference, arrays: dict[str, tuple[int, ...]]) -> str:
-    """The library function a reference calls, or the empty string."""
+    """Return the name of the library function that a reference calls, or an empty string."""
     if not reference.arguments or reference.name in arrays:
         return ""
     name = reference.name.removesuffix("F")
@@ -295,13 +305,14 @@ def function_of(reference: Reference, arrays: dict[str, tuple[int, ...]]) -> str
 
 
 def unknown_function(reference: Reference) -> Refused:
-    """The refusal of a name with arguments that is neither an array nor a library function."""
-    message = f"{reference.name} is neither an array nor a library function; {advice(reference.name, LIBRARY)}"
+    """Return the error for a name with arguments that is neither an array nor a library function."""
+    advice = suggest_function(reference.name, LIBRARY)
+    message = f"{reference.name} is neither an array nor a library function; {advice}"
     return Refused(reference.place, message, about=reference.name)
 
 
 def _unsigned(expression: Expression) -> tuple[Expression, bool]:
-    """A factor without its minus sign, and whether it had one."""
+    """Return a factor without its minus signs, and whether their number was odd."""
     if isinstance(expression, Sum) and not expression.rest:
         inner, odd = _unsigned(expression.first)
         return inner, odd ^ expression.minus

@@ -1,7 +1,7 @@
-"""What programs of the time hold that this FORTRAN has not: statements, functions and fields of its neighbours.
+"""Statements, functions and FORMAT codes of other FORTRANs, recognised so that a message can explain them.
 
-They are recognised so that a message can say what they are.  Sources: the statements of 1620 FORTRAN II (C26-5876), of
-FORTRAN II-D with its Monitor (C26-5774) and of GOTRAN (C26-5594); FORTRAN IV as its standard of 1966 has it.
+Sources: the statements of 1620 FORTRAN II (C26-5876), of FORTRAN II-D with its Monitor (C26-5774) and of GOTRAN
+(C26-5594), and FORTRAN IV as defined by its standard of 1966.
 """
 
 from __future__ import annotations
@@ -14,28 +14,28 @@ from emulator.language import tree
 
 
 @dataclass(frozen=True, slots=True)
-class Word:
-    """A statement of another FORTRAN: how a message calls it, whose it is, and what to do instead.
+class ForeignStatement:
+    """A statement of another FORTRAN: its name in messages, the language it belongs to, and a replacement for it.
 
-    ``opens``: the cards after it, up to an END, belong to it.  ``declares``: its names may be arrays, functions or of
-    the other mode, so that what uses them cannot be judged; ``(`` for those alone that a parenthesis follows.
-    ``number`` is IBM's error type, where one fits.
+    ``has_body`` is True if the cards after it, up to an END, belong to it.  ``declares`` is ``all`` if its names may
+    be arrays, functions or of the other mode, so that statements using them cannot be checked, and ``(`` if this holds
+    only for names followed by a parenthesis.  ``number`` is IBM's error type, or 0.
     """
 
     name: str
-    of: str
-    instead: str
-    opens: bool = False
+    origin: str
+    replacement: str
+    has_body: bool = False
     declares: str = ""
     number: int = 0
 
     @property
     def message(self) -> str:
-        return f"{self.name} belongs to {self.of}; {self.instead}"
+        return f"{self.name} belongs to {self.origin}; {self.replacement}"
 
 
 _II, _IV, _II_D = "FORTRAN II", "FORTRAN IV", "FORTRAN II-D"
-_DECK = "a deck is one program here, and the cards from this one to its END are not looked at"
+_DECK = "a deck is one program here, and the cards from this one to its END are skipped"
 _WHOLE = "leave it out: all names belong to one program, and arrays are named by DIMENSION"
 _TYPE = "leave it out: names that begin with I to N are fixed point, all others floating"
 _FORMAT = "give the number of a FORMAT after the verb, as in READ 5, A, B"
@@ -44,52 +44,70 @@ _TAPE = "the machine here reads and punches cards: READ, PUNCH"
 _DISK = "the machine here has no disk"
 _MODES = "(?:REAL|INTEGER|LOGICAL|COMPLEX|DOUBLEPRECISION)"
 
-_STATEMENTS: tuple[tuple[str, Word], ...] = (
-    ("SUBROUTINE[A-Z]", Word("SUBROUTINE", _II, _DECK, opens=True)),
-    (f"{_MODES}?FUNCTION[A-Z]", Word("FUNCTION", _II, _DECK, opens=True, declares="(")),
-    ("BLOCKDATA", Word("BLOCK DATA", _IV, _DECK, opens=True)),
-    ("CALL[A-Z]", Word("CALL", _II, "put the statements of the subprogram in its place; CALL EXIT is STOP")),
-    ("RETURN$", Word("RETURN", _II, "leave a part of the program by GO TO")),
-    ("COMMON", Word("COMMON", _II, _WHOLE, declares="(")),
-    ("EQUIVALENCE", Word("EQUIVALENCE", _II, "give what shares a place one name")),
-    ("EXTERNAL[A-Z]", Word("EXTERNAL", _IV, "there are no subprograms to be handed on", declares="all")),
-    ("ENTRY[A-Z]", Word("ENTRY", _IV, "there are no subprograms")),
-    (_MODES + r"(\*\d)?[A-Z]", Word("a declaration of types", _IV, _TYPE, declares="all")),
-    ("IMPLICIT", Word("IMPLICIT", _IV, _TYPE)),
-    ("DATA[(A-Z]", Word("DATA", _IV, "give variables their first values by assignments or from cards")),
-    ("NAMELIST", Word("NAMELIST", _IV, _FORMAT)),
-    ("PROGRAM[A-Z]", Word("PROGRAM", _IV, "leave it out: a program has no name here")),
-    (r"ASSIGN\d", Word("ASSIGN", _II, "set a variable and use GO TO (n1, n2, ...), i")),
-    ("GOTO[A-Z]", Word("GO TO to an assigned number", _II, "set a variable and use GO TO (n1, n2, ...), i")),
-    (r"IF\(SENSELIGHT|SENSELIGHT", Word("SENSE LIGHT", _II, "use a variable: the 1620 has no sense lights")),
+_STATEMENTS: tuple[tuple[str, ForeignStatement], ...] = (
+    ("SUBROUTINE[A-Z]", ForeignStatement("SUBROUTINE", _II, _DECK, has_body=True)),
+    (f"{_MODES}?FUNCTION[A-Z]", ForeignStatement("FUNCTION", _II, _DECK, has_body=True, declares="(")),
+    ("BLOCKDATA", ForeignStatement("BLOCK DATA", _IV, _DECK, has_body=True)),
+    (
+        "CALL[A-Z]",
+        ForeignStatement("CALL", _II, "put the statements of the subprogram in its place; CALL EXIT is STOP"),
+    ),
+    ("RETURN$", ForeignStatement("RETURN", _II, "leave a part of the program by GO TO")),
+    ("COMMON", ForeignStatement("COMMON", _II, _WHOLE, declares="(")),
+    ("EQUIVALENCE", ForeignStatement("EQUIVALENCE", _II, "give one name to the quantities that share storage")),
+    (
+        "EXTERNAL[A-Z]",
+        ForeignStatement("EXTERNAL", _IV, "there are no subprograms to pass as arguments", declares="all"),
+    ),
+    ("ENTRY[A-Z]", ForeignStatement("ENTRY", _IV, "there are no subprograms")),
+    (_MODES + r"(\*\d)?[A-Z]", ForeignStatement("a declaration of types", _IV, _TYPE, declares="all")),
+    ("IMPLICIT", ForeignStatement("IMPLICIT", _IV, _TYPE)),
+    ("DATA[(A-Z]", ForeignStatement("DATA", _IV, "give variables their first values by assignments or from cards")),
+    ("NAMELIST", ForeignStatement("NAMELIST", _IV, _FORMAT)),
+    ("PROGRAM[A-Z]", ForeignStatement("PROGRAM", _IV, "leave it out: a program has no name here")),
+    (r"ASSIGN\d", ForeignStatement("ASSIGN", _II, "set a variable and use GO TO (n1, n2, ...), i")),
+    (
+        "GOTO[A-Z]",
+        ForeignStatement("GO TO to an assigned number", _II, "set a variable and use GO TO (n1, n2, ...), i"),
+    ),
+    (
+        r"IF\(SENSELIGHT|SENSELIGHT",
+        ForeignStatement("SENSE LIGHT", _II, "use a variable: the 1620 has no sense lights"),
+    ),
     (
         "IF(ACCUMULATOR|QUOTIENT)OVERFLOW|IFDIVIDECHECK",
-        Word("a test of overflow", _II, "the machine here notes overflows and goes on with the largest number"),
+        ForeignStatement(
+            "a test of overflow", _II, "the machine here reports overflows and continues with the largest number"
+        ),
     ),
-    (r"IF\(", Word("a logical IF", _IV, "write IF (A-B) n1, n2, n3 for less, equal, greater")),
-    ("FREQUENCY", Word("FREQUENCY", "the FORTRAN of the 704", "leave it out")),
-    ("(ACCEPT|PUNCH|READ|TYPE)TAPE", Word("input and output by paper tape", "machines with a tape reader", _TAPE)),
+    (r"IF\(", ForeignStatement("a logical IF", _IV, "write IF (A-B) n1, n2, n3 for less, equal, greater")),
+    ("FREQUENCY", ForeignStatement("FREQUENCY", "the FORTRAN of the 704", "leave it out")),
+    (
+        "(ACCEPT|PUNCH|READ|TYPE)TAPE",
+        ForeignStatement("input and output by paper tape", "machines with a tape reader", _TAPE),
+    ),
     (
         "(READ|WRITE)(INPUT|OUTPUT)?TAPE|WRITEDRUM|READDRUM|REWIND|BACKSPACE|ENDFILE",
-        Word("magnetic tape", "the FORTRAN of larger machines", _TAPE),
+        ForeignStatement("magnetic tape", "the FORTRAN of larger machines", _TAPE),
     ),
-    ("DEFINE(DISK|FILE)|RECORD|FETCH|FIND", Word("the disk", _II_D, _DISK)),
-    (r"(READ|WRITE|PRINT|PUNCH|TYPE)\(|WRITE", Word("input and output by a unit's number", _IV, _DEVICE)),
-    ("REREAD", Word("REREAD", "later compilers", "read the card once, by a FORMAT that fits it")),
+    ("DEFINE(DISK|FILE)|RECORD|FETCH|FIND", ForeignStatement("the disk", _II_D, _DISK)),
+    (r"(READ|WRITE|PRINT|PUNCH|TYPE)\(|WRITE", ForeignStatement("input and output by a unit's number", _IV, _DEVICE)),
+    ("REREAD", ForeignStatement("REREAD", "later compilers", "read the card once, with a FORMAT that fits it")),
     (
         "(READ|ACCEPT|PUNCH|PRINT|TYPE)[,*A-Z]",
-        Word("input and output without a FORMAT", "GOTRAN and FORTRAN without FORMAT", _FORMAT, number=13),
+        ForeignStatement("input and output without a FORMAT", "GOTRAN and FORTRAN without FORMAT", _FORMAT, number=13),
     ),
-    (r"\*", Word("a control card", "the monitor of FORTRAN II-D or of another compiler", "leave it out")),
-    (r"\$", Word("a control card", "a monitor", "leave it out")),
+    (r"\*", ForeignStatement("a control card", "the monitor of FORTRAN II-D or of another compiler", "leave it out")),
+    (r"\$", ForeignStatement("a control card", "a monitor", "leave it out")),
 )
 _KINDS = {"unknown", "input_output", "go_to", "if", "assignment"}
+"""The kinds that :func:`~emulator.language.statements.classify` may give to a statement of another FORTRAN."""
 _COMPILED = tuple((re.compile(pattern), word) for pattern, word in _STATEMENTS)
 _LOGIC = re.compile(r"\.(EQ|NE|LT|LE|GT|GE|AND|OR|NOT|TRUE|FALSE)\.")
-_LOGICAL = Word("a logical expression", _IV, "write IF (A-B) n1, n2, n3 for less, equal, greater")
-LATER = (*(word for _, word in _STATEMENTS), _LOGICAL)
-"""Every statement that :func:`word_of` knows."""
-STATEMENT_FUNCTION = Word("a statement function", _II, "write its expression where it is used")
+_LOGICAL = ForeignStatement("a logical expression", _IV, "write IF (A-B) n1, n2, n3 for less, equal, greater")
+FOREIGN_STATEMENTS = (*(statement for _, statement in _STATEMENTS), _LOGICAL)
+"""Every statement that :func:`identify` knows."""
+STATEMENT_FUNCTION = ForeignStatement("a statement function", _II, "write its expression where it is used")
 
 _INSTEAD = {
     "IF (X) n1, n2, n2 and, at n1, X=-X": ("ABS", "XABS", "IABS", "DABS"),
@@ -105,11 +123,11 @@ _INSTEAD = {
     "N-N/M*M": ("MOD", "XMOD", "AMOD"),
     "IF (A-B) n1, n2, n3": ("SIGN", "ISIGN", "XSIGN", "DIM", "IDIM", "XDIM", "AMAX1", "AMIN1", "MAX0", "MIN0"),
 }
-"""What this FORTRAN has for a function of the others."""
-_BY_NAME = {name: instead for instead, names in _INSTEAD.items() for name in names}
+"""The replacement, in this FORTRAN, for functions of other FORTRANs."""
+_BY_NAME = {name: replacement for replacement, names in _INSTEAD.items() for name in names}
 
-FIELDS = {
-    "A": "an A field, for text, belongs to FORTRAN II and later; numbers alone are read here, text is punched by H",
+FOREIGN_FIELDS = {
+    "A": "an A field, for text, belongs to FORTRAN II and later; only numbers are read here, and H punches text",
     "G": "a G field belongs to FORTRAN IV; use E or F",
     "D": "a D field belongs to FORTRAN IV, for double precision; use E",
     "O": "an O field, for octal numbers, belongs to FORTRAN IV; use I",
@@ -118,26 +136,26 @@ FIELDS = {
     "T": "a T field belongs to FORTRAN IV; use X",
     "'": "text in quotes belongs to FORTRAN IV; use H",
 }
-"""Letters of a FORMAT's specification that other compilers take, with what a message says of each."""
+"""FORMAT codes of other compilers, each with its message."""
 
 
-def word_of(kind: str, text: str) -> Word | None:
-    """The statement of another FORTRAN that a text (without number and blanks) is; ``kind`` as ``classify`` has it.
+def identify(kind: str, text: str) -> ForeignStatement | None:
+    """Return the foreign statement that ``text`` (without number and blanks) is, or None.
 
-    Asked only of statements that do not parse.
+    Call this only for a statement that does not parse.  ``kind`` is the kind that ``classify`` gave it.
     """
     if kind not in _KINDS:
         return None
     if kind == "assignment" and not text.startswith("IF("):
         return _LOGICAL if _LOGIC.search(text) else None
-    for pattern, word in _COMPILED:
+    for pattern, statement in _COMPILED:
         if pattern.match(text):
-            return word if word.name != "a logical IF" or _is_logical(text) else None
+            return statement if statement.name != "a logical IF" or _is_logical(text) else None
     return None
 
 
 def _is_logical(text: str) -> bool:
-    """Whether an IF is followed by a statement, or asks by an operator between points."""
+    """Return True if an IF has a logical operator, or a statement after its parenthesis."""
     if _LOGIC.search(text):
         return True
     depth = 0
@@ -148,22 +166,22 @@ def _is_logical(text: str) -> bool:
     return False
 
 
-def declared(word: Word, text: str) -> frozenset[str]:
-    """The names that a statement makes something this FORTRAN has no means for."""
-    if not word.declares:
+def declared_names(statement: ForeignStatement, text: str) -> frozenset[str]:
+    """Return the names that a foreign statement declares as arrays, functions or of another mode."""
+    if not statement.declares:
         return frozenset()
     rest = re.sub(rf"^(COMMON(/\w*/)?|EXTERNAL|{_MODES}?(\*\d)?(FUNCTION)?)", "", text)
-    after = r"(?=\()" if word.declares == "(" else ""
+    after = r"(?=\()" if statement.declares == "(" else ""
     return frozenset(re.findall(rf"[A-Z][A-Z0-9]*{after}", rest))
 
 
-def advice(name: str, library: Sequence[str]) -> str:
-    """What to say of a name with arguments that is no array: which functions there are, and which may be meant."""
+def suggest_function(name: str, library: Sequence[str]) -> str:
+    """Return the advice for an unknown function: the library functions, and a replacement or similar name if any."""
     known = f"the functions are {', '.join(library[:-1])} and {library[-1]}"
     bare = name.removesuffix("F")
-    instead = _BY_NAME.get(name) or _BY_NAME.get(bare)
-    if instead:
-        return f"{known}; for {name} write {instead}"
+    replacement = _BY_NAME.get(name) or _BY_NAME.get(bare)
+    if replacement:
+        return f"{known}; for {name} write {replacement}"
     from difflib import get_close_matches
 
     close = get_close_matches(bare, library, 1, 0.7) if len(bare) > 2 else []
@@ -177,25 +195,25 @@ _PARTS: dict[type[object], tuple[str, ...]] = {
         *(tree.Assignment, tree.ComputedGoTo, tree.If, tree.Do, tree.InputOutput, tree.Loop),
     )
 }
-"""The nodes that hold names, and their parts."""
+"""For each kind of node that may contain names, the fields to search."""
 
 
 def references(node: object) -> list[tree.Reference]:
-    """Every name in a statement or a part of one, but for those a DIMENSION gives, in order."""
-    found: list[tree.Reference] = []
-    _collect(node, found)
-    return found
+    """Return every reference in a statement or a part of one, in order.  Names declared by DIMENSION are excluded."""
+    references_so_far: list[tree.Reference] = []
+    _collect(node, references_so_far)
+    return references_so_far
 
 
-def _collect(node: object, found: list[tree.Reference]) -> None:
+def _collect(node: object, references_so_far: list[tree.Reference]) -> None:
     if isinstance(node, tuple):
         for part in node:
-            _collect(part, found)
+            _collect(part, references_so_far)
         return
     parts = _PARTS.get(type(node))
     if parts is None:
         return
     if isinstance(node, tree.Reference):
-        found.append(node)
+        references_so_far.append(node)
     for name in parts:
-        _collect(getattr(node, name), found)
+        _collect(getattr(node, name), references_so_far)

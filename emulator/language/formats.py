@@ -1,7 +1,7 @@
-"""FORMAT statements: the specification, read column by column so that Hollerith fields keep their blanks.
+"""The reader of FORMAT statements.  It works column by column, because Hollerith fields keep their blanks.
 
-Sources: C26-5619 p. 35 to 43 (I, F, E, X, H, slash, repeat counts; no comma needed after X; widths of X and H;
-records), p. 56 (error types 10 to 12).  Parenthesised groups: OPEN-QUESTIONS 5.
+Sources: C26-5619 p. 35 to 43 (I, F, E, X, H, slash, repeat counts, records, the width of X and H, and that X needs no
+comma after it) and p. 56 (error types 10 to 12).  Parenthesised groups: OPEN-QUESTIONS 5.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from emulator.errors import Diagnostic, Refused
-from emulator.language.foreign import FIELDS
+from emulator.language.foreign import FOREIGN_FIELDS
 from emulator.language.tree import Format, Place
 from emulator.numbers.fields import Field, FieldKind
 from emulator.numbers.work import STEPS
@@ -27,7 +27,7 @@ _KINDS: dict[str, FieldKind] = {"E": "E", "F": "F", "I": "I"}
 
 @dataclass(frozen=True, slots=True)
 class Literal:
-    """``wH`` text, or ``wX`` (blanks; ``skip`` set): what stands on the card without a number."""
+    """A Hollerith field ``wH``, or ``wX`` (blanks, with ``skip`` set): text of a record that is not a number."""
 
     text: str
     skip: bool = False
@@ -35,7 +35,7 @@ class Literal:
 
 @dataclass(frozen=True, slots=True)
 class Slash:
-    """``/``: the record ends here."""
+    """A slash, which ends a record."""
 
 
 Spec = Literal | Field | Slash
@@ -43,10 +43,10 @@ Spec = Literal | Field | Slash
 
 @dataclass(frozen=True, slots=True)
 class FormatSpec:
-    """A FORMAT as a flat sequence, repeat counts and groups written out.
+    """A FORMAT as a flat sequence of specifications, with repeat counts and groups expanded.
 
-    ``again`` is where a list that is longer goes on: with the last group that holds a field, its repeat count included,
-    or with the first specification (IBM FORTRAN II-D, executed).
+    ``again`` is the index at which a list with more items than fields continues: the last group that contains a field,
+    with its repeat count, or else the first specification (IBM FORTRAN II-D, executed).
     """
 
     specs: tuple[Spec, ...]
@@ -58,18 +58,18 @@ class FormatSpec:
 
     @property
     def charge(self) -> int:
-        """What going through it once counts as against the limit: nothing but where it is very long."""
+        """The statements that one pass through this FORMAT counts against the run's limit: 0 unless it is very long."""
         columns = sum(len(spec.text) for spec in self.specs if isinstance(spec, Literal))
         return len(self.specs) // STEPS + columns // _COLUMNS_A_UNIT
 
     @property
     def positions(self) -> int:
-        """What it takes of core, about: two positions a character of text, six a field."""
+        """The approximate length of the FORMAT in core: two positions per character of text and six per field."""
         texts = (2 * len(s.text) + 4 for s in self.specs if isinstance(s, Literal) and not s.skip)
         return sum(texts) + 6 * sum(not isinstance(s, Literal) or s.skip for s in self.specs)
 
     def widths(self) -> Iterator[int]:
-        """The width of each record the specification describes, in columns."""
+        """Yield the width in columns of each record that the specification describes."""
         width = 0
         for spec in self.specs:
             if isinstance(spec, Slash):
@@ -81,38 +81,42 @@ class FormatSpec:
 
 
 def _refused(place: Place, message: str, number: int = 11) -> Refused:
-    """A specification that does not parse is error type 11, where nothing else is said (C26-5619 p. 56)."""
+    """Return a rejection with error type 11, the general one for an invalid specification (C26-5619 p. 56)."""
     return Refused(place, message, number)
 
 
 def parse_format(statement: Format) -> tuple[FormatSpec, tuple[Diagnostic, ...]]:
-    """The specification of a FORMAT statement and the compiler's warnings.  Raises Refused.
+    """Return the specification of a FORMAT statement and the compiler's warnings.
 
-    Where a FORMAT does not parse, and would with another width of the last Hollerith field read, that width is named.
+    Raise Refused if the FORMAT does not parse.  If it would parse with another width of the last Hollerith field, the
+    message suggests that width.
     """
     reader = _Reader(statement)
     try:
         spec = reader.specification()
-    except Refused as refused:
-        raise _miscounted(reader) or refused from None
+    except Refused as failure:
+        raise _suggest_width(reader) or failure from None
     warnings = list(reader.warnings)
     widest = max(spec.widths())
     if widest > MAX_RECORD:
         place = statement.places[0]
-        message = f"a record of {widest} characters; beyond {MAX_RECORD} typed or 72 punched they are lost"
+        message = f"a record of {widest} characters; those after {MAX_RECORD} typed or 72 punched are lost"
         warnings.append(Diagnostic(place.card, place.column, message, 12, warning=True))
     return spec, tuple(warnings)
 
 
-def _miscounted(failed: _Reader) -> Refused | None:
-    """What is wrong with the width of the last Hollerith field, if there is a width with which the FORMAT parses.
+def _suggest_width(failed: _Reader) -> Refused | None:
+    """Return a better message for a FORMAT that parses if its last Hollerith field has another width, or None.
 
-    Too wide, the field took in what ends its text; too narrow, it left some of its text, where the reading failed.
+    A field that is too wide takes in the delimiter after its text.  A field that is too narrow leaves part of its text,
+    at which the reader fails.
     """
     if failed.hollerith is None:
         return None
     begun, start, width = failed.hollerith
     text, end = failed.text, start + width
+    # Try the delimiters inside the field, the last one first.  If reading failed at the field or right after it, try
+    # delimiters after the field too.
     widths = [at - start for at in range(min(end, len(text)) - 1, start, -1) if text[at] in _ENDS]
     if failed.begun == begun or (failed.begun >= end and not text[end : failed.begun].strip()):
         widths[_TRIES:] = [at - start for at in range(end, len(text)) if text[at] in _ENDS]
@@ -121,16 +125,17 @@ def _miscounted(failed: _Reader) -> Refused | None:
             _Reader(failed.statement, (start, fit)).specification()
         except Refused:
             continue
-        what = f"takes in the {_ENDS[text[start + fit]]} after its text" if fit < width else "ends within its text"
-        return _refused(failed.places[begun], f"{width}H {what}; {fit}H would fit")
+        fault = f"takes in the {_ENDS[text[start + fit]]} after its text" if fit < width else "ends within its text"
+        return _refused(failed.places[begun], f"{width}H {fault}; {fit}H would fit")
     return None
 
 
 class _Reader:
-    """One pass over the columns; ``group`` calls itself for a parenthesised group.
+    """A single pass over the columns of a FORMAT.  ``group`` calls itself for a parenthesised group.
 
-    ``instead``: where the text of a Hollerith field starts, and the width to give it.  ``begun`` is where the last
-    specification began; ``hollerith`` where the last Hollerith field and its text began, and its width.
+    ``instead`` replaces the width of one Hollerith field: the index at which its text starts, and the new width.
+    ``begun`` is the index at which the last specification began.  ``hollerith`` holds the index of the last Hollerith
+    field, the index of its text, and its width.
     """
 
     MAX_FIELDS = 2000
@@ -154,7 +159,7 @@ class _Reader:
         return self.text[self.at] if self.at < len(self.text) else ""
 
     def specification(self) -> FormatSpec:
-        """The whole FORMAT, from its parenthesis on."""
+        """Read the whole FORMAT, from its opening parenthesis to its closing one."""
         if self.peek() != "(":
             raise _refused(self.place(), "a FORMAT's specification begins with a parenthesis")
         specs = self.group()
@@ -172,7 +177,7 @@ class _Reader:
         return digits
 
     def group(self, depth: int = 0) -> list[Spec]:
-        """What stands between the parenthesis that comes next and the one that closes it."""
+        """Read the specifications of a parenthesised group, up to its closing parenthesis."""
         if depth > 2:
             raise _refused(self.place(), "groups are nested too deep in a FORMAT")
         self.at += 1
@@ -186,6 +191,7 @@ class _Reader:
                 self.at += 1
                 return specs
             if char in "/,":
+                # A slash separates fields as a comma does, and an extra comma is accepted.
                 self.at += 1
                 if char == "/":
                     specs.append(Slash())
@@ -193,17 +199,18 @@ class _Reader:
                 continue
             if need_comma:
                 raise _refused(self.place(), f"a comma is missing before {char!r}")
-            grouped = self.at
+            begun = self.at
             new, need_comma = self.one(depth)
-            if depth == 0 and self.text[grouped : self.at].lstrip("0123456789 ").startswith("("):
+            # A longer list starts again at the last group of the outermost level that has a field.
+            if depth == 0 and self.text[begun : self.at].lstrip("0123456789 ").startswith("("):
                 self.again = len(specs) if any(isinstance(spec, Field) for spec in new) else self.again
             specs.extend(new)
             self.count += len(new)
             if self.count > self.MAX_FIELDS:
-                raise _refused(self.place(), f"a FORMAT of more than {self.MAX_FIELDS} fields")
+                raise _refused(self.place(), f"a FORMAT has more than {self.MAX_FIELDS} fields")
 
     def one(self, depth: int) -> tuple[list[Spec], bool]:
-        """One specification with its repeat count; also whether a comma must follow it."""
+        """Read one specification with its repeat count.  Return it, and whether a comma must follow it."""
         self.peek()
         self.begun, start = self.at, self.place()
         count = self.number()
@@ -211,17 +218,18 @@ class _Reader:
         if letter == "(":
             specs, times = self.group(depth + 1), self.repeat(count, start)
             if len(specs) * times > self.MAX_FIELDS:
-                raise _refused(self.place(), f"a FORMAT of more than {self.MAX_FIELDS} fields")
+                raise _refused(self.place(), f"a FORMAT has more than {self.MAX_FIELDS} fields")
             return specs * times, False
+        # X and H take their width before the letter, so they cannot have a repeat count (p. 41, 42).
         if letter in ("X", "H"):
             if not count:
                 raise _refused(start, f"{letter} needs its width before it")
             return [self.literal(letter, int(count), start)], False
-        if letter in FIELDS:
-            raise Refused(self.place(), FIELDS[letter], 11, about=f"{letter} field")
+        if letter in FOREIGN_FIELDS:
+            raise Refused(self.place(), FOREIGN_FIELDS[letter], 11, about=f"{letter} field")
         if letter not in ("I", "E", "F"):
             raise _refused(
-                self.place(), f"{letter or 'the end'!r} is not a specification; there are I, E, F, X, H and /"
+                self.place(), f"{letter or 'the end'!r} is not a specification; the codes are I, E, F, X, H and /"
             )
         self.at += 1
         width = self.number()
@@ -230,13 +238,13 @@ class _Reader:
         decimals = ""
         if letter in ("E", "F"):
             if self.peek() != ".":
-                raise _refused(self.place(), f"{letter}{width} lacks its point and decimals")
+                raise _refused(self.place(), f"{letter}{width} has no decimal point and decimals")
             self.at += 1
             if self.text[self.at : self.at + 1] == " ":
                 raise _refused(self.place(), f"a blank after the point of {letter}{width}.")
             decimals = self.number()
             if not decimals:
-                raise _refused(self.place(), f"{letter}{width}. lacks its decimals")
+                raise _refused(self.place(), f"{letter}{width}. has no number of decimals")
         if int(width) > MAX_RECORD:
             raise _refused(start, f"a field of {width} columns")
         return [Field(_KINDS[letter], int(width), int(decimals or 0))] * self.repeat(count, start), True
@@ -262,8 +270,9 @@ class _Reader:
         if len(text) < width:
             raise _refused(start, f"{width}H runs past the end of the card")
         self.at += width
+        # A text that ends with a comma, and a specification right after it, suggest that w was counted too large.
         swallowed = _SWALLOWED.search(text)
         if swallowed and swallowed.start() and self.peek() and self.peek() not in _ENDS:
-            message = f"{width}H takes in a comma, and none follows; {swallowed.start()}H if it is not of the text"
+            message = f"{width}H includes a comma and none follows; write {swallowed.start()}H if it is a separator"
             self.warnings.append(Diagnostic(start.card, start.column, message, 11, warning=True))
         return Literal(text)

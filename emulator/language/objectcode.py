@@ -1,10 +1,10 @@
 """Object code for an accumulator machine with the 1620's floating accumulator FAC.
 
-Operations bear the names of IBM's subroutine set (C26-5619 p. 60-69).  An instruction is four integers:
-operation, address or table index, subscript (index into :attr:`Program.subscripts`, or -1), second operand.
-An address is a field number of the storage map (emulator/language/storage.py), counting from 0 downward from the top
-of core.  The second operand of an ITEM is how many fields from its address on go through the list one after the other,
-one or all of an array, with a minus sign for fixed point.
+Operations have the names of IBM's subroutine set (C26-5619 p. 60-69).  An instruction is four integers: operation,
+address or table index, subscript (an index into :attr:`Program.subscripts`, or -1), and second operand.  An address is
+the number of a field of the storage map (emulator/language/storage.py), counted from 0 downward from the top of core.
+The second operand of an ITEM is the number of fields from its address on that pass through the list one after the
+other, one or all of an array, negated for fixed point.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from emulator.language.storage import Storage
 from emulator.language.tree import Place
 from emulator.numbers.work import STEPS
 
-# Operations with an address come first: the engine resolves a subscript before it looks at them.
+# Operations with an address come first: the engines resolve a subscript before they decode the operation.
 MEANINGS = {
     "TOFAC": "field to FAC",
     "FMFAC": "FAC to field",
@@ -59,7 +59,7 @@ MEANINGS = {
     "PAUSE": "halt until START",
     "STOP": "end of the run",
 }
-"""Every operation and what it does; an operation is its place here, and the names below stand in the same order."""
+"""Every operation and its meaning.  An operation is the index of its name, and the names below have the same order."""
 
 NAMES = tuple(MEANINGS)
 
@@ -106,7 +106,7 @@ NAMES = tuple(MEANINGS)
 
 @dataclass(frozen=True, slots=True)
 class Instruction:
-    """One instruction; see the module's text."""
+    """One instruction, described in the module docstring."""
 
     operation: int
     address: int
@@ -118,8 +118,8 @@ class Instruction:
 class Subscript:
     """A variable subscript: element ``(c1*v1 + o1, c2*v2 + o2)`` of an array of ``rows`` by ``columns``.
 
-    ``v1`` and ``v2`` are the addresses of fixed-point variables, or -1 for a constant; ``columns`` is 0 for
-    an array of one dimension.
+    ``v1`` and ``v2`` are the addresses of fixed-point variables, or -1 for a constant.  ``columns`` is 0 for an array
+    of one dimension.
     """
 
     array: int
@@ -134,31 +134,31 @@ class Subscript:
 
 
 def repeats(instruction: Instruction) -> int:
-    """How many numbers go through the list at an ITEM, where every element of an array counts; else 1."""
+    """Return the number of list items that an instruction transfers: the elements of an array at an ITEM, else 1."""
     return abs(instruction.second) if instruction.operation == ITEM else 1
 
 
 def element_after(element: int, second: int) -> int:
-    """The element of an ITEM's array that goes through the list after this one; 0 where it was the last.
+    """Return the element of an ITEM's array that follows ``element`` in the list, or 0 after the last one.
 
-    second: the instruction's.  Interpreter and kernel both ask here.
+    ``second`` is the second operand of the instruction.  The interpreter and the kernel both use this function.
     """
     return element + 1 if element + 1 < abs(second) else 0
 
 
 LIST_PASS = "pass of the list"
-"""What a COUNT counts in the body of an indexed list: it counts against the statement limit."""
+"""The name of a COUNT in the body of an indexed list.  Each pass counts against the limit of statements."""
 
 LIST_REST = "rest of the list"
-"""What a COUNT counts after an indexed list."""
+"""The name of a COUNT after an indexed list."""
 
 
 @dataclass(frozen=True, slots=True)
 class Counter:
-    """What a COUNT instruction counts: the beginning of a statement, or a part of one run on its own.
+    """The meaning of a COUNT instruction: the beginning of a statement, or of a part of one that runs separately.
 
-    ``statement`` is the index into :attr:`Program.statements`; ``begins`` is set where the statement begins
-    (parts that are the closing of a DO, or the body of an indexed list, do not begin one).
+    ``statement`` is an index into :attr:`Program.statements`.  ``begins`` is True at the beginning of the statement,
+    and False for the closing of a DO or the body of an indexed list.
     """
 
     statement: int
@@ -170,8 +170,8 @@ class Counter:
 class Line:
     """A statement as messages and traces show it.
 
-    ``effect`` says what there is to show of it: ``store``, ``test``, ``test fixed``, ``list`` or nothing; ``index`` is
-    its place in :attr:`Program.statements`.
+    ``effect`` is the kind of result that a trace shows: ``store``, ``test``, ``test fixed``, ``list`` or empty.
+    ``index`` is the position in :attr:`Program.statements`.
     """
 
     label: int
@@ -182,7 +182,7 @@ class Line:
 
     @property
     def name(self) -> str:
-        """How a message calls it: by its number if it has one, and by its card."""
+        """The name in messages: the card, and the statement number if there is one."""
         return (
             f"statement {self.label} (card {self.place.card})"
             if self.label
@@ -207,33 +207,34 @@ class Program:
     functions: tuple[str, ...]
 
     def line_at(self, pc: int) -> Line:
-        """The statement the instruction at ``pc`` belongs to."""
+        """Return the statement that the instruction at ``pc`` belongs to."""
         return self.statements[self.statement_numbers[min(pc, len(self.code) - 1)]]
 
     @cached_property
     def statement_numbers(self) -> tuple[int, ...]:
-        """For each instruction the index of the statement it belongs to."""
-        found: list[int] = []
+        """The index of the statement that each instruction belongs to."""
+        numbers: list[int] = []
         statement = 0
         for instruction in self.code:
             if instruction.operation == COUNT:
                 statement = self.counters[instruction.address].statement
-            found.append(statement)
-        return tuple(found)
+            numbers.append(statement)
+        return tuple(numbers)
 
 
 SUBSCRIPT = 8
-"""Numbers in :attr:`Flat.table` for one subscript."""
+"""The number of entries of :attr:`Flat.table` per subscript."""
 
 
 class Flat(NamedTuple):
-    """Object code as flat sequences of integers, as the executors take it.
+    """Object code as flat sequences of integers, the form that both engines execute.
 
-    The first four hold an entry an instruction: operation, address, place in ``table`` (-1 without a subscript), second
-    operand.  ``table`` holds for each subscript v1, c1, o1, rows, v2, c2, o2, columns; ``targets`` the branch tables,
-    each after its length; ``loops`` four numbers a loop: variable, step, limit, first instruction; ``begins`` for each
-    counter 1 where a statement begins, 2 at a pass of an indexed list, else 0; ``charges`` what it counts as against
-    the limit: 1 there, and 1 more for every STEPS operations up to the next counter (emulator/numbers/work.py).
+    The first four sequences have one entry per instruction: operation, address, index into ``table`` (-1 without a
+    subscript), and second operand.  ``table`` holds v1, c1, o1, rows, v2, c2, o2 and columns of each subscript.
+    ``targets`` holds the branch tables, each preceded by its length.  ``loops`` holds four numbers per loop: variable,
+    step, limit, and first instruction.  ``begins`` is 1 for a counter at which a statement begins, 2 for a pass of an
+    indexed list, and 0 for others.  ``charges`` is the amount that a counter adds to the work of the run: 1 if
+    ``begins`` is not 0, and 1 more for every STEPS operations up to the next counter (emulator/numbers/work.py).
     """
 
     operations: Sequence[int]
@@ -248,7 +249,7 @@ class Flat(NamedTuple):
 
 
 def flatten(program: Program) -> Flat:
-    """The object code of a program, flat."""
+    """Return the object code of a program in flat form."""
     targets: list[int] = []
     starts: list[int] = []
     for branch in program.branches:
@@ -297,11 +298,11 @@ _LENGTHS = {
 
 
 def code_positions(program: Program) -> int:
-    """The length of the object program, FORMATs included, in positions: an estimate, as no object deck exists.
+    """Return an estimate of the length of the object program in positions, FORMATs included.
 
-    Twelve digits an instruction, thirty a subscript, two a character of FORMAT.  The thirty is fitted: with it the
-    three hull programs differ in length as they do when PDQ FORTRAN compiles them (their code ends at 26136, 21566
-    and 24996), to within 450 positions.
+    The estimate is twelve digits per instruction, thirty per subscript and two per character of a FORMAT.  No object
+    deck exists to compare with.  The thirty is fitted: the lengths of the three hull programs then differ by the same
+    amounts, within 450 positions, as their object programs from PDQ FORTRAN, which end at 26136, 21566 and 24996.
     """
     length = 0
     for instruction in program.code:

@@ -1,4 +1,4 @@
-"""From statements to the syntax tree, by the LALR grammar in ``dialect.lark``."""
+"""The parser: from statements to the syntax tree, with the LALR grammar in ``dialect.lark``."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from lark import Lark, Token, Tree, UnexpectedCharacters, UnexpectedInput, Unexp
 from emulator.errors import Diagnostic, Refused
 from emulator.language import tree
 from emulator.language.cards import Card, Deck
-from emulator.language.foreign import STATEMENT_FUNCTION, Word, declared, word_of
+from emulator.language.foreign import STATEMENT_FUNCTION, ForeignStatement, declared_names, identify
 from emulator.language.statements import (
     LAST_COLUMN,
     Columns,
@@ -39,92 +39,98 @@ _FORMS = {
     "dimension": ("DIMENSION v(d), v(d1, d2), ...", 9),
     "input_output": ("READ n, list (or PUNCH, PRINT, TYPE, ACCEPT)", 13),
 }
-"""The grammar's rule for each kind of statement: its form in messages, and its error type of C26-5619 p. 56, or 0.
+"""For each rule of the grammar the form shown in messages, and the error type (C26-5619 p. 56) or 0.
 
-An IF with a comma after its parenthesis is type 7 too.
+An IF with a comma after its parenthesis is also type 7.
 """
 
 MAX_NESTING = 60
 MAX_LENGTH = 20_000
-"""Characters of a statement, blanks aside but in a FORMAT: its object code would fill the largest machine."""
-_REMEMBERED = 200
-_AFTER_END = "a card after END; what a program reads is a deck by itself"
+"""The longest statement in characters, without blanks: its object code would fill the largest machine."""
+_CACHED_LENGTH = 200
+_AFTER_END = "a card after END; the program's data belong in a separate deck"
 _EDGE = (LAST_COLUMN, LAST_COLUMN + 1)
 _FORMAT_LIKE = re.compile(r"FO[A-Z]*\(")
 
 
 @dataclass(frozen=True, slots=True)
 class Parsed:
-    """What the parser made of a deck: the statements that parse, and a message for each that does not.
+    """The result of parsing a deck: the statements that parse, and a message for each that does not.
 
-    ``refused`` holds the statement numbers of those that do not; ``strangers`` the names that statements of another
-    FORTRAN make arrays or functions, so that what uses them cannot be judged.
+    ``refused`` holds the statement numbers of the others.  ``foreign_names`` holds the names that statements of another
+    FORTRAN declare as arrays or functions, so that statements using these names cannot be checked.
     """
 
     statements: tuple[tree.Statement, ...]
     diagnostics: tuple[Diagnostic, ...]
     refused: frozenset[str] = frozenset()
-    strangers: frozenset[str] = frozenset()
+    foreign_names: frozenset[str] = frozenset()
 
 
 def parse(deck: Deck) -> Parsed:
-    """Parse every statement of ``deck``; a card that does not parse gives a Diagnostic, and the rest goes on."""
+    """Parse every statement of ``deck``.  A statement that does not parse gives a Diagnostic, and parsing continues."""
     statements: list[tree.Statement] = []
     diagnostics: list[Diagnostic] = []
     labels: set[str] = set()
-    strangers: set[str] = set()
-    elsewhere = ended = False
+    foreign_names: set[str] = set()
+    in_subprogram = ended = False
     for source in sources(deck):
-        if elsewhere:
-            elsewhere = source.kind != "end"
+        # The cards of a subprogram are skipped up to its END.
+        if in_subprogram:
+            in_subprogram = source.kind != "end"
             continue
-        if ended and not _opens(source):
+        if ended and not _begins_subprogram(source):
             diagnostics.append(Diagnostic(source.place.card, source.place.column, _AFTER_END, about="END"))
             continue
         ended = ended or source.kind == "end"
-        diagnostics.extend(_runs_on(card) for card in source.cards if " " not in card.columns(*_EDGE))
+        diagnostics.extend(_identification_warning(card) for card in source.cards if " " not in card.columns(*_EDGE))
         try:
             statements.append(parse_statement(source))
         except Refused as refused:
             if may_be_comment(source):
                 diagnostics.append(_taken_as_comment(source.cards[0], refused.diagnostic.message))
                 continue
+            # A statement that does not parse may belong to another FORTRAN, which gives a better message.
             labels.add(source.label.lstrip("0"))
-            word = word_of(source.kind, source.text)
-            if word is None:
+            foreign = identify(source.kind, source.text)
+            if foreign is None:
                 diagnostics.append(refused.diagnostic)
                 continue
-            diagnostics.append(_foreign(source.place, word))
-            strangers |= declared(word, source.text)
-            elsewhere = word.opens
+            diagnostics.append(_foreign_message(source.place, foreign))
+            foreign_names |= declared_names(foreign, source.text)
+            in_subprogram = foreign.has_body
+    # An assignment to F(X) without a DIMENSION for F defines a statement function, which this FORTRAN does not have.
     arrays = {name for s in statements if isinstance(s.body, tree.Dimension) for name, _, _ in s.body.arrays}
     for statement in statements:
-        if name := _function_defined(statement.body, arrays):
-            diagnostics.append(_foreign(statement.place, STATEMENT_FUNCTION))
-            strangers.add(name)
-    statements = [s for s in statements if not _function_defined(s.body, arrays)]
+        if name := _statement_function(statement.body, arrays):
+            diagnostics.append(_foreign_message(statement.place, STATEMENT_FUNCTION))
+            foreign_names.add(name)
+    statements = [s for s in statements if not _statement_function(s.body, arrays)]
     for card in deck.cards:
         if is_comment(card) and resembles_statement(card):
-            diagnostics.append(_taken_as_comment(card, "it begins as a statement does"))
-    return Parsed(tuple(statements), tuple(diagnostics), frozenset(labels), frozenset(strangers))
+            diagnostics.append(_taken_as_comment(card, "it begins like a statement"))
+    return Parsed(tuple(statements), tuple(diagnostics), frozenset(labels), frozenset(foreign_names))
 
 
-def _opens(source: Source) -> bool:
-    word = word_of(source.kind, source.text)
-    return word is not None and word.opens
+def _begins_subprogram(source: Source) -> bool:
+    foreign = identify(source.kind, source.text)
+    return foreign is not None and foreign.has_body
 
 
-def _runs_on(card: Card) -> Diagnostic:
-    what = f"columns {_EDGE[1]} to 80 are identification and not read, and a character stands right before them"
+def _identification_warning(card: Card) -> Diagnostic:
+    what = f"columns {_EDGE[1]} to 80 are identification and not read, but column {_EDGE[0]} before them is punched"
     return Diagnostic(card.number, _EDGE[1], what, warning=True, about="identification")
 
 
-def _foreign(place: tree.Place, word: Word) -> Diagnostic:
-    return Diagnostic(place.card, place.column, word.message, word.number, about=f"word {word.name}")
+def _foreign_message(place: tree.Place, foreign: ForeignStatement) -> Diagnostic:
+    return Diagnostic(place.card, place.column, foreign.message, foreign.number, about=f"word {foreign.name}")
 
 
-def _function_defined(body: tree.Body, arrays: Collection[str]) -> str:
-    """The name of a statement function: names alone stand between its parentheses, and one cannot be a subscript."""
+def _statement_function(body: tree.Body, arrays: Collection[str]) -> str:
+    """Return the name of the statement function that a statement defines, or an empty string.
+
+    Its arguments are all names, and at least one is floating point, which a subscript cannot be.
+    """
     if not isinstance(body, tree.Assignment) or not body.target.arguments or body.target.name in arrays:
         return ""
     names = [a.name for a in body.target.arguments if isinstance(a, tree.Reference) and not a.arguments]
@@ -133,12 +139,12 @@ def _function_defined(body: tree.Body, arrays: Collection[str]) -> str:
 
 
 def _taken_as_comment(card: Card, why: str) -> Diagnostic:
-    return Diagnostic(card.number, 1, f"taken as a comment, for its C in column 1: {why}", warning=True)
+    return Diagnostic(card.number, 1, f"taken as a comment because of its C in column 1: {why}", warning=True)
 
 
 @lru_cache(2048)
 def parse_statement(source: Source) -> tree.Statement:
-    """Parse one statement; decks built anew with a card changed have all others from before."""
+    """Parse a statement.  The cache serves decks that differ in single cards."""
     if not source.text:
         raise Refused(source.place, f"a statement number without a statement: {source.label}")
     label = _statement_number(source.label, source.place) if source.label else 0
@@ -162,6 +168,7 @@ def parse_statement(source: Source) -> tree.Statement:
         at = source.places[error.pos_in_stream or 0]
         raise Refused(at, f"{error.char!r} does not fit here; the form is {form}", number) from None
     except UnexpectedToken as error:
+        # An IF that is followed by a comma is error type 7 (C26-5619 p. 56).
         if source.kind == "if" and error.token == "," and source.text[(error.token.start_pos or 1) - 1] == ")":
             number = 7
         raise Refused(*_token_message(error, source), number) from None
@@ -194,8 +201,8 @@ def _depth(text: str) -> int:
 
 
 def _tree(text: str, kind: str) -> Tree[Token]:
-    """Lark's tree; of a short statement the same for the same text, as programs repeat themselves and one another."""
-    return _short_tree(text, kind) if len(text) <= _REMEMBERED else _grammar().parse(text, start=kind)
+    """Return lark's tree.  Short statements are cached, because they occur again in the same and other programs."""
+    return _short_tree(text, kind) if len(text) <= _CACHED_LENGTH else _grammar().parse(text, start=kind)
 
 
 @lru_cache(1024)
@@ -210,13 +217,13 @@ def _grammar() -> Lark:
 
 
 class _Builder:
-    """Lark's tree to ours, bottom up; one method a grammar rule."""
+    """A conversion of lark's tree to ours, bottom up, with one method per grammar rule."""
 
     def __init__(self, places: Columns) -> None:
         self._places = places
 
     def build(self, node: Tree[Token]) -> Any:
-        """The node of ours for one of lark's; as lark's own transformer, in half its time.  Raises Refused."""
+        """Convert a node, as lark's Transformer does in twice the time.  Raise Refused for an invalid name."""
         children = [self.build(child) if isinstance(child, Tree) else child for child in node.children]
         return getattr(self, node.data)(children)
 

@@ -1,8 +1,8 @@
-"""From cards to statements: which cards are comments, which continue, where a statement's number and text are.
+"""Group the cards of a deck into statements: comments, continuation cards, statement numbers and statement kinds.
 
-Sources: C26-5619 p. 12 (the columns of the form are only guides: a statement may start in any of columns
-1 to 72; a statement that begins with C and two blanks is a comment; columns 73 to 80 are identification).
-Continuation cards and blank cards: OPEN-QUESTIONS 1 and 2.
+Source: C26-5619 p. 12.  The columns printed on the coding form are only guides: a statement may start in any of columns
+1 to 72.  A card that begins with C and two blanks is a comment.  Columns 73 to 80 are identification.  The manual does
+not settle continuation cards and blank cards (OPEN-QUESTIONS 1 and 2).
 """
 
 from __future__ import annotations
@@ -18,13 +18,14 @@ from emulator.language.tree import Place
 
 LAST_COLUMN = 72
 _FIRST = 7
-"""Where a continuation card's text begins."""
+"""The column in which the text of a continuation card begins."""
 _CAPITALS = str.maketrans(ascii_lowercase, ascii_uppercase)
 
 _VERB = re.compile(r"READ|ACCEPT|PUNCH|PRINT|TYPE")
-_BEFORE = re.compile(r"[ 0-9]*")
+_NUMBER = re.compile(r"[ 0-9]*")
 _FORMAT = re.compile(r"\s*F\s*O\s*R\s*M\s*A\s*T\s*\(")
 _DO = re.compile(r"DO\d+,?[A-Z][A-Z0-9]*=")
+# The first prefix that matches decides the kind, so a longer prefix stands before the shorter one it contains.
 _PREFIXES = (
     ("GOTO(", "computed_go_to"),
     ("GOTO", "go_to"),
@@ -39,28 +40,29 @@ _PREFIXES = (
 
 @dataclass(frozen=True, slots=True)
 class Columns:
-    """Where the characters of a statement stand, each place made when it is asked for.
+    """The card and column of each character of a statement.  A place is computed when it is indexed.
 
-    ``kept`` counts the characters of the statement's cards: all of the first, of each other from column 7 on.
+    The columns of a statement's cards are numbered in one sequence: columns 1 to 72 of the first card, then columns 7
+    to 72 of each continuation card.  ``indices`` holds the position in this sequence of each character.
     """
 
     cards: tuple[Card, ...]
-    kept: Sequence[int]
+    indices: Sequence[int]
 
     def __len__(self) -> int:
-        return len(self.kept)
+        return len(self.indices)
 
     def __getitem__(self, index: int) -> Place:
-        return _place(self.cards, self.kept[index])
+        return _place(self.cards, self.indices[index])
 
 
 @dataclass(frozen=True, slots=True)
 class Source:
     """A statement before parsing.
 
-    ``text`` is the statement without number and without blanks, ``places`` the place of each of its
-    characters; for a FORMAT both hold every column from its parenthesis on.  ``kind`` names the grammar's
-    start rule, ``format`` for a FORMAT, ``unknown`` where no form fits.
+    ``text`` is the statement without its number and without blanks, and ``places`` holds the place of each of its
+    characters.  For a FORMAT both include every column from the opening parenthesis on, blanks too.  ``kind`` is the
+    start rule of the grammar, ``format`` for a FORMAT, or ``unknown`` if no statement form matches.
     """
 
     label: str
@@ -72,10 +74,10 @@ class Source:
 
 
 def is_comment(card: Card) -> bool:
-    """A comment: C in column 1 and no form of a statement, or a card with no statement punched.
+    """Return True for a card without a statement, or with C in column 1 and no statement form.
 
-    The manual (p. 12) asks for two blanks after the C; IBM's FORTRAN II-D and PDQ FORTRAN take ``C-----`` and
-    ``C TEXT`` as well (executed).  What has the form of a statement and does not parse: :func:`may_be_comment`.
+    The manual (p. 12) requires two blanks after the C.  IBM's FORTRAN II-D and PDQ FORTRAN also accept ``C-----`` and
+    ``C TEXT`` (executed).  See :func:`may_be_comment` for a card that has a statement form but does not parse.
     """
     if not card.columns(1, LAST_COLUMN).strip() or card.text.ljust(3).startswith("C  "):
         return True
@@ -83,7 +85,7 @@ def is_comment(card: Card) -> bool:
 
 
 def capitals(text: str) -> str:
-    """A source's text with capitals for small letters, in Hollerith fields too; a comment keeps its own after the C."""
+    """Convert a source text to capitals, Hollerith fields included.  Comments stay unchanged after their C."""
     lines = []
     for number, line in enumerate(text.split("\n"), 1):
         upper = line.translate(_CAPITALS)
@@ -94,18 +96,18 @@ def capitals(text: str) -> str:
 
 
 def may_be_comment(source: Source) -> bool:
-    """Whether a statement that does not parse can be taken as a comment: one card with C in column 1."""
+    """Return True if a statement that does not parse may be a comment: one card with C in column 1."""
     return len(source.cards) == 1 and source.place.column == 1 and source.cards[0].text.startswith("C")
 
 
 def resembles_statement(card: Card) -> bool:
-    """Whether a comment looks as if a statement had been meant: it begins as a word of the language does."""
+    """Return True if a comment begins like a statement, so that its C may be a mistake."""
     text = card.columns(1, LAST_COLUMN).replace(" ", "")
     return not card.text.ljust(3).startswith("C  ") and text.startswith(("CONTIN", "COMMON", "CALL"))
 
 
 def sources(deck: Deck) -> Iterator[Source]:
-    """The statements of a deck in order, comments left out."""
+    """Yield the statements of a deck in order, without comments."""
     group: list[Card] = []
     for card in deck.cards:
         if is_comment(card):
@@ -121,7 +123,9 @@ def sources(deck: Deck) -> Iterator[Source]:
 
 
 def classify(text: str) -> str:
-    """The kind of a statement from its text without number and blanks; a grammar start rule, or ``unknown``."""
+    """Return the kind of a statement, given without number and blanks: a start rule of the grammar, or ``unknown``."""
+    # FORTRAN has no reserved words: an equals sign outside parentheses makes an assignment or a DO, whatever the
+    # statement begins with.  DO needs a comma after the equals sign as well.
     equals = _top_level(text, "=")
     if equals >= 0:
         if _DO.match(text) and _top_level(text[equals:], ",") >= 0:
@@ -136,7 +140,10 @@ def classify(text: str) -> str:
 
 
 def _continues(card: Card) -> bool:
-    """A punch other than 0 in column 6, columns 1 to 5 blank, and no statement if read by itself."""
+    """Return True for a continuation card: column 6 punched with other than 0, and columns 1 to 5 blank.
+
+    Statements may start in any column, so a card that reads as a complete statement is not a continuation.
+    """
     if card.columns(1, 5).strip() or card.columns(6, 6) in (" ", "0"):
         return False
     source = _source((card,))
@@ -150,35 +157,36 @@ def _continues(card: Card) -> bool:
 @lru_cache(2048)
 def _source(cards: tuple[Card, ...]) -> Source:
     raw = cards[0].columns(1, LAST_COLUMN) + "".join(card.columns(_FIRST, LAST_COLUMN) for card in cards[1:])
-    before = _BEFORE.match(raw)
-    start = before.end() if before else 0
+    number = _NUMBER.match(raw)
+    start = number.end() if number else 0
     label = raw[:start].replace(" ", "")
+    # A number without a statement is reported at the number.
     place = _place(cards, start if start < len(raw) else raw.index(label[0]))
     match = _FORMAT.match(raw, start)
     if match:
-        kept = range(match.end() - 1, len(raw))
-        return Source(label, "format", raw[kept.start :], Columns(cards, kept), place, cards)
+        indices = range(match.end() - 1, len(raw))
+        return Source(label, "format", raw[indices.start :], Columns(cards, indices), place, cards)
     text = raw[start:].replace(" ", "")
-    dense = [i for i, char in enumerate(raw) if char != " " and i >= start]
-    return Source(label, classify(text), text, Columns(cards, dense), place, cards)
+    not_blank = [i for i, char in enumerate(raw) if char != " " and i >= start]
+    return Source(label, classify(text), text, Columns(cards, not_blank), place, cards)
 
 
 def _place(cards: tuple[Card, ...], index: int) -> Place:
-    """Where a character of a statement stands: all of its first card, of each other from the seventh column on."""
+    """Return the card and column of a position in the sequence of a statement's columns (see :class:`Columns`)."""
     if index < LAST_COLUMN:
         return Place(cards[0].number, index + 1)
     card, column = divmod(index - LAST_COLUMN, LAST_COLUMN - _FIRST + 1)
     return Place(cards[card + 1].number, column + _FIRST)
 
 
-def _top_level(text: str, wanted: str) -> int:
-    """Index of the first ``wanted`` outside parentheses, or -1."""
+def _top_level(text: str, mark: str) -> int:
+    """Return the index of the first ``mark`` outside parentheses, or -1."""
     depth = 0
     for i, char in enumerate(text):
         if char == "(":
             depth += 1
         elif char == ")":
             depth -= 1
-        elif char == wanted and depth == 0:
+        elif char == mark and depth == 0:
             return i
     return -1

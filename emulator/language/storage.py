@@ -1,9 +1,9 @@
-"""Where a program's data lie: one ten-digit field for every variable, constant, temporary and statement number.
+"""The storage map: the ten-digit field of every variable, constant, temporary and statement number.
 
-Fields are assigned downward from the top of core in order of first appearance; an array takes one field an
-element, element 1 highest, the arrays of a DIMENSION one after the other without a gap (C26-5619 p. 66-69;
-subscripts, and that nothing checks them: executed on IBM's code).  The 120 positions at the top hold the
-names of the library functions; the object program begins at 08300 (p. 67).
+Fields are assigned downward from the top of core in order of first appearance.  An array takes one field per element,
+with element 1 at the highest address, and the arrays of one DIMENSION follow each other without a gap (C26-5619
+p. 66-69).  How subscripts are computed, and that nothing checks them, was observed by executing IBM's code.  The 120
+positions at the top hold the names of the library functions.  The object program begins at 08300 (p. 67).
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ CORES = (20000, 40000, 60000)
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """A name's place: first field, number of fields, and its dimensions (empty for a single field)."""
+    """The storage of a name: its first field, number of fields, and dimensions (empty for a single field)."""
 
     name: str
     kind: str
@@ -30,7 +30,8 @@ class Entry:
     shape: tuple[int, ...] = ()
 
     def element(self, index: int) -> str:
-        """The name of the field ``index`` fields after the first: ``X(3)``, ``A(2,1)``, or the name itself."""
+        """Return the name of the field ``index`` fields after the first: ``X(3)``, ``A(2,1)``, or the name alone."""
+        # Arrays of two dimensions are stored by columns: the first subscript varies fastest.
         if not self.shape:
             return self.name
         if len(self.shape) == 1:
@@ -40,9 +41,9 @@ class Entry:
 
 @dataclass(frozen=True, slots=True)
 class Storage:
-    """The storage map: entries in order of address, and the values of the constants by field.
+    """A storage map: the entries in order of address, and the constants.
 
-    ``constants`` pairs a field with the constant as written.
+    ``constants`` pairs the field of each constant with its text in the source.
     """
 
     entries: tuple[Entry, ...]
@@ -53,13 +54,13 @@ class Storage:
         return (entry for entry in self.entries if entry.shape)
 
     def entry_of(self, address: int) -> Entry:
-        """The entry that holds a field.  Raises KeyError for an address outside the data."""
+        """Return the entry that contains a field.  Raise KeyError for an address outside the data."""
         if not 0 <= address < self.fields:
             raise KeyError(address)
         return self.entries[bisect_right(self.entries, address, key=attrgetter("first")) - 1]
 
     def name_of(self, address: int) -> str:
-        """What a field is called: ``NE``, ``X(3)``, ``constant 4.``."""
+        """Return the name of a field: ``NE``, ``X(3)``, ``constant 4.``."""
         try:
             entry = self.entry_of(address)
         except KeyError:
@@ -68,19 +69,19 @@ class Storage:
 
 
 def core_address(index: int, core: int) -> int:
-    """The address of a field's rightmost digit in a machine of ``core`` positions."""
+    """Return the address of the rightmost digit of a field in a machine with ``core`` positions."""
     return core - 1 - FUNCTION_NAMES - FIELD * index
 
 
 @dataclass
 class Allocator:
-    """Assigns fields in order of first appearance while a program compiles."""
+    """An assignment of fields in order of first appearance, built up while a program compiles."""
 
     entries: dict[tuple[str, str], Entry] = field(default_factory=dict)
     used: int = 0
 
     def place(self, kind: str, name: str, shape: tuple[int, ...] = ()) -> Entry:
-        """The entry of a name of that kind, made at its first appearance."""
+        """Return the entry for a name of this kind, and create it at its first appearance."""
         key = (kind, name)
         if key not in self.entries:
             size = 1

@@ -1,6 +1,6 @@
-"""The syntax tree of 1620 FORTRAN: frozen dataclasses; every node keeps the card and column it was read from.
+"""The syntax tree of 1620 FORTRAN as frozen dataclasses.  Every node keeps the card and column it was read from.
 
-Statement forms: IBM 1620 FORTRAN (with FORMAT), C26-5619; the page stands with each form.
+The docstring of each statement quotes its form and gives the page of IBM 1620 FORTRAN (with FORMAT), C26-5619.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from emulator.errors import Place as Place
 
 @dataclass(frozen=True, slots=True)
 class Number:
-    """A constant: digits as written; fixed point without a decimal point (p. 14)."""
+    """A constant as written.  It is fixed point if it has no decimal point (p. 14)."""
 
     text: str
     place: Place
@@ -25,7 +25,7 @@ class Number:
 
 @dataclass(frozen=True, slots=True)
 class Reference:
-    """A name, alone or with arguments: a variable, an array element or a library function (p. 16, 18, 63)."""
+    """A variable, an array element or a call of a library function (p. 16, 18, 63)."""
 
     name: str
     arguments: tuple[Expression, ...]
@@ -43,7 +43,7 @@ class Power:
 
 @dataclass(frozen=True, slots=True)
 class Product:
-    """``first`` followed by factors, each with ``*`` or ``/``, from left to right (p. 19)."""
+    """A factor followed by factors, each with ``*`` or ``/``, evaluated from left to right (p. 19)."""
 
     first: Expression
     rest: tuple[tuple[str, Expression], ...]
@@ -52,7 +52,7 @@ class Product:
 
 @dataclass(frozen=True, slots=True)
 class Sum:
-    """``first``, with a minus sign before it or not, followed by terms, each with ``+`` or ``-``."""
+    """A term, negated if ``minus`` is set, followed by terms, each with ``+`` or ``-``."""
 
     minus: bool
     first: Expression
@@ -104,7 +104,7 @@ class IfSwitch:
 
 @dataclass(frozen=True, slots=True)
 class Do:
-    """``DO label variable = first, last, step``: the test is at the bottom, so a loop runs at least once."""
+    """``DO label variable = first, last, step``.  The test is at the bottom, so a loop runs at least once."""
 
     label: int
     variable: Reference
@@ -120,14 +120,14 @@ class Continue:
 
 @dataclass(frozen=True, slots=True)
 class Pause:
-    """``PAUSE``, with a number or without."""
+    """``PAUSE``, with or without a number."""
 
     number: str
 
 
 @dataclass(frozen=True, slots=True)
 class Stop:
-    """``STOP``, with a number or without."""
+    """``STOP``, with or without a number."""
 
     number: str
 
@@ -168,7 +168,7 @@ class InputOutput:
 
 
 class Columns(Protocol):
-    """The place of each character of a text."""
+    """The place of each character of a text, by index."""
 
     def __len__(self) -> int: ...
 
@@ -177,9 +177,9 @@ class Columns(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Format:
-    """``FORMAT (specification)``; ``text`` holds the specification's columns untouched, blanks included.
+    """``FORMAT (specification)``.
 
-    ``places`` has one place a character.
+    ``text`` is the specification as punched, with its blanks.  ``places`` has one place per character.
     """
 
     text: str
@@ -205,7 +205,7 @@ Body = (
 
 @dataclass(frozen=True, slots=True)
 class Statement:
-    """One statement: its number (0 if none), its cards, and what it says."""
+    """A statement: its number (0 if it has none), its place, the text of its cards, and its content."""
 
     label: int
     place: Place

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from emulator.errors import CardError, DeckError
-from emulator.language.cards import COLUMNS, Card, Deck, read_line, refuse_strange
+from emulator.language.cards import COLUMNS, Card, Deck, check_characters, read_line
 from emulator.language.objectcode import Line, Program
 from emulator.machine.endings import Ending, Kind, Mode, Notice, decided
 from emulator.machine.forms import Input, Layout, NoField, Output
@@ -130,7 +130,7 @@ class Devices:
         assert transfer is not None
         self.state.work += 1 + self._charge * transfer.again
         transfer.again = 0
-        if numbers.weighs and self.state.kinds[address] == FLOATING:
+        if numbers.is_costly and self.state.kinds[address] == FLOATING:
             self.state.work += self.state.owe(numbers.work("card", self.state.values[address]))
         if self.lists:
             self.listed.append(address)
@@ -151,7 +151,7 @@ class Devices:
         card = self.deck.cards[self.position]
         if card.text.startswith("C"):
             # What a comment of a source deck may hold is no data.
-            refuse_strange(self.deck.source, card.number, card.text)
+            check_characters(self.deck.source, card.number, card.text)
         self.position += 1
         self.events.append(Event("read", card.text))
         return card
@@ -231,11 +231,11 @@ class Devices:
         return line[:room].rstrip()
 
     def error(self, code: str) -> None:
-        """An error code of the arithmetic, at the present statement; typed where the arithmetic announces it."""
+        """An error code of the arithmetic, at the present statement; typed where the arithmetic types_errors it."""
         card = self.line_at(self.state.at).place.card
         self.errors[code, card] = self.errors.get((code, card), 0) + 1
         self.state.work += self.state.owe(ERROR)
-        if self.options.numbers.announces:
+        if self.options.numbers.types_errors:
             self.type(f"ERROR {code}")
 
     def note(self, notice: Notice) -> None:

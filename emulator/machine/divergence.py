@@ -38,7 +38,7 @@ from emulator.machine.state import Entry, Journal
 from emulator.numbers import Numbers
 from emulator.numbers.base import Number
 from emulator.numbers.exact import ExactNumbers
-from emulator.numbers.shadowed import Held, ShadowedNumbers
+from emulator.numbers.shadowed import Shadowed, ShadowedNumbers
 
 _STRIDE = 1_000
 """Statements one run does before the other takes its turn."""
@@ -318,7 +318,7 @@ class _Comparison:
 
     def _bound(self, value: Number) -> Fraction | None:
         """How far the reference's value may be from the exact one; None where nothing is known, 0 of a whole number."""
-        if not isinstance(value, Held) or not isinstance(self._reference, ShadowedNumbers):
+        if not isinstance(value, Shadowed) or not isinstance(self._reference, ShadowedNumbers):
             return Fraction(0)
         return self._reference.error(value)
 

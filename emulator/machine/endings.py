@@ -224,4 +224,4 @@ class Notice:
             return f"{self.source}: FORMAT {self.format}: a record of {self.width} characters, cut at {self.kept}"
         assert self.remark is not None
         unit = "line" if self.typed else "card"
-        return f"{self.source}: {unit} {self.card}, column {self.column}: {self.remark.words}"
+        return f"{self.source}: {unit} {self.card}, column {self.column}: {self.remark.message}"

@@ -133,7 +133,7 @@ def run(
         numbers.sign,
         numbers.checked,
     )
-    weigh = numbers.work if numbers.weighs else None
+    weigh = numbers.work if numbers.is_costly else None
     decide = journal.entries.append if journal else None
     enter = journal.entries.append if journal and journal.stores else None
     if enter and state.listed:

@@ -1,6 +1,25 @@
-"""Number systems for the object code: the same program over binary, exact or decimal numbers of Python.
+"""Number systems for the object code: the 1620's decimal numbers, and binary and exact numbers of Python.
 
-:func:`numbers` gives one by its name; :mod:`emulator.machine.interpreter` runs object code over it.
+:func:`numbers` returns a system by name, and :mod:`emulator.machine.interpreter` runs object code with it.
+
+To add a decimal arithmetic, for example one that keeps ten digits and rounds:
+
+1. If :data:`~emulator.numbers.arithmetic.Rules` can express it, add a :class:`~emulator.numbers.arithmetic.Profile`
+   to ``PROFILES`` in ``arithmetic.py``, with its source, as ``ibm1962`` does: ``Profile("mine", "manual and page",
+   rules_of(10, guard=2, sticky=1, sums=1, products=1, quotients=1))``.  For any number of digits add a function to
+   ``_FAMILIES`` there.  The programs and the port then accept the name, and so does the compiled engine up to nine
+   digits.  (These ten digits exist already: ``rounding:10``.)
+2. A rule that ``Rules`` cannot express is a new field of it and a new argument of ``rules_of``.  Implement it in
+   ``arithmetic.py`` (digits) or ``accumulator.py`` (zeros, signs, overflow), and nowhere else.
+3. Add the name to the help of ``--arithmetic`` in ``modern/cli/shared/arguments.py`` and to the tables in
+   ``docs/reference/machine.md`` and ``docs/how-to/own-arithmetic.md``.
+4. Tests: ``tests/emulator/numbers/test_arithmetic_laws.py``, measured results with their source in
+   ``tests/data/vectors/``, and the rules in ``tests/support/published/specification.py`` with the name in ``made.py``.
+
+To add numbers that are not decimal, write a subclass of :class:`~emulator.numbers.base.Numbers` in a new module here,
+add its name to :data:`HOSTED` and create it in :func:`hosted`.  Continue with steps 3 and 4, where the test is
+``test_number_systems.py``.  For the port, add a subclass of ``Arithmetic`` to ``modern/port/binary.py``, ``decimal.py``
+or ``exact.py`` and its name to ``NAMES`` and ``fixed_arithmetic`` in ``modern/port/points.py``.
 """
 
 from __future__ import annotations
@@ -12,13 +31,13 @@ from emulator.numbers.decimal import DecimalNumbers
 __all__ = ["HOSTED", "DecimalNumbers", "Number", "Numbers", "Trap", "Undecided", "hosted", "numbers"]
 
 HOSTED = ("float64", "float32", "mp:BITS", "exact")
-"""The names of arithmetics that are not decimal profiles of emulator/numbers/arithmetic.py."""
+"""The names of the arithmetics that are not decimal profiles."""
 
 
 def hosted(name: str) -> Numbers | None:
-    """The system ``float64``, ``float32``, ``mp:BITS`` or ``exact``; None for any other name.
+    """Return the system ``float64``, ``float32``, ``mp:BITS`` or ``exact``, or None for any other name.
 
-    Raises ValueError for a number of bits out of range.
+    Raise ValueError if the number of bits is out of range.
     """
     if name in ("float64", "float32"):
         from emulator.numbers.binary import FloatNumbers
@@ -39,12 +58,12 @@ def hosted(name: str) -> Numbers | None:
 
 
 def numbers(name: str | Profile) -> Numbers:
-    """The system of that name, a profile's name included.  Raises ValueError for a name there is not."""
+    """Return the number system of a name or profile.  Raise ValueError for an unknown name."""
     if isinstance(name, Profile):
         return DecimalNumbers(name)
-    found = hosted(name)
-    if found is not None:
-        return found
+    system = hosted(name)
+    if system is not None:
+        return system
     try:
         return DecimalNumbers(profile(name))
     except ValueError as error:

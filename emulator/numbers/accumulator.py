@@ -1,11 +1,11 @@
-"""The floating accumulator FAC of a decimal profile: what its operations do with zeros, signs, overflow and underflow.
+"""The floating accumulator FAC of a decimal profile: zeros, signs, overflow and underflow of its operations.
 
-Every function takes the mantissa and exponent in FAC, then those of the other number (emulator/numbers/arithmetic.py),
-and gives mantissa, exponent and event: 0, or the number of the error code ERROR E1 to E7 that goes with the result
-(C26-5619 p. 60, executed on IBM's code).  This is the one place where these rules stand: the interpreter, the kernel
-and the port all call it.
+Every function accepts the mantissa and exponent in FAC, then those of the other operand (see
+emulator/numbers/arithmetic.py), and returns mantissa, exponent and event.  The event is 0 or the number n of the error
+code ERROR En, E1 to E7, that accompanies the result (C26-5619 p. 60, executed on IBM's code).  These rules are defined
+only here: the interpreter, the compiled kernel and the port all call these functions.
 
-The functions use only what a compiler of integer loops accepts.
+The functions use only integers and loops, so that numba can compile them.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from emulator.numbers.arithmetic import add as add_digits
 from emulator.numbers.arithmetic import divide as divide_digits
 from emulator.numbers.arithmetic import multiply as multiply_digits
 
-# Events, numbered as the codes E1 to E8.
+# Events, numbered as the error codes E1 to E8.
 (
     SUM_OVER,
     SUM_UNDER,
@@ -38,7 +38,8 @@ State = tuple[int, int, int]
 
 
 def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
-    """FAC + number.  A zero added changes nothing, but that two zeros give a plus zero where the profile says so."""
+    """Return FAC + number.  Adding zero changes nothing, except that the sum of two zeros is +0 in some profiles."""
+    # The subroutine tests for zero operands first, so a minus zero in FAC survives only as a left operand.
     if mb == 0:
         if ma == 0 and not rules.keeps_left_zero:
             return 0, ZERO, 0
@@ -54,19 +55,20 @@ def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
 
 
 def subtract(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
-    """FAC - number: the number is added with its sign reversed, a zero as it is."""
+    """Return FAC - number.  The sign of the number is reversed before the addition, except if it is zero."""
     return add(ma, ea, -mb, eb, rules)
 
 
 def subtract_reversed(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
-    """Number - FAC, as the subroutine FSBR does it: FAC - number, then the sign reversed."""
+    """Return number - FAC as the subroutine FSBR computes it: FAC - number, with the sign of the result reversed."""
+    # The reversal makes a cancellation -0.  The thesis prints such zeros (emulator/language/expressions.py).
     m, e, event = add(ma, ea, -mb, eb, rules)
     m, e = negate(m, e)
     return m, e, event
 
 
 def multiply(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
-    """FAC * number.  A product with a zero is a plus zero."""
+    """Return FAC * number.  A product with a zero factor is +0."""
     if ma == 0 or mb == 0:
         return 0, ZERO, 0
     m, e = multiply_digits(ma, ea, mb, eb, rules)
@@ -78,7 +80,7 @@ def multiply(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
 
 
 def divide(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
-    """FAC / number.  Zero divided is a plus zero; division by zero gives the largest number."""
+    """Return FAC / number.  A zero dividend gives +0, and a zero divisor gives the largest number."""
     if mb == 0:
         return largest(-1 if rules.signed_by_zero and ma < 0 else 1, rules), MAX_EXPONENT, ZERO_DIVISOR
     if ma == 0:
@@ -92,24 +94,24 @@ def divide(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
 
 
 def negate(m: int, e: int) -> tuple[int, int]:
-    """The sign of FAC reversed, of a zero too (subroutine RSGN)."""
+    """Return FAC with its sign reversed, also the sign of a zero (subroutine RSGN)."""
     if m == 0:
         return 0, (MINUS_ZERO if e == ZERO else ZERO)
     return -m, e
 
 
 def largest(sign: int, rules: Rules) -> int:
-    """The mantissa of the largest number, with the sign of ``sign``, which is not 0."""
+    """Return the mantissa of the largest number, with the sign of ``sign``, which must not be 0."""
     return rules.limit - 1 if sign > 0 else 1 - rules.limit
 
 
 def vanished(sign: int, rules: Rules) -> int:
-    """The exponent of the zero that a product or quotient becomes when it underflows."""
+    """Return the exponent that marks the zero to which a product or quotient underflows."""
     return MINUS_ZERO if rules.signed_underflow and sign < 0 else ZERO
 
 
 def divide_fixed(dividend: int, divisor: int) -> tuple[int, int]:
-    """A fixed-point quotient cut to a whole number, and its event; 9999 for a divisor of 0."""
+    """Return a fixed-point quotient truncated to an integer, and its event.  Division by 0 gives 9999."""
     if divisor == 0:
         return 9999, FIXED_ZERO_DIVISOR
     size = abs(dividend) // abs(divisor)

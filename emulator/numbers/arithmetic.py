@@ -1,13 +1,13 @@
-"""Decimal floating point as the 1620's subroutines did it: pure functions on integers under named profiles.
+"""Decimal floating point as the 1620's subroutines computed it: pure functions on integers under named profiles.
 
-A number is a pair (mantissa, exponent) of value ``mantissa * 10**(exponent - P)``: P digits after the
-point, the first not zero, exponent -99 to +99 (C26-5619 p. 13, 38).  Zero is (0, -99), as it is printed;
-minus zero, which the machine kept as a flag, is (0, MINUS_ZERO); a field nothing was stored in is
-(0, UNDEFINED).  A field that holds a fixed-point number has its value and the exponent FIXED_POINT.
-Operations return an exponent that may lie out of range: emulator/numbers/accumulator.py decides what then.
+A number is a pair (mantissa, exponent) with the value ``mantissa * 10**(exponent - P)``.  It has P digits after the
+point, of which the first is not zero, and an exponent from -99 to +99 (C26-5619 p. 13, 38).  Zero is (0, -99), as it is
+printed.  Minus zero, which the machine marked with a flag, is (0, MINUS_ZERO).  A field in which nothing was stored is
+(0, UNDEFINED).  A field with a fixed-point number holds its value and the exponent FIXED_POINT.  The operations here
+may return an exponent out of range, which emulator/numbers/accumulator.py then handles.
 
-The functions use only what a compiler of integer loops accepts; ``rules`` is a tuple of integers for that reason.
-Where each rule was obtained stands with :data:`PROFILES`.
+The functions use only integers and loops, so that numba can compile them, and ``rules`` is a tuple of integers for
+the same reason.  :data:`PROFILES` gives the source of each rule.
 """
 
 from __future__ import annotations
@@ -26,17 +26,20 @@ MIN_DIGITS, MAX_DIGITS = 2, 28
 
 
 class Rules(NamedTuple):
-    """The rules of a decimal arithmetic. Every field is an integer, because compiled code uses them too.
+    """The rules of a decimal arithmetic.  Every field is an integer, because compiled code uses them too.
 
-    The flags, 0 or 1, begin with ``sticky``.
+    The fields from ``sticky`` on are flags, 0 or 1.
 
-    digits: digits of a mantissa.  limit: ``10**digits``, which every mantissa is less than.  least:
-    ``10**(digits - 1)``, the least normalized mantissa.  guard: digits of the smaller operand of a sum that are kept
-    beyond the last.  sticky: the digits lost beyond these still count as a fraction.  round_sums, round_products,
-    round_quotients: the result is rounded half up, not truncated.  keeps_left_zero: zero plus zero keeps the sign of
-    FAC's zero.  signed_underflow: a product or quotient that underflows keeps its sign; signed_sums: so does a sum.
-    signed_by_zero: a number divided by zero keeps its sign.  powers_multiply: an integer power is computed by repeated
-    multiplication, truncating each product; otherwise the exact power is truncated once.
+    - ``digits``: the number of digits of a mantissa, P.
+    - ``limit``: ``10**P``, which every mantissa is below.
+    - ``least``: ``10**(P - 1)``, the smallest normalized mantissa.
+    - ``guard``: the digits beyond P that the smaller operand of a sum keeps.
+    - ``sticky``: the digits lost beyond these still count as a fraction.
+    - ``round_sums``, ``round_products``, ``round_quotients``: round the result half up instead of truncating it.
+    - ``keeps_left_zero``: zero plus zero keeps the sign of the zero in FAC.
+    - ``signed_underflow``, ``signed_sums``: a product or quotient, or a sum, that underflows keeps its sign.
+    - ``signed_by_zero``: a number divided by zero keeps its sign.
+    - ``powers_multiply``: an integer power is a chain of truncated products instead of the exact power truncated once.
     """
 
     digits: int
@@ -55,10 +58,10 @@ class Rules(NamedTuple):
 
 
 def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
-    """Sum of two numbers, neither zero.
+    """Return the sum of two numbers that are not zero.
 
-    The operand of smaller exponent is moved right and its digits drop off *before* the addition, all of them or, in
-    :func:`add_guarded`, those beyond some more.
+    The operand with the smaller exponent is shifted right and loses digits *before* the addition.  It loses all of them
+    here, and keeps some in :func:`add_guarded`.
     """
     if rules.guard:
         return add_guarded(ma, ea, mb, eb, rules)
@@ -67,11 +70,14 @@ def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
     shift = ea - eb
     if shift >= rules.digits:
         return ma, ea
+    # Truncate toward zero: // alone would round negative numbers down.
     if shift:
         mb = mb // 10**shift if mb > 0 else -(-mb // 10**shift)
     total = ma + mb
     if total == 0:
         return 0, ZERO
+    # Normalize: one digit too many after a carry, or leading zeros after a cancellation.  The zeros that fill up the
+    # right end are the digits that a guard digit would have kept.
     size = total if total > 0 else -total
     if size >= rules.limit:
         size = size // 10
@@ -83,10 +89,9 @@ def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
 
 
 def add_guarded(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
-    """The same where of the digits beyond P ``guard`` survive the addition (rounding a sum needs one).
+    """Return the same sum if ``guard`` of the digits beyond P survive the addition (rounding needs one).
 
-    With ``sticky`` the lost part still counts as a fraction, so that the rounding which follows is that of the exact
-    sum.
+    With ``sticky`` the digits lost still count as a fraction, so that the sum is rounded like the exact sum.
     """
     digits, base, guard, sticky, rounding = rules.digits, rules.limit, rules.guard, rules.sticky, rules.round_sums
     if ea < eb:
@@ -95,21 +100,23 @@ def add_guarded(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, 
     negative = ma < 0
     same = (mb < 0) == negative
     size = (-ma if negative else ma) * 10**guard
-    other = -mb if mb < 0 else mb
+    addend = -mb if mb < 0 else mb
+    # Align the smaller operand to P + guard digits and note whether digits were lost.
     lost = 0
     if shift <= guard:
-        other = other * 10 ** (guard - shift)
+        addend = addend * 10 ** (guard - shift)
     elif shift - guard > digits:
         lost = 1
-        other = 0
+        addend = 0
     else:
         unit = 10 ** (shift - guard)
-        lost = 1 if other % unit else 0
-        other = other // unit
+        lost = 1 if addend % unit else 0
+        addend = addend // unit
     if same:
-        size += other
+        size += addend
     else:
-        size -= other
+        # The digits lost are a positive fraction of the addend, so the exact difference lies below this one.
+        size -= addend
         if sticky and lost:
             size -= 1
     if size == 0:
@@ -117,6 +124,7 @@ def add_guarded(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, 
     if size < 0:
         size = -size
         negative = not negative
+    # Normalize to P + guard digits (or one more after a carry), then truncate or round half up to P digits.
     wide = base * 10**guard
     while size < wide // 10:
         size *= 10
@@ -133,11 +141,12 @@ def add_guarded(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, 
 
 
 def multiply(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
-    """Product of two numbers, neither zero: all 2P digits, then cut or rounded half up in magnitude."""
+    """Return the product of two numbers that are not zero: all 2P digits, truncated or rounded half up in magnitude."""
     base, low = rules.limit, rules.least
     product = ma * mb
     size = product if product > 0 else -product
     exponent = ea + eb
+    # A product of two P-digit mantissas has 2P digits, or 2P - 1.
     if size >= base * low:
         unit = base
     else:
@@ -154,11 +163,12 @@ def multiply(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int
 
 
 def divide(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
-    """Quotient of two numbers, neither zero, cut or rounded half up in magnitude."""
+    """Return the quotient of two numbers that are not zero, truncated or rounded half up in magnitude."""
     base, low = rules.limit, rules.least
     size = ma if ma > 0 else -ma
     by = mb if mb > 0 else -mb
     exponent = ea - eb
+    # Scale the dividend so that the integer quotient has exactly P digits.
     if size >= by:
         size = size * low
         exponent += 1
@@ -166,13 +176,14 @@ def divide(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
         size = size * base
     quotient = size // by
     if rules.round_quotients and 2 * (size - quotient * by) >= by:
-        # No carry to P + 1 digits: the quotient is at most base - 1 exactly, or below base - 1 as 1 < base / by.
+        # Rounding cannot carry to P + 1 digits.  A quotient of all nines would need size/by above 1 - 1/base, but both
+        # are integers below base.
         quotient += 1
     return (quotient if (ma > 0) == (mb > 0) else -quotient), exponent
 
 
 def from_integer(value: int, rules: Rules) -> tuple[int, int]:
-    """A fixed-point number as floating point; exact when it has at most P digits, else its first P digits."""
+    """Convert a fixed-point number to floating point.  It is exact up to P digits, and truncated beyond."""
     if value == 0:
         return 0, ZERO
     size = value if value > 0 else -value
@@ -187,11 +198,12 @@ def from_integer(value: int, rules: Rules) -> tuple[int, int]:
 
 
 def to_integer(mantissa: int, exponent: int, rules: Rules) -> int:
-    """Floating point to fixed: the four digits just left of the point, with the sign (C26-5619 p. 21)."""
+    """Convert to fixed point: the four digits just left of the point, with the sign (C26-5619 p. 21)."""
     if exponent <= 0:
         return 0
     size: int = mantissa if mantissa > 0 else -mantissa
     digits = rules.digits
+    # Multiples of 10**4 have zeros in these four places.
     if exponent <= digits:
         size = size // 10 ** (digits - exponent)
     elif exponent - digits < 4:
@@ -203,27 +215,28 @@ def to_integer(mantissa: int, exponent: int, rules: Rules) -> int:
 
 
 def wrap_integer(value: int) -> int:
-    """Fixed-point results keep four digits and their sign (C26-5619 p. 14; executed on IBM's code at 02644)."""
+    """Truncate a fixed-point result to four digits and its sign (C26-5619 p. 14, executed on IBM's code at 02644)."""
     return value % 10000 if value >= 0 else -(-value % 10000)
 
 
 def square_root(mantissa: int, exponent: int, rules: Rules) -> tuple[int, int]:
-    """Square root of a number not zero, its sign dropped, cut or rounded half up as products are."""
+    """Return the square root of the magnitude of a number that is not zero, truncated or rounded as products are."""
     size = mantissa if mantissa > 0 else -mantissa
-    # As a whole number of 2P-1 or 2P digits times an even power of ten.
+    # Write the number as an integer of 2P-1 or 2P digits times an even power of ten, whose root has P digits.
     power = exponent - 2 * rules.digits
     if power % 2:
         power += 1
         size *= rules.least
     else:
         size *= rules.limit
+    # Newton's iteration for the integer square root, from above: it decreases until it reaches the root's floor.
     root = rules.limit
     better = (root + size // root) // 2
     while better < root:
         root = better
         better = (root + size // root) // 2
     exponent = power // 2 + rules.digits
-    # Above the half exactly when the rest is more than the root: (r+1/2)**2 is never whole.
+    # Round up if size > (root + 1/2)**2, that is if size - root**2 > root: equality is impossible for integers.
     if rules.round_products and size - root * root > root:
         root += 1
         if root >= rules.limit:
@@ -233,10 +246,10 @@ def square_root(mantissa: int, exponent: int, rules: Rules) -> tuple[int, int]:
 
 
 def whole_power(mantissa: int, exponent: int, count: int, rules: Rules) -> tuple[int, int, int]:
-    """``A ** J`` by repeated multiplication, each product cut as the profile cuts it: the exact power for J = -1 to 2.
+    """Return ``A ** J`` by repeated multiplication, with the profile's rule for each product.
 
-    The third number is that of the error code E3 (overflow), E4 (underflow) or E7 (a negative power of zero),
-    or 0; the result is in range.
+    For J = -1 to 2 this is the exact power, truncated.  The third number is that of the error code E3 (overflow), E4
+    (underflow) or E7 (a negative power of zero), or 0.  The result is in range.
     """
     one, ones = from_integer(1, rules)
     if count == 0:
@@ -249,6 +262,7 @@ def whole_power(mantissa: int, exponent: int, count: int, rules: Rules) -> tuple
     for _ in range(times - 1):
         m_before, e_before = m, e
         m, e = multiply(m, e, size, exponent, rules)
+        # Stop early at a power that no longer changes (of one) or is out of range for good.
         if m == m_before and e == e_before:
             break
         if e > MAX_EXPONENT + 1 or e < MIN_EXPONENT - 1:
@@ -269,15 +283,15 @@ def whole_power(mantissa: int, exponent: int, count: int, rules: Rules) -> tuple
 
 @dataclass(frozen=True, slots=True)
 class Profile:
-    """An arithmetic: how many digits, what each operation does with the digits it cannot keep, what is typed.
+    """A decimal arithmetic: the number of digits, the rules for the digits it cannot keep, and its source.
 
-    ``announces``: every error of the arithmetic types its code (emulator.errors.explanations).
+    ``types_errors`` is True if every error of the arithmetic types its code (emulator.errors.explanations).
     """
 
     name: str
     source: str
     rules: Rules
-    announces: bool = False
+    types_errors: bool = False
 
     @property
     def digits(self) -> int:
@@ -297,7 +311,7 @@ def rules_of(
     signed_by_zero: int = 1,
     powers_multiply: int = 0,
 ) -> Rules:
-    """Rules of that many digits; what is not said is cut, and zeros and nines have signs as under II-D."""
+    """Return rules with the given number of digits.  By default everything is truncated, with signs as in II-D."""
     low = 10 ** (digits - 1)
     rounding = guard, sticky, sums, products, quotients
     return Rules(digits, 10 * low, low, *rounding, left_zero, 1, signed_sums, signed_by_zero, powers_multiply)
@@ -313,7 +327,7 @@ IBM1962 = Profile(
     "ibm1962",
     "IBM's subroutine set of 1962, executed digit by digit in a simulator: product rounded half up, the rest cut",
     rules_of(8, products=1, left_zero=1, signed_sums=0, signed_by_zero=0, powers_multiply=1),
-    announces=True,
+    types_errors=True,
 )
 PROFILES = {profile.name: profile for profile in (TRUNCATING, IBM1962)}
 
@@ -336,17 +350,17 @@ FAMILIES = tuple(f"{family}:P" for family in _FAMILIES)
 
 
 def profile(name: str) -> Profile:
-    """The profile of that name: ``truncating``, ``ibm1962``, or a family with P from 2 to 28, as ``rounding:8``.
+    """Return the profile of a name: ``truncating``, ``ibm1962``, or a family with P from 2 to 28, as ``rounding:8``.
 
-    ``guarded:P`` is ``truncating:P`` but for sums: of the smaller operand's digits that would drop off before the
-    addition, the first is kept until the sum is cut.  ``rounding:P`` gives each result of + - * / as the exact
-    result rounded half up in magnitude.  Raises ValueError for any other name.
+    ``guarded:P`` is ``truncating:P``, except that a sum keeps the first of the digits that the smaller operand would
+    lose before the addition.  ``rounding:P`` gives the exact result of + - * / rounded half up in magnitude.  Raise
+    ValueError for any other name.
     """
     if name in PROFILES:
         return PROFILES[name]
     family, colon, count = name.partition(":")
     if not (colon and family in _FAMILIES and count.isdecimal() and count.isascii()):
-        raise ValueError(f"no arithmetic is called {name!r}; there are {', '.join((*PROFILES, *FAMILIES))}")
+        raise ValueError(f"no arithmetic is called {name!r}; the names are {', '.join((*PROFILES, *FAMILIES))}")
     if len(count) > 9 or not MIN_DIGITS <= int(count) <= MAX_DIGITS:
-        raise ValueError(f"{name}: the number of digits is {MIN_DIGITS} to {MAX_DIGITS}")
+        raise ValueError(f"{name}: the number of digits must be {MIN_DIGITS} to {MAX_DIGITS}")
     return _FAMILIES[family](name, int(count))

@@ -1,11 +1,11 @@
-"""What the object code asks of numbers: the operations of the accumulator, library functions, fields of cards.
+"""The interface of number systems: accumulator operations, library functions and card fields for the object code.
 
-A number is whatever its system says; nothing outside looks into it.  Rules that hold for every system are here:
+Only the number system itself knows the representation of its numbers.  Three rules hold for every system:
 
-- Input takes every digit of the columns or of the constant; output cuts the number's decimal digits to the
-  field's, never rounds (C26-5619 p. 38-40).
-- What the 1620's subroutines answer with an error code is answered with the same code (emulator.errors.explanations).
-- What a system cannot say ends the run by :class:`Undecided`; it is never guessed.
+- Input uses every digit of the columns or of the constant.  Output truncates the decimal digits of a number to those of
+  the field and never rounds (C26-5619 p. 38-40).
+- An error that the 1620's subroutines report with a code is reported with the same code (emulator.errors.explanations).
+- A result that a system cannot represent or decide ends the run with :class:`Undecided`.  It is never guessed.
 """
 
 from __future__ import annotations
@@ -19,15 +19,17 @@ from emulator.numbers.arithmetic import MAX_EXPONENT, MIN_EXPONENT, MINUS_ZERO, 
 from emulator.numbers.fields import FALLBACK, Field, Remark, read_floating, write_floating
 
 Number = Any
-"""A number of some system."""
+"""A number of some number system."""
 
 SHOWN = 20
-"""Digits of a number shown to a reader."""
+"""The number of digits shown to a reader."""
 
 
 class Trap(Exception):
-    """An operation that has a result and an error event (emulator.compiled.kernel: SUM_OVER and so on); the run goes
-    on."""
+    """The result of an operation with an error event (SUM_OVER and so on in emulator/numbers/accumulator.py).
+
+    The run continues with ``value``.
+    """
 
     def __init__(self, event: int, value: Number) -> None:
         super().__init__(event)
@@ -35,42 +37,42 @@ class Trap(Exception):
 
 
 class Undecided(Exception):
-    """Something the arithmetic cannot say: a value it cannot hold, a sign it cannot tell.  ``str`` says what."""
+    """A value the arithmetic cannot hold, or a sign it cannot determine.  ``str`` is the explanation."""
 
 
 @lru_cache(maxsize=128)
-def cutting_rules(digits: int) -> Rules:
-    """Rules of that many digits, for reading or writing columns without losing one."""
+def lossless_rules(digits: int) -> Rules:
+    """Return truncating rules with the given number of digits, to read or write columns without loss."""
     return rules_of(digits)
 
 
 class Numbers(ABC):
-    """A number system; instances are plain data without state."""
+    """A number system.  Instances are plain data without state."""
 
     @property
     @abstractmethod
     def name(self) -> str:
-        """The name it is asked for by."""
+        """The name under which a user selects the system."""
 
     @property
     @abstractmethod
     def digits(self) -> float:
-        """How many decimal digits a number carries; infinite for exact numbers."""
+        """The number of decimal digits of a number, infinite for exact numbers."""
 
     @abstractmethod
     def decimal(self, whole: int, power: int, minus: bool = False) -> Number:
-        """The number ``whole * 10**power``; ``minus``: a zero that was written with a minus sign."""
+        """Return ``whole * 10**power``.  ``minus`` marks a zero that was written with a minus sign."""
 
     @abstractmethod
     def add(self, first: Number, second: Number) -> Number:
-        """Raises Trap."""
+        """Return the sum, or raise Trap."""
 
     @abstractmethod
     def subtract(self, first: Number, second: Number) -> Number:
-        """Raises Trap."""
+        """Return the difference ``first - second``, or raise Trap."""
 
     def subtract_reversed(self, first: Number, second: Number) -> Number:
-        """``second - first`` as the machine did it, subtracting the other way and reversing the sign.  Raises Trap."""
+        """Return ``second - first`` as the machine computed it: ``first - second``, sign reversed.  Raise Trap."""
         try:
             return self.negate(self.subtract(first, second))
         except Trap as trap:
@@ -78,124 +80,124 @@ class Numbers(ABC):
 
     @abstractmethod
     def multiply(self, first: Number, second: Number) -> Number:
-        """Raises Trap."""
+        """Return the product, or raise Trap."""
 
     @abstractmethod
     def divide(self, dividend: Number, divisor: Number) -> Number:
-        """Raises Trap, and Undecided where the system has no answer."""
+        """Return the quotient.  Raise Trap, or Undecided if the system has no answer."""
 
     @abstractmethod
     def negate(self, value: Number) -> Number:
-        """The number with its sign reversed, a zero's too where zeros have signs."""
+        """Return the number with its sign reversed, also that of a zero if zeros have signs."""
 
     @abstractmethod
     def sign(self, value: Number) -> int:
-        """-1, 0 or 1, as the three branches of an IF.  Raises Undecided."""
+        """Return -1, 0 or 1, for the three branches of an IF.  Raise Undecided if the sign is unknown."""
 
     def checked(self, value: Number) -> Number:
-        """The number as it is stored in a field.  Raises Undecided for one too long to be held."""
+        """Return a number that can be stored in a field.  Raise Undecided if it is too long."""
         return value
 
     def from_integer(self, value: int) -> Number:
-        """FLOAT: a fixed-point number as floating point."""
+        """FLOAT: convert a fixed-point number to floating point."""
         return self.decimal(value, 0)
 
     @abstractmethod
     def to_integer(self, value: Number) -> int:
-        """FIX: the four digits just left of the point, with the sign (C26-5619 p. 21).  Raises Undecided."""
+        """FIX: return the four digits just left of the point, with the sign (C26-5619 p. 21).  May raise Undecided."""
 
     @abstractmethod
     def function(self, name: str, value: Number) -> tuple[Number, str]:
-        """SIN, COS, ATAN, EXP, LOG or SQRT, and the error code, if any.  Raises Undecided."""
+        """Return SIN, COS, ATAN, EXP, LOG or SQRT, and the error code or an empty string.  May raise Undecided."""
 
     @abstractmethod
     def power(self, base: Number, exponent: Number) -> tuple[Number, str]:
-        """``A ** B``, |A| ** B and F6 for a negative base, and the error code, if any.  Raises Undecided."""
+        """Return ``A ** B`` and the error code: |A| ** B and F6 for a negative base.  May raise Undecided."""
 
     @abstractmethod
     def integer_power(self, base: Number, count: int) -> tuple[Number, str]:
-        """``A ** J``, and the error code, if any.  Raises Undecided."""
+        """Return ``A ** J`` and the error code or an empty string.  May raise Undecided."""
 
     @abstractmethod
     def exact(self, value: Number, digits: int) -> Fraction | int | None:
-        """The value; of one that is irrational its first ``digits`` digits or more; None if it is not finite."""
+        """Return the value, an irrational one to at least ``digits`` digits, or None if it is not finite."""
 
     @abstractmethod
     def cut(self, value: Number, digits: int) -> tuple[int, int]:
-        """The first ``digits`` decimal digits, as mantissa and exponent of emulator/numbers/arithmetic.py.
+        """Truncate to ``digits`` decimal digits: mantissa and exponent as in emulator/numbers/arithmetic.py.
 
-        Raises Undecided for what is not finite.
+        Raise Undecided if the number is not finite.
         """
 
     def text(self, value: Number) -> str:
-        """The number for a reader, in decimal; dots after it where digits are left out."""
+        """Return the number in decimal, for a reader.  Dots follow it if digits are omitted."""
         exact = self.exact(value, SHOWN + 5)
         if exact is None:
             return str(value)
         mantissa, exponent = self.cut(value, SHOWN)
         if mantissa == 0:
             return "-0" if exponent == MINUS_ZERO else "0"
-        left_out = Fraction(mantissa) * Fraction(10) ** (exponent - SHOWN) != exact
-        return decimal_text(mantissa, exponent - SHOWN) + ("..." if left_out else "")
+        is_shortened = Fraction(mantissa) * Fraction(10) ** (exponent - SHOWN) != exact
+        return decimal_text(mantissa, exponent - SHOWN) + ("..." if is_shortened else "")
 
     def traced(self, value: Number) -> str:
-        """The number as a trace shows it."""
+        """Return the number as a trace shows it."""
         return self.text(value)
 
     @property
-    def weighs(self) -> bool:
-        """Whether an operation on FAC, a test or a card can take longer than with the decimal numbers."""
+    def is_costly(self) -> bool:
+        """True if an operation on FAC, a test or a card can take longer than with the decimal numbers."""
         return False
 
     def work(self, operation: str, first: Number, second: Number = 0) -> int:
-        """Steps an operation takes beyond that of a plain one, estimated (:mod:`emulator.numbers.work`).
+        """Return an estimate of the additional steps that an operation takes (:mod:`emulator.numbers.work`).
 
-        ``operation`` is ``add``, ``subtract``, ``multiply``, ``divide``, ``sign``, ``to_integer``, ``card``, a library
-        function's name, ``power`` or ``integer_power``; only for the last two and functions is it asked where the
-        numbers do not weigh.
+        ``operation`` is ``add``, ``subtract``, ``multiply``, ``divide``, ``sign``, ``to_integer``, ``card``, the name
+        of a library function, ``power`` or ``integer_power``.  For systems that are not costly only functions and
+        powers are estimated.
         """
         return 0
 
     @property
-    def announces(self) -> bool:
-        """Whether every error of the arithmetic types its code."""
+    def types_errors(self) -> bool:
+        """True if every error of the arithmetic types its code."""
         return False
 
     def read(self, field: Field, columns: str) -> tuple[Number, Remark | None]:
-        """A number from the columns of a field, all of its digits, and a remark or none.  Raises FieldError."""
+        """Read a number with all of its digits from the columns of a field, and a remark or None.  Raise FieldError."""
         digits = max(len(columns), 2)
-        found = read_floating(field, columns, cutting_rules(digits))
-        minus = found.exponent == MINUS_ZERO
-        return self.decimal(found.mantissa, found.exponent - digits if found.mantissa else 0, minus), found.remark
+        number = read_floating(field, columns, lossless_rules(digits))
+        minus = number.exponent == MINUS_ZERO
+        return self.decimal(number.mantissa, number.exponent - digits if number.mantissa else 0, minus), number.remark
 
     def constant(self, text: str) -> Number:
-        """A floating constant of the source.  Raises FieldError when it is out of range."""
+        """Return a floating constant of the source.  Raise FieldError if it is out of range."""
         return self.read(FALLBACK, text)[0]
 
     def write(self, field: Field, value: Number) -> tuple[str, bool]:
-        """The columns of a number, cut to the field's digits, and whether it overflowed to E14.8.
+        """Return the columns of a number, truncated to the digits of the field, and True if it overflowed to E14.8.
 
-        Raises Undecided for a number a card cannot hold, smaller than 1.E-100 or not smaller than 1.E+99.
+        Raise Undecided for a number that no card can hold: below 1.E-100, or 1.E+99 and above.
         """
         digits = max(field.width, FALLBACK.width)
         mantissa, exponent = self.cut(value, digits)
         if mantissa and not MIN_EXPONENT <= exponent <= MAX_EXPONENT:
             raise Undecided(f"{self.text(value)} is out of a card's range, E-99 to E+99")
-        return write_floating(field, mantissa, exponent, cutting_rules(digits))
+        return write_floating(field, mantissa, exponent, lossless_rules(digits))
 
 
 def cut_decimal(whole: int, power: int, digits: int) -> tuple[int, int]:
-    """``whole * 10**power`` cut to that many digits, as mantissa and exponent; a zero is (0, ZERO)."""
+    """Truncate ``whole * 10**power`` to the given digits.  Return mantissa and exponent, (0, ZERO) for zero."""
     if whole == 0:
         return 0, ZERO
     size = decimal_length(whole)
     shift = digits - size
-    kept = abs(whole) * 10**shift if shift >= 0 else abs(whole) // 10**-shift
-    return (kept if whole > 0 else -kept), size + power
+    mantissa = abs(whole) * 10**shift if shift >= 0 else abs(whole) // 10**-shift
+    return (mantissa if whole > 0 else -mantissa), size + power
 
 
 def decimal_text(whole: int, power: int) -> str:
-    """``whole * 10**power``, not zero: written out where that is short, else with an exponent."""
+    """Return ``whole * 10**power``, which is not zero, as text: written out if that is short, or with an exponent."""
     sign, digits = ("-" if whole < 0 else ""), str(abs(whole)).rstrip("0")
     point = decimal_length(whole) + power
     if 0 < point <= SHOWN:
@@ -207,8 +209,9 @@ def decimal_text(whole: int, power: int) -> str:
 
 
 def decimal_length(whole: int) -> int:
-    """How many decimal digits a whole number has; ``str`` refuses numbers of some thousands."""
+    """Return the number of decimal digits of an integer.  Unlike ``str`` it has no limit of some thousand digits."""
     size = abs(whole)
+    # Estimate from the bits (log10(2) = 0.30103), never too large, then correct upward.
     length = max(int(size.bit_length() * 0.30102999566398120) - 1, 1)
     while size >= 10**length:
         length += 1

@@ -1,10 +1,10 @@
 """``float64`` and ``float32``: IEEE 754 numbers, rounded to nearest.
 
-A decimal is taken as the nearest number (single: of the nearest double).  What overflows is an infinity and what
-is not a number (NaN) stays so, each noted with the 1620's error code; an IF cannot tell the sign of a NaN.
-On a card stands the shortest decimal that would be read back as the same number, cut to the field: .3 stays
-.30000000E+00 although the number held is a little smaller.  Single precision is double precision rounded after
-every operation, which for + - * / and SQRT is the correctly rounded result.
+A decimal is converted to the nearest number (for single precision, of the nearest double).  Overflow gives an infinity
+and an invalid operation gives NaN, each reported with the 1620's error code.  An IF cannot determine the sign of NaN.
+Output is the shortest decimal that reads back as the same number, truncated to the field, so .3 is punched as
+.30000000E+00 although the number held is slightly smaller.  Single precision is double precision rounded after every
+operation, which for + - * / and SQRT is the correctly rounded result.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ def _double(value: float) -> float:
 
 @dataclass(frozen=True)
 class FloatNumbers(Numbers):
-    """IEEE double or single, by name; every number is a Python float."""
+    """IEEE double or single precision, selected by name.  Every number is a Python float."""
 
     name_: str
 
@@ -174,7 +174,7 @@ class FloatNumbers(Numbers):
         return shown[:-2] if shown.endswith(".0") else shown
 
     def _shortest(self, value: float) -> str:
-        """The shortest decimal that is read back as the same number."""
+        """Return the shortest decimal that reads back as the same number."""
         if not self._single or value - value != 0:
             return repr(value)
         shorter = (float(f"{value:.{k}g}") for k in range(1, 18))

@@ -1,8 +1,7 @@
-"""Numbers to columns and back, as integers: the rules of emulator/numbers/fields.py on character codes.
+"""Conversion between numbers and card columns, on integers: the rules of emulator/numbers/fields.py.
 
-Columns are a mutable sequence of ASCII codes.  The functions use only what a compiler of integer loops accepts,
-like those of emulator/numbers/arithmetic.py, so that one source serves the plain and the compiled engine; what a status
-means in words is said in emulator/numbers/fields.py.
+Columns are a mutable sequence of ASCII codes.  The functions use only integers and loops, so that numba can compile
+them and the interpreter and the compiled engine share one source.  emulator/numbers/fields.py words the statuses.
 """
 
 from __future__ import annotations
@@ -12,23 +11,23 @@ from collections.abc import MutableSequence
 from emulator.numbers.arithmetic import MAX_EXPONENT, MIN_EXPONENT, MINUS_ZERO, ZERO, Rules
 
 BLANK, PLUS, MINUS, POINT, DIGIT, LETTER_E = 32, 43, 45, 46, 48, 69
-"""Codes of the characters of a number; DIGIT is that of 0."""
+"""ASCII codes of the characters of a number.  DIGIT is the code of 0."""
 
-# Statuses of a field read: errors below zero, warnings above; from CUT on, CUT + the number of digits.
+# The status of a field that was read: below zero an error, above zero a warning.  CUT + n: n digits, some of them lost.
 NO_NUMBER, OUT_OF_RANGE = -1, -2
 FINE, BLANK_FIELD, BLANKS_INSIDE, BLANKS_AS_ZEROS, FOUR_KEPT, CUT = range(6)
 
 E_COLUMNS, E_DECIMALS = 14, 8
-"""The field a number goes by that is too large for its own (C26-5619 p. 39-40)."""
+"""The field E14.8, used for a number that is too large for its own field (C26-5619 p. 39-40)."""
 
 
 def squeeze(columns: MutableSequence[int], width: int) -> tuple[int, int]:
-    """Move a number to the left end of its field and fill its blanks; its length and FINE or a warning.
+    """Move a number to the left end of its field and resolve its blanks.  Return its length, and FINE or a warning.
 
-    Leading blanks are nothing.  With a point or an E among them, trailing blanks are nothing too (after the
-    point they would change nothing, after an exponent they would multiply it by ten), and blanks inside are
-    zeros, or nothing where an exponent might be meant; a sign after the first character begins one as an E does.
-    Else blanks are zeros (OPEN-QUESTIONS 6).
+    Leading blanks are ignored.  If the field has a point or an exponent, trailing blanks are ignored too: after the
+    point they would change nothing, and after an exponent they would multiply it by ten.  Blanks inside such a number
+    are zeros, except where an exponent may be meant, where they are dropped.  A sign after the first character begins
+    an exponent as an E does.  In any other number blanks are zeros (OPEN-QUESTIONS 6).
     """
     first = 0
     while first < width and columns[first] == BLANK:
@@ -38,6 +37,7 @@ def squeeze(columns: MutableSequence[int], width: int) -> tuple[int, int]:
         end -= 1
     if first == end:
         return 0, BLANK_FIELD
+    # Find the point and the first and last character that may begin an exponent.
     point, first_e, last_e, blanks = width, width, -1, 0
     for k in range(first, end):
         c = columns[k]
@@ -54,10 +54,12 @@ def squeeze(columns: MutableSequence[int], width: int) -> tuple[int, int]:
     if point < width or last_e >= 0:
         if blanks:
             warning = BLANKS_INSIDE
+            # A blank after the first exponent mark, or between the point and the last one, may belong to the exponent.
             for k in range(first, end):
                 if columns[k] == BLANK and (k > first_e or point < k < last_e):
                     drop = True
     elif blanks or end < width:
+        # An integer: trailing blanks up to the field's end are zeros.
         warning = BLANKS_AS_ZEROS
         end = width
     length = 0
@@ -79,9 +81,9 @@ def is_digit(code: int) -> bool:
 
 
 def read_floating(columns: MutableSequence[int], width: int, decimals: int, rules: Rules) -> tuple[int, int, int]:
-    """Mantissa, exponent and status of an E or F field; the columns are squeezed.
+    """Read an E or F field.  Return mantissa, exponent and status.  The columns are squeezed in place.
 
-    Sign, digits with a point or none, and an exponent, whose E may be missing where it has a sign.
+    The field holds a sign, digits with or without a point, and an exponent, which may omit its E if it has a sign.
     """
     length, status = squeeze(columns, width)
     if length == 0:
@@ -90,6 +92,8 @@ def read_floating(columns: MutableSequence[int], width: int, decimals: int, rule
     negative = columns[0] == MINUS
     if negative or columns[0] == PLUS:
         k = 1
+    # The digits before the exponent.  ``lead`` counts the digits from the first one that is not zero, ``significant``
+    # those up to the last one that is not zero, and ``scale`` the digits after the point (-1 before a point is read).
     mantissa = 0
     lead, significant, digits, scale = 0, 0, 0, -1
     while k < length:
@@ -109,8 +113,10 @@ def read_floating(columns: MutableSequence[int], width: int, decimals: int, rule
         else:
             break
         k += 1
+    # A point on the card overrides the decimals of the FORMAT (C26-5619 p. 35-38).
     if scale < 0:
         scale = decimals
+    # The exponent: E with or without a sign, or a sign alone.
     power, power_digits = 0, 0
     below = False
     if k < length:
@@ -139,6 +145,7 @@ def read_floating(columns: MutableSequence[int], width: int, decimals: int, rule
         return 0, ZERO, OUT_OF_RANGE
     if lead == 0:
         return 0, (MINUS_ZERO if negative else ZERO), status
+    # The mantissa is a fraction whose first digit stands right after the point.
     exponent = lead - scale + (-power if below else power)
     if exponent < MIN_EXPONENT or exponent > MAX_EXPONENT:
         return 0, ZERO, OUT_OF_RANGE
@@ -151,7 +158,7 @@ def read_floating(columns: MutableSequence[int], width: int, decimals: int, rule
 
 
 def read_fixed(columns: MutableSequence[int], width: int) -> tuple[int, int]:
-    """Value, its last four digits with the sign, and status of an I field; the columns are squeezed."""
+    """Read an I field.  Return its last four digits with the sign, and the status.  The columns are squeezed."""
     length, status = squeeze(columns, width)
     if length == 0:
         return 0, status
@@ -177,13 +184,15 @@ def read_fixed(columns: MutableSequence[int], width: int) -> tuple[int, int]:
 def write_e(
     columns: MutableSequence[int], at: int, width: int, decimals: int, mantissa: int, exponent: int, rules: Rules
 ) -> int:
-    """Write an E field from column ``at`` on; the column after it, or -1 where the field cannot hold the number.
+    """Write an E field from column ``at`` on.  Return the column after it, or -1 if the field cannot hold the number.
 
-    Sign, digits, point, digits, E, sign, two digits: eight digits in fourteen columns or more, else w-6.
+    The field holds sign, digits, point, digits, E, sign and two digits.  A field of fourteen or more columns shows
+    eight digits, a narrower one its width less six (C26-5619 p. 39).
     """
     count = 8 if width >= E_COLUMNS else width - 6
     if count < 1 or decimals > count:
         return -1
+    # Ew.d has d digits after the point, and the rest before it, so the exponent shown is smaller by that number.
     left = count - decimals
     shown = ZERO if mantissa == 0 else exponent - left
     if shown < MIN_EXPONENT or shown > MAX_EXPONENT:
@@ -194,6 +203,7 @@ def write_e(
         columns[k] = BLANK
     if mantissa < 0 or exponent == MINUS_ZERO:
         columns[first - 1] = MINUS
+    # Truncate to the digits shown, then write them from right to left, with zeros after the last digit available.
     size = -mantissa if mantissa < 0 else mantissa
     have = rules.digits
     while have > count:
@@ -218,23 +228,24 @@ def write_e(
 def write_f(
     columns: MutableSequence[int], at: int, width: int, decimals: int, mantissa: int, exponent: int, rules: Rules
 ) -> int:
-    """Write an F field from column ``at`` on; the column after it, or -1 where the field cannot hold the number."""
+    """Write an F field from column ``at`` on.  Return the column after it, or -1 if the number does not fit."""
     minus = 1 if mantissa < 0 or exponent == MINUS_ZERO else 0
-    whole = exponent if mantissa != 0 and exponent > 0 else 0
-    # One column is the sign's, whether there is one or not (C26-5619 p. 39).
-    if 1 + whole + 1 + decimals > width:
+    integer_digits = exponent if mantissa != 0 and exponent > 0 else 0
+    # One column is reserved for the sign even if the number is positive (C26-5619 p. 39).
+    if 1 + integer_digits + 1 + decimals > width:
         return -1
     end = at + width
     point = end - decimals - 1
     for k in range(at, end):
         columns[k] = BLANK
     if minus:
-        columns[point - whole - 1] = MINUS
-    for k in range(point - whole, end):
+        columns[point - integer_digits - 1] = MINUS
+    for k in range(point - integer_digits, end):
         columns[k] = DIGIT
     columns[point] = POINT
     size = -mantissa if mantissa < 0 else mantissa
-    # The digit of 10**p stands p+1 columns left of the point, or -p right of it; the first one is of 10**(exponent-1).
+    # The digit for 10**p stands p+1 columns left of the point, or -p columns right of it if p is negative.  The first
+    # digit of the mantissa is that for 10**(exponent-1).  Digits beyond the decimals are not written: output truncates.
     for digit in range(rules.digits - 1, -1, -1):
         p = exponent - 1 - digit
         if -decimals <= p:
@@ -253,7 +264,7 @@ def write_floating(
     exponent: int,
     rules: Rules,
 ) -> tuple[int, int]:
-    """Write an E field (``lettered``) or an F field; the column after it, and 1 where it went by E14.8 instead."""
+    """Write an E field (``lettered``) or an F field.  Return the column after it, and 1 if it used E14.8 instead."""
     if lettered:
         end = write_e(columns, at, width, decimals, mantissa, exponent, rules)
     else:
@@ -264,12 +275,14 @@ def write_floating(
 
 
 def write_fixed(columns: MutableSequence[int], at: int, width: int, value: int) -> int:
-    """Write an I field: as many low-order digits as it has room for, right-justified, a minus sign before them."""
+    """Write an I field: the low-order digits that fit, right-justified, with a minus sign before them if negative."""
     size = -value if value < 0 else value
+    # A minus sign takes one column.  High-order digits that do not fit are lost (C26-5619 p. 38).
     room = width - 1 if value < 0 else width
     end = at + width
     for k in range(at, end):
         columns[k] = BLANK
+    # ``lead`` becomes the column of the first digit that is not a leading zero.
     lead = end if room == 0 else end - 1
     for k in range(end - 1, end - 1 - room, -1):
         digit = size % 10

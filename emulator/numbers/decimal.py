@@ -1,6 +1,6 @@
-"""The 1620's decimal numbers as a number system: a profile, whose rules are those of emulator/numbers/accumulator.py.
+"""The 1620's decimal numbers as a number system over the rules of emulator/numbers/accumulator.py.
 
-A number is the pair (mantissa, exponent) of emulator/numbers/arithmetic.py.
+A number is the pair (mantissa, exponent) that emulator/numbers/arithmetic.py defines.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ Pair = tuple[int, int]
 
 @dataclass(frozen=True)
 class DecimalNumbers(Numbers):
-    """The numbers of a profile."""
+    """The numbers of a decimal profile."""
 
     profile: Profile
 
@@ -77,13 +77,13 @@ class DecimalNumbers(Numbers):
         return arithmetic.to_integer(*value, self._rules)
 
     def function(self, name: str, value: Pair) -> tuple[Pair, str]:
-        return _given(functions.function(name, *value, self._rules))
+        return _unpacked(functions.function(name, *value, self._rules))
 
     def power(self, base: Pair, exponent: Pair) -> tuple[Pair, str]:
-        return _given(functions.power(base, exponent, self._rules))
+        return _unpacked(functions.power(base, exponent, self._rules))
 
     def integer_power(self, base: Pair, count: int) -> tuple[Pair, str]:
-        return _given(functions.integer_power(*base, count, self._rules))
+        return _unpacked(functions.integer_power(*base, count, self._rules))
 
     def work(self, operation: str, first: Any, second: Any = 0) -> int:
         if operation == "integer_power":
@@ -106,16 +106,16 @@ class DecimalNumbers(Numbers):
         return write_floating(FALLBACK, *value, self._rules)[0].strip()
 
     @property
-    def announces(self) -> bool:
-        return self.profile.announces
+    def types_errors(self) -> bool:
+        return self.profile.types_errors
 
     def read(self, field: Field, columns: str) -> tuple[Pair, Remark | None]:
-        found = read_floating(field, columns, self._rules)
-        return (found.mantissa, found.exponent), found.remark
+        field_read = read_floating(field, columns, self._rules)
+        return (field_read.mantissa, field_read.exponent), field_read.remark
 
     def write(self, field: Field, value: Pair) -> tuple[str, bool]:
         return write_floating(field, *value, self._rules)
 
 
-def _given(value: functions.Value) -> tuple[Pair, str]:
+def _unpacked(value: functions.Value) -> tuple[Pair, str]:
     return (value.mantissa, value.exponent), value.code

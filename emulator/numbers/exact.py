@@ -1,8 +1,8 @@
-"""``exact``: rational numbers, and sums of square roots of rational numbers; nothing is ever rounded.
+"""``exact``: rational numbers and sums of square roots of rational numbers, without any rounding.
 
-A number is an int, a Fraction or a RootSum.  ``+ - *``, division by a number that is rational or a sum of two
-roots, SQRT of a rational number, whole powers and the few values of the other functions that are rational are
-exact.  Everything else cannot be held, and the run ends there.  The signs of zeros are the 1620's.
+A number is an int, a Fraction or a RootSum.  ``+ - *``, division by a rational number or by a sum of two roots, SQRT of
+a rational number, integer powers, and the few rational values of the other functions are exact.  Any other operation
+ends the run.  Zeros have signs as on the 1620.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ Exact = Rational | RootSum
 
 
 class _SignedZero(int):
-    """Zero with a minus sign: whatever is computed from it but a reversal of sign gives a plain number."""
+    """Zero with a minus sign.  Every operation on it except a reversal of sign gives a plain number."""
 
 
 _MINUS = _SignedZero(0)
 
 MAX_BITS = 100_000
-"""No number stored is longer than this, its parts together: a program that squares in a loop would fill the memory."""
+"""The longest number that may be stored, all parts together: repeated squaring would otherwise fill the memory."""
 
 _TOO_LONG = f"exact arithmetic does not hold a number of more than {MAX_BITS} bits"
 
@@ -66,10 +66,10 @@ class ExactNumbers(Numbers):
             if isinstance(dividend, RootSum):
                 return dividend * (1 / Fraction(divisor))
             return _lowest(Fraction(dividend) / divisor)
-        found = quotient(dividend, divisor)
-        if found is None:
+        result = quotient(dividend, divisor)
+        if result is None:
             raise Undecided(f"exact arithmetic cannot divide by a sum of {len(divisor.terms)} square roots")
-        return found
+        return result
 
     def negate(self, value: Exact) -> Exact:
         return -value if value else 0 if value is _MINUS else _MINUS
@@ -86,7 +86,7 @@ class ExactNumbers(Numbers):
         return value
 
     @property
-    def weighs(self) -> bool:
+    def is_costly(self) -> bool:
         return True
 
     def work(self, operation: str, first: Exact, second: Exact = 0) -> int:
@@ -104,7 +104,7 @@ class ExactNumbers(Numbers):
             return work.fractions(a, b)
         if operation == "SQRT":
             return 5 + work.quotient(2 * a, 2 * a)
-        # A test looks at the sign alone; the whole part and a card take a division.
+        # A test needs the sign alone.  The integer part and a card need a division.
         return 0 if operation == "sign" else 2 + 4 * work.product(a, a) + work.quotient(a, a)
 
     def to_integer(self, value: Exact) -> int:
@@ -119,10 +119,10 @@ class ExactNumbers(Numbers):
             return square_root(-value if value < 0 else value), ""
         if name == "LOG" and self.sign(value) < 0:
             return self.function("LOG", -value)[0], "F3"
-        known = None if isinstance(value, RootSum) else _KNOWN.get((name, value))
-        if known is None:
+        result = None if isinstance(value, RootSum) else _KNOWN.get((name, value))
+        if result is None:
             raise Undecided(f"exact arithmetic cannot hold {name} of {self.text(value)}")
-        return known, ""
+        return result, ""
 
     def power(self, base: Exact, exponent: Exact) -> tuple[Exact, str]:
         if isinstance(exponent, RootSum) or exponent.denominator != 1:
@@ -135,6 +135,7 @@ class ExactNumbers(Numbers):
             return (base if count % 2 else 1), ""
         if _too_long(base, count):
             raise Undecided(_TOO_LONG)
+        # Square and multiply, from the highest bit of the exponent down.
         result: Exact = 1
         for bit in bin(abs(count))[2:] if base else ("1" if count else ""):
             result = self.checked(result * result * base if bit == "1" else result * result)
@@ -151,19 +152,20 @@ class ExactNumbers(Numbers):
             return 0, MINUS_ZERO if value is _MINUS else ZERO
         size, scale = self._size(value), 0
         if isinstance(size, RootSum):
+            # Find a power of ten that makes the number at least 1, so that the next digits are significant.
             while not size.floor(10**scale):
                 scale = 2 * scale or digits
             whole = size.floor(10 ** (scale + digits))
             mantissa, exponent = cut_decimal(whole, -scale - digits, digits)
         else:
-            # A quotient of so many digits has at least one digit more than are kept.
+            # A quotient scaled by this power of ten has at least one digit more than needed.
             scale = max(decimal_length(size.denominator) - decimal_length(size.numerator) + digits + 1, 0)
             mantissa, exponent = cut_decimal(size.numerator * 10**scale // size.denominator, -scale, digits)
         return (mantissa if self.sign(value) > 0 else -mantissa), exponent
 
 
 def _too_long(base: Exact, count: int) -> bool:
-    """Whether a power of a rational number is surely not held: a part of n bits is at least 2 to the n - 1."""
+    """Return True if a power of a rational number is certainly too long: a part of n bits is at least 2**(n - 1)."""
     return not isinstance(base, RootSum) and (_longest(base) - 1) * abs(count) > MAX_BITS
 
 
@@ -172,32 +174,33 @@ def _parts(value: Exact) -> tuple[tuple[int, Rational], ...]:
 
 
 def _length(value: Exact) -> int:
-    """All bits of a number's parts."""
+    """Return the number of bits of all parts of a number."""
     return sum(n.bit_length() + c.numerator.bit_length() + c.denominator.bit_length() for n, c in _parts(value))
 
 
 def _longest(value: Exact) -> int:
-    """The bits of a number's longest numerator or denominator."""
+    """Return the number of bits of the longest numerator or denominator."""
     return max(max(c.numerator.bit_length(), c.denominator.bit_length()) for _, c in _parts(value))
 
 
 def _root_steps(operation: str, first: Exact, second: Exact) -> int:
-    """Steps of an operation with a sum of roots: each term with each other, and each with all that are kept."""
-    a, b, left, right = _longest(first), _longest(second), len(_parts(first)), len(_parts(second))
+    """Return the steps of an operation with a sum of roots: every pair of terms, compared with every kind of root."""
+    a, b, terms_first, terms_second = _longest(first), _longest(second), len(_parts(first)), len(_parts(second))
     radicands = [n.bit_length() for n, _ in (*_parts(first), *_parts(second))]
+    # Finding the kind of a term takes one integer square root per root that the sum already has.
     roots = 2 + work.quotient(2 * max(radicands), 2 * max(radicands))
     if operation in ("add", "subtract"):
-        return (left + right) * (left + right) * roots + left * work.fractions(a, b)
+        return (terms_first + terms_second) ** 2 * roots + terms_first * work.fractions(a, b)
     if operation in ("multiply", "divide"):
-        terms, times = left * right, (1 if operation == "multiply" else 6)
+        terms, times = terms_first * terms_second, (1 if operation == "multiply" else 6)
         return times * terms * (min(terms, MAX_ROOTS) * roots + work.fractions(times * a, times * b))
-    # Signs, whole parts and digits come from bounds of twice the coefficients' length and more.
+    # Signs, integer parts and digits come from bounds with more than twice the length of the coefficients.
     bits = 2 * a + 2 * max(radicands) + 64
-    return left * (3 + work.quotient(2 * bits, bits)) * (6 if operation in ("card", "to_integer") else 1)
+    return terms_first * (3 + work.quotient(2 * bits, bits)) * (6 if operation in ("card", "to_integer") else 1)
 
 
 def _power_steps(base: Exact, count: int) -> int:
-    """Steps of a power by squaring, whose last products are the longest; none stored is longer than MAX_BITS."""
+    """Return the steps of a power by squaring.  Its last products are the longest, at most twice MAX_BITS."""
     bits = min(_longest(base) * abs(count), 2 * MAX_BITS)
     if base in (0, 1, -1) or _too_long(base, count):
         return 0
@@ -214,5 +217,5 @@ def _floor(value: Exact) -> int:
 
 
 def _lowest(value: Fraction) -> Rational:
-    """An int where the number is whole: ints are quicker."""
+    """Return an int if the number is an integer, because ints are faster."""
     return value.numerator if value.denominator == 1 else value

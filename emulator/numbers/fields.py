@@ -1,10 +1,10 @@
-"""Numbers to columns and back: the E, F and I fields of a FORMAT.
+"""The E, F and I fields of a FORMAT: conversion between numbers and the text of card columns.
 
-Output (C26-5619 p. 38-40): E cuts, never rounds; a field too small for its number falls back to E14.8; an I
-field loses high-order digits.  Input (p. 14, 35-38): a punched point
-overrides the FORMAT's; digits beyond the profile's are cut; a minus zero keeps its sign (thesis p. 109, the
-last line of example 4).  Blanks: OPEN-QUESTIONS 6.  The work is done on character codes, in
-emulator/numbers/columns.py; here are texts and words.
+Output (C26-5619 p. 38-40): an E field truncates and never rounds, a number too large for its field is written as E14.8,
+and an I field loses high-order digits.  Input (p. 14, 35-38): a punched point overrides that of the FORMAT, digits
+beyond those of the profile are truncated, and a minus zero keeps its sign (thesis p. 109, last line of example 4).  The
+interpretation of blanks is OPEN-QUESTIONS 6.  emulator/numbers/columns.py does the conversion on character codes.  This
+module provides strings and messages.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ FieldKind = Literal["E", "F", "I"]
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """``Iw``, ``Fw.d`` or ``Ew.d``: one number."""
+    """A field for one number: ``Iw``, ``Fw.d`` or ``Ew.d``."""
 
     kind: FieldKind
     width: int
@@ -41,32 +41,32 @@ _REMARKS = {
 
 @dataclass(frozen=True, slots=True)
 class Remark:
-    """What a user should know of a number that was read; ``status`` is one of emulator/numbers/columns.py.
+    """A warning about a number that was read.  ``status`` is defined in emulator/numbers/columns.py.
 
-    Of a number with too many digits, ``digits`` and ``kept`` count them, or ``text`` is the whole number cut to four.
+    For a number with too many digits, ``digits`` and ``digits_kept`` count them, or ``text`` is the integer as punched.
     """
 
     status: int
     digits: int = 0
-    kept: int = 0
+    digits_kept: int = 0
     text: str = ""
 
     @property
-    def words(self) -> str:
+    def message(self) -> str:
         if self.status == columns.CUT:
-            return f"{self.digits} digits; those beyond {self.kept} are cut"
+            return f"{self.digits} digits; those after the first {self.digits_kept} are dropped"
         if self.status == columns.FOUR_KEPT:
             return f"{self.text} has more than four digits; the last four are kept"
         return _REMARKS[self.status]
 
 
 class FieldError(ValueError):
-    """A field that holds no number, or one out of range."""
+    """An input field without a valid number, or with a number out of range."""
 
 
 @dataclass(frozen=True, slots=True)
-class Read:
-    """A number read: mantissa and exponent (a fixed-point value and 0), and what there is to remark."""
+class FieldNumber:
+    """A number that was read: mantissa and exponent (value and 0 for fixed point), and a remark or None."""
 
     mantissa: int
     exponent: int
@@ -74,9 +74,9 @@ class Read:
 
 
 def write_floating(field: Field, mantissa: int, exponent: int, rules: Rules) -> tuple[str, bool]:
-    """The columns of a number in an E or F field, and whether it overflowed to E14.8.
+    """Return the columns of a number in an E or F field, and True if it was written as E14.8 instead.
 
-    Raises FieldError for an undefined number.
+    Raise FieldError for an undefined number.
     """
     if exponent == UNDEFINED:
         raise FieldError("an undefined number cannot be written")
@@ -88,38 +88,38 @@ def write_floating(field: Field, mantissa: int, exponent: int, rules: Rules) -> 
 
 
 def write_fixed(field: Field, value: int) -> str:
-    """The columns of a fixed-point number in an I field: right-justified, a minus sign before the first digit.
+    """Return the columns of a number in an I field, right-justified with a minus sign before its first digit.
 
-    High-order digits that do not fit are lost without notice (p. 38).  Only a negative number uses up a
-    position for the sign: OPEN-QUESTIONS 7.
+    High-order digits that do not fit are lost without notice (p. 38).  Only a negative number needs a column for its
+    sign (OPEN-QUESTIONS 7).
     """
     codes = bytearray(field.width)
     columns.write_fixed(codes, 0, field.width, value)
     return codes.decode("ascii")
 
 
-def read_floating(field: Field, text: str, rules: Rules) -> Read:
-    """A number from the columns of an E or F field.  Raises FieldError."""
+def read_floating(field: Field, text: str, rules: Rules) -> FieldNumber:
+    """Read a number from the columns of an E or F field.  Raise FieldError if it is invalid."""
     codes = bytearray(text.encode("ascii", "replace"))
     mantissa, exponent, status = columns.read_floating(codes, len(codes), field.decimals, rules)
     if status == columns.NO_NUMBER:
         raise FieldError(f"{text.strip()!r} is not a number")
     if status == columns.OUT_OF_RANGE:
-        raise FieldError(f"{text.strip()[:40]!r} is out of range: the exponent is -99 to 99")
+        raise FieldError(f"{text.strip()[:40]!r} is out of range: the exponent must be -99 to 99")
     if status >= columns.CUT:
-        return Read(mantissa, exponent, Remark(columns.CUT, status - columns.CUT, rules.digits))
-    return Read(mantissa, exponent, _remark(status))
+        return FieldNumber(mantissa, exponent, Remark(columns.CUT, status - columns.CUT, rules.digits))
+    return FieldNumber(mantissa, exponent, _remark(status))
 
 
-def read_fixed(text: str) -> Read:
-    """A fixed-point number from the columns of an I field.  Raises FieldError."""
+def read_fixed(text: str) -> FieldNumber:
+    """Read a fixed-point number from the columns of an I field.  Raise FieldError if it is invalid."""
     codes = bytearray(text.encode("ascii", "replace"))
     value, status = columns.read_fixed(codes, len(codes))
     if status == columns.NO_NUMBER:
-        raise FieldError(f"{text.strip()!r} is not a whole number")
+        raise FieldError(f"{text.strip()!r} is not an integer")
     if status == columns.FOUR_KEPT:
-        return Read(value, 0, Remark(status, text=codes.decode("ascii").rstrip(" ")))
-    return Read(value, 0, _remark(status))
+        return FieldNumber(value, 0, Remark(status, text=codes.decode("ascii").rstrip(" ")))
+    return FieldNumber(value, 0, _remark(status))
 
 
 def _remark(status: int) -> Remark | None:
@@ -127,6 +127,6 @@ def _remark(status: int) -> Remark | None:
 
 
 def parse_constant(text: str, rules: Rules) -> tuple[int, int]:
-    """A floating constant of the source, e.g. ``-1.E-3``.  Raises FieldError when it is out of range."""
+    """Return a floating constant of the source, e.g. ``-1.E-3``.  Raise FieldError if it is out of range."""
     number = read_floating(FALLBACK, text, rules)
     return number.mantissa, number.exponent

@@ -1,8 +1,9 @@
-"""Library functions and powers: the exact value, cut to the profile's digits (rounded where products are rounded).
+"""Library functions and powers: the exact value, truncated to the profile's digits, or rounded if products are rounded.
 
-SIN, COS, ATAN, EXP, LOG, SQRT: C26-5619 p. 63, 66.  That the result is the exact one cut is executed for
-SQRT and a choice for the others (OPEN-QUESTIONS 9); what is typed and delivered for impossible arguments
-follows GOTRAN's table F1 to F6 (C26-5594 p. 28) and IBM FORTRAN II-D for SQRT of a negative number.
+SIN, COS, ATAN, EXP, LOG and SQRT are described in C26-5619 p. 63 and 66.  That the result is the exact value truncated
+was observed for SQRT by executing IBM's code, and is an assumption for the others (OPEN-QUESTIONS 9).  Error codes and
+results for invalid arguments follow GOTRAN's table F1 to F6 (C26-5594 p. 28), and IBM FORTRAN II-D for SQRT of a
+negative number.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ from emulator.numbers.base import cut_decimal, decimal_length
 
 @dataclass(frozen=True, slots=True)
 class Value:
-    """A function's result and the error code typed for it, if any ("F1" to "F6", "E3", ...)."""
+    """The result of a function, and the error code that is typed ("F1" to "F6", "E3" and so on) or an empty string."""
 
     mantissa: int
     exponent: int
@@ -38,7 +39,7 @@ class Value:
 
 @lru_cache(maxsize=4096)
 def function(name: str, mantissa: int, exponent: int, rules: Rules) -> Value:
-    """SIN, COS, ATAN, EXP, LOG or SQRT of a number."""
+    """Return SIN, COS, ATAN, EXP, LOG or SQRT of a number."""
     if name == "SQRT":
         return _sqrt(mantissa, exponent, rules)
     if mantissa == 0:
@@ -55,9 +56,9 @@ def function(name: str, mantissa: int, exponent: int, rules: Rules) -> Value:
 
 @lru_cache(maxsize=4096)
 def power(base: tuple[int, int], exponent: tuple[int, int], rules: Rules) -> Value:
-    """``A ** B`` with a floating exponent; |A| ** B and F6 for a negative base, as GOTRAN does.
+    """Return ``A ** B`` with a floating exponent, and |A| ** B with code F6 for a negative base, as GOTRAN does.
 
-    Powers of zero are those of ``A ** J``: OPEN-QUESTIONS 8.
+    Powers of zero are those of ``A ** J`` (OPEN-QUESTIONS 8).
     """
     (mb, eb), (mx, ex) = base, exponent
     if mb == 0:
@@ -69,13 +70,14 @@ def power(base: tuple[int, int], exponent: tuple[int, int], rules: Rules) -> Val
 
 
 def integer_power(mantissa: int, exponent: int, count: int, rules: Rules) -> Value:
-    """``A ** J``: the exact power cut, or multiplied out where the profile says so (OPEN-QUESTIONS 8)."""
+    """Return ``A ** J``: the exact power truncated, or a chain of products in some profiles (OPEN-QUESTIONS 8)."""
     if mantissa == 0 or -1 <= count <= 2 or rules.powers_multiply:
         m, e, code = whole_power(mantissa, exponent, count, rules)
         return Value(m, e, f"E{code}" if code else "")
     size, times = abs(mantissa), abs(count)
     minus = mantissa < 0 and times % 2 == 1
-    far = _far(size, exponent, count, rules)
+    # A power far out of range may have a million digits, so it is not computed.
+    far = _out_of_range(size, exponent, count, rules)
     if far > 0:
         m, e = 1, MAX_EXPONENT + 1
     elif far < 0:
@@ -87,35 +89,31 @@ def integer_power(mantissa: int, exponent: int, count: int, rules: Rules) -> Val
 
 
 def integer_power_steps(mantissa: int, exponent: int, count: int, rules: Rules) -> int:
-    """Steps of :func:`integer_power` (:mod:`emulator.numbers.work`)."""
+    """Return the estimated steps of :func:`integer_power` (:mod:`emulator.numbers.work`)."""
     if mantissa == 0 or -1 <= count <= 2:
         return 0
     if rules.powers_multiply:
         return work.multiplied(count)
-    if _far(abs(mantissa), exponent, count, rules):
+    if _out_of_range(abs(mantissa), exponent, count, rules):
         return 0
     bits = mantissa.bit_length() * abs(count)
     return work.product(bits, bits)
 
 
-def _far(size: int, exponent: int, count: int, rules: Rules) -> int:
-    """1 for a power far beyond the largest number, -1 for one far below the least: it may have a million digits."""
+def _out_of_range(size: int, exponent: int, count: int, rules: Rules) -> int:
+    """Return 1 for a power far above the largest number, -1 for one far below the smallest, else 0."""
     decades = count * (math.log10(size) + exponent - rules.digits)
     return (decades > MAX_EXPONENT + 1) - (decades < MIN_EXPONENT - 2)
 
 
 def _exact_power(size: int, power_of_ten: int, count: int, rules: Rules) -> tuple[int, int]:
-    """``(size * 10**power_of_ten) ** count`` cut to the digits of the rules, or rounded where products are."""
+    """Return ``(size * 10**power_of_ten) ** count``, truncated or rounded to the digits of the rules."""
     whole, scale = size ** abs(count), power_of_ten * abs(count)
     if count < 0:
-        # So many digits of the reciprocal that its cut is the exact one's: a quotient's further digits are lost.
-        more = decimal_length(whole) + rules.digits + 1
-        whole, scale = 10**more // whole, -scale - more
-    kept, exponent = cut_decimal(whole, scale, rules.digits + 1)
-    kept, last = divmod(kept, 10)
-    if rules.round_products and last >= 5:
-        kept += 1
-    return (kept // 10, exponent + 1) if kept >= rules.limit else (kept, exponent)
+        # A reciprocal may have endless digits.  P + 2 of them determine its first P + 1, which _cut needs.
+        digits = decimal_length(whole) + rules.digits + 1
+        whole, scale = 10**digits // whole, -scale - digits
+    return _cut(whole, scale, rules)
 
 
 def _sqrt(mantissa: int, exponent: int, rules: Rules) -> Value:
@@ -134,7 +132,7 @@ def _transcendental(name: str, mantissa: int, exponent: int, rules: Rules) -> Va
     def compute(context: Any) -> Any:
         return getattr(context, name.lower())(context.mpf(mantissa) * context.mpf(10) ** (exponent - rules.digits))
 
-    # The digits before the point are lost when an angle is reduced.
+    # Reducing a large angle loses as many digits as it has before the point.
     return _cut_value(compute, rules, max(exponent, 0) if name in ("SIN", "COS") else 0)
 
 
@@ -143,6 +141,7 @@ def _power(mb: int, eb: int, mx: int, ex: int, rules: Rules) -> Value:
         log = context.log(context.mpf(mb) * context.mpf(10) ** (eb - rules.digits))
         return log * context.mpf(mx) * context.mpf(10) ** (ex - rules.digits)
 
+    # Decide overflow and underflow before the exponential is computed.
     rough = logarithm(_context(30))
     if abs(rough) > 1000:
         return Value(rules.limit - 1, MAX_EXPONENT, "F4") if rough > 0 else Value(0, ZERO, "F5")
@@ -151,7 +150,7 @@ def _power(mb: int, eb: int, mx: int, ex: int, rules: Rules) -> Value:
 
 @lru_cache(maxsize=256)
 def _context(digits: int) -> Any:
-    from mpmath import MPContext  # imported late: most programs use none of these functions
+    from mpmath import MPContext  # imported here because most programs use none of these functions
 
     context = MPContext()
     context.dps = digits
@@ -159,7 +158,11 @@ def _context(digits: int) -> Any:
 
 
 def _cut_value(compute: Callable[[Any], Any], rules: Rules, more: int) -> Value:
-    """The value cut to P digits, computed with more and more digits until the cut is certain."""
+    """Compute a value with increasing precision until its first P digits are certain (Ziv's strategy).
+
+    ``more`` is the number of digits that the computation itself loses.  A value that is still undecided after 200 extra
+    digits is taken as exactly a P-digit number.
+    """
     extra = 15
     while True:
         context = _context(rules.digits + extra + more)
@@ -173,7 +176,7 @@ def _cut_value(compute: Callable[[Any], Any], rules: Rules, more: int) -> Value:
 
 
 def _digits(value: Any, context: Any) -> tuple[int, int]:
-    """An mpf as a whole number of many digits and a power of ten."""
+    """Return an mpf as an integer of many digits and a power of ten."""
     text = context.nstr(value, context.dps, strip_zeros=False, min_fixed=1, max_fixed=0)
     body, _, power_text = text.partition("e")
     sign = -1 if body.startswith("-") else 1
@@ -182,11 +185,12 @@ def _digits(value: Any, context: Any) -> tuple[int, int]:
 
 
 def _cut_exactly(context: Any, value: Any, rules: Rules) -> tuple[int, int] | None:
-    """The value cut to P digits, or None when the digits after those are all nines or all zeros (too close to say)."""
+    """Return the value with P digits, or None if the next digits are all nines or all zeros and decide nothing."""
     if not value:
         return 0, ZERO
     number, power_of_ten = _digits(value, context)
     text = str(abs(number))
+    # The last six digits may be wrong, so they do not count.
     tail = text[rules.digits : -6]
     if tail.strip("0") == "" or tail.strip("9") == "":
         return None
@@ -194,25 +198,25 @@ def _cut_exactly(context: Any, value: Any, rules: Rules) -> tuple[int, int] | No
 
 
 def _nearest(context: Any, value: Any, rules: Rules) -> tuple[int, int]:
-    """For a value that is exactly (or within 10**-200 of) a P-digit number: that number."""
+    """Return the P-digit number that a value equals to within 10**-200."""
     number, power_of_ten = _digits(value, context)
     text = str(abs(number))
     exponent = power_of_ten + len(text)
-    kept = int(text[: rules.digits]) + (text[rules.digits] == "9")
-    if kept >= rules.limit:
-        kept, exponent = kept // 10, exponent + 1
-    return (kept if number > 0 else -kept), exponent
+    mantissa = int(text[: rules.digits]) + (text[rules.digits] == "9")
+    if mantissa >= rules.limit:
+        mantissa, exponent = mantissa // 10, exponent + 1
+    return (mantissa if number > 0 else -mantissa), exponent
 
 
-def _cut(size: int, power_of_ten: int, rules: Rules) -> tuple[int, int]:
-    """A whole number of more than P digits times a power of ten: cut to P, or rounded where products are."""
-    text = str(abs(size))
-    kept, exponent = int(text[: rules.digits]), power_of_ten + len(text)
-    if rules.round_products and text[rules.digits] >= "5":
-        kept += 1
-    if kept >= rules.limit:
-        kept, exponent = kept // 10, exponent + 1
-    return (kept if size > 0 else -kept), exponent
+def _cut(number: int, power_of_ten: int, rules: Rules) -> tuple[int, int]:
+    """Return ``number * 10**power_of_ten`` with P digits, truncated, or rounded half up if products are rounded."""
+    mantissa, exponent = cut_decimal(abs(number), power_of_ten, rules.digits + 1)
+    mantissa, last_digit = divmod(mantissa, 10)
+    if rules.round_products and last_digit >= 5:
+        mantissa += 1
+    if mantissa >= rules.limit:
+        mantissa, exponent = mantissa // 10, exponent + 1
+    return (mantissa if number > 0 else -mantissa), exponent
 
 
 def _in_range(mantissa: int, exponent: int, rules: Rules, over: str, under: str) -> Value:

@@ -1,7 +1,7 @@
-"""``mp:BITS``: binary floating point of any number of bits, rounded to nearest, by mpmath.
+"""``mp:BITS``: binary floating point with any number of bits, rounded to nearest, computed by mpmath.
 
-Exponents go from -100,000 to 100,000 (powers of two); beyond, a number overflows to an infinity or underflows to
-zero, noted with the 1620's error code.  Input and cards: as with the other binary numbers (:mod:`.binary`).
+Binary exponents range from -100,000 to 100,000.  A number beyond overflows to an infinity or underflows to zero, with
+the 1620's error code.  Input and output are those of the other binary numbers (:mod:`.binary`).
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ MAX_POWER = 100_000
 
 @dataclass(frozen=True)
 class MultiprecisionNumbers(Numbers):
-    """Numbers of ``bits`` bits, objects of an mpmath context of their own."""
+    """Numbers with ``bits`` bits: objects of a separate mpmath context."""
 
     bits: int
 
@@ -51,7 +51,7 @@ class MultiprecisionNumbers(Numbers):
         return self.nearest(whole * 10**power, 1) if power >= 0 else self.nearest(whole, 10**-power)
 
     def nearest(self, over: int, under: int) -> Any:
-        """The number nearest to a fraction."""
+        """Return the number nearest to a fraction."""
         return self._context.make_mpf(from_rational(over, under, self.bits, round_nearest))
 
     def add(self, first: Any, second: Any) -> Any:
@@ -104,7 +104,7 @@ class MultiprecisionNumbers(Numbers):
         return getattr(context, name.lower())(value), ""
 
     def _exponential(self, value: Any) -> tuple[Any, str]:
-        """EXP, kept from computing what cannot be in range."""
+        """Return EXP, without computing values that are far out of range."""
         if value > MAX_POWER:
             return self._infinity, "F4"
         if value < -MAX_POWER:
@@ -137,7 +137,7 @@ class MultiprecisionNumbers(Numbers):
         return self._coded(base**count, "E3", "E4")
 
     @property
-    def weighs(self) -> bool:
+    def is_costly(self) -> bool:
         return True
 
     def work(self, operation: str, first: Any, second: Any = 0) -> int:
@@ -153,7 +153,7 @@ class MultiprecisionNumbers(Numbers):
             return least + (work.quotient(bits, bits) if second < 0 else 0)
         if operation in ("add", "subtract", "sign", "to_integer"):
             return 3 + bits // 5000
-        # Digits before the point are lost when an angle is reduced; all of a number beyond or below 1 are put out.
+        # Reducing an angle loses the digits before its point, and a card needs all digits of a large or small number.
         _, mantissa, exponent, size = first._mpf_
         reach = abs(int(exponent + size)) if mantissa else 0
         if operation == "card":
@@ -182,8 +182,8 @@ class MultiprecisionNumbers(Numbers):
         return super().text(value)
 
     def _shortest(self, value: Any, exact: Fraction | int) -> tuple[int, int]:
-        """The shortest decimal that is read back as the same number: a whole number and a power of ten."""
-        # Every decimal of so many digits is read back; fewer by two, as the length is known but for one.
+        """Return the shortest decimal that reads back as the same number: an integer and a power of ten."""
+        # Start two digits below the precision: a decimal with more digits always reads back as the same number.
         least = max(int(self.digits) - 2, 1)
         lead = decimal_length(exact.numerator) - decimal_length(exact.denominator)
         while True:

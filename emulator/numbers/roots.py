@@ -1,10 +1,10 @@
-"""Sums of square roots, exactly: ``c1*sqrt(n1) + c2*sqrt(n2) + ...`` with rational c and whole n.
+"""Exact sums of square roots: ``c1*sqrt(n1) + c2*sqrt(n2) + ...`` with rational c and integer n.
 
-Two roots belong together when the product of their radicands is a square: then sqrt(m) is a rational multiple of
-sqrt(n).  A sum is kept with one root of each kind, and roots of different kinds are linearly independent over
-the rationals (A. Besicovitch, On the linear independence of fractional powers of integers, J. London Math. Soc.
-15 (1940) 3-6), so a sum is zero just when no term is left.  The sign of a sum that is not zero is found by bounds
-in whole numbers, doubled in length until both lie on one side.
+Two roots are of the same kind if the product of their radicands is a square, because sqrt(m) is then a rational
+multiple of sqrt(n).  A sum keeps one root of each kind.  Roots of different kinds are linearly independent over the
+rationals (A. Besicovitch, On the linear independence of fractional powers of integers, J. London Math. Soc. 15 (1940)
+3-6), so a sum is zero if and only if no term remains.  The sign of a sum that is not zero follows from integer bounds
+whose length is doubled until both have the same sign.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ _FIRST_BITS = 64
 
 @dataclass(frozen=True, slots=True)
 class RootSum:
-    """A number that is irrational: terms (radicand, coefficient), radicand 1 for the rational part, never alone."""
+    """An irrational number as terms (radicand, coefficient).  The rational part, if any, has radicand 1."""
 
     terms: tuple[tuple[int, Rational], ...]
 
@@ -50,7 +50,7 @@ class RootSum:
         return -self if self.sign() < 0 else self
 
     def sign(self) -> int:
-        """-1 or 1; a sum of roots with a term left is not zero."""
+        """Return -1 or 1.  A sum of roots with a term is never zero."""
         bits = _FIRST_BITS
         while True:
             low = self._low(bits)
@@ -61,20 +61,22 @@ class RootSum:
             bits *= 2
 
     def _low(self, bits: int) -> int:
-        """A whole number L with ``L <= value * 2**bits <= L + number of terms``."""
+        """Return an integer L such that ``L <= value * 2**bits <= L + number of terms``."""
         total = 0
         for radicand, coefficient in self.terms:
+            # Each term is rounded down: its integer square root if positive, one less than the negative root else.
             over, under = coefficient.numerator, coefficient.denominator
             size = isqrt((over * over * radicand << 2 * bits) // (under * under))
             total += size if over > 0 else -size - 1
         return total
 
     def floor(self, over: int = 1, under: int = 1) -> int:
-        """The largest whole number not above ``value * over / under``; exact, as the value is irrational."""
+        """Return the largest integer not above ``value * over / under``, which is irrational."""
         scaled = self * Fraction(over, under)
         assert isinstance(scaled, RootSum)
         bits = _FIRST_BITS
         while True:
+            # The bounds determine the integer part as soon as they agree on it.
             low = scaled._low(bits)
             if low >> bits == (low + len(self.terms)) >> bits:
                 return low >> bits
@@ -86,50 +88,53 @@ def terms_of(value: Rational | RootSum) -> tuple[tuple[int, Rational], ...]:
 
 
 def product(m: int, c: Rational, n: int, d: Rational) -> tuple[int, Rational]:
-    """``c*sqrt(m) * d*sqrt(n)`` as radicand and coefficient."""
+    """Return ``c*sqrt(m) * d*sqrt(n)`` as radicand and coefficient."""
     if m == n:
         return 1, c * d * m
     return m * n, c * d
 
 
 def gathered(terms: Iterable[tuple[int, Rational]]) -> Rational | RootSum:
-    """The sum of terms, one of each kind kept.  Raises Undecided for more than MAX_ROOTS kinds."""
-    kept: dict[int, Rational] = {}
+    """Return a sum of terms with one root of each kind.  Raise Undecided for more than MAX_ROOTS kinds."""
+    coefficients: dict[int, Rational] = {}
     for radicand, coefficient in terms:
-        if radicand in kept:
-            kept[radicand] += coefficient
+        if radicand in coefficients:
+            coefficients[radicand] += coefficient
             continue
-        for other in kept:
-            root = isqrt(radicand * other)
-            if root * root == radicand * other:
-                kept[other] += coefficient * Fraction(root, other)
+        for same_kind in coefficients:
+            # sqrt(m) = (sqrt(m*n) / n) * sqrt(n), which is rational times sqrt(n) if m*n is a square.
+            root = isqrt(radicand * same_kind)
+            if root * root == radicand * same_kind:
+                coefficients[same_kind] += coefficient * Fraction(root, same_kind)
                 break
         else:
+            # A new kind.  The root of a square belongs to the rational part.
             root = isqrt(radicand)
             if root * root == radicand:
                 radicand, coefficient = 1, coefficient * root
-            kept[radicand] = kept.get(radicand, 0) + coefficient
-            if len(kept) > MAX_ROOTS and sum(bool(c) for c in kept.values()) > MAX_ROOTS:
+            coefficients[radicand] = coefficients.get(radicand, 0) + coefficient
+            if len(coefficients) > MAX_ROOTS and sum(bool(c) for c in coefficients.values()) > MAX_ROOTS:
                 raise Undecided(f"exact arithmetic cannot hold a sum of more than {MAX_ROOTS} square roots")
-    left = tuple((radicand, c) for radicand, c in kept.items() if c)
-    if not left:
+    nonzero = tuple((radicand, c) for radicand, c in coefficients.items() if c)
+    if not nonzero:
         return 0
-    if len(left) == 1 and left[0][0] == 1:
-        return left[0][1]
-    return RootSum(left)
+    if len(nonzero) == 1 and nonzero[0][0] == 1:
+        return nonzero[0][1]
+    return RootSum(nonzero)
 
 
 def square_root(value: Rational) -> Rational | RootSum:
-    """The square root of a rational number that is not negative."""
+    """Return the square root of a rational number that is not negative."""
     over, under = value.numerator, value.denominator
     # sqrt(p/q) = sqrt(p*q)/q
     return gathered([(over * under, Fraction(1, under))]) if over else 0
 
 
 def quotient(dividend: Rational | RootSum, divisor: RootSum) -> Rational | RootSum | None:
-    """A quotient by a sum of at most two terms, by its conjugate; None for a longer one."""
+    """Return a quotient by a sum of at most two terms, or None for a longer divisor."""
     if len(divisor.terms) > 2:
         return None
+    # (a + b) * (a - b) is rational if a and b are terms of a sum of roots: multiply by the conjugate.
     (m, c), *rest = divisor.terms
     conjugate = gathered([(m, c), *((n, -d) for n, d in rest)])
     norm = divisor * conjugate

@@ -1,22 +1,22 @@
-"""Numbers with a shadow: what each would be with more than twice the digits, on the same way through the program.
+"""Numbers with a shadow: each number of a program together with a much more precise estimate of its exact value.
 
-It tells how far rounding has taken a number x.  Beside x stands its shadow y, computed by the same operations from the
-shadows of the operands in binary floating point of 2b + 64 bits, b being the bits of x.  With t for the number that
-exact arithmetic would hold there,
+The shadow shows how far rounding has moved a number x.  It is a number y that the same operations compute from the
+shadows of the operands, in binary floating point of 2b + 64 bits, where b is the number of bits of x.  Let t be the
+number that exact arithmetic would hold at the same place of the program.  Then
 
     |x - t| <= |x - y| + |y - t|,
 
-and where the shadow is at least twice as near to t as x is, |y - t| <= |x - y|, so that
+and if the shadow is at least twice as near to t as x is, |y - t| <= |x - y|, so that
 
     |x - t| <= 2 |x - y|.
 
-This is the bound that :meth:`ShadowedNumbers.error` gives.  The condition holds unless a computation has lost more than
-all b bits of x and 64 more besides, and nothing is assumed of how errors grow: what cancels in x cancels in y.  (Bounds
-carried from operand to result, as in N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., 2002,
-section 3.3, need no condition, but double with each step of a loop that forgets its errors.)
+:meth:`ShadowedNumbers.error` returns this bound.  The condition holds unless a computation has lost all b bits of x and
+64 more.  Nothing is assumed about how errors grow: what cancels in x cancels in y.  (Bounds that are carried from
+operand to result, as in N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., 2002, section 3.3, need
+no condition, but they double with each step of a loop that forgets its errors.)
 
-A number computed without rounding from numbers that were not rounded, beginning with cards and constants, has no shadow
-and the bound 0.  FIX gives a whole number, compared as such.
+A number computed without rounding from numbers that were not rounded, starting with cards and constants, has no shadow
+and the bound 0.  FIX gives an integer, which is compared as such.
 """
 
 from __future__ import annotations
@@ -36,14 +36,14 @@ from emulator.numbers.multiprecision import MultiprecisionNumbers
 _CARE = 64
 """Bits of a shadow beyond twice those of its number."""
 _STEPS = 4
-"""Steps of seeing whether an operation rounded."""
+"""Steps of work that the test for rounding costs."""
 _LONGEST = 4_096
-"""Bits up to which that is seen; a number of more is taken as rounded."""
+"""The longest number, in bits, that is tested.  A longer one counts as rounded."""
 
 
 @dataclass(frozen=True, slots=True)
-class Held:
-    """A number of the arithmetic and its shadow; None where nothing was rounded."""
+class Shadowed:
+    """A number of the arithmetic and its shadow, which is None if nothing was rounded."""
 
     value: Number
     shadow: Any
@@ -51,7 +51,7 @@ class Held:
 
 @dataclass(frozen=True)
 class ShadowedNumbers(Numbers):
-    """The numbers of a system that rounds, each with its shadow; every result is that system's."""
+    """The numbers of a system that rounds, each with its shadow.  The results are those of that system."""
 
     inner: Numbers
 
@@ -71,162 +71,166 @@ class ShadowedNumbers(Numbers):
     def _exactly(self) -> ExactNumbers:
         return ExactNumbers()
 
-    def error(self, number: Held) -> Fraction | None:
-        """How far a number is at most from the exact one; None where nothing is known, as of an infinity."""
+    def error(self, number: Shadowed) -> Fraction | None:
+        """Return a bound for the distance of a number from the exact one, or None if unknown, e.g. for an infinity."""
         if number.shadow is None:
             return Fraction(0)
         x, y = self.inner.exact(number.value, 0), self._finer.exact(number.shadow, 0)
         return None if x is None or y is None else 2 * abs(Fraction(x) - y)
 
-    # Numbers that come in.
+    # Numbers from cards and constants.
 
-    def decimal(self, whole: int, power: int, minus: bool = False) -> Held:
+    def decimal(self, whole: int, power: int, minus: bool = False) -> Shadowed:
         return self._taken(self.inner.decimal(whole, power, minus), Fraction(whole) * Fraction(10) ** power)
 
-    def from_integer(self, value: int) -> Held:
+    def from_integer(self, value: int) -> Shadowed:
         return self._taken(self.inner.from_integer(value), Fraction(value))
 
-    def read(self, field: Field, columns: str) -> tuple[Held, Remark | None]:
-        found, remark = self.inner.read(field, columns)
-        return self._taken(found, Fraction(self._exactly.read(field, columns)[0])), remark
+    def read(self, field: Field, columns: str) -> tuple[Shadowed, Remark | None]:
+        value, remark = self.inner.read(field, columns)
+        return self._taken(value, Fraction(self._exactly.read(field, columns)[0])), remark
 
-    def constant(self, text: str) -> Held:
+    def constant(self, text: str) -> Shadowed:
         return self._taken(self.inner.constant(text), Fraction(self._exactly.constant(text)))
 
-    def _taken(self, value: Number, exact: Fraction) -> Held:
-        return Held(value, None if self.inner.exact(value, 0) == exact else self._fine(exact))
+    def _taken(self, value: Number, exact: Fraction) -> Shadowed:
+        return Shadowed(value, None if self.inner.exact(value, 0) == exact else self._fine(exact))
 
     def _fine(self, value: Fraction) -> Any:
         return self._finer.nearest(value.numerator, value.denominator)
 
-    def _shadow(self, number: Held) -> Any:
+    def _shadow(self, number: Shadowed) -> Any:
         if number.shadow is not None:
             return number.shadow
         exact = self._fraction(number.value)
-        assert exact is not None, "what is not finite has a shadow"
+        assert exact is not None, "a number that is not finite has a shadow"
         return self._fine(exact)
 
     # Operations.
 
-    def add(self, first: Held, second: Held) -> Held:
+    def add(self, first: Shadowed, second: Shadowed) -> Shadowed:
         return self._done("add", first, second, lambda a, b: a + b)
 
-    def subtract(self, first: Held, second: Held) -> Held:
+    def subtract(self, first: Shadowed, second: Shadowed) -> Shadowed:
         return self._done("subtract", first, second, lambda a, b: a - b)
 
-    def subtract_reversed(self, first: Held, second: Held) -> Held:
+    def subtract_reversed(self, first: Shadowed, second: Shadowed) -> Shadowed:
         return self._done("subtract_reversed", first, second, lambda a, b: b - a)
 
-    def multiply(self, first: Held, second: Held) -> Held:
+    def multiply(self, first: Shadowed, second: Shadowed) -> Shadowed:
         return self._done("multiply", first, second, lambda a, b: a * b)
 
-    def divide(self, dividend: Held, divisor: Held) -> Held:
+    def divide(self, dividend: Shadowed, divisor: Shadowed) -> Shadowed:
         return self._done("divide", dividend, divisor, lambda a, b: a / b if b else None)
 
     def _done(
-        self, name: str, first: Held, second: Held, exactly: Callable[[Fraction, Fraction], Fraction | None]
-    ) -> Held:
-        """An operation of the inner system, and its shadow where it rounded or an operand was rounded."""
+        self, name: str, first: Shadowed, second: Shadowed, exactly: Callable[[Fraction, Fraction], Fraction | None]
+    ) -> Shadowed:
+        """Apply an operation of the inner system.  Compute a shadow if it rounded or an operand had been rounded."""
         trap = None
         try:
             value = getattr(self.inner, name)(first.value, second.value)
-        except Trap as found:
-            trap, value = found, found.value
+        except Trap as error:
+            trap, value = error, error.value
         shadow = None
-        if first.shadow is not None or second.shadow is not None or not self._held(value, first, second, exactly):
-            shadow = _beside(getattr(self._finer, name), self._shadow(first), self._shadow(second))
+        if first.shadow is not None or second.shadow is not None or not self._is_exact(value, first, second, exactly):
+            shadow = _shadow_operation(getattr(self._finer, name), self._shadow(first), self._shadow(second))
         if trap is not None:
-            raise Trap(trap.event, Held(value, shadow)) from None
-        return Held(value, shadow)
+            raise Trap(trap.event, Shadowed(value, shadow)) from None
+        return Shadowed(value, shadow)
 
-    def _held(self, value: Number, first: Held, second: Held, exactly: Callable[..., Fraction | None]) -> bool:
-        """Whether a result is the exact one of its operands, as far as it is looked for."""
+    def _is_exact(
+        self, value: Number, first: Shadowed, second: Shadowed, exactly: Callable[..., Fraction | None]
+    ) -> bool:
+        """Return True if a result is known to be exact.  Long numbers are not tested."""
         a, b, x = self._fraction(first.value), self._fraction(second.value), self._fraction(value)
         if a is None or b is None or x is None or max(map(_length, (a, b, x))) > _LONGEST:
             return False
         return exactly(a, b) == x
 
-    def negate(self, value: Held) -> Held:
-        return Held(self.inner.negate(value.value), None if value.shadow is None else self._finer.negate(value.shadow))
+    def negate(self, value: Shadowed) -> Shadowed:
+        return Shadowed(
+            self.inner.negate(value.value), None if value.shadow is None else self._finer.negate(value.shadow)
+        )
 
-    def checked(self, value: Held) -> Held:
-        return Held(self.inner.checked(value.value), value.shadow)
+    def checked(self, value: Shadowed) -> Shadowed:
+        return Shadowed(self.inner.checked(value.value), value.shadow)
 
-    def function(self, name: str, value: Held) -> tuple[Held, str]:
-        found, code = self.inner.function(name, value.value)
+    def function(self, name: str, value: Shadowed) -> tuple[Shadowed, str]:
+        result, code = self.inner.function(name, value.value)
         if value.shadow is None and name == "SQRT":
-            a, x = self._fraction(value.value), self._fraction(found)
+            a, x = self._fraction(value.value), self._fraction(result)
             if a is not None and x is not None and _length(x) < _LONGEST and x * x == abs(a):
-                return Held(found, None), code
-        return Held(found, self._finer.function(name, self._shadow(value))[0]), code
+                return Shadowed(result, None), code
+        return Shadowed(result, self._finer.function(name, self._shadow(value))[0]), code
 
-    def power(self, base: Held, exponent: Held) -> tuple[Held, str]:
-        found, code = self.inner.power(base.value, exponent.value)
-        return Held(found, self._finer.power(self._shadow(base), self._shadow(exponent))[0]), code
+    def power(self, base: Shadowed, exponent: Shadowed) -> tuple[Shadowed, str]:
+        result, code = self.inner.power(base.value, exponent.value)
+        return Shadowed(result, self._finer.power(self._shadow(base), self._shadow(exponent))[0]), code
 
-    def integer_power(self, base: Held, count: int) -> tuple[Held, str]:
-        found, code = self.inner.integer_power(base.value, count)
+    def integer_power(self, base: Shadowed, count: int) -> tuple[Shadowed, str]:
+        result, code = self.inner.integer_power(base.value, count)
         if base.shadow is None:
             a = self._fraction(base.value)
             small = a is not None and (a or count > 0) and _length(a) * abs(count) < _LONGEST
-            if small and a is not None and a**count == self._fraction(found):
-                return Held(found, None), code
-        return Held(found, self._finer.integer_power(self._shadow(base), count)[0]), code
+            if small and a is not None and a**count == self._fraction(result):
+                return Shadowed(result, None), code
+        return Shadowed(result, self._finer.integer_power(self._shadow(base), count)[0]), code
 
-    # What only the number itself decides.
+    # Decisions and output depend on the number alone, not on its shadow.
 
-    def sign(self, value: Held) -> int:
+    def sign(self, value: Shadowed) -> int:
         return self.inner.sign(value.value)
 
-    def to_integer(self, value: Held) -> int:
+    def to_integer(self, value: Shadowed) -> int:
         return self.inner.to_integer(value.value)
 
-    def exact(self, value: Held, digits: int) -> Fraction | int | None:
+    def exact(self, value: Shadowed, digits: int) -> Fraction | int | None:
         return self.inner.exact(value.value, digits)
 
     def _fraction(self, value: Number) -> Fraction | None:
-        found = self.inner.exact(value, 0)
-        return None if found is None else Fraction(found)
+        exact = self.inner.exact(value, 0)
+        return None if exact is None else Fraction(exact)
 
-    def cut(self, value: Held, digits: int) -> tuple[int, int]:
+    def cut(self, value: Shadowed, digits: int) -> tuple[int, int]:
         return self.inner.cut(value.value, digits)
 
-    def text(self, value: Held) -> str:
+    def text(self, value: Shadowed) -> str:
         return self.inner.text(value.value)
 
-    def traced(self, value: Held) -> str:
+    def traced(self, value: Shadowed) -> str:
         return self.inner.traced(value.value)
 
-    def write(self, field: Field, value: Held) -> tuple[str, bool]:
+    def write(self, field: Field, value: Shadowed) -> tuple[str, bool]:
         return self.inner.write(field, value.value)
 
     @property
-    def weighs(self) -> bool:
+    def is_costly(self) -> bool:
         return True
 
     def work(self, operation: str, first: Any, second: Any = 0) -> int:
-        a, b = (one.value if isinstance(one, Held) else one for one in (first, second))
-        alone = self.inner.work(operation, a, b) if self.inner.weighs or operation in _ASKED else 0
+        a, b = (operand.value if isinstance(operand, Shadowed) else operand for operand in (first, second))
+        inner_steps = self.inner.work(operation, a, b) if self.inner.is_costly or operation in _COSTED else 0
         if operation in ("sign", "to_integer", "card"):
-            return alone
-        x, y = (self._shadow(one) if isinstance(one, Held) else one for one in (first, second))
-        return alone + self._finer.work(operation, x, y) + _STEPS
+            return inner_steps
+        x, y = (self._shadow(operand) if isinstance(operand, Shadowed) else operand for operand in (first, second))
+        return inner_steps + self._finer.work(operation, x, y) + _STEPS
 
     @property
-    def announces(self) -> bool:
-        return self.inner.announces
+    def types_errors(self) -> bool:
+        return self.inner.types_errors
 
 
-_ASKED = ("SIN", "COS", "ATAN", "EXP", "LOG", "SQRT", "power", "integer_power")
-"""What an arithmetic is asked the work of that does not weigh."""
+_COSTED = ("SIN", "COS", "ATAN", "EXP", "LOG", "SQRT", "power", "integer_power")
+"""The operations whose work is estimated even by a system that is not costly."""
 
 
 def _length(value: Fraction) -> int:
     return max(value.numerator.bit_length(), value.denominator.bit_length())
 
 
-def _beside(operation: Callable[[Any, Any], Any], first: Any, second: Any) -> Any:
-    """A shadow's operation; out of its range it is what stands for the result."""
+def _shadow_operation(operation: Callable[[Any, Any], Any], first: Any, second: Any) -> Any:
+    """Apply an operation to shadows.  If its result is out of range, return the number that replaces it."""
     try:
         return operation(first, second)
     except Trap as trap:

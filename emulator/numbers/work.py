@@ -1,12 +1,12 @@
-"""What costly operations count against the limit of work, from the sizes of their numbers.
+"""Estimates of the work of costly operations, from the sizes of their numbers.
 
-The limit counts statements: 1 each, and 1 for each pass of an indexed list, number and line.  A statement that fills
-a card has at most STEPS - 1 operations.  What takes longer than that counts for as many statements as would take its
-time, in steps: STEPS steps are a unit of work.  Costs are estimated before an operation is done, in whole numbers, so
-that a run ends at the same place on every machine.
+A run is limited by a number of statements.  Each statement counts 1, and so does each pass of an indexed list, each
+number and each line.  A statement on one card has at most STEPS - 1 operations.  An operation that takes longer counts
+as the number of statements that would take the same time: STEPS steps are one unit of work.  The estimate is made
+before the operation, in integers, so that a run ends at the same statement on every machine.
 
-Measured with CPython 3.11 on one core of an AMD EPYC, microseconds; a step is an operation of the eight-digit
-arithmetics, 0.9 to 1.5, taken as 1.2 (a unit is 41, and 5,000,000 of them 205 seconds):
+Times were measured in microseconds with CPython 3.11 on one core of an AMD EPYC.  A step is an operation of the
+eight-digit arithmetics, which takes 0.9 to 1.5, counted as 1.2.  A unit is 41, and 5,000,000 units are 205 seconds.
 
 =====================  ====  ======  =======  ========  ======================================  ==========
 bits                    300   3,000   10,000   100,000  formula, in steps                       at 100,000
@@ -17,8 +17,8 @@ EXP, LOG, SIN, ATAN      18   1,160   11,900   748,000  25 + n * n / 12,000 (mpm
 to a decimal            130     580    3,100   265,000  90 + n * n / 40,000 (mpmath)               300,000
 =====================  ====  ======  =======  ========  ======================================  ==========
 
-SIN, COS, ATAN, EXP and LOG of a decimal number take 40 to 100, up to 420 where the argument is tiny and the digits
-after its own decide; ``A**B`` 150 to 250, up to 660.
+SIN, COS, ATAN, EXP and LOG of a decimal number take 40 to 100 steps, and up to 420 if the argument is tiny and its last
+digits decide.  ``A**B`` takes 150 to 250 steps, and up to 660.
 """
 
 from __future__ import annotations
@@ -33,40 +33,40 @@ _PRODUCT, _QUOTIENT, _SERIES, _DECIMAL = 8_000, 650_000, 12_000, 40_000
 
 
 def product(first: int, second: int) -> int:
-    """Steps of a product of two whole numbers of so many bits."""
+    """Return the steps of a product of two integers with the given numbers of bits."""
     return max(first, second) * isqrt(min(first, second)) // _PRODUCT
 
 
 def quotient(bits: int, divisor: int) -> int:
-    """Steps of a quotient of so many bits by a divisor of so many; of a greatest common divisor, of a square root."""
+    """Return the steps of a quotient with the given numbers of bits, of a greatest common divisor or a square root."""
     return bits * divisor // _QUOTIENT
 
 
 def series(bits: int) -> int:
-    """Steps of a library function computed to so many bits."""
+    """Return the steps of a library function computed to the given number of bits."""
     return 25 + bits * bits // _SERIES
 
 
 def decimal(bits: int) -> int:
-    """Steps of a binary number's shortest decimal."""
+    """Return the steps of finding the shortest decimal of a binary number."""
     return 90 + bits * bits // _DECIMAL
 
 
 def fractions(first: int, second: int) -> int:
-    """Steps of a sum, product or quotient of fractions whose longer parts have so many bits: two gcd, four products."""
+    """Return the steps of a sum, product or quotient of fractions with the given bits: two gcds and four products."""
     return 3 + 2 * quotient(first, second) + 4 * product(first, second)
 
 
 def decimal_function(exponent: int) -> int:
-    """Steps of SIN, COS, ATAN, EXP or LOG of a decimal number: of a tiny one many digits more are computed."""
+    """Return the steps of SIN, COS, ATAN, EXP or LOG of a decimal number.  Tiny arguments need many more digits."""
     return 60 + 5 * min(max(-exponent, 0), 60)
 
 
 def decimal_power(exponent: int) -> int:
-    """Steps of ``A**B`` where B has that exponent."""
+    """Return the steps of ``A**B`` for an exponent B with the given decimal exponent."""
     return 200 + 4 * max(-exponent, 0)
 
 
 def multiplied(count: int) -> int:
-    """Steps of ``A**J`` multiplied out."""
+    """Return the steps of ``A**J`` by repeated multiplication."""
     return abs(count) // 2

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from emulator.errors import DeckError
-from emulator.language.cards import COLUMNS, PUNCHES, Card, Deck, refuse_strange
+from emulator.language.cards import COLUMNS, PUNCHES, Card, Deck, check_characters
 from modern.drawing import svg
 from modern.drawing.layout import Pixel
 
@@ -59,7 +59,7 @@ def punches(card: Card) -> list[tuple[int, str]]:
 def check_punched(deck: Deck) -> None:
     """Raise CardError, with card and column, for the first character the 026 has no punch for."""
     for card in deck.cards:
-        refuse_strange(deck.source, card.number, card.text)
+        check_characters(deck.source, card.number, card.text)
 
 
 def cards_svg(deck: Deck, across: int = 1, title: str = "") -> str:

@@ -15,7 +15,7 @@ from fractions import Fraction
 from emulator.errors import CardError, DeckError
 from emulator.language.cards import Card, Deck, deck_from_lines
 from emulator.numbers.arithmetic import TRUNCATING, Rules, profile
-from emulator.numbers.fields import Field, FieldError, Read, Remark, read_fixed, read_floating
+from emulator.numbers.fields import Field, FieldError, FieldNumber, Remark, read_fixed, read_floating
 from modern.geometry.numbers import Point, finite_decimal, split_decimal
 
 MAX_POINTS = 51
@@ -54,7 +54,7 @@ class DeckWarning:
         """The warning as one line."""
         message = self.text
         if self.remark is not None:
-            message = f"{self.name}: {self.remark.words}" if self.name else f"{self.remark.words}: {self.text}"
+            message = f"{self.name}: {self.remark.message}" if self.name else f"{self.remark.message}: {self.text}"
         return f"{self.source}: card {self.card}, column {self.column}: {message}"
 
 
@@ -134,7 +134,7 @@ def with_epsilon(deck: Deck, epsilon: str) -> Deck:
     return deck_from_lines(deck.source, [first[: _E_FIRST - 1].ljust(_E_FIRST - 1) + coordinate_field(epsilon), *rest])
 
 
-def read_coordinates(card: Card, rules: Rules) -> tuple[Read, Read, Read]:
+def read_coordinates(card: Card, rules: Rules) -> tuple[FieldNumber, FieldNumber, FieldNumber]:
     """Return x, y and z of a valid card as a machine with these arithmetic rules reads them."""
     x, y, z = (read_floating(COORDINATE, columns, rules) for _, columns in _fields(card))
     return x, y, z
@@ -158,7 +158,7 @@ def exact_points(deck: Deck) -> tuple[dict[int, Point], tuple[str, ...]]:
     return points, (*notes, *(warning.message for warning in first.warnings))
 
 
-def _decimal(number: Read) -> str:
+def _decimal(number: FieldNumber) -> str:
     if not number.mantissa:
         return "0"
     text = finite_decimal(Fraction(Decimal(number.mantissa).scaleb(number.exponent - _DIGITS)))
@@ -244,7 +244,7 @@ def _point(deck: Deck, card: Card, rules: Rules, warnings: list[DeckWarning]) ->
     numbers = []
     for axis, (first, columns) in zip("xyz", _fields(card), strict=True):
         try:
-            number: Read = read_floating(COORDINATE, columns, rules)
+            number: FieldNumber = read_floating(COORDINATE, columns, rules)
         except FieldError as error:
             raise CardError(deck.source, card.number, first, f"{axis}: {error}") from None
         numbers.append((number.mantissa, number.exponent if number.mantissa else 0))

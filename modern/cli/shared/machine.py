@@ -27,7 +27,7 @@ from emulator.machine.trace import Tracer
 from emulator.machine.words import notes
 from emulator.numbers import DecimalNumbers, Numbers, numbers
 from emulator.numbers.arithmetic import Rules
-from emulator.numbers.base import cutting_rules
+from emulator.numbers.base import lossless_rules
 from emulator.numbers.fields import FALLBACK
 from modern.cli.shared.console import UsageError, say
 from modern.edition import programs
@@ -81,7 +81,7 @@ def number_system(name: str, option: str) -> Numbers:
 def card_rules(options: Options) -> Rules:
     """How many digits of a card's field the machine takes: all of them where its numbers are not decimal."""
     numbers = options.numbers
-    return numbers.profile.rules if isinstance(numbers, DecimalNumbers) else cutting_rules(FALLBACK.width)
+    return numbers.profile.rules if isinstance(numbers, DecimalNumbers) else lossless_rules(FALLBACK.width)
 
 
 def put_out(args: argparse.Namespace, punched: Iterable[str], typed: Iterable[str]) -> None:

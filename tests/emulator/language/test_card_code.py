@@ -100,7 +100,7 @@ def test_a_strange_character_is_named_with_card_and_column(line: str, column: in
 
 def test_an_81st_column_is_refused_but_blanks_there_are_nothing() -> None:
     assert deck_from_lines("x", ["A" * 80 + "   "]).cards[0].text == "A" * 80
-    with pytest.raises(CardError, match="x: card 1, column 81: a card has 80 columns; this one would need 81"):
+    with pytest.raises(CardError, match="x: card 1, column 81: a card has 80 columns; this line has 81"):
         deck_from_lines("x", ["A" * 81])
 
 

@@ -14,7 +14,7 @@ FI = "91 FORMAT(5I4)"
 MESSAGES = [
     ("undefined label", ["GO TO 5", "END"], 1, 0, "there is no statement number 5"),
     ("undefined label in IF", ["IF(A)5,6,6", "6 END"], 1, 0, "no statement number 5"),
-    ("jump to a FORMAT", ["GO TO 90", F, "END"], 1, 0, "statement 90 is a FORMAT; a program cannot go there"),
+    ("jump to a FORMAT", ["GO TO 90", F, "END"], 1, 0, "statement 90 is a FORMAT; a program cannot branch to it"),
     ("jump to DIMENSION", ["GO TO 5", "5 DIMENSION X(2)", "END"], 1, 0, "statement 5 cannot be executed"),
     ("missing FORMAT", ["PUNCH 5,A", "END"], 1, 13, "no FORMAT number 5"),
     ("FORMAT number of a statement", ["5 A=1.", "PUNCH 5,A", "END"], 2, 13, "no FORMAT number 5"),
@@ -51,8 +51,8 @@ MESSAGES = [
     ("label twice", ["5 A=1.", "5 B=1.", "END"], 2, 0, "statement number 5 stands on card 1 already"),
     ("label and FORMAT", ["5 A=1.", "5 FORMAT(I4)", "END"], 2, 0, "stands on card 1 already"),
     ("DO not closed", ["DO 5 I=1,3", "X=1.", "END"], 1, 0, "number 5, does not follow"),
-    ("DO ends before", ["5 X=1.", "DO 5 I=1,3", "END"], 2, 0, "number 5, stands before it"),
-    ("DO ends on itself", ["5 DO 5 I=1,3", "END"], 1, 0, "number 5, stands before it"),
+    ("DO ends before", ["5 X=1.", "DO 5 I=1,3", "END"], 2, 0, "number 5, is before the DO"),
+    ("DO ends on itself", ["5 DO 5 I=1,3", "END"], 1, 0, "number 5, is before the DO"),
     ("DO ends on GO TO", ["DO 5 I=1,3", "5 GO TO 5", "END"], 2, 0, "a DO cannot end with this statement"),
     ("DO ends on IF", ["DO 5 I=1,3", "5 IF(A)6,6,6", "6 END"], 2, 0, "cannot end with this statement"),
     ("DO ends on a switch", ["DO 5 I=1,3", "5 IF(SENSE SWITCH 1)6,6", "6 END"], 2, 0, "cannot end with this"),
@@ -91,7 +91,7 @@ def test_columns(line: str, column: int) -> None:
 
 def test_crossed_dos() -> None:
     lines = ["DO 5 I=1,3", "DO 6 J=1,3", "5 X=1.", "6 Y=1.", "END"]
-    assert any("is not inside the one that ends with 5" in d.message and d.card == 2 for d in errors(*lines))
+    assert any("must be inside the range that ends with 5" in d.message and d.card == 2 for d in errors(*lines))
 
 
 def test_all_messages_in_order_of_cards() -> None:

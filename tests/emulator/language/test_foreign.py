@@ -6,7 +6,7 @@ import pytest
 
 from emulator.errors import Diagnostic
 from emulator.language.expressions import LIBRARY
-from emulator.language.foreign import FIELDS, LATER, advice, word_of
+from emulator.language.foreign import FOREIGN_FIELDS, FOREIGN_STATEMENTS, identify, suggest_function
 from emulator.language.statements import classify
 from tests.support.deckwork import diagnostics, errors, within
 
@@ -78,8 +78,8 @@ def test_a_statement_of_another_fortran_is_named_and_nothing_else_said(line: str
 
 
 def test_every_statement_that_is_known_is_tried() -> None:
-    tried = {word for line, _ in STATEMENTS if (word := word_of(classify(t := line.replace(" ", "")), t))}
-    assert {word.name for word in LATER} - {word.name for word in tried} == {
+    tried = {word for line, _ in STATEMENTS if (word := identify(classify(t := line.replace(" ", "")), t))}
+    assert {word.name for word in FOREIGN_STATEMENTS} - {word.name for word in tried} == {
         "SUBROUTINE",
         "FUNCTION",
         "BLOCK DATA",
@@ -128,13 +128,13 @@ def test_a_subprogram_is_one_finding_before_and_after_the_program() -> None:
     assert [d.card for d in errors(*program, *SUBPROGRAMS)] == [5]
     assert [d.card for d in errors(*SUBPROGRAMS, *program)] == [1]
     (message,) = errors(*program, *SUBPROGRAMS, *SUBPROGRAMS)
-    assert message.message.endswith("the cards from this one to its END are not looked at (also on card 14)")
+    assert message.message.endswith("the cards from this one to its END are skipped (also on card 14)")
 
 
 def test_the_cards_beside_a_subprogram_are_checked() -> None:
     found = errors("X=A+I", "END", *SUBPROGRAMS, "Y=2.")
     assert [(d.card, d.number) for d in found] == [(1, 5), (3, 0), (12, 0)]
-    assert found[2].message == "a card after END; what a program reads is a deck by itself"
+    assert found[2].message == "a card after END; the program's data belong in a separate deck"
 
 
 def test_data_after_the_program_are_one_finding() -> None:
@@ -198,16 +198,16 @@ def test_a_function_there_is_not_is_named_once_with_those_there_are() -> None:
     ],
 )
 def test_what_may_be_meant(name: str, words: str) -> None:
-    assert advice(name, LIBRARY).endswith(words) or words.endswith("IF (X)")
-    assert words in advice(name, LIBRARY)
+    assert suggest_function(name, LIBRARY).endswith(words) or words.endswith("IF (X)")
+    assert words in suggest_function(name, LIBRARY)
 
 
 def test_fields_of_other_fortrans_are_said_once_each() -> None:
     lines = ["READ 1,X", "1 FORMAT(10A4)", "2 FORMAT(I2,A1)", "3 FORMAT(1PE14.8)", "4 FORMAT('TEXT')", "5 FORMAT(3A1)"]
     found = errors(*lines, "END")
     assert [(d.card, d.number) for d in found] == [(2, 11), (4, 11), (5, 11)]
-    assert found[0].message == FIELDS["A"] + " (also on cards 3, 6)"
-    assert [d.message for d in found[1:]] == [FIELDS["P"], FIELDS["'"]]
+    assert found[0].message == FOREIGN_FIELDS["A"] + " (also on cards 3, 6)"
+    assert [d.message for d in found[1:]] == [FOREIGN_FIELDS["P"], FOREIGN_FIELDS["'"]]
 
 
 HOLLERITH = [
@@ -233,10 +233,10 @@ def test_a_hollerith_count_that_does_not_fit_is_told_the_one_that_would(text: st
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("(3HABC,A4)", FIELDS["A"]),
+        ("(3HABC,A4)", FOREIGN_FIELDS["A"]),
         ("(3HABC,I4", "the FORMAT does not end with a parenthesis"),
         ("(3HABC,I)", "I needs a width"),
-        ("(3HABC,F4,4HDEFG)", "F4 lacks its point and decimals"),
+        ("(3HABC,F4,4HDEFG)", "F4 has no decimal point and decimals"),
     ],
 )
 def test_a_count_that_fits_is_not_blamed_for_another_mistake(text: str, words: str) -> None:
@@ -247,9 +247,9 @@ def test_a_count_that_fits_is_not_blamed_for_another_mistake(text: str, words: s
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("(4HABC,I4)", "4H takes in a comma, and none follows; 3H if it is not of the text"),
-        ("(5HABC,2I4)", "5H takes in a comma, and none follows; 3H if it is not of the text"),
-        ("(I2,4HA , F4.1)", "4H takes in a comma, and none follows; 2H if it is not of the text"),
+        ("(4HABC,I4)", "4H includes a comma and none follows; write 3H if it is a separator"),
+        ("(5HABC,2I4)", "5H includes a comma and none follows; write 3H if it is a separator"),
+        ("(I2,4HA , F4.1)", "4H includes a comma and none follows; write 2H if it is a separator"),
     ],
 )
 def test_a_count_that_swallowed_a_comma_is_warned_of(text: str, words: str) -> None:

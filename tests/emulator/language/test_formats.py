@@ -96,7 +96,7 @@ def test_error_11(text: str) -> None:
 @pytest.mark.parametrize(
     ("text", "column", "words"),
     [
-        ("(I4,B4)", 13, "'B' is not a specification; there are I, E, F, X, H and /"),
+        ("(I4,B4)", 13, "'B' is not a specification; the codes are I, E, F, X, H and /"),
         ("(I4,4)", 14, "')' is not a specification"),
         ("(I4,4".ljust(64), 72, "'the end' is not a specification"),
         ("(I4".ljust(64), 72, "the FORMAT does not end with a parenthesis"),

@@ -29,14 +29,16 @@ def test_no_error_is_explained_that_there_is_not() -> None:
     assert re.findall(r"^### Error (\w+):", TEXT, re.MULTILINE) == list(explanations())
 
 
-@pytest.mark.parametrize("word", [*foreign.LATER, foreign.STATEMENT_FUNCTION], ids=lambda word: word.name)
-def test_a_word_of_another_fortran_is_named_with_its_owner(word: foreign.Word) -> None:
-    assert f"| {word.name} | {word.of} | {word.instead} |" in TEXT
+@pytest.mark.parametrize(
+    "statement", [*foreign.FOREIGN_STATEMENTS, foreign.STATEMENT_FUNCTION], ids=lambda statement: statement.name
+)
+def test_a_word_of_another_fortran_is_named_with_its_owner(statement: foreign.ForeignStatement) -> None:
+    assert f"| {statement.name} | {statement.origin} | {statement.replacement} |" in TEXT
 
 
-@pytest.mark.parametrize("letter", foreign.FIELDS)
+@pytest.mark.parametrize("letter", foreign.FOREIGN_FIELDS)
 def test_a_field_of_another_fortran_is_named(letter: str) -> None:
-    what, instead = foreign.FIELDS[letter].split("; ")
+    what, instead = foreign.FOREIGN_FIELDS[letter].split("; ")
     assert f"| `{letter}` | {what} | {instead} |" in TEXT
 
 

@@ -116,7 +116,7 @@ def test_devices(verb: str, device: str) -> None:
 def test_bad_field_names_card_and_column() -> None:
     with pytest.raises(CardError) as caught:
         run("READ 1,I,J", "1 FORMAT(2I4)", "END", data=["   1  X2"])
-    assert str(caught.value) == "data.cards: card 1, column 5: 'X2' is not a whole number"
+    assert str(caught.value) == "data.cards: card 1, column 5: 'X2' is not an integer"
 
 
 def test_bad_field_on_the_second_card() -> None:

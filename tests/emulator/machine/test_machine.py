@@ -242,7 +242,7 @@ def test_accept_without_a_line() -> None:
 
 
 def test_a_typed_line_that_is_no_number() -> None:
-    with pytest.raises(CardError, match=r"^typewriter: .*column 1: 'X' is not a whole number"):
+    with pytest.raises(CardError, match=r"^typewriter: .*column 1: 'X' is not an integer"):
         run("ACCEPT 90,K", F, "END", keyboard=["X"])
 
 

@@ -42,8 +42,8 @@ def test_after_its_last_line_start_is_pressed_and_a_line_is_missing() -> None:
 def test_a_bad_line_is_retyped_or_is_the_error() -> None:
     result, log = logged(ASKING, "ENTER    X\nENTER    9\nENTER    0\n")
     assert result.typed == ("   9",)
-    assert "* typewriter: line 1, column 1: 'X' is not a whole number; the line is typed again: ACCEPT" in log
-    with pytest.raises(DeckError, match=r"^typewriter: line 1, column 1: 'X' is not a whole number"):
+    assert "* typewriter: line 1, column 1: 'X' is not an integer; the line is typed again: ACCEPT" in log
+    with pytest.raises(DeckError, match=r"^typewriter: line 1, column 1: 'X' is not an integer"):
         answered(ASKING, "ENTER    X\n")
 
 

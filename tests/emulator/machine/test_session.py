@@ -76,7 +76,7 @@ def test_where_nobody_retypes_a_bad_line_is_an_error() -> None:
     made = session(*GAME)
     made.advance(1_000)
     made.act(Action("ENTER", text="   X"))
-    with pytest.raises(CardError, match="'X' is not a whole number"):
+    with pytest.raises(CardError, match="'X' is not an integer"):
         made.advance(1_000)
 
 

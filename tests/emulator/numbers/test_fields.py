@@ -12,7 +12,7 @@ from emulator.numbers.arithmetic import MINUS_ZERO, TRUNCATING, UNDEFINED, ZERO,
 from emulator.numbers.fields import (
     Field,
     FieldError,
-    Read,
+    FieldNumber,
     parse_constant,
     read_fixed,
     read_floating,
@@ -28,10 +28,10 @@ exponents = st.integers(-99, 99)
 numbers = st.tuples(mantissas, exponents) | st.sampled_from(((0, ZERO), (0, MINUS_ZERO)))
 
 
-def words(read: Read) -> str:
+def words(read: FieldNumber) -> str:
     """What there is to remark of a number that was read."""
     assert read.remark is not None
-    return read.remark.words
+    return read.remark.message
 
 
 @given(numbers)
@@ -100,13 +100,13 @@ def test_no_number(columns: str) -> None:
 
 @pytest.mark.parametrize("columns", ["1.5", "1E2", "A", "+-1", "-", "1 -"])
 def test_no_whole_number(columns: str) -> None:
-    with pytest.raises(FieldError, match="is not a whole number"):
+    with pytest.raises(FieldError, match="is not an integer"):
         read_fixed(columns)
 
 
 @pytest.mark.parametrize("columns", ["1.E99", "1.E100", ".1E-100", "-1.E+99", "1.E" + "9" * 40])
 def test_out_of_range(columns: str) -> None:
-    with pytest.raises(FieldError, match="the exponent is -99 to 99"):
+    with pytest.raises(FieldError, match="the exponent must be -99 to 99"):
         read_floating(E14, columns, RULES)
 
 
@@ -155,7 +155,7 @@ def test_blanks_in_an_e_field(columns: str, expected: tuple[int, int], warned: b
 
 
 def test_lost_digits_warn() -> None:
-    assert words(read_floating(E14, ".123456789", RULES)) == "9 digits; those beyond 8 are cut"
+    assert words(read_floating(E14, ".123456789", RULES)) == "9 digits; those after the first 8 are dropped"
     assert read_floating(E14, ".1234567800", RULES).remark is None
     assert words(read_fixed("12345")) == "12345 has more than four digits; the last four are kept"
     assert read_fixed("12345").mantissa == 2345

@@ -21,7 +21,7 @@ BLANKS, AS_ZEROS = "blanks inside", "read as zeros"
 def floating(columns: str, words: str) -> tuple[int, int]:
     """Mantissa and exponent of an E field, which warns in these words, or not at all where there are none."""
     found = read_floating(E14, columns, RULES)
-    said = found.remark.words if found.remark else ""
+    said = found.remark.message if found.remark else ""
     assert words in said
     assert bool(words) == bool(said)
     return found.mantissa, found.exponent
@@ -84,7 +84,7 @@ def test_a_whole_number_of_five_digits_by_its_blanks_warns_of_the_digits_lost(co
     found = read_fixed(columns)
     assert found.mantissa == value
     assert found.remark is not None
-    assert found.remark.words.startswith(f"{columns.replace(' ', '0')} has more than four digits")
+    assert found.remark.message.startswith(f"{columns.replace(' ', '0')} has more than four digits")
 
 
 def test_blanks_of_a_whole_number_are_named_as_zeros() -> None:
@@ -92,7 +92,7 @@ def test_blanks_of_a_whole_number_are_named_as_zeros() -> None:
     for columns in ("12 ", "1 2"):
         found = read_fixed(columns)
         assert found.remark is not None
-        assert AS_ZEROS in found.remark.words
+        assert AS_ZEROS in found.remark.message
         floating(columns, AS_ZEROS)
     assert read_fixed(" 12").remark is None
     floating(" 12", "")

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from emulator.numbers import numbers
 from emulator.numbers.base import Trap
-from emulator.numbers.shadowed import Held, ShadowedNumbers
+from emulator.numbers.shadowed import Shadowed, ShadowedNumbers
 
 ROUNDING = ("float32", "float64", "truncating", "truncating:3", "guarded:8", "ibm1962", "mp:30", "mp:100")
 OPERATIONS = ("add", "subtract", "subtract_reversed", "multiply", "divide")
@@ -40,7 +40,7 @@ def test_the_exact_number_lies_within_the_bound(
 ) -> None:
     """Any formula of sums, products and quotients; a bound of none is right to the last digit."""
     system = shadowed(name)
-    held: list[Held] = [system.decimal(*decimal) for decimal in decimals]
+    held: list[Shadowed] = [system.decimal(*decimal) for decimal in decimals]
     truth = [Fraction(whole) * Fraction(10) ** power for whole, power in decimals]
     for operation, i, j in steps:
         first, second = i % len(held), j % len(held)

@@ -89,7 +89,7 @@ MISUSE = [
     (["hull", "."], ".: is a directory"),
     (["hull", "nosuch"], "nosuch: no such file"),
     (["run", "good.f", "x.deck", "--arithmetic", "decimal"], "no arithmetic is called 'decimal'"),
-    (["run", "good.f", "x.deck", "--arithmetic", "truncating:1"], "the number of digits is 2 to 28"),
+    (["run", "good.f", "x.deck", "--arithmetic", "truncating:1"], "the number of digits must be 2 to 28"),
     (["run", "good.f", "x.deck", "--limit", "0"], "0 is not a number of statements"),
     (["run", "good.f", "x.deck", "--limit", "many"], "argument --limit: invalid int value"),
     (["run", "good.f", "x.deck", "--switch", "5"], "argument --switch: invalid choice: 5"),

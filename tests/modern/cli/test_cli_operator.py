@@ -207,7 +207,7 @@ def test_a_bad_entry_is_typed_again(folder: Path) -> None:
         person.sees("ACCEPT waits for a line, statement 5 (card 1)\n")
         person.types("   1  2x\n")
         said = person.sees("ACCEPT waits").replace("\n--   ", " ")
-        assert "typewriter: line 1, column 5: '2X' is not a whole number; the line is typed again" in said
+        assert "typewriter: line 1, column 5: '2X' is not an integer; the line is typed again" in said
         person.types("   15\b\x7f\x7f  12   3\x15   1   2\n")
         person.sees("   2   1\n")
         person.types("   0   0\n")

@@ -93,7 +93,7 @@ def test_errors_of_the_arithmetic_are_always_mentioned(room: Path, capsys: pytes
     ("arguments", "words"),
     [
         (["hull", "good.deck", "--punch", ""], "a file without a name"),
-        (["hull", "good.deck", "--punch", "a", "--typewriter", "a"], "two outputs are to go to one file"),
+        (["hull", "good.deck", "--punch", "a", "--typewriter", "a"], "two outputs have the same file name"),
         (["reproduce", "3", "--json", "nosuch/file"], "nosuch/file: no such file or directory"),
         (["run", "a\nb.f"], "a\\nb.f: no such file"),
     ],
