@@ -52,7 +52,7 @@ def hosted(name: str) -> Numbers | None:
         from emulator.numbers.multiprecision import MAX_BITS, MIN_BITS, MultiprecisionNumbers
 
         if not (count.isdecimal() and count.isascii() and len(count) < 9 and MIN_BITS <= int(count) <= MAX_BITS):
-            raise ValueError(f"{name}: the number of bits is {MIN_BITS} to {MAX_BITS}")
+            raise ValueError(f"{name}: the number of bits must be {MIN_BITS} to {MAX_BITS}")
         return MultiprecisionNumbers(int(count))
     return None
 
