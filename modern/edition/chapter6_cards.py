@@ -16,6 +16,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from emulator.files import write_text
 from modern.edition.apparatus import Line, Text, build, built_without, load
 from modern.edition.chapter6 import CardShape, Device, DeviceLayout, Field, Layout, Role, chapter6_folder, load_layout
 
@@ -166,7 +167,7 @@ def built_files(chapter: Chapter) -> Iterator[tuple[str, str]]:
 
 
 def write_files(chapter: Chapter, folder: Path) -> tuple[str, ...]:
-    """Write the device files under ``folder`` (each beside its place, then renamed) and return their names.
+    """Write the device files under ``folder`` and return their names.
 
     Everything is built before anything is written, so that an error leaves the folder as it was.
     """
@@ -174,9 +175,7 @@ def write_files(chapter: Chapter, folder: Path) -> tuple[str, ...]:
     for name, contents in built:
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
-        beside = path.with_name(path.name + ".new")
-        beside.write_text(contents, encoding="ascii", newline="\n")
-        beside.replace(path)
+        write_text(str(path), contents)
     return tuple(name for name, _ in built)
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from emulator.compiled.runner import compile_engine, why_plain
+from emulator.files import UNFINISHED
 from emulator.jit.functions import NotInstalled
 from emulator.language.cards import deck_from_lines
 from emulator.machine.machine import Machine
@@ -29,7 +30,7 @@ from modern.study.plots import can_plot, draw
 from modern.study.report import Report, outcome_report, write_report
 from modern.study.routes import options_of, programs_of
 from modern.study.sample import CARD_DIGITS
-from modern.study.store import BESIDE, Store
+from modern.study.store import Store
 from modern.study.workers import connect, in_processes, on_cluster, processes
 
 MOST_FILES = 1_000_000
@@ -164,7 +165,7 @@ def _begin(plan: Plan, folder: Path, resume: bool, command: Sequence[str]) -> di
         if begun:
             raise StudyFileError(f"{folder}: holds a study; --resume goes on with it, --out puts another elsewhere")
         # A run killed before its first file was in place leaves the file beside.
-        strange = folder.is_dir() and any(not path.name.startswith(BESIDE) for path in folder.iterdir())
+        strange = folder.is_dir() and any(not path.name.startswith(UNFINISHED) for path in folder.iterdir())
         if strange or (folder.exists() and not folder.is_dir()):
             raise StudyFileError(f"{folder}: is there and is not empty; --out names another folder")
         folder.mkdir(parents=True, exist_ok=True)

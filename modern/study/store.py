@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 import sqlite3
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -17,27 +16,22 @@ from itertools import zip_longest
 from pathlib import Path
 from typing import Any, BinaryIO
 
+from emulator.errors import FileError
+from emulator.files import UNFINISHED, writing_bytes
 from modern.study.index import JUDGE, Row, clear, enter, known_chunks, open_index
 from modern.study.plan import Chunk, Plan, StudyFileError
 
 ROWS = "rows"
-BESIDE = ".beside-"
-"""How the name of a file begins that is not in its place yet."""
 
 
 @contextmanager
 def placing(path: Path) -> Iterator[BinaryIO]:
-    """A file to write, put in its place when all of it is on disk.  Raises StudyFileError."""
-    beside = path.with_name(f"{BESIDE}{path.name}")
+    """Open a file for writing and put it in place when all of it is on disk.  Raise StudyFileError."""
     try:
-        with open(beside, "wb") as file:
+        with writing_bytes(str(path), durable=True) as file:
             yield file
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(beside, path)
-    except OSError as error:
-        beside.unlink(missing_ok=True)
-        raise StudyFileError(f"{path}: {(error.strerror or str(error)).lower()}") from None
+    except FileError as error:
+        raise StudyFileError(str(error)) from None
 
 
 def put(path: Path, data: bytes | str) -> None:
@@ -48,7 +42,7 @@ def put(path: Path, data: bytes | str) -> None:
 
 def sweep(folder: Path) -> None:
     """Remove files that an interrupted run left unfinished."""
-    for path in folder.glob(f"{BESIDE}*"):
+    for path in folder.glob(f"{UNFINISHED}*"):
         path.unlink(missing_ok=True)
 
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import csv
 import hashlib
-import os
 import re
 import shutil
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
+from emulator.files import writing
 from tests.mutants.sample import Mutant, difference, mutated
 from tests.mutants.trial import EQUIVALENT, KILLED, SURVIVED, TIMEOUT, Verdict
 
@@ -41,17 +41,15 @@ def earlier(table: Path, run: str, drawn: Iterable[Mutant]) -> list[Verdict]:
 
 
 def write_table(table: Path, run: str, area: str, verdicts: Sequence[Verdict]) -> None:
-    """All verdicts so far, by file and line; written beside and renamed, so that the table is always whole."""
+    """All verdicts so far, by file and line, written atomically."""
     table.parent.mkdir(parents=True, exist_ok=True)
-    beside = table.with_suffix(".new")
-    with beside.open("w", encoding="utf-8", newline="") as file:
+    with writing(str(table)) as file:
         writer = csv.writer(file)
         writer.writerow(FIELDS)
         for verdict in sorted(verdicts, key=lambda verdict: (verdict.mutant.place, verdict.mutant.operator)):
             m = verdict.mutant
             place = (m.file, m.line, m.column, m.operator, m.occurrence)
             writer.writerow((run, area, *place, verdict.outcome, f"{verdict.seconds:.1f}"))
-    os.replace(beside, table)
 
 
 def write_survivors(folder: Path, verdicts: Iterable[Verdict], sources: Mapping[str, str]) -> list[Path]:

@@ -8,7 +8,6 @@ bytes.
 from __future__ import annotations
 
 import re
-import shutil
 import sys
 import tempfile
 from collections.abc import Iterator, Sequence
@@ -16,6 +15,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Final
 
+from emulator.files import writing_bytes
 from modern.edition.sources import sources as table
 from modern.publication.book import parts
 from modern.publication.book.markup import Markdown, label, places, say, string
@@ -164,10 +164,9 @@ def build(out: Path) -> int:
             )
         except (RuntimeError, ValueError) as error:
             raise BookError(f"no book: {' '.join(str(error).split())[:600]}") from None
-        beside = out.with_name(out.name + ".new")
         out.parent.mkdir(parents=True, exist_ok=True)
-        beside.write_bytes(made)
-        shutil.move(beside, out)
+        with writing_bytes(str(out)) as file:
+            file.write(made)
     return len(made)
 
 

@@ -122,7 +122,10 @@ MISUSE = [
     (["diverge", "program1", "."], ".: is a directory"),
     (["diverge", "-", "-"], "cannot both come from standard input"),
     (["diverge", "program1", "side.deck", "--against", "decimal"], "--against: no arithmetic is called 'decimal'"),
-    (["diverge", "program1", "side.deck", "--against", "mp:1"], "--against: mp:1: the number of bits must be 2 to 100000"),
+    (
+        ["diverge", "program1", "side.deck", "--against", "mp:1"],
+        "--against: mp:1: the number of bits must be 2 to 100000",
+    ),
     (["diverge", "program1", "side.deck", "--arithmetic", "float"], "--arithmetic: no arithmetic is called 'float'"),
     (["diverge", "program1", "side.deck", "--limit", "0"], "0 is not a number of statements"),
     (["diverge", "program1", "side.deck", "--json", "no/file"], "no/file: no such file or directory"),

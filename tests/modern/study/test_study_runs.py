@@ -16,10 +16,11 @@ from pathlib import Path
 
 import pytest
 
+from emulator.files import UNFINISHED
 from modern.study import Plan, PlanError, Port, Programs, run_study
 from modern.study import store as study_store
 from modern.study.index import NAME as INDEX
-from modern.study.store import BESIDE, Store, StudyFileError
+from modern.study.store import Store, StudyFileError
 from tests.support.paths import ROOT
 from tests.support.studied import PLAN, ROUTES
 
@@ -158,7 +159,7 @@ def test_what_is_stopped_between_file_and_index_is_counted_once(finished: Path, 
                 "DELETE FROM runs WHERE cell = ? AND place BETWEEN ? AND ?", (chunk.cell, chunk.start, chunk.stop - 1)
             )
     (folder / "rows" / chunks[1].name).unlink()
-    (folder / "rows" / f"{BESIDE}{chunks[1].name}").write_text("half a li")
+    (folder / "rows" / f"{UNFINISHED}{chunks[1].name}").write_text("half a li")
     run_study(PLAN, folder, workers=1, quiet=True, resume=True)
     assert contents(folder) == contents(finished)
 
@@ -194,7 +195,7 @@ def test_a_full_disk_is_said_in_a_line_and_resumed_from(
     with pytest.raises(StudyFileError, match="no space left on device") as full:
         run_study(PLAN, folder, workers=1, quiet=True)
     assert "\n" not in str(full.value)
-    assert not list(folder.rglob(f"{BESIDE}*"))
+    assert not list(folder.rglob(f"{UNFINISHED}*"))
     left[0] = 10**6
     run_study(PLAN, folder, workers=1, quiet=True, resume=True)
     assert contents(folder) == contents(finished)
