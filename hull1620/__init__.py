@@ -1,18 +1,18 @@
-"""Convex hulls in the arithmetic of 1963 and exactly, and the IBM 1620 that found them, for Python programs.
+"""Convex hulls in the arithmetic of 1963 and exactly, and the emulated IBM 1620, for Python programs.
 
-Every name is loaded when it is first used, so that ``import hull1620`` costs nothing.
+``import hull1620`` is fast, because each name is loaded on first use.
 
-convex_hull, exact_hull         the hull of points: Butler's procedure over any arithmetic; the exact one, proved
-Hull                            what both give: numpy arrays, exact volume and area, draw, save
-digital_hull, voxel_hull        the filled hull of voxels; their exact hull, in millimetres where spacing is in them
-read_volume                     voxels from files: NRRD, NPY, NIfTI, DICOM and others
-read_points, data_deck          points from a file of any kind; points as a data deck
-read_deck, compile_deck         cards from a file; a FORTRAN program compiled
-Machine, Options, numbers       a run of a program on the 1620, how it is set up, its arithmetic
-run_hull, read_hull             the programs of 1963 over a data deck; a hull from the cards they punch
-diverge                         one program over two arithmetics in step
-Plan, Cell, run_study           thousands of sets through several routes, each judged
-reproduce                       everything printed, computed again
+convex_hull, exact_hull         the hull of points: by Butler's procedure in any arithmetic; exactly, with a proof
+Hull                            their result: numpy arrays, exact volume and area, drawings, files
+digital_hull, voxel_hull        the filled hull of voxels; the exact hull of voxels, in physical coordinates if known
+read_volume                     voxels from a file: NRRD, NPY, NIfTI, DICOM and others
+read_points, data_deck          points from a file of any supported format; points as a data deck
+read_deck, compile_deck         cards from a file; a compiled FORTRAN program
+Machine, Options, numbers       a run of a program on the 1620, its options, its arithmetic
+run_hull, read_hull             the programs of 1963 applied to a data deck; a hull from the cards they punch
+diverge                         one program run in two arithmetics in step
+Plan, Cell, run_study           studies of thousands of point sets by several routes, each compared with the exact hull
+reproduce                       the printed results computed again
 """
 
 from __future__ import annotations
@@ -143,7 +143,7 @@ __all__ = [
 
 
 def __getattr__(name: str) -> object:
-    from emulator import named  # every name is in a room that needs it
+    from emulator import named  # imported here because ``import hull1620`` must not load the emulator
 
     return named(__name__, _HOMES, name)
 

@@ -1,6 +1,6 @@
-"""``hull1620`` and ``python -m hull1620``: the command.
+"""The command ``hull1620``, also ``python -m hull1620``.
 
-Until it can end properly, Ctrl-C ends the process without a word.
+While the command is still being imported, Ctrl-C ends the process without a traceback.
 """
 
 import signal

@@ -1,4 +1,4 @@
-"""Hulls for a Python program: numpy arrays in and out, exact volume and area, pictures and files."""
+"""Convex hulls for Python programs: numpy arrays, exact volume and area, drawings and files."""
 
 from __future__ import annotations
 
@@ -42,18 +42,22 @@ _KINDS = ("point", "segment", "polygon", "polyhedron")
 
 Path = str | os.PathLike[str]
 Floats = NDArray[np.float64]
-Places = NDArray[np.intp]
+Indices = NDArray[np.intp]
 Array = TypeVar("Array", bound=NDArray[Any])
 
 
 @dataclass(frozen=True, repr=False)
 class Hull:
-    """A convex hull.  Points are named by their place in the input, from 0.
+    """A convex hull, the result of ``convex_hull``, ``exact_hull`` and ``voxel_hull``.
 
-    record: everything as exact text (:class:`modern.geometry.hull.Hull`), which the attributes below are views of.
-    certificate: what was counted while the hull was proved; only ``exact_hull`` has one.
+    Points are identified by their index in the input, from 0.  Arrays hold the nearest doubles and are read-only.
 
-    Arrays are of doubles, each number the nearest one, and cannot be written to.
+    Attributes
+    ----------
+    record : modern.geometry.hull.Hull
+        All data of the hull as exact text.  The other attributes are derived from it.
+    certificate : Certificate or None
+        The counts of the proof, from ``exact_hull`` only.
     """
 
     record: Record
@@ -61,56 +65,56 @@ class Hull:
 
     @property
     def arithmetic(self) -> str:
-        """The arithmetic the hull was found in."""
+        """The name of the arithmetic in which the hull was computed."""
         return self.record.arithmetic
 
     @property
     def status(self) -> str:
-        """``determined``, or the message the programs end with."""
+        """``determined``, or the message with which the programs end."""
         return self.record.status
 
     @property
     def determined(self) -> bool:
-        """Whether there is a hull."""
+        """True if the procedure found a hull."""
         return self.record.determined
 
     @property
     def statement(self) -> str:
-        """Program and label of the listing that decided the status; empty from ``exact_hull``."""
+        """Program and label of the statement in the listing that decided the status; empty from ``exact_hull``."""
         return self.record.statement
 
     @property
     def dimension(self) -> int:
-        """0 point, 1 segment, 2 polygon, 3 polyhedron."""
+        """0 for a point, 1 for a segment, 2 for a polygon, 3 for a polyhedron."""
         return self.record.dimension
 
     @property
     def faces(self) -> tuple[Face, ...]:
-        """The faces of a polyhedron or lines of a polygon: exact equations, vertices in order, other points on them."""
+        """The faces of a polyhedron or the lines of a polygon, with exact equations and the points on them."""
         return as_tuple(self.record.faces)
 
     @property
     def duplicates(self) -> tuple[tuple[int, int], ...]:
-        """(point, the first point with the same coordinates)."""
+        """Pairs of a point and the first point with the same coordinates."""
         return self.record.duplicates
 
     @property
     def history(self) -> tuple[Stage, ...]:
-        """The approximations H1, H2, ..., where ``convex_hull`` was asked for them."""
+        """The approximations H1, H2, ..., if ``convex_hull`` was called with ``history=True``."""
         return as_tuple(self.record.history)
 
     @property
     def corrected(self) -> tuple[str, ...]:
-        """Rows of the layer ``corrected`` that took a branch other than the listing's."""
+        """Rows of the layer ``corrected`` whose branch differed from that of the listing."""
         return self.record.corrected
 
     @cached_property
     def points(self) -> Floats:
-        """The points as the arithmetic took them, shape (n, 3)."""
-        given = self.record.points
-        if isinstance(given, PointTexts):
-            return _fixed(given.floats())
-        return _fixed(np.array([[_float(text) for text in point] for point in given], np.float64).reshape(-1, 3))
+        """The points as numbers of the arithmetic, shape (n, 3)."""
+        points = self.record.points
+        if isinstance(points, PointTexts):
+            return _read_only(points.floats())
+        return _read_only(np.array([[_float(text) for text in point] for point in points], np.float64).reshape(-1, 3))
 
     @property
     def exact_points(self) -> tuple[Vector, ...]:
@@ -118,76 +122,108 @@ class Hull:
         return tuple(coordinates(point) for point in self.record.points)
 
     @cached_property
-    def vertices(self) -> Places:
-        """The points that are vertices, in the order of the procedure; from ``exact_hull`` sorted."""
-        return _fixed(np.array(self.record.vertices, np.intp))
+    def vertices(self) -> Indices:
+        """The vertices, in the order in which the procedure found them; sorted from ``exact_hull``."""
+        return _read_only(np.array(self.record.vertices, np.intp))
 
     @cached_property
-    def boundary(self) -> Places:
-        """The points on the hull that are no vertices."""
-        return _fixed(np.array(self.record.boundary, np.intp))
+    def boundary(self) -> Indices:
+        """The points on the surface of the hull that are not vertices."""
+        return _read_only(np.array(self.record.boundary, np.intp))
 
     @cached_property
-    def inside(self) -> Places:
-        """The points inside the hull (of a polygon within its plane, of a segment between its ends)."""
-        return _fixed(np.array(self.record.inside, np.intp))
+    def inside(self) -> Indices:
+        """The points in the interior of the hull; for a polygon within its plane, for a segment between its ends."""
+        return _read_only(np.array(self.record.inside, np.intp))
 
     @cached_property
-    def simplices(self) -> Places:
-        """The faces cut into triangles, shape (m, 3), counterclockwise seen from outside; as scipy's ConvexHull.
+    def simplices(self) -> Indices:
+        """The faces split into triangles, shape (m, 3), counterclockwise seen from outside, as in scipy's ConvexHull.
 
-        Of a polygon its triangles, of a segment or a point none.  Raises ExportError where there is no hull.
+        A polygon has the triangles of its one face, a segment or a point none.
+
+        Raises
+        ------
+        ExportError
+            The procedure found no hull.
         """
         triangles = np.array(self._mesh.triangles(), np.intp).reshape(-1, 3)
-        return _fixed(self.vertices[triangles])
+        return _read_only(self.vertices[triangles])
 
     @cached_property
     def equations(self) -> Floats:
-        """For each of ``simplices`` the unit normal, outward, and the offset: normal @ x + offset <= 0 inside.
+        """The outward unit normal and the offset of each of ``simplices``, shape (m, 4), as in scipy's ConvexHull.
 
-        ``faces`` has the equations exactly.  Raises ExportError where there is no hull.
+        Inside the hull normal @ x + offset <= 0.  The equations in ``faces`` are exact.
+
+        Raises
+        ------
+        ExportError
+            The procedure found no hull.
         """
         rows: list[Floats] = []
         for (a, b, c, d), polygon in zip(self._mesh.planes(self.record), self._mesh.faces, strict=True):
-            # Scaled by the largest exactly: no product of doubles can overflow.
+            # Exact division by the largest coefficient first, so that no product of doubles can overflow.
             largest = max(abs(a), abs(b), abs(c)) or Fraction(1)
             row = np.array([float(number / largest) for number in (a, b, c, d)])
             rows += [row / (np.linalg.norm(row[:3]) or 1.0)] * (len(polygon) - 2)
-        return _fixed(np.array(rows, np.float64).reshape(-1, 4))
+        return _read_only(np.array(rows, np.float64).reshape(-1, 4))
 
     @cached_property
     def volume(self) -> Fraction:
-        """The volume, exactly; 0 of what is flat.
+        """The exact volume; 0 for a flat hull.
 
-        Raises ExportError where there is no hull or, found in rounded numbers, its faces do not close.
+        Raises
+        ------
+        ExportError
+            The procedure found no hull, or its faces do not close because numbers were rounded.
         """
         surface = self._closed
         return six_volumes(surface.numbers(), surface.faces) / 6 if self.dimension == 3 else Fraction(0)
 
     @cached_property
     def area(self) -> Decimal:
-        """The area of the surface to 50 digits (``AREA_DIGITS``), a sum of square roots; of a polygon its one side.
+        """The area of the surface to 50 significant digits; for a polygon the area of one side.
 
-        It is exact where every face's area is a decimal of no more digits; ``squared_areas`` are exact always.  Raises
-        as ``volume``.
+        The area is a sum of square roots.  It is exact if the area of every face is a decimal of at most 50 digits;
+        ``squared_areas`` are always exact.
+
+        Raises
+        ------
+        ExportError
+            The procedure found no hull, or its faces do not close because numbers were rounded.
         """
         return sum_of_roots(self.squared_areas, AREA_DIGITS)
 
     @cached_property
     def squared_areas(self) -> tuple[Fraction, ...]:
-        """The square of each face's area, exactly, in the order of ``faces``; of a polygon its one."""
+        """The exact square of each face's area, in the order of ``faces``; for a polygon one number."""
         return self._closed.squared_areas()
 
     def coplanar(self, within: Any) -> Hull:
-        """A reading of the hull with faces joined whose vertices lie within a distance of one plane.
+        """Return a hull in which faces that are coplanar to within a distance are joined.
 
-        within: the distance, any real number, decimal text or a fraction ``"p/q"``; ``modern.geometry.coplanar`` says
-        which faces are joined.  ``record.coplanar`` of the result says how many there were, how far a vertex is off its
-        plane at the most, and from which distance on more would be joined.  What is flat is given back as it is.
+        Parameters
+        ----------
+        within : real number or str
+            The distance, also as decimal text or a fraction ``"p/q"``.
 
-        The hull itself stays exact.  Of the reading ``equations`` are those of the largest face of each joined one, and
-        ``volume`` and ``area`` are those of the reading, cut into triangles.  Raises ExportError for a distance that is
-        none, or too large for this solid.
+        Returns
+        -------
+        Hull
+            A new hull; this one stays as it is.  A joined face has the equation of its largest face.  ``volume`` and
+            ``area`` are those of the joined faces split into triangles.  A flat hull is returned unchanged.
+
+        Raises
+        ------
+        ExportError
+            The distance is invalid or too large for this solid.
+
+        Notes
+        -----
+        ``modern.geometry.coplanar`` defines which faces are joined.  ``record.coplanar`` of the result has the number
+        of faces before joining, the largest distance of a vertex from its plane, and the next distance that would join
+        more faces.
         """
         return Hull(coplanar(self.record, within)[0])
 
@@ -200,22 +236,56 @@ class Hull:
         hidden: bool = True,
         others: bool = True,
     ) -> str:
-        """A picture as the text of an SVG file, hidden edges dashed; see :func:`modern.drawing.draw.draw_svg`.
+        """Return a drawing as the text of an SVG file, with hidden edges dashed.
 
-        eye: the direction to the eye, three numbers.  labels: number the vertices as the ``programs`` do, by their
-        places in the ``input``, or ``none``.  hidden: draw hidden edges.  others: draw points that are no vertices.
-        Raises ExportError, and ValueError for an eye of no numbers.
+        Parameters
+        ----------
+        eye : sequence of 3 numbers, optional
+            The direction to the eye.
+        title : str, optional
+            The title of the drawing.
+        width : int, optional
+            The width in pixels.
+        labels : {"programs", "input", "none"}, optional
+            Number the vertices as the programs do, by their index in the input, or not at all.
+        hidden : bool, optional
+            Draw hidden edges.
+        others : bool, optional
+            Draw the points that are not vertices.
+
+        Raises
+        ------
+        ExportError
+            The hull cannot be drawn, or ``eye`` does not have three numbers.
+        ValueError
+            ``eye`` contains something that is not a number.
+
+        See Also
+        --------
+        modern.drawing.draw.draw_svg
         """
         direction = None if eye is None else [Fraction(real(number)) for number in eye]
         if direction is not None and len(direction) != 3:
-            raise ExportError(f"the direction of view is {len(direction)} numbers; it has three")
+            raise ExportError(f"the direction of view has three numbers, not {len(direction)}")
         return draw_svg(self.record, direction, title, width, Show(labels, hidden, others))
 
     def save(self, path: Path, digits: int | None = None) -> None:
-        """Write the hull to a file, by the ending of its name: .off .obj .ply .stl .json, or .svg for the picture.
+        """Write the hull to a file in the format of its extension.
 
-        digits: significant digits to round those coordinates to that have no finite decimal; None refuses them.
-        Raises ExportError, FileError.
+        Parameters
+        ----------
+        path : str or path-like
+            A name that ends with .off, .obj, .ply, .stl, .json, .html or, for a drawing, .svg.
+        digits : int, optional
+            The number of significant digits to which coordinates without a finite decimal expansion are rounded.
+            Without it such a coordinate raises ExportError.
+
+        Raises
+        ------
+        ExportError
+            The format is unknown or cannot hold the hull.
+        FileError
+            The file cannot be written.
         """
         name = os.fspath(path)
         if name.lower().endswith(".svg"):
@@ -224,7 +294,13 @@ class Hull:
             write_hull(self.record, name, digits=digits)
 
     def to_trimesh(self) -> Any:
-        """A ``trimesh.Trimesh`` (extra ``mesh``).  Raises ExportError."""
+        """Return the hull as a ``trimesh.Trimesh`` (needs the extra ``mesh``).
+
+        Raises
+        ------
+        ExportError
+            trimesh is not installed, or it cannot hold the hull.
+        """
         return to_trimesh(self.record)
 
     def __repr__(self) -> str:
@@ -233,8 +309,8 @@ class Hull:
             return f"<no hull: {self.status} at {self.statement}; {count} points, {arithmetic}>"
         faces = f", {len(self.faces)} {'faces' if self.dimension == 3 else 'lines'}" if self.faces else ""
         vertices = f"{len(self.record.vertices)} {'vertices' if self.dimension else 'vertex'}"
-        read = self.record.coplanar
-        within = "" if read is None else f", coplanar within {distance_text(Fraction(read.within))}"
+        joined = self.record.coplanar
+        within = "" if joined is None else f", coplanar within {distance_text(Fraction(joined.within))}"
         return f"<hull: {_KINDS[self.dimension]}, {vertices}{faces}; {count} points, {arithmetic}{within}>"
 
     def _repr_svg_(self) -> str | None:
@@ -246,9 +322,9 @@ class Hull:
 
     @cached_property
     def _closed(self) -> Mesh:
-        """The mesh, of a polyhedron with every edge between two faces that run along it in opposite ways."""
+        """The mesh.  Raise ExportError if a polyhedron has an edge that does not belong to two faces."""
         if self.dimension == 3 and not self._mesh.closed:
-            raise ExportError(f"the faces found in {self.arithmetic} do not close to a surface")
+            raise ExportError(f"the faces determined in {self.arithmetic} do not close to a surface")
         return self._mesh
 
 
@@ -262,15 +338,53 @@ def convex_hull(
     on_refusal: OnRefusal = "raise",
     text: bool = False,
 ) -> Hull:
-    """The convex hull of points by Butler's procedure of 1963, in any arithmetic.
+    """Compute the convex hull of points by Butler's procedure of 1963, in any arithmetic.
 
-    See :func:`modern.port.procedure.convex_hull` for what the arguments are.  points: real numbers of any type (floats
-    exactly), decimal strings or fractions ``"p/q"``, three a point; or an array of shape (n, 3).  arithmetic:
-    ``exact``, ``float64``, ``float32``, ``mp:BITS``, ``truncating`` (the thesis's eight digits), ``ibm1962``,
-    ``truncating:P``, ``guarded:P`` or ``rounding:P``.  on_refusal: where that arithmetic comes to no hull, as of most
-    doubles in ``float64``, ``raise`` HullRefused, whose ``result`` says why, or ``return`` that result.
+    Parameters
+    ----------
+    points : array_like, shape (n, 3)
+        Real numbers of any type, decimal strings or fractions ``"p/q"``.  A float has the binary value it stores.
+    arithmetic : str, optional
+        ``exact``, ``float64``, ``float32``, ``mp:BITS``, ``truncating`` (the eight digits of the thesis), ``ibm1962``,
+        ``truncating:P``, ``guarded:P`` or ``rounding:P``.
+    epsilon : number or str, optional
+        The e of chapter 7: values from -e to e count as zero.  ``"rel:1e-9"`` is relative to the equation.
+    translate : bool, optional
+        Move the origin to the point C first, as chapter 7 proposes.
+    history : bool, optional
+        Record the approximations H1, H2, ...
+    fast : bool, optional
+        Use (True) or do not use (False) compiled kernels, which need the extra ``fast``.  The default uses them for
+        many points.
+    on_refusal : {"raise", "return"}, optional
+        What happens if the procedure finds no hull in this arithmetic, as for most doubles in ``float64``: raise
+        HullRefused, or return the incomplete result.
+    text : bool, optional
+        Follow the text of chapter 3 where it differs from the listing.
 
-    Raises PointsError (a ValueError) for invalid points and for none at all, HullRefused, ValueError, RangeError.
+    Returns
+    -------
+    Hull
+
+    Raises
+    ------
+    PointsError
+        There are no points, or a point is invalid (a subclass of ValueError).
+    HullRefused
+        The procedure found no hull; ``result`` of the exception has the reason.
+    RangeError
+        A number is beyond the range of the arithmetic (a subclass of ValueError).
+    ValueError
+        Another argument is invalid.
+
+    See Also
+    --------
+    modern.port.procedure.convex_hull
+
+    Examples
+    --------
+    >>> convex_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
+    <hull: polyhedron, 4 vertices, 4 faces; 4 points, exact>
     """
     try:
         return Hull(port.convex_hull(points, arithmetic, epsilon, translate, history, fast, on_refusal, text))
@@ -279,14 +393,36 @@ def convex_hull(
 
 
 def exact_hull(points: Points, fast: bool | None = None) -> Hull:
-    """The exact convex hull of points by another algorithm, over integers, with a proof: ``Hull.certificate``.
+    """Compute the exact convex hull of points and prove it, by an algorithm that is independent of the procedure.
 
-    points: as of ``convex_hull``.  fast: find what is to be proved by a compiled kernel (extra ``fast``); left alone,
-    where it is loaded or points are very many.  Raises PointsError (a ValueError) for invalid points and for none at
-    all, and ValueError where numba is asked for and missing.
+    Parameters
+    ----------
+    points : array_like, shape (n, 3)
+        As in ``convex_hull``.
+    fast : bool, optional
+        Use (True) or do not use (False) a compiled kernel, which needs the extra ``fast``, to find the hull that is
+        then proved.  The default uses it if it is already loaded or there are very many points.
+
+    Returns
+    -------
+    Hull
+        Its ``certificate`` has the counts of the proof.
+
+    Raises
+    ------
+    PointsError
+        There are no points, or a point is invalid (a subclass of ValueError).
+    ValueError
+        ``fast`` is true and numba is not installed.
+
+    Examples
+    --------
+    >>> hull = exact_hull([(0, 0, 0), ("0.1", 0, 0), (0, 1, 0), (0, 0, "1/3")])
+    >>> hull.volume
+    Fraction(1, 180)
     """
-    found = judge.exact_hull(points, fast)
-    return Hull(as_hull(found), found.certificate)
+    judged = judge.exact_hull(points, fast)
+    return Hull(as_hull(judged), judged.certificate)
 
 
 def draw(
@@ -298,25 +434,66 @@ def draw(
     hidden: bool = True,
     others: bool = True,
 ) -> str:
-    """A picture of points' exact hull, or of a hull, as the text of an SVG file; see ``Hull.draw``."""
+    """Return a drawing of a hull, or of the exact hull of points, as the text of an SVG file.
+
+    The arguments and errors are those of ``Hull.draw``.
+    """
     return _hull(points).draw(eye, title, width, labels, hidden, others)
 
 
 def save(points: Points | Hull, path: Path, digits: int | None = None) -> None:
-    """Write points' exact hull, or a hull, to a file; see ``Hull.save``."""
+    """Write a hull, or the exact hull of points, to a file.
+
+    The arguments and errors are those of ``Hull.save``.
+    """
     _hull(points).save(path, digits)
 
 
 def read_points(path: Path) -> tuple[tuple[str, str, str], ...]:
-    """The points of a file, as the text that stands there; any kind the commands take.  Raises EmulatorError."""
+    """Return the points of a file in any format that the commands accept.
+
+    Parameters
+    ----------
+    path : str or path-like
+        A data deck, a list (CSV), OFF, OBJ, PLY, STL, JSON or NPY file.
+
+    Returns
+    -------
+    tuple of (x, y, z)
+        Each coordinate is the decimal text of the file, or the exact decimal of a binary float.
+
+    Raises
+    ------
+    EmulatorError
+        The file cannot be read or holds no points; the message names the line or card.
+    """
     return read_input(os.fspath(path)).points
 
 
 def data_deck(points: Points, truncate: bool = False, epsilon: Epsilon = None) -> Deck:
-    """Points as a data deck of the 1963 programs: a card with N, then a card a point.
+    """Return points as a data deck for the programs of 1963: a card with N, then a card for each point.
 
-    truncate: cut the digits beyond the eighth instead of refusing them.  epsilon: chapter 7's e, for the layer
-    ``epsilon``.  Raises PointsError, and ValueError for what no card can hold.
+    Parameters
+    ----------
+    points : array_like, shape (n, 3)
+        As in ``convex_hull``.
+    truncate : bool, optional
+        Truncate numbers after the eighth digit, which is all that a card holds.
+    epsilon : number or str, optional
+        The e of chapter 7, for the layer ``epsilon``.
+
+    Raises
+    ------
+    PointsError
+        There are no points, or a point is invalid.
+    ValueError
+        A number has too many digits for a card, or its exponent is out of range.
+
+    Examples
+    --------
+    >>> print(data_deck([(1, 2.5, -3)]).text(), end="")
+     1
+    +.10000000E+01+.25000000E+01-.30000000E+01
     """
     texts = [[exact_text(number) for number in point] for point in exact_points(points)]
     deck = decks.data_deck(texts, "points", truncate)
@@ -324,17 +501,45 @@ def data_deck(points: Points, truncate: bool = False, epsilon: Epsilon = None) -
 
 
 def run_hull(deck: Deck, layers: Sequence[str] = (), options: Options | None = None) -> HullRun:
-    """A data deck through program 1 and the program its typewriter names, as ``hull1620 hull`` runs it.
+    """Run program 1 on a data deck, then the program that its typewriter names, like ``hull1620 hull``.
 
-    layers: of the apparatus, such as ``corrected``, added to the listings.  ``result.final.result.punched`` are the
-    cards, ``result.refusal`` the message of a refusal.  Raises EmulatorError.
+    Parameters
+    ----------
+    deck : Deck
+        One data set, for instance from ``data_deck`` or ``read_deck``.
+    layers : sequence of str, optional
+        Layers of the apparatus, such as ``corrected``, that are added to the listings.
+    options : Options, optional
+        The machine: its arithmetic, its core memory, a limit of statements, and others.
+
+    Returns
+    -------
+    HullRun
+        ``result.final.result.punched`` are the punched cards, which ``read_hull`` reads.  ``result.refusal`` is the
+        message of a refusal, or empty.
+
+    Raises
+    ------
+    EmulatorError
+        The deck cannot be read.
     """
     return job.run_hull(deck, programs.loader(tuple(layers)), options)
 
 
 def reproduce(*names: str) -> bool:
-    """Print what thesis and papers print, computed again, as ``hull1620 reproduce``; whether everything agrees."""
-    from modern.cli.main import main  # the one function that needs the commands
+    """Compute the printed results of the thesis and the papers again, and print the comparison.
+
+    Parameters
+    ----------
+    *names : str
+        The results, with the names that ``hull1620 reproduce`` accepts; all of them by default.
+
+    Returns
+    -------
+    bool
+        True if every result agrees with the printed one.
+    """
+    from modern.cli.main import main  # imported here because only this function needs the commands
 
     return main(["reproduce", *names]) == 0
 
@@ -344,13 +549,13 @@ def _hull(points: Points | Hull) -> Hull:
 
 
 def _float(text: str) -> float:
-    """The nearest double; beyond the largest an infinity."""
+    """Return the nearest double, or an infinity beyond the largest one."""
     try:
         return float(Fraction(text)) if "/" in text else float(text)
     except OverflowError:
         return float("-inf") if text.startswith("-") else float("inf")
 
 
-def _fixed(array: Array) -> Array:
+def _read_only(array: Array) -> Array:
     array.setflags(write=False)
     return array

@@ -1,4 +1,4 @@
-"""Hulls of voxels for a Python program: exact, proved, and in the world where the voxels have a place there."""
+"""Exact convex hulls of voxels for Python programs."""
 
 from __future__ import annotations
 
@@ -21,16 +21,45 @@ def voxel_hull(
     origin: Sequence[Any] | None = None,
     directions: Sequence[Sequence[Any]] | None = None,
 ) -> Hull:
-    """The exact hull of voxels, proved; its points are the hull's vertices, in the world where voxels have a place.
+    """Return the exact convex hull of voxels, with a proof.
 
-    volume: three axes; every value other than 0 is a voxel; or what ``read_volume`` gives.  centres: the hull of the
-    voxels' centres; else of their corners, half a voxel from the centres.  spacing: of an array, a length an axis.
-    origin: the position of its first voxel's centre.  directions: a vector for each axis, multiplied by the spacing.
-    A float is the number it holds; decimal text is exact.  Without all three a position is an index, and voxel
-    (x, y, z) has the corners (x, y, z) to (x + 1, y + 1, z + 1).
+    Parameters
+    ----------
+    volume : Volume or array_like, shape (nx, ny, nz)
+        A volume from ``read_volume``, or an array in which every nonzero value is a voxel.
+    centres : bool, optional
+        Take the hull of the voxels' centres instead of their corners, which are half a voxel away from the centres.
+    spacing : sequence of 3 numbers, optional
+        The size of a voxel along each axis.
+    origin : sequence of 3 numbers, optional
+        The position of the centre of the first voxel.
+    directions : sequence of 3 vectors, optional
+        The direction of each axis; it is multiplied by the spacing.
 
-    Raises VolumeError for other arrays and places, NoVoxels (a PointsError) where there are no voxels.
+    Returns
+    -------
+    Hull
+        Its points are the vertices of the hull, in physical coordinates if the volume or the arguments give them.
+        Otherwise positions are indices: voxel (x, y, z) has the corners (x, y, z) to (x + 1, y + 1, z + 1).
+
+    Raises
+    ------
+    VolumeError
+        The array is not a volume, or its position is invalid.
+    NoVoxels
+        There are no voxels (a subclass of PointsError).
+
+    Notes
+    -----
+    ``spacing``, ``origin`` and ``directions`` apply to arrays only.  A float has the binary value it stores; decimal
+    text is exact.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> voxel_hull(np.ones((2, 2, 2))).volume
+    Fraction(8, 1)
     """
-    of: voxels.Of = voxels.CENTRES if centres else voxels.VERTICES
-    found = voxels.voxel_hull(placed(volume, spacing, origin, directions), of)
-    return exact_hull(found.mesh(straight=True).points)
+    cells: voxels.Of = voxels.CENTRES if centres else voxels.VERTICES
+    polyhedron = voxels.voxel_hull(placed(volume, spacing, origin, directions), cells)
+    return exact_hull(polyhedron.mesh(straight=True).points)

@@ -1,1 +1,1 @@
-"""A hull and its parts as data, the surface they make, and the exact numbers of both."""
+"""The data of a hull, its surface as a mesh, and exact numbers and vectors."""

@@ -1,13 +1,16 @@
-"""Faces read as one: neighbours on a convex surface whose vertices lie within E of one plane.
+"""Joining faces that are coplanar to within a distance E, for hulls of floating-point input.
 
-Points in binary floats seldom lie in a plane exactly: the hull of a dodecahedron in doubles has 36 faces.  The hull
-stays as it is; what is made here is a reading of it.  Faces are taken from the largest on (by area; of equals the
-first).  To a face that is not joined yet are joined all that are connected with it through edges, turn the same way
-(their normals have a positive product) and have every vertex within E of *its* plane.  Distances are compared by their
-squares, exactly.  A joined face is the polygon around its faces; a vertex within it is left out.
+Points in binary floats are seldom exactly coplanar: the hull of a dodecahedron in doubles has 36 faces.  This module
+leaves the hull as it is and derives a second hull with joined faces from it:
 
-An E that fits no face of the solid any more is refused: one within which all points lie of the largest face's plane, or
-which leaves fewer than four faces, or a face that is not a simple polygon, convex within E.
+1. Take the faces from the largest area to the smallest, and of equal areas the first one.
+2. To a face that is not yet joined, join all faces that are connected to it through edges, turn the same way (their
+   normals have a positive scalar product) and have every vertex within E of the plane of that first face.  Distances
+   are compared exactly, by their squares.
+3. The joined face is the polygon around its faces.  A vertex inside it is left out.
+
+An E that is too large for the solid raises CoplanarError: all points lie within E of the plane of the largest face, or
+fewer than four faces remain, or a joined face is not a simple polygon that is convex to within E.
 """
 
 from __future__ import annotations
@@ -25,26 +28,27 @@ from modern.geometry.vectors import area_vector, cross, dot, lowest, minus
 
 IntVector = tuple[int, int, int]
 _LEAST = 4
-"""Faces of a solid at least."""
+"""The smallest number of faces of a solid."""
 _SHOWN, _WORK, _LONGEST = 3, 60, 12
-
 
 FLAT = "the points lie in one plane: there are no faces to join"
 
 
 class CoplanarError(ExportError):
-    """A distance within which the faces of this surface cannot be read as one; one line that says why."""
+    """A distance E within which the faces of a surface cannot be joined; the message gives the reason in one line."""
 
 
 @dataclass(frozen=True, slots=True)
 class Joined:
-    """A convex surface with faces joined.
+    """A convex surface with joined faces.
 
-    within: the distance E.  groups: the surface's faces that make up each joined face, by place, the one whose plane
-    is meant first; in the order of their smallest places.  loops: the polygon of each, counterclockwise from outside,
-    by place in the surface's points.  left_out: points on no loop.  square: that of the largest distance of a vertex
-    from the plane it is joined to.  beyond: that of the distance from which on one more face would be joined, None
-    where none could be.
+    within: the distance E.
+    groups: the faces of the surface that make up each joined face, by index.  The first of a group is the one whose
+        plane is used.  Groups are ordered by their smallest index.
+    loops: the polygon of each joined face, counterclockwise from outside, by index into the points of the surface.
+    left_out: points on no loop.
+    square: the square of the largest distance of a vertex from the plane of its joined face.
+    beyond: the square of the smallest distance E that would join one more face, or None if there is no such distance.
     """
 
     within: Fraction
@@ -56,46 +60,47 @@ class Joined:
 
     @property
     def faces(self) -> int:
-        """How many faces the surface itself has."""
+        """The number of faces of the surface before joining."""
         return sum(map(len, self.groups))
 
     def group_of(self) -> tuple[int, ...]:
-        """For every face of the surface the place of the joined face it belongs to."""
-        found = {face: place for place, group in enumerate(self.groups) for face in group}
-        return tuple(found[face] for face in range(len(found)))
+        """Return the index of the joined face to which each face of the surface belongs."""
+        groups = {face: index for index, group in enumerate(self.groups) for face in group}
+        return tuple(groups[face] for face in range(len(groups)))
 
 
 def parse_distance(value: object) -> Fraction:
-    """E as a fraction: of decimal text, a fraction ``p/q``, or any real number.  Raises CoplanarError."""
+    """Return E as a fraction, from decimal text, a fraction ``p/q`` or any real number.  Raise CoplanarError."""
     try:
-        found = Fraction(real(value))
+        distance = Fraction(real(value))
     except ValueError as error:
         raise CoplanarError(f"the distance within which faces are coplanar: {error}") from None
-    if found < 0:
-        raise CoplanarError(f"the distance within which faces are coplanar is 0 or more, not {distance_text(found)}")
-    return found
+    if distance < 0:
+        raise CoplanarError(f"the distance within which faces are coplanar must be >= 0, not {distance_text(distance)}")
+    return distance
 
 
 def join(surface: Mesh, within: Fraction) -> Joined:
-    """The faces of a closed convex surface, joined within a distance.
+    """Join the faces of a closed convex surface that are coplanar to within a distance.
 
-    Raises CoplanarError for a distance too large, and for faces that do not close.
+    Raise CoplanarError if the distance is too large or the faces do not close.
     """
     points, scale = _integers(surface)
     normals = [area_vector(points, face) for face in surface.faces]
     sizes = [dot(normal, normal) for normal in normals]
     if not all(sizes):
         raise CoplanarError(f"face {sizes.index(0) + 1} has no area")
-    flanks = [lowest(normal) for normal in normals]
-    squares = [dot(flank, flank) * scale * scale for flank in flanks]
-    beside = {edge: order for order, face in enumerate(surface.faces) for edge in sides(face)}
+    # Normals in lowest terms keep the integers of the distances small.
+    reduced = [lowest(normal) for normal in normals]
+    squares = [dot(normal, normal) * scale * scale for normal in reduced]
+    face_left_of = {edge: index for index, face in enumerate(surface.faces) for edge in sides(face)}
     limit = within * within
     owner = [-1] * len(normals)
     groups: list[list[int]] = []
     greatest, beyond = Fraction(0), None
     order = sorted(range(len(normals)), key=lambda face: (-sizes[face], face))
     largest = order[0]
-    if _depth(points, flanks[largest], surface.faces[largest][0], range(len(points))) <= limit * squares[largest]:
+    if _depth(points, reduced[largest], surface.faces[largest][0], range(len(points))) <= limit * squares[largest]:
         raise CoplanarError(f"all points lie within {distance_text(within)} of the plane of the largest face")
     for leader in order:
         if owner[leader] >= 0:
@@ -103,103 +108,109 @@ def join(surface: Mesh, within: Fraction) -> Joined:
         group = [leader]
         owner[leader] = len(groups)
         base = surface.faces[leader][0]
+        # The group grows while it is traversed: a search in breadth over the edges.
         for face in group:
             for a, b in sides(surface.faces[face]):
-                other = beside.get((b, a))
-                if other is None:
+                neighbour = face_left_of.get((b, a))
+                if neighbour is None:
                     raise CoplanarError("the faces do not close to a surface")
-                if owner[other] >= 0 or dot(flanks[leader], flanks[other]) <= 0:
+                if owner[neighbour] >= 0 or dot(reduced[leader], reduced[neighbour]) <= 0:
                     continue
-                square = Fraction(_depth(points, flanks[leader], base, surface.faces[other]), squares[leader])
+                depth = _depth(points, reduced[leader], base, surface.faces[neighbour])
+                square = Fraction(depth, squares[leader])
                 if square <= limit:
-                    owner[other] = len(groups)
-                    group.append(other)
+                    owner[neighbour] = len(groups)
+                    group.append(neighbour)
                     greatest = max(greatest, square)
                 elif beyond is None or square < beyond:
                     beyond = square
         groups.append(group)
     if len(groups) < _LEAST:
         raise CoplanarError(
-            f"within {distance_text(within)} the {len(normals)} faces would be {len(groups)}; a solid has four at least"
+            f"within {distance_text(within)} the {len(normals)} faces would become {len(groups)}; "
+            "a solid has at least four"
         )
     groups.sort(key=min)
     loops = tuple(_loop(surface, group, within) for group in groups)
     for loop, group in zip(loops, groups, strict=True):
         if len(group) > 1:
-            _check_convex(points, scale, loop, flanks[group[0]], within)
-    kept = {place for loop in loops for place in loop}
-    left_out = tuple(place for place in range(len(points)) if place not in kept)
+            _check_convex(points, scale, loop, reduced[group[0]], within)
+    on_loops = {index for loop in loops for index in loop}
+    left_out = tuple(index for index in range(len(points)) if index not in on_loops)
     return Joined(within, tuple(map(tuple, groups)), loops, left_out, greatest, beyond)
 
 
-def joined_mesh(surface: Mesh, found: Joined) -> Mesh:
-    """The surface with its faces joined, its points on no face left out."""
-    gone = set(found.left_out)
-    kept = [place for place in range(len(surface.points)) if place not in gone]
-    names = {place: order for order, place in enumerate(kept)}
-    faces = tuple(tuple(names[place] for place in loop) for loop in found.loops)
-    return Mesh(surface.dimension, tuple(surface.points[place] for place in kept), faces)
+def joined_mesh(surface: Mesh, joined: Joined) -> Mesh:
+    """Return the surface with joined faces, without the points that are left out."""
+    left_out = set(joined.left_out)
+    remaining = [index for index in range(len(surface.points)) if index not in left_out]
+    new_indices = {index: new for new, index in enumerate(remaining)}
+    faces = tuple(tuple(new_indices[index] for index in loop) for loop in joined.loops)
+    return Mesh(surface.dimension, tuple(surface.points[index] for index in remaining), faces)
 
 
 def coplanar(hull: Hull, within: object) -> tuple[Hull, Joined | None]:
-    """A reading of a hull, with faces joined within a distance, and how they were; of what is flat the hull itself.
+    """Return a hull with faces joined within a distance, and how they were joined; a flat hull is returned unchanged.
 
-    A joined face has the equation of its largest face, and its vertices lie within that distance of it.  Vertices
-    within joined faces become boundary points.  Raises CoplanarError, and ExportError where there is no hull.
+    A joined face has the equation of its largest face, and its vertices lie within the distance of that plane.
+    Vertices inside joined faces become boundary points.  Raise CoplanarError if the distance is invalid or too large,
+    and ExportError if the hull was not determined.
     """
     limit = parse_distance(within)
     surface = mesh(hull)
     if surface.dimension < 3:
         return hull, None
-    found = join(surface, limit)
-    gone = [hull.vertices[place] for place in found.left_out]
-    faces = tuple(_face(hull, group, loop, set(gone)) for group, loop in zip(found.groups, found.loops, strict=True))
+    joined = join(surface, limit)
+    left_out = [hull.vertices[index] for index in joined.left_out]
+    faces = tuple(
+        _face(hull, group, loop, set(left_out)) for group, loop in zip(joined.groups, joined.loops, strict=True)
+    )
     return (
         replace(
             hull,
-            vertices=tuple(index for index in hull.vertices if index not in gone),
-            boundary=(*hull.boundary, *gone),
+            vertices=tuple(index for index in hull.vertices if index not in left_out),
+            boundary=(*hull.boundary, *left_out),
             faces=faces,
             coplanar=Coplanar(
                 finite_decimal(limit) or str(limit),
-                found.faces,
-                root_text(found.square),
-                None if found.beyond is None else root_text(found.beyond),
+                joined.faces,
+                root_text(joined.square),
+                None if joined.beyond is None else root_text(joined.beyond),
             ),
         ),
-        found,
+        joined,
     )
 
 
-def _face(hull: Hull, group: Sequence[int], loop: Sequence[int], gone: set[int]) -> Face:
-    polygon = tuple(hull.vertices[place] for place in loop)
+def _face(hull: Hull, group: Sequence[int], loop: Sequence[int], left_out: set[int]) -> Face:
+    polygon = tuple(hull.vertices[index] for index in loop)
     on = dict.fromkeys(index for face in group for index in hull.faces[face].on)
-    within = dict.fromkeys(index for face in group for index in hull.faces[face].polygon if index in gone)
-    return replace(hull.faces[group[0]], polygon=polygon, on=(*on, *within))
+    inner = dict.fromkeys(index for face in group for index in hull.faces[face].polygon if index in left_out)
+    return replace(hull.faces[group[0]], polygon=polygon, on=(*on, *inner))
 
 
-def join_summary(found: Joined) -> str:
-    """What was joined, how far a vertex is off its plane at the most, and from which distance on more would be."""
-    within = distance_text(found.within)
-    more = "" if found.beyond is None else f"the next face would be joined from {root_text(found.beyond)} on"
-    if len(found.groups) == found.faces:
-        return f"no two of {found.faces} faces lie within {within} of one plane" + (more and f"; {more}")
+def join_summary(joined: Joined) -> str:
+    """Return a line for the user: the numbers of faces, the largest distance, and the next larger distance."""
+    within = distance_text(joined.within)
+    following = "" if joined.beyond is None else f"the next face would be joined from {root_text(joined.beyond)} on"
+    if len(joined.groups) == joined.faces:
+        return f"no two of {joined.faces} faces lie within {within} of one plane" + (following and f"; {following}")
     parts = [
-        f"{found.faces} faces are read as {len(found.groups)} within {within}",
-        f"a vertex is off its plane by {root_text(found.square)} at the most",
+        f"{joined.faces} faces are joined into {len(joined.groups)} within {within}",
+        f"a vertex lies at most {root_text(joined.square)} from its plane",
     ]
-    if found.left_out:
-        many = len(found.left_out)
+    if joined.left_out:
+        count = len(joined.left_out)
         parts.append(
-            "a vertex within a joined face is left out"
-            if many == 1
-            else f"{many} vertices within joined faces are left out"
+            "1 vertex inside a joined face is left out"
+            if count == 1
+            else f"{count} vertices inside joined faces are left out"
         )
-    return "; ".join([*parts, more] if more else parts)
+    return "; ".join([*parts, following] if following else parts)
 
 
 def root_text(square: Fraction) -> str:
-    """The root of a square to three digits, rounded up."""
+    """Return the square root of a number to three digits, rounded up."""
     work = Context(prec=_WORK, rounding=ROUND_HALF_EVEN, Emin=MIN_EMIN, Emax=MAX_EMAX)
     root = work.sqrt(work.divide(Decimal(square.numerator), Decimal(square.denominator)))
     rounded = Context(prec=_SHOWN, rounding=ROUND_CEILING, Emin=MIN_EMIN, Emax=MAX_EMAX).plus(root)
@@ -207,7 +218,7 @@ def root_text(square: Fraction) -> str:
 
 
 def distance_text(value: Fraction) -> str:
-    """A distance for a message: as it is where that is short, else to six digits."""
+    """Return a distance for a message: exact if that is short, otherwise to six digits."""
     exact = finite_decimal(value)
     text = str(value) if exact is None else _plain(Decimal(exact))
     work = Context(prec=6, Emin=MIN_EMIN, Emax=MAX_EMAX)
@@ -215,87 +226,89 @@ def distance_text(value: Fraction) -> str:
 
 
 def _plain(value: Decimal) -> str:
-    """40, 0.002, 1e-9."""
+    """Return the number without trailing zeros and with an exponent only if it is long: 40, 0.002, 1e-9."""
     short = value.normalize()
     return f"{short:f}" if -5 < short.adjusted() < _LONGEST else f"{short:g}"
 
 
 def _integers(surface: Mesh) -> tuple[list[IntVector], int]:
-    """The points times the least number that makes them whole, and that number."""
+    """Return the points times the least common denominator of their coordinates, and that denominator."""
     numbers = surface.numbers()
     scale = math.lcm(*(value.denominator for point in numbers for value in point))
-    found = []
+    points = []
     for x, y, z in numbers:
         a, b, c = (value.numerator * (scale // value.denominator) for value in (x, y, z))
-        found.append((a, b, c))
-    return found, scale
+        points.append((a, b, c))
+    return points, scale
 
 
-def _depth(points: Sequence[IntVector], flank: IntVector, base: int, places: Sequence[int]) -> int:
-    """The square of the largest distance of points from a plane, times the square of the length of its normal."""
-    level = dot(flank, points[base])
-    return max(abs(level - dot(flank, points[place])) for place in places) ** 2
+def _depth(points: Sequence[IntVector], normal: IntVector, base: int, indices: Sequence[int]) -> int:
+    """Return the square of the largest distance of points from the plane at point ``base``, times |normal|^2."""
+    level = dot(normal, points[base])
+    return max(abs(level - dot(normal, points[index])) for index in indices) ** 2
 
 
 def _loop(surface: Mesh, group: Sequence[int], within: Fraction) -> tuple[int, ...]:
-    """The polygon around the faces of a group."""
+    """Return the polygon around the faces of a group.  Raise CoplanarError if they do not form a simple polygon."""
     if len(group) == 1:
         return surface.faces[group[0]]
     edges = {edge for face in group for edge in sides(surface.faces[face])}
+    # An edge inside the group occurs in both directions.
     border = [(a, b) for a, b in edges if (b, a) not in edges]
-    ahead = dict(border)
-    found = [min(ahead)] if ahead else []
-    while found and ahead[found[-1]] != found[0]:
-        found.append(ahead[found[-1]])
-        if len(found) > len(ahead):
+    following = dict(border)
+    loop = [min(following)] if following else []
+    while loop and following[loop[-1]] != loop[0]:
+        loop.append(following[loop[-1]])
+        if len(loop) > len(following):
             break
-    if not found or len(found) != len(border):
+    if not loop or len(loop) != len(border):
         raise CoplanarError(f"within {distance_text(within)} a joined face would not be one simple polygon")
-    return tuple(found)
+    return tuple(loop)
 
 
 def _check_convex(
-    points: Sequence[IntVector], scale: int, loop: Sequence[int], flank: IntVector, within: Fraction
+    points: Sequence[IntVector], scale: int, loop: Sequence[int], normal: IntVector, within: Fraction
 ) -> None:
-    """Refuse a polygon with a corner farther than E within the convex polygon around it, seen along the normal."""
-    size = dot(flank, flank)
-    corners = [points[place] for place in loop]
-    hull = _outer(corners, flank)
+    """Raise CoplanarError if, seen along the normal, a corner lies deeper than E inside the polygon's convex hull."""
+    size = dot(normal, normal)
+    corners = [points[index] for index in loop]
+    hull = _outer(corners, normal)
     for first, last in zip(hull, [*hull[1:], hull[0] + len(corners)], strict=True):
         p = corners[first]
         along = minus(corners[last % len(corners)], p)
-        # The squared length of the side seen along the normal, times the normal's.
-        length = dot(along, along) * size - dot(along, flank) ** 2
+        # |normal|^2 times the squared length of this side of the hull, seen along the normal.
+        length = dot(along, along) * size - dot(along, normal) ** 2
         for between in range(first + 1, last):
-            off = dot(cross(along, minus(corners[between % len(corners)], p)), flank)
+            off = dot(cross(along, minus(corners[between % len(corners)], p)), normal)
             if Fraction(off * off, length * scale * scale) > within * within:
                 raise CoplanarError(
-                    f"within {distance_text(within)} a joined face would not be convex, by more than that"
+                    f"within {distance_text(within)} a joined face would not be convex, even within that distance"
                 )
 
 
-def _outer(corners: Sequence[IntVector], flank: IntVector) -> list[int]:
-    """The corners of the convex polygon around a polygon, in its order, seen along the normal."""
-    dropped = max(range(3), key=lambda axis: abs(flank[axis]))
+def _outer(corners: Sequence[IntVector], normal: IntVector) -> list[int]:
+    """Return the indices, in order, of the corners on the polygon's convex hull, seen along the normal."""
+    dropped = max(range(3), key=lambda axis: abs(normal[axis]))
     u, v = (dropped + 1) % 3, (dropped + 2) % 3
-    # Seen along the normal, not along an axis: times the normal's component, to stay whole.
-    height = abs(flank[dropped])
+    # Project along the normal onto the plane of u and v, scaled by the dropped component so that integers remain.
+    height = abs(normal[dropped])
     flat = []
     for corner in corners:
-        level = corner[dropped] if flank[dropped] > 0 else -corner[dropped]
-        flat.append((corner[u] * height - flank[u] * level, corner[v] * height - flank[v] * level))
+        level = corner[dropped] if normal[dropped] > 0 else -corner[dropped]
+        flat.append((corner[u] * height - normal[u] * level, corner[v] * height - normal[v] * level))
     order = sorted(range(len(flat)), key=flat.__getitem__)
 
-    def left(i: int, j: int, k: int) -> bool:
+    def turns_left(i: int, j: int, k: int) -> bool:
         (a, b), (c, d), (e, f) = flat[i], flat[j], flat[k]
         return (c - a) * (f - b) > (d - b) * (e - a)
 
-    def chain(places: Sequence[int]) -> list[int]:
-        kept: list[int] = []
-        for place in places:
-            while len(kept) > 1 and not left(kept[-2], kept[-1], place):
-                kept.pop()
-            kept.append(place)
-        return kept[:-1]
+    def chain(indices: Sequence[int]) -> list[int]:
+        """Return half of the convex hull, as in Andrew's algorithm of monotone chains."""
+        half: list[int] = []
+        for index in indices:
+            while len(half) > 1 and not turns_left(half[-2], half[-1], index):
+                half.pop()
+            half.append(index)
+        return half[:-1]
 
     return sorted({*chain(order), *chain(order[::-1])})

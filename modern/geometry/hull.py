@@ -1,8 +1,8 @@
-"""The result of every hull of this project: one type for a point, a segment, a polygon and a polyhedron.
+"""The data of a convex hull: one type for a point, a segment, a polygon and a polyhedron.
 
-Points are referred to by their place in the input, counting from 0; a program's numbering of vertices is the
-order of :attr:`Hull.vertices`.  Numbers are exact text: decimal strings, or fractions ``p/q`` where no finite
-decimal exists; a binary float appears as the exact decimal of its value.
+Points are identified by their index in the input, from 0.  A program's numbers of vertices follow the order of
+:attr:`Hull.vertices`.  Numbers are exact text: decimals, or fractions ``p/q`` if the decimal expansion does not end.  A
+binary float appears as the exact decimal of its value.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ T = TypeVar("T")
 
 
 class LazyTuple(Sequence[T]):
-    """A tuple whose members are made when one is first asked for; their number is known before.  Equal to the tuple."""
+    """A tuple whose members are computed on first access, although its length is known.  It is equal to that tuple."""
 
     def __init__(self, count: int, make: Callable[[], Iterable[T]]) -> None:
         self._count = count
@@ -31,7 +31,7 @@ class LazyTuple(Sequence[T]):
         self._made: tuple[T, ...] = ()
 
     def all(self) -> tuple[T, ...]:
-        """The tuple itself."""
+        """Return the members as a tuple."""
         if self._make is not None:
             self._made, self._make = tuple(self._make()), None
         return self._made
@@ -65,20 +65,20 @@ class LazyTuple(Sequence[T]):
 
 
 def as_tuple(members: Sequence[T]) -> tuple[T, ...]:
-    """The tuple of them; no copy of what is one."""
+    """Return the members as a tuple, without copying a tuple."""
     return members.all() if isinstance(members, LazyTuple) else tuple(members)
 
 
 @dataclass(frozen=True, slots=True)
 class Face:
-    """A supporting plane A x + B y + C z + D = 0, or a supporting line of a polygon, outward as the thesis turns it.
+    """A supporting plane A x + B y + C z + D = 0, or a supporting line of a polygon, positive outside.
 
-    ``coefficients``: as the thesis scales them, products of coordinate differences of the defining points; of
-    a line the coefficient of the coordinate projected away is 0 (thesis p. 16-17).  ``lowest``: the same
-    equation in integers without common divisor, of the coefficients as they stand.  ``defining``: the points
-    MM, NN, KK (of a line MM, NN) it was made from.  ``polygon``: the vertices on it in cyclic order,
-    counterclockwise seen from outside; of a line its two vertices.  ``on``: every other point of the input
-    on it.
+    coefficients: A, B, C, D scaled as in the thesis, products of coordinate differences of the defining points.  For a
+        line the coefficient of the coordinate that the projection drops is 0 (thesis p. 16-17).
+    lowest: the same equation as integers without a common divisor.
+    defining: the points MM, NN, KK (for a line MM, NN) from which the equation was made.
+    polygon: the vertices on it in cyclic order, counterclockwise seen from outside; for a line its two vertices.
+    on: all other points of the input on it.
     """
 
     coefficients: Coefficients
@@ -90,12 +90,14 @@ class Face:
 
 @dataclass(frozen=True, slots=True)
 class Stage:
-    """One approximation H_j of the construction (thesis p. 8-9, 22-33).
+    """An approximation H_j of the construction (thesis p. 8-9, 22-33).
 
-    ``added``: the point that became a vertex (for H_1 the points it starts from); ``checked``: the number
-    NETC of the equation it lay outside of, 0 for H_1; ``struck``: points found inside H_j and eliminated;
-    ``equations``: the defining points of its equations, in order of the table; ``outside``: how many of the
-    equations the new point lay outside of.
+    number: j.
+    added: the point that became a vertex, or the points of H_1.
+    checked: NETC, the number of the equation outside of which it lay; 0 for H_1.
+    outside: the number of equations outside of which it lay.
+    struck: the points inside H_j, which the procedure eliminates.
+    equations: the defining points of each equation, in the order of the table.
     """
 
     number: int
@@ -108,11 +110,12 @@ class Stage:
 
 @dataclass(frozen=True, slots=True)
 class Coplanar:
-    """How faces of a hull were read as one (``modern.geometry.coplanar``).
+    """How the faces of a hull were joined (``modern.geometry.coplanar``); all distances are decimals.
 
-    ``within``: the distance E.  ``faces``: how many the hull itself has.  ``deviation``: the largest distance of a
-    vertex from the plane of the face it was joined to; ``beyond``: the distance from which on one more face would be
-    joined, None where none could be.  Decimals, the last two to three digits, rounded up.
+    within: the distance E.
+    faces: the number of faces of the hull before joining.
+    deviation: the largest distance of a vertex from the plane of its joined face, to three digits, rounded up.
+    beyond: the smallest distance that would join one more face, to three digits, rounded up; None if there is none.
     """
 
     within: str
@@ -123,16 +126,24 @@ class Coplanar:
 
 @dataclass(frozen=True, slots=True)
 class Hull:
-    """A convex hull as a procedure determined it in some arithmetic.
+    """A convex hull as determined by a procedure in some arithmetic.
 
-    ``status``: ``determined``, the message the programs end with, or ``table of planes is full`` where they
-    would overrun their arrays; ``statement``: program and label of the listing that decided it.  ``dimension``
-    0 to 3.  ``points``: the input as the arithmetic took it.  ``vertices``, ``boundary`` and ``inside``: points
-    in the order the programs punch them (of a segment they punch the ends only; the points between are
-    inside).  ``duplicates``: (point, the first point with the same coordinates); the thesis takes distinct
-    points, so these are reported and left out.  ``plane``: the plane of a polygon, as punched; ``lines``: two
-    equations a line, of a segment and of the three sides of three points; ``centre``: the point C of a
-    polyhedron.
+    arithmetic: the name of the arithmetic.
+    status: ``determined``, the message with which the programs end, or ``table of planes is full`` if they would
+        write beyond their arrays.
+    dimension: 0 to 3.
+    points: the input as numbers of the arithmetic.
+    vertices, boundary, inside: points in the order in which the programs punch them.  For a segment the programs punch
+        only the ends, and the points between them are inside.
+    duplicates: pairs of a point and the first point with the same coordinates.  The thesis requires distinct points,
+        so duplicates are reported and otherwise ignored.
+    plane: the plane of a polygon, as punched.
+    lines: two equations for each line, of a segment and of the three sides of three points.
+    centre: the point C of a polyhedron.
+    statement: program and label of the statement that decided the status.
+    corrected: rows of the layer ``corrected`` whose branch differed from that of the listing.
+    history: the approximations, if they were requested.
+    coplanar: if faces were joined, how.  The vertices of a face then lie only near its plane.
     """
 
     arithmetic: str
@@ -149,10 +160,8 @@ class Hull:
     centre: tuple[str, str, str] | None = None
     statement: str = ""
     corrected: tuple[str, ...] = ()
-    """Corrections of the layer ``corrected`` that took a branch other than the listing's."""
     history: Sequence[Stage] = field(default=(), repr=False)
     coplanar: Coplanar | None = None
-    """Where this is a reading of a hull with faces joined: how they were.  A face's vertices lie near to its plane."""
 
     @property
     def determined(self) -> bool:
@@ -160,11 +169,11 @@ class Hull:
 
 
 class HullRefused(EmulatorError):
-    """An arithmetic in which the procedure came to no hull; ``result`` is what it came to, with its status."""
+    """A procedure ended without a hull in its arithmetic; ``result`` holds the incomplete result with its status."""
 
     def __init__(self, result: Any) -> None:
         super().__init__(
             f"no hull in {result.arithmetic}: {result.status}, decided at {result.statement}; "
-            "'exact' always has one, on_refusal='return' gives the result as it is"
+            "'exact' always finds a hull, and on_refusal='return' returns the incomplete result"
         )
         self.result = result

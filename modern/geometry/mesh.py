@@ -1,4 +1,4 @@
-"""A hull as vertices and polygons: what every mesh format is written from, and what a drawing shows."""
+"""The surface of a hull as vertices and polygons, for mesh formats and drawings."""
 
 from __future__ import annotations
 
@@ -15,15 +15,16 @@ Triangle = tuple[int, int, int]
 
 
 class ExportError(EmulatorError):
-    """A hull that cannot be written in the format asked for, or not drawn as asked; one line."""
+    """A hull that a file format cannot hold or that cannot be drawn; the message is one line."""
 
 
 @dataclass(frozen=True, slots=True)
 class Mesh:
-    """The surface of a hull.  ``points`` are its vertices in the order of ``Hull.vertices``, as exact text.
+    """The surface of a hull.
 
-    ``faces`` name them by place, from 0: of a polyhedron its faces, of a polygon one face, else none; each
-    counterclockwise seen from outside (of a polygon from where its plane's A, B, C point to).
+    points: the vertices in the order of ``Hull.vertices``, as exact text.
+    faces: indices into ``points``, counterclockwise seen from outside.  A polygon is one face, counterclockwise seen
+        from the side to which (A, B, C) of its plane points.  A segment or a point has no faces.
     """
 
     dimension: int
@@ -31,11 +32,11 @@ class Mesh:
     faces: tuple[tuple[int, ...], ...]
 
     def numbers(self) -> tuple[Vector, ...]:
-        """The points as fractions."""
+        """Return the points as fractions."""
         return tuple(coordinates(point) for point in self.points)
 
     def decimals(self, digits: int | None) -> tuple[str, ...]:
-        """The points as lines ``x y z`` of exact decimals; see ``decimal_text``.  Raises ExportError."""
+        """Return each point as a line ``x y z`` of decimals (see ``decimal_text``).  Raise ExportError."""
         lines = []
         for place, point in enumerate(self.points, 1):
             texts = []
@@ -48,13 +49,13 @@ class Mesh:
         return tuple(lines)
 
     def edges(self) -> tuple[tuple[int, int], ...]:
-        """Every edge once, the smaller place first, sorted; of a segment its one."""
+        """Return every edge once, smaller index first, sorted; a segment has one edge."""
         if self.dimension == 1:
             return ((0, 1),)
         return tuple(sorted({(min(a, b), max(a, b)) for face in self.faces for a, b in sides(face)}))
 
     def planes(self, hull: Hull) -> Iterator[tuple[Fraction, Fraction, Fraction, Fraction]]:
-        """A, B, C, D of each face's plane, the normal outward: of a polyhedron the hull's own equations."""
+        """Yield A, B, C, D of each face's plane, with an outward normal: for a polyhedron the equations of the hull."""
         points = self.numbers()
         for order, polygon in enumerate(self.faces):
             if self.dimension == 3:
@@ -65,40 +66,40 @@ class Mesh:
             yield a, b, c, d
 
     def squared_areas(self) -> tuple[Fraction, ...]:
-        """The square of each face's area."""
+        """Return the square of each face's area, which is rational although the area may not be."""
         points = self.numbers()
         normals = (area_vector(points, face) for face in self.faces)
         return tuple(dot(normal, normal) / 4 for normal in normals)
 
     @property
     def closed(self) -> bool:
-        """Whether every edge lies between two faces, which run along it in opposite ways."""
+        """True if every edge belongs to exactly two faces, which traverse it in opposite directions."""
         edges = [edge for face in self.faces for edge in sides(face)]
         known = set(edges)
         return len(known) == len(edges) and all((b, a) in known for a, b in edges)
 
     def triangles(self) -> tuple[Triangle, ...]:
-        """The faces cut into triangles, each from its first vertex."""
+        """Return the faces split into triangles, each from its first vertex."""
         return tuple((face[0], face[k], face[k + 1]) for face in self.faces for k in range(1, len(face) - 1))
 
 
 def mesh(hull: Hull) -> Mesh:
-    """The surface of a hull.  Raises ExportError where none was determined or its polygons do not fit together."""
+    """Return the surface of a hull.  Raise ExportError if the hull was not determined or its polygons do not close."""
     if not hull.determined:
         raise ExportError(f"there is no hull: {hull.status}")
-    wanted = {0: 1, 1: 2}.get(hull.dimension)
-    if wanted is not None and len(hull.vertices) != wanted:
-        raise ExportError(f"a hull of dimension {hull.dimension} has {wanted} vertices, not {len(hull.vertices)}")
-    places = {index: place for place, index in enumerate(hull.vertices)}
+    expected = {0: 1, 1: 2}.get(hull.dimension)
+    if expected is not None and len(hull.vertices) != expected:
+        raise ExportError(f"a hull of dimension {hull.dimension} has {expected} vertices, not {len(hull.vertices)}")
+    new_indices = {index: new for new, index in enumerate(hull.vertices)}
     points = tuple(hull.points[index] for index in hull.vertices)
     polygons = []
     for order, face in enumerate(hull.faces if hull.dimension > 1 else (), 1):
-        strange = [index for index in face.polygon if index not in places]
-        if strange:
-            raise ExportError(f"face {order} names point {strange[0] + 1}, which is no vertex")
-        polygons.append(tuple(places[index] for index in face.polygon))
+        unknown = [index for index in face.polygon if index not in new_indices]
+        if unknown:
+            raise ExportError(f"face {order} names point {unknown[0] + 1}, which is not a vertex")
+        polygons.append(tuple(new_indices[index] for index in face.polygon))
     if hull.dimension == 2:
-        # Program 1 punches no supporting lines for a triangle; it needs none.
+        # Program 1 finds the hull of three points alone and punches no supporting lines.
         polygons = [_cycle(polygons, len(points)) if polygons or len(points) != 3 else (0, 1, 2)]
         if hull.plane is not None:
             polygons = [_turned(polygons[0], tuple(coordinates(p) for p in points), hull.plane)]
@@ -110,31 +111,31 @@ def mesh(hull: Hull) -> Mesh:
 
 
 def sides(face: Sequence[int]) -> Iterator[tuple[int, int]]:
-    """The directed edges of a face."""
+    """Yield the directed edges of a face."""
     return zip(face, (*face[1:], face[0]), strict=True)
 
 
 def _cycle(lines: list[tuple[int, ...]], count: int) -> tuple[int, ...]:
-    """The polygon that ``lines``, pairs of vertices, make up, from vertex 0 on."""
-    beside: list[list[int]] = [[] for _ in range(count)]
+    """Return the polygon whose sides are ``lines``, pairs of vertices, from vertex 0 on."""
+    neighbours: list[list[int]] = [[] for _ in range(count)]
     for line in lines:
         if len(line) != 2:
             raise ExportError("a line of the polygon does not join two vertices")
-        beside[line[0]].append(line[1])
-        beside[line[1]].append(line[0])
-    way = [0]
-    while all(len(pair) == 2 for pair in beside) and len(way) <= count:
-        ahead = beside[way[-1]]
-        step = ahead[0] if len(way) == 1 or ahead[0] != way[-2] else ahead[1]
-        if step == 0:
+        neighbours[line[0]].append(line[1])
+        neighbours[line[1]].append(line[0])
+    cycle = [0]
+    while all(len(pair) == 2 for pair in neighbours) and len(cycle) <= count:
+        a, b = neighbours[cycle[-1]]
+        following = a if len(cycle) == 1 or a != cycle[-2] else b
+        if following == 0:
             break
-        way.append(step)
-    if len(way) != count or count < 3 or len(set(way)) != count:
+        cycle.append(following)
+    if len(cycle) != count or count < 3 or len(set(cycle)) != count:
         raise ExportError("the lines of the polygon do not close to one polygon")
-    return tuple(way)
+    return tuple(cycle)
 
 
 def _turned(face: tuple[int, ...], points: tuple[Vector, ...], plane: tuple[str, ...]) -> tuple[int, ...]:
-    """The face counterclockwise seen from where the plane's A, B, C point to."""
+    """Return the face, reversed if necessary, counterclockwise seen from the side to which (A, B, C) points."""
     normal = (number(plane[0]), number(plane[1]), number(plane[2]))
     return face if dot(area_vector(points, face), normal) >= 0 else (face[0], *face[:0:-1])

@@ -1,4 +1,8 @@
-"""The exact numbers of a result: text to fractions, fractions to decimals."""
+"""Exact numbers and their text: decimals and fractions to numbers, and back.
+
+``exact_text`` gives the text of numbers in a hull, ``decimal_text`` and ``finite_decimal`` that in files and messages.
+They differ in where they begin to use an exponent.
+"""
 
 from __future__ import annotations
 
@@ -25,21 +29,21 @@ _SAFE_BITS = 10_000
 
 
 class PointsError(EmulatorError, ValueError):
-    """Points that are not three exact coordinates each, or that an arithmetic cannot hold; one line naming the point.
+    """An invalid point, or one that an arithmetic cannot represent; the message is one line that names the point.
 
-    Points and coordinates are counted from 0.
+    Points are numbered from 0.
     """
 
 
 def quoted(text: str) -> str:
-    """A text quoted for a message, cut to 40 characters."""
+    """Return a text in quotation marks for a message, truncated to 40 characters."""
     return repr(text if len(text) <= _SHOWN else text[:_SHOWN] + "...")
 
 
 def split_decimal(text: str) -> tuple[bool, str, str, int]:
-    """Of ``-12.50E-3``: whether it has a minus sign, the digits before and after the point, the exponent as written.
+    """Split a decimal such as ``-12.50E-3`` into (True if negative, "12", "50", -3).
 
-    Raises ValueError.
+    Raise ValueError if the text is not a decimal number.
     """
     match = _DECIMAL.fullmatch(text.strip())
     if not match or not (match[2] or match[3]):
@@ -48,9 +52,10 @@ def split_decimal(text: str) -> tuple[bool, str, str, int]:
 
 
 def decimal(text: str) -> Exact:
-    """The number a decimal string stands for: ``12``, ``-1.5``, ``-.25E-3``; blanks around it are allowed.
+    """Return the value of a decimal string such as ``12``, ``-1.5`` or ``-.25E-3``; blanks around it are ignored.
 
-    Raises ValueError.  At most 4000 digits and exponents to 9999, so that a slip cannot ask for all of the memory.
+    Raise ValueError for other text, for more than 4000 digits and for an exponent beyond 9999.  The limits prevent a
+    typing error from using all of the memory.
     """
     minus, whole, fraction, exponent = split_decimal(text)
     if len(whole) + len(fraction) > MAX_DIGITS:
@@ -63,9 +68,9 @@ def decimal(text: str) -> Exact:
 
 
 def number(text: str) -> Fraction:
-    """The number a text stands for: a decimal, ``-1.5`` or ``.25E-3``, or a fraction ``p/q``.
+    """Return the value of a decimal string or of a fraction ``p/q``.
 
-    Raises ValueError, with the text cut to a readable length.
+    Raise ValueError for other text; the message has a readable length.
     """
     stripped = text.strip()
     quotient = _QUOTIENT.fullmatch(stripped)
@@ -82,10 +87,9 @@ def number(text: str) -> Fraction:
 
 
 def real(value: object) -> Exact:
-    """A real number of any type, exactly: a binary float, also one of numpy's, is the number it holds.
+    """Return a real number of any type exactly; a binary float, also one of numpy, has the value it stores.
 
-    Text is a decimal or a fraction ``p/q``.  Raises ValueError for what is not finite, for truth values (they are no
-    coordinates) and for every other type.
+    Text may be a decimal or a fraction ``p/q``.  Raise ValueError for infinities, NaN, booleans and all other types.
     """
     if type(value) is int:
         return value
@@ -100,12 +104,12 @@ def real(value: object) -> Exact:
             raise ValueError(f"{value} is not finite") from None
     else:
         kind = type(value).__name__
-        raise ValueError(f"a {kind} is not read; give an int, a float, a Fraction, a Decimal or a decimal string")
+        raise ValueError(f"expected an int, a float, a Fraction, a Decimal or a decimal string; found {kind}")
     return over if under == 1 else Fraction(over, under)
 
 
 def coordinates(point: Sequence[str]) -> tuple[Fraction, Fraction, Fraction]:
-    """The three numbers of a point.  Raises ValueError."""
+    """Return the three numbers of a point.  Raise ValueError if one is not a number."""
     x, y, z = (number(text) for text in point)
     return x, y, z
 
@@ -116,11 +120,10 @@ def integer_text(value: int) -> str:
 
 
 def decimal_text(text: str, digits: int | None = None) -> str:
-    """A decimal string of exactly the value of ``text``: the text itself where it is a decimal.
+    """Return a decimal with the value of ``text``: the text itself, without a plus sign, if it is a decimal.
 
-    A plus sign in front is left out.  A fraction p/q becomes its finite decimal where there is one; where there is
-    none it is rounded to the nearest of ``digits`` significant digits, and refused if ``digits`` is None.
-    Raises ValueError.
+    A fraction p/q becomes its finite decimal.  If there is none, it is rounded to ``digits`` significant digits, or
+    raises ValueError if ``digits`` is None.
     """
     stripped = text.strip()
     value = number(stripped)
@@ -130,7 +133,7 @@ def decimal_text(text: str, digits: int | None = None) -> str:
     if exact is not None:
         return exact
     if digits is None:
-        raise ValueError(f"{quoted(stripped)} has no finite decimal; state a number of digits to round it to")
+        raise ValueError(f"{quoted(stripped)} has no finite decimal; give a number of digits to which it is rounded")
     if digits < 1:
         raise ValueError(f"{digits} is not a number of digits to round to")
     context = Context(prec=digits, rounding=ROUND_HALF_EVEN, Emin=MIN_EMIN, Emax=MAX_EMAX)
@@ -138,13 +141,13 @@ def decimal_text(text: str, digits: int | None = None) -> str:
 
 
 def sum_of_roots(squares: Iterable[Fraction], digits: int) -> Decimal:
-    """The sum of the square roots of fractions, to so many significant digits.
+    """Return the sum of the square roots of fractions to the given number of significant digits.
 
-    It is exact where every root is a decimal of no more digits.
+    It is exact if every root is a decimal with no more digits.
     """
     work, total = Context(prec=digits + _GUARD, Emin=MIN_EMIN, Emax=MAX_EMAX), Decimal(0)
     for square in squares:
-        # A quotient of roots: exact where both are whole.
+        # The quotient of two roots, unlike the root of a quotient, is exact if both roots are integers.
         root = work.divide(work.sqrt(Decimal(square.numerator)), work.sqrt(Decimal(square.denominator)))
         total = work.add(total, root)
     return Context(prec=digits, Emin=MIN_EMIN, Emax=MAX_EMAX).plus(total)

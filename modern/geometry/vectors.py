@@ -1,6 +1,6 @@
-"""Vectors of three exact numbers: of integers the results are integers, of fractions they are fractions.
+"""Vectors of three exact numbers, integers or fractions; the results have the type of the arguments.
 
-The judge (:mod:`modern.exact_hull`) and the port have their own, since one is to judge the other.
+The exact hull (:mod:`modern.exact_hull`) and the port have their own functions, because it checks the port's results.
 """
 
 from __future__ import annotations
@@ -16,27 +16,27 @@ N = TypeVar("N", int, Fraction)
 
 
 def plus(p: tuple[N, N, N], q: tuple[N, N, N]) -> tuple[N, N, N]:
-    """p + q."""
+    """Return p + q."""
     return p[0] + q[0], p[1] + q[1], p[2] + q[2]
 
 
 def minus(p: tuple[N, N, N], q: tuple[N, N, N]) -> tuple[N, N, N]:
-    """p - q."""
+    """Return p - q."""
     return p[0] - q[0], p[1] - q[1], p[2] - q[2]
 
 
 def cross(u: tuple[N, N, N], v: tuple[N, N, N]) -> tuple[N, N, N]:
-    """The vector product."""
+    """Return the vector product of u and v."""
     return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
 
 
 def dot(u: tuple[N, N, N], v: tuple[N, N, N]) -> N:
-    """The scalar product."""
+    """Return the scalar product of u and v."""
     return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 
 
 def lowest(vector: Sequence[int | Fraction]) -> tuple[int, int, int]:
-    """The direction of a vector as integers without common divisor; 0, 0, 0 stays."""
+    """Return the direction of a vector as integers without a common divisor; the zero vector stays zero."""
     scale = math.lcm(*(number.denominator for number in vector))
     x, y, z = (number.numerator * (scale // number.denominator) for number in vector)
     divisor = math.gcd(x, y, z) or 1
@@ -44,7 +44,10 @@ def lowest(vector: Sequence[int | Fraction]) -> tuple[int, int, int]:
 
 
 def area_vector(points: Sequence[tuple[N, N, N]], face: Sequence[int]) -> tuple[N, N, N]:
-    """Twice the area of a plane polygon, along the normal from whose end its corners run counterclockwise."""
+    """Return the normal of a plane polygon with twice its area as length.
+
+    Seen from the side to which it points, the corners run counterclockwise.
+    """
     origin = points[face[0]]
     total = minus(origin, origin)
     for here, ahead in pairwise(face[1:]):
@@ -53,7 +56,7 @@ def area_vector(points: Sequence[tuple[N, N, N]], face: Sequence[int]) -> tuple[
 
 
 def six_volumes(points: Sequence[tuple[N, N, N]], faces: Iterable[Sequence[int]]) -> N:
-    """Six times the volume inside a closed surface, its faces counterclockwise from outside; the other way negative."""
+    """Return six times the volume inside a closed surface; negative if its faces are clockwise seen from outside."""
     first = points[0]
     arms = [minus(point, first) for point in points]
     total = dot(arms[0], arms[0])

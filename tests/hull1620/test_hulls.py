@@ -175,7 +175,7 @@ def test_a_picture_is_the_same_from_all_of_them() -> None:
     assert hull._repr_svg_() == hull.draw() == draw(CUBE) == draw(hull)
     assert hull.draw().startswith("<svg ")
     assert hull.draw(eye=(1, 2.5, np.float32(3)), title="a cube") == draw(CUBE, (2, 5, 6), "a cube")
-    with pytest.raises(ExportError, match="it has three"):
+    with pytest.raises(ExportError, match="has three numbers, not 2"):
         hull.draw(eye=(1, 2))
 
 

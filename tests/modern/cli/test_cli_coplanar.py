@@ -9,7 +9,7 @@ import pytest
 from tests.support.commands import call
 from tests.support.solids import dodecahedron
 
-SAID = "36 faces are read as 12 within 1e-9; a vertex is off its plane by "
+SAID = "36 faces are joined into 12 within 1e-9; a vertex lies at most "
 
 
 @pytest.fixture(autouse=True)
@@ -45,10 +45,13 @@ def test_what_is_flat_and_what_is_not_joined_is_said_too(capsys: pytest.CaptureF
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("draw", "d.csv", "--coplanar-within", "2"), "d.csv: --coplanar-within: within 2 the 36 faces would be 2;"),
+        (
+            ("draw", "d.csv", "--coplanar-within", "2"),
+            "d.csv: --coplanar-within: within 2 the 36 faces would become 2",
+        ),
         (("export", "d.csv", "-o", "d.off", "--coplanar-within", "9"), "all points lie within 9 of the plane"),
         (("draw", "d.csv", "--coplanar-within", "a"), "the distance within which faces are coplanar: 'a' is not"),
-        (("draw", "d.csv", "--coplanar-within=-1"), "is 0 or more, not -1"),
+        (("draw", "d.csv", "--coplanar-within=-1"), "must be >= 0, not -1"),
         (("draw", "d.csv", "--coplanar-within", "1", "--stages"), "reads the hull alone: not with --stages"),
         (("draw", "d.csv", "--coplanar-within", "1", "--against", "c"), "reads the hull alone: not with --stages"),
     ],

@@ -182,7 +182,7 @@ def test_a_fraction_without_finite_decimal_is_refused_or_rounded_as_told() -> No
         with pytest.raises(ExportError) as refused:
             export_text(hull, form)
         assert str(refused.value) == (
-            f"vertex {place}, x: '2/3' has no finite decimal; state a number of digits to round it to"
+            f"vertex {place}, x: '2/3' has no finite decimal; give a number of digits to which it is rounded"
         )
     points, _ = tiny_off(export_text(hull, "off", digits=5))
     assert {p[0] for p in points} == {0, Fraction("0.66667")}
@@ -309,7 +309,7 @@ def test_a_hull_that_was_not_determined() -> None:
 def test_hulls_that_do_not_fit_together() -> None:
     cube, square = convex_hull(CUBE), convex_hull(SQUARE)
     face = cube.faces[0]
-    with pytest.raises(ExportError, match=r"^face 1 names point 8, which is no vertex$"):
+    with pytest.raises(ExportError, match=r"^face 1 names point 8, which is not a vertex$"):
         mesh(
             replace(cube, vertices=tuple(k for k in cube.vertices if k != 7), faces=(replace(face, polygon=(0, 1, 7)),))
         )

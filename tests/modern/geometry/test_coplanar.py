@@ -142,8 +142,8 @@ def test_points_within_a_joined_face_are_left_out() -> None:
     assert sorted(index for face in found.faces for index in face.on) == [8, 9, 10]
     assert len(joined_mesh(mesh(exact([*cube, *bumps])), joined).points) == 8
     # The largest triangle on top runs up to the bump in the middle, and its plane on to twice that height.
-    words = "a vertex is off its plane by 0.002 at the most; 3 vertices within joined faces are left out"
-    assert join_summary(joined).startswith(f"14 faces are read as 6 within 0.01; {words}; the next")
+    words = "a vertex lies at most 0.002 from its plane; 3 vertices inside joined faces are left out"
+    assert join_summary(joined).startswith(f"14 faces are joined into 6 within 0.01; {words}; the next")
 
 
 OCTAHEDRON = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
@@ -155,13 +155,17 @@ CROOKED = [(8, 1, -9), (-7, 7, 0), (3, -6, 7), (-6, 4, 5), (-9, 9, -3), (-3, 2, 
     ("points", "within", "message"),
     [
         (dodecahedron(), 5, "all points lie within 5 of the plane of the largest face"),
-        (dodecahedron(), 2, "within 2 the 36 faces would be 2; a solid has four at least"),
-        (BARE, 6, "within 6 the 8 faces would be 3; a solid has four at least"),
-        (CROOKED, "3/2", "within 1.5 a joined face would not be convex, by more than that"),
-        (OCTAHEDRON, -1, "the distance within which faces are coplanar is 0 or more, not -1"),
+        (dodecahedron(), 2, "within 2 the 36 faces would become 2; a solid has at least four"),
+        (BARE, 6, "within 6 the 8 faces would become 3; a solid has at least four"),
+        (CROOKED, "3/2", "within 1.5 a joined face would not be convex, even within that distance"),
+        (OCTAHEDRON, -1, "the distance within which faces are coplanar must be >= 0, not -1"),
         (OCTAHEDRON, "wide", "the distance within which faces are coplanar: 'wide' is not a decimal number"),
         (OCTAHEDRON, math.inf, "the distance within which faces are coplanar: inf is not finite"),
-        (OCTAHEDRON, None, "the distance within which faces are coplanar: a NoneType is not read"),
+        (
+            OCTAHEDRON,
+            None,
+            "the distance within which faces are coplanar: expected an int, a float",
+        ),
     ],
 )
 def test_refusals(points: Points, within: object, message: str) -> None:

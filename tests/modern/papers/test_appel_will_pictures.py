@@ -311,7 +311,7 @@ def test_merged_faces_match_the_faces_of_the_file(folder: Path, capsys: pytest.C
     assert "added: " in call(capsys, "appel-will", "d.off")[1]
     code, out, err = call(capsys, "appel-will", "d.off", "--coplanar-within", "1e-9", "-o", "e.off")
     assert (code, err.count("\n")) == (0, 1)
-    assert err.startswith("note: d.off: 36 faces are read as 12 within 1e-9; ")
+    assert err.startswith("note: d.off: 36 faces are joined into 12 within 1e-9; ")
     assert "Topological map, faces within 1e-9 of a plane read as one\nsurface 1: " in out
     assert out.count(": kept as surface") == 12
     assert "added" not in out

@@ -138,7 +138,7 @@ def test_faces_in_doubles_are_refused_with_how_far_off_they_are_and_read_within_
     with pytest.raises(SceneError, match=r"^d: face \d+ is not plane, by \d\.\d+e-16; coplanar_within = \"E\" reads"):
         bodies(parse_mesh(text, "d.off"), Reading(), "d")
     found = bodies(parse_mesh(text, "d.off"), Reading(within=Fraction(1, 10**9)), "d")
-    assert found.notes[0].startswith("d: 36 faces are read as 12 within 1e-9; a vertex is off its plane by ")
+    assert found.notes[0].startswith("d: 36 faces are joined into 12 within 1e-9; a vertex lies at most ")
     drawing = draw(found.polyhedra, parallel((3, -5, 2)), hidden=True)
     assert len({(piece.start, piece.end) for piece in drawing.pieces}) == 30
     whole = draw(
@@ -146,7 +146,7 @@ def test_faces_in_doubles_are_refused_with_how_far_off_they_are_and_read_within_
     )
     assert {(p.start, p.end, p.seen) for p in drawing.pieces} < {(p.start, p.end, p.seen) for p in whole.pieces}
     assert "joined" in {edge.kind for edge in drawing.solids[0].edges}
-    with pytest.raises(CoplanarError, match=r"^d: within 2 the 36 faces would be 2; "):
+    with pytest.raises(CoplanarError, match=r"^d: within 2 the 36 faces would become 2; "):
         bodies(parse_mesh(text, "d.off"), Reading(within=Fraction(2)), "d")
 
 

@@ -66,7 +66,7 @@ def test_a_scene_of_three_files_from_another_folder(folder: Path, capsys: pytest
     code, out, err = call(capsys, "hidden-line", "scenes/three.toml", "-o", "a.svg")
     assert (code, out) == (0, "")
     notes = err.splitlines()[:-2]
-    assert notes[0].startswith("note: scenes/three.toml: part 1 (dodecahedron): d.off: 36 faces are read as 12")
+    assert notes[0].startswith("note: scenes/three.toml: part 1 (dodecahedron): d.off: 36 faces are joined into 12")
     assert notes[1:] == [
         "note: scenes/three.toml: part 2: parts/boxes.stl: 2 connected components",
         "note: scenes/three.toml: part 3 (ell): ell.obj: not convex, its hull is taken",
@@ -82,7 +82,7 @@ def test_a_scene_of_three_files_from_another_folder(folder: Path, capsys: pytest
         ('"d.off"', "3", "part 1: file: a text is due"),
         ('"d.off"', '"three.toml"', "part 1 (dodecahedron): file: three.toml: there are no faces, only points"),
         ("coplanar_within = 1e-9\n", "", "part 1 (dodecahedron): file: d.off: face 1 is not plane, by "),
-        ("1e-9", "-1", "is 0 or more, not -1"),
+        ("1e-9", "-1", "must be >= 0, not -1"),
         ("1e-9", "7", "part 1 (dodecahedron): file: d.off: all points lie within 7 of the plane"),
         ("hull = true\n", "", "part 3 (ell): file: ell.obj: not convex: between faces 5 and 6"),
         ("hull = true\n", "hull = 1\n", "part 3: hull: true or false is due"),
@@ -117,7 +117,7 @@ def test_the_command_on_files_of_faces(folder: Path, capsys: pytest.CaptureFixtu
     assert "take its hull (--hull), or, where that is rounding, read faces within a distance as one (--coplanar" in err
     assert call(capsys, "hidden-line", "scenes/ell.obj", "--hull", "-o", "a.svg")[0] == 0
     code, _, err = call(capsys, "hidden-line", "scenes/d.off", "--coplanar-within", "1e-9", "-o", "a.svg")
-    assert (code, err.count("36 faces are read as 12")) == (0, 1)
+    assert (code, err.count("36 faces are joined into 12")) == (0, 1)
     code, _, err = call(capsys, "hidden-line", "house", "--hull")
     assert (code, err) == (
         2,

@@ -30,12 +30,11 @@ BAD = (
     ((float("nan"), 2, 3), "point 1, coordinate x: nan is not finite"),
     (
         (1, 2, None),
-        "point 1, coordinate z: a NoneType is not read; give an int, a float, a Fraction, "
-        "a Decimal or a decimal string",
+        "point 1, coordinate z: expected an int, a float, a Fraction, a Decimal or a decimal string; found NoneType",
     ),
     (
         (True, 2, 3),
-        "point 1, coordinate x: a bool is not read; give an int, a float, a Fraction, a Decimal or a decimal string",
+        "point 1, coordinate x: expected an int, a float, a Fraction, a Decimal or a decimal string; found bool",
     ),
     ("123", "point 1: str is not a point; a point has three coordinates"),
     (7, "point 1: int is not a point; a point has three coordinates"),
