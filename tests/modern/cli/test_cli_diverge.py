@@ -173,6 +173,6 @@ def test_numbers_uncut_between_the_programs(room: Path, capsys: pytest.CaptureFi
 
 def test_all_digits_of_a_field_are_taken(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     Path("long.deck").write_text(" 1\n" + ".1234567890123" + card(0, 1, 2)[14:], encoding="utf-8")
-    assert "beyond 8 are cut" in call(capsys, "hull", "long.deck")[2]
+    assert "after the first 8 are dropped" in call(capsys, "hull", "long.deck")[2]
     code, _, err = call(capsys, "hull", "long.deck", "--arithmetic", "float64")
     assert (code, err) == (0, "CONVEX HULL\n")

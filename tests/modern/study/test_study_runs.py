@@ -18,7 +18,6 @@ import pytest
 
 from emulator.files import UNFINISHED
 from modern.study import Plan, PlanError, Port, Programs, run_study
-from modern.study import store as study_store
 from modern.study.index import NAME as INDEX
 from modern.study.store import Store, StudyFileError
 from tests.support.paths import ROOT
@@ -191,7 +190,7 @@ def test_a_full_disk_is_said_in_a_line_and_resumed_from(
         if left[0] < 0:
             raise OSError(errno.ENOSPC, "No space left on device")
 
-    monkeypatch.setattr(study_store.os, "fsync", fsync)
+    monkeypatch.setattr("emulator.files.os.fsync", fsync)
     with pytest.raises(StudyFileError, match="no space left on device") as full:
         run_study(PLAN, folder, workers=1, quiet=True)
     assert "\n" not in str(full.value)
