@@ -1,4 +1,19 @@
-"""Butler's procedure as one would write it today, over any arithmetic."""
+"""Butler's three programs as one modern procedure that runs in any arithmetic.
+
+:mod:`modern.port.procedure` is the entry point and joins the parts: :mod:`~modern.port.points` reads the input,
+:mod:`~modern.port.opening` is program 1, :mod:`~modern.port.polygon` program 2, :mod:`~modern.port.polyhedron` program
+3, :mod:`~modern.port.growth` the loop that programs 2 and 3 share, and :mod:`~modern.port.outcome` the result.
+
+To add an arithmetic for the port:
+
+1. Write a subclass of :class:`modern.port.arithmetic.Arithmetic`: in ``binary.py`` for binary numbers, in
+   ``decimal.py`` for decimal ones, in ``exact.py`` for exact ones.
+2. Name it in ``NAMES`` and construct it in ``fixed_arithmetic``, both in ``points.py``.
+3. Test it in ``tests/modern/port/test_port_floats.py``, or in ``test_port_cards.py`` if the programs have it too.
+
+A decimal arithmetic that differs only in its digits or its rounding needs nothing here. Add its ``Profile`` in
+``emulator/numbers/arithmetic.py``, and the programs and the port both know it.
+"""
 
 from modern.geometry.hull import HullRefused
 from modern.geometry.numbers import PointsError

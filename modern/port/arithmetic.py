@@ -1,8 +1,9 @@
-"""What the procedure asks of an arithmetic: vectors of numbers with + - *, signs, a root, and exact text.
+"""The operations that the procedure requires of an arithmetic: vectors with + - *, signs, a root and exact text.
 
-A vector is a numpy array, of floats or of Python objects; the formulas (:mod:`modern.port.formulas`) use its
-operators, so that one text of the procedure serves every arithmetic.  A quantity has a *degree*: coordinates
-1, coefficients A, B, C of a plane 2 and D 3, since an arithmetic may hold coordinates in a unit of its own.
+A vector is a numpy array of floats or of Python objects. The formulas (:mod:`modern.port.formulas`) use its
+operators, so that the same code of the procedure serves every arithmetic. A quantity has a *degree*: 1 for
+coordinates, 2 for the coefficients A, B, C of a plane and 3 for D. An arithmetic needs it to convert numbers that it
+holds in a scaled unit.
 """
 
 from __future__ import annotations
@@ -29,21 +30,21 @@ class RangeError(EmulatorError, ValueError):
 
 
 class Arithmetic(ABC):
-    """One way to calculate."""
+    """A number system in which the procedure can run."""
 
     dtype: Any = object
 
     @property
     @abstractmethod
     def name(self) -> str:
-        """The name it is asked for by."""
+        """The name that selects this arithmetic."""
 
     @abstractmethod
     def number(self, value: Exact, minus: bool = False) -> Scalar:
-        """A coordinate as a number of this arithmetic; ``minus``: a zero with a minus sign.  Raises RangeError."""
+        """Convert a coordinate; ``minus`` marks a zero with a minus sign. Raise RangeError if it does not fit."""
 
     def tolerance(self, size: Fraction, degree: int) -> Scalar:
-        """A number of that degree to compare values with.  Raises RangeError."""
+        """Convert a tolerance for values of the given degree. Raise RangeError if it does not fit."""
         return self.number(size)
 
     @cached_property
@@ -52,46 +53,46 @@ class Arithmetic(ABC):
 
     @abstractmethod
     def quotient(self, value: Scalar, count: int) -> Scalar:
-        """A sum of ``count`` coordinates divided by ``count``."""
+        """Divide the sum of ``count`` coordinates by ``count``."""
 
     @abstractmethod
     def sign(self, values: Vector) -> NDArray[np.int8]:
-        """-1, 0 or 1 each, as the three branches of an IF."""
+        """Return -1, 0 or 1 for each value: the three branches of a FORTRAN IF."""
 
     def within(self, values: Vector, slack: Vector) -> NDArray[np.bool_]:
-        """Whether each value lies from -slack to +slack, both included."""
+        """Return for each value whether it lies in the closed interval from -slack to +slack."""
         return np.asarray(self.sign(slack - abs(values)) >= 0)
 
     @abstractmethod
     def root(self, value: Scalar) -> Scalar:
-        """The square root of a number that is not negative."""
+        """Return the square root of a number that is not negative."""
 
     @abstractmethod
     def exact(self, value: Scalar, degree: int) -> Exact:
-        """The value, of that degree in the coordinates."""
+        """Return the exact value of a number of the given degree."""
 
     @abstractmethod
     def text(self, value: Scalar, degree: int) -> str:
-        """The value as exact text; minus zero, where the arithmetic has one, is ``-0``."""
+        """Return the value as exact text. An arithmetic with a minus zero writes it ``-0``."""
 
     def exacts(self, values: Vector, degree: int) -> list[Exact]:
-        """:meth:`exact` of each."""
+        """Apply :meth:`exact` to each value."""
         return [self.exact(value, degree) for value in values]
 
     def texts(self, values: Vector, degree: int) -> list[str]:
-        """:meth:`text` of each."""
+        """Apply :meth:`text` to each value."""
         return [self.text(value, degree) for value in values]
 
     def keys(self, coordinates: Vector) -> Iterable[object]:
-        """Something for each point that is equal for equal points."""
+        """Yield for each point a hashable key; equal points have equal keys."""
         return zip(*coordinates.tolist(), strict=True)
 
     def surely_distinct(self, coordinates: Vector) -> bool:
-        """Whether it is plain without looking at the keys that no two points are equal."""
+        """Return True only if a quick test proves that no two points are equal."""
         return False
 
     def filled(self, values: Sequence[Scalar]) -> Vector:
-        """A vector of the numbers given."""
+        """Return a vector of the given numbers."""
         vector = np.empty(len(values), dtype=self.dtype)
         vector[:] = values
         return vector
@@ -100,33 +101,35 @@ class Arithmetic(ABC):
         return not self.sign(self.filled([value]))[0]
 
     def last_largest(self, values: Vector) -> int:
-        """The place of the largest, the last of equals, found by the signs of differences."""
-        place, best = 0, values[0]
+        """Return the index of the largest value, the last of equals, comparing by the signs of differences."""
+        # The listing's search replaces its candidate when the difference is zero or negative (program 1, 135 and 185;
+        # program 3, 122), so the last of equal values wins.
+        index, largest = 0, values[0]
         for i in range(1, len(values)):
-            if self.sign(self.filled([best - values[i]]))[0] <= 0:
-                place, best = i, values[i]
-        return place
+            if self.sign(self.filled([largest - values[i]]))[0] <= 0:
+                index, largest = i, values[i]
+        return index
 
     def descending(self, values: Vector) -> NDArray[np.intp]:
-        """Places from the largest to the smallest, of equals the last first."""
-        left = list(range(len(values)))
+        """Return the indices from the largest value to the smallest; among equals the last comes first."""
+        remaining = list(range(len(values)))
         order = []
-        while left:
-            order.append(left.pop(self.last_largest(values[left])))
+        while remaining:
+            order.append(remaining.pop(self.last_largest(values[remaining])))
         return np.array(order, np.intp)
 
     def last_largest_square(self, values: Vector) -> int:
-        """The place of the largest square, the last of equals."""
+        """Return the index of the largest square, the last of equals."""
         return self.last_largest(values * values)
 
     def all_squares_zero(self, values: Vector) -> bool:
-        """Whether the sum of the squares is zero."""
+        """Return True if the sum of the squares is zero."""
         return not self.sign(values * values).any()
 
-    def distances_add_up(self, first: Scalar, second: Scalar, whole: Scalar) -> bool:
-        """Whether two distances add up to a third; all three are given as squares."""
-        return self.is_zero(self.root(first) + self.root(second) - self.root(whole))
+    def distances_add_up(self, first_square: Scalar, second_square: Scalar, total_square: Scalar) -> bool:
+        """Return True if the first two distances add up to the third. All three are given as squares."""
+        return self.is_zero(self.root(first_square) + self.root(second_square) - self.root(total_square))
 
     def farthest(self, o1: Vector, o2: Vector, o3: Vector) -> int:
-        """The place of the largest O1**2 + O2**2 + O3**2, the last of equals (thesis p. 15)."""
+        """Return the index of the largest O1**2 + O2**2 + O3**2, the last of equals (thesis p. 15)."""
         return self.last_largest(o1 * o1 + o2 * o2 + o3 * o3)

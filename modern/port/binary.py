@@ -1,4 +1,4 @@
-"""Binary arithmetics: ``float64`` and ``float32`` in vectors of numpy, ``mp:BITS`` in numbers of mpmath."""
+"""Binary arithmetics: ``float64`` and ``float32`` in numpy vectors, ``mp:BITS`` in mpmath numbers."""
 
 from __future__ import annotations
 
@@ -20,7 +20,10 @@ MIN_BITS, MAX_BITS = 2, 100_000
 
 @dataclass(frozen=True)
 class FloatArithmetic(Arithmetic):
-    """IEEE 754 single or double; a decimal is taken as the nearest number (single: of the nearest double)."""
+    """IEEE 754 single or double precision.
+
+    A decimal number is rounded to the nearest double, and for single precision that double to the nearest single.
+    """
 
     dtype: type[np.floating[Any]]
 
@@ -30,12 +33,12 @@ class FloatArithmetic(Arithmetic):
 
     def number(self, value: Exact, minus: bool = False) -> Scalar:
         try:
-            found = self.dtype(value.numerator / value.denominator)
+            converted = self.dtype(value.numerator / value.denominator)
         except (OverflowError, FloatingPointError):
-            found = self.dtype("inf")
-        if not np.isfinite(found):
+            converted = self.dtype("inf")
+        if not np.isfinite(converted):
             raise RangeError(f"too large for {self.name}")
-        return self.dtype(-0.0) if minus and value == 0 else found
+        return self.dtype(-0.0) if minus and value == 0 else converted
 
     def quotient(self, value: Scalar, count: int) -> Scalar:
         return value / self.dtype(count)
@@ -60,13 +63,15 @@ class FloatArithmetic(Arithmetic):
         return np.argsort(values, kind="stable")[::-1]
 
     def surely_distinct(self, coordinates: Vector) -> bool:
+        # Project the points on an irrational direction: equal points have equal projections, so strictly increasing
+        # projections prove that all points differ. Equal projections prove nothing.
         x, y, z = (row.astype(np.float64) for row in coordinates)
-        mixed = np.sort(x + 0.7320508075688772 * y + 0.23606797749978969 * z)
-        return bool((mixed[1:] > mixed[:-1]).all())
+        projections = np.sort(x + 0.7320508075688772 * y + 0.23606797749978969 * z)
+        return bool((projections[1:] > projections[:-1]).all())
 
     def exact(self, value: Scalar, degree: int) -> Exact:
-        over, under = value.as_integer_ratio()
-        return over if under == 1 else Fraction(over, under)
+        numerator, denominator = value.as_integer_ratio()
+        return numerator if denominator == 1 else Fraction(numerator, denominator)
 
     def text(self, value: Scalar, degree: int) -> str:
         return _float_text(float(value))
@@ -87,7 +92,7 @@ def _float_text(value: float) -> str:
 
 @dataclass(frozen=True)
 class MultiprecisionArithmetic(Arithmetic):
-    """Binary floating point of any number of bits, rounded to nearest, without limits of range."""
+    """Binary floating point with any number of bits, rounded to nearest, without limits of range."""
 
     bits: int
     context: Any = field(default_factory=MPContext, compare=False)

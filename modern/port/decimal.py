@@ -1,8 +1,8 @@
 """Numbers of the 1620 as Python numbers, under a profile of :mod:`emulator.numbers.arithmetic`.
 
-What ``a op b`` gives is what the accumulator gives (:mod:`emulator.numbers.accumulator`) that holds a; the result of an
-operation with an error code is used without a word.  The left operand matters to ``ibm1962``, where zero plus zero
-keeps the accumulator's sign.
+``a op b`` computes what the accumulator (:mod:`emulator.numbers.accumulator`) computes when it holds a. The result of
+an operation that would report an error code on the 1620 is used without a report. The left operand matters to
+``ibm1962``, in which zero plus zero keeps the accumulator's sign.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from modern.port.arithmetic import Arithmetic, RangeError, Vector
 
 
 class Number1620:
-    """One number: mantissa and exponent as :mod:`emulator.numbers.arithmetic` has them, never undefined."""
+    """One number: mantissa and exponent as in :mod:`emulator.numbers.arithmetic`, never undefined."""
 
     __slots__ = ("by", "e", "m")
 
@@ -40,28 +40,28 @@ class Number1620:
         self.e = e
         self.by = by
 
-    def __add__(self, other: Number1620) -> Number1620:
-        if not isinstance(other, Number1620):
-            return NotImplemented  # a vector takes the operation over, element by element
+    def __add__(self, operand: Number1620) -> Number1620:
+        if not isinstance(operand, Number1620):
+            return NotImplemented  # numpy then applies the operation to each element
         by = self.by
-        m, e, _ = accumulator.add(self.m, self.e, other.m, other.e, by)
+        m, e, _ = accumulator.add(self.m, self.e, operand.m, operand.e, by)
         return Number1620(m, e, by)
 
-    def __sub__(self, other: Number1620) -> Number1620:
-        if not isinstance(other, Number1620):
+    def __sub__(self, operand: Number1620) -> Number1620:
+        if not isinstance(operand, Number1620):
             return NotImplemented
         by = self.by
-        m, e, _ = accumulator.subtract(self.m, self.e, other.m, other.e, by)
+        m, e, _ = accumulator.subtract(self.m, self.e, operand.m, operand.e, by)
         return Number1620(m, e, by)
 
-    def __mul__(self, other: Number1620) -> Number1620:
-        if not isinstance(other, Number1620):
+    def __mul__(self, operand: Number1620) -> Number1620:
+        if not isinstance(operand, Number1620):
             return NotImplemented
-        m, e, _ = accumulator.multiply(self.m, self.e, other.m, other.e, self.by)
+        m, e, _ = accumulator.multiply(self.m, self.e, operand.m, operand.e, self.by)
         return Number1620(m, e, self.by)
 
-    def __truediv__(self, other: Number1620) -> Number1620:
-        m, e, _ = accumulator.divide(self.m, self.e, other.m, other.e, self.by)
+    def __truediv__(self, operand: Number1620) -> Number1620:
+        m, e, _ = accumulator.divide(self.m, self.e, operand.m, operand.e, self.by)
         return Number1620(m, e, self.by)
 
     def __neg__(self) -> Number1620:
@@ -89,19 +89,20 @@ class Arithmetic1620(Arithmetic):
         return self.profile.rules
 
     def number(self, value: Exact, minus: bool = False) -> Number1620:
-        """The first P digits of a number, as a READ takes them; ``minus``: a zero with a minus sign.
+        """Return the first P digits of a number, as READ stores them; ``minus`` marks a zero with a minus sign.
 
-        Raises RangeError where the exponent is not -99 to 99.
+        Raise RangeError if the exponent is not in -99 to 99.
         """
         if value == 0:
             return Number1620(0, MINUS_ZERO if minus else ZERO, self.rules)
         digits = self.profile.digits
         size = abs(Fraction(value))
+        # The number of digits of numerator and denominator gives the exponent or one more than it.
         exponent = decimal_length(size.numerator) - decimal_length(size.denominator) + 1
         if size < Fraction(10) ** (exponent - 1):
             exponent -= 1
         if not MIN_EXPONENT <= exponent <= MAX_EXPONENT:
-            raise RangeError("the exponent of a number of this arithmetic is -99 to 99")
+            raise RangeError("expected a number with an exponent from -99 to 99")
         shift = digits - exponent
         mantissa = int(size * 10**shift if shift >= 0 else size / 10**-shift)
         return Number1620(-mantissa if value < 0 else mantissa, exponent, self.rules)
@@ -117,8 +118,8 @@ class Arithmetic1620(Arithmetic):
         return zip(*rows, strict=True)
 
     def root(self, value: Number1620) -> Number1620:
-        found = function("SQRT", value.m, value.e, self.profile.rules)
-        return Number1620(found.mantissa, found.exponent, self.rules)
+        root = function("SQRT", value.m, value.e, self.profile.rules)
+        return Number1620(root.mantissa, root.exponent, self.rules)
 
     def exact(self, value: Number1620, degree: int) -> Fraction:
         return value.m * Fraction(10) ** (value.e - self.profile.digits)

@@ -1,7 +1,7 @@
-"""The arithmetic ``exact``: integers, in a unit small enough that every coordinate and the point C are whole.
+"""The arithmetic ``exact``: integers, in a unit small enough to make every coordinate and the point C an integer.
 
-The decisions of the procedure do not depend on the unit, only what is given out does.  Where every number of
-the procedure fits 64 bits the vectors are of int64, else of Python's integers.
+The unit does not affect the decisions of the procedure, only the conversion of the result. If every number of the
+procedure fits in 64 bits the vectors hold int64, otherwise Python's integers.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from modern.geometry.numbers import Exact, exact_text
 from modern.port.arithmetic import Arithmetic, Scalar, Vector
 
 _SPARE_BITS = 5
-"""A plane at a point adds up 24 products of three coordinates, fewer than 2**5."""
+"""The value of a plane at a point is a sum of 24 products of three coordinates, and 24 is less than 2**5."""
 
 
 @dataclass(frozen=True)
@@ -58,36 +58,38 @@ class ExactArithmetic(Arithmetic):
         return not values.any()
 
     def farthest(self, o1: Vector, o2: Vector, o3: Vector) -> int:
+        # The squares have twice the degree of a plane's value and may exceed int64.
         o1, o2, o3 = o1.astype(object), o2.astype(object), o3.astype(object)
         return self.last_largest(o1 * o1 + o2 * o2 + o3 * o3)
 
     def root(self, value: Scalar) -> Scalar:
-        raise NotImplementedError("exact numbers have no root; see distances_add_up")
+        raise NotImplementedError("exact arithmetic has no square root; use distances_add_up")
 
-    def distances_add_up(self, first: Scalar, second: Scalar, whole: Scalar) -> bool:
-        a, b, c = int(first), int(second), int(whole)
-        rest = c - a - b
-        return rest >= 0 and rest * rest == 4 * a * b
+    def distances_add_up(self, first_square: Scalar, second_square: Scalar, total_square: Scalar) -> bool:
+        # sqrt(a) + sqrt(b) = sqrt(c) holds exactly if c - a - b = 2 sqrt(ab), which is decided by squaring once more.
+        a, b, c = int(first_square), int(second_square), int(total_square)
+        twice_product = c - a - b
+        return twice_product >= 0 and twice_product * twice_product == 4 * a * b
 
     def exact(self, value: Scalar, degree: int) -> Exact:
         return Fraction(int(value), self.unit**degree)
 
     def exacts(self, values: Vector, degree: int) -> list[Exact]:
-        under = self.unit**degree
-        return [Fraction(value, under) for value in values.tolist()]
+        denominator = self.unit**degree
+        return [Fraction(value, denominator) for value in values.tolist()]
 
     def text(self, value: Scalar, degree: int) -> str:
         return exact_text(self.exact(value, degree))
 
 
 def exact_arithmetic(coordinates: Sequence[Exact], wide: bool = False) -> ExactArithmetic:
-    """The arithmetic for these coordinates; ``wide`` refuses int64.
+    """Return the exact arithmetic for these coordinates; ``wide`` forbids int64.
 
-    The unit is a twelfth of what their common denominator asks for: C is a mean of three or of four points, and
-    C and points moved to C are whole too.
+    The unit is a twelfth of the one that the common denominator of the coordinates requires. C is the mean of three
+    or four points, so in this unit C and the points relative to C are integers too.
     """
     unit = 12 * math.lcm(*{value.denominator for value in coordinates})
     largest = max(abs(value.numerator) * (unit // value.denominator) for value in coordinates)
-    # Differences of coordinates, as after a move to C, take a bit more each.
-    narrow = not wide and 3 * (largest.bit_length() + 1) + _SPARE_BITS < 63
-    return ExactArithmetic(unit, np.int64 if narrow else object)
+    # A difference of coordinates, as after a translation to C, needs one more bit.
+    fits_int64 = not wide and 3 * (largest.bit_length() + 1) + _SPARE_BITS < 63
+    return ExactArithmetic(unit, np.int64 if fits_int64 else object)

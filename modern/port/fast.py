@@ -1,4 +1,4 @@
-"""The steps compiled by numba (extra ``fast``), and when they are taken instead of numpy's."""
+"""The kernels of program 3 compiled by numba (the extra ``fast``), and the choice between them and numpy."""
 
 from __future__ import annotations
 
@@ -15,46 +15,45 @@ from modern.port.arithmetic import Arithmetic
 from modern.port.binary import FloatArithmetic
 from modern.port.growth import LAST_PAIR, TABLE_OF_PLANES, THROUGH_CENTRE
 from modern.port.polyhedron import LISTED_PLANES, PLANES, Polyhedron
-from modern.port.table import Equations, Places, Slack
+from modern.port.table import Equations, PointTable, Slack
 from modern.port.workspace import Cloud, Rules, Slots
 
 _CORRECTIONS = {THROUGH_CENTRE: workspace.THROUGH, TABLE_OF_PLANES: workspace.TABLE, LAST_PAIR: workspace.PAIR}
 
-_FIRST = 4
-"""Vertices of H_1."""
-_SPARE = 1024
-"""Slots to begin with, besides six for each equation: a stage needs at most four and a half, of those that stand."""
-_POINTS_A_SLOT = 8
-"""And one for so many points: most hulls are then grown without asking for more, which copies the points."""
+_H1_VERTICES = 4
+_SPARE_SLOTS = 1024
+"""Initial free slots in addition to six for each equation. A stage needs at most four and a half for each plane."""
+_POINTS_PER_SLOT = 8
+"""One more free slot for this number of points. Most hulls then need no larger arrays, which would copy the points."""
 
-_MANY = 5_000
-"""Points from which on loading the kernels costs less than it saves."""
+_WORTH_LOADING = 5_000
+"""The number of points from which loading the kernels costs less than it saves."""
 
 
 @dataclass(frozen=True, slots=True)
 class Steps:
-    """A stage of a polyhedron's growth, and the places that satisfy each equation."""
+    """The two operations that the kernels replace: a stage of growth, and the points that satisfy each equation."""
 
     stage: Callable[[Polyhedron, bool], growth.Grown | None]
-    satisfied: Callable[[Equations, Places], list[NDArray[np.int64]]]
+    satisfied: Callable[[Equations, PointTable], list[NDArray[np.int64]]]
 
 
-def plain_satisfied(table: Equations, places: Places) -> list[NDArray[np.int64]]:
-    return table.satisfied(places.coordinates)
+def plain_satisfied(table: Equations, points: PointTable) -> list[NDArray[np.int64]]:
+    return table.satisfied(points.coordinates)
 
 
 PLAIN = Steps(growth.stage, plain_satisfied)
 
 
-def choose(arithmetic: Arithmetic, places: Places, slack: Slack | None, fast: bool | None) -> Steps:
-    """The steps for these points.
+def choose(arithmetic: Arithmetic, points: PointTable, slack: Slack | None, fast: bool | None) -> Steps:
+    """Choose the implementation for these points.
 
-    ``fast``: False numpy's; True the kernels; None the kernels where numba is there and it pays: many points, or
-    kernels that are loaded already.  Raises NotInstalled where it is True and numba is missing.
+    ``fast`` selects numpy (False), the kernels (True), or the kernels if numba is installed and they pay (None): with
+    many points, or if they are loaded already. Raise NotInstalled if ``fast`` is True and numba is missing.
     """
-    if fast is False or not isinstance(arithmetic, FloatArithmetic) or not _in_range(arithmetic, places, slack):
+    if fast is False or not isinstance(arithmetic, FloatArithmetic) or not _in_range(arithmetic, points, slack):
         return PLAIN
-    if fast is None and len(places) < _MANY and not load.cache_info().currsize:
+    if fast is None and len(points) < _WORTH_LOADING and not load.cache_info().currsize:
         return PLAIN
     try:
         return load(arithmetic.name)
@@ -64,78 +63,88 @@ def choose(arithmetic: Arithmetic, places: Places, slack: Slack | None, fast: bo
         return PLAIN
 
 
-def _in_range(arithmetic: FloatArithmetic, places: Places, slack: Slack | None) -> bool:
-    """Whether no number of the procedure can overflow, which numpy notices and compiled code does not.
+def _in_range(arithmetic: FloatArithmetic, points: PointTable, slack: Slack | None) -> bool:
+    """Return True if no number of the procedure can overflow, which numpy reports and compiled code does not.
 
-    The largest are squares of a plane's coefficients, at most 36 M**4 for coordinates up to M, values at a point, at
-    most 24 M**3, and e, for all the equations, times a coefficient.
+    The largest numbers are squares of a plane's coefficients, at most 36 M**4 for coordinates up to M. Values at a
+    point are at most 24 M**3. The slack is e, the same for all equations, times a coefficient.
     """
     limit = float(np.finfo(arithmetic.dtype).max)
-    largest = max(1.0, float(abs(places.coordinates).max()))
+    largest = max(1.0, float(abs(points.coordinates).max()))
     e = max(1.0, float(arithmetic.tolerance(slack.size, 0))) if slack else 1.0
+    # 36**0.25 is 2.45, so a factor of 8 leaves room for rounding.
     return largest < limit**0.25 / 8 and e < limit / (8 * largest**2)
 
 
 @cache
 def load(name: str) -> Steps:
-    """The steps by kernels compiled for ``float64`` or ``float32``.  Raises NotInstalled."""
-    some, one = np.zeros((4, 1), name), np.zeros(1, np.int64)
-    cloud = Cloud(some[:3].copy(), one, one, one)
-    slots = Slots(some, np.zeros((3, 1), np.int64), some[0].copy(), np.ones(1, np.bool_))
-    rules = Rules(some[:3, 0].copy(), False, some[0, 0], False, LISTED_PLANES, PLANES)
+    """Return the steps with kernels compiled for ``float64`` or ``float32``. Raise NotInstalled if numba is missing."""
+    # Arrays of one element tell numba the types.
+    sample, sample_index = np.zeros((4, 1), name), np.zeros(1, np.int64)
+    cloud = Cloud(sample[:3].copy(), sample_index, sample_index, sample_index)
+    slots = Slots(sample, np.zeros((3, 1), np.int64), sample[0].copy(), np.ones(1, np.bool_))
+    rules = Rules(sample[:3, 0].copy(), False, sample[0, 0], False, LISTED_PLANES, PLANES)
     # No array is made: numba need not count the users of each it is given.
     return with_kernels(
-        Compiled(kernels.grow, _nrt=False).ready(cloud, slots, workspace.room_for(1, name), one, rules, False, 1),
-        Compiled(kernels.satisfied, _nrt=False).ready(slots, cloud.coordinates, one, one),
+        Compiled(kernels.grow, _nrt=False).ready(
+            cloud, slots, workspace.scratch_for(1, name), sample_index, rules, False, 1
+        ),
+        Compiled(kernels.satisfied, _nrt=False).ready(slots, cloud.coordinates, sample_index, sample_index),
     )
 
 
-def with_kernels(grow: Function, find: Function) -> Steps:
-    """The steps by the kernels given, compiled or as they stand in Python."""
+def with_kernels(grow: Function, find_satisfied: Function) -> Steps:
+    """Return the steps that run the given kernels, compiled or as plain Python functions."""
 
     def stage(hull: Polyhedron, first: bool) -> growth.Grown | None:
-        """One stage if somebody watches, else as many as come."""
+        """Run one stage if the hull is watched, otherwise as many as the kernel can."""
         cloud, slots, state = _cloud(hull), _slots(hull.table, _spare(hull)), _state(hull)
-        room = workspace.room_for(len(slots.alive), slots.coefficients.dtype)
-        code = grow(cloud, slots, room, state, _rules(hull), first, 1 if hull.watch else -1)
-        _take_back(hull, cloud, slots, state)
+        scratch = workspace.scratch_for(len(slots.alive), slots.coefficients.dtype)
+        code = grow(cloud, slots, scratch, state, _rules(hull), first, 1 if hull.watch else -1)
+        _store_state(hull, cloud, slots, state)
+        # The kernel completed no stage. Unless the hull is finished, numpy runs this one, which raises any error.
         if not state[workspace.STAGES]:
             return None if code == kernels.ENDED else growth.stage(hull, first)
-        struck = cloud.gone[: state[workspace.GONE]].tolist()
+        eliminated = cloud.eliminated[: state[workspace.GONE]].tolist()
         if first:
-            return growth.Grown(hull.places.names(slice(0, _FIRST)), 0, 0, struck)
-        return growth.Grown((int(state[workspace.ADDED]),), hull.to_check + 1, int(state[workspace.OUTSIDE]), struck)
+            return growth.Grown(hull.points.input_indices(slice(0, _H1_VERTICES)), 0, 0, eliminated)
+        return growth.Grown(
+            (int(state[workspace.ADDED]),), hull.to_check + 1, int(state[workspace.OUTSIDE]), eliminated
+        )
 
-    def satisfied(table: Equations, places: Places) -> list[NDArray[np.int64]]:
-        slots, coordinates = _slots(table, 0), np.array(places.coordinates, order="C")
-        counts, found = np.empty(len(table), np.int64), np.empty(4 * len(table), np.int64)
-        if (count := find(slots, coordinates, counts, found)) > len(found):
-            found = np.empty(count, np.int64)
-            find(slots, coordinates, counts, found)
+    def satisfied(table: Equations, points: PointTable) -> list[NDArray[np.int64]]:
+        slots, coordinates = _slots(table, 0), np.array(points.coordinates, order="C")
+        counts, indices = np.empty(len(table), np.int64), np.empty(4 * len(table), np.int64)
+        # Four points for each plane are enough for most hulls. Otherwise repeat with the exact number.
+        if (count := find_satisfied(slots, coordinates, counts, indices)) > len(indices):
+            indices = np.empty(count, np.int64)
+            find_satisfied(slots, coordinates, counts, indices)
         ends = np.cumsum(counts).tolist()
-        return [found[start:end] for start, end in zip([0, *ends], ends, strict=False)]
+        return [indices[start:end] for start, end in zip([0, *ends], ends, strict=False)]
 
     return Steps(stage, satisfied)
 
 
 def _spare(hull: Polyhedron) -> int:
-    return 6 * len(hull.table) + _SPARE + len(hull.places) // _POINTS_A_SLOT
+    return 6 * len(hull.table) + _SPARE_SLOTS + len(hull.points) // _POINTS_PER_SLOT
 
 
 def _cloud(hull: Polyhedron) -> Cloud:
-    """The points; each keeps the slot of its equation, -1 where that was struck."""
-    places, serial = hull.places, hull.table.serial
-    kept_by = hull.remaining.keeper
-    slot = np.searchsorted(serial, kept_by)
-    slot[slot == len(serial)] = 0
-    keeper = np.full(len(places), -1, np.int64)
-    keeper[hull.vertices :] = np.where(serial[slot] == kept_by, slot, -1)
+    """Return the points with the slot of each point's keeper, or -1 if its equation was deleted."""
+    points, serial = hull.points, hull.table.serial
+    keeper_serial = hull.remaining.keeper
+    keeper_slot = np.searchsorted(serial, keeper_serial)
+    keeper_slot[keeper_slot == len(serial)] = 0
+    keeper = np.full(len(points), -1, np.int64)
+    keeper[hull.vertices :] = np.where(serial[keeper_slot] == keeper_serial, keeper_slot, -1)
     # Copies in C order: for each other layout numba would compile the kernels again.
-    return Cloud(np.array(places.coordinates, order="C"), places.who.copy(), keeper, np.empty(len(places), np.int64))
+    return Cloud(
+        np.array(points.coordinates, order="C"), points.input_index.copy(), keeper, np.empty(len(points), np.int64)
+    )
 
 
 def _slots(table: Equations, spare: int) -> Slots:
-    """The table in the first slots, and so many empty ones."""
+    """Return the table in the first slots, followed by the given number of empty ones."""
     count = len(table)
     coefficients = np.zeros((4, count + spare), table.coefficients.dtype)
     defining = np.zeros((3, count + spare), np.int64)
@@ -148,11 +157,11 @@ def _slots(table: Equations, spare: int) -> Slots:
 
 def _state(hull: Polyhedron) -> NDArray[np.int64]:
     state = np.zeros(workspace.STATE_SIZE, np.int64)
-    state[workspace.COUNT], state[workspace.VERTICES] = len(hull.places), hull.vertices
+    state[workspace.COUNT], state[workspace.VERTICES] = len(hull.points), hull.vertices
     state[workspace.CHECK] = state[workspace.CHECKED] = hull.to_check
     state[workspace.MADE] = state[workspace.ALIVE] = len(hull.table)
     state[workspace.TRIED] = np.searchsorted(hull.table.serial, hull.remaining.tried)
-    state[workspace.STRUCK] = hull.remaining.struck
+    state[workspace.STRUCK] = hull.remaining.eliminated_any
     state[workspace.KNOWN] = sum(bit for name, bit in _CORRECTIONS.items() if name in hull.progress.corrected)
     return state
 
@@ -164,18 +173,18 @@ def _rules(hull: Polyhedron) -> Rules:
     return Rules(centre, hull.centre is None, size, slack is not None and slack.relative, LISTED_PLANES, PLANES)
 
 
-def _take_back(hull: Polyhedron, cloud: Cloud, slots: Slots, state: NDArray[np.int64]) -> None:
-    """What the kernels made of the state; slots become the serial numbers of the equations in them."""
+def _store_state(hull: Polyhedron, cloud: Cloud, slots: Slots, state: NDArray[np.int64]) -> None:
+    """Store the kernels' state in the hull. From then on slots are the serial numbers of their equations."""
     count, made = state[workspace.COUNT], state[workspace.MADE]
-    standing = np.flatnonzero(slots.alive[:made])
-    places, table, remaining = hull.places, hull.table, hull.remaining
-    places.coordinates, places.who = cloud.coordinates[:, :count], cloud.who[:count]
-    table.coefficients, table.defining = slots.coefficients[:, standing], slots.defining[:, standing]
-    table.serial, table.made = standing, int(made)
+    remaining_slots = np.flatnonzero(slots.alive[:made])
+    points, table, remaining = hull.points, hull.table, hull.remaining
+    points.coordinates, points.input_index = cloud.coordinates[:, :count], cloud.input_index[:count]
+    table.coefficients, table.defining = slots.coefficients[:, remaining_slots], slots.defining[:, remaining_slots]
+    table.serial, table.made = remaining_slots, int(made)
     if table.tolerances is not None:
-        table.tolerances = slots.tolerances[standing]
+        table.tolerances = slots.tolerances[remaining_slots]
     if state[workspace.KNOWN] & workspace.TABLE:
         hull.progress.correct(TABLE_OF_PLANES)
     hull.vertices, hull.to_check = int(state[workspace.VERTICES]), int(state[workspace.CHECKED])
     remaining.keeper, remaining.tried = cloud.keeper[hull.vertices : count], int(state[workspace.TRIED])
-    remaining.struck = bool(state[workspace.STRUCK])
+    remaining.eliminated_any = bool(state[workspace.STRUCK])

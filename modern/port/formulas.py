@@ -1,9 +1,9 @@
 """The formulas of chapter 3, in the listing's order of operations, for numbers and vectors of any arithmetic.
 
-In ``a op b`` the left operand stands for the accumulator.  The compiler computes a product into the
-accumulator and then adds the sum waiting for it, so ``t + a*b`` of the listing is written ``a*b + t`` here;
-``t - a*b`` is the product less t with the sign reversed (:func:`less`), which is why a cancellation there
-gives minus zero (emulator/language/expressions.py).
+In ``a op b`` the left operand is the accumulator. The compiler computes a product into the accumulator and then adds
+the pending sum to it, so ``t + a*b`` of the listing is written ``a*b + t`` here. It computes ``t - a*b`` as the
+product less t with the sign reversed (:func:`less`). Therefore such a difference gives minus zero when the operands
+cancel (emulator/language/expressions.py).
 """
 
 from __future__ import annotations
@@ -11,18 +11,20 @@ from __future__ import annotations
 from typing import Any
 
 Number = Any
-"""A number or a vector of one arithmetic."""
+"""A number or a vector of an arithmetic."""
 Point = tuple[Number, Number, Number]
 
 
 def less(total: Number, product: Number) -> Number:
-    """total - product as the reverse subtraction gives it."""
+    """Return total - product as the compiler's reverse subtraction computes it."""
     return -(product - total)
 
 
 def plane(p: Point, q: Point, r: Point) -> tuple[Number, Number, Number, Number]:
-    """Coefficients A, B, C, D of the plane through three points: equations (3.4), thesis p. 16."""
+    """Return the coefficients A, B, C, D of the plane through three points: equations (3.4), thesis p. 16."""
     (xi, yi, zi), (xj, yj, zj), (xk, yk, zk) = p, q, r
+    # Each coefficient is a determinant of six products. The listing adds the three positive products first
+    # (AA, BB, CC and DD at statements 126 to 130 of program 3) and then subtracts the three negative ones.
     a = less(less(less(zi * yk + (yj * zk + yi * zj), yk * zj), yi * zk), yj * zi)
     b = less(less(less(xj * zi + (xi * zk + xk * zj), xi * zj), xj * zk), xk * zi)
     c = less(less(less(yi * xk + (xj * yk + xi * yj), yj * xk), xi * yk), xj * yi)
@@ -32,15 +34,16 @@ def plane(p: Point, q: Point, r: Point) -> tuple[Number, Number, Number, Number]
 
 
 def line(u1: Number, v1: Number, u2: Number, v2: Number, cu: Number, cv: Number) -> tuple[Number, Number, Number]:
-    """Coefficients of the line A u + B v + C = 0 through (u1, v1) and (u2, v2): (3.1) to (3.3) and (3.5).
+    """Return the coefficients of the line A u + B v + C = 0 through two points: equations (3.1) to (3.3) and (3.5).
 
-    C is written with the point (cu, cv), which is one of the two.
+    C is computed with the point (cu, cv), which is one of the two.
     """
     return v2 - v1, u1 - u2, (v1 - v2) * cu + (u2 - u1) * cv
 
 
 def at(equation: tuple[Number, ...], point: tuple[Number, ...]) -> Number:
-    """A x + B y + C z + D, or A x + B y + C."""
+    """Return the value of an equation at a point: A x + B y + C z + D, or A x + B y + C."""
+    # The listing adds from left to right, the constant term last.
     total = equation[0] * point[0]
     for k in range(1, len(point)):
         total = equation[k] * point[k] + total
@@ -48,11 +51,12 @@ def at(equation: tuple[Number, ...], point: tuple[Number, ...]) -> Number:
 
 
 def moments(points: Point, p: Point, q: Point) -> tuple[Number, Number, Number]:
-    """O1, O2, O3, whose squares add up to V: as far as a point is from the line P Q (thesis p. 15).
+    """Return O1, O2, O3, whose squares add up to V, a measure of the distance from the line P Q (thesis p. 15).
 
-    ``q`` is P2 of the formula, ``p`` P1; ``points`` are vectors of the points' coordinates.
+    ``p`` is P1 of the formula and ``q`` is P2. ``points`` holds vectors of the coordinates of all points.
     """
     (x, y, z), (x1, y1, z1), (x2, y2, z2) = points, p, q
+    # Statements 125 to 226 of program 1: the components of the cross product of P2 - P and P2 - P1.
     o1 = less((y2 - y) * (z2 - z1), (z2 - z) * (y2 - y1))
     o2 = less((z2 - z) * (x2 - x1), (x2 - x) * (z2 - z1))
     o3 = less((x2 - x) * (y2 - y1), (y2 - y) * (x2 - x1))
@@ -60,6 +64,6 @@ def moments(points: Point, p: Point, q: Point) -> tuple[Number, Number, Number]:
 
 
 def distance_squared(u1: Number, v1: Number, u2: Number, v2: Number) -> Number:
-    """(u1 - u2)**2 + (v1 - v2)**2 (thesis p. 27)."""
+    """Return (u1 - u2)**2 + (v1 - v2)**2 (thesis p. 27)."""
     u, v = u1 - u2, v1 - v2
     return v * v + u * u

@@ -1,4 +1,4 @@
-"""From H_1 to the hull of all points, the same in the plane and in space (thesis p. 20-33)."""
+"""The loop that expands H_1 to the hull of all points, the same in the plane and in space (thesis p. 20-33)."""
 
 from __future__ import annotations
 
@@ -9,67 +9,72 @@ from typing import Protocol, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.port.table import Equations, Places
+from modern.port.table import Equations, PointTable
 
 
 class Remaining:
-    """The points after the first ``vertices`` places, each with an equation it is not inside of."""
+    """The points after the first ``vertices`` points, each with an equation that keeps it from being eliminated."""
 
     def __init__(self) -> None:
         self.keeper: NDArray[np.int64] = np.empty(0, np.int64)
-        """Serial number of an equation whose value is not negative; -1: none known."""
+        """The serial number of an equation whose value at the point is not negative; -1 if unknown."""
         self.tried = 0
-        """Equations made before this serial number were there when the points were last looked at."""
-        self.struck = False
-        """Whether that eliminated any."""
+        """The equations before this serial number existed when the points were last tested."""
+        self.eliminated_any = False
+        """True if that test eliminated a point."""
 
     def begin(self, count: int) -> None:
         self.keeper = np.full(count, -1, np.int64)
         self.tried = 0
 
-    def swapped(self, place: int) -> None:
-        """The first of the points became a vertex, and the point in its place went to ``place``.
+    def swapped(self, index: int) -> None:
+        """Record that the first of these points became a vertex and the point now at ``index`` took its place.
 
-        A negative place is a vertex's; rounded numbers may find one outside.
+        A negative index means that the new vertex was a vertex before, which rounded arithmetic can report as
+        outside.
         """
-        if place > 0:
-            self.keeper[place] = self.keeper[0]
+        if index > 0:
+            self.keeper[index] = self.keeper[0]
         self.keeper = self.keeper[1:]
 
-    def strike_inside(self, places: Places, vertices: int, table: Equations) -> list[int]:
-        """Eliminate the inside points; returns which of the input they are, in order of place."""
-        self.struck = False
-        if len(places) <= vertices:
+    def strike_inside(self, points: PointTable, vertices: int, table: Equations) -> list[int]:
+        """Eliminate the points inside all equations. Return their input indices, in their order in ``points``."""
+        self.eliminated_any = False
+        if len(points) <= vertices:
             return []
         alive = np.zeros(table.made + 1, np.bool_)
         alive[table.serial] = True
+        # Statements 103 to 113: a point is inside if every equation is negative at it. A point whose recorded
+        # equation
+        # is still in the table cannot be inside, so only the other points are tested.
         doubtful = np.flatnonzero(~alive[self.keeper])
         fresh = int(np.searchsorted(table.serial, self.tried))
+        # Test the new equations first: at most points one of them replaces the deleted one. The older equations are
+        # needed only for points that are inside all the new ones.
         for first in (fresh, 0) if 0 < fresh < len(table) else (0,):
             if not doubtful.size:
                 break
-            signs = table.signs(places.coordinates[:, vertices + doubtful], first)
+            signs = table.signs(points.coordinates[:, vertices + doubtful], first)
             outer = signs >= 0
-            kept = outer.any(axis=0)
-            self.keeper[doubtful[kept]] = table.serial[first + outer.argmax(axis=0)[kept]]
-            doubtful = doubtful[~kept]
+            retained = outer.any(axis=0)
+            self.keeper[doubtful[retained]] = table.serial[first + outer.argmax(axis=0)[retained]]
+            doubtful = doubtful[~retained]
         self.tried = table.made
         if not doubtful.size:
             return []
-        self.struck = True
-        wanted = np.ones(len(places), np.bool_)
-        wanted[vertices + doubtful] = False
-        self.keeper = self.keeper[wanted[vertices:]]
-        return places.keep(wanted)
+        self.eliminated_any = True
+        mask = np.ones(len(points), np.bool_)
+        mask[vertices + doubtful] = False
+        self.keeper = self.keeper[mask[vertices:]]
+        return points.keep(mask)
 
 
 LAST_PAIR, LAST_REPEAT, THROUGH_CENTRE, TABLE_OF_PLANES = "P3-025", "P3-026", "P3-027", "P3-028"
 TABLE_OF_LINES, BETWEEN, NUMBERING = "P2-023", "P2-024", "P2-025"
-"""Rows of the layer ``corrected`` in the apparatus of programs 3 and 2 that can change what is punched."""
 
 
 class Stopped(Exception):
-    """The procedure ends without a hull: the message typed, and the label that decided."""
+    """The procedure ended without a hull; carries the message typed and the label of the deciding statement."""
 
     def __init__(self, status: str, label: str) -> None:
         super().__init__(status, label)
@@ -78,7 +83,7 @@ class Stopped(Exception):
 
 @dataclass
 class Progress:
-    """What is known so far: points struck as inside or as boundary points, and corrections that mattered."""
+    """The result so far: the points eliminated as inside or boundary points, and the corrections that mattered."""
 
     inside: list[int] = field(default_factory=list)
     boundary: list[int] = field(default_factory=list)
@@ -89,13 +94,13 @@ class Progress:
 
 
 Watcher = Callable[[Equations, tuple[int, ...], int, int, list[int]], None]
-"""Called at each H_j: its table, the points added, NETC, how many equations they lay outside of, the points struck."""
+"""A function called at each H_j with its table and the fields of :class:`Grown`."""
 
 
 class Growing(Protocol):
-    """A hull in the making: the state of program 2 or 3."""
+    """A hull under construction: the state of program 2 or 3."""
 
-    places: Places
+    points: PointTable
     remaining: Remaining
     table: Equations
     progress: Progress
@@ -104,10 +109,10 @@ class Growing(Protocol):
     to_check: int
 
     def outside_point(self) -> int | None:
-        """The place of the next vertex, None when every equation supports."""
+        """Return the index of the next vertex, or None if every equation supports."""
 
-    def expand(self, place: int) -> int:
-        """Make the point there a vertex; how many equations it lay outside of."""
+    def expand(self, index: int) -> int:
+        """Make the point at ``index`` a vertex. Return the number of equations it lay outside of."""
 
 
 Hull = TypeVar("Hull", bound=Growing)
@@ -115,42 +120,48 @@ Hull = TypeVar("Hull", bound=Growing)
 
 @dataclass(frozen=True, slots=True)
 class Grown:
-    """News of a stage: the points added, NETC, how many equations they lay outside of, the points struck."""
+    """The result of a stage.
+
+    ``added`` and ``eliminated`` are input indices of points, ``checked`` is NETC, the number of the equation that was
+    being checked, and ``outside`` is the number of equations that the added point lay outside of.
+    """
 
     added: tuple[int, ...]
     checked: int
     outside: int
-    struck: list[int]
+    eliminated: list[int]
 
 
 def stage(hull: Growing, first: bool) -> Grown | None:
-    """Take in the next point and strike what lies inside; None when no point lies outside.
+    """Add the next point and eliminate the points inside. Return None if no point lies outside.
 
-    ``first``: the stage is H_1 itself, which is there.  Raises Stopped.
+    ``first`` marks the stage of H_1, whose vertices exist already. Raise Stopped if the procedure cannot continue.
     """
     if first:
-        added, checked, outside = hull.places.names(slice(0, hull.vertices)), 0, 0
+        added, checked, outside = hull.points.input_indices(slice(0, hull.vertices)), 0, 0
     else:
-        if len(hull.places) == hull.vertices and not hull.remaining.struck:
+        # The listing checks for supporting planes only after it has looked for inside points, and it ends here
+        # if that left no points (program 3, 103; program 2, 128).
+        if len(hull.points) == hull.vertices and not hull.remaining.eliminated_any:
             return None
-        place = hull.outside_point()
-        if place is None:
+        index = hull.outside_point()
+        if index is None:
             return None
         checked = hull.to_check + 1
-        added = hull.places.names(slice(place, place + 1))
-        outside = hull.expand(place)
-    return Grown(added, checked, outside, hull.remaining.strike_inside(hull.places, hull.vertices, hull.table))
+        added = hull.points.input_indices(slice(index, index + 1))
+        outside = hull.expand(index)
+    return Grown(added, checked, outside, hull.remaining.strike_inside(hull.points, hull.vertices, hull.table))
 
 
-def grow(hull: Hull, grown: Callable[[Hull, bool], Grown | None] = stage) -> None:
-    """Stage after stage until no point lies outside.  Raises Stopped.
+def grow(hull: Hull, grow_stage: Callable[[Hull, bool], Grown | None] = stage) -> None:
+    """Run stage after stage until no point lies outside. Raise Stopped if the procedure cannot continue.
 
-    ``grown`` is :func:`stage` or a faster form of it, which may take several stages at once if none watches.
+    ``grow_stage`` is :func:`stage` or a faster equivalent, which may run several stages at once if nothing watches.
     """
-    hull.remaining.begin(len(hull.places) - hull.vertices)
-    news = grown(hull, True)
-    while news:
-        hull.progress.inside += news.struck
+    hull.remaining.begin(len(hull.points) - hull.vertices)
+    growth = grow_stage(hull, True)
+    while growth:
+        hull.progress.inside += growth.eliminated
         if hull.watch:
-            hull.watch(hull.table, news.added, news.checked, news.outside, news.struck)
-        news = grown(hull, False)
+            hull.watch(hull.table, growth.added, growth.checked, growth.outside, growth.eliminated)
+        growth = grow_stage(hull, False)

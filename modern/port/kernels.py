@@ -1,9 +1,9 @@
-"""Program 3 from H_1 on for floats, one number at a time, in the part of Python that numba compiles.
+"""Program 3 from H_1 on for floating-point numbers, one number at a time, in the subset of Python that numba compiles.
 
-The steps are those of :mod:`modern.port.growth`, :mod:`modern.port.polyhedron` and :mod:`modern.port.growth`, and so
-are the decisions and the numbers, which come from the formulas those use.  What is not ordinary is left to them: a
-stage that stops, that meets a correction of a pair or of C not yet noted, or that takes back a vertex returns UNUSUAL
-with nothing changed but the equation to check.
+The steps, decisions and numbers are those of :mod:`modern.port.growth` and :mod:`modern.port.polyhedron`, and the
+formulas are the same functions. Exceptional stages are left to those modules: a stage that stops, that meets for the
+first time a correction of a pair or of C, or that makes a vertex a vertex again. The kernel then returns UNUSUAL and
+has changed nothing except the equation to check.
 """
 
 from __future__ import annotations
@@ -41,14 +41,14 @@ from modern.port.workspace import (
 )
 
 GROWN, ENDED, UNUSUAL, FULL = range(4)
-"""How a stage came out: grown; no stage can follow; left to numpy; no slots left for its planes."""
+"""The result of a stage: completed, no further stage possible, left to numpy, or no free slots for its planes."""
 
 BLOCK = 256
-"""Points put into an equation before the largest value is looked for among them."""
+"""The number of points that are tested together before the largest value among them is determined."""
 
 
 def keeper_among(point: Any, slots: Any, first: int, last: int) -> int:
-    """The first slot of a plane the point is not inside of, -1 if there is none."""
+    """Return the first slot in the range whose plane the point is not inside of, or -1."""
     for slot in range(first, last):
         if slots.alive[slot] and is_not_inside(at(equation(slots.coefficients, slot), point), slots.tolerances[slot]):
             return slot
@@ -56,80 +56,90 @@ def keeper_among(point: Any, slots: Any, first: int, last: int) -> int:
 
 
 def strike_inside(cloud: Any, slots: Any, state: NDArray[np.int64]) -> None:
-    """Eliminate the points inside of every plane: ``Remaining.strike_inside``."""
-    made, tried, before = state[MADE], state[TRIED], state[GONE]
-    to = state[VERTICES]
-    for place in range(state[VERTICES], state[COUNT]):
-        kept = cloud.keeper[place]
-        if kept < 0 or not slots.alive[kept]:
-            point = corner(cloud.coordinates, place)
-            kept = keeper_among(point, slots, tried, made)
-            if kept < 0:
-                kept = keeper_among(point, slots, 0, tried)
-        if kept < 0:
-            cloud.gone[state[GONE]] = cloud.who[place]
+    """Eliminate the points inside all planes, as ``Remaining.strike_inside`` does."""
+    made, tried, eliminated_before = state[MADE], state[TRIED], state[GONE]
+    next_index = state[VERTICES]
+    for index in range(state[VERTICES], state[COUNT]):
+        keeper = cloud.keeper[index]
+        # Statements 104 to 112. The new planes come first: at most points one of them replaces the deleted keeper.
+        if keeper < 0 or not slots.alive[keeper]:
+            point = corner(cloud.coordinates, index)
+            keeper = keeper_among(point, slots, tried, made)
+            if keeper < 0:
+                keeper = keeper_among(point, slots, 0, tried)
+        if keeper < 0:
+            cloud.eliminated[state[GONE]] = cloud.input_index[index]
             state[GONE] += 1
             continue
-        if to != place:
+        # Statement 111 moves all later points down for each eliminated one. One pass moves each point once.
+        if next_index != index:
             for i in range(3):
-                cloud.coordinates[i, to] = cloud.coordinates[i, place]
-            cloud.who[to] = cloud.who[place]
-        cloud.keeper[to] = kept
-        to += 1
-    state[COUNT] = to
+                cloud.coordinates[i, next_index] = cloud.coordinates[i, index]
+            cloud.input_index[next_index] = cloud.input_index[index]
+        cloud.keeper[next_index] = keeper
+        next_index += 1
+    state[COUNT] = next_index
     state[TRIED] = made
-    state[STRUCK] = state[GONE] > before
+    state[STRUCK] = state[GONE] > eliminated_before
 
 
-def reaching(coordinates: NDArray[Any], start: int, end: int, found: Any, above: Any) -> int:
-    """How many points have a larger value: no branches, so that the compiler takes several points at a time."""
+def count_above(coordinates: NDArray[Any], start: int, end: int, plane_equation: Any, above: Any) -> int:
+    """Count the points with a larger value. Without branches the compiler processes several points at a time."""
     x, y, z = coordinates[0, start:end], coordinates[1, start:end], coordinates[2, start:end]
     count = 0
     for k in range(len(x)):
-        count += at(found, (x[k], y[k], z[k])) > above
+        count += at(plane_equation, (x[k], y[k], z[k])) > above
     return count
 
 
-def farthest_outside(coordinates: NDArray[Any], count: int, found: Any, e: Any) -> int:
-    """The place of the largest value, the last of equals, if it is outside; else -1."""
+def farthest_outside(coordinates: NDArray[Any], count: int, plane_equation: Any, e: Any) -> int:
+    """Return the index of the point with the largest value, the last of equals, or -1 if none is outside."""
+    # A value within the slack counts as zero. The difference is a zero of the right type.
     largest = e if e > 0 else e - e
-    place = -1
-    # From the end on: a later one of equals is met first.
+    index = -1
+    # Visit the points from the end, so that the last of equal values is met first (program 3, 122: not greater).
     end = count
     while end > 0:
         start = max(end - BLOCK, 0)
-        if reaching(coordinates, start, end, found, largest):
+        # Most blocks contain no larger value. Only the others are searched one by one.
+        if count_above(coordinates, start, end, plane_equation, largest):
             for k in range(end - 1, start - 1, -1):
-                value = at(found, corner(coordinates, k))
+                value = at(plane_equation, corner(coordinates, k))
                 if value > largest:
-                    place, largest = k, value
+                    index, largest = k, value
         end = start
-    return place
+    return index
 
 
 def outside_point(cloud: Any, slots: Any, state: NDArray[np.int64]) -> int:
-    """``Polyhedron.outside_point``; -1 when every equation supports, -2 when a defining point is off its plane."""
+    """Find the next vertex as ``Polyhedron.outside_point`` does.
+
+    Return its index, -1 if every equation supports, or -2 if a defining point is off its plane.
+    """
     while state[CHECK] < state[MADE]:
         slot = state[CHECK]
         if slots.alive[slot]:
-            found, e = equation(slots.coefficients, slot), slots.tolerances[slot]
+            plane_equation, e = equation(slots.coefficients, slot), slots.tolerances[slot]
             for i in range(3):
-                if not is_on(at(found, corner(cloud.coordinates, slots.defining[i, slot])), e):
+                # Statements 116 to 119: a defining point must satisfy its equation.
+                if not is_on(at(plane_equation, corner(cloud.coordinates, slots.defining[i, slot])), e):
                     return -2
-            place = farthest_outside(cloud.coordinates, state[COUNT], found, e)
-            if place >= 0:
-                return place
+            index = farthest_outside(cloud.coordinates, state[COUNT], plane_equation, e)
+            if index >= 0:
+                return index
             state[CHECKED] += 1
         state[CHECK] += 1
     return -1
 
 
-def replaced(point: Any, slots: Any, room: Any, state: NDArray[np.int64]) -> int:
-    """How many planes the point is outside of; ``room.order`` gets their slots in the order they are replaced.
+def planes_to_replace(point: Any, slots: Any, scratch: Any, state: NDArray[np.int64]) -> int:
+    """List the planes the point is outside of. Return their number.
 
-    First is the one to check.  None stands before it: those have been put to every point that is left.
+    ``scratch.order`` receives their slots in the order of replacement. The first is the plane to check. No plane
+    before it qualifies, because those have been tested on all remaining points.
     """
-    order, values = room.order, room.values
+    order, values = scratch.order, scratch.values
+    # Statements 135 to 140: the plane being checked first, then by decreasing value at the new vertex.
     order[0] = state[CHECK]
     count = 1
     for slot in range(state[CHECK] + 1, state[MADE]):
@@ -138,31 +148,38 @@ def replaced(point: Any, slots: Any, room: Any, state: NDArray[np.int64]) -> int
             if is_outside(value, slots.tolerances[slot]):
                 order[count], values[count] = slot, value
                 count += 1
-    fall(order, values, 1, count)
+    sort_descending(order, values, 1, count)
     return count
 
 
-def fall(order: NDArray[np.int64], values: NDArray[Any], first: int, last: int) -> None:
-    """Sort from the largest value to the smallest, of equals the later slot first (Shell's method)."""
+def sort_descending(order: NDArray[np.int64], values: NDArray[Any], first: int, last: int) -> None:
+    """Sort from the largest value to the smallest; among equals the later slot comes first (Shell's method)."""
     gap = 1
     while gap < last - first:
         gap = 3 * gap + 1
     while gap > 0:
         for k in range(first + gap, last):
-            slot, value, to = order[k], values[k], k - gap
-            while to >= first and (values[to] < value or (values[to] == value and order[to] < slot)):
-                order[to + gap], values[to + gap] = order[to], values[to]
-                to -= gap
-            order[to + gap], values[to + gap] = slot, value
+            slot, value, position = order[k], values[k], k - gap
+            while position >= first and (
+                values[position] < value or (values[position] == value and order[position] < slot)
+            ):
+                order[position + gap], values[position + gap] = order[position], values[position]
+                position -= gap
+            order[position + gap], values[position + gap] = slot, value
         gap //= 3
 
 
-def three_planes(count: int, place: int, cloud: Any, slots: Any, room: Any, state: Any, rules: Any) -> int:
-    """``Polyhedron.three_planes`` into the slots after those used; the bits of corrections, -1 to stop the stage."""
+def three_planes(count: int, index: int, cloud: Any, slots: Any, scratch: Any, state: Any, rules: Any) -> int:
+    """Write the planes of ``Polyhedron.three_planes`` into the slots after those in use.
+
+    Return the bits of the corrections, or -1 to stop the stage.
+    """
     new, slot, corrections = state[VERTICES], state[MADE], 0
-    point = corner(cloud.coordinates, place)
+    point = corner(cloud.coordinates, index)
     for k in range(count):
-        old = room.order[k]
+        old = scratch.order[k]
+        # Statements 126 to 130: the new vertex replaces MM, NN and KK in turn. ``defining`` stores its final index, but
+        # its coordinates are still at its old one.
         for turn in range(3):
             for i in range(3):
                 slots.defining[i, slot] = slots.defining[i, old]
@@ -170,31 +187,34 @@ def three_planes(count: int, place: int, cloud: Any, slots: Any, room: Any, stat
             p = point if turn == 0 else corner(cloud.coordinates, slots.defining[0, slot])
             q = point if turn == 1 else corner(cloud.coordinates, slots.defining[1, slot])
             r = point if turn == 2 else corner(cloud.coordinates, slots.defining[2, slot])
-            found = plane(p, q, r)
-            value = found[3] if rules.moved else at(found, (rules.centre[0], rules.centre[1], rules.centre[2]))
+            fresh = plane(p, q, r)
+            # Statements 132 to 134: orient the plane by C. After a translation D is the value there (p. 118).
+            value = fresh[3] if rules.moved else at(fresh, (rules.centre[0], rules.centre[1], rules.centre[2]))
             if value > 0:
-                found = (-found[0], -found[1], -found[2], -found[3])
-            e = tolerance(found, rules)
+                fresh = (-fresh[0], -fresh[1], -fresh[2], -fresh[3])
+            e = tolerance(fresh, rules)
             if value == 0:
                 corrections |= THROUGH
-                if found[0] * found[0] == 0 and found[1] * found[1] == 0 and found[2] * found[2] == 0:
+                if fresh[0] * fresh[0] == 0 and fresh[1] * fresh[1] == 0 and fresh[2] * fresh[2] == 0:
                     return -1
-            if is_outside(at(found, point), e):
+            # Rounding can put the new vertex outside its own plane. numpy's version then reproduces the failure.
+            if is_outside(at(fresh, point), e):
                 return -1
             for i in range(4):
-                slots.coefficients[i, slot] = found[i]
+                slots.coefficients[i, slot] = fresh[i]
             slots.tolerances[slot] = e
             slot += 1
     return corrections
 
 
-def doubles(defining: NDArray[np.int64], first: int, last: int, room: Any) -> None:
-    """``room.partner``: for each fresh plane from slot ``first`` on the other with the same three points; -1: none.
+def doubles(defining: NDArray[np.int64], first: int, last: int, scratch: Any) -> None:
+    """Find the pairs of equal planes among the fresh planes, which begin at slot ``first``.
 
-    Both are counted from 0.  Of three equal ones the first two are a pair.  Planes wait in chains, found by a hash of
-    their points.
+    ``scratch.partner`` receives for each fresh plane the other one with the same three points, or -1, both counted
+    from zero. Among three equal planes the first two are a pair. Planes without a partner wait in chains of a hash
+    table.
     """
-    partner, following, chains, keys = room.partner, room.following, room.chains, room.keys
+    partner, following, chains, keys = scratch.partner, scratch.following, scratch.chains, scratch.keys
     size = 4
     while size < 2 * (last - first):
         size *= 2
@@ -203,95 +223,104 @@ def doubles(defining: NDArray[np.int64], first: int, last: int, room: Any) -> No
     for k in range(last - first):
         partner[k] = -1
         a, b, c = defining[0, first + k], defining[1, first + k], defining[2, first + k]
+        # The new vertex has the largest index of the three, so the other two identify the plane.
         new = max(a, b, c)
         low, high = min(a, b, c), a + b + c - new - min(a, b, c)
         keys[0, k], keys[1, k] = low, high
         bucket = (low * 40503 + high) & (size - 1)
-        before, other = -1, chains[bucket]
-        while other >= 0 and not (keys[0, other] == low and keys[1, other] == high):
-            before, other = other, following[other]
-        if other < 0:
+        previous, candidate = -1, chains[bucket]
+        while candidate >= 0 and not (keys[0, candidate] == low and keys[1, candidate] == high):
+            previous, candidate = candidate, following[candidate]
+        if candidate < 0:
             following[k] = chains[bucket]
             chains[bucket] = k
         else:
-            partner[k], partner[other] = other, k
-            if before < 0:
-                chains[bucket] = following[other]
+            partner[k], partner[candidate] = candidate, k
+            # A pair is removed from the chain, so that a third equal plane waits for a fourth.
+            if previous < 0:
+                chains[bucket] = following[candidate]
             else:
-                following[before] = following[other]
+                following[previous] = following[candidate]
 
 
 def takes_last_pair(partner: NDArray[np.int64], count: int) -> bool:
-    """Whether a pair is struck with at most one plane left after it, as ``Polyhedron.single`` notes it."""
-    left = count
+    """Return True if a deleted pair leaves at most one plane after it, as ``Polyhedron.single`` records it."""
+    remaining = count
     for k in range(count):
         if partner[k] < 0:
-            left -= 1
+            remaining -= 1
         elif partner[k] > k:
-            left -= 2
-            if left <= 1:
+            remaining -= 2
+            if remaining <= 1:
                 return True
     return False
 
 
-def expand(place: int, cloud: Any, slots: Any, room: Any, state: NDArray[np.int64], rules: Any) -> int:
-    """``Polyhedron.expand``."""
-    gone = replaced(corner(cloud.coordinates, place), slots, room, state)
+def expand(index: int, cloud: Any, slots: Any, scratch: Any, state: NDArray[np.int64], rules: Any) -> int:
+    """Make a point a vertex, as ``Polyhedron.expand`` does."""
+    replaced_count = planes_to_replace(corner(cloud.coordinates, index), slots, scratch, state)
     made, new = state[MADE], state[VERTICES]
-    last = made + 3 * gone
+    last = made + 3 * replaced_count
     if last > len(slots.alive):
         return FULL
-    peak = state[ALIVE] + 2 * gone + 1
-    corrections = three_planes(gone, place, cloud, slots, room, state, rules)
-    if corrections < 0 or peak > max(rules.room, 4 * state[COUNT] - 11):
+    # The largest table of the stage: every replacement adds three planes and then deletes one (131, 157).
+    peak = state[ALIVE] + 2 * replaced_count + 1
+    corrections = three_planes(replaced_count, index, cloud, slots, scratch, state, rules)
+    if corrections < 0 or peak > max(rules.capacity, 4 * state[COUNT] - 11):
         return UNUSUAL
     if peak > rules.listed:
         corrections |= TABLE
-    doubles(slots.defining, made, last, room)
-    partner = room.partner
-    if gone > 1 and takes_last_pair(partner, 3 * gone):
+    doubles(slots.defining, made, last, scratch)
+    partner = scratch.partner
+    if replaced_count > 1 and takes_last_pair(partner, 3 * replaced_count):
         corrections |= PAIR
-    # The table of planes is larger than the listing's in every hull of many points: that is noted here.
+    # In every hull of many points the table outgrows the listing's, so this correction alone is recorded here.
     if corrections & ~state[KNOWN] & ~TABLE:
         return UNUSUAL
     state[KNOWN] |= corrections
-    for k in range(gone):
-        slots.alive[room.order[k]] = False
-    to = made
+    for k in range(replaced_count):
+        slots.alive[scratch.order[k]] = False
+    next_slot = made
+    # Keep the fresh planes without a partner and close up their slots (141 to 160).
     for k in range(last - made):
         if partner[k] < 0:
             for i in range(4):
-                slots.coefficients[i, to] = slots.coefficients[i, made + k]
+                slots.coefficients[i, next_slot] = slots.coefficients[i, made + k]
             for i in range(3):
-                slots.defining[i, to] = slots.defining[i, made + k]
-            slots.tolerances[to] = slots.tolerances[made + k]
-            slots.alive[to] = True
-            to += 1
-    state[MADE] = to
-    state[ALIVE] += to - made - gone
+                slots.defining[i, next_slot] = slots.defining[i, made + k]
+            slots.tolerances[next_slot] = slots.tolerances[made + k]
+            slots.alive[next_slot] = True
+            next_slot += 1
+    state[MADE] = next_slot
+    state[ALIVE] += next_slot - made - replaced_count
     for i in range(3):
-        cloud.coordinates[i, place], cloud.coordinates[i, new] = cloud.coordinates[i, new], cloud.coordinates[i, place]
-    cloud.who[place], cloud.who[new] = cloud.who[new], cloud.who[place]
-    cloud.keeper[place] = cloud.keeper[new]
+        cloud.coordinates[i, index], cloud.coordinates[i, new] = cloud.coordinates[i, new], cloud.coordinates[i, index]
+    cloud.input_index[index], cloud.input_index[new] = cloud.input_index[new], cloud.input_index[index]
+    cloud.keeper[index] = cloud.keeper[new]
     state[VERTICES] += 1
-    state[ADDED], state[OUTSIDE] = cloud.who[new], gone
+    state[ADDED], state[OUTSIDE] = cloud.input_index[new], replaced_count
     return GROWN
 
 
-def grow(cloud: Any, slots: Any, room: Any, state: NDArray[np.int64], rules: Any, first: bool, stages: int) -> int:
-    """So many stages, or all if negative; ``first``: the first of them is H_1 itself, which has no new vertex."""
+def grow(cloud: Any, slots: Any, scratch: Any, state: NDArray[np.int64], rules: Any, first: bool, stages: int) -> int:
+    """Run the given number of stages, or all of them if ``stages`` is negative.
+
+    ``first`` marks that the first of them is H_1 itself, which adds no vertex.
+    """
     while True:
         if not first:
+            # No points remain, and the last test eliminated none (103).
             if state[COUNT] == state[VERTICES] and not state[STRUCK]:
                 return ENDED
+            # Close up the slots when a third of them are empty.
             if state[MADE] > state[ALIVE] + state[ALIVE] // 2 + 16:
-                pack(cloud, slots, room, state)
-            place = outside_point(cloud, slots, state)
-            if place == -1:
+                pack(cloud, slots, scratch, state)
+            index = outside_point(cloud, slots, state)
+            if index == -1:
                 return ENDED
-            if place < state[VERTICES]:
+            if index < state[VERTICES]:
                 return UNUSUAL
-            code = expand(place, cloud, slots, room, state, rules)
+            code = expand(index, cloud, slots, scratch, state, rules)
             if code != GROWN:
                 return code
         strike_inside(cloud, slots, state)
@@ -301,31 +330,32 @@ def grow(cloud: Any, slots: Any, room: Any, state: NDArray[np.int64], rules: Any
             return GROWN
 
 
-def touching(coordinates: NDArray[Any], start: int, end: int, found: Any, e: Any) -> int:
-    """How many points are on the plane; no branches, as in :func:`reaching`."""
+def count_on(coordinates: NDArray[Any], start: int, end: int, plane_equation: Any, e: Any) -> int:
+    """Count the points on the plane, without branches as in :func:`count_above`."""
     x, y, z = coordinates[0, start:end], coordinates[1, start:end], coordinates[2, start:end]
     count = 0
     for k in range(len(x)):
-        count += abs(at(found, (x[k], y[k], z[k]))) <= e
+        count += abs(at(plane_equation, (x[k], y[k], z[k]))) <= e
     return count
 
 
-def satisfied(slots: Any, coordinates: NDArray[Any], counts: NDArray[np.int64], places: NDArray[np.int64]) -> int:
-    """``Equations.satisfied``: how many points satisfy each equation, and their places, equation after equation.
+def satisfied(slots: Any, coordinates: NDArray[Any], counts: NDArray[np.int64], indices: NDArray[np.int64]) -> int:
+    """Find the points that satisfy each equation, as ``Equations.satisfied`` does. Return the number of incidences.
 
-    All are counted; those beyond the end of ``places`` are not noted.
+    ``counts`` receives the number of points of each equation and ``indices`` their indices. Points beyond the end of
+    ``indices`` are counted but not stored.
     """
     k, count = 0, coordinates.shape[1]
     for slot in range(len(slots.alive)):
-        found, e, first = equation(slots.coefficients, slot), slots.tolerances[slot], k
+        plane_equation, e, first = equation(slots.coefficients, slot), slots.tolerances[slot], k
         e = e if e > 0 else e - e
         for start in range(0, count, BLOCK):
             end = min(start + BLOCK, count)
-            if touching(coordinates, start, end, found, e):
-                for place in range(start, end):
-                    if is_on(at(found, corner(coordinates, place)), e):
-                        if k < len(places):
-                            places[k] = place
+            if count_on(coordinates, start, end, plane_equation, e):
+                for index in range(start, end):
+                    if is_on(at(plane_equation, corner(coordinates, index)), e):
+                        if k < len(indices):
+                            indices[k] = index
                         k += 1
         counts[slot] = k - first
     return k

@@ -1,4 +1,4 @@
-"""From the procedure's numbers to the result: exact text, faces, and the stages of the construction."""
+"""The conversion of the procedure's numbers to the result: exact text, faces and the stages of the construction."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from modern.geometry.hull import Coefficients, Face, LazyTuple, Stage
 from modern.geometry.numbers import Exact
 from modern.port.arithmetic import Arithmetic, Scalar, Vector
-from modern.port.table import Equations, Places
+from modern.port.table import Equations, PointTable
 
 PLANE, LINE = (2, 2, 2, 3), (1, 1, 1, 2)
-"""Degrees in the coordinates of A, B, C, D of a plane, and of a line's equation."""
+"""The degrees, in the coordinates, of A, B, C, D of a plane and of the equation of a line."""
 
 
 def texts(arithmetic: Arithmetic, numbers: Sequence[Scalar], degrees: Sequence[int]) -> tuple[str, ...]:
@@ -30,7 +30,7 @@ def coefficients(arithmetic: Arithmetic, numbers: Sequence[Scalar], degrees: Seq
 
 
 def lowest(values: Sequence[Exact]) -> tuple[int, int, int, int]:
-    """The equation in integers without common divisor."""
+    """Return the equation in integers without a common divisor."""
     a, b, c, d = values
     common = math.lcm(a.denominator, b.denominator, c.denominator, d.denominator)
     if common != 1:
@@ -42,96 +42,103 @@ def lowest(values: Sequence[Exact]) -> tuple[int, int, int, int]:
 
 @dataclass(frozen=True)
 class Faces:
-    """Makes faces: what they need of the points."""
+    """The construction of a result's faces from the points of a run."""
 
     arithmetic: Arithmetic
-    places: Places
+    points: PointTable
 
-    def whole_points(self, places: Sequence[int]) -> dict[int, IntPoint]:
-        """Coordinates as integers in a common unit, exactly, by place."""
-        rows = [self.arithmetic.exacts(row[places], 1) for row in self.places.rows]
+    def whole_points(self, indices: Sequence[int]) -> dict[int, IntPoint]:
+        """Return the exact coordinates of the points at these indices as integers in a common unit, by index."""
+        rows = [self.arithmetic.exacts(row[indices], 1) for row in self.points.rows]
         unit = math.lcm(*{value.denominator for row in rows for value in row})
-        whole = [[value.numerator * (unit // value.denominator) for value in row] for row in rows]
-        return dict(zip(places, zip(*whole, strict=True), strict=True))
+        integers = [[value.numerator * (unit // value.denominator) for value in row] for row in rows]
+        return dict(zip(indices, zip(*integers, strict=True), strict=True))
 
     def polyhedral(self, table: Equations, on: list[NDArray[np.int64]], vertex: NDArray[np.bool_]) -> Sequence[Face]:
-        """The faces of a polyhedron; ``on`` are the places that satisfy each plane, ``vertex`` tells vertices.
+        """Return the faces of a polyhedron.
 
-        They are made when asked for: places, table and the rest must stay as they are.
+        ``on`` holds the indices of the points that satisfy each plane, and ``vertex`` is a mask of the vertices. The
+        faces are computed on first access, so the points, the table and the mask must not change afterwards.
         """
         return LazyTuple(len(on), lambda: self._polyhedral(table, on, vertex))
 
     def _polyhedral(self, table: Equations, on: list[NDArray[np.int64]], vertex: NDArray[np.bool_]) -> list[Face]:
-        arithmetic, who, is_vertex = self.arithmetic, self.places.who.tolist(), vertex.tolist()
-        known = self.whole_points(np.flatnonzero(vertex).tolist())
+        arithmetic, input_index, is_vertex = self.arithmetic, self.points.input_index.tolist(), vertex.tolist()
+        integer_points = self.whole_points(np.flatnonzero(vertex).tolist())
         by_row = list(zip(table.coefficients, PLANE, strict=True))
         exact = list(zip(*(arithmetic.exacts(row, degree) for row, degree in by_row), strict=True))
         text = list(zip(*(arithmetic.texts(row, degree) for row, degree in by_row), strict=True))
-        found = []
+        faces = []
         for k, defining in enumerate(table.defining.T.tolist()):
             satisfied = on[k].tolist()
-            corners = [place for place in satisfied if is_vertex[place]]
-            others = [] if len(corners) == len(satisfied) else [place for place in satisfied if not is_vertex[place]]
+            corners = [index for index in satisfied if is_vertex[index]]
+            boundary = [] if len(corners) == len(satisfied) else [index for index in satisfied if not is_vertex[index]]
             if len(corners) > 1:
-                corners = [corners[i] for i in cyclic([known[place] for place in corners], exact[k][:3])]
-            found.append(
+                corners = [corners[i] for i in cyclic([integer_points[index] for index in corners], exact[k][:3])]
+            faces.append(
                 Face(
                     coefficients=text[k],
                     lowest=lowest(exact[k]),
-                    defining=tuple([who[place] for place in defining]),
-                    polygon=tuple([who[place] for place in corners]),
-                    on=tuple([who[place] for place in others]),
+                    defining=tuple([input_index[index] for index in defining]),
+                    polygon=tuple([input_index[index] for index in corners]),
+                    on=tuple([input_index[index] for index in boundary]),
                 )
             )
-        return found
+        return faces
 
     def edges(
         self, table: Equations, ends: NDArray[np.int64], on: list[NDArray[np.int64]], projection: int
     ) -> tuple[Face, ...]:
-        """The lines of a polygon, ``ends`` the places of their vertices; the coordinate projected away gets 0."""
-        found = []
+        """Return the lines of a polygon as faces.
+
+        ``ends`` holds the indices of their vertices. The coordinate that was projected away gets the coefficient 0.
+        """
+        faces = []
         zero = self.arithmetic.number(0)
         for k, satisfied in enumerate(on):
             row = [table.coefficients[i, k] for i in range(3)]
+            # KPROJ is the number of the coordinate that was projected away, counted from 1 (209 to 217).
             row.insert(projection - 1, zero)
             exact = [self.arithmetic.exact(value, degree) for value, degree in zip(row, LINE, strict=True)]
-            found.append(
+            faces.append(
                 Face(
                     coefficients=coefficients(self.arithmetic, row, LINE),
                     lowest=lowest(exact),
-                    defining=self.places.names(table.defining[:, k]),
-                    polygon=self.places.names(ends[:, k]),
-                    on=self.places.names([place for place in satisfied.tolist() if place not in ends[:, k]]),
+                    defining=self.points.input_indices(table.defining[:, k]),
+                    polygon=self.points.input_indices(ends[:, k]),
+                    on=self.points.input_indices([index for index in satisfied.tolist() if index not in ends[:, k]]),
                 )
             )
-        return tuple(found)
+        return tuple(faces)
 
 
 class Historian:
-    """Notes each H_j as it comes about; what it says is made when asked for."""
+    """A watcher that records each H_j. The stages are built on first access."""
 
-    def __init__(self, places: Places) -> None:
-        self.places = places
+    def __init__(self, points: PointTable) -> None:
+        self.points = points
         self._notes: list[tuple[tuple[int, ...], int, int, list[int], NDArray[np.int64]]] = []
 
-    def __call__(self, table: Equations, added: tuple[int, ...], checked: int, outside: int, struck: list[int]) -> None:
-        self._notes.append((added, checked, outside, struck, self.places.who[table.defining]))
+    def __call__(
+        self, table: Equations, added: tuple[int, ...], checked: int, outside: int, eliminated: list[int]
+    ) -> None:
+        self._notes.append((added, checked, outside, eliminated, self.points.input_index[table.defining]))
 
     @property
     def stages(self) -> Sequence[Stage]:
-        """The stages noted so far."""
+        """The stages recorded so far."""
         notes = self._notes.copy()
         return LazyTuple(len(notes), lambda: (_stage(number, *note) for number, note in enumerate(notes, 1)))
 
 
 def _stage(
-    number: int, added: tuple[int, ...], checked: int, outside: int, struck: list[int], names: NDArray[np.int64]
+    number: int, added: tuple[int, ...], checked: int, outside: int, eliminated: list[int], names: NDArray[np.int64]
 ) -> Stage:
-    return Stage(number, added, checked, outside, tuple(struck), tuple(map(tuple, names.T.tolist())))
+    return Stage(number, added, checked, outside, tuple(eliminated), tuple(map(tuple, names.T.tolist())))
 
 
 class PointTexts(Sequence[tuple[str, str, str]]):
-    """The points as the arithmetic took them, turned into text when asked for; equal to the tuple of them."""
+    """The points as the arithmetic stores them, converted to text on access. Compares equal to a tuple of the texts."""
 
     def __init__(self, arithmetic: Arithmetic, coordinates: Vector) -> None:
         self._arithmetic = arithmetic
@@ -141,7 +148,7 @@ class PointTexts(Sequence[tuple[str, str, str]]):
         return int(self._coordinates.shape[1])
 
     def floats(self) -> NDArray[np.float64]:
-        """The coordinates as they are, shape (n, 3); a copy."""
+        """Return a copy of the coordinates as an array of shape (n, 3)."""
         return np.array(self._coordinates.T, np.float64, order="C")
 
     @overload
@@ -156,8 +163,8 @@ class PointTexts(Sequence[tuple[str, str, str]]):
         x, y, z = texts(self._arithmetic, list(self._coordinates[:, index]), (1, 1, 1))
         return x, y, z
 
-    def __eq__(self, other: object) -> bool:
-        return tuple(self) == (tuple(other) if isinstance(other, PointTexts) else other)
+    def __eq__(self, sequence: object) -> bool:
+        return tuple(self) == (tuple(sequence) if isinstance(sequence, PointTexts) else sequence)
 
     def __hash__(self) -> int:
         return hash(tuple(self))
@@ -167,7 +174,7 @@ class PointTexts(Sequence[tuple[str, str, str]]):
 
 
 def point_texts(arithmetic: Arithmetic, coordinates: Vector) -> Sequence[tuple[str, str, str]]:
-    """The points as the arithmetic took them; of many floats, as text when asked for."""
+    """Return the points as the arithmetic stores them. Floating-point numbers are converted to text on access."""
     lazy = PointTexts(arithmetic, coordinates)
     return lazy if coordinates.dtype.kind == "f" else tuple(lazy)
 
@@ -176,19 +183,20 @@ IntPoint = tuple[int, int, int]
 
 
 def cyclic(points: Sequence[IntPoint], normal: Sequence[Exact]) -> list[int]:
-    """The order in which points of a plane stand around it, seen from where ``normal`` points counterclockwise.
+    """Return the order of coplanar points around their polygon, counterclockwise as seen from the tip of ``normal``.
 
-    It begins with the first point.
-
-    ``points`` are the corners of a convex polygon, exactly or nearly so: the order is that of the directions
-    from the lowest corner, in the projection along the normal's largest component.
+    The order begins with the first point. The points are the corners of a convex polygon, exactly or nearly. They are
+    sorted by direction from the lowest corner, in the projection along the largest component of the normal.
     """
     sizes: list[Exact] = [component if component > 0 else -component for component in normal]
+    # Project along the largest component of the normal: the image is then farthest from degenerate.
     axis = sizes.index(max(sizes))
     u, v = ((1, 2), (2, 0), (0, 1))[axis]
+    # Exchanging the axes reverses the orientation, so that counterclockwise stays counterclockwise.
     if normal[axis] < 0:
         u, v = v, u
     flat = [(p[u], p[v]) for p in points]
+    # Most faces are triangles, for which one turn decides.
     if len(flat) == 3 and (turn := _turn(*flat)):
         return [0, 1, 2] if turn > 0 else [0, 2, 1]
     start = min(range(len(flat)), key=lambda k: flat[k])
@@ -199,6 +207,7 @@ def cyclic(points: Sequence[IntPoint], normal: Sequence[Exact]) -> list[int]:
         turn = _turn(flat[start], flat[i], flat[j])
         if turn:
             return -1 if turn > 0 else 1
+        # Points in the same direction from the start are ordered by their distance.
         return -1 if abs(x1 - x0) + abs(y1 - y0) < abs(x2 - x0) + abs(y2 - y0) else 1
 
     order = [start, *sorted((k for k in range(len(flat)) if k != start), key=cmp_to_key(compare))]
@@ -207,5 +216,5 @@ def cyclic(points: Sequence[IntPoint], normal: Sequence[Exact]) -> list[int]:
 
 
 def _turn(p: tuple[int, int], q: tuple[int, int], r: tuple[int, int]) -> int:
-    """Positive where the way from p by q to r turns left."""
+    """Return a positive number if the path from p by q to r turns left."""
     return (q[0] - p[0]) * (r[1] - p[1]) - (r[0] - p[0]) * (q[1] - p[1])

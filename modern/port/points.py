@@ -1,4 +1,4 @@
-"""Points as given, read exactly, and taken into an arithmetic asked for by name."""
+"""Input points: read exactly, then converted to an arithmetic that is selected by its name."""
 
 from __future__ import annotations
 
@@ -24,52 +24,58 @@ Read = tuple[Exact, bool]
 
 
 def read_number(value: object) -> Read:
-    """One coordinate.  Raises ValueError."""
-    found = real(value)
-    if found:
-        return found, False
-    return found, value.strip().startswith("-") if isinstance(value, str) else str(value).startswith("-")
+    """Read one coordinate. Raise ValueError if it is no real number."""
+    number = real(value)
+    if number:
+        return number, False
+    return number, value.strip().startswith("-") if isinstance(value, str) else str(value).startswith("-")
 
 
 def read_points(points: Points) -> list[Read]:
-    """The coordinates of all points, three a point, in one list.  Raises PointsError, counting points from 0."""
+    """Return the coordinates of all points, three for each point, in one list.
+
+    Raise PointsError for invalid input; the message counts points from 0.
+    """
     if isinstance(points, np.ndarray):
         _check_shape(points)
         points = points.tolist()
-    found: list[Read] = []
+    numbers: list[Read] = []
     index = -1
     for index, point in enumerate(points):
         if isinstance(point, str) or not isinstance(point, Iterable):
-            raise PointsError(f"point {index}: {type(point).__name__} is not a point; a point has three coordinates")
+            raise PointsError(f"point {index}: expected three coordinates, found {type(point).__name__}")
         row = list(point)
         if len(row) != 3:
-            raise PointsError(f"point {index}: {len(row)} coordinates; a point has three")
+            raise PointsError(f"point {index}: expected 3 coordinates, found {len(row)}")
         for axis, value in zip("xyz", row, strict=True):
             try:
-                found.append(read_number(value))
+                numbers.append(read_number(value))
             except ValueError as error:
                 raise PointsError(f"point {index}, coordinate {axis}: {error}") from None
     if index < 0:
         raise PointsError("there are no points")
-    return found
+    return numbers
 
 
 def first_of_equals(keys: Iterable[object]) -> tuple[list[int], tuple[tuple[int, int], ...]]:
-    """Points that are no duplicates, and (duplicate, the first point equal to it)."""
-    seen: dict[object, int] = {}
+    """Return the indices of the points that are not duplicates, and pairs (duplicate, first point equal to it)."""
+    first_index: dict[object, int] = {}
     duplicates = []
     for index, key in enumerate(keys):
-        first = seen.setdefault(key, index)
+        first = first_index.setdefault(key, index)
         if first != index:
             duplicates.append((index, first))
-    return list(seen.values()), tuple(duplicates)
+    return list(first_index.values()), tuple(duplicates)
 
 
 NAMES = ("exact", "float64", "float32", "mp:BITS", *PROFILES, *FAMILIES)
 
 
 def fixed_arithmetic(name: str) -> Arithmetic | None:
-    """The arithmetic of that name; None for ``exact``, which depends on the points.  Raises ValueError."""
+    """Return the arithmetic with the given name, or None for ``exact``, which depends on the points.
+
+    Raise ValueError if the name is unknown.
+    """
     if name == "exact":
         return None
     if name == "float64":
@@ -80,16 +86,17 @@ def fixed_arithmetic(name: str) -> Arithmetic | None:
     if family == "mp":
         if count.isdecimal() and count.isascii() and MIN_BITS <= int(count) <= MAX_BITS:
             return MultiprecisionArithmetic(int(count))
-        raise ValueError(f"{name}: mp takes a number of bits from {MIN_BITS} to {MAX_BITS}, as mp:100")
+        raise ValueError(f"{name}: mp expects a number of bits from {MIN_BITS} to {MAX_BITS}, such as mp:100")
     if family in PROFILES or f"{family}:P" in FAMILIES:
         return Arithmetic1620(profile(name))
-    raise ValueError(f"no arithmetic is called {name!r}; there are {', '.join(NAMES)}")
+    raise ValueError(f"no arithmetic is called {name!r}; choose one of {', '.join(NAMES)}")
 
 
 def take(points: Points, name: str, wide: bool = False) -> tuple[Arithmetic, Vector]:
-    """The arithmetic of that name and the points in it, coordinates in three rows.
+    """Return the arithmetic with the given name, and the coordinates of the points in it as three rows.
 
-    ``wide``: exact numbers without the limit of a machine word.  Raises ValueError, PointsError.
+    ``wide`` selects exact numbers without the limit of a machine word. Raise ValueError for an unknown arithmetic and
+    PointsError for invalid points.
     """
     arithmetic = fixed_arithmetic(name)
     if isinstance(arithmetic, FloatArithmetic) and isinstance(points, np.ndarray) and points.dtype == arithmetic.dtype:
@@ -102,18 +109,18 @@ def take(points: Points, name: str, wide: bool = False) -> tuple[Arithmetic, Vec
 
 def _check_shape(points: Vector) -> None:
     if points.dtype.kind not in "iufOU":
-        raise PointsError(f"an array of {points.dtype} holds no real numbers")
+        raise PointsError(f"expected an array of real numbers, found {points.dtype}")
     if not points.size:
         raise PointsError("there are no points")
     if points.ndim != 2 or (points.shape[1] != 3 and points.dtype.kind != "O"):
-        raise PointsError(f"an array of points has the shape (n, 3), not {points.shape}")
+        raise PointsError(f"expected an array of shape (n, 3), found {points.shape}")
 
 
 def _floats(points: Vector) -> Vector:
     _check_shape(points)
-    bad = np.flatnonzero(~np.isfinite(points).all(axis=1))
-    if bad.size:
-        raise PointsError(f"point {bad[0]}: a coordinate is not finite")
+    not_finite = np.flatnonzero(~np.isfinite(points).all(axis=1))
+    if not_finite.size:
+        raise PointsError(f"point {not_finite[0]}: a coordinate is not finite")
     return np.ascontiguousarray(points.T)
 
 

@@ -1,6 +1,6 @@
 """The hull of coplanar points, program 2 (thesis p. 17-28, listing p. 79-87).
 
-Comments give statement labels.  Places count from 0 here, from 1 in the listing.
+Numbers in parentheses are statement labels of the listing. Points are counted from 0 here, from 1 in the listing.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from modern.geometry.hull import ERROR, NOT_ACCEPTABLE
 from modern.port.arithmetic import Arithmetic, Scalar, Vector
 from modern.port.formulas import distance_squared, line
 from modern.port.growth import BETWEEN, NUMBERING, TABLE_OF_LINES, Progress, Remaining, Stopped, Watcher, grow
-from modern.port.table import Equations, Places, Slack, turned
+from modern.port.table import Equations, PointTable, Slack, turned
 
 _LISTED_LINES = 51
 _FIRST = np.array([(0, 1), (2, 1), (0, 2)]).T
@@ -24,23 +24,26 @@ _FROM, _TO, _CONSTANT = np.array([0, 1, 2]), np.array([1, 2, 0]), np.array([0, 1
 
 
 def projection(arithmetic: Arithmetic, plane: tuple[Scalar, ...]) -> int:
-    """KPROJ: 1 onto the y-z plane, 2 onto the x-z plane, 3 onto the x-y plane (209 to 217)."""
-    a, b = (arithmetic.is_zero(c) for c in plane[:2])
-    return 1 if not a else 2 if not b else 3
+    """Return KPROJ: 1 to project onto the y-z plane, 2 onto the x-z plane, 3 onto the x-y plane (209 to 217)."""
+    a_is_zero, b_is_zero = (arithmetic.is_zero(c) for c in plane[:2])
+    return 1 if not a_is_zero else 2 if not b_is_zero else 3
 
 
-def lines(places: Places, first: NDArray[np.int64], second: NDArray[np.int64], by: NDArray[np.int64]) -> Vector:
-    """Equations (3.5) of lines through two points each, in vectors; C is written with the point ``by``."""
-    (u1, v1, _), (u2, v2, _), (cu, cv, _) = (places.several(p) for p in (first, second, by))
+def lines(points: PointTable, first: NDArray[np.int64], second: NDArray[np.int64], by: NDArray[np.int64]) -> Vector:
+    """Return the equations (3.5) of lines through two points each, as vectors. C is computed with the point ``by``."""
+    (u1, v1, _), (u2, v2, _), (cu, cv, _) = (points.several(p) for p in (first, second, by))
     return np.stack(line(u1, v1, u2, v2, cu, cv))
 
 
 @dataclass
 class Polygon:
-    """The state of program 2: places (the coordinate projected away is the third) and table are changed in place."""
+    """The state of program 2.
+
+    The points and the table are changed in place. The third coordinate of a point is the one that was projected away.
+    """
 
     arithmetic: Arithmetic
-    places: Places
+    points: PointTable
     slack: Slack | None
     centre: tuple[Scalar, ...] | None
     progress: Progress
@@ -54,127 +57,134 @@ class Polygon:
         self.table = Equations(self.arithmetic, self.slack, self.turn(_FROM, _TO, _CONSTANT), _FIRST.copy())
 
     def run(self) -> None:
-        """Expand H_1 to the hull of all points (103 to 135).  Raises Stopped."""
+        """Expand H_1 to the hull of all points (103 to 135). Raise Stopped if the procedure cannot continue."""
         grow(self)
 
     def turn(self, first: NDArray[np.int64], second: NDArray[np.int64], by: NDArray[np.int64]) -> Vector:
-        return turned(self.arithmetic, lines(self.places, first, second, by), self.centre)[0]
+        return turned(self.arithmetic, lines(self.points, first, second, by), self.centre)[0]
 
     def outside_point(self) -> int | None:
-        """The place of the next vertex: farthest outside the first line that is not supporting (124 to 132)."""
+        """Return the next vertex, the point farthest outside the first line that is not supporting (124 to 132)."""
         while self.to_check < len(self.table):
-            u, v, _ = self.places.rows
+            u, v, _ = self.points.rows
+            # The two end points of the line must satisfy its equation exactly, or the data are not acceptable (126).
             values = self.table.one_at(self.to_check, (u, v))
             if self.arithmetic.sign(values[self.table.defining[:, self.to_check]]).any():
                 raise Stopped(NOT_ACCEPTABLE, "program2 126")
-            if len(self.places) == self.vertices:
+            if len(self.points) == self.vertices:
                 return None
+            # The listing compares only the points that are not vertices yet (128 to 131).
             values = values[self.vertices :]
-            place = self.arithmetic.last_largest(values)
-            if self.arithmetic.sign(values[place : place + 1])[0] > 0:
-                return self.vertices + place
+            index = self.arithmetic.last_largest(values)
+            if self.arithmetic.sign(values[index : index + 1])[0] > 0:
+                return self.vertices + index
             self.to_check += 1
         return None
 
-    def expand(self, place: int) -> int:
-        """Make the point in ``place`` a vertex: two lines instead of the one it is outside of (133 to 135)."""
+    def expand(self, index: int) -> int:
+        """Make the point at ``index`` a vertex: two lines replace the one it lies outside of (133 to 135)."""
         new = self.vertices
         self.vertices += 1
-        self.places.swap(place, new)
-        self.remaining.swapped(place - new)
+        self.points.swap(index, new)
+        self.remaining.swapped(index - new)
         ends = self.table.defining[:, self.to_check].copy()
+        # The new lines run from the new vertex to the two ends of the deleted line (133).
         both = np.array([new, new])
-        kept = np.ones(len(self.table), np.bool_)
-        kept[self.to_check] = False
-        self.table.replace(kept, self.turn(both, ends, both), np.stack([ends, both]), np.ones(2, np.bool_))
+        retained = np.ones(len(self.table), np.bool_)
+        retained[self.to_check] = False
+        self.table.replace(retained, self.turn(both, ends, both), np.stack([ends, both]), np.ones(2, np.bool_))
         if len(self.table) + 1 > _LISTED_LINES:
             self.progress.correct(TABLE_OF_LINES)
         return 1
 
 
 def strike_between(
-    arithmetic: Arithmetic, table: Equations, places: Places, progress: Progress
+    arithmetic: Arithmetic, table: Equations, points: PointTable, progress: Progress
 ) -> tuple[NDArray[np.int64], list[int]]:
-    """Points between two others of their line are no vertices, and a line has one equation (144 to 169).
+    """Delete points that lie between two others of their line, and all but one equation of a line (144 to 169).
 
-    Returns for each equation that stays the two places it ends at, and the places that are no vertices, in the
-    order they are found.  Raises Stopped.
+    Return for each remaining equation the indices of its two end points, and the indices of the points that are no
+    vertices, in the order in which they are identified. Raise Stopped if the procedure cannot continue.
     """
     ends = table.defining.copy()
-    gone: list[int] = []
-    u, v, _ = places.rows
+    not_vertices: list[int] = []
+    u, v, _ = points.rows
     k = 0
     while k < len(table):
         on = np.flatnonzero(arithmetic.sign(table.one_at(k, (u, v))) == 0).tolist()
+        # A third point on the line: one of the three lies between the others and is no vertex (147 to 155).
         third = next((i for i in on if i not in ends[:, k]), None)
         if third is not None:
             mm, nn = ends[:, k].tolist()
-            between = middle(arithmetic, places, (mm, nn, third), progress)
-            ends[:, k] = [third if end == between else end for end in (mm, nn)]
-            gone.append(between)
-            progress.boundary.append(int(places.who[between]))
-            wanted = other_lines(arithmetic, table, places, ends[:, k], k)
-            table.keep(wanted)
-            ends = ends[:, wanted]
+            middle_point = middle(arithmetic, points, (mm, nn, third), progress)
+            ends[:, k] = [third if end == middle_point else end for end in (mm, nn)]
+            not_vertices.append(middle_point)
+            progress.boundary.append(int(points.input_index[middle_point]))
+            retained = other_lines(arithmetic, table, points, ends[:, k], k)
+            table.keep(retained)
+            ends = ends[:, retained]
             if len(table) <= k:
                 raise Stopped(ERROR, "program2 112")
         k += 1
-    if listed_numbers(ends, gone) != lowered(ends, gone):
+    # Row P2-025 of the layer ``corrected``: the listing's numbering can be wrong.
+    if listed_numbers(ends, not_vertices) != lowered(ends, not_vertices):
         progress.correct(NUMBERING)
-    return ends, gone
+    return ends, not_vertices
 
 
 def other_lines(
-    arithmetic: Arithmetic, table: Equations, places: Places, ends: NDArray[np.int64], keep: int
+    arithmetic: Arithmetic, table: Equations, points: PointTable, ends: NDArray[np.int64], keep: int
 ) -> NDArray[np.bool_]:
-    """Which equations stay when those that both ends satisfy are struck, but for the one ``keep`` (161 to 167).
+    """Return a mask of the equations that remain if those through both ends are deleted, except ``keep`` (161 to 167).
 
-    As in the listing KK stays a place in the table while the equations before it are struck; exactly there are
-    no such equations, since a line has two and the first of them comes first.  Raises Stopped.
+    As in the listing, KK stays a position in the table while equations before it are deleted. In exact arithmetic
+    there are no such equations, because a line has two equations and the first of them comes first. Raise Stopped if
+    the listing would read beyond the end of its table.
     """
-    first, second = (places.at(int(i))[:2] for i in ends)
+    first, second = (points.at(int(i))[:2] for i in ends)
     both = (arithmetic.sign(table.all_at(first)) == 0) & (arithmetic.sign(table.all_at(second)) == 0)
-    left = list(range(len(table)))
+    remaining = list(range(len(table)))
     i = 0
-    while i < len(left):
-        if not both[left[i]]:
+    while i < len(remaining):
+        if not both[remaining[i]]:
             i += 1
         elif i != keep:
-            del left[i]
-        elif i == len(left) - 1:
-            raise Stopped(ERROR, "program2 162")  # the listing looks beyond the table
+            del remaining[i]
+        elif i == len(remaining) - 1:
+            raise Stopped(ERROR, "program2 162")  # the listing reads beyond the end of its table
         else:
             i += 1
-    wanted = np.zeros(len(table), np.bool_)
-    wanted[left] = True
-    return wanted
+    retained = np.zeros(len(table), np.bool_)
+    retained[remaining] = True
+    return retained
 
 
-def middle(arithmetic: Arithmetic, places: Places, three: tuple[int, int, int], progress: Progress) -> int:
-    """Which of three points of a line lies between the others: before it is the longest side (155 to 157)."""
-    (u1, v1, _), (u2, v2, _), (u3, v3, _) = (places.at(i) for i in three)
+def middle(arithmetic: Arithmetic, points: PointTable, three: tuple[int, int, int], progress: Progress) -> int:
+    """Return which of three points of a line lies between the others, opposite the longest side (155 to 157)."""
+    (u1, v1, _), (u2, v2, _), (u3, v3, _) = (points.at(i) for i in three)
     a = distance_squared(u1, v1, u2, v2)
     b = distance_squared(u1, v1, u3, v3)
     c = distance_squared(u2, v2, u3, v3)
     signs = arithmetic.sign(arithmetic.filled([a + b - c, a + c - b])) < 0
-    found = 0 if signs[0] else 1 if signs[1] else 2
-    # The listing compares the distances themselves, which are roots and need not add up.
-    listed = 0 if arithmetic.distances_add_up(a, b, c) else 1 if arithmetic.distances_add_up(a, c, b) else 2
-    if found != listed:
+    exact_choice = 0 if signs[0] else 1 if signs[1] else 2
+    # The listing compares the distances themselves (155 to 157). Rounded square roots need not add up.
+    listed_choice = 0 if arithmetic.distances_add_up(a, b, c) else 1 if arithmetic.distances_add_up(a, c, b) else 2
+    if exact_choice != listed_choice:
         progress.correct(BETWEEN)
-    return three[found]
+    return three[exact_choice]
 
 
-def lowered(ends: NDArray[np.int64], gone: Sequence[int]) -> list[int]:
-    """Numbers of the vertices once the places before them that are no vertices are left out."""
-    return [end - sum(g < end for g in set(gone)) for end in ends.ravel().tolist()]
+def lowered(ends: NDArray[np.int64], not_vertices: Sequence[int]) -> list[int]:
+    """Return the numbers of the vertices after the points before them that are no vertices are removed."""
+    return [end - sum(g < end for g in set(not_vertices)) for end in ends.ravel().tolist()]
 
 
-def listed_numbers(ends: NDArray[np.int64], gone: Sequence[int]) -> list[int]:
-    """The same as the listing counts, from the first point on (179+2 to 191)."""
+def listed_numbers(ends: NDArray[np.int64], not_vertices: Sequence[int]) -> list[int]:
+    """Return the same numbers as the listing computes them, from the first point on (179+2 to 191)."""
     numbers = []
     for number in ends.ravel().tolist():
-        for g in sorted(set(gone)):
+        # The listing compares with the number already lowered, so it can skip a point that is no vertex.
+        for g in sorted(set(not_vertices)):
             if number >= g:
                 number -= 1
         numbers.append(number)

@@ -1,6 +1,7 @@
 """The hull of points that are not coplanar, program 3 (thesis p. 29-33, listing p. 93-102).
 
-Comments give statement labels.  Places and planes count from 0 here, from 1 in the listing.
+Numbers in parentheses are statement labels of the listing. Points and planes are counted from 0 here, from 1 in the
+listing.
 """
 
 from __future__ import annotations
@@ -27,28 +28,32 @@ from modern.port.growth import (
     grow,
     stage,
 )
-from modern.port.table import Equations, Places, turned
+from modern.port.table import Equations, PointTable, turned
 
 LISTED_PLANES, PLANES = 98, 193
-"""Places for planes in the listing, and in the layer ``corrected``: 4N-11 for N = 51."""
+"""The entries of the plane table in the listing, and in the layer ``corrected``: 4N-11 for N = 51."""
 
 
 @dataclass(frozen=True)
 class Fresh:
-    """Planes just made: columns as in the table; which of them are through C, and zero altogether."""
+    """The planes that a stage has just made, as columns like those of the table.
+
+    ``through`` is true if one of them passes through C, and ``degenerate`` if all coefficients of one of those are
+    zero.
+    """
 
     coefficients: Vector
     defining: NDArray[np.int64]
     through: bool
-    nothing: bool
+    degenerate: bool
 
 
 @dataclass
 class Polyhedron:
-    """The state of program 3: places and table are changed in place."""
+    """The state of program 3. The points and the table are changed in place."""
 
     arithmetic: Arithmetic
-    places: Places
+    points: PointTable
     table: Equations
     centre: tuple[Scalar, ...] | None
     progress: Progress
@@ -57,69 +62,77 @@ class Polyhedron:
     to_check: int = 0
     remaining: Remaining = field(default_factory=Remaining)
     text: bool = False
-    """Further planes are replaced in the order of their numbers, as the text has it (p. 32)."""
+    """True to replace further planes in the order of their numbers, as the text does (p. 32)."""
 
-    def run(self, grown: Callable[[Polyhedron, bool], Grown | None] = stage) -> None:
-        """Expand H_1 to the hull of all points (103 to 160), stage by stage as ``grown`` does it.  Raises Stopped."""
-        grow(self, grown)
+    def run(self, grow_stage: Callable[[Polyhedron, bool], Grown | None] = stage) -> None:
+        """Expand H_1 to the hull of all points (103 to 160) with the given function for a stage.
+
+        Raise Stopped if the procedure cannot continue.
+        """
+        grow(self, grow_stage)
 
     def outside_point(self) -> int | None:
-        """The place of the next vertex: farthest outside the first plane that is not supporting (115 to 125)."""
+        """Return the next vertex, the point farthest outside the first plane that is not supporting (115 to 125)."""
         while self.to_check < len(self.table):
-            values = self.table.one_at(self.to_check, self.places.rows)
+            # Statements 116 to 119: the three defining points must satisfy the equation exactly.
+            values = self.table.one_at(self.to_check, self.points.rows)
             if self.arithmetic.sign(values[self.table.defining[:, self.to_check]]).any():
                 raise Stopped(NOT_ACCEPTABLE, "program3 119")
-            place = self.arithmetic.last_largest(values)
-            if self.arithmetic.sign(values[place : place + 1])[0] > 0:
-                return place
+            index = self.arithmetic.last_largest(values)
+            if self.arithmetic.sign(values[index : index + 1])[0] > 0:
+                return index
             self.to_check += 1
         return None
 
-    def expand(self, place: int) -> int:
-        """Make the point in ``place`` a vertex: three planes for each one it is outside of (125 to 160).
+    def expand(self, index: int) -> int:
+        """Make the point at ``index`` a vertex: three planes replace each plane it lies outside of (125 to 160).
 
-        The plane being checked is replaced first, then the one it is farthest outside of, of equals the last; or the
-        others in order (``text``).
-        Returns how many they were.  Raises Stopped.
+        The plane being checked is replaced first, then the plane that the point is farthest outside of, the last of
+        equals. If ``text`` is true, the other planes follow in order instead. Return the number of planes replaced.
+        Raise Stopped if the procedure cannot continue.
         """
         new = self.vertices
-        if new == len(self.places):
-            raise Stopped(ERROR, "program3 103")  # a vertex of its own hull, as rounded numbers may have it
+        if new == len(self.points):
+            raise Stopped(ERROR, "program3 103")  # rounded arithmetic can put a vertex outside its own hull
         self.vertices += 1
-        self.places.swap(place, new)
-        self.remaining.swapped(place - new)
-        point = self.places.at(new)
+        self.points.swap(index, new)
+        self.remaining.swapped(index - new)
+        point = self.points.at(new)
         values = self.table.all_at(point)
+        # Statements 135 to 140 find one plane after the other, each time the largest value of all. A replaced plane
+        # does not return and fresh planes are not above the point, so the order can be computed at once.
         above = np.flatnonzero(self.arithmetic.sign(values) > 0)
         others = above[above != self.to_check]
         further = others if self.text else others[self.arithmetic.descending(values[others])]
         order = [self.to_check, *further.tolist()]
         fresh = self.three_planes(self.table.defining[:, order], new)
+        # The table is largest while the last plane is being replaced: each replacement adds three and deletes one.
         peak = len(self.table) + 2 * len(order) + 1
-        if fresh.nothing or peak > self.limit or (self.signs(fresh, point) > 0).any():
+        if fresh.degenerate or peak > self.limit or (self.signs(fresh, point) > 0).any():
             self.stop(order[0], dict(zip(above.tolist(), values[above], strict=True)), new)
         self.note(fresh, peak)
-        kept = np.ones(len(self.table), np.bool_)
-        kept[order] = False
-        self.table.replace(kept, fresh.coefficients, fresh.defining, self.single(fresh.defining))
+        retained = np.ones(len(self.table), np.bool_)
+        retained[order] = False
+        self.table.replace(retained, fresh.coefficients, fresh.defining, self.single(fresh.defining))
         return len(order)
 
     @property
     def limit(self) -> int:
-        return max(PLANES, 4 * len(self.places) - 11)
+        return max(PLANES, 4 * len(self.points) - 11)
 
     def three_planes(self, replaced: NDArray[np.int64], new: int) -> Fresh:
-        """Planes through the new vertex and two of the three points of each plane replaced (126 to 135)."""
+        """Return the planes through the new vertex and two of the three points of each replaced plane (126 to 135)."""
         defining = np.repeat(replaced, 3, axis=1)
         columns = np.arange(defining.shape[1])
+        # I123 of the listing: the new vertex takes the place of MM, then NN, then KK (127 to 129).
         defining[columns % 3, columns] = new
-        p, q, r = (self.places.several(row) for row in defining)
+        p, q, r = (self.points.several(row) for row in defining)
         coefficients, through = turned(self.arithmetic, np.stack(plane(p, q, r)), self.centre)
-        nothing = any(self.arithmetic.all_squares_zero(coefficients[:3, k]) for k in np.flatnonzero(through))
-        return Fresh(coefficients, defining, bool(through.any()), nothing)
+        degenerate = any(self.arithmetic.all_squares_zero(coefficients[:3, k]) for k in np.flatnonzero(through))
+        return Fresh(coefficients, defining, bool(through.any()), degenerate)
 
     def note(self, fresh: Fresh, size: int) -> None:
-        """What the listing would have stopped at: planes through C, more planes than it has places for."""
+        """Record the conditions at which the listing would have stopped: a plane through C, a full plane table."""
         if fresh.through:
             self.progress.correct(THROUGH_CENTRE)
         if size > LISTED_PLANES:
@@ -129,13 +142,16 @@ class Polyhedron:
         return self.arithmetic.sign(self.table.values(fresh.coefficients, point))
 
     def single(self, defining: NDArray[np.int64]) -> NDArray[np.bool_]:
-        """Which of the fresh planes stay when two with the same three points strike each other (141 to 160).
+        """Return a mask of the fresh planes that remain (141 to 160).
 
-        No older plane has the new vertex among its points, so these are struck by each other only.
+        Two planes with the same three points delete each other. No older plane contains the new vertex, so fresh
+        planes are compared only with each other.
         """
-        wanted = np.ones(defining.shape[1], np.bool_)
-        if len(wanted) == 3:
-            return wanted
+        retained = np.ones(defining.shape[1], np.bool_)
+        if len(retained) == 3:
+            return retained
+        # Statements 141 to 160 compare every pair of planes. A dictionary of planes not yet paired finds the same
+        # pairs.
         waiting: dict[tuple[int, ...], int] = {}
         pairs: list[tuple[int, int]] = []
         for k, key in enumerate(map(tuple, np.sort(defining, axis=0).T.tolist())):
@@ -143,22 +159,23 @@ class Polyhedron:
                 pairs.append((waiting.pop(key), k))
             else:
                 waiting[key] = k
-        for one, other in sorted(pairs):
-            wanted[[one, other]] = False
-            # The listing goes on with the plane in the struck one's place and looks at those after it.
-            if wanted[one:].sum() <= 1:
+        for first, second in sorted(pairs):
+            retained[[first, second]] = False
+            # The listing continues at the position of the deleted plane and reads the planes after it (142, 154).
+            if retained[first:].sum() <= 1:
                 self.progress.correct(LAST_PAIR)
-        return wanted
+        return retained
 
-    def stop(self, first: int, above: dict[int, Scalar], new: int) -> None:
-        """Go on plane by plane to where the arithmetic fails: it always does.  Raises Stopped.
+    def stop(self, first_equation: int, above: dict[int, Scalar], new: int) -> None:
+        """Replace plane by plane until the arithmetic fails, which it always does, and raise Stopped there.
 
-        A plane of zeros is an error.  A plane through the new point that has it outside is replaced by itself
-        and two others without end, until the table is full; so no plane need be replaced twice.
+        A plane of zeros is an error. A plane through the new point that has this point outside is replaced by a copy
+        of itself and two other planes without end, until the table is full. Therefore no plane has to be replaced
+        twice.
         """
-        point = self.places.at(new)
+        point = self.points.at(new)
         defining = {k: self.table.defining[:, k] for k in above}
-        size, equation, replaced = len(self.table), first, set[tuple[int, ...]]()
+        size, equation, replaced = len(self.table), first_equation, set[tuple[int, ...]]()
         while True:
             corners = tuple(defining[equation].tolist())
             if size + 3 > self.limit or corners in replaced:
@@ -166,55 +183,58 @@ class Polyhedron:
             replaced.add(corners)
             above.pop(equation)
             fresh = self.three_planes(defining[equation][:, None], new)
-            if fresh.nothing:
+            if fresh.degenerate:
                 raise Stopped(ERROR, "program3 133")
             self.note(fresh, size + 3)
+            # Three planes were added and one was deleted (131 and 157).
             size += 2
             values = self.table.values(fresh.coefficients, point)
             for k in np.flatnonzero(self.arithmetic.sign(values) > 0).tolist():
-                name = len(self.table) + 3 * len(replaced) + k
-                above[name], defining[name] = values[k], fresh.defining[:, k]
-            names: Sequence[int] = sorted(above)
-            equation = names[self.arithmetic.last_largest(self.arithmetic.filled([above[k] for k in names]))]
+                serial = len(self.table) + 3 * len(replaced) + k
+                above[serial], defining[serial] = values[k], fresh.defining[:, k]
+            serials: Sequence[int] = sorted(above)
+            equation = serials[self.arithmetic.last_largest(self.arithmetic.filled([above[k] for k in serials]))]
 
 
 On = list[NDArray[np.int64]]
 
 
-def strike_repeats(table: Equations, on: On, places: int, progress: Progress) -> On:
-    """One equation of each plane stays, the first (164 to 174); of the places that satisfy each, what stays of them.
+def strike_repeats(table: Equations, on: On, count: int, progress: Progress) -> On:
+    """Keep one equation of each plane, the first (164 to 174). Return the satisfying points of the remaining equations.
 
-    An equation is struck when the three points of an earlier one satisfy it.
+    An equation is deleted if the three defining points of an earlier one satisfy it.
     """
     mm, nn, kk = table.defining
     struck_by = np.full(len(table), -1)
-    member = np.zeros(places, np.bool_)
-    for k in _with_others(on, table.defining):
+    member = np.zeros(count, np.bool_)
+    # A plane whose only satisfying points are its three defining points repeats no other plane.
+    for k in _not_triangular(on, table.defining):
+        # The first earlier equation whose three defining points satisfy equation k deletes it (166 to 169).
         member[on[k]] = True
         earlier = np.flatnonzero(member[mm[:k]] & member[nn[:k]] & member[kk[:k]] & (struck_by[:k] < 0))
         member[on[k]] = False
         if earlier.size:
             struck_by[k] = earlier[0]
-    wanted = struck_by < 0
-    # The listing looks beyond the table when an equation has struck the last of those after it.
-    last = np.flatnonzero(wanted)[-1]
+    retained = struck_by < 0
+    # The listing reads beyond its table if an equation deletes the last of those after it (169 to 172).
+    last = np.flatnonzero(retained)[-1]
     if (struck_by == last).any():
         progress.correct(LAST_REPEAT)
-    table.keep(wanted)
-    return [points for k, points in enumerate(on) if wanted[k]]
+    table.keep(retained)
+    return [satisfying for k, satisfying in enumerate(on) if retained[k]]
 
 
-def _with_others(on: On, defining: NDArray[np.int64]) -> list[int]:
-    """The equations, but the first, that others than their three points satisfy, or not all of these."""
+def _not_triangular(on: On, defining: NDArray[np.int64]) -> list[int]:
+    """Return the equations, except the first, that are not satisfied by exactly their three defining points."""
     three = np.flatnonzero(np.fromiter(map(len, on), np.int64, len(on)) == 3)
-    alone = np.zeros(len(on), np.bool_)
+    only_defining = np.zeros(len(on), np.bool_)
     if three.size:
-        found = np.sort(np.concatenate([on[k] for k in three.tolist()]).reshape(-1, 3))
-        alone[three] = (found == np.sort(defining[:, three].T)).all(axis=1)
-    return [k for k in np.flatnonzero(~alone).tolist() if k]
+        triples = np.sort(np.concatenate([on[k] for k in three.tolist()]).reshape(-1, 3))
+        only_defining[three] = (triples == np.sort(defining[:, three].T)).all(axis=1)
+    return [k for k in np.flatnonzero(~only_defining).tolist() if k]
 
 
-def are_vertices(on: On, count: int, places: int) -> NDArray[np.bool_]:
-    """Which of the places are vertices: of the first ``count`` those that satisfy three equations (174 to 182)."""
-    planes = np.bincount(np.concatenate(on), minlength=places)
-    return np.asarray((planes >= 3) & (np.arange(places) < count), dtype=np.bool_)
+def are_vertices(on: On, count: int, point_count: int) -> NDArray[np.bool_]:
+    """Return a mask of the vertices: those of the first ``count`` points that satisfy three equations (174 to 182)."""
+    planes_satisfied = np.bincount(np.concatenate(on), minlength=point_count)
+    return np.asarray((planes_satisfied >= 3) & (np.arange(point_count) < count), dtype=np.bool_)

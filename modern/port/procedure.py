@@ -20,7 +20,7 @@ from modern.port.outcome import LINE, PLANE, Faces, Historian, coefficients, poi
 from modern.port.points import Points, first_of_equals, take
 from modern.port.polygon import Polygon, projection, strike_between
 from modern.port.polyhedron import Polyhedron, are_vertices, strike_repeats
-from modern.port.table import Equations, Places, Slack, turned
+from modern.port.table import Equations, PointTable, Slack, turned
 
 Epsilon = str | int | float | Fraction | Decimal | np.integer[Any] | np.floating[Any] | None
 OnRefusal = Literal["raise", "return"]
@@ -36,29 +36,50 @@ def convex_hull(
     on_refusal: OnRefusal = "raise",
     text: bool = False,
 ) -> Hull:
-    """The convex hull of points by Butler's procedure (thesis chapter 3; programs 1 to 3, chapter 5).
+    """Return the convex hull of points by Butler's procedure (thesis chapter 3; programs 1 to 3, chapter 5).
 
-    points: three coordinates each, real numbers of any type (a float is the binary number it holds), decimal strings
-    or fractions ``"p/q"``; or an array of shape (n, 3).
-    arithmetic: ``exact``, ``float64``, ``float32``, ``mp:BITS``, ``truncating`` (the thesis's eight digits),
-    ``ibm1962``, ``truncating:P``, ``guarded:P`` or ``rounding:P``.  epsilon: chapter 7's e (thesis p. 117): where a
-    given point is put into an equation a value from -e to +e counts as zero; any real number, or ``"rel:E"``, E times
-    the equation's largest coefficient A, B or C.  translate: the origin is moved to C and the constant terms tell how
-    equations are turned (thesis p. 118).  history: the result tells every H_j.  fast: compiled kernels (numba, the
-    extra ``fast``) for ``float64`` and ``float32``; None: where they are there and points are many.  The result is
-    the same.  text: two steps that chapter 3 has otherwise than the listing, as chapter 3 has them (the fourth
-    point, p. 29; the order of the planes a point is outside of, p. 32).
+    Parameters
+    ----------
+    points
+        Three coordinates for each point: real numbers of any type (a float is the binary number it holds), decimal
+        strings or fractions ``"p/q"``. An array has the shape (n, 3).
+    arithmetic
+        ``exact``, ``float64``, ``float32``, ``mp:BITS``, ``truncating`` (the eight digits of the thesis), ``ibm1962``,
+        ``truncating:P``, ``guarded:P`` or ``rounding:P``.
+    epsilon
+        The e of chapter 7 (thesis p. 117). A value of an equation at an input point counts as zero from -e to +e. Any
+        real number, or ``"rel:E"`` for E times the equation's largest coefficient A, B or C.
+    translate
+        True to move the origin to C, so that the constant terms decide how equations are oriented (thesis p. 118).
+    history
+        True to record every H_j in the result.
+    fast
+        Use the compiled kernels (numba, the extra ``fast``) for ``float64`` and ``float32``. None uses them if they
+        are installed and the points are many. The result is the same.
+    on_refusal
+        Rounded arithmetic may end in a status other than ``determined``, as the programs do. Then ``"raise"`` raises
+        HullRefused and ``"return"`` returns the result with that status.
+    text
+        True to follow the text of chapter 3 in the two steps in which the listing differs: the fourth point (p. 29)
+        and the order of the planes a point is outside of (p. 32).
 
-    What the layer ``corrected`` changes is built in; :attr:`Hull.corrected` names the rows that mattered.  Numbers
-    that are rounded may end in a status other than ``determined``, as the programs do; on_refusal: ``raise`` an error
-    then, or ``return`` the result with that status.
+    Raises
+    ------
+    PointsError
+        If points are invalid.
+    HullRefused
+        If no hull was determined.
+    ValueError
+        If the arithmetic is unknown, the epsilon is invalid, or kernels were requested and numba is missing or fails.
+    RangeError
+        If an intermediate result exceeds the range of floating-point numbers.
 
-    Raises PointsError for invalid points; HullRefused where no hull was determined; ValueError for
-    an unknown arithmetic, an invalid epsilon, or kernels asked for where numba is missing or cannot compile; RangeError
-    where an intermediate result exceeds what floats hold.
+    Notes
+    -----
+    The corrections of the layer ``corrected`` are built in. :attr:`Hull.corrected` names the rows that mattered.
     """
     if on_refusal not in ("raise", "return"):
-        raise ValueError(f"on_refusal is 'raise' or 'return', not {on_refusal!r}")
+        raise ValueError(f"on_refusal: expected 'raise' or 'return', found {on_refusal!r}")
     size = read_epsilon(epsilon)
     with np.errstate(over="raise", invalid="raise", divide="raise", under="ignore"):
         numbers, coordinates = take(points, arithmetic, wide=size is not None)
@@ -72,7 +93,7 @@ def convex_hull(
 
 
 def read_epsilon(epsilon: Epsilon) -> tuple[Fraction, bool] | None:
-    """An e and whether it is relative.  Raises ValueError."""
+    """Return e, and whether it is relative. Raise ValueError if it is not a valid number."""
     if epsilon is None:
         return None
     relative = isinstance(epsilon, str) and epsilon.startswith("rel:")
@@ -81,16 +102,16 @@ def read_epsilon(epsilon: Epsilon) -> tuple[Fraction, bool] | None:
     except ValueError as error:
         raise ValueError(f"epsilon: {error}") from None
     if value < 0:
-        raise ValueError("epsilon is negative")
+        raise ValueError("epsilon: expected a number that is not negative")
     return value, relative
 
 
 @dataclass
 class _Run:
-    """One hull on its way: the parts of the procedure put together."""
+    """The state of one call: the parts of the procedure joined together."""
 
     arithmetic: Arithmetic
-    given: Vector
+    coordinates: Vector
     epsilon: tuple[Fraction, bool] | None
     translate: bool
     history: bool
@@ -104,19 +125,20 @@ class _Run:
     def hull(self) -> Hull:
         numbers = self.arithmetic
         duplicates: tuple[tuple[int, int], ...] = ()
-        if numbers.surely_distinct(self.given):
-            places = Places(self.given.copy(), np.arange(self.given.shape[1]))
+        if numbers.surely_distinct(self.coordinates):
+            points = PointTable(self.coordinates.copy(), np.arange(self.coordinates.shape[1]))
         else:
-            distinct, duplicates = first_of_equals(numbers.keys(self.given))
-            names = np.array(distinct, dtype=np.int64)
-            places = Places(self.given[:, names], names)
+            distinct, duplicates = first_of_equals(numbers.keys(self.coordinates))
+            indices = np.array(distinct, dtype=np.int64)
+            points = PointTable(self.coordinates[:, indices], indices)
         self.slack = Slack(numbers, *self.epsilon) if self.epsilon else None
-        opening = open_hull(numbers, places, self.slack, self.text)
+        # Program 1 decides between the cases and punches the input of program 2 or 3.
+        opening = open_hull(numbers, points, self.slack, self.text)
         self.result = Hull(
             arithmetic=numbers.name,
             status=DETERMINED,
             dimension={"point": 0, "segment": 1, "triangle": 2, "coplanar": 2}.get(opening.kind, 3),
-            points=point_texts(numbers, self.given),
+            points=point_texts(numbers, self.coordinates),
             vertices=(),
             boundary=(),
             inside=(),
@@ -127,82 +149,93 @@ class _Run:
         )
         try:
             if opening.kind == "solid":
-                return self.solid(places, opening)
+                return self.solid(points, opening)
             if opening.kind in ("coplanar", "triangle"):
-                return self.coplanar(places, opening)
+                return self.coplanar(points, opening)
             if opening.kind == "error":
                 return replace(self.result, status=ERROR, statement=opening.label)
         except Stopped as stop:
             return replace(self.finished(stop.label), status=stop.status)
-        return replace(self.result, vertices=places.names(slice(0, 2)), inside=places.names(slice(2, None)))
+        return replace(
+            self.result, vertices=points.input_indices(slice(0, 2)), inside=points.input_indices(slice(2, None))
+        )
 
-    def solid(self, places: Places, opening: Opening) -> Hull:
-        """Programs 1 (199 on) and 3."""
+    def solid(self, points: PointTable, opening: Opening) -> Hull:
+        """Run program 1 from 199 on, then program 3."""
         numbers, centre = self.arithmetic, opening.centre
         assert centre is not None
         self.result = replace(self.result, centre=texts(numbers, centre, (1, 1, 1)))  # type: ignore[arg-type]
-        table = tetrahedron(numbers, places, self.slack)
+        table = tetrahedron(numbers, points, self.slack)
         table.coefficients, through = turned(numbers, table.coefficients, centre)
+        # Program 1 stops if C lies in a plane of H_1 (204, 104).
         if through.any():
             raise Stopped(ERROR, "program1 104")
-        test = self.move(places, centre)
+        test = self.move(points, centre)
         if self.translate:
+            # The constant term for an origin at C is the value of the equation there.
             table.coefficients[3] = at(tuple(table.coefficients), centre)
-        steps = choose(numbers, places, self.slack, False if self.text else self.fast)
-        polyhedron = Polyhedron(numbers, places, table, test, self.progress, self.historian(places), text=self.text)
+        steps = choose(numbers, points, self.slack, False if self.text else self.fast)
+        polyhedron = Polyhedron(numbers, points, table, test, self.progress, self.historian(points), text=self.text)
         polyhedron.run(steps.stage)
-        self.move_back(places, table, centre)
+        self.move_back(points, table, centre)
         count = polyhedron.vertices
-        on = strike_repeats(table, steps.satisfied(table, places), len(places), self.progress)
-        vertex = are_vertices(on, count, len(places))
-        self.progress.boundary += places.names(slice(count, None)) + places.names(np.flatnonzero(~vertex[:count]))
-        # With no vertex left the listing finds no vertices of a plane (199).
-        known = self.finished("program3 212") if vertex.any() else replace(self.finished("program3 133"), status=ERROR)
+        # Statements 161 to 182: boundary points, repeated equations, then vertices of fewer than three planes.
+        on = strike_repeats(table, steps.satisfied(table, points), len(points), self.progress)
+        vertex = are_vertices(on, count, len(points))
+        self.progress.boundary += points.input_indices(slice(count, None)) + points.input_indices(
+            np.flatnonzero(~vertex[:count])
+        )
+        # If no vertex remains, the listing stops when it looks for the vertices of a plane (199).
+        result = self.finished("program3 212") if vertex.any() else replace(self.finished("program3 133"), status=ERROR)
         return replace(
-            known,
-            vertices=places.names(np.flatnonzero(vertex)),
-            faces=Faces(numbers, places).polyhedral(table, on, vertex),
+            result,
+            vertices=points.input_indices(np.flatnonzero(vertex)),
+            faces=Faces(numbers, points).polyhedral(table, on, vertex),
         )
 
-    def coplanar(self, places: Places, opening: Opening) -> Hull:
-        """Programs 1 (209 on) and 2."""
+    def coplanar(self, points: PointTable, opening: Opening) -> Hull:
+        """Run program 1 from 209 on, then program 2."""
         numbers = self.arithmetic
         assert opening.plane is not None
-        kept = projection(numbers, opening.plane)
-        order = {1: [1, 2, 0], 2: [0, 2, 1], 3: [0, 1, 2]}[kept]
-        flat = Places(places.coordinates[order], places.who)
+        projected_axis = projection(numbers, opening.plane)
+        # Statements 211 to 216 of program 1: the coordinate that is projected away comes last.
+        order = {1: [1, 2, 0], 2: [0, 2, 1], 3: [0, 1, 2]}[projected_axis]
+        flat = PointTable(points.coordinates[order], points.input_index)
         centre = mean(numbers, flat, 3)[:2]
         if opening.kind == "triangle":
-            return self.triangle(Polygon(numbers, flat, self.slack, centre, self.progress), kept)
+            return self.triangle(Polygon(numbers, flat, self.slack, centre, self.progress), projected_axis)
         test = self.move(flat, centre)
         polygon = Polygon(numbers, flat, self.slack, test, self.progress, self.historian(flat))
         polygon.run()
         self.move_back(flat, polygon.table, centre)
         table, count = polygon.table, polygon.vertices
-        self.progress.boundary += flat.names(slice(count, None))
-        corners = Places(flat.coordinates[:, :count], flat.who[:count])
+        self.progress.boundary += flat.input_indices(slice(count, None))
+        corners = PointTable(flat.coordinates[:, :count], flat.input_index[:count])
         ends, gone = strike_between(numbers, table, corners, self.progress)
         on = table.satisfied(flat.coordinates)
         vertex = np.ones(count, np.bool_)
         vertex[gone] = False
         return replace(
             self.finished("program2 191"),
-            vertices=corners.names(np.flatnonzero(vertex)),
-            faces=Faces(numbers, flat).edges(table, ends, on, kept),
+            vertices=corners.input_indices(np.flatnonzero(vertex)),
+            faces=Faces(numbers, flat).edges(table, ends, on, projected_axis),
         )
 
-    def triangle(self, polygon: Polygon, kept: int) -> Hull:
-        """Three points, which program 1 settles (131): its equations are :attr:`Hull.lines`, faces as of a polygon."""
-        table, places = polygon.table, polygon.places
+    def triangle(self, polygon: Polygon, projected_axis: int) -> Hull:
+        """Return the hull of three points, which program 1 determines (131).
+
+        Its equations are :attr:`Hull.lines`. The faces have the same form as those of a polygon.
+        """
+        table, points = polygon.table, polygon.points
         on = list(table.defining.T)
         return replace(
             self.finished("program1 131"),
-            vertices=places.names(slice(None)),
-            faces=Faces(self.arithmetic, places).edges(table, table.defining, on, kept),
+            vertices=points.input_indices(slice(None)),
+            faces=Faces(self.arithmetic, points).edges(table, table.defining, on, projected_axis),
         )
 
     def finished(self, label: str) -> Hull:
-        """The result with what the progress says."""
+        """Return the result with the points and corrections recorded so far."""
         return replace(
             self.result,
             statement=label,
@@ -212,20 +245,23 @@ class _Run:
             history=self.watcher.stages if self.watcher else (),
         )
 
-    def historian(self, places: Places) -> Historian | None:
-        self.watcher = Historian(places) if self.history else None
+    def historian(self, points: PointTable) -> Historian | None:
+        self.watcher = Historian(points) if self.history else None
         return self.watcher
 
-    def move(self, places: Places, centre: tuple[Scalar, ...]) -> tuple[Scalar, ...] | None:
-        """Move the origin to C if that is wanted; returns the point to turn equations by, None for the origin."""
+    def move(self, points: PointTable, centre: tuple[Scalar, ...]) -> tuple[Scalar, ...] | None:
+        """Move the origin to C if ``translate`` is set. Return the point that orients equations, or None."""
         if not self.translate:
             return centre
         for axis, value in enumerate(centre):
-            places.coordinates[axis] = places.coordinates[axis] - value
+            points.coordinates[axis] = points.coordinates[axis] - value
         return None
 
-    def move_back(self, places: Places, table: Equations, centre: tuple[Scalar, ...]) -> None:
-        """Points and constant terms for the origin as given; what the arithmetic cut of them stays lost."""
+    def move_back(self, points: PointTable, table: Equations, centre: tuple[Scalar, ...]) -> None:
+        """Restore the original origin for points and constant terms.
+
+        Digits that the arithmetic lost in the translation stay lost.
+        """
         if not self.translate:
             return
         constant = table.coefficients[-1]
@@ -233,4 +269,4 @@ class _Run:
             constant = less(constant, coefficient * value)
         table.coefficients[-1] = constant
         for axis, value in enumerate(centre):
-            places.coordinates[axis] = places.coordinates[axis] + value
+            points.coordinates[axis] = points.coordinates[axis] + value

@@ -1,4 +1,4 @@
-"""What the construction works on: the points in their places, and the table of equations of planes or lines."""
+"""The data of the construction: the points in their current order, and the table of equations of planes or lines."""
 
 from __future__ import annotations
 
@@ -14,11 +14,15 @@ from modern.port.formulas import at
 
 
 @dataclass
-class Places:
-    """Coordinates by place, from 0, in three rows; ``who`` names the point of the input in each place."""
+class PointTable:
+    """The points in the order in which the procedure keeps them, counted from 0.
+
+    ``coordinates`` has three rows and a column for each point. ``input_index`` gives for each point its index in the
+    input.
+    """
 
     coordinates: Vector
-    who: NDArray[np.int64]
+    input_index: NDArray[np.int64]
 
     def __len__(self) -> int:
         return int(self.coordinates.shape[1])
@@ -27,43 +31,43 @@ class Places:
     def rows(self) -> tuple[Vector, Vector, Vector]:
         return self.coordinates[0], self.coordinates[1], self.coordinates[2]
 
-    def at(self, place: int) -> tuple[Scalar, Scalar, Scalar]:
-        """The coordinates of one point."""
-        return self.coordinates[0, place], self.coordinates[1, place], self.coordinates[2, place]
+    def at(self, index: int) -> tuple[Scalar, Scalar, Scalar]:
+        """Return the coordinates of one point."""
+        return self.coordinates[0, index], self.coordinates[1, index], self.coordinates[2, index]
 
-    def several(self, places: NDArray[np.int64]) -> tuple[Vector, Vector, Vector]:
-        """The coordinates of several points, in vectors."""
-        found = self.coordinates[:, places]
-        return found[0], found[1], found[2]
+    def several(self, indices: NDArray[np.int64]) -> tuple[Vector, Vector, Vector]:
+        """Return the coordinates of several points as vectors."""
+        selected = self.coordinates[:, indices]
+        return selected[0], selected[1], selected[2]
 
-    def swap(self, one: int, other: int) -> None:
-        if one != other:
-            self.coordinates[:, [one, other]] = self.coordinates[:, [other, one]]
-            self.who[[one, other]] = self.who[[other, one]]
+    def swap(self, first: int, second: int) -> None:
+        if first != second:
+            self.coordinates[:, [first, second]] = self.coordinates[:, [second, first]]
+            self.input_index[[first, second]] = self.input_index[[second, first]]
 
-    def keep(self, wanted: NDArray[np.bool_]) -> list[int]:
-        """Leave out the points not wanted, the rest closing up; returns who they were, in order of place."""
-        gone: list[int] = self.who[~wanted].tolist()
-        self.coordinates = self.coordinates[:, wanted]
-        self.who = self.who[wanted]
-        return gone
+    def keep(self, mask: NDArray[np.bool_]) -> list[int]:
+        """Remove the points outside the mask. Return the input indices of the removed points, in their order here."""
+        removed: list[int] = self.input_index[~mask].tolist()
+        self.coordinates = self.coordinates[:, mask]
+        self.input_index = self.input_index[mask]
+        return removed
 
-    def names(self, places: slice | Sequence[int] | NDArray[np.int64]) -> tuple[int, ...]:
-        """Who stands in the places given."""
-        chosen = places if isinstance(places, slice) else np.asarray(places, np.int64)
-        return tuple(self.who[chosen].tolist())
+    def input_indices(self, positions: slice | Sequence[int] | NDArray[np.int64]) -> tuple[int, ...]:
+        """Return the input indices of the points at the given positions."""
+        selection = positions if isinstance(positions, slice) else np.asarray(positions, np.int64)
+        return tuple(self.input_index[selection].tolist())
 
 
 _BLOCK = 1 << 16
-"""Numbers of a matrix, equations by points, worked on at a time."""
+"""The number of values of the matrix, equations by points, that are computed at a time."""
 
 
 @dataclass(frozen=True)
 class Slack:
-    """Chapter 7's interval from -e to +e (thesis p. 117).
+    """The interval from -e to +e of chapter 7, in which a value counts as zero (thesis p. 117).
 
-    ``size`` is e itself, or, where ``relative``, the e of an equation whose largest coefficient A, B or C is 1: then
-    a point is within e (times at most the square root of 3) of the plane.
+    ``size`` is e itself. If ``relative`` is true, it is the e of an equation whose largest coefficient A, B or C is
+    1. Then a point that counts as lying on a plane is within e, times at most the square root of 3, of it.
     """
 
     arithmetic: Arithmetic
@@ -71,22 +75,25 @@ class Slack:
     relative: bool
 
     def of(self, coefficients: tuple[Vector, ...]) -> Vector:
-        """The e of each equation; ``coefficients`` are A, B (, C) and the constant, vectors."""
+        """Return the e of each equation. ``coefficients`` are the vectors A, B, C (of lines A, B) and the constant
+        terms.
+        """
         arithmetic = self.arithmetic
         degree = 1 if self.relative else len(coefficients) - 1
         e = arithmetic.filled([arithmetic.tolerance(self.size, degree)] * len(coefficients[0]))
         if not self.relative:
             return e
+        # The constant term is excluded: the scale of an equation is that of its normal vector.
         largest: Vector = abs(coefficients[0])
         for coefficient in coefficients[1:-1]:
-            other: Vector = abs(coefficient)
-            largest = np.where(arithmetic.sign(other - largest) > 0, other, largest)
+            size: Vector = abs(coefficient)
+            largest = np.where(arithmetic.sign(size - largest) > 0, size, largest)
         product: Vector = e * largest
         return product
 
 
 def snapped(arithmetic: Arithmetic, values: Vector, slack: Vector | None) -> Vector:
-    """The values with those within the slack replaced by zero."""
+    """Return the values, with those within the slack replaced by zero."""
     if slack is None:
         return values
     return np.where(arithmetic.within(values, slack), arithmetic.filled([arithmetic.number(0)])[0], values)
@@ -94,10 +101,10 @@ def snapped(arithmetic: Arithmetic, values: Vector, slack: Vector | None) -> Vec
 
 @dataclass
 class Equations:
-    """The table: a column an equation, in the order the procedure keeps them.
+    """The table of equations: a column for each equation, in the order in which the procedure keeps them.
 
-    ``coefficients``: the rows A, B (, C) and the constant; ``defining``: the places MM, NN (, KK); ``serial``: a
-    number that stays with an equation when others are struck.
+    ``coefficients`` has the rows A, B, C (of lines A, B) and the constant term. ``defining`` has a row for each
+    defining point: MM, NN and, for planes, KK. ``serial`` is a number that an equation keeps when others are deleted.
     """
 
     arithmetic: Arithmetic
@@ -117,44 +124,49 @@ class Equations:
         return int(self.coefficients.shape[1])
 
     def replace(
-        self, kept: NDArray[np.bool_], coefficients: Vector, defining: NDArray[np.int64], wanted: NDArray[np.bool_]
+        self,
+        retained: NDArray[np.bool_],
+        coefficients: Vector,
+        defining: NDArray[np.int64],
+        selected: NDArray[np.bool_],
     ) -> None:
-        """Strike the equations not kept, the rest closing up, and put those wanted of the new ones at the end."""
-        fresh = coefficients[:, wanted]
+        """Delete the equations outside the mask ``retained``, then append the selected ones of the new equations."""
+        # The listing closes up a deleted equation at once (statements 157 and 158 of program 3).
+        fresh = coefficients[:, selected]
         if self.slack and self.tolerances is not None:
-            self.tolerances = np.concatenate([self.tolerances[kept], self.slack.of(tuple(fresh))])
+            self.tolerances = np.concatenate([self.tolerances[retained], self.slack.of(tuple(fresh))])
         count = fresh.shape[1]
-        places = np.flatnonzero(kept)
-        self.coefficients = np.concatenate([self.coefficients.take(places, axis=1), fresh], axis=1)
-        self.defining = np.concatenate([self.defining.take(places, axis=1), defining[:, wanted]], axis=1)
-        self.serial = np.concatenate([self.serial.take(places), np.arange(self.made, self.made + count)])
+        columns = np.flatnonzero(retained)
+        self.coefficients = np.concatenate([self.coefficients.take(columns, axis=1), fresh], axis=1)
+        self.defining = np.concatenate([self.defining.take(columns, axis=1), defining[:, selected]], axis=1)
+        self.serial = np.concatenate([self.serial.take(columns), np.arange(self.made, self.made + count)])
         self.made += count
 
-    def keep(self, wanted: NDArray[np.bool_]) -> None:
-        """Strike the equations not wanted, the rest closing up."""
-        self.coefficients = self.coefficients[:, wanted]
-        self.defining = self.defining[:, wanted]
-        self.serial = self.serial[wanted]
+    def keep(self, mask: NDArray[np.bool_]) -> None:
+        """Delete the equations outside the mask."""
+        self.coefficients = self.coefficients[:, mask]
+        self.defining = self.defining[:, mask]
+        self.serial = self.serial[mask]
         if self.tolerances is not None:
-            self.tolerances = self.tolerances[wanted]
+            self.tolerances = self.tolerances[mask]
 
     def one_at(self, equation: int, points: tuple[Vector, ...]) -> Vector:
-        """The values of one equation at points."""
-        found = at(tuple(self.coefficients[:, equation]), points)
+        """Return the values of one equation at points."""
+        values = at(tuple(self.coefficients[:, equation]), points)
         slack = None if self.tolerances is None else self.tolerances[equation]
-        return snapped(self.arithmetic, found, slack)
+        return snapped(self.arithmetic, values, slack)
 
     def all_at(self, point: tuple[Scalar, ...]) -> Vector:
-        """The values of all equations at one point."""
+        """Return the values of all equations at one point."""
         return snapped(self.arithmetic, at(tuple(self.coefficients), point), self.tolerances)
 
     def values(self, coefficients: Vector, point: tuple[Scalar, ...]) -> Vector:
-        """The values at one point of equations not in the table."""
+        """Return the values at one point of equations that are not in the table."""
         slack = self.slack.of(tuple(coefficients)) if self.slack else None
         return snapped(self.arithmetic, at(tuple(coefficients), point), slack)
 
     def signs(self, points: Vector, first: int = 0) -> NDArray[np.int8]:
-        """Signs of the equations from ``first`` on (rows) at points (columns; their coordinates are rows)."""
+        """Return the signs of the equations from index ``first`` on (rows) at points (columns)."""
         table = self.coefficients[:, first:, None]
         count = len(table) - 1
         slack = None if self.tolerances is None else self.tolerances[first:, None]
@@ -165,20 +177,22 @@ class Equations:
         return np.concatenate(parts, axis=1) if parts else np.empty((table.shape[1], 0), np.int8)
 
     def satisfied(self, points: Vector) -> list[NDArray[np.int64]]:
-        """For each equation the points (columns) that satisfy it, in order."""
-        pairs = []
+        """Return for each equation the indices of the points (columns) that satisfy it, in order."""
+        incidences = []
         start = 0
         for block in self._blocks(points, len(self)):
+            # The blocks are visited in the order of the points, so a stable sort by equation keeps that order.
             equation, point = np.nonzero(self.signs(block) == 0)
-            pairs.append((equation, point + start))
+            incidences.append((equation, point + start))
             start += block.shape[1]
-        equations = np.concatenate([equation for equation, _ in pairs])
+        equations = np.concatenate([equation for equation, _ in incidences])
         order = np.argsort(equations, kind="stable")
-        found = np.concatenate([point for _, point in pairs])[order]
-        return np.split(found, np.cumsum(np.bincount(equations, minlength=len(self)))[:-1])
+        satisfying = np.concatenate([point for _, point in incidences])[order]
+        return np.split(satisfying, np.cumsum(np.bincount(equations, minlength=len(self)))[:-1])
 
     @staticmethod
     def _blocks(points: Vector, equations: int) -> Iterator[Vector]:
+        # Memory stays bounded whatever the number of equations and points.
         width = max(1, _BLOCK // max(1, equations))
         for start in range(0, points.shape[1], width):
             yield points[:, start : start + width]
@@ -187,15 +201,16 @@ class Equations:
 def turned(
     arithmetic: Arithmetic, coefficients: Vector, centre: tuple[Scalar, ...] | None
 ) -> tuple[Vector, NDArray[np.bool_]]:
-    """The equations (columns) turned, and which of them have the value zero at C.
+    """Reverse the equations (columns) that are positive at C. Return them and a mask of those that are zero at C.
 
-    ``centre`` is None where the origin was moved to C: then the constant term tells (thesis p. 118).  No epsilon
-    applies: C is not a given point.
+    ``centre`` is None if the origin was moved to C. Then the constant term is the value at C (thesis p. 118). No
+    epsilon applies, because C is not an input point.
     """
     values = coefficients[-1] if centre is None else at(tuple(coefficients), centre)
     signs = arithmetic.sign(values)
-    # The listing multiplies by -1.: the product with 1., its sign reversed, so that a zero comes out as minus zero.
-    reversed_ = -(coefficients[:, signs > 0] * arithmetic.one)
+    # The listing multiplies by -1., which the machine computes as the product with 1. and a reversed sign, so that a
+    # zero becomes minus zero (program 1, 205; program 3, 134; program 2 likewise for lines).
+    negated = -(coefficients[:, signs > 0] * arithmetic.one)
     result = coefficients.copy()
-    result[:, signs > 0] = reversed_
+    result[:, signs > 0] = negated
     return result, signs == 0

@@ -1,6 +1,6 @@
-"""What the kernels work on: points, planes in slots and a row of counts; and the smallest steps over them.
+"""The data of the kernels, points, planes in slots and a vector of counters, and the smallest steps over them.
 
-Planes stand in *slots* in the order of the table; a slot whose plane was struck stays empty until :func:`pack`.
+Planes occupy *slots* in the order of the table. The slot of a deleted plane stays empty until :func:`pack`.
 """
 
 from __future__ import annotations
@@ -11,32 +11,42 @@ import numpy as np
 from numpy.typing import NDArray
 
 COUNT, VERTICES, CHECK, CHECKED, MADE, ALIVE, TRIED, STRUCK, GONE, STAGES, ADDED, OUTSIDE, KNOWN = range(13)
-"""Places of the state: points left, vertices among them; slot to check and how many equations stand before it; slots
-used and planes in them; slots used when the points were last looked at, whether that struck any, and points struck so
-far; stages so far, of the last one the point added and how many equations it lay outside of; corrections known, a
-bit each."""
+"""Indices of the state vector.
+
+COUNT: points that remain. VERTICES: vertices among them. CHECK: the slot to check. CHECKED: the equations before it.
+MADE: slots used. ALIVE: planes in them. TRIED: slots in use when the points were last tested. STRUCK: whether that
+test eliminated a point. GONE: points eliminated so far. STAGES: stages so far. ADDED: the point added by the last
+stage. OUTSIDE: the number of equations it lay outside of. KNOWN: the corrections recorded so far, a bit for each.
+"""
 STATE_SIZE = 13
 
 THROUGH, TABLE, PAIR = 1, 2, 4
-"""Bits of corrections: a plane through C, more planes than the listing has room for, the last pair of equal planes."""
+"""Bits for corrections.
+
+THROUGH: a plane passes through C. TABLE: there are more planes than the listing's table holds. PAIR: the last pair of
+equal planes was deleted.
+"""
 
 
 class Cloud(NamedTuple):
-    """The points by place: coordinates (3, n), which of the input, the slot of a plane each is not inside of or -1.
+    """The points in their current order.
 
-    ``gone``: room for the points struck, in order.
+    ``coordinates`` has the shape (3, n). ``input_index`` holds indices in the input. ``keeper`` is the slot of a
+    plane that the point is not inside of, or -1. ``eliminated`` receives the eliminated points in order.
     """
 
     coordinates: NDArray[Any]
-    who: NDArray[np.int64]
+    input_index: NDArray[np.int64]
     keeper: NDArray[np.int64]
-    gone: NDArray[np.int64]
+    eliminated: NDArray[np.int64]
 
 
 class Slots(NamedTuple):
-    """The planes by slot: coefficients (4, slots), defining places (3, slots), e, whether the plane still stands.
+    """The planes by slot.
 
-    An e of -1 is none.
+    ``coefficients`` has the shape (4, slots) and ``defining``, the indices of the defining points, (3, slots).
+    ``tolerances`` holds the e of each equation, -1 if no epsilon applies, and ``alive`` whether the slot holds a
+    plane.
     """
 
     coefficients: NDArray[Any]
@@ -45,11 +55,12 @@ class Slots(NamedTuple):
     alive: NDArray[np.bool_]
 
 
-class Room(NamedTuple):
-    """Room for what a stage works out, so that no kernel makes an array: numba compiles those that do far longer.
+class Scratch(NamedTuple):
+    """Scratch arrays for a stage.
 
-    order, values: slots of planes, and their values at a point.  partner, following, keys (2, slots), chains: of pairs
-    of fresh planes, see :func:`modern.port.kernels.doubles`.
+    The kernels themselves allocate no arrays, because numba takes far longer to compile functions that do. ``order``
+    and ``values`` hold slots of planes and their values at a point. ``partner``, ``following``, ``keys`` (2, slots)
+    and ``chains`` are used to find pairs of fresh planes in :func:`modern.port.kernels.doubles`.
     """
 
     order: NDArray[np.int64]
@@ -60,21 +71,29 @@ class Room(NamedTuple):
     chains: NDArray[np.int64]
 
 
-def room_for(slots: int, number: Any) -> Room:
-    """Room for tables of so many slots, their coefficients of the type ``number``."""
+def scratch_for(slots: int, number: Any) -> Scratch:
+    """Return scratch arrays for tables with the given number of slots, with coefficients of the type ``number``."""
+    # The hash table is a power of two, at least twice as large as the number of planes.
     chains = 4
     while chains < 2 * slots:
         chains *= 2
-    one = [np.empty(slots, np.int64) for _ in range(3)]
-    return Room(
-        one[0], np.empty(slots, number), one[1], one[2], np.empty((2, slots), np.int64), np.empty(chains, np.int64)
+    buffers = [np.empty(slots, np.int64) for _ in range(3)]
+    return Scratch(
+        buffers[0],
+        np.empty(slots, number),
+        buffers[1],
+        buffers[2],
+        np.empty((2, slots), np.int64),
+        np.empty(chains, np.int64),
     )
 
 
 class Rules(NamedTuple):
-    """What does not change: the point C, or whether the origin was moved to it; e, or -1, and whether it is relative.
+    """The constants of a run.
 
-    ``listed``, ``room``: places for planes in the listing and in the layer ``corrected``.
+    ``centre`` is the point C, or ``moved`` is true if the origin was moved to it. ``size`` is e or -1, and
+    ``relative`` is true if it is relative. ``listed`` and ``capacity`` are the entries of the plane table in the
+    listing and in the layer ``corrected``.
     """
 
     centre: NDArray[Any]
@@ -82,21 +101,21 @@ class Rules(NamedTuple):
     size: Any
     relative: bool
     listed: int
-    room: int
+    capacity: int
 
 
 def is_outside(value: Any, e: Any) -> bool:
-    """Whether the value, zero from -e to +e, is positive."""
+    """Return True if the value is positive, where values from -e to +e count as zero."""
     return value > 0 and value > e  # type: ignore[no-any-return]
 
 
 def is_not_inside(value: Any, e: Any) -> bool:
-    """Whether the value, zero from -e to +e, is zero or positive."""
+    """Return True if the value is zero or positive, where values from -e to +e count as zero."""
     return value >= 0 or value >= -e  # type: ignore[no-any-return]
 
 
 def is_on(value: Any, e: Any) -> bool:
-    """Whether the value, zero from -e to +e, is zero."""
+    """Return True if the value is zero, where values from -e to +e count as zero."""
     return value == 0 or abs(value) <= e  # type: ignore[no-any-return]
 
 
@@ -108,41 +127,44 @@ def equation(coefficients: NDArray[Any], k: int) -> Any:
     return coefficients[0, k], coefficients[1, k], coefficients[2, k], coefficients[3, k]
 
 
-def tolerance(found: Any, rules: Any) -> Any:
-    """The e of an equation, as ``Slack.of`` has it."""
+def tolerance(coefficients: Any, rules: Any) -> Any:
+    """Return the e of an equation, as ``Slack.of`` computes it."""
     if not rules.relative:
         return rules.size
-    largest = abs(found[0])
+    largest = abs(coefficients[0])
     for k in range(1, 3):
-        other = abs(found[k])
-        if other - largest > 0:
-            largest = other
+        size = abs(coefficients[k])
+        if size - largest > 0:
+            largest = size
     return rules.size * largest
 
 
-def pack(cloud: Any, slots: Any, room: Any, state: NDArray[np.int64]) -> None:
-    """Close up the slots."""
-    made, to = state[MADE], room.order
+def pack(cloud: Any, slots: Any, scratch: Any, state: NDArray[np.int64]) -> None:
+    """Close the gaps between the planes that remain."""
+    used, new_slots = state[MADE], scratch.order
     check, tried, k = -1, -1, 0
-    for slot in range(made):
-        to[slot] = -1
+    for slot in range(used):
+        new_slots[slot] = -1
+        # CHECK and TRIED may point at empty slots. They become the new slot of the next plane that remains.
         if check < 0 and slot >= state[CHECK]:
             check = k
         if tried < 0 and slot >= state[TRIED]:
             tried = k
         if slots.alive[slot]:
-            to[slot] = k
+            new_slots[slot] = k
             for i in range(4):
                 slots.coefficients[i, k] = slots.coefficients[i, slot]
             for i in range(3):
                 slots.defining[i, k] = slots.defining[i, slot]
             slots.tolerances[k] = slots.tolerances[slot]
             k += 1
-    for slot in range(made):
+    # The planes now fill the first k slots.
+    for slot in range(used):
         slots.alive[slot] = slot < k
     state[CHECK] = check if check >= 0 else k
     state[TRIED] = tried if tried >= 0 else k
     state[MADE] = k
+    # Keepers that were deleted become -1, like those that are unknown.
     for place in range(state[VERTICES], state[COUNT]):
         if cloud.keeper[place] >= 0:
-            cloud.keeper[place] = to[cloud.keeper[place]]
+            cloud.keeper[place] = new_slots[cloud.keeper[place]]

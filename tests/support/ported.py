@@ -1,4 +1,4 @@
-"""The port as tests of its statuses call it: a refusal is a result like any other."""
+"""The port's ``convex_hull`` with refusals returned as results, for tests of statuses."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What may overflow is numpy's: compiled code does not notice an infinity and goes on with it."""
+"""Input on which a product may overflow is left to numpy, because compiled code continues with an infinity."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from modern.port import convex_hull, kernels
 from modern.port import fast as fast_steps
 from modern.port.arithmetic import RangeError
 from modern.port.binary import FloatArithmetic
-from modern.port.table import Places, Slack
+from modern.port.table import PointTable, Slack
 
 TYPES = (np.float64, np.float32)
 AXIS = pytest.mark.parametrize("axis", [0, 1, 2])
@@ -21,7 +21,7 @@ SIGN = pytest.mark.parametrize("sign", [1, -1])
 
 
 def unnoticing(kernel: Callable[..., Any]) -> Callable[..., Any]:
-    """A kernel as Python that goes on with infinities, as it does compiled."""
+    """Return a Python kernel that continues with infinities, as compiled code does."""
 
     def called(*arguments: Any) -> Any:
         with np.errstate(all="ignore"):
@@ -33,18 +33,18 @@ def unnoticing(kernel: Callable[..., Any]) -> Callable[..., Any]:
 def by_kernels(
     dtype: type[np.floating[Any]], size: float, e: Fraction | None = None, axis: int = 0, sign: int = 1
 ) -> bool:
-    """Whether the kernels are taken for points up to that size and that relative e."""
+    """Return True if the kernels are chosen for points of that size and that relative e."""
     numbers = FloatArithmetic(dtype)
     coordinates = np.zeros((3, 3), dtype)
     coordinates[axis, 1] = sign * size
     slack = None if e is None else Slack(numbers, e, True)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(fast_steps, "load", lambda name: fast_steps.with_kernels(len, len))
-        return fast_steps.choose(numbers, Places(coordinates, np.arange(3)), slack, True) is not fast_steps.PLAIN
+        return fast_steps.choose(numbers, PointTable(coordinates, np.arange(3)), slack, True) is not fast_steps.PLAIN
 
 
 def sizes(dtype: type[np.floating[Any]]) -> list[float]:
-    """Coordinates around the fourth root of the largest number, four in each power of two."""
+    """Return coordinates around the fourth root of the largest number, four in each power of two."""
     middle = int(np.finfo(dtype).maxexp) // 4
     return [quarter / 4 * 2.0**power for power in range(middle - 5, middle + 3) for quarter in (4, 5, 6, 7)]
 
@@ -52,12 +52,12 @@ def sizes(dtype: type[np.floating[Any]]) -> list[float]:
 @pytest.mark.parametrize("dtype", TYPES)
 @AXIS
 @SIGN
-def test_squares_of_coefficients_that_may_overflow_are_numpys(
+def test_numpy_runs_if_squares_of_coefficients_may_overflow(
     dtype: type[np.floating[Any]], axis: int, sign: int
 ) -> None:
-    """A, B and C (3.4) are sums of six products of two coordinates: 6 M**2 at most, their squares 36 M**4.
+    """A, B and C (3.4) are sums of six products of two coordinates: at most 6 M**2, their squares 36 M**4.
 
-    What is at least 128 times too small to overflow goes to the kernels; between the two either may do it.
+    Sizes at least 128 times too small to overflow must go to the kernels. Between the two limits either may run.
     """
     largest = Fraction(float(np.finfo(dtype).max))
     taken = {size: by_kernels(dtype, size, axis=axis, sign=sign) for size in sizes(dtype)}
@@ -70,8 +70,8 @@ def test_squares_of_coefficients_that_may_overflow_are_numpys(
 
 @pytest.mark.parametrize("dtype", TYPES)
 @pytest.mark.parametrize("size", [0.5, 1.0, 2.0**9, 2.0**20])
-def test_an_e_times_a_coefficient_that_may_overflow_is_numpys(dtype: type[np.floating[Any]], size: float) -> None:
-    """A relative e is multiplied by the largest of A, B and C, which may be 6 M**2; an M below 1 counts as 1."""
+def test_numpy_runs_if_epsilon_times_a_coefficient_may_overflow(dtype: type[np.floating[Any]], size: float) -> None:
+    """A relative e is multiplied by the largest of A, B and C, at most 6 M**2. An M below 1 counts as 1."""
     largest = Fraction(float(np.finfo(dtype).max))
     coefficient = 6 * max(Fraction(size), Fraction(1)) ** 2
     for eighths in (2, 4, 6, 7, 9, 10, 12, 16, 32, 2**9, 2**20):
@@ -102,21 +102,22 @@ OVERFLOWING = [
     (0, OFF, 0),
     (0.5 * WIDE, 2 * OFF, 0),
 ]
-"""Long, narrow and nearly flat: the squares of program 1 fit, for one side of each of its triangles is narrow."""
+"""Long, narrow and nearly flat points. The squares of program 1 fit, because each of its triangles has a narrow side.
+"""
 
 
 @pytest.fixture
 def quiet_kernels(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The kernels as Python that notices no overflow, where compiled ones would be taken."""
+    """Replace the compiled kernels by Python ones that report no overflow."""
     steps_of = fast_steps.with_kernels(unnoticing(kernels.grow), unnoticing(kernels.satisfied))
     monkeypatch.setattr(fast_steps, "load", lambda name: steps_of)
 
 
 @pytest.mark.usefixtures("quiet_kernels")
-def test_an_overflow_after_the_opening_is_told_by_either() -> None:
-    """y_j z_k + y_i z_j (3.4) of three of the long points is more than a double holds, though each product fits.
+def test_overflow_after_the_opening_is_a_range_error_with_and_without_kernels() -> None:
+    """y_j z_k + y_i z_j (3.4) of three of the long points exceeds a double, though each product fits.
 
-    Program 3 forms it, not program 1.  Kernels that go on with the infinity call these points DATA NOT ACCEPTABLE.
+    Program 3 computes it, not program 1. Kernels that continue with the infinity report DATA NOT ACCEPTABLE.
     """
     product = Fraction(LONG) ** 2 * Fraction(15, 16)
     assert product < Fraction(float(np.finfo(np.float64).max)) < 2 * product
@@ -126,9 +127,9 @@ def test_an_overflow_after_the_opening_is_told_by_either() -> None:
 
 
 @pytest.mark.usefixtures("quiet_kernels")
-def test_the_same_points_made_smaller_are_determined_by_either() -> None:
-    """Scaled by powers of two to a size that overflows nowhere: the set is refused for its size, not for its form."""
+def test_scaled_points_without_overflow_are_determined_with_and_without_kernels() -> None:
+    """Scaled by powers of two to a size that never overflows: the set is refused for its size, not for its shape."""
     points = np.array(OVERFLOWING) * (2.0**480, 2.0**-500, 2.0**-500)
-    one, other = (convex_hull(points, "float64", fast=fast) for fast in (False, True))
-    assert one == other
-    assert one.determined
+    by_numpy, by_kernel = (convex_hull(points, "float64", fast=fast) for fast in (False, True))
+    assert by_numpy == by_kernel
+    assert by_numpy.determined

@@ -1,6 +1,7 @@
-"""The port under the 1620's arithmetics beside the cards the emulated programs punch, zeros' signs included.
+"""The port under the 1620's arithmetics compared with the cards that the emulated programs punch, including signs of
+zeros.
 
-HULL1620_SETS sets the number of random decks a test runs.
+HULL1620_SETS sets the number of random decks of a test.
 """
 
 from __future__ import annotations
@@ -8,18 +9,20 @@ from __future__ import annotations
 import os
 import random
 from collections.abc import Callable, Iterable
+from functools import cache, partial
 from pathlib import Path
 
 import pytest
 
 from emulator.language.cards import Deck, deck_from_lines
-from emulator.language.objectcode import Program
 from emulator.machine.result import Options
 from emulator.numbers import numbers
 from modern.edition import programs
 from modern.formats.deck import coordinate_field
-from modern.geometry.hull import DETERMINED, ERROR, NOT_ACCEPTABLE, TABLE_FULL
-from modern.thesis.job import HullRun, run_hull
+from modern.geometry.hull import DETERMINED, ERROR, NOT_ACCEPTABLE, TABLE_FULL, Hull
+from modern.port.points import first_of_equals, take
+from modern.thesis.batch import run_hulls
+from modern.thesis.job import HullRun
 from tests.support.paths import MACHINE_RUNS
 from tests.support.ported import convex_hull
 from tests.support.punched import differences, from_cards, from_run
@@ -27,7 +30,7 @@ from tests.support.punched import differences, from_cards, from_run
 SETS = int(os.environ.get("HULL1620_SETS", "250"))
 RUNS = MACHINE_RUNS
 CORE = 60_000
-"""The layer ``corrected`` has larger tables than 40,000 positions hold."""
+"""The layer ``corrected`` has larger tables than a memory of 40,000 positions holds."""
 
 Point = tuple[str, str, str]
 SPANS = (1, 2, 3, 5, 9, 20, 99, 999)
@@ -59,12 +62,12 @@ def in_plane(r: random.Random, n: int) -> list[Point]:
 
 def on_sphere(r: random.Random, n: int) -> list[Point]:
     radius = r.choice((5, 30, 90, 900))
-    found = []
+    points = []
     for _ in range(n):
         x = [r.gauss(0, 1) for _ in range(3)]
         size = sum(c * c for c in x) ** 0.5
-        found.append(point(round(c / size * radius) for c in x))
-    return found
+        points.append(point(round(c / size * radius) for c in x))
+    return points
 
 
 def digits(r: random.Random, n: int) -> list[Point]:
@@ -74,7 +77,7 @@ def digits(r: random.Random, n: int) -> list[Point]:
 
 
 def wild(r: random.Random, n: int) -> list[Point]:
-    """Exponents at which products overflow or vanish."""
+    """Draw exponents at which products overflow or vanish."""
     e = r.choice((0, 30, 33, 45, 90, -30, -33, -49, -90))
     return [point(f"{r.randint(-99, 99)}e{e + r.randint(-4, 4)}" for _ in range(3)) for _ in range(n)]
 
@@ -94,12 +97,18 @@ def point(coordinates: Iterable[object]) -> Point:
 
 
 def points_of(seed: int, arithmetic: str, kinds: tuple[Kind, ...] = ()) -> list[Point]:
-    """A deck's points, distinct in that arithmetic."""
+    """Draw the points of a deck, distinct in the given arithmetic."""
     r = random.Random(seed)
     n = r.choice(COUNTS) if r.random() < 0.4 else r.randint(3, 14)
-    found = r.choice(kinds or KINDS)(r, n)
-    again = {later for later, _ in convex_hull(found, arithmetic).duplicates}
-    return [p for k, p in enumerate(found) if k not in again]
+    points = r.choice(kinds or KINDS)(r, n)
+    arithmetic_of_deck, coordinates = take(points, arithmetic)
+    distinct, _ = first_of_equals(arithmetic_of_deck.keys(coordinates))
+    return [points[k] for k in distinct]
+
+
+@cache
+def hull_of(seed: int, arithmetic: str) -> Hull:
+    return convex_hull(points_of(seed, arithmetic), arithmetic)
 
 
 def deck(points: list[Point], epsilon: str = "") -> Deck:
@@ -107,59 +116,50 @@ def deck(points: list[Point], epsilon: str = "") -> Deck:
     return deck_from_lines("deck", [f"{len(points):2d}{epsilon}", *cards])
 
 
-def run(cards: Deck, arithmetic: str, *layers: str) -> HullRun:
-    def load(name: str) -> Program:
-        present = {row.layer for row in programs.text(programs.built_in(name).text).rows}
-        return programs.program(name, tuple(layer for layer in layers if layer in present))
+def check_cards(hulls: list[Hull], decks: list[Deck], arithmetic: str, *layers: str) -> None:
+    """Run the programs on all decks at once, compiled if possible, and compare their cards with the hulls."""
 
-    return run_hull(cards, load, Options(numbers=numbers(arithmetic), core=CORE, limit=3_000_000))
+    load = partial(programs.with_layers, layers=layers)
+    runs = run_hulls(decks, load, Options(numbers=numbers(arithmetic), core=CORE, limit=3_000_000))
+    for hull, run, cards in zip(hulls, runs, decks, strict=True):
+        assert isinstance(run, HullRun)
+        assert differences(hull, from_run(run)) == [], cards.cards
 
 
 @pytest.mark.parametrize("arithmetic", ["truncating", "truncating:4", "ibm1962", "guarded:5", "rounding:5"])
-def test_the_cards_of_layer_corrected(arithmetic: str) -> None:
-    statuses = set()
-    for seed in range(SETS):
-        points = points_of(seed, arithmetic)
-        hull = convex_hull(points, arithmetic)
-        assert differences(hull, from_run(run(deck(points), arithmetic, "corrected"))) == [], (seed, points)
-        statuses.add(hull.status)
-    assert {DETERMINED, NOT_ACCEPTABLE, ERROR} <= statuses
+def test_port_reproduces_the_cards_of_layer_corrected(arithmetic: str) -> None:
+    seeds = range(SETS)
+    hulls = [hull_of(seed, arithmetic) for seed in seeds]
+    check_cards(hulls, [deck(points_of(seed, arithmetic)) for seed in seeds], arithmetic, "corrected")
+    assert {DETERMINED, NOT_ACCEPTABLE, ERROR} <= {hull.status for hull in hulls}
 
 
-def test_the_cards_of_the_listing_where_no_correction_mattered() -> None:
-    plain = corrected = 0
-    for seed in range(SETS):
-        points = points_of(seed, "truncating")
-        hull = convex_hull(points, "truncating")
-        if hull.corrected:
-            corrected += 1
-        elif hull.status != TABLE_FULL:
-            plain += 1
-            assert differences(hull, from_run(run(deck(points), "truncating"))) == [], (seed, points)
-    assert plain > corrected > 0
+def test_port_reproduces_the_cards_of_the_listing_if_no_correction_mattered() -> None:
+    hulls = {seed: hull_of(seed, "truncating") for seed in range(SETS)}
+    plain = [seed for seed, hull in hulls.items() if not hull.corrected and hull.status != TABLE_FULL]
+    check_cards([hulls[seed] for seed in plain], [deck(points_of(seed, "truncating")) for seed in plain], "truncating")
+    assert len(plain) > sum(bool(hull.corrected) for hull in hulls.values()) > 0
 
 
-def test_the_cards_of_layer_epsilon() -> None:
-    """Chapter 7, thesis p. 117-118: e behind N on the first card."""
+def test_port_reproduces_the_cards_of_layer_epsilon() -> None:
+    """Chapter 7, thesis p. 117-118: e follows N on the first card."""
+    hulls, decks = [], []
     for seed in range(SETS):
         epsilon = random.Random(seed).choice(("0", "1e-3", "5e-1", "1", "25e-1", "1e2", "1e4"))
         points = points_of(seed, "truncating")
-        hull = convex_hull(points, "truncating", epsilon=epsilon)
-        cards = deck(points, coordinate_field(epsilon))
-        assert differences(hull, from_run(run(cards, "truncating", "corrected", "epsilon"))) == [], (seed, points)
+        hulls.append(convex_hull(points, "truncating", epsilon=epsilon))
+        decks.append(deck(points, coordinate_field(epsilon)))
+    check_cards(hulls, decks, "truncating", "corrected", "epsilon")
 
 
-def test_the_cards_of_layer_translation() -> None:
-    """Chapter 7, thesis p. 118-119; integers: longer numbers lose digits on the way to C and back."""
-    for seed in range(SETS):
-        points = points_of(seed, "truncating", INTEGERS)
-        hull = convex_hull(points, "truncating", translate=True)
-        cards = from_run(run(deck(points), "truncating", "corrected", "translation"))
-        assert differences(hull, cards) == [], (seed, points)
+def test_port_reproduces_the_cards_of_layer_translation() -> None:
+    """Chapter 7, thesis p. 118-119. Integers only: longer numbers lose digits on the way to C and back."""
+    sets = [points_of(seed, "truncating", INTEGERS) for seed in range(SETS)]
+    hulls = [convex_hull(points, "truncating", translate=True) for points in sets]
+    check_cards(hulls, list(map(deck, sets)), "truncating", "corrected", "translation")
 
 
-def test_every_correction_is_met() -> None:
-    """Each row that can change a result, on the deck the apparatus names for it."""
+def test_every_correction_takes_effect_on_its_deck_in_the_apparatus() -> None:
     met = {}
     for row in (row for name in programs.TEXTS for row in programs.text(name).rows if row.layer == "corrected"):
         cards = read_ground(row.ground["deck"])
@@ -182,8 +182,8 @@ FOLDERS = sorted(path for path in RUNS.iterdir() if path.is_dir())
 
 
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
-def test_the_cards_of_the_compilers_of_the_time(folder: Path) -> None:
-    """tests/data/machine_runs: punched by IBM's and another compiler's object programs, without any correction."""
+def test_port_reproduces_the_cards_of_period_compilers(folder: Path) -> None:
+    """Cards in tests/data/machine_runs, punched by object programs of IBM's and another compiler without corrections."""
     hull = convex_hull(card_points((folder / "deck.cards").read_text().splitlines()), "truncating")
     typed = "".join(path.read_text() for path in sorted(folder.glob("program[123].typewriter")))
     if hull.corrected:
@@ -195,10 +195,11 @@ def test_the_cards_of_the_compilers_of_the_time(folder: Path) -> None:
     assert differences(hull, punched) == []
 
 
-def test_a_difference_is_told() -> None:
-    """The comparison sees a sign of zero, an order, a status."""
+def test_comparison_reports_changed_statuses_signs_of_zero_and_order() -> None:
     hull = convex_hull([(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4), (1, 1, 1)], "truncating")
-    cards = list(run(deck(list(hull.points)), "truncating").final.result.punched)
+    (run,) = run_hulls([deck(list(hull.points))], programs.program, Options())
+    assert isinstance(run, HullRun)
+    cards = list(run.final.result.punched)
     assert differences(hull, from_cards(cards)) == []
     assert [d.split(":")[0] for d in differences(hull, from_cards(cards, ERROR))] == ["status"]
     equation = next(k for k, card in enumerate(cards) if "-.00000000E-99" in card)

@@ -21,7 +21,7 @@ decimals = st.integers(-9999, 9999).map(lambda n: f"{n}e-2")
 CUBE = [(x, y, z) for x in (0, 6) for y in (0, 6) for z in (0, 6)]
 
 
-def parts(hull: Hull) -> tuple[object, ...]:
+def result_of(hull: Hull) -> tuple[object, ...]:
     return hull.status, hull.vertices, hull.boundary, hull.inside, [face.lowest for face in hull.faces]
 
 
@@ -34,12 +34,12 @@ def test_epsilon_zero_changes_nothing(points: list[tuple[int, int, int]], arithm
 
 @given(sets, st.sampled_from(("0.5", "1", "7", "100", "rel:0.25", "rel:1")))
 def test_epsilon_is_the_same_number_in_every_unit(points: list[tuple[int, int, int]], epsilon: str) -> None:
-    """Exact numbers are held in a unit of their own; multiprecision holds these as they are."""
-    assert parts(convex_hull(points, epsilon=epsilon)) == parts(convex_hull(points, "mp:300", epsilon=epsilon))
+    """Exact arithmetic holds coordinates in a scaled unit. Multiprecision holds these unscaled."""
+    assert result_of(convex_hull(points, epsilon=epsilon)) == result_of(convex_hull(points, "mp:300", epsilon=epsilon))
 
 
-def test_both_ends_of_the_interval_belong_to_it() -> None:
-    """A point at a value of exactly e counts as on the plane (p. 117: from -e to +e); the top gives 3.6 here."""
+def test_epsilon_interval_is_closed() -> None:
+    """A point whose value is exactly e counts as on the plane (p. 117: from -e to +e). The top has the value 3.6 here."""
     raised = [*CUBE, (3, 3, "6.1")]
     top = next(f for f in convex_hull(CUBE).faces if Fraction(f.coefficients[2]) > 0)
     assert (Fraction(top.coefficients[2]), Fraction(top.coefficients[3])) == (36, -216)
@@ -51,21 +51,21 @@ def test_both_ends_of_the_interval_belong_to_it() -> None:
     assert 8 in convex_hull(lowered, epsilon="3.6").boundary
 
 
-def test_an_epsilon_in_products_takes_short_lines_for_points_in_line() -> None:
-    """The same e meets values of lines, which are products of two lengths, and of planes, of three."""
+def test_large_absolute_epsilon_makes_points_collinear() -> None:
+    """The same e applies to values of lines, products of two lengths, and of planes, products of three."""
     assert convex_hull(CUBE, epsilon=35).dimension == 3
     assert convex_hull(CUBE, epsilon=36).dimension == 1
 
 
 def test_relative_epsilon_is_a_distance() -> None:
-    """The top of the cube is z = 6, so E is how far above or below it a point may lie."""
+    """The top of the cube is z = 6, so E is the distance of a point above or below it."""
     assert 8 in convex_hull([*CUBE, (3, 3, "6.25")], epsilon="rel:0.25").boundary
     assert 8 in convex_hull([*CUBE, (3, 3, "6.25")], epsilon="rel:0.24").vertices
     assert 8 in convex_hull([*CUBE, (3, 3, "5.75")], epsilon="rel:0.25").boundary
     assert convex_hull([*CUBE, (3, 3, "5.75")], epsilon="rel:0.24").inside == (8,)
 
 
-def test_epsilon_lets_three_decimals_pass() -> None:
+def test_epsilon_makes_points_with_three_decimals_acceptable() -> None:
     """KNOWN-FAULTS 6: without e such sets end in DATA NOT ACCEPTABLE."""
     r = random.Random(7)
     points = [tuple(f"{r.randint(-9999, 9999)}e-3" for _ in range(3)) for _ in range(12)]
@@ -76,13 +76,13 @@ def test_epsilon_lets_three_decimals_pass() -> None:
 
 
 @pytest.mark.parametrize("epsilon", ["-1", "x", "rel:", "rel:-2", float("nan"), -0.5, True, (1,)])
-def test_an_epsilon_that_is_none(epsilon: object) -> None:
+def test_invalid_epsilon_is_a_value_error(epsilon: object) -> None:
     with pytest.raises(ValueError, match="epsilon"):
         convex_hull(CUBE, epsilon=epsilon)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("epsilon", ["0.5", 0.5, Fraction(1, 2), Decimal("0.5"), np.float32(0.5), "1/2"])
-def test_an_epsilon_of_any_type_of_number_is_that_number(epsilon: Any) -> None:
+def test_epsilon_may_be_any_type_of_number(epsilon: Any) -> None:
     nearly = [*CUBE, (3, 3, "6.01")]
     assert convex_hull(nearly, epsilon=epsilon) == convex_hull(nearly, epsilon="0.5")
     assert convex_hull(nearly, epsilon=epsilon) != convex_hull(nearly)
@@ -90,20 +90,20 @@ def test_an_epsilon_of_any_type_of_number_is_that_number(epsilon: Any) -> None:
 
 @given(sets)
 def test_translation_changes_no_exact_result(points: list[tuple[int, int, int]]) -> None:
-    """Thesis p. 118: with the origin in C the constant term tells what the value at C does."""
+    """Thesis p. 118: with the origin at C the constant term is the value at C."""
     assert convex_hull(points, translate=True, history=True) == convex_hull(points, history=True)
 
 
 @given(st.lists(st.tuples(decimals, decimals, decimals), min_size=4, max_size=12))
-def test_translation_with_enough_bits(points: list[tuple[str, str, str]]) -> None:
+def test_translation_with_enough_bits_gives_the_same_vertices(points: list[tuple[str, str, str]]) -> None:
     hull = convex_hull(points)
     assume(hull.dimension == 3)
     moved = convex_hull(points, "mp:400", epsilon="1e-60", translate=True)
     assert sorted(moved.vertices) == sorted(hull.vertices)
 
 
-def test_epsilon_does_not_help_the_choice_of_projection() -> None:
-    """209: A is compared with zero itself; what rounding left of it projects these points onto a line."""
+def test_epsilon_does_not_affect_the_choice_of_projection() -> None:
+    """Statement 209 compares A with zero itself. The rounding error left in A projects these points onto a line."""
     points = [(0, "0.01", "-0.02"), (0, "0.01", 0), ("-0.01", "0.01", 0), (0, "0.01", "-0.01")]
     assert sorted(convex_hull(points).vertices) == [0, 1, 2]
     rounded = convex_hull(points, "mp:400", epsilon="1e-60")
@@ -112,8 +112,8 @@ def test_epsilon_does_not_help_the_choice_of_projection() -> None:
     assert sorted(rounded.vertices) != [0, 1, 2]
 
 
-def test_translation_may_lose_digits_or_save_them() -> None:
-    """Quarters of C take two digits more a coordinate; far from the origin the move takes some away."""
+def test_translation_may_lose_or_save_digits() -> None:
+    """The quarters in C need two more digits in each coordinate. Far from the origin the translation removes some."""
     near = [(-56, 89, 72), (-21, -35, 56), (-45, 56, -90), (49, 75, -59), (11, 64, 1)]
     assert convex_hull(near, "truncating").status == DETERMINED
     assert convex_hull(near, "truncating", translate=True).status == NOT_ACCEPTABLE
@@ -123,7 +123,7 @@ def test_translation_may_lose_digits_or_save_them() -> None:
 
 
 @given(sets)
-def test_the_history_adds_up(points: list[tuple[int, int, int]]) -> None:
+def test_history_accounts_for_all_points_and_planes(points: list[tuple[int, int, int]]) -> None:
     hull = convex_hull(points, history=True)
     stages = hull.history
     if hull.dimension < 2 or len(points) - len(hull.duplicates) == 3:
@@ -143,8 +143,8 @@ def test_the_history_adds_up(points: list[tuple[int, int, int]]) -> None:
         assert [len(stage.equations) for stage in stages] == counts
 
 
-def test_the_history_of_an_octahedron() -> None:
-    """Each point added to the tetrahedron lies outside planes that are replaced by as many as its horizon has edges."""
+def test_history_of_an_octahedron_has_three_stages() -> None:
+    """An added point replaces the planes it lies outside of by as many as their horizon has edges."""
     points = [(3, 0, 0), (-3, 0, 0), (0, 3, 0), (0, -3, 0), (0, 0, 3), (0, 0, -3), (0, 1, 0)]
     hull = convex_hull(points, history=True)
     assert sorted(hull.vertices) == [0, 1, 2, 3, 4, 5]

@@ -1,4 +1,4 @@
-"""The compiled kernels (extra ``fast``) beside numpy: the same to the last bit, and numpy where numba is missing."""
+"""The compiled kernels (extra ``fast``) compared with numpy bit for bit, and the choice of numpy if numba is missing."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from modern.geometry.hull import DETERMINED, ERROR, NOT_ACCEPTABLE, TABLE_FULL, 
 from modern.port import fast, kernels, workspace
 from modern.port.binary import FloatArithmetic
 from modern.port.growth import LAST_PAIR, TABLE_OF_PLANES, THROUGH_CENTRE
-from modern.port.table import Places, Slack
+from modern.port.table import PointTable, Slack
 from tests.support.ported import convex_hull
 
 Points = NDArray[np.float64]
@@ -68,7 +68,7 @@ def lens(source: Source, count: int) -> Points:
 
 
 def cone(source: Source, count: int) -> Points:
-    """A fan of planes about one point."""
+    """Return the apex and base of a cone: a fan of planes about one point."""
     angle = np.arange(count) * (2 * np.pi / count)
     points = np.rint(np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1) * 1000)
     points[source.integers(0, count)] = (0, 0, 2000)
@@ -76,7 +76,7 @@ def cone(source: Source, count: int) -> Points:
 
 
 def tiny(source: Source, count: int) -> Points:
-    """Products of these underflow."""
+    """Return points whose products underflow."""
     return ball(source, count) * 1e-108
 
 
@@ -84,49 +84,41 @@ FAMILIES = (whole_ball, small_sphere, cube_surface, grid, near_coplanar, lens, c
 EPSILONS = (None, "0", "rel:1e-12", "rel:1e-6", "1e-7", "5")
 
 
-def both(points: Any, arithmetic: str, **options: Any) -> tuple[Hull, Hull]:
-    """By numpy and by the kernels; everything told."""
-    return (
-        convex_hull(points, arithmetic, history=True, fast=False, **options),
-        convex_hull(points, arithmetic, history=True, fast=True, **options),
-    )
-
-
 def same(points: Any, arithmetic: str, **options: Any) -> Hull:
-    """The hull of both ways; a watched run takes a stage at a time, another all it can, so both are compared."""
-    one, other = both(points, arithmetic, **options)
-    assert other == one
+    """Compare both implementations, watched (one stage at a time) and unwatched (all stages at once)."""
+    watched = convex_hull(points, arithmetic, history=True, fast=False, **options)
+    assert convex_hull(points, arithmetic, history=True, fast=True, **options) == watched
     unwatched = convex_hull(points, arithmetic, fast=True, **options)
     assert unwatched == convex_hull(points, arithmetic, fast=False, **options)
-    return one
+    return watched
 
 
 @pytest.mark.parametrize("family", FAMILIES)
 @pytest.mark.parametrize("arithmetic", ["float64", "float32"])
-def test_compiled_is_numpy_to_the_last_bit(family: Callable[[Source, int], Points], arithmetic: str) -> None:
+def test_kernels_equal_numpy_bit_for_bit(family: Callable[[Source, int], Points], arithmetic: str) -> None:
     pytest.importorskip("numba")
-    for seed in range(18):
+    for seed in range(12):
         source = np.random.default_rng(seed)
         points = family(source, int(source.integers(4, 60))).astype(arithmetic)
         same(points, arithmetic, epsilon=EPSILONS[seed % len(EPSILONS)], translate=seed % 4 == 3)
 
 
-def test_the_sets_end_in_every_way() -> None:
-    """The comparison above would say little if no set were refused, or none of the corrections noted."""
+def test_kernels_equal_numpy_for_every_kind_of_ending() -> None:
+    """The comparison must include refused sets and the corrections."""
     pytest.importorskip("numba")
-    found = [
+    hulls = [
         same(family(np.random.default_rng(seed), 40).astype(arithmetic), arithmetic, epsilon=epsilon)
         for family in (grid, cone, near_coplanar, lens)
         for seed in (2, 3, 5)
         for arithmetic in ("float64", "float32")
         for epsilon in (None, "rel:1e-6", "0.5")
     ]
-    assert {hull.status for hull in found} == {DETERMINED, NOT_ACCEPTABLE, ERROR, TABLE_FULL}
-    assert {name for hull in found for name in hull.corrected} >= {LAST_PAIR, THROUGH_CENTRE}
+    assert {hull.status for hull in hulls} == {DETERMINED, NOT_ACCEPTABLE, ERROR, TABLE_FULL}
+    assert {name for hull in hulls for name in hull.corrected} >= {LAST_PAIR, THROUGH_CENTRE}
 
 
-def test_many_points_and_many_stages() -> None:
-    """Slots are closed up, run out and are asked for again."""
+def test_kernels_equal_numpy_for_many_points_and_stages() -> None:
+    """Slots are closed up, run out and are allocated again."""
     pytest.importorskip("numba")
     hull = same(whole_ball(np.random.default_rng(1), 4000), "float64")
     assert hull.status == DETERMINED
@@ -138,73 +130,73 @@ small = st.integers(-3, 3).map(float)
 
 
 @given(st.lists(st.tuples(small, small, small), min_size=4, max_size=20), st.sampled_from(EPSILONS), st.booleans())
-def test_the_kernels_as_plain_python_decide_as_numpy(
+def test_kernels_run_as_python_equal_numpy(
     points: list[tuple[float, float, float]], epsilon: str | None, translate: bool
 ) -> None:
-    """The text the kernels are compiled from, without numba."""
+    """Run the functions that numba compiles without numba."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(fast, "load", lambda _: fast.with_kernels(kernels.grow, kernels.satisfied))
         same(np.array(points), "float64", epsilon=epsilon, translate=translate)
 
 
 @given(st.lists(st.tuples(st.integers(0, 3), st.integers(0, 3)), min_size=1, max_size=30))
-def test_doubles_pair_as_a_table_of_points_does(edges: list[tuple[int, int]]) -> None:
-    """Equal ones pair in order of appearance: first with second, third with fourth."""
+def test_doubles_pairs_equal_planes_like_a_dictionary(edges: list[tuple[int, int]]) -> None:
+    """Equal planes pair in order of appearance: first with second, third with fourth."""
     defining = np.array([(low, low + high + 1, 99) for low, high in edges], np.int64).T
     waiting: dict[tuple[int, ...], int] = {}
     partner = [-1] * len(edges)
     for k, key in enumerate(map(tuple, defining.T.tolist())):
         if key in waiting:
-            other = waiting.pop(key)
-            partner[k], partner[other] = other, k
+            earlier = waiting.pop(key)
+            partner[k], partner[earlier] = earlier, k
         else:
             waiting[key] = k
     shuffled = np.array([np.roll(column, k) for k, column in enumerate(defining.T)]).T
     for columns in (defining, shuffled):
-        room = workspace.room_for(len(edges), float)
-        kernels.doubles(columns, 0, len(edges), room)
-        assert room.partner.tolist() == partner
+        scratch = workspace.scratch_for(len(edges), float)
+        kernels.doubles(columns, 0, len(edges), scratch)
+        assert scratch.partner.tolist() == partner
 
 
 @given(st.lists(st.integers(1, 9).map(float), max_size=60))
-def test_planes_are_replaced_from_the_largest_value_on(values: list[float]) -> None:
-    """As a stable sort has it, turned round: of equals the later plane first."""
+def test_sort_descending_equals_a_reversed_stable_sort(values: list[float]) -> None:
+    """Among equal values the later plane comes first."""
     order, sorted_ = np.arange(len(values) + 1), np.array([0.0, *values])
-    kernels.fall(order, sorted_, 1, len(order))
+    kernels.sort_descending(order, sorted_, 1, len(order))
     assert order[1:].tolist() == (1 + np.argsort(values, kind="stable")[::-1]).tolist()
     assert sorted_[1:].tolist() == sorted(values, reverse=True)
 
 
-def test_no_product_is_fused_with_a_sum() -> None:
-    """(1+e)(1-e) - 1 is 0 when the product is rounded first, and -e**2 when it is not."""
+def test_compiler_does_not_fuse_products_with_sums() -> None:
+    """(1+e)(1-e) - 1 is 0 if the product is rounded first, and -e**2 if it is not."""
     pytest.importorskip("numba")
     e = 2.0**-30
     slots = workspace.Slots(
         np.array([[1 + e], [0.0], [0.0], [-1.0]]), np.zeros((3, 1), np.int64), np.array([-1.0]), np.array([True])
     )
-    counts, places = np.zeros(1, np.int64), np.full(2, -1)
-    given = slots, np.array([[1 - e, 1.0], [0.0, 0.0], [0.0, 0.0]]), counts, places
-    assert Compiled(kernels.satisfied).ready(*given)(*given) == 1
-    assert (counts.tolist(), places.tolist()) == ([1], [0, -1])
+    counts, indices = np.zeros(1, np.int64), np.full(2, -1)
+    arguments = slots, np.array([[1 - e, 1.0], [0.0, 0.0], [0.0, 0.0]]), counts, indices
+    assert Compiled(kernels.satisfied).ready(*arguments)(*arguments) == 1
+    assert (counts.tolist(), indices.tolist()) == ([1], [0, -1])
 
 
 def test_numbers_that_may_overflow_are_left_to_numpy() -> None:
     numbers = FloatArithmetic(np.float64)
     for size, slack, kernel in ((1e75, None, True), (1e78, None, False), (1.0, "1e300", True), (1e75, "1e300", False)):
-        places = Places(np.array([[size], [0.0], [0.0]]), np.arange(1))
+        points = PointTable(np.array([[size], [0.0], [0.0]]), np.arange(1))
         e = None if slack is None else Slack(numbers, Fraction(slack), True)
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(fast, "load", lambda _: fast.Steps(len, len))
-            assert (fast.choose(numbers, places, e, True) is not fast.PLAIN) == kernel
+            assert (fast.choose(numbers, points, e, True) is not fast.PLAIN) == kernel
 
 
-def test_without_numba_numpy_does_it(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_numpy_runs_without_numba(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "numba", None)
     fast.load.cache_clear()
     points = whole_ball(np.random.default_rng(1), 6000)
     try:
-        places = Places(points.T.copy(), np.arange(len(points)))
-        assert fast.choose(FloatArithmetic(np.float64), places, None, None) is fast.PLAIN
+        table = PointTable(points.T.copy(), np.arange(len(points)))
+        assert fast.choose(FloatArithmetic(np.float64), table, None, None) is fast.PLAIN
         assert convex_hull(points, "float64").status == DETERMINED
         with pytest.raises(
             ValueError, match=r"^compiled code needs numba: pip install 'hull1620\[fast\]' \([^\n]*numba[^\n]*\)$"
@@ -214,31 +206,31 @@ def test_without_numba_numpy_does_it(monkeypatch: pytest.MonkeyPatch) -> None:
         fast.load.cache_clear()
 
 
-def test_the_kernels_are_compiled_for_the_types_they_are_called_with() -> None:
-    """Whether they can be is known when the steps are chosen, and nothing is compiled twice."""
+def test_kernels_are_compiled_once_for_the_types_of_their_calls() -> None:
+    """Errors of compilation appear when the steps are chosen, and nothing is compiled twice."""
     pytest.importorskip("numba")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(fast, "with_kernels", lambda *functions: functions)
-        made: Any = fast.load.__wrapped__("float64")
+        compiled: Any = fast.load.__wrapped__("float64")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(fast, "load", lambda _: fast.with_kernels(*made))
+        patch.setattr(fast, "load", lambda _: fast.with_kernels(*compiled))
         for translate in (False, True):
             same(whole_ball(np.random.default_rng(1), 30), "float64", epsilon="rel:1e-9", translate=translate)
-    assert [len(function.signatures) for function in made] == [1, 1]
+    assert [len(function.signatures) for function in compiled] == [1, 1]
 
 
-def test_kept_kernels_that_are_damaged_are_made_anew(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_damaged_cache_of_a_kernel_is_compiled_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("numba")
     monkeypatch.setattr("numba.core.config.CACHE_DIR", str(tmp_path))
-    kept: Any = Compiled(kernels.satisfied).function
-    kept._cache.flush()
+    function: Any = Compiled(kernels.satisfied).function
+    function._cache.flush()
     (index,) = tmp_path.rglob("*.nbi")
     index.write_bytes(b"")
     slots = workspace.Slots(np.zeros((4, 1)), np.zeros((3, 1), np.int64), np.zeros(1), np.array([True]))
-    counts, places = np.zeros(1, np.int64), np.full(2, -1)
-    given = slots, np.zeros((3, 2)), counts, places
-    assert Compiled(kernels.satisfied).ready(*given)(*given) == 2
-    assert (counts.tolist(), places.tolist()) == ([2], [0, 1])
+    counts, indices = np.zeros(1, np.int64), np.full(2, -1)
+    arguments = slots, np.zeros((3, 2)), counts, indices
+    assert Compiled(kernels.satisfied).ready(*arguments)(*arguments) == 2
+    assert (counts.tolist(), indices.tolist()) == ([2], [0, 1])
     assert not index.exists()
 
 

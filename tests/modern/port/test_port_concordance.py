@@ -1,4 +1,4 @@
-"""docs/reference/concordance.md: labels and functions exist; the text's two steps as a variant of the port."""
+"""docs/reference/concordance.md: labels and functions exist. The two rules of the text as a variant of the port."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ ROWS = [
 ]
 
 
-def test_every_step_has_labels_of_its_program_and_a_function() -> None:
+def test_every_row_names_existing_labels_and_an_existing_function() -> None:
     assert len(ROWS) > 20
     for step, _, program, statements, function in ROWS:
         labels = {card.text[:5].strip() for card in programs.deck(f"program{program}").cards}
         assert set(re.findall(r"\d+", statements)) <= labels, step
         module, *names = function.strip("`").split(".")
-        found = import_module(f"modern.port.{module}")
+        target = import_module(f"modern.port.{module}")
         for name in names:
-            found = getattr(found, name)
+            target = getattr(target, name)
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_the_texts_way_gives_the_same_hull_or_no_fourth_point(seed: int) -> None:
+def test_rules_of_the_text_give_the_same_hull_or_no_fourth_point(seed: int) -> None:
     draw, without = random.Random(seed), 0
     for _ in range(60):
         points = list({(draw.randint(-9, 9), draw.randint(-9, 9), draw.randint(-9, 9)) for _ in range(9)})
@@ -47,12 +47,12 @@ def test_the_texts_way_gives_the_same_hull_or_no_fourth_point(seed: int) -> None
     assert without < 15
 
 
-def test_the_smallest_set_without_a_fourth_point_by_the_text() -> None:
+def test_four_points_can_have_no_fourth_point_by_the_rules_of_the_text() -> None:
     corner = [(1, 0, 0), (0, 1, 0), (0, 0, 1), (0, 0, 0)]
     assert convex_hull(corner).determined
     assert not convex_hull(corner, text=True, on_refusal="return").determined
 
 
-def test_in_a_plane_and_a_line_text_and_listing_are_one() -> None:
+def test_rules_of_text_and_listing_agree_on_planar_and_collinear_points() -> None:
     for points in ([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)], [(0, 0, 0), (1, 1, 1), (3, 3, 3)]):
         assert convex_hull(points, text=True, on_refusal="return") == convex_hull(points)

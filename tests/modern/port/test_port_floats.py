@@ -1,4 +1,4 @@
-"""The port in binary: floats in vectors, multiprecision; beside scipy."""
+"""The port in binary arithmetics: floats in vectors, and multiprecision."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from tests.support.ported import convex_hull
 
 
 def ball(count: int, bits: int | None = None, seed: int = 1963) -> NDArray[np.float64]:
-    """Points uniform in the unit ball, rounded to so many binary places."""
+    """Draw points uniform in the unit ball, rounded to the given number of binary places."""
     r = np.random.default_rng(seed)
     points = r.normal(size=(count, 3))
     points *= (r.random(count) ** (1 / 3) / np.linalg.norm(points, axis=1))[:, None]
     return points if bits is None else np.round(points * 2.0**bits) / 2.0**bits
 
 
-def test_products_that_fit_a_double_are_exact() -> None:
-    """17 bits a coordinate: every number of the procedure is exact, and so is the hull."""
+def test_hull_is_exact_if_all_products_fit_in_a_double() -> None:
+    """With 17 bits in each coordinate every number of the procedure is exact, and so is the hull."""
     points = ball(3000, 16)
     hull = convex_hull(points, "float64")
     judge = exact_hull(points.tolist())
@@ -32,57 +32,55 @@ def test_products_that_fit_a_double_are_exact() -> None:
     assert {face.lowest for face in hull.faces} == {judge.plane_of(facet) for facet in judge.facets}
 
 
-def test_one_text_of_the_procedure() -> None:
-    """Where nothing is rounded every arithmetic decides alike, in the same order."""
+def test_all_arithmetics_decide_alike_if_nothing_is_rounded() -> None:
     points = (ball(60, 6) * 64).astype(int)
-    first = convex_hull(points, "exact", history=True)
+    exact = convex_hull(points, "exact", history=True)
     for arithmetic in ("float64", "float32", "mp:80", "truncating", "truncating:20", "rounding:12", "ibm1962"):
-        other = convex_hull(points, arithmetic, history=True)
-        assert other.history == first.history
-        assert (other.vertices, other.boundary, other.inside) == (first.vertices, first.boundary, first.inside)
-        assert [face.lowest for face in other.faces] == [face.lowest for face in first.faces]
-        assert [face.polygon for face in other.faces] == [face.polygon for face in first.faces]
+        hull = convex_hull(points, arithmetic, history=True)
+        assert hull.history == exact.history
+        assert (hull.vertices, hull.boundary, hull.inside) == (exact.vertices, exact.boundary, exact.inside)
+        assert [face.lowest for face in hull.faces] == [face.lowest for face in exact.faces]
+        assert [face.polygon for face in hull.faces] == [face.polygon for face in exact.faces]
 
 
-def test_vectors_decide_as_single_numbers() -> None:
-    """float64 is 53 bits: the vectors of numpy and mpmath's numbers one by one agree, rounding included."""
-    for seed in range(6):
+def test_numpy_doubles_and_53_bit_multiprecision_numbers_decide_alike() -> None:
+    for seed in range(4):
         points = ball(40, None, seed).tolist()
-        one = convex_hull(points, "float64", epsilon="rel:1e-13", history=True)
-        other = convex_hull(points, "mp:53", epsilon="rel:1e-13", history=True)
-        assert one.history == other.history
-        assert one.status == other.status
-        assert [face.coefficients for face in one.faces] == [face.coefficients for face in other.faces]
+        doubles = convex_hull(points, "float64", epsilon="rel:1e-13", history=True)
+        multiprecision = convex_hull(points, "mp:53", epsilon="rel:1e-13", history=True)
+        assert doubles.history == multiprecision.history
+        assert doubles.status == multiprecision.status
+        assert [face.coefficients for face in doubles.faces] == [face.coefficients for face in multiprecision.faces]
 
 
-def test_rounded_products_end_as_chapter_7_says() -> None:
-    """Thesis p. 117: the three points of a plane do not satisfy it."""
+def test_rounded_products_make_data_not_acceptable() -> None:
+    """Thesis p. 117: the three points of a plane do not satisfy its equation."""
     assert convex_hull(ball(50), "float64").status == NOT_ACCEPTABLE
     assert convex_hull(ball(50), "float32").status == NOT_ACCEPTABLE
     assert convex_hull(ball(50), "mp:200").status == DETERMINED
 
 
-def test_scipy_finds_the_same_vertices() -> None:
+def test_vertices_agree_with_scipy() -> None:
     spatial = pytest.importorskip("scipy.spatial")
     points = ball(10_000)
     hull = convex_hull(points, "float64", epsilon="rel:1e-9")
     assert sorted(hull.vertices) == sorted(spatial.ConvexHull(points).vertices.tolist())
 
 
-def test_floats_are_told_exactly() -> None:
+def test_points_are_reported_as_the_exact_value_of_their_floats() -> None:
     hull = convex_hull([(0.1, -0.0, 2.0**-60), (1.0, 0.0, 0.0)], "float64")
     assert hull.points[0][:2] == ("0.1000000000000000055511151231257827021181583404541015625", "-0")
     assert Fraction(hull.points[0][2]) == Fraction(1, 2**60)
     assert convex_hull([("0.1", 0, 0)], "float32").points[0][0] == "0.100000001490116119384765625"
 
 
-def test_a_product_beyond_the_largest_number_is_one_clear_line() -> None:
+def test_overflow_of_a_product_is_a_range_error() -> None:
     points = [(0, 0, 0), ("1e110", 0, 0), (0, "1e110", 0), (0, 0, "1e110")]
     with pytest.raises(RangeError, match=r"^float64: a product of coordinates exceeds the largest number$"):
         convex_hull(points, "float64")
     assert convex_hull(points, "mp:53").status == DETERMINED
 
 
-def test_equal_floats_are_duplicates_whatever_their_zeros() -> None:
+def test_points_that_differ_only_in_signs_of_zero_are_duplicates() -> None:
     points = np.array([(0.0, 1.0, 2.0), (1.0, 0.0, 0.5), (-0.0, 1.0, 2.0), (1.0, -0.0, 0.5)])
     assert convex_hull(points, "float64").duplicates == ((2, 0), (3, 1))

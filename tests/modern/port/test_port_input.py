@@ -1,4 +1,4 @@
-"""What the port takes and gives: points, names of arithmetics, exact text."""
+"""Input and output of the port: points, names of arithmetics, exact text."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ from modern.port.outcome import Faces
 from modern.port.points import NAMES, fixed_arithmetic
 from tests.support.punched import e_field
 
-GOOD = (0, 0, 0)
-BAD = (
-    ((1, 2), "point 1: 2 coordinates; a point has three"),
+ORIGIN = (0, 0, 0)
+INVALID_POINTS = (
+    ((1, 2), "point 1: expected 3 coordinates, found 2"),
     ((1, 2, "three"), "point 1, coordinate z: 'three' is not a decimal number"),
     ((1, "", 3), "point 1, coordinate y: '' is not a decimal number"),
     ((float("nan"), 2, 3), "point 1, coordinate x: nan is not finite"),
@@ -36,58 +36,58 @@ BAD = (
         (True, 2, 3),
         "point 1, coordinate x: expected an int, a float, a Fraction, a Decimal or a decimal string; found bool",
     ),
-    ("123", "point 1: str is not a point; a point has three coordinates"),
-    (7, "point 1: int is not a point; a point has three coordinates"),
+    ("123", "point 1: expected three coordinates, found str"),
+    (7, "point 1: expected three coordinates, found int"),
     ((1, 2, "1e99999"), "point 1, coordinate z: the exponent of '1e99999' is not within -9999 to 9999"),
 )
 
 
-@pytest.mark.parametrize(("bad", "message"), BAD)
-def test_a_bad_point_is_named(bad: object, message: str) -> None:
+@pytest.mark.parametrize(("invalid", "message"), INVALID_POINTS)
+def test_error_names_an_invalid_point(invalid: object, message: str) -> None:
     with pytest.raises(PointsError) as caught:
-        convex_hull([GOOD, bad])  # type: ignore[list-item]
+        convex_hull([ORIGIN, invalid])  # type: ignore[list-item]
     assert str(caught.value) == message
 
 
 @pytest.mark.parametrize(
     ("arithmetic", "number", "message"),
     [
-        ("truncating", "1e99", "point 1, coordinate y: the exponent of a number of this arithmetic is -99 to 99"),
-        ("truncating", "1e-101", "point 1, coordinate y: the exponent of a number of this arithmetic is -99 to 99"),
+        ("truncating", "1e99", "point 1, coordinate y: expected a number with an exponent from -99 to 99"),
+        ("truncating", "1e-101", "point 1, coordinate y: expected a number with an exponent from -99 to 99"),
         ("float64", "1e400", "point 1, coordinate y: too large for float64"),
         ("float32", "1e39", "point 1, coordinate y: too large for float32"),
     ],
 )
-def test_a_point_out_of_range_is_named(arithmetic: str, number: str, message: str) -> None:
+def test_error_names_a_point_out_of_range(arithmetic: str, number: str, message: str) -> None:
     with pytest.raises(PointsError) as caught:
-        convex_hull([GOOD, (0, number, 0)], arithmetic)
+        convex_hull([ORIGIN, (0, number, 0)], arithmetic)
     assert str(caught.value) == message
 
 
 @pytest.mark.parametrize("huge", ["1e5000", "-1e5000", "1e-5000", "9e9999"])
 @pytest.mark.parametrize("name", [name.replace("BITS", "60").replace(":P", ":12") for name in NAMES])
-def test_thousands_of_digits(name: str, huge: str) -> None:
-    """Beyond what ``str`` takes; a number is held, is nothing in doubles, or is refused in one line."""
+def test_numbers_of_thousands_of_digits_are_kept_or_refused(name: str, huge: str) -> None:
+    """``str`` refuses such integers. A number is stored, vanishes in doubles, or is refused in one line."""
     points = [(huge, "0", "0"), ("0", "1", "0")]
     vanishes = name.startswith("float") and huge == "1e-5000"
     if name != "exact" and not name.startswith("mp:") and not vanishes:
         with pytest.raises(PointsError, match=r"^point 0, coordinate x: [^\n]+$"):
             convex_hull(points, name)
         return
-    found, given = Fraction(Decimal(convex_hull(points, name).points[0][0])), Fraction(Decimal(huge))
+    stored, exact = Fraction(Decimal(convex_hull(points, name).points[0][0])), Fraction(Decimal(huge))
     if name == "exact":
-        assert found == given
+        assert stored == exact
     elif vanishes:
-        assert found == 0
+        assert stored == 0
     else:
-        assert abs(found - given) <= abs(given) / 2**59
+        assert abs(stored - exact) <= abs(exact) / 2**59
 
 
-def test_arrays() -> None:
+def test_arrays_are_read_and_their_shape_checked() -> None:
     integers = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
     assert convex_hull(integers).vertices == convex_hull(integers.tolist()).vertices
     assert convex_hull(integers.astype(float), "float64").dimension == 3
-    with pytest.raises(PointsError, match=r"shape \(n, 3\), not \(4, 2\)"):
+    with pytest.raises(PointsError, match=r"shape \(n, 3\), found \(4, 2\)"):
         convex_hull(integers[:, :2].astype(float), "float64")
     with pytest.raises(PointsError, match="point 2: a coordinate is not finite"):
         convex_hull(np.array([(0.0, 0, 0), (1, 0, 0), (0, float("inf"), 0)]), "float64")
@@ -95,7 +95,7 @@ def test_arrays() -> None:
 
 @pytest.mark.parametrize("points", [[], np.empty((0, 3))])
 @pytest.mark.parametrize("arithmetic", ["exact", "float64"])
-def test_no_points(points: object, arithmetic: str) -> None:
+def test_empty_input_is_a_points_error(points: object, arithmetic: str) -> None:
     with pytest.raises(PointsError, match=r"^there are no points$"):
         convex_hull(points, arithmetic)  # type: ignore[arg-type]
 
@@ -103,12 +103,12 @@ def test_no_points(points: object, arithmetic: str) -> None:
 @pytest.mark.parametrize(
     "name", ["", "float", "mp", "mp:1", "mp:x", "truncating:1", "truncating:x", "rounding", "exact:3"]
 )
-def test_an_arithmetic_that_is_none(name: str) -> None:
+def test_unknown_arithmetic_is_a_value_error(name: str) -> None:
     with pytest.raises(ValueError, match=r"."):
-        convex_hull([GOOD], name)
+        convex_hull([ORIGIN], name)
 
 
-def test_the_public_name() -> None:
+def test_modern_exports_the_public_names() -> None:
     assert modern.convex_hull is convex_hull
     assert modern.PointsError is PointsError
     assert not hasattr(modern, "hull_of_nothing")
@@ -130,18 +130,18 @@ def test_text_is_exact(number: int | Fraction) -> None:
     ("number", "text"),
     [(0, "0"), (-12, "-12"), (Fraction(1, 8), "0.125"), (Fraction(-1, 3), "-1/3"), (Fraction(7, 20), "0.35")],
 )
-def test_text_is_plain(number: int | Fraction, text: str) -> None:
+def test_text_is_decimal_if_a_finite_decimal_exists(number: int | Fraction, text: str) -> None:
     assert exact_text(number) == text
 
 
-def test_text_of_many_digits() -> None:
+def test_text_of_many_digits_is_exact() -> None:
     assert Decimal(exact_text(10**9000 + 1)) == Decimal(10**9000 + 1)
     assert exact_text(10**5000) == "1E+5000"
 
 
 @given(st.integers(-(10**12), 10**12), st.integers(-90, 80))
-def test_a_number_is_cut_as_a_card_reader_cuts_it(digits: int, exponent: int) -> None:
-    """The emulator's READ of the same decimal (C26-5619 p. 35-38)."""
+def test_number_is_truncated_as_read_truncates_it(digits: int, exponent: int) -> None:
+    """Compare with the emulator's READ of the same decimal (C26-5619 p. 35-38)."""
     value = Fraction(digits) * Fraction(10) ** exponent
     arithmetic = fixed_arithmetic("truncating")
     assert arithmetic is not None
@@ -152,8 +152,7 @@ def test_a_number_is_cut_as_a_card_reader_cuts_it(digits: int, exponent: int) ->
     assert e_field(arithmetic.text(number, 1)) == card
 
 
-def test_faces_and_stages_are_made_when_asked_for() -> None:
-    """They count, compare, hash, print and travel as the tuples they become, and are made once."""
+def test_later_behaves_like_the_tuple_it_becomes_and_is_built_once() -> None:
     made: list[int] = []
 
     def make() -> Iterator[str]:
@@ -178,11 +177,11 @@ def test_faces_and_stages_are_made_when_asked_for() -> None:
     assert made == [1, 1]
 
 
-def test_a_hull_waits_with_its_faces(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_faces_are_built_on_first_access(monkeypatch: pytest.MonkeyPatch) -> None:
     points = [(x, y, z) for x in (0, 2) for y in (0, 2) for z in (0, 2)] + [(1, 1, 1)]
     calls: list[int] = []
     make = Faces._polyhedral
-    monkeypatch.setattr(Faces, "_polyhedral", lambda *given: calls.append(1) or make(*given))
+    monkeypatch.setattr(Faces, "_polyhedral", lambda *arguments: calls.append(1) or make(*arguments))
     for arithmetic in ("exact", "float64"):
         calls.clear()
         hull = convex_hull(points, arithmetic, history=True)

@@ -1,4 +1,4 @@
-"""The published vectors on the numbers that the port calculates with (modern/port/decimal.py)."""
+"""The numbers of the port (modern/port/decimal.py) checked against the published vectors."""
 
 from __future__ import annotations
 
@@ -28,21 +28,21 @@ def number(text: str, arithmetic: Arithmetic1620) -> Number1620:
     return arithmetic.number(-size if text.startswith("-") else size, text.startswith("-"))
 
 
-def text(found: Number1620, vector: Vector) -> str:
-    minus = found.m < 0 or found.e == MINUS_ZERO
-    return f"{'-' if minus else ''}.{abs(found.m):0{vector.digits}}E{max(found.e, -99):+03}"
+def text(number_1620: Number1620, vector: Vector) -> str:
+    minus = number_1620.m < 0 or number_1620.e == MINUS_ZERO
+    return f"{'-' if minus else ''}.{abs(number_1620.m):0{vector.digits}}E{max(number_1620.e, -99):+03}"
 
 
 @pytest.mark.parametrize("operation", [*OPERATIONS, "squareroot"])
-def test_the_ports_numbers_give_every_result(operation: str) -> None:
+def test_operations_give_the_published_results(operation: str) -> None:
     for vector in load(operation):
         arithmetic = Arithmetic1620(profile(vector.profile))
         rule = OPERATIONS.get(operation, arithmetic.root)
-        found = rule(*(number(operand, arithmetic) for operand in vector.operands))
-        assert text(found, vector) == vector.result, vector
+        result = rule(*(number(operand, arithmetic) for operand in vector.operands))
+        assert text(result, vector) == vector.result, vector
 
 
-def test_the_ports_signs_are_those_of_an_if() -> None:
+def test_signs_give_the_published_branches_of_an_if() -> None:
     for vector in load("if"):
         arithmetic = Arithmetic1620(profile(vector.profile))
         values = np.array([number(operand, arithmetic) for operand in vector.operands])
