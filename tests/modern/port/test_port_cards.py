@@ -183,7 +183,7 @@ FOLDERS = sorted(path for path in RUNS.iterdir() if path.is_dir())
 
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
 def test_port_reproduces_the_cards_of_period_compilers(folder: Path) -> None:
-    """Cards in tests/data/machine_runs, punched by object programs of IBM's and another compiler without corrections."""
+    """Use tests/data/machine_runs: cards of object programs by IBM's and another compiler, without corrections."""
     hull = convex_hull(card_points((folder / "deck.cards").read_text().splitlines()), "truncating")
     typed = "".join(path.read_text() for path in sorted(folder.glob("program[123].typewriter")))
     if hull.corrected:

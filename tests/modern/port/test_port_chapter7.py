@@ -39,7 +39,7 @@ def test_epsilon_is_the_same_number_in_every_unit(points: list[tuple[int, int, i
 
 
 def test_epsilon_interval_is_closed() -> None:
-    """A point whose value is exactly e counts as on the plane (p. 117: from -e to +e). The top has the value 3.6 here."""
+    """A point whose value is exactly e is on the plane (p. 117: from -e to +e). The top has the value 3.6 here."""
     raised = [*CUBE, (3, 3, "6.1")]
     top = next(f for f in convex_hull(CUBE).faces if Fraction(f.coefficients[2]) > 0)
     assert (Fraction(top.coefficients[2]), Fraction(top.coefficients[3])) == (36, -216)

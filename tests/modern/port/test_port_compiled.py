@@ -1,4 +1,4 @@
-"""The compiled kernels (extra ``fast``) compared with numpy bit for bit, and the choice of numpy if numba is missing."""
+"""The compiled kernels (extra ``fast``) equal numpy bit for bit, and numpy runs if numba is missing."""
 
 from __future__ import annotations
 
