@@ -1,6 +1,6 @@
-"""What somebody's hull of the same points says beside the true one, drawn together.
+"""The differences between a claimed hull of some points and their true hull, drawn in one picture.
 
-What is missed and what is too much differ in shape and in colour, and the colours in how dark they are.
+Missing and false parts differ in shape and in colour, and the colours differ in brightness.
 """
 
 from __future__ import annotations
@@ -12,19 +12,19 @@ from math import atan2
 
 from modern.comparison.card_differences import CardDifferences
 from modern.drawing import svg
-from modern.drawing.draw import Show, marked, numbers, seen, width_of
+from modern.drawing.draw import Show, filter_scene, number_items, scene_items, width_of
 from modern.drawing.layout import MARGIN, Layout, Pixel, lay_out
 from modern.drawing.legend import band, band_height, caption
 from modern.drawing.scene import Scene, scene
 from modern.drawing.svg import Style, page
 from modern.geometry.hull import Hull
 
-MISSED = Style("missed", "vertex missed", "dot", 'fill="none" stroke="#c1121f" stroke-width="2.4"')
-ADDED = Style("added", "no vertex, called one", "dot", 'fill="#1d6fb8" stroke="#fff" stroke-width="1"')
-NOT_FOUND = Style("not-found", "face not found", "line", 'fill="#c1121f" fill-opacity="0.22" stroke="#c1121f"')
+MISSED = Style("missed", "missing vertex", "dot", 'fill="none" stroke="#c1121f" stroke-width="2.4"')
+ADDED = Style("added", "false vertex", "dot", 'fill="#1d6fb8" stroke="#fff" stroke-width="1"')
+NOT_FOUND = Style("not-found", "missing face", "line", 'fill="#c1121f" fill-opacity="0.22" stroke="#c1121f"')
 NO_FACE = Style(
     "no-face",
-    "no face, called one",
+    "false face",
     "line",
     'fill="#1d6fb8" fill-opacity="0.25" stroke="#1d6fb8" stroke-dasharray="2 3"',
 )
@@ -40,21 +40,21 @@ def draw_against(
     width: int | None = None,
     show: Show | None = None,
 ) -> str:
-    """The true hull with what another says differently, as the text of an SVG file; the rest as ``draw_svg`` has it.
+    """Return the true hull and the differences of a claimed hull as the text of an SVG file.
 
-    Raises ExportError.
+    The parameters and errors are those of :func:`modern.drawing.draw.draw_svg`.
     """
     show = replace(show or Show(), points=True)
-    picture = seen(scene(hull, None if eye is None else [Fraction(number) for number in eye]), show)
+    picture = filter_scene(scene(hull, None if eye is None else [Fraction(number) for number in eye]), show)
     width = width_of(picture, width)
     layout = lay_out(picture, width)
     top = layout.height + band_height(picture, width, title)
     at = _pixels(hull, picture, layout)
     items = [
-        *marked(hull, picture, layout),
+        *scene_items(hull, picture, layout),
         *_faces(hull, claim, at),
         *_points(hull, claim, at),
-        *(numbers(hull, picture, layout, show.labels) if show.labels != "none" else ()),
+        *(number_items(hull, picture, layout, show.labels) if show.labels != "none" else ()),
         *svg.group("legend", _FONT, band(picture, width, layout.height, title, True)),
         *svg.group("differences", _FONT, _legend(claim, top)),
     ]
@@ -63,11 +63,11 @@ def draw_against(
 
 
 def _pixels(hull: Hull, picture: Scene, layout: Layout) -> dict[int, Pixel]:
-    """Where every point of the input lies."""
-    found = {index: layout.vertices[place] for place, index in enumerate(hull.vertices)}
+    """Return the position of every input point in the picture."""
+    pixels = {index: layout.vertices[place] for place, index in enumerate(hull.vertices)}
     for marks, places in ((picture.boundary, layout.boundary), (picture.inside, layout.inside)):
-        found.update({mark.index: at for mark, at in zip(marks, places, strict=True)})
-    return found | {index: found[first] for index, first in hull.duplicates}
+        pixels.update({mark.index: at for mark, at in zip(marks, places, strict=True)})
+    return pixels | {index: pixels[first] for index, first in hull.duplicates}
 
 
 def _faces(hull: Hull, claim: CardDifferences, at: Mapping[int, Pixel]) -> Iterator[str]:
@@ -88,32 +88,30 @@ def _points(hull: Hull, claim: CardDifferences, at: Mapping[int, Pixel]) -> Iter
 
 
 def _around(corners: Sequence[Pixel]) -> list[Pixel]:
-    """Points of a plane in the order they stand around their middle, so that no two sides cross."""
+    """Return coplanar points in their order around their centre, so that no two sides cross."""
     count = len(corners)
     x, y = sum(corner.x for corner in corners), sum(corner.y for corner in corners)
     return sorted(corners, key=lambda corner: atan2(count * corner.y - y, count * corner.x - x))
 
 
 def _legend(claim: CardDifferences, top: int) -> Iterator[str]:
-    """A row for each kind of difference, with how many there are."""
+    """Yield a row for each kind of difference with the number of its occurrences."""
     for k, (style, count) in enumerate(_counts(claim)):
         base = top + _STEP * k + 4
         at = Pixel((MARGIN + 9) * 100, base * 100 - 450)
         if style is ADDED:
-            yield svg.square(at, _HALF, more=style.attributes)
+            yield svg.square(at, _HALF, attributes=style.attributes)
         elif style.shape == "dot":
-            yield svg.circle(at, _RING, more=style.attributes)
+            yield svg.circle(at, _RING, attributes=style.attributes)
         else:
             corners = [Pixel(at.x + x * 900, at.y + y * 500) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
             yield svg.polygon(corners, style.attributes)
         yield svg.text(Pixel((MARGIN + 26) * 100, base * 100), f"{style.name}: {count}")
     if not _counts(claim):
-        yield svg.text(Pixel(MARGIN * 100, (top + 4) * 100), "nothing differs")
+        yield svg.text(Pixel(MARGIN * 100, (top + 4) * 100), "no differences")
     elif claim.others:
         base = top + _STEP * len(_counts(claim)) + 4
-        yield svg.text(
-            Pixel(MARGIN * 100, base * 100), f"faces of which no points are known, not drawn: {claim.others}"
-        )
+        yield svg.text(Pixel(MARGIN * 100, base * 100), f"faces with unknown points, not drawn: {claim.others}")
 
 
 def _counts(claim: CardDifferences) -> list[tuple[Style, int]]:

@@ -1,8 +1,8 @@
 """Line drawings of hulls: parallel projection, hidden edges dashed, vertices numbered as the programs number them.
 
-A convex solid hides an edge exactly when both of the edge's faces turn away from the eye.  That is the sign of
-formula (1) of Nakamae and Nishita (``modern.drawing.visible``), in fractions of the exact coordinates;
-floating point only chooses where numbers are put.
+A convex solid hides an edge exactly if both faces of the edge are turned away from the eye. The sign of formula (1) of
+Nakamae and Nishita (``modern.drawing.visible``) decides this, in fractions of the exact coordinates. Floating-point
+numbers only choose the positions of labels.
 """
 
 from __future__ import annotations
@@ -21,21 +21,23 @@ from modern.geometry.hull import Hull
 from modern.geometry.mesh import ExportError
 
 MOST_NUMBERS = 400
-"""Beyond this many vertices they are not numbered; nobody could read it."""
+"""The largest number of vertices that are numbered."""
 
 _WIDTH, _WIDER, _NARROWEST, _WIDEST = 640, 1000, 320, 4000
 _MANY, _CROWD = 60, 120
-"""Points beyond which marks and numbers are smaller, and beyond which hidden vertices have no number."""
+"""The numbers of points above which marks and numbers are smaller, and above which hidden vertices are not numbered."""
 _FONT = f'font-family="{svg.FONT}" font-size="13" fill="#000"'
 _DARKEST, _RANGE = 196, 56
 
 Labels = Literal["none", "programs", "input"]
-"""What numbers vertices bear: none, their place in ``Hull.vertices`` as the programs number them, or in the input."""
+"""The numbers of vertices: none, their place in ``Hull.vertices`` as the programs number them, or their place in the
+input.
+"""
 
 
 @dataclass(frozen=True, slots=True)
 class Show:
-    """What a picture shows: which numbers, hidden edges and what is behind, and points that are no vertices."""
+    """The parts of a picture: the numbers, hidden edges and points, and points that are not vertices."""
 
     labels: Labels = "programs"
     hidden: bool = True
@@ -49,37 +51,52 @@ def draw_svg(
     width: int | None = None,
     show: Show | None = None,
 ) -> str:
-    """A picture of a hull as the text of an SVG file.
+    """Return a picture of a hull as the text of an SVG file.
 
-    eye: the direction from the hull to the eye.  None chooses: of a polyhedron one from a fixed list in which no face
-    is edge-on and no two vertices fall together, of a polygon or a segment one at right angles to it.
-    title: a line below the picture.  width: of the file in pixels, 320 to 4000, by default 640, and 1000 for more than
-    120 points; the height follows.
+    Parameters
+    ----------
+    eye
+        The direction from the hull to the eye. None chooses one. For a polyhedron it is a direction from a fixed list
+        in which no face is edge-on and no two vertices coincide. For a polygon or segment it is perpendicular.
+    title
+        A line below the picture.
+    width
+        The width of the file in pixels, 320 to 4000. The default is 640, or 1000 for more than 120 points. The height
+        follows.
+    show
+        The parts of the picture to show.
 
-    Vertices less than 2.5 pixels apart share a number.  Of more than 120 points only vertices that are seen are
-    numbered, of more than 400 vertices none.  Faces that are seen are shaded.  An edge with a face edge-on and none
-    seen is on the outline and drawn as seen.  Two faces in one plane have no edge between them.  The same hull gives
-    the same text everywhere.
+    Raises
+    ------
+    ExportError
+        If there is no hull, the direction is 0,0,0 or shows a polygon or segment edge-on, or the width is out of
+        range.
 
-    Raises ExportError where there is no hull, for a direction 0,0,0 or one that shows a polygon or segment edge-on, and
-    for a width out of range.
+    Notes
+    -----
+    Vertices less than 2.5 pixels apart share a number. With more than 120 points only visible vertices are numbered,
+    with more than 400 vertices none. Visible faces are shaded. An edge with one face edge-on and no visible face lies
+    on the outline and is drawn as visible. Two faces in one plane have no edge between them. The same hull gives the
+    same text on every machine.
     """
     show = show or Show()
-    picture = seen(scene(hull, None if eye is None else [Fraction(number) for number in eye]), show)
+    picture = filter_scene(scene(hull, None if eye is None else [Fraction(number) for number in eye]), show)
     width = width_of(picture, width)
     layout = lay_out(picture, width)
     numbered = show.labels != "none" and len(picture.images) <= MOST_NUMBERS
-    told = numbered or show.labels == "none"
+    explained = numbered or show.labels == "none"
     items = [
-        *marked(hull, picture, layout),
-        *(numbers(hull, picture, layout, show.labels) if numbered else ()),
-        *svg.group("legend", _FONT, band(picture, width, layout.height, title, told)),
+        *scene_items(hull, picture, layout),
+        *(number_items(hull, picture, layout, show.labels) if numbered else ()),
+        *svg.group("legend", _FONT, band(picture, width, layout.height, title, explained)),
     ]
-    return svg.page(width, layout.height + band_height(picture, width, title, told), title or caption(picture), items)
+    return svg.page(
+        width, layout.height + band_height(picture, width, title, explained), title or caption(picture), items
+    )
 
 
-def seen(picture: Scene, show: Show) -> Scene:
-    """The picture without what it is not to show."""
+def filter_scene(picture: Scene, show: Show) -> Scene:
+    """Return the picture without the parts that are not to be shown."""
     if not show.points:
         picture = replace(picture, boundary=(), inside=())
     if not show.hidden:
@@ -88,11 +105,11 @@ def seen(picture: Scene, show: Show) -> Scene:
 
 
 def width_of(picture: Scene, width: int | None) -> int:
-    """The width asked for, or what the number of points calls for.  Raises ExportError."""
+    """Return the requested width, or the default for the number of points. Raise ExportError if it is out of range."""
     if width is None:
         return _WIDTH if _points(picture) <= _CROWD else _WIDER
     if not _NARROWEST <= width <= _WIDEST:
-        raise ExportError(f"a picture {width} pixels wide is not drawn; {_NARROWEST} to {_WIDEST} are")
+        raise ExportError(f"a picture cannot be {width} pixels wide; the width is from {_NARROWEST} to {_WIDEST}")
     return width
 
 
@@ -100,8 +117,8 @@ def _points(picture: Scene) -> int:
     return len(picture.images) + len(picture.boundary) + len(picture.inside)
 
 
-def marked(hull: Hull, picture: Scene, layout: Layout) -> list[str]:
-    """Faces, edges and marks, what is behind first."""
+def scene_items(hull: Hull, picture: Scene, layout: Layout) -> list[str]:
+    """Return faces, edges and marks, the hidden ones first."""
     small = _points(picture) > _MANY
     return [
         *_faces(picture, layout),
@@ -178,11 +195,12 @@ def _title(hull: Hull, index: int, name: str) -> str:
     return f"{name}: point {index + 1} ({', '.join(hull.points[index])})"
 
 
-def numbers(hull: Hull, picture: Scene, layout: Layout, which: Labels) -> list[str]:
-    """The numbers of the vertices; grey where all vertices of the label are hidden."""
+def number_items(hull: Hull, picture: Scene, layout: Layout, which: Labels) -> list[str]:
+    """Return the numbers of the vertices, grey if all vertices of a label are hidden."""
     count = _points(picture)
     size = HEIGHT if count <= _MANY else 10.0 if count <= _CROWD else 9.0
     behind = picture.behind and count <= _CROWD
+    # Vertices of a group share a label. Hidden ones are left out of it if hidden parts are not drawn.
     shown = [tuple(place for place in group if behind or not picture.hidden[place]) for group in layout.groups]
     groups = [group for group in shown if group]
 
@@ -195,8 +213,8 @@ def numbers(hull: Hull, picture: Scene, layout: Layout, which: Labels) -> list[s
         for edge in picture.edges
         if picture.behind or not edge.hidden
     ]
-    others = [pixel.place for pixel in (*layout.boundary, *layout.inside)]
-    centres = place_labels(labels, lines, others, (float(layout.width), float(layout.height)))
+    other_points = [pixel.place for pixel in (*layout.boundary, *layout.inside)]
+    centres = place_labels(labels, lines, other_points, (float(layout.width), float(layout.height)))
 
     def items() -> Iterator[str]:
         for label, group, (x, y) in zip(labels, groups, centres, strict=True):

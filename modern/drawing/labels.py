@@ -1,7 +1,8 @@
-"""Where numbers go: beside their vertex, off the lines and off each other as far as there is room.
+"""The placement of numbers: next to their vertices, clear of lines and of each other as far as space permits.
 
-Every label tries a fixed set of places around its vertex; the cheapest is taken, and all are looked at again until
-nothing changes.  Only sums, products and quotients are used, so that the same picture comes out everywhere.
+Every label has a fixed set of candidate positions around its vertex. The cheapest is chosen, and all labels are
+reconsidered until nothing changes. Only sums, products and quotients are used, so that every machine produces the same
+picture.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ _ON_LABEL, _ON_MARK, _OUTSIDE, _ON_LINE, _NEARER, _FARTHER, _INWARD = 60.0, 25.0
 
 @dataclass(frozen=True, slots=True)
 class Label:
-    """A text and the point it names, in pixels, y downward."""
+    """A text and the point that it names, in pixels, y downward."""
 
     x: float
     y: float
@@ -39,35 +40,36 @@ class Label:
 
     @property
     def half(self) -> Place:
-        """Half the width and height of the text, as near as can be said without the font."""
+        """Half the width and height of the text, estimated without the font."""
         return len(self.text) * self.size * _WIDTH / HEIGHT / 2, self.size / 2
 
 
 def place_labels(
     labels: Sequence[Label], lines: Sequence[Line], marks: Sequence[Place], size: Place
 ) -> tuple[Place, ...]:
-    """The centre of every label.  ``marks`` are other points to keep off, ``size`` that of the picture."""
+    """Return the centre of every label. ``marks`` are other points to avoid, ``size`` is that of the picture."""
     if not labels:
         return ()
     middle = (sum(label.x for label in labels) / len(labels), sum(label.y for label in labels) / len(labels))
-    tries = [_tries(label, lines, [*marks, *_others(labels, label)], middle, size) for label in labels]
-    chosen = [_cheapest([cost for _, cost in found]) for found in tries]
-    near = [
-        [k for k, other in enumerate(labels) if k != order and _near(label, other)]
+    candidates = [_candidates(label, lines, [*marks, *_others(labels, label)], middle, size) for label in labels]
+    chosen = [_cheapest([cost for _, cost in placements]) for placements in candidates]
+    neighbours = [
+        [k for k, neighbour in enumerate(labels) if k != order and _near(label, neighbour)]
         for order, label in enumerate(labels)
     ]
+    # Each round places the labels one by one, with the current positions of the neighbours as obstacles.
     for _ in range(_ROUNDS):
-        before = list(chosen)
+        previous = list(chosen)
         for order, label in enumerate(labels):
-            taken = [_box(tries[k][chosen[k]][0], labels[k].half, 1.0) for k in near[order]]
+            taken = [_box(candidates[k][chosen[k]][0], labels[k].half, 1.0) for k in neighbours[order]]
             costs = [
                 cost + _ON_LABEL * sum(_overlap(_box(centre, label.half, 1.0), box) for box in taken)
-                for centre, cost in tries[order]
+                for centre, cost in candidates[order]
             ]
             chosen[order] = _cheapest(costs)
-        if chosen == before:
+        if chosen == previous:
             break
-    return tuple(found[choice][0] for found, choice in zip(tries, chosen, strict=True))
+    return tuple(placements[choice][0] for placements, choice in zip(candidates, chosen, strict=True))
 
 
 def _cheapest(costs: Sequence[float]) -> int:
@@ -75,7 +77,7 @@ def _cheapest(costs: Sequence[float]) -> int:
 
 
 def _others(labels: Sequence[Label], label: Label) -> list[Place]:
-    return [(other.x, other.y) for other in labels if other is not label]
+    return [(neighbour.x, neighbour.y) for neighbour in labels if neighbour is not label]
 
 
 def _near(a: Label, b: Label) -> bool:
@@ -83,10 +85,10 @@ def _near(a: Label, b: Label) -> bool:
     return abs(a.x - b.x) <= reach + 2 * (a.half[0] + b.half[0]) and abs(a.y - b.y) <= reach + 2 * HEIGHT
 
 
-def _tries(
+def _candidates(
     label: Label, lines: Sequence[Line], marks: Sequence[Place], middle: Place, size: Place
 ) -> list[tuple[Place, float]]:
-    """Every place for a label by itself, with its cost."""
+    """Return every candidate position of a label with its cost, ignoring the other labels."""
     half = label.half
     reach = _GAPS[-1] + 2 * half[0] + HEIGHT
     around = (label.x - reach, label.y - reach, label.x + reach, label.y + reach)
@@ -94,7 +96,7 @@ def _tries(
     marks = [mark for mark in marks if _within(mark, around)]
     outward = (label.x - middle[0], label.y - middle[1])
     span = max(abs(outward[0]), abs(outward[1]), 1.0)
-    found = []
+    placements = []
     for step, gap in enumerate(_GAPS):
         for dx, dy in _ROUND:
             centre = (label.x + dx * (gap + half[0]), label.y + dy * (gap + half[1]))
@@ -106,8 +108,8 @@ def _tries(
             cost += _NEARER * any((centre[0] - x) ** 2 + (centre[1] - y) ** 2 < own for x, y in marks)
             if not (box[0] >= 0 and box[1] >= 0 and box[2] <= size[0] and box[3] <= size[1]):
                 cost += _OUTSIDE
-            found.append((centre, cost))
-    return found
+            placements.append((centre, cost))
+    return placements
 
 
 def _box(centre: Place, half: Place, room: float) -> _Box:
@@ -124,10 +126,11 @@ def _overlap(a: _Box, b: _Box) -> bool:
 
 
 def crosses(line: Line, box: _Box) -> bool:
-    """Whether a line has a part within a box (Liang and Barsky, ACM Transactions on Graphics 3 (1984))."""
+    """Return True if part of a line is in a box (Liang and Barsky, ACM Transactions on Graphics 3 (1984))."""
     (x, y), (to_x, to_y) = line
     first, last = 0.0, 1.0
     for step, low, high in ((to_x - x, box[0] - x, box[2] - x), (to_y - y, box[1] - y, box[3] - y)):
+        # The line is parallel to this pair of sides.
         if step == 0:
             if low > 0 or high < 0:
                 return False

@@ -1,4 +1,4 @@
-"""A scene on paper: exact images to pixels, in hundredths."""
+"""The layout of a picture: exact images of points converted to pixels, in hundredths."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _TOGETHER = 250
 
 @dataclass(frozen=True, slots=True)
 class Pixel:
-    """A place in the picture, in hundredths of a pixel, y downward."""
+    """A position in the picture, in hundredths of a pixel, y downward."""
 
     x: int
     y: int
@@ -28,7 +28,9 @@ class Pixel:
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """Where everything of a scene lies; ``width`` and ``height`` of the picture in pixels, margins and all."""
+    """The positions of all points of a scene. ``width`` and ``height`` of the picture are in pixels and include
+    margins.
+    """
 
     width: int
     height: int
@@ -36,11 +38,11 @@ class Layout:
     boundary: tuple[Pixel, ...]
     inside: tuple[Pixel, ...]
     groups: tuple[tuple[int, ...], ...]
-    """Vertices by place, those together that lie within 2.5 pixels and share a label."""
+    """Groups of vertices that lie within 2.5 pixels and share a label."""
 
 
 def lay_out(picture: Scene, width: int) -> Layout:
-    """Fit a scene into ``width`` pixels, and at most 460 high or some seven tenths of the width, true to scale."""
+    """Fit a scene, true to scale, into the width and a height of at most 460 pixels or about 0.7 times the width."""
     marks = (*picture.boundary, *picture.inside)
     pixel, height = fit(
         [*picture.images, *(mark.image for mark in marks)], width, max(_HIGHEST, width * _HIGHEST // 640)
@@ -57,31 +59,37 @@ def lay_out(picture: Scene, width: int) -> Layout:
 
 
 def fit(images: Sequence[Flat], width: int, highest: int, margin: int = MARGIN) -> tuple[Callable[[Flat], Pixel], int]:
-    """The map of images to pixels that fits them into ``width``, and ``highest`` without the margins, true to scale;
-    and the height with the margins."""
-    left, right = _ends(image[0] for image in images)
-    low, high = _ends(image[1] for image in images)
-    room = width - 2 * margin
-    scales = [Fraction(size) / extent for size, extent in ((room, right - left), (highest, high - low)) if extent]
+    """Return the map of images to pixels that fits them into the width, and the height of the picture with its
+    margins.
+
+    The map is true to scale. ``highest`` is the greatest height without the margins.
+    """
+    x_min, x_max = _ends(image[0] for image in images)
+    y_min, y_max = _ends(image[1] for image in images)
+    available = width - 2 * margin
+    scales = [
+        Fraction(size) / extent for size, extent in ((available, x_max - x_min), (highest, y_max - y_min)) if extent
+    ]
     scale = min(scales, default=Fraction(0))
-    tall = max(_LOWEST, -int(-(high - low) * scale // 1))
+    tall = max(_LOWEST, -int(-(y_max - y_min) * scale // 1))
 
     def pixel(image: Flat) -> Pixel:
-        x = (image[0] - (left + right) / 2) * scale + Fraction(width, 2)
-        y = ((low + high) / 2 - image[1]) * scale + Fraction(tall, 2) + margin
+        x = (image[0] - (x_min + x_max) / 2) * scale + Fraction(width, 2)
+        y = ((y_min + y_max) / 2 - image[1]) * scale + Fraction(tall, 2) + margin
         return Pixel(round(100 * x), round(100 * y))
 
     return pixel, tall + 2 * margin
 
 
 def _ends(numbers: Iterable[Fraction]) -> tuple[Fraction, Fraction]:
-    found = list(numbers)
-    return min(found), max(found)
+    values = list(numbers)
+    return min(values), max(values)
 
 
 def _groups(vertices: Sequence[Pixel]) -> tuple[tuple[int, ...], ...]:
     groups: list[list[int]] = []
     for place, vertex in enumerate(vertices):
+        # A vertex joins the first group whose first vertex is near enough.
         for group in groups:
             first = vertices[group[0]]
             if (first.x - vertex.x) ** 2 + (first.y - vertex.y) ** 2 <= _TOGETHER**2:

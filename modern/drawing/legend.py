@@ -1,4 +1,4 @@
-"""The band below a picture: what it shows, what its marks mean, and how the axes lie."""
+"""The band below a picture: its caption, the meaning of its marks and the directions of the axes."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ _UNITS = tuple(tuple(Fraction(row == column) for column in range(3)) for row in 
 
 
 def band_height(picture: Scene, width: int, title: str, numbered: bool = True) -> int:
-    """The height of the band in pixels."""
-    rows = len(_rows(picture, width)) + sum(map(len, _words(picture, width, title, numbered)))
+    """Return the height of the band in pixels."""
+    rows = len(_rows(picture, width)) + sum(map(len, _text_lines(picture, width, title, numbered)))
     return max(_STEP * rows + 20, 76 if picture.dimension else 0)
 
 
 def band(picture: Scene, width: int, top: int, title: str, numbered: bool) -> Iterator[str]:
-    """The band that begins at ``top``."""
+    """Yield the items of the band that begins at ``top``."""
     base = top + 12
-    for lines, weight in zip(_words(picture, width, title, numbered), ('font-weight="bold"', ""), strict=True):
+    for lines, weight in zip(_text_lines(picture, width, title, numbered), ('font-weight="bold"', ""), strict=True):
         for line in lines:
             yield svg.text(Pixel(MARGIN * 100, base * 100), line, weight)
             base += _STEP
@@ -42,10 +42,10 @@ def band(picture: Scene, width: int, top: int, title: str, numbered: bool) -> It
         yield from _axes(picture, Pixel((width - MARGIN - 16) * 100, (top + 34) * 100))
 
 
-def wrapped(words: str, room: int) -> list[str]:
-    """Words in lines of at most so many pixels, as near as can be said without the font; none of no words."""
+def wrapped(text: str, room: int) -> list[str]:
+    """Break a text into lines of at most ``room`` pixels, estimated without the font. An empty text has no lines."""
     lines: list[str] = []
-    for word in words.split():
+    for word in text.split():
         if lines and (len(lines[-1]) + 1 + len(word)) * _WIDEST <= room:
             lines[-1] += f" {word}"
         else:
@@ -53,19 +53,19 @@ def wrapped(words: str, room: int) -> list[str]:
     return lines
 
 
-def _words(picture: Scene, width: int, title: str, numbered: bool) -> tuple[list[str], list[str]]:
-    """Title and caption in lines, beside the axes."""
+def _text_lines(picture: Scene, width: int, title: str, numbered: bool) -> tuple[list[str], list[str]]:
+    """Return the lines of title and caption, which leave space for the axes."""
     room = width - 2 * MARGIN - (_AXES if picture.dimension else 0)
     return wrapped(title, room), wrapped(caption(picture) + ("" if numbered else "; vertices not numbered"), room)
 
 
 def caption(picture: Scene) -> str:
-    """What the picture shows, in one sentence."""
+    """Return one sentence that describes the picture."""
     what = _KINDS[picture.dimension]
     if picture.dimension > 1:
-        what += ": " + _many(len(picture.images), "vertex", "vertices")
+        what += ": " + _count_of(len(picture.images), "vertex", "vertices")
     if picture.dimension > 2:
-        what += f", {_many(len(picture.edges), 'edge', 'edges')}, {_many(picture.faces, 'face', 'faces')}"
+        what += f", {_count_of(len(picture.edges), 'edge', 'edges')}, {_count_of(picture.faces, 'face', 'faces')}"
     if picture.dimension == 0:
         return what
     if picture.chosen and picture.dimension < 3:
@@ -74,12 +74,12 @@ def caption(picture: Scene) -> str:
     return f"{what}; seen from {','.join(map(str, eye))}" if max(map(abs, eye)) < _LARGEST else what
 
 
-def _many(count: int, one: str, more: str) -> str:
-    return f"{count} {one if count == 1 else more}"
+def _count_of(count: int, singular: str, plural: str) -> str:
+    return f"{count} {singular if count == 1 else plural}"
 
 
 def _styles(picture: Scene) -> list[Style]:
-    """The marks that occur and do not speak for themselves."""
+    """Return the kinds of marks in the picture that need an explanation."""
     hidden = picture.behind and any(edge.hidden for edge in picture.edges)
     behind = [mark.hidden for mark in picture.boundary]
     present = (
@@ -94,7 +94,7 @@ def _styles(picture: Scene) -> list[Style]:
 
 
 def _rows(picture: Scene, width: int) -> list[list[tuple[int, Style]]]:
-    """The marks with the column each begins at, in as many rows as they need beside the axes."""
+    """Return the marks and their horizontal positions, in as many rows as they need next to the axes."""
     rows: list[list[tuple[int, Style]]] = []
     x = width
     for style in _styles(picture):
@@ -108,7 +108,7 @@ def _rows(picture: Scene, width: int) -> list[list[tuple[int, Style]]]:
 
 
 def _axes(picture: Scene, centre: Pixel) -> Iterator[str]:
-    """The directions of x, y and z; one that points to the eye, or nearly, is left out."""
+    """Yield the directions of x, y and z, except one that points nearly at the eye."""
     view = picture.view
     length = view.stretch * root(Fraction(dot(view.right, view.right)))
     for unit, name in zip(_UNITS, "xyz", strict=True):

@@ -1,10 +1,10 @@
-"""Punched cards as a picture: holes, the letters the 026 prints along the top, and what the blank form shows.
+"""Punched cards as a picture: holes, the characters that the 026 prints along the top edge, and the blank form.
 
-The card is drawn 96 pixels an inch.  Size 7 3/8 by 3 1/4 inches, holes .055 by .125, columns .087 and rows .25 apart,
-the first ones .251 and .250 from the edges (ANSI X3.21-1967, rectangular holes in twelve-row punched cards).  Holes of
-a character: :data:`emulator.language.cards.PUNCHES`, those of the 026 with code plate H (part 362277 of the parts
-catalog of IBM's 24 and 26 card punches).  The form is that of IBM's card 5081: digits in their rows, numbers of columns
-below.
+The scale is 96 pixels to the inch. A card is 7 3/8 by 3 1/4 inches. Holes are .055 by .125, columns .087 apart and
+rows .25 apart. The first ones are .251 and .250 from the edges (ANSI X3.21-1967, rectangular holes in twelve-row
+punched cards). :data:`emulator.language.cards.PUNCHES` holds the codes of the characters, those of the 026 with code
+plate H (part 362277 of the parts catalog of IBM's 24 and 26 card punches). The form is that of IBM's card 5081: digits
+in their rows, numbers of columns below.
 """
 
 from __future__ import annotations
@@ -17,19 +17,19 @@ from modern.drawing import svg
 from modern.drawing.layout import Pixel
 
 MOST_CARDS = 2000
-"""Of more cards, a full box, one picture is not drawn."""
+"""The largest number of cards in one picture, a full box."""
 
 ROWS = ("12", "11", *map(str, range(10)))
 """The rows of holes from the top edge."""
 
 _INCH = 9600
-"""Hundredths of a pixel."""
+"""An inch in hundredths of a pixel."""
 WIDTH, HEIGHT = 708, 312
-"""A card in pixels."""
+"""The size of a card in pixels."""
 _MARGIN = 12
 _HOLE = (528, 1200)
 _CUT = Pixel(24_00, 41_57)
-"""The upper left corner is cut a quarter of an inch along the edge, at 60 degrees to it."""
+"""The cut of the upper left corner: a quarter of an inch along the edge, at 60 degrees to it."""
 
 _CARD = 'fill="#f2f2f2" stroke="#666" stroke-width="1"'
 _HOLES = 'fill="#222"'
@@ -41,49 +41,51 @@ _FORM = (
 
 
 def column_centre(column: int) -> int:
-    """How far a column, from 1, lies from the left edge, in hundredths of a pixel."""
+    """Return the distance of a column, counted from 1, from the left edge in hundredths of a pixel."""
     return (251 + 87 * (column - 1)) * _INCH // 1000
 
 
 def row_centre(row: str) -> int:
-    """How far a row lies from the top edge, in hundredths of a pixel."""
+    """Return the distance of a row from the top edge in hundredths of a pixel."""
     return _INCH // 4 * (ROWS.index(row) + 1)
 
 
 def punches(card: Card) -> list[tuple[int, str]]:
-    """The holes of a card as column, from 1, and row."""
-    found = ((column, PUNCHES[char]) for column, char in enumerate(card.text, 1))
-    return [(column, row) for column, code in found if code for row in code.split("-")]
+    """Return the holes of a card as pairs of column, counted from 1, and row."""
+    codes = ((column, PUNCHES[char]) for column, char in enumerate(card.text, 1))
+    return [(column, row) for column, code in codes if code for row in code.split("-")]
 
 
 def check_punched(deck: Deck) -> None:
-    """Raise CardError, with card and column, for the first character the 026 has no punch for."""
+    """Raise CardError, with card and column, for the first character that the 026 cannot punch."""
     for card in deck.cards:
         check_characters(deck.source, card.number, card.text)
 
 
 def cards_svg(deck: Deck, across: int = 1, title: str = "") -> str:
-    """The cards of a deck as the text of an SVG file, in rows of ``across`` cards, the first one upper left.
+    """Return the cards of a deck as the text of an SVG file, in rows of ``across`` cards from the upper left.
 
-    title: of the file (default: the deck's name).  The words of a card are text and can be marked and copied.
-    Raises CardError for a character without a punch, DeckError for more than MOST_CARDS cards.
+    ``title`` defaults to the deck's name. The text of a card can be selected and copied. Raise CardError for a
+    character without a punch and DeckError for more than MOST_CARDS cards.
     """
     if len(deck.cards) > MOST_CARDS:
-        raise DeckError(f"{deck.source}: {len(deck.cards)} cards; one picture has at most {MOST_CARDS}")
+        raise DeckError(f"{deck.source}: expected at most {MOST_CARDS} cards for one picture, found {len(deck.cards)}")
     check_punched(deck)
     rows = -(-len(deck.cards) // across)
     width = _MARGIN + min(across, len(deck.cards)) * (WIDTH + _MARGIN)
     count = f"{len(deck.cards)} card{'s' * (len(deck.cards) != 1)}"
-    said = f"{count} of 80 columns punched in the code of the IBM 026; what a card says is printed along its top edge."
+    description = (
+        f"{count} of 80 columns punched in the code of the IBM 026, with the text of each card along its top edge."
+    )
     items = ["<defs>", *_form(), "</defs>"]
     for place, card in enumerate(deck.cards):
         x, y = (_MARGIN + place % across * (WIDTH + _MARGIN), _MARGIN + place // across * (HEIGHT + _MARGIN))
         items += _card(card, x, y)
-    return svg.page(width, _MARGIN + rows * (HEIGHT + _MARGIN), title or f"{deck.source}: {count}", items, said)
+    return svg.page(width, _MARGIN + rows * (HEIGHT + _MARGIN), title or f"{deck.source}: {count}", items, description)
 
 
 def _form() -> Iterator[str]:
-    """The blank card, drawn once and used for all."""
+    """Yield the blank card, which is defined once and used for all cards."""
     corner = Pixel(WIDTH * 100, HEIGHT * 100)
     corners = (Pixel(_CUT.x, 0), Pixel(corner.x, 0), corner, Pixel(0, corner.y), Pixel(0, _CUT.y))
     yield f'<g id="form" {_FORM}>'
@@ -98,7 +100,7 @@ def _form() -> Iterator[str]:
 
 
 def _card(card: Card, x: int, y: int) -> Iterator[str]:
-    """One card at that place: the form, its holes as one path, its letters as one line of text."""
+    """Yield one card: the form, its holes as one path, and its characters as one line of text."""
     yield f'<g class="card" transform="translate({x} {y})">'
     yield f"<title>card {card.number}</title>"
     yield '<use href="#form"/>'
@@ -115,7 +117,7 @@ def _card(card: Card, x: int, y: int) -> Iterator[str]:
 
 
 def _printed(text: str) -> str:
-    """The letters above their columns: one line to a reader, each with its place."""
-    # Half the width of a letter of this font: every place is that of its left edge, so that blanks keep theirs.
+    """Return the characters above their columns as one line of text with a position for each character."""
+    # 330 is half the width of a letter of this font. Each position is that of a left edge, so blanks keep theirs too.
     places = " ".join(svg.number(column_centre(column) - 330) for column in range(1, len(text) + 1))
     return f'<text class="words" xml:space="preserve" x="{places}" y="15" {_PRINT}>{svg.escape(text)}</text>'

@@ -1,6 +1,6 @@
-"""What there is to draw of a hull seen from a direction: images of points, edges seen and hidden, marks.
+"""The scene of a picture: the images of points, visible and hidden edges, and marks of a hull seen from a direction.
 
-Which faces are seen and which edges are hidden is found as Nakamae and Nishita find it.
+Visible faces and hidden edges are determined by the method of Nakamae and Nishita.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _ONE = Fraction(1)
 
 @dataclass(frozen=True, slots=True)
 class Edge:
-    """An edge between two vertices, by place from 0; hidden where all of its faces turn away."""
+    """An edge between two vertices, counted from 0. It is hidden if all its faces are turned away."""
 
     start: int
     end: int
@@ -31,7 +31,7 @@ class Edge:
 
 @dataclass(frozen=True, slots=True)
 class Mark:
-    """A boundary or inside point: its index in the input, its image, and whether it is behind the faces seen."""
+    """A boundary or inside point: its index in the input, its image, and whether it lies behind the visible faces."""
 
     index: int
     image: Flat
@@ -40,7 +40,7 @@ class Mark:
 
 @dataclass(frozen=True, slots=True)
 class Pane:
-    """A face that is seen: its corners by place, and how much light falls on it, from 0 to 1."""
+    """A visible face: its corners, and the light that falls on it, from 0 to 1."""
 
     corners: tuple[int, ...]
     light: Fraction
@@ -48,7 +48,7 @@ class Pane:
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """A picture without a size.  ``images`` and ``hidden`` are of the vertices, in the order of ``Hull.vertices``."""
+    """A picture without a size. ``images`` and ``hidden`` are in the order of ``Hull.vertices``."""
 
     dimension: int
     view: View
@@ -61,13 +61,13 @@ class Scene:
     inside: tuple[Mark, ...]
     faces: int
     behind: bool = True
-    """Whether what is hidden is shown."""
+    """True if hidden edges and vertices are drawn."""
 
 
 def scene(hull: Hull, eye: Sequence[Fraction] | None = None) -> Scene:
-    """The picture of a hull from a direction, or from one chosen for it.
+    """Return the scene of a hull seen from a direction, or from a suitable one if ``eye`` is None.
 
-    Raises ExportError where there is no hull, or the direction is zero or shows a polygon or segment edge-on.
+    Raise ExportError if there is no hull, or if the direction is zero or shows a polygon or segment edge-on.
     """
     surface = mesh(hull)
     points = surface.numbers()
@@ -108,7 +108,7 @@ def scene(hull: Hull, eye: Sequence[Fraction] | None = None) -> Scene:
 
 
 def _away(signs: Sequence[int]) -> bool:
-    """Whether all faces turn away.  One that is edge-on does not: what lies in it is on the outline."""
+    """Return True if all faces are turned away. An edge-on face is not, because its points lie on the outline."""
     return bool(signs) and all(sign < 0 for sign in signs)
 
 
@@ -116,15 +116,15 @@ def _direction(
     surface: Mesh, points: Sequence[Vector], normals: Sequence[Vector], eye: Sequence[Fraction] | None
 ) -> Eye:
     if eye is not None:
-        given = lowest(eye)
-        direction = (Fraction(given[0]), Fraction(given[1]), Fraction(given[2]))
-        if not any(given):
+        integers = lowest(eye)
+        direction = (Fraction(integers[0]), Fraction(integers[1]), Fraction(integers[2]))
+        if not any(integers):
             raise ExportError("the direction of view is 0,0,0")
         if surface.dimension == 1 and not any(cross(minus(points[1], points[0]), direction)):
-            raise ExportError("the direction of view is along the segment, which would be a point")
-        if surface.dimension == 2 and not along(given, normals[0]):
-            raise ExportError("the direction of view is in the plane of the polygon, which would be a line")
-        return given
+            raise ExportError("the direction of view is along the segment, which would appear as a point")
+        if surface.dimension == 2 and not along(integers, normals[0]):
+            raise ExportError("the direction of view is in the plane of the polygon, which would appear as a line")
+        return integers
     if surface.dimension == 3:
         return choose(points, normals)
     if surface.dimension == 2:
@@ -135,11 +135,11 @@ def _direction(
 def _edges(
     surface: Mesh, faces: Sequence[tuple[int, ...]], normals: Sequence[Vector], signs: Sequence[int]
 ) -> tuple[Edge, ...]:
-    """Every edge between faces of different planes; of a segment its one."""
+    """Return every edge between faces of different planes, and the only edge of a segment."""
     if surface.dimension < 2:
         return tuple(Edge(a, b, False) for a, b in surface.edges() if surface.dimension)
-    found = classify(faces, signs, lambda a, b: _parallel(normals[a], normals[b]))
-    return tuple(Edge(edge.start, edge.end, edge.kind == BACK) for edge in found if edge.kind != FLAT)
+    classified = classify(faces, signs, lambda a, b: _parallel(normals[a], normals[b]))
+    return tuple(Edge(edge.start, edge.end, edge.kind == BACK) for edge in classified if edge.kind != FLAT)
 
 
 def _parallel(u: Vector, v: Vector) -> bool:
@@ -155,7 +155,7 @@ def _behind(
     normals: Sequence[Vector],
     signs: Sequence[int],
 ) -> bool:
-    """Whether every face a boundary point lies on turns away."""
+    """Return True if every face that contains the boundary point is turned away."""
     on = [
         sign
         for face, polygon, normal, sign in zip(hull.faces, surface.faces, normals, signs, strict=True)
@@ -165,13 +165,17 @@ def _behind(
 
 
 def _light(normal: Vector, sight: View) -> Fraction:
-    """From 0 to 1: half of one plus the cosine to a lamp behind the eye's left shoulder, above."""
+    """Return the light on a face, (1 + cosine) / 2 of its angle to a lamp above and behind the left shoulder of the
+    eye.
+    """
     length = sight.stretch
     level = root(Fraction(dot(sight.right, sight.right)))
     tall = level * length
     r, u, e = sight.right, sight.up, sight.eye
+    # The axes of the image have different lengths, so each component is divided by the length of its axis.
     lamp = tuple(Fraction(7 * e[k]) / (10 * length) - r[k] / (2 * level) + 5 * u[k] / (9 * tall) for k in range(3))
     direction = (lamp[0], lamp[1], lamp[2])
+    # The cosine is the scalar product divided by both lengths. Its square is rational, so only one root is rounded.
     size = dot(normal, normal) * dot(direction, direction)
     if not size:
         return Fraction(1)
@@ -181,13 +185,13 @@ def _light(normal: Vector, sight: View) -> Fraction:
 
 
 def eye_of(texts: Sequence[str]) -> tuple[Fraction, ...]:
-    """A direction from three decimals.  Raises ExportError."""
+    """Read a direction from three decimal numbers. Raise ExportError if they are invalid."""
     if len(texts) != 3:
-        raise ExportError(f"the direction of view is {len(texts)} numbers; it has three, X,Y,Z")
-    found = []
+        raise ExportError(f"the direction of view: expected 3 numbers X,Y,Z, found {len(texts)}")
+    numbers = []
     for text in texts:
         try:
-            found.append(number(text))
+            numbers.append(number(text))
         except ValueError:
             raise ExportError(f"the direction of view: {quoted(text)} is not a number") from None
-    return tuple(found)
+    return tuple(numbers)

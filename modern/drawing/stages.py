@@ -1,7 +1,7 @@
-"""The construction H_1 to H_f (thesis p. 22-33) in pictures: a strip, or one picture that plays them.
+"""The construction H_1 to H_f (thesis p. 22-33) in pictures: a strip of stages, or an animation.
 
-Every picture has the same direction of view and the same scale.  It shows the hull of the vertices found so far, the
-vertex that was added, the points eliminated because they are inside, and those still to be looked at.
+Every stage has the same direction of view and the same scale. It shows the hull of the vertices so far, the added
+vertex, the points eliminated as inside points, and the points not tested yet.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from modern.drawing import svg
-from modern.drawing.draw import marked
+from modern.drawing.draw import scene_items
 from modern.drawing.layout import Layout, Pixel, fit
 from modern.drawing.scene import Scene, scene
 from modern.drawing.svg import page
@@ -23,15 +23,15 @@ from modern.port import convex_hull
 _CELL, _BAND = 250, 46
 _COLUMNS = 3
 _SECONDS, _LAST = 1.6, 3
-"""How long a stage stands, and for how many stages the last."""
+"""The seconds for which a stage is shown, and the factor for the last stage."""
 _FONT = f'font-family="{svg.FONT}" font-size="12" fill="#000"'
 ADDED = svg.Style("added", "added", "dot", 'fill="#000" stroke="#fff" stroke-width="1"')
-WAITING = svg.Style("waiting", "not looked at yet", "dot", 'fill="#fff" stroke="#777"')
+WAITING = svg.Style("waiting", "not tested yet", "dot", 'fill="#fff" stroke="#777"')
 
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """One stage: its picture, where everything lies, and what is said of it."""
+    """One stage: its picture, the positions of all points, and its caption."""
 
     stage: Stage
     hull: Hull
@@ -42,74 +42,76 @@ class Frame:
     added: tuple[Pixel, ...]
 
     @property
-    def words(self) -> tuple[str, str]:
-        """Two lines below the picture."""
+    def caption(self) -> tuple[str, str]:
+        """The two lines of text below the picture."""
         stage = self.stage
-        who = ", ".join(str(index + 1) for index in stage.added)
+        numbers = ", ".join(str(index + 1) for index in stage.added)
         faces = "face" if stage.outside == 1 else "faces"
         added = f" added, outside {stage.outside} {faces}" if stage.number > 1 else ""
         gone = ", ".join(str(index + 1) for index in stage.struck)
-        return f"H{stage.number}: point{'' if added else 's'} {who}{added}", f"inside: {gone}" if gone else ""
+        return f"H{stage.number}: point{'' if added else 's'} {numbers}{added}", f"inside: {gone}" if gone else ""
 
 
 def frames(hull: Hull, eye: Sequence[Fraction | int] | None = None, width: int = _CELL) -> tuple[Frame, ...]:
-    """The stages of a hull that was determined with its history.
+    """Return the stages of a hull that was determined with its history.
 
-    Raises ExportError where it has none: of a point, a segment or three points there is nothing to construct.
+    Raise ExportError for a point, a segment or three points, which need no construction.
     """
     if not hull.determined:
         raise ExportError(f"there is no hull: {hull.status}")
     if not hull.history:
-        raise ExportError("there are no stages: the first approximation is the hull")
+        raise ExportError("there are no stages: the hull is its first approximation")
     whole = scene(hull, None if eye is None else [Fraction(number) for number in eye])
     sight = whole.view
     flat = {index: sight.project(coordinates(point)) for index, point in enumerate(hull.points)}
     pixel, height = fit(list(flat.values()), width, 10 * width)
     places = {index: pixel(image) for index, image in flat.items()}
-    found, vertices, gone = [], set[int](), set[int]()
+    stage_frames, vertices, eliminated = [], set[int](), set[int]()
+    # The stage's hull is computed again, exactly, from the vertices so far.
     for stage in hull.history:
         vertices |= set(stage.added)
-        gone |= set(stage.struck)
+        eliminated |= set(stage.struck)
         order = sorted(vertices)
-        part = convex_hull([hull.points[index] for index in order], "exact", on_refusal="return")
-        picture = replace(scene(part, [Fraction(number) for number in sight.eye]), boundary=(), inside=())
-        at = tuple(places[order[index]] for index in part.vertices)
+        stage_hull = convex_hull([hull.points[index] for index in order], "exact", on_refusal="return")
+        picture = replace(scene(stage_hull, [Fraction(number) for number in sight.eye]), boundary=(), inside=())
+        at = tuple(places[order[index]] for index in stage_hull.vertices)
         layout = Layout(width, height, at, (), (), tuple((k,) for k in range(len(at))))
-        rest = [index for index in flat if index not in vertices and index not in gone]
-        found.append(
+        untested = [index for index in flat if index not in vertices and index not in eliminated]
+        stage_frames.append(
             Frame(
                 stage,
-                part,
+                stage_hull,
                 picture,
                 layout,
-                tuple(places[index] for index in rest),
+                tuple(places[index] for index in untested),
                 tuple(places[index] for index in stage.struck),
                 tuple(places[index] for index in stage.added),
             )
         )
-    return tuple(found)
+    return tuple(stage_frames)
 
 
-def strip(found: Sequence[Frame], title: str = "") -> str:
-    """All stages side by side, three in a row, as the text of an SVG file."""
-    cell = (found[0].layout.width, found[0].layout.height + _BAND)
-    columns = min(_COLUMNS, len(found))
-    rows = -(-len(found) // columns)
+def strip(all_frames: Sequence[Frame], title: str = "") -> str:
+    """Return all stages side by side, three in a row, as the text of an SVG file."""
+    cell = (all_frames[0].layout.width, all_frames[0].layout.height + _BAND)
+    columns = min(_COLUMNS, len(all_frames))
+    rows = -(-len(all_frames) // columns)
     items = []
-    for k, frame in enumerate(found):
+    for k, frame in enumerate(all_frames):
         x, y = k % columns * cell[0], k // columns * cell[1]
         items += [f'<g transform="translate({x} {y})">', *_items(frame), "</g>"]
     top = rows * cell[1]
-    return page(columns * cell[0], top + 24, title or "H1 to Hf", [*items, *_legend(found, top, title)])
+    return page(columns * cell[0], top + 24, title or "H1 to Hf", [*items, *_legend(top)])
 
 
-def played(found: Sequence[Frame], title: str = "") -> str:
-    """The stages one after another in one place, again and again, as the text of an SVG file.
+def played(all_frames: Sequence[Frame], title: str = "") -> str:
+    """Return an endless animation of the stages as the text of an SVG file.
 
-    Where the reader's system asks for no movement, the last stage stands.
+    A system that asks for reduced motion shows the last stage only.
     """
-    width, height = found[0].layout.width, found[0].layout.height + _BAND
-    steps = len(found) + _LAST - 1
+    width, height = all_frames[0].layout.width, all_frames[0].layout.height + _BAND
+    steps = len(all_frames) + _LAST - 1
+    # The last stage is shown longer. Percentages of the whole cycle, as CSS keyframes require.
     share, last = (f"{100 * many / steps:.4f}".rstrip("0").rstrip(".") for many in (1, _LAST))
     style = (
         "<style>"
@@ -121,23 +123,23 @@ def played(found: Sequence[Frame], title: str = "") -> str:
         "</style>"
     )
     items = [style]
-    for k, frame in enumerate(found):
-        kind = "stage end" if k == len(found) - 1 else "stage"
+    for k, frame in enumerate(all_frames):
+        kind = "stage end" if k == len(all_frames) - 1 else "stage"
         items += [f'<g class="{kind}" style="animation-delay:{k * _SECONDS:g}s">', *_items(frame), "</g>"]
-    return page(width, height + 24, title or "H1 to Hf", [*items, *_legend(found, height, title)])
+    return page(width, height + 24, title or "H1 to Hf", [*items, *_legend(height)])
 
 
 def _items(frame: Frame) -> Iterator[str]:
-    yield from marked(frame.hull, frame.picture, frame.layout)
+    yield from scene_items(frame.hull, frame.picture, frame.layout)
     yield from svg.group(WAITING.key, WAITING.attributes, (svg.point_mark(WAITING, at) for at in frame.waiting))
     yield from svg.group(svg.INSIDE.key, svg.INSIDE.attributes, (svg.point_mark(svg.INSIDE, at) for at in frame.struck))
     yield from svg.group(ADDED.key, ADDED.attributes, (svg.circle(at, "5") for at in frame.added))
     base = frame.layout.height + 12
-    texts = (svg.text(Pixel(1200, 100 * (base + 16 * k)), words) for k, words in enumerate(frame.words) if words)
+    texts = (svg.text(Pixel(1200, 100 * (base + 16 * k)), line) for k, line in enumerate(frame.caption) if line)
     yield from svg.group("words", _FONT, texts)
 
 
-def _legend(found: Sequence[Frame], top: int, title: str) -> list[str]:
+def _legend(top: int) -> list[str]:
     def items() -> Iterator[str]:
         x = 12
         for style, name in ((ADDED, "added"), (svg.INSIDE, "inside, eliminated"), (WAITING, WAITING.name)):

@@ -1,6 +1,6 @@
-"""SVG as text: numbers without superfluous zeros, text escaped, nothing but ASCII.
+"""The elements of an SVG file as text: numbers without superfluous zeros, escaped text, nothing but ASCII.
 
-The marks of a picture are told apart by shape and by grey, never by colour.
+The marks of a picture differ in shape and in grey, never in colour.
 """
 
 from __future__ import annotations
@@ -18,62 +18,70 @@ FONT = "Helvetica, Arial, sans-serif"
 
 
 def number(hundredths: int) -> str:
-    """Hundredths of a pixel as text: 1250 is ``12.5``."""
+    """Return hundredths of a pixel as text: 1250 is ``12.5``."""
     whole, rest = divmod(abs(hundredths), 100)
     text = f"{whole}.{rest:02d}".rstrip("0").rstrip(".")
     return f"-{text}" if hundredths < 0 and text != "0" else text
 
 
 def escape(text: str) -> str:
-    """Text between tags: markup escaped, characters beyond ASCII as references, those XML forbids as question marks."""
+    """Escape markup, write characters beyond ASCII as references, and replace those that XML forbids by question
+    marks.
+    """
     allowed = "".join(c if _LEGAL.fullmatch(c) else "?" for c in text)
     return _escape(allowed).encode("ascii", "xmlcharrefreplace").decode("ascii")
 
 
-def line(a: Pixel, b: Pixel, more: str = "") -> str:
-    """A straight line."""
-    return f'<line x1="{number(a.x)}" y1="{number(a.y)}" x2="{number(b.x)}" y2="{number(b.y)}"{_lead(more)}/>'
+def line(a: Pixel, b: Pixel, attributes: str = "") -> str:
+    """Return a straight line."""
+    return (
+        f'<line x1="{number(a.x)}" y1="{number(a.y)}" x2="{number(b.x)}" y2="{number(b.y)}"{_after_space(attributes)}/>'
+    )
 
 
-def polygon(corners: Iterable[Pixel], more: str = "") -> str:
-    """A closed polygon."""
-    return f'<polygon points="{" ".join(f"{number(c.x)},{number(c.y)}" for c in corners)}"{_lead(more)}/>'
+def polygon(corners: Iterable[Pixel], attributes: str = "") -> str:
+    """Return a closed polygon."""
+    return f'<polygon points="{" ".join(f"{number(c.x)},{number(c.y)}" for c in corners)}"{_after_space(attributes)}/>'
 
 
-def circle(centre: Pixel, radius: str, title: str = "", more: str = "") -> str:
-    """A circle, with a title where the reader points at it."""
-    start = f'<circle cx="{number(centre.x)}" cy="{number(centre.y)}" r="{radius}"{_lead(more)}'
+def circle(centre: Pixel, radius: str, title: str = "", attributes: str = "") -> str:
+    """Return a circle, with a title that a browser shows as a tooltip."""
+    start = f'<circle cx="{number(centre.x)}" cy="{number(centre.y)}" r="{radius}"{_after_space(attributes)}'
     return f"{start}>{_title(title)}</circle>" if title else f"{start}/>"
 
 
-def square(centre: Pixel, half: int, title: str = "", more: str = "") -> str:
-    """A square, its sides ``half`` hundredths away, with a title where the reader points at it."""
+def square(centre: Pixel, half: int, title: str = "", attributes: str = "") -> str:
+    """Return a square with sides ``half`` hundredths from the centre, with an optional title."""
     x, y, size = number(centre.x - half), number(centre.y - half), number(2 * half)
-    start = f'<rect x="{x}" y="{y}" width="{size}" height="{size}"{_lead(more)}'
+    start = f'<rect x="{x}" y="{y}" width="{size}" height="{size}"{_after_space(attributes)}'
     return f"{start}>{_title(title)}</rect>" if title else f"{start}/>"
 
 
-def saltire(centre: Pixel, arm: int, title: str = "", more: str = "") -> str:
-    """A cross of two slanting lines, each end ``arm`` hundredths away along both axes."""
+def saltire(centre: Pixel, arm: int, title: str = "", attributes: str = "") -> str:
+    """Return a diagonal cross whose ends are ``arm`` hundredths from the centre along both axes, with an optional
+    title.
+    """
     ends = [(centre.x + dx * arm, centre.y + dy * arm) for dx, dy in ((-1, -1), (1, 1), (-1, 1), (1, -1))]
     a, b, c, d = (f"{number(x)} {number(y)}" for x, y in ends)
-    start = f'<path d="M{a}L{b}M{c}L{d}"{_lead(more)}'
+    start = f'<path d="M{a}L{b}M{c}L{d}"{_after_space(attributes)}'
     return f"{start}>{_title(title)}</path>" if title else f"{start}/>"
 
 
-def text(place: Pixel, words: str, more: str = "") -> str:
-    """A line of text; ``place`` is on its base line."""
-    return f'<text x="{number(place.x)}" y="{number(place.y)}"{_lead(more)}>{escape(words)}</text>'
+def text(place: Pixel, content: str, attributes: str = "") -> str:
+    """Return a line of text; ``place`` is on its base line."""
+    return f'<text x="{number(place.x)}" y="{number(place.y)}"{_after_space(attributes)}>{escape(content)}</text>'
 
 
 def group(name: str, attributes: str, items: Iterable[str]) -> list[str]:
-    """Items that share attributes; nothing where there are none."""
-    found = list(items)
-    return [f'<g class="{name}"{_lead(attributes)}>', *found, "</g>"] if found else []
+    """Return the items in a group with common attributes, or nothing if there are no items."""
+    elements = list(items)
+    return [f'<g class="{name}"{_after_space(attributes)}>', *elements, "</g>"] if elements else []
 
 
 def page(width: int, height: int, title: str, items: Iterable[str], description: str = "") -> str:
-    """A whole file on white ground: a picture, or with a description a document, whose text is read out too."""
+    """Return a complete file with a white background: a picture, or, with a description, a document with readable
+    text.
+    """
     role = "graphics-document document" if description else "img"
     head = (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
@@ -84,12 +92,12 @@ def page(width: int, height: int, title: str, items: Iterable[str], description:
     return "\n".join((head, *titles, ground, *items, "</svg>")) + "\n"
 
 
-def _title(words: str) -> str:
-    return f"<title>{escape(words)}</title>"
+def _title(content: str) -> str:
+    return f"<title>{escape(content)}</title>"
 
 
-def _lead(more: str) -> str:
-    return f" {more}" if more else ""
+def _after_space(attributes: str) -> str:
+    return f" {attributes}" if attributes else ""
 
 
 RADIUS, SMALL = "3.2", "2"
@@ -98,7 +106,7 @@ _ARM, _SMALL_ARM = 320, 200
 
 @dataclass(frozen=True, slots=True)
 class Style:
-    """A kind of mark: its class in the file, what the legend calls it, its shape and SVG attributes."""
+    """A kind of mark: its class in the file, its name in the legend, its shape and its SVG attributes."""
 
     key: str
     name: str
@@ -117,15 +125,15 @@ BOUNDARY_HIDDEN = Style(
 INSIDE = Style("inside", "inside point", "cross", 'fill="none" stroke="#333" stroke-width="1.2"')
 
 
-def point_mark(style: Style, at: Pixel, title: str = "", more: str = "", small: bool = False) -> str:
-    """A dot or a cross; small where there are many."""
+def point_mark(style: Style, at: Pixel, title: str = "", attributes: str = "", small: bool = False) -> str:
+    """Return a dot or a cross, smaller in a picture with many points."""
     if style.shape == "cross":
-        return saltire(at, _SMALL_ARM if small else _ARM, title, more)
-    return circle(at, SMALL if small else RADIUS, title, more)
+        return saltire(at, _SMALL_ARM if small else _ARM, title, attributes)
+    return circle(at, SMALL if small else RADIUS, title, attributes)
 
 
 def sample(style: Style, at: Pixel) -> str:
-    """The mark in a legend, with its own attributes."""
+    """Return the mark as a legend shows it, with its attributes."""
     if style.shape == "line":
         return line(Pixel(at.x - 900, at.y), Pixel(at.x + 900, at.y), style.attributes)
-    return point_mark(style, at, more=style.attributes)
+    return point_mark(style, at, attributes=style.attributes)

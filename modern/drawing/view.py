@@ -1,7 +1,7 @@
 """Parallel projection along a direction, exactly, and the choice of a direction.
 
-The direction points from the solid to the eye.  The image's x axis is ``z x eye`` and its y axis ``eye x (z x eye)``,
-so that the z axis of space stands upright; seen along z itself, x is to the right and y upright.
+The direction points from the solid to the eye. The x axis of the image is ``z x eye`` and its y axis ``eye x (z x
+eye)``, so that the z axis of space is upright. Seen along z itself, x points right and y is upright.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ EYES: tuple[Eye, ...] = (
     (34, 31, 59),
     (27, -57, -22),
 )
-"""Directions tried for a view of a polyhedron: from the front and a little above, then from other sides."""
+"""Directions tried for a view of a polyhedron: from the front and slightly above, then from other sides."""
 
 _CLEAR_FACE = 40
 _CLEAR_PAIR = 600
@@ -53,59 +53,60 @@ _ROOT = 10**15
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """A direction of view in lowest terms, and the two axes of the image (not of unit length)."""
+    """A direction of view in lowest terms, and the two axes of the image, which are not of unit length."""
 
     eye: Eye
     right: Eye
     up: Eye
     stretch: Fraction
-    """The length of ``eye``: x of the image times it is of the same scale as y; a root, to 15 decimals."""
+    """The length of ``eye`` to 15 decimals. x of the image, multiplied by it, has the same scale as y."""
 
     def project(self, point: Vector) -> Flat:
-        """The image of a point, to a common scale."""
+        """Return the image of a point, in the same scale along both axes."""
         return along(self.right, point) * self.stretch, along(self.up, point)
 
 
 def view(eye: Eye) -> View:
-    """The view from a direction that is not zero."""
+    """Return the view from a direction that is not zero."""
     right, up = _axes(eye)
     return View(eye, right, up, root(Fraction(dot(eye, eye))))
 
 
 def root(square: Fraction) -> Fraction:
-    """The square root to 15 decimals beyond the first digit, from below; of integers of at least 1."""
+    """Return the square root of a number of at least 1, truncated to 15 decimals."""
     return Fraction(math.isqrt(square.numerator * _ROOT * _ROOT // square.denominator), _ROOT)
 
 
 def along(direction: Eye, point: Vector) -> Fraction:
-    """The scalar product."""
+    """Return the scalar product."""
     return direction[0] * point[0] + direction[1] * point[1] + direction[2] * point[2]
 
 
 def choose(points: Sequence[Vector], normals: Sequence[Vector]) -> Eye:
-    """A direction in which no face is edge-on and no two vertices fall together, exactly.
+    """Choose a direction in which no face is edge-on and no two vertices coincide, decided exactly.
 
-    Of ``EYES``, the one that shows most faces, counted for less where a face is near to edge-on or vertices are near to
-    each other; the first of equals.  Where none serves, the first on the curve (t, -t t - 1, t t t) that does, t being
-    2, 3, 4 and so on: a face or a pair of vertices rules out three of its directions at the most, so there is one.
+    Among ``EYES``, choose the direction that shows the most faces, with a reduced score if a face is nearly edge-on or
+    vertices are close to each other, and the first of equals. If none is suitable, choose the first suitable direction
+    on the curve (t, -t t - 1, t t t) for t = 2, 3, 4 and so on. A face or a pair of vertices excludes at most three
+    directions of the curve, so a suitable one exists.
     """
     places = to_integers(points, common_scale(points))
-    flanks = [lowest(normal) for normal in normals if any(normal)]
+    primitive_normals = [lowest(normal) for normal in normals if any(normal)]
     best, most = None, Fraction(0)
     for eye in EYES:
-        merit = _clearness(places, flanks, eye) * sum(dot(normal, eye) > 0 for normal in flanks)
-        if merit > most:
-            best, most = eye, merit
+        score = _clearness(places, primitive_normals, eye) * sum(dot(normal, eye) > 0 for normal in primitive_normals)
+        if score > most:
+            best, most = eye, score
     if best is not None:
         return best
     t = 2
-    while not _serves(places, flanks, (t, -t * t - 1, t * t * t)):
+    while not _is_suitable(places, primitive_normals, (t, -t * t - 1, t * t * t)):
         t += 1
     return t, -t * t - 1, t * t * t
 
 
 def across(line: Vector) -> Eye:
-    """A direction from which a segment of direction ``line`` is seen at its full length: level, and from the front."""
+    """Return a horizontal direction, from the front, that shows a segment of direction ``line`` at its full length."""
     if not (line[0] or line[1]):
         return 0, -1, 0
     x, y, _ = lowest((line[1], -line[0], Fraction(0)))
@@ -113,12 +114,12 @@ def across(line: Vector) -> Eye:
 
 
 def towards(normal: Vector) -> Eye:
-    """The direction at right angles to a polygon: from above, or from the front, or from the right."""
+    """Return the direction perpendicular to a polygon, from above, otherwise from the front or the right."""
     x, y, z = lowest(normal)
     return (x, y, z) if (z, -y, x) > (0, 0, 0) else (-x, -y, -z)
 
 
-def _serves(points: Sequence[Eye], normals: Sequence[Eye], eye: Eye) -> bool:
+def _is_suitable(points: Sequence[Eye], normals: Sequence[Eye], eye: Eye) -> bool:
     right, up = _axes(eye)
     images = {(dot(right, point), dot(up, point)) for point in points}
     return len(images) == len(points) and all(dot(normal, eye) for normal in normals)
@@ -131,16 +132,19 @@ def _axes(eye: Eye) -> tuple[Eye, Eye]:
 
 
 def _clearness(points: Sequence[Eye], normals: Sequence[Eye], eye: Eye) -> Fraction:
-    """0 where the direction does not serve, 1 where it serves well; between, the better the larger."""
-    if not _serves(points, normals, eye):
+    """Return 0 if the direction is unsuitable, 1 if it shows everything clearly, otherwise a value in between."""
+    if not _is_suitable(points, normals, eye):
         return Fraction(0)
     square = dot(eye, eye)
     clear = Fraction(1)
+    # The squared sine of the angle between face and direction, limited to 1.
     for normal in normals:
         clear = min(clear, Fraction(dot(normal, eye) ** 2 * _CLEAR_FACE, dot(normal, normal) * square))
     if len(points) <= _MOST_PAIRS:
         pairs = [minus(p, q) for k, p in enumerate(points) for q in points[:k]]
         extent = max(dot(pair, pair) for pair in pairs)
+        # The distance of two images is the cross product of their difference and the direction, divided by its
+        # length.
         nearest = min(dot(apart, apart) for apart in (cross(pair, eye) for pair in pairs))
         clear = min(clear, Fraction(nearest * _CLEAR_PAIR, square * extent))
     return clear

@@ -1,7 +1,7 @@
-"""Faces seen and turned away, inner and contour edges, and the contour line (Nakamae and Nishita 1972, section 3.1).
+"""Visible and hidden faces, inner and contour edges, and the contour line (Nakamae and Nishita 1972, section 3.1).
 
-Images are homogeneous, (x, y, w) for the point (x/w, y/w) with w > 0, y upward.  Faces are named by the places of
-their vertices, clockwise seen from outside, as the paper has them (section 2); all numbers are integers or fractions.
+Images are homogeneous, (x, y, w) for the point (x/w, y/w) with w > 0, y upward. Faces list the indices of their
+vertices, clockwise as seen from outside, as in the paper (section 2). All numbers are integers or fractions.
 """
 
 from __future__ import annotations
@@ -17,9 +17,12 @@ from modern.geometry.mesh import sides
 N = TypeVar("N", int, Fraction)
 
 Kind = Literal["inner", "contour", "outline", "back", "flat", "joined"]
-"""What an edge is: of two faces seen; of one seen; of none seen but one edge-on, behind the contour in the image; of
-two turned away; of two in one plane, which is no edge of the solid; of two read as one, both seen or both turned away,
-which is an edge and is not drawn."""
+"""The kinds of edges.
+
+inner: both faces are visible. contour: one face is visible. outline: no face is visible and one is edge-on, behind the
+contour in the image. back: both faces are turned away. flat: both faces are in one plane, so that it is no edge of the
+solid. joined: both faces are read as one, both visible or both turned away; an edge that is not drawn.
+"""
 INNER: Final = "inner"
 CONTOUR: Final = "contour"
 OUTLINE: Final = "outline"
@@ -30,7 +33,7 @@ JOINED: Final = "joined"
 
 @dataclass(frozen=True, slots=True)
 class Edge:
-    """An edge between two vertices, the smaller place first, what it is, and its faces by place."""
+    """An edge between two vertices, the smaller index first, with its kind and the indices of its faces."""
 
     start: int
     end: int
@@ -39,25 +42,25 @@ class Edge:
 
 
 def line_through(a: tuple[N, N, N], b: tuple[N, N, N]) -> tuple[N, N, N]:
-    """The coefficients a, b, c of formula (1) for the segment from one image to another."""
+    """Return the coefficients a, b, c of formula (1) for the segment from one image to another."""
     return a[2] * b[1] - a[1] * b[2], a[0] * b[2] - a[2] * b[0], a[1] * b[0] - a[0] * b[1]
 
 
 def value(line: tuple[N, N, N], point: tuple[N, N, N]) -> N:
-    """Formula (1): positive where the point is on the right of the segment."""
+    """Return the value of formula (1), which is positive if the point is on the right of the segment."""
     return line[0] * point[0] + line[1] * point[1] + line[2] * point[2]
 
 
 def sign(number: int | Fraction) -> int:
-    """-1, 0 or 1."""
+    """Return -1, 0 or 1."""
     return (number > 0) - (number < 0)
 
 
 def facing(corners: Sequence[tuple[N, N, N]]) -> int:
-    """1 where a face with these images, clockwise from outside, is seen; -1 where it turns away, 0 where it is edge-on.
+    """Return 1 if a face with these images, clockwise from outside, is visible, -1 if it is turned away, 0 if edge-on.
 
-    The sum of formula (1) over the triangles from the first corner.  The face is convex, so no two terms differ in
-    sign; the paper takes the first term alone, which is 0 where three corners lie in a line.
+    The value is the sum of formula (1) over the triangles from the first corner. The face is convex, so no two terms
+    differ in sign. The paper uses only the first term, which is 0 if three corners are collinear.
     """
     first = corners[0]
     return sign(sum(value(line_through(first, corners[k]), corners[k + 1]) for k in range(1, len(corners) - 1)))
@@ -66,37 +69,40 @@ def facing(corners: Sequence[tuple[N, N, N]]) -> int:
 def classify(
     faces: Sequence[tuple[int, ...]], signs: Sequence[int], flat: Callable[[int, int], bool]
 ) -> tuple[Edge, ...]:
-    """Every edge once, sorted.
+    """Return every edge once, sorted.
 
-    signs: of each face, from :func:`facing`.  flat: whether two faces lie in one plane.
+    ``signs`` are those of :func:`facing` for each face. ``flat`` returns True if two faces lie in one plane.
     """
-    beside: dict[tuple[int, int], list[int]] = defaultdict(list)
-    for order, face in enumerate(faces):
+    edge_faces: dict[tuple[int, int], list[int]] = defaultdict(list)
+    for face_index, face in enumerate(faces):
         for a, b in sides(face):
-            beside[min(a, b), max(a, b)].append(order)
-    return tuple(Edge(a, b, _kind(orders, signs, flat), tuple(orders)) for (a, b), orders in sorted(beside.items()))
+            edge_faces[min(a, b), max(a, b)].append(face_index)
+    return tuple(
+        Edge(a, b, _kind(face_indices, signs, flat), tuple(face_indices))
+        for (a, b), face_indices in sorted(edge_faces.items())
+    )
 
 
 def contour(faces: Sequence[tuple[int, ...]], signs: Sequence[int]) -> tuple[int, ...]:
-    """The contour line as a chain of vertices, clockwise in the image, from its smallest place on.
+    """Return the contour line as a chain of vertices, clockwise in the image, that begins with its smallest index.
 
-    A front face runs clockwise in the image, and so does its side without another front face beyond.  Empty where no
-    face is seen: of a plate that is edge-on.
+    A front face runs clockwise in the image, and so does a side of it that has no front face beyond. The chain is
+    empty if no face is visible, as for a plate seen edge-on.
     """
-    directed = {(a, b) for face, seen in zip(faces, signs, strict=True) if seen > 0 for a, b in sides(face)}
-    ahead = {a: b for a, b in directed if (b, a) not in directed}
-    if not ahead:
+    directed = {(a, b) for face, sign in zip(faces, signs, strict=True) if sign > 0 for a, b in sides(face)}
+    successor = {a: b for a, b in directed if (b, a) not in directed}
+    if not successor:
         return ()
-    chain = [min(ahead)]
-    while ahead[chain[-1]] != chain[0]:
-        chain.append(ahead[chain[-1]])
+    chain = [min(successor)]
+    while successor[chain[-1]] != chain[0]:
+        chain.append(successor[chain[-1]])
     return tuple(chain)
 
 
-def _kind(orders: Sequence[int], signs: Sequence[int], flat: Callable[[int, int], bool]) -> Kind:
-    if len(orders) == 2 and flat(orders[0], orders[1]):
+def _kind(face_indices: Sequence[int], signs: Sequence[int], flat: Callable[[int, int], bool]) -> Kind:
+    if len(face_indices) == 2 and flat(face_indices[0], face_indices[1]):
         return FLAT
-    seen = sum(signs[order] > 0 for order in orders)
-    if seen:
-        return INNER if seen > 1 else CONTOUR
-    return BACK if all(signs[order] < 0 for order in orders) else OUTLINE
+    visible_faces = sum(signs[index] > 0 for index in face_indices)
+    if visible_faces:
+        return INNER if visible_faces > 1 else CONTOUR
+    return BACK if all(signs[index] < 0 for index in face_indices) else OUTLINE

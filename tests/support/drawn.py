@@ -1,4 +1,4 @@
-"""Hulls to be drawn, and a picture with what its tests ask of it."""
+"""Hulls to be drawn, and a parsed picture for tests."""
 
 from __future__ import annotations
 
@@ -28,28 +28,28 @@ EXAMPLE_6: list[Whole] = [
 
 
 class Picture:
-    """An SVG file, parsed: lines by the vertices they join, circles and crosses by class, numbers with places."""
+    """A parsed SVG file: lines by the vertices they join, circles and crosses by class, numbers with positions."""
 
     def __init__(self, text: str) -> None:
         self.root = ElementTree.fromstring(text)
         self.groups = {group.get("class"): list(group) for group in self.root if group.get("class")}
 
     def edges(self, key: str) -> dict[tuple[int, int], tuple[Place, Place]]:
-        found = {}
+        ends = {}
         for line in self.groups.get(key, []):
             a, b = map(int, line.attrib["data-vertices"].split())
             x1, y1, x2, y2 = (float(line.attrib[name]) for name in ("x1", "y1", "x2", "y2"))
-            found[a - 1, b - 1] = ((x1, y1), (x2, y2))
-        return found
+            ends[a - 1, b - 1] = ((x1, y1), (x2, y2))
+        return ends
 
     def vertices(self) -> dict[int, Place]:
-        """Places by number from 0, read from the title of every dot."""
-        found = {}
+        """Return positions by vertex, counted from 0, read from the title of every dot."""
+        positions = {}
         for dot in (*self.groups.get("vertices", []), *self.groups.get("vertices-hidden", [])):
             named = re.match(r"vertex (\d+): ", dot[0].text or "")
             assert named
-            found[int(named[1]) - 1] = (float(dot.attrib["cx"]), float(dot.attrib["cy"]))
-        return found
+            positions[int(named[1]) - 1] = (float(dot.attrib["cx"]), float(dot.attrib["cy"]))
+        return positions
 
     def titles(self, key: str) -> list[str]:
         return [mark[0].text or "" for mark in self.groups.get(key, [])]

@@ -1,7 +1,8 @@
-"""A judge of hidden lines: rays in integers through half-spaces, nothing of the program but its polyhedra.
+"""A judge of hidden lines that casts rays in integers through half-spaces and uses nothing of the program except
+polyhedra.
 
-A point of an edge is seen where the edge has a face that is turned to the eye, where the ray from it to the eye meets
-the inside of no polyhedron (of a plate: the inside of its polygon), and where it is no ghost.
+A point of an edge is visible if the edge has a face turned to the eye, the ray from the point to the eye meets the
+interior of no polyhedron (for a plate, of no polygon), and the point is no ghost.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ def cross(u, v):
 
 
 class Judge:
-    """A scene in integers: ``direction`` to the eye, or ``point`` of the eye."""
+    """A scene in integers with the ``direction`` to the eye or the ``point`` of the eye."""
 
     def __init__(self, polyhedra: Sequence[Polyhedron], direction=None, point=None, ghosts: bool = True) -> None:
         numbers = [c for p in polyhedra for v in p.vertices for c in v] + [Fraction(c) for c in point or ()]
@@ -51,7 +52,7 @@ class Judge:
 
     @staticmethod
     def _plane(corners: list[Point]) -> tuple[Point, int]:
-        """Outward normal and distance; clockwise from outside."""
+        """Return the outward normal and the distance of a face whose corners are clockwise from outside."""
         for k in range(1, len(corners) - 1):
             normal = cross(minus(corners[k + 1], corners[0]), minus(corners[k], corners[0]))
             if any(normal):
@@ -61,7 +62,7 @@ class Judge:
         raise AssertionError
 
     def eye_side(self, plane: tuple[Point, int]) -> int:
-        """1 where a face of this plane is turned to the eye, 0 where it is edge-on."""
+        """Return 1 if a face of this plane is turned to the eye, 0 if it is edge-on, -1 otherwise."""
         normal, distance = plane
         value = dot(normal, self.direction) if self.point is None else dot(normal, self.point) - distance
         return (value > 0) - (value < 0)
@@ -79,7 +80,7 @@ class Judge:
         return abs(i - j) in (1, len(face) - 1)
 
     def edges(self, solid: int) -> Iterator[tuple[int, int]]:
-        """Edges between faces of different planes."""
+        """Yield the edges between faces of different planes."""
         pairs = {
             (min(a, b), max(a, b))
             for face in self.polyhedra[solid].faces
@@ -91,7 +92,7 @@ class Judge:
                 yield a, b
 
     def figure_sides(self) -> Iterator[tuple[int, int, int, int]]:
-        """Polyhedron, two corners counted on from the vertices, and the face, of every side of a figure."""
+        """Yield polyhedron, two corners counted after the vertices, and face of every side of a figure."""
         for n, polyhedron in enumerate(self.polyhedra):
             first = len(polyhedron.vertices)
             for figure in polyhedron.figures:
@@ -101,7 +102,7 @@ class Judge:
                     yield n, a, b, figure.face
 
     def hidden(self, point: Point, unit: int) -> bool:
-        """Whether the ray from ``point / unit`` to the eye meets an inside."""
+        """Return True if the ray from ``point / unit`` to the eye meets an interior."""
         towards = self.direction if self.point is None else minus(tuple(unit * c for c in self.point), point)
         return any(
             self._meets(planes, pts, point, towards, unit) for planes, pts in zip(self.planes, self.points, strict=True)
@@ -142,16 +143,16 @@ class Judge:
         return all(t > 0 for t in turns) or all(t < 0 for t in turns)
 
     def ghost(self, solid: int, a: int, b: int, point: Point, unit: int) -> bool:
-        """Whether another part of the object goes on in the plane of a face that is seen, beyond this point."""
-        mine = self.polyhedra[solid]
-        if not mine.thing or not self.ghosts:
+        """Return True if another part of the object extends the plane of a visible face beyond this point."""
+        polyhedron = self.polyhedra[solid]
+        if not polyhedron.thing or not self.ghosts:
             return False
         along = minus(self.points[solid][b], self.points[solid][a])
         planes = {self.planes[solid][k] for k in self.edge_faces(solid, a, b)}
-        for number, other in enumerate(self.polyhedra):
-            if number == solid or other.thing != mine.thing:
+        for number, sibling in enumerate(self.polyhedra):
+            if number == solid or sibling.thing != polyhedron.thing:
                 continue
-            for face, plane in zip(other.faces, self.planes[number], strict=True):
+            for face, plane in zip(sibling.faces, self.planes[number], strict=True):
                 if plane in planes and self.eye_side(plane) > 0:
                     for c, d in zip(face, face[1:] + face[:1], strict=True):
                         p, q = (tuple(unit * x for x in self.points[number][k]) for k in (c, d))
@@ -164,7 +165,7 @@ class Judge:
         return False
 
     def seen(self, solid: int, a: int, b: int, s: Fraction) -> bool:
-        """Whether the point a fraction ``s`` of the way along an edge is drawn."""
+        """Return True if the point at a fraction ``s`` of an edge is drawn."""
         if not any(self.eye_side(self.planes[solid][k]) > 0 for k in self.edge_faces(solid, a, b)):
             return False
         point, unit = self.at(self.points[solid][a], self.points[solid][b], s)
@@ -177,9 +178,9 @@ class Judge:
 
 
 def places(breaks: list[Fraction], samples: int) -> Iterator[Fraction]:
-    """Where to look on an edge: between all breaks, hard by each, and at even distances.
+    """Yield fractions of an edge to test: between all breaks, close to each of them, and at even distances.
 
-    Never at a simple fraction, where another edge may begin.
+    They are never simple fractions, where another edge may begin.
     """
     marks = sorted({Fraction(0), Fraction(1), *breaks})
     for low, high in itertools.pairwise(marks):
@@ -193,8 +194,8 @@ def places(breaks: list[Fraction], samples: int) -> Iterator[Fraction]:
 
 
 def wrong(drawing: Drawing, judge: Judge, samples: int = 3) -> tuple[list[tuple[int, int, int, Fraction]], int]:
-    """Where drawing and judge differ: polyhedron, ends of the edge, place; and how many samples were taken."""
-    found, count = [], 0
+    """Return the differences of drawing and judge (polyhedron, edge, fraction), and the number of samples."""
+    differences, count = [], 0
     drawn: dict[tuple[int, int, int], list[tuple[Fraction, Fraction]]] = {}
     for piece in drawing.pieces:
         if piece.seen:
@@ -205,7 +206,7 @@ def wrong(drawing: Drawing, judge: Judge, samples: int = 3) -> tuple[list[tuple[
         for s in places([end for part in parts for end in part], samples):
             count += 1
             if any(low < s < high for low, high in parts) != judge.seen(n, a, b, s):
-                found.append((n, a, b, s))
+                differences.append((n, a, b, s))
     for n, a, b, face in judge.figure_sides():
         parts = drawn.pop((n, a, b), [])
         p, q = (judge.corners[n][place - len(judge.points[n])] for place in (a, b))
@@ -213,6 +214,6 @@ def wrong(drawing: Drawing, judge: Judge, samples: int = 3) -> tuple[list[tuple[
             count += 1
             seen = judge.eye_side(judge.planes[n][face]) > 0 and not judge.hidden(*judge.at(p, q, s))
             if any(low < s < high for low, high in parts) != seen:
-                found.append((n, a, b, s))
+                differences.append((n, a, b, s))
     assert not drawn, "a line that is no edge and no side of a figure"
-    return found, count
+    return differences, count

@@ -13,6 +13,8 @@ from itertools import combinations
 
 from modern.claims.sampled_sets import SampledSet, sampled_sets
 from modern.claims.thesis.chapter4_examples import theorem_of
+from modern.drawing import svg
+from modern.drawing.layout import Pixel
 
 FIGURES = ("1", "2", "3", "4")
 Spot = tuple[int, int]
@@ -69,18 +71,16 @@ def _svg(title: str, solid: Iterable[Line], dashed: Iterable[Line], names: dict[
     high = max(x for x, _ in spots), max(y for _, y in spots)
     height = high[1] - low[1] + 2 * _ROOM
 
-    def at(spot: Spot) -> Spot:
-        return spot[0] - low[0] + _ROOM, high[1] - spot[1] + _ROOM
+    def at(spot: Spot) -> Pixel:
+        return Pixel(100 * (spot[0] - low[0] + _ROOM), 100 * (high[1] - spot[1] + _ROOM))
 
-    rows = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {max(_WIDE, high[0] - low[0] + 2 * _ROOM)} {height}">'
+    items = [
+        svg.line(at(a), at(b), f'stroke="black"{style}')
+        for lines, style in ((solid, ""), (dashed, ' stroke-dasharray="6 4"'))
+        for a, b in lines
     ]
-    rows.append(f"<title>{title} of chapter 4, drawn from its data</title>")
-    for lines, style in ((solid, ""), (dashed, ' stroke-dasharray="6 4"')):
-        for a, b in lines:
-            (x1, y1), (x2, y2) = at(a), at(b)
-            rows.append(f'<line x1="{x1}" y1="{y1}" x2="{x2}" y2="{y2}" stroke="black"{style}/>')
     for name, spot in names.items():
-        x, y = at(spot)
-        rows.append(f'<text x="{x + 4}" y="{y - 4}" font-size="14">{name}</text>')
-    return "\n".join([*rows, "</svg>"]) + "\n"
+        corner = at(spot)
+        items.append(svg.text(Pixel(corner.x + 400, corner.y - 400), name, 'font-size="14"'))
+    width = max(_WIDE, high[0] - low[0] + 2 * _ROOM)
+    return svg.page(width, height, f"{title} of chapter 4, drawn from its data", items)

@@ -12,7 +12,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 from modern.drawing import svg
-from modern.drawing.draw import Show, marked, seen, width_of
+from modern.drawing.draw import Show, filter_scene, scene_items, width_of
 from modern.drawing.labels import Label, place_labels
 from modern.drawing.layout import MARGIN, Pixel, fit, lay_out
 from modern.drawing.legend import band, band_height, wrapped
@@ -88,7 +88,7 @@ def solid_svg(
         If there is no hull or the view or the width is invalid.
     """
     record = as_record(hull, points, joined)
-    picture = seen(scene(record, eye), Show())
+    picture = filter_scene(scene(record, eye), Show())
     width = width_of(picture, width)
     layout = lay_out(picture, width)
     at = {index: layout.vertices[place] for place, index in enumerate(record.vertices)}
@@ -107,7 +107,7 @@ def solid_svg(
     rows += map(text_row, wrapped(legend, width - 2 * MARGIN))
     top = layout.height + band_height(picture, width, title, numbered)
     items = [
-        *marked(record, picture, layout),
+        *scene_items(record, picture, layout),
         *svg.group(GIVEN.key, GIVEN.attributes, (svg.line(at[a], at[b], _named(a, b)) for a, b in nonconvex)),
         *(_numbers(at, lines if labelled else [], [*drawn, *nonconvex], (width, layout.height)) if numbered else ()),
         *svg.group("legend", _FONT, band(picture, width, layout.height, title, numbered)),

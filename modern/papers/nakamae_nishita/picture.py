@@ -66,7 +66,7 @@ def as_svg(drawing: Drawing, title: str = "", width: int = 640) -> str:
     A corner of a figure is counted on from the vertices.  Raises SceneError for a width out of range.
     """
     if not _NARROWEST <= width <= _WIDEST:
-        raise SceneError(f"a picture {width} pixels wide is not drawn; {_NARROWEST} to {_WIDEST} are")
+        raise SceneError(f"a picture cannot be {width} pixels wide; the width is from {_NARROWEST} to {_WIDEST}")
     pixel, height = fit(_extent(drawing), width, int(width * _HIGHEST_SHAPE))
 
     def strokes(seen: bool) -> Iterator[str]:

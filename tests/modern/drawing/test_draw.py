@@ -1,4 +1,4 @@
-"""Drawings of hulls: what is hidden is judged by rays through the solid, found without the program's faces."""
+"""Drawings of hulls. Visibility is judged by rays through the solid, without the program's faces."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from tests.support.paths import ROOT
 
 
 def seen_from(picture: Picture) -> Whole:
-    """The direction the legend names."""
+    """Return the direction that the legend names."""
     x, y, z = map(int, picture.legend()[0].rpartition(" ")[2].split(","))
     return x, y, z
 
@@ -33,10 +33,10 @@ def seen_from(picture: Picture) -> Whole:
 
 
 def supporting(points: Sequence[Whole]) -> set[Plane]:
-    """Every plane through three points with none outside of it, in lowest terms, outward."""
-    found = set()
+    """Return every plane through three points that has no point outside, in lowest terms, oriented outward."""
+    planes = set()
     for p, q, r in itertools.combinations(points, 3):
-        u, v = ([b - a for a, b in zip(p, other, strict=True)] for other in (q, r))
+        u, v = ([b - a for a, b in zip(p, end, strict=True)] for end in (q, r))
         normal = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
         if not any(normal):
             continue
@@ -45,10 +45,10 @@ def supporting(points: Sequence[Whole]) -> set[Plane]:
         d = -(a * p[0] + b * p[1] + c * p[2])
         values = [a * x + b * y + c * z + d for x, y, z in points]
         if max(values) <= 0:
-            found.add((a, b, c, d))
+            planes.add((a, b, c, d))
         elif min(values) >= 0:
-            found.add((-a, -b, -c, -d))
-    return found
+            planes.add((-a, -b, -c, -d))
+    return planes
 
 
 def at(plane: Plane, point: Sequence[Fraction | int]) -> Fraction:
@@ -56,7 +56,7 @@ def at(plane: Plane, point: Sequence[Fraction | int]) -> Fraction:
 
 
 def covered(point: Sequence[Fraction | int], eye: Whole, planes: set[Plane]) -> bool:
-    """Whether the ray from a point of the solid to the eye runs through its inside."""
+    """Return True if the ray from a point of the solid to the eye passes through its interior."""
     low, high = Fraction(0), None
     for plane in planes:
         here, slope = at(plane, point), plane[0] * eye[0] + plane[1] * eye[1] + plane[2] * eye[2]
@@ -81,21 +81,21 @@ _EYES = st.tuples(st.integers(-5, 5), st.integers(-5, 5), st.integers(-5, 5)).fi
 
 
 @given(_CLOUDS, st.none() | _EYES)
-def test_an_edge_is_dashed_where_the_ray_to_the_eye_meets_the_solid(points: list[Whole], eye: Whole | None) -> None:
+def test_an_edge_is_dashed_if_the_ray_to_the_eye_meets_the_solid(points: list[Whole], eye: Whole | None) -> None:
     hull = convex_hull(points)
     assume(hull.dimension == 3)
     picture = Picture(draw_svg(hull, eye))
     direction = eye or seen_from(picture)
     planes = supporting(points)
     corners = [points[index] for index in hull.vertices]
-    want = {}
+    expected = {}
     for a, b in itertools.combinations(range(len(corners)), 2):
         if on_planes((corners[a], corners[b]), planes) >= 2:
             middle = [Fraction(p + q, 2) for p, q in zip(corners[a], corners[b], strict=True)]
-            want[a, b] = covered(middle, direction, planes)
+            expected[a, b] = covered(middle, direction, planes)
     drawn = {**dict.fromkeys(picture.edges("seen"), False), **dict.fromkeys(picture.edges("hidden"), True)}
-    assert drawn == want
-    assert len(picture.edges("seen")) + len(picture.edges("hidden")) == len(want)
+    assert drawn == expected
+    assert len(picture.edges("seen")) + len(picture.edges("hidden")) == len(expected)
     hidden = sorted(f"vertex {k + 1}" for k, p in enumerate(corners) if covered(p, direction, planes))
     assert sorted(title.split(":")[0] for title in picture.titles("vertices-hidden")) == hidden
     behind = sorted(f"point {k + 1}" for k in hull.boundary if covered(points[k], direction, planes))
@@ -107,7 +107,7 @@ def test_an_edge_is_dashed_where_the_ray_to_the_eye_meets_the_solid(points: list
 
 
 @given(_CLOUDS)
-def test_the_chosen_direction_shows_no_face_edge_on_and_no_two_vertices_together(points: list[Whole]) -> None:
+def test_chosen_direction_shows_no_face_edge_on_and_no_two_vertices_in_one_place(points: list[Whole]) -> None:
     hull = convex_hull(points)
     assume(hull.dimension == 3)
     eye = seen_from(Picture(draw_svg(hull)))
@@ -118,7 +118,7 @@ def test_the_chosen_direction_shows_no_face_edge_on_and_no_two_vertices_together
 
 
 @given(_CLOUDS, _EYES)
-def test_the_image_is_the_parallel_projection_true_to_scale(points: list[Whole], eye: Whole) -> None:
+def test_image_is_a_parallel_projection_true_to_scale(points: list[Whole], eye: Whole) -> None:
     hull = convex_hull(points)
     assume(hull.dimension == 3)
     places = Picture(draw_svg(hull, eye)).vertices()
@@ -143,7 +143,7 @@ def test_the_image_is_the_parallel_projection_true_to_scale(points: list[Whole],
         ((0, 0, -2), (1, 0, 0), (0, -1, 0)),
     ],
 )
-def test_which_way_is_right_and_up(eye: Whole, right: Whole, up: Whole) -> None:
+def test_axes_of_the_image_point_right_and_up(eye: Whole, right: Whole, up: Whole) -> None:
     hull, picture = draw(CUBE, eye)
     places = {hull.vertices[k]: place for k, place in picture.vertices().items()}
     middle = tuple(sum(place[k] for place in places.values()) / 8 for k in range(2))
@@ -153,7 +153,7 @@ def test_which_way_is_right_and_up(eye: Whole, right: Whole, up: Whole) -> None:
         assert (y < middle[1]) == (sum(a * b for a, b in zip(centred, up, strict=True)) > 0)
 
 
-def test_a_direction_is_found_where_the_list_has_none(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_direction_outside_the_list_is_chosen_if_none_in_it_is_suitable(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(view, "EYES", ())
     # At t = 2 the curve gives (2, -5, 8): the face x + 2 y + z is edge-on there.
     points = [(Fraction(0), Fraction(0), Fraction(0)), (Fraction(1), Fraction(1), Fraction(1))]
@@ -163,10 +163,10 @@ def test_a_direction_is_found_where_the_list_has_none(monkeypatch: pytest.Monkey
     assert view.choose(beyond, []) == (3, -10, 27)
 
 
-# --- what is drawn
+# --- the contents of a picture
 
 
-def test_a_cube() -> None:
+def test_picture_of_a_cube_has_its_edges_numbers_and_legend() -> None:
     hull, picture = draw(CUBE)
     assert (len(picture.edges("seen")), len(picture.edges("hidden"))) == (9, 3)
     assert len(picture.titles("vertices-hidden")) == 1
@@ -181,7 +181,7 @@ def test_a_cube() -> None:
     assert dot == f"vertex 1: point {first + 1} ({', '.join(map(str, CUBE[first]))})"
 
 
-def test_marks_and_legend_of_a_box_with_points_on_it() -> None:
+def test_boundary_and_inside_points_are_drawn_and_explained() -> None:
     hull, picture = draw(BOX)
     assert (len(hull.boundary), len(hull.inside)) == (4, 1)
     assert {"boundary point", "hidden boundary point", "inside point"} <= set(picture.legend())
@@ -195,13 +195,13 @@ def test_faces_in_one_plane_have_no_edge_between_them() -> None:
     for face in hull.faces:
         a, b, c, d = face.polygon
         faces += [replace(face, polygon=(a, b, c)), replace(face, polygon=(a, c, d))]
-    whole, cut = (Picture(draw_svg(h, (24, -55, 29))) for h in (hull, replace(hull, faces=tuple(faces))))
-    assert whole.edges("seen") == cut.edges("seen")
-    assert whole.edges("hidden") == cut.edges("hidden")
+    whole, split = (Picture(draw_svg(h, (24, -55, 29))) for h in (hull, replace(hull, faces=tuple(faces))))
+    assert whole.edges("seen") == split.edges("seen")
+    assert whole.edges("hidden") == split.edges("hidden")
 
 
-def test_the_two_sides_of_a_sheet_have_edges_between_them() -> None:
-    """As rounded arithmetic may leave a thin solid."""
+def test_two_sides_of_a_flat_sheet_have_edges_between_them() -> None:
+    """Rounded arithmetic can leave such a thin solid."""
     hull = convex_hull(CUBE)
     face = hull.faces[0]
     sheet = replace(
@@ -210,7 +210,7 @@ def test_the_two_sides_of_a_sheet_have_edges_between_them() -> None:
     assert len(Picture(draw_svg(sheet)).edges("seen")) == 4
 
 
-def test_a_boundary_point_that_rounding_took_off_its_face_is_still_of_that_face() -> None:
+def test_a_boundary_point_moved_off_its_face_by_rounding_is_drawn_on_that_face() -> None:
     points = [*CUBE, (Fraction(1, 2), 1, Fraction(1, 2))]
     hull = convex_hull(points)
     assert hull.boundary == (8,)
@@ -220,7 +220,7 @@ def test_a_boundary_point_that_rounding_took_off_its_face_is_still_of_that_face(
         assert len(Picture(draw_svg(drawn, (24, 55, 29))).titles("boundary")) == 1
 
 
-def test_vertices_closer_than_the_eye_can_tell_share_a_number() -> None:
+def test_vertices_within_two_pixels_share_a_number() -> None:
     # 300 units take 552 pixels, so the three points at one end lie within two pixels.
     hull, picture = draw([(0, 0, 0), (300, 0, 0), (0, 1, 0), (0, 0, 1)], (1, -9, 2))
     assert len(set(picture.vertices().values())) == 4
@@ -237,7 +237,7 @@ def test_edges_along_the_line_of_sight_share_a_number() -> None:
     assert picture.edges("hidden") == {}
 
 
-def test_a_polygon_is_seen_at_right_angles() -> None:
+def test_a_polygon_is_drawn_perpendicular_to_the_view() -> None:
     hull, picture = draw(SQUARE)
     places = picture.vertices()
     assert len(picture.edges("seen")) == 4
@@ -254,14 +254,14 @@ def test_a_polygon_is_seen_at_right_angles() -> None:
         draw(SQUARE, (1, 1, 0))
 
 
-def test_example_1_a_triangle() -> None:
+def test_a_triangle_is_drawn_with_and_without_faces() -> None:
     hull, picture = draw([(2, -5, 20), (200, -4, -50), (-30, 80, 4)])
     assert set(picture.edges("seen")) == {(0, 1), (0, 2), (1, 2)}
     assert draw_svg(replace(hull, faces=())) == draw_svg(hull)
 
 
 @pytest.mark.parametrize("end", [(3, 4, 12), (0, 0, 7), (0, -2, 0), (5, 0, 0)])
-def test_a_segment_is_seen_at_its_length(end: Whole) -> None:
+def test_a_segment_is_drawn_at_its_full_length(end: Whole) -> None:
     hull, picture = draw([(0, 0, 0), end, tuple(Fraction(c, 2) for c in end)])
     ((a, b),) = picture.edges("seen").values()
     assert hull.inside == (2,)
@@ -275,7 +275,7 @@ def test_a_segment_is_seen_at_its_length(end: Whole) -> None:
         draw([(0, 0, 0), end], [-2 * c for c in end])
 
 
-def test_a_point() -> None:
+def test_a_point_is_drawn_as_one_numbered_vertex() -> None:
     _, picture = draw([(1, 2, 3), (1, 2, 3)])
     assert picture.titles("vertices") == ["vertex 1: point 1 (1, 2, 3)"]
     assert list(picture.numbers()) == ["1"]
@@ -283,46 +283,40 @@ def test_a_point() -> None:
 
 
 @pytest.mark.parametrize("unit", ["E90", "E-90", "E900", "E-2000"])
-def test_size_and_place_do_not_change_the_picture(unit: str) -> None:
-    points = [[f"{c}{unit}" for c in p] for p in EXAMPLE_6]
+def test_scaling_and_translation_do_not_change_the_picture(unit: str) -> None:
+    picture = draw(EXAMPLE_6)[1]
+    scaled = draw([[f"{c}{unit}" for c in p] for p in EXAMPLE_6])[1]
     for key in ("seen", "hidden"):
-        assert draw(points)[1].edges(key) == draw(EXAMPLE_6)[1].edges(key)
-    far = [[str(c + 10**40) for c in p] for p in EXAMPLE_6]
-    assert draw(far)[1].edges("seen") == draw(EXAMPLE_6)[1].edges("seen")
+        assert scaled.edges(key) == picture.edges(key)
+    if unit == "E90":
+        assert draw([[str(c + 10**40) for c in p] for p in EXAMPLE_6])[1].edges("seen") == picture.edges("seen")
 
 
-def test_a_sliver_is_still_a_solid() -> None:
+def test_edges_of_a_sliver_are_hidden_as_those_of_a_solid() -> None:
     sliver = [("0", "0", "0"), ("1", "0", "0"), ("0.3", "1", "0"), ("0.4", "0.3", "1E-40")]
     from_above, from_below = draw(sliver, (1, -2, 5))[1], draw(sliver, (1, -2, -5))[1]
     assert (len(from_above.edges("seen")), len(from_above.edges("hidden"))) == (6, 0)
     assert (len(from_below.edges("seen")), len(from_below.edges("hidden"))) == (3, 3)
 
 
-def test_the_same_hull_gives_the_same_text_in_every_process() -> None:
+def test_text_does_not_depend_on_the_hash_seed_of_the_process() -> None:
     program = (
         "from modern.drawing.draw import draw_svg; from modern.port import convex_hull; import sys;"
         f"sys.stdout.write(draw_svg(convex_hull({EXAMPLE_6!r})))"
     )
-    root = str(ROOT)
-    texts = {
-        subprocess.run(
-            [sys.executable, "-c", program],
-            env={**os.environ, "PYTHONHASHSEED": seed, "PYTHONPATH": root},
-            capture_output=True,
-            text=True,
-            check=True,
-        ).stdout
-        for seed in ("1", "2")
-    }
-    assert texts == {draw_svg(convex_hull(EXAMPLE_6))}
+    environment = {**os.environ, "PYTHONHASHSEED": "1", "PYTHONPATH": str(ROOT)}
+    text = subprocess.run(
+        [sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=True
+    ).stdout
+    assert text == draw_svg(convex_hull(EXAMPLE_6))
 
 
-def test_refusals() -> None:
+def test_invalid_directions_widths_and_hulls_are_refused() -> None:
     hull = convex_hull(CUBE)
     with pytest.raises(ExportError, match=r"^the direction of view is 0,0,0$"):
         draw_svg(hull, (0, 0, 0))
     with pytest.raises(ExportError, match=r"^there is no hull: DATA NOT ACCEPTABLE$"):
         draw_svg(replace(hull, status="DATA NOT ACCEPTABLE"))
     for width in (319, 4001):
-        with pytest.raises(ExportError, match=f"a picture {width} pixels wide is not drawn"):
+        with pytest.raises(ExportError, match=f"expected 320 to 4000 pixels, found {width}"):
             draw_svg(hull, width=width)

@@ -1,4 +1,4 @@
-"""Numbers beside vertices, and the text of the file: its size, its characters, directions as text."""
+"""The placement of numbers, and the text of the file: its size, its characters, directions as text."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from modern.drawing.draw import MOST_NUMBERS, draw_svg
+from modern.drawing.draw import draw_svg
 from modern.drawing.labels import HEIGHT, Label, crosses, place_labels
 from modern.drawing.scene import eye_of
 from modern.drawing.svg import escape, number
@@ -23,27 +23,27 @@ from tests.support.drawn import BOX, CUBE, EXAMPLE_6, OCTAHEDRON, SQUARE, Pictur
 
 
 def boxes(picture: Picture) -> dict[str, tuple[float, float, float, float]]:
-    """The room a number takes, somewhat less than the font's."""
+    """Return the space that each number occupies, slightly less than with the real font."""
     return {text: (x - 3.5 * len(text), y - 9.0, x + 3.5 * len(text), y) for text, (x, y) in picture.numbers().items()}
 
 
 @pytest.mark.parametrize("points", [CUBE, OCTAHEDRON, EXAMPLE_6, SQUARE, BOX])
-def test_numbers_stand_beside_their_vertex_and_off_lines_and_each_other(points: list[Whole]) -> None:
+def test_numbers_are_next_to_their_vertex_and_clear_of_lines_and_each_other(points: list[Whole]) -> None:
     _, picture = draw(points)
-    places, found = picture.vertices(), boxes(picture)
+    places, number_boxes = picture.vertices(), boxes(picture)
     lines = [*picture.edges("seen").values()]
-    for text, box in found.items():
+    for text, box in number_boxes.items():
         x, y = places[int(text) - 1]
         centre = ((box[0] + box[2]) / 2, (box[1] + box[3]) / 2)
         assert math.dist(centre, (x, y)) < 24
         assert min(places, key=lambda k, c=centre: math.dist(places[k], c)) == int(text) - 1
         assert not any(crosses(line, box) for line in lines)
-    for a, b in itertools.combinations(found.values(), 2):
+    for a, b in itertools.combinations(number_boxes.values(), 2):
         assert a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] or b[3] <= a[1]
 
 
 @pytest.mark.parametrize("apart", [8.0, 12.0, 20.0, 30.0])
-def test_labels_of_points_in_a_row_keep_off_each_other(apart: float) -> None:
+def test_labels_of_points_in_a_row_do_not_overlap(apart: float) -> None:
     labels = [Label(20.0 + apart * k, 50.0, str(100 + k)) for k in range(4)]
     places = place_labels(labels, [], [], (150.0, 100.0))
     for (x, y), (u, v) in itertools.combinations(places, 2):
@@ -58,8 +58,8 @@ def test_labels_stay_within_the_picture() -> None:
 
 
 @given(*[st.tuples(st.integers(-9, 9), st.integers(-9, 9))] * 2)
-def test_crossing_a_box(a: tuple[int, int], b: tuple[int, int]) -> None:
-    """A line that meets a box has an end in it, or meets the line of a side within it."""
+def test_crosses_agrees_with_exact_intersections(a: tuple[int, int], b: tuple[int, int]) -> None:
+    """A line that meets a box has an end in it, or meets the line of one of its sides inside it."""
     low, high = (-3, -2), (4, 5)
     times = [Fraction(0), Fraction(1)]
     for axis in (0, 1):
@@ -72,8 +72,9 @@ def test_crossing_a_box(a: tuple[int, int], b: tuple[int, int]) -> None:
         assert crosses((a, b), (*low, *high)) == meets
 
 
-def test_many_vertices_are_not_numbered() -> None:
-    curve = [(k, k * k, 0) for k in range(MOST_NUMBERS + 1)]
+def test_vertices_beyond_the_limit_are_not_numbered(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("modern.drawing.draw.MOST_NUMBERS", 20)
+    curve = [(k, k * k, 0) for k in range(21)]
     _, picture = draw(curve)
     assert picture.numbers() == {}
     assert "vertices not numbered" in picture.legend()[0]
@@ -91,7 +92,7 @@ def test_text_is_escaped_and_ascii() -> None:
     assert escape("a<b>&c") == "a&lt;b&gt;&amp;c"
 
 
-def test_the_file_says_its_size_and_everything_is_within() -> None:
+def test_all_elements_are_within_the_size_of_the_file() -> None:
     for points in (CUBE, EXAMPLE_6, SQUARE, [(0, 0, 0), (0, 0, 1)], [(0, 0, 0), (1, 0, 0)], [(0, 0, 0)]):
         for width in (320, 640, 1000):
             root = ElementTree.fromstring(draw_svg(convex_hull(points), width=width, title="a"))
@@ -103,13 +104,13 @@ def test_the_file_says_its_size_and_everything_is_within() -> None:
                     assert all(0 <= float(item.attrib[name]) <= limit for name in names if name in item.attrib)
 
 
-def test_numbers_in_the_file() -> None:
+def test_hundredths_are_written_without_superfluous_zeros() -> None:
     assert [number(n) for n in (1250, 100, -5, 0, -100, 7)] == ["12.5", "1", "-0.05", "0", "-1", "0.07"]
 
 
-def test_directions_as_text() -> None:
+def test_directions_are_read_or_refused() -> None:
     assert eye_of(["1", "-2.5", " 1e-3"]) == (1, Fraction(-5, 2), Fraction(1, 1000))
-    with pytest.raises(ExportError, match="is 2 numbers; it has three"):
+    with pytest.raises(ExportError, match="expected 3 numbers X,Y,Z, found 2"):
         eye_of(["1", "2"])
     with pytest.raises(ExportError, match="'x' is not a number"):
         eye_of(["1", "2", "x"])

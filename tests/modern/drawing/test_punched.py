@@ -1,4 +1,4 @@
-"""Decks drawn as punched cards: holes beside a list of the 026's code, sizes beside the standard, text, errors."""
+"""Decks drawn as punched cards: holes compared with a list of the 026's code, sizes with the standard, text, errors."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from tests.support.paths import DATA
 
 SVG = "{http://www.w3.org/2000/svg}"
 INCH = 96
-"""Pixels."""
+"""An inch in pixels."""
 CODE = [
     line.split("\t") for line in (DATA / "punches_026.tsv").read_text(encoding="ascii").splitlines() if line[:2] != "# "
 ]
@@ -32,33 +32,36 @@ def cards(svg: str) -> list[ElementTree.Element]:
 
 
 def holes(card: ElementTree.Element) -> list[tuple[Fraction, Fraction, Fraction, Fraction]]:
-    """Left edge, top edge, width and height of every hole, in inches."""
+    """Return left edge, top edge, width and height of every hole, in inches."""
     drawn = "".join(path.get("d", "") for path in card.iter(f"{SVG}path"))
-    found = HOLE.findall(drawn)
+    matches = HOLE.findall(drawn)
     assert HOLE.sub("", drawn) == ""
-    assert all(wide == back for _, _, wide, _, back in found)
-    return [tuple(Fraction(number) / INCH for number in hole[:4]) for hole in found]  # type: ignore[misc]
+    assert all(wide == back for _, _, wide, _, back in matches)
+    return [tuple(Fraction(number) / INCH for number in hole[:4]) for hole in matches]  # type: ignore[misc]
 
 
 def read(card: ElementTree.Element) -> str:
-    """What a reader finds in the holes: a column for each .087 inch, a row for each .25."""
-    found: dict[int, set[str]] = {}
+    """Read the characters of a card from its holes, with a column every .087 inch and a row every .25 inch."""
+    rows_by_column: dict[int, set[str]] = {}
     for left, top, width, height in holes(card):
         column = (left + width / 2 - Fraction(251, 1000)) / Fraction(87, 1000) + 1
         row = (top + height / 2) / Fraction(1, 4) - 1
         assert abs(column - round(column)) < Fraction(1, 50)
         assert row == round(row)
-        found.setdefault(round(column), set()).add(ROWS[int(row)])
+        rows_by_column.setdefault(round(column), set()).add(ROWS[int(row)])
     by_holes = {frozenset(rows.split("-")): sign for sign, rows, _ in CODE}
-    return "".join(by_holes[frozenset(found[k])] if k in found else " " for k in range(1, max(found, default=0) + 1))
+    return "".join(
+        by_holes[frozenset(rows_by_column[k])] if k in rows_by_column else " "
+        for k in range(1, max(rows_by_column, default=0) + 1)
+    )
 
 
 def words(card: ElementTree.Element) -> list[str]:
     return [text.text or "" for text in card.iter(f"{SVG}text")]
 
 
-def test_the_code_is_that_of_the_026() -> None:
-    """48 characters with the blank; the commercial graphic @ has the holes of the apostrophe."""
+def test_punches_are_the_code_of_the_026() -> None:
+    """The code has 48 characters with the blank. The commercial graphic @ has the holes of the apostrophe."""
     listed = {sign: set(rows.split("-")) for sign, rows, _ in CODE}
     assert len(listed) == 47
     assert {sign: set(code.split("-")) for sign, code in PUNCHES.items() if sign not in " @"} == listed
@@ -77,8 +80,8 @@ def test_every_character_has_its_holes(sign: str, rows: str, column: str) -> Non
     assert len(holes(card)) == column.count("o")
 
 
-def test_the_card_has_its_proportions() -> None:
-    """7 3/8 by 3 1/4 inches; holes .055 by .125; margins of column 1, column 80, row 12 and row 9 (ANSI X3.21)."""
+def test_card_has_the_proportions_of_the_standard() -> None:
+    """7 3/8 by 3 1/4 inches. Holes .055 by .125. Margins of column 1, column 80, row 12 and row 9 (ANSI X3.21)."""
     assert Fraction(WIDTH, INCH) == Fraction(59, 8)
     assert Fraction(HEIGHT, INCH) == Fraction(13, 4)
     (card,) = cards(cards_svg(deck_from_lines("deck", ["A" + " " * 78 + "9"])))
@@ -89,7 +92,7 @@ def test_the_card_has_its_proportions() -> None:
     assert {hole[1] + hole[3] / 2 for hole in holes(card)} == {Fraction(1, 4), Fraction(1), Fraction(3)}
 
 
-def test_the_blank_form_is_cut_at_its_upper_left_corner_and_shows_its_digits() -> None:
+def test_blank_form_has_a_cut_corner_and_its_digits() -> None:
     root = ElementTree.fromstring(cards_svg(deck_from_lines("deck", [" ", "X"])))
     (form,) = [group for group in root.iter(f"{SVG}g") if group.get("id") == "form"]
     corners = [tuple(map(float, corner.split(","))) for corner in form.find(f"{SVG}polygon").get("points").split()]  # type: ignore[union-attr]
@@ -102,7 +105,7 @@ def test_the_blank_form_is_cut_at_its_upper_left_corner_and_shows_its_digits() -
 
 
 @given(st.lists(st.text(st.sampled_from(sorted(set(PUNCHES) - {"@"})), max_size=COLUMNS), min_size=1, max_size=4))
-def test_the_holes_and_the_letters_say_what_the_deck_says(lines: list[str]) -> None:
+def test_holes_and_characters_reproduce_the_deck(lines: list[str]) -> None:
     drawn = cards(cards_svg(deck_from_lines("deck", lines)))
     assert [read(card) for card in drawn] == [line.rstrip(" ") for line in lines]
     assert ["".join(words(card)) for card in drawn] == [line.rstrip(" ") for line in lines]
@@ -112,7 +115,7 @@ def test_the_holes_and_the_letters_say_what_the_deck_says(lines: list[str]) -> N
             assert text.get("{http://www.w3.org/XML/1998/namespace}space") == "preserve"
 
 
-def test_a_letter_stands_above_its_column() -> None:
+def test_characters_are_printed_above_their_columns() -> None:
     (card,) = cards(cards_svg(deck_from_lines("deck", ["  X " * 20])))
     (text,) = card.iter(f"{SVG}text")
     places = [float(x) for x in text.get("x", "").split()]
@@ -123,7 +126,7 @@ def test_a_letter_stands_above_its_column() -> None:
         assert float(text.get("y", "")) < float(top * INCH)
 
 
-def test_cards_lie_one_below_another_or_in_rows() -> None:
+def test_cards_are_arranged_in_one_column_or_in_rows() -> None:
     deck = deck_from_lines("deck", ["1", "2", "3"])
     places = [card.get("transform") for card in cards(cards_svg(deck))]
     assert places == ["translate(12 12)", "translate(12 336)", "translate(12 660)"]
@@ -134,7 +137,7 @@ def test_cards_lie_one_below_another_or_in_rows() -> None:
     assert 'width="2172" height="336"' in cards_svg(deck, across=9)
 
 
-def test_the_file_says_what_it_is() -> None:
+def test_file_has_titles_and_a_description() -> None:
     root = ElementTree.fromstring(cards_svg(deck_from_lines("points.deck", ["A(B", "C"])))
     assert root.find(f"{SVG}title").text == "points.deck: 2 cards"  # type: ignore[union-attr]
     assert "IBM 026" in (root.find(f"{SVG}desc").text or "")  # type: ignore[union-attr]
@@ -145,21 +148,21 @@ def test_the_file_says_what_it_is() -> None:
     ]
 
 
-def test_the_picture_is_grey() -> None:
-    """Told apart by shape and grey, never by colour."""
+def test_picture_uses_only_grey() -> None:
+    """Marks differ by shape and grey, never by colour."""
     for colour in re.findall(r"#([0-9a-fA-F]+)", cards_svg(deck_from_lines("deck", ["AB"])).replace("#form", "")):
         parts = re.findall("." if len(colour) == 3 else "..", colour)
         assert len(set(parts)) == 1, colour
 
 
-def test_a_character_without_a_punch_is_named_with_card_and_column() -> None:
+def test_error_names_card_and_column_of_a_character_without_a_punch() -> None:
     deck = deck_from_lines("deck.f", ["A=1", "C  what? #1"])
     with pytest.raises(CardError, match=r"^deck\.f: card 2, column 4: 'w' is not in the card code"):
         cards_svg(deck)
 
 
-def test_more_cards_than_a_box_are_not_one_picture() -> None:
-    with pytest.raises(DeckError, match=f"{MOST_CARDS + 1} cards"):
+def test_more_cards_than_a_box_are_refused() -> None:
+    with pytest.raises(DeckError, match=f"expected at most {MOST_CARDS} cards for one picture, found {MOST_CARDS + 1}"):
         cards_svg(deck_from_lines("deck", ["1"] * (MOST_CARDS + 1)))
 
 
@@ -171,13 +174,13 @@ def deck(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return path
 
 
-def test_the_command_writes_one_picture(deck: Path) -> None:
+def test_command_writes_one_picture(deck: Path) -> None:
     assert main(["punched", "my.deck", "-o", "cards.svg", "--across", "2"]) == 0
     drawn = cards(Path("cards.svg").read_text(encoding="ascii"))
     assert [read(card) for card in drawn] == ["  3", " 1.5", "", "END"]
 
 
-def test_the_command_writes_a_picture_a_card(deck: Path) -> None:
+def test_command_writes_a_picture_for_each_card(deck: Path) -> None:
     assert main(["punched", "my.deck", "-o", "card-%02d.svg"]) == 0
     names = sorted(path.name for path in Path().glob("*.svg"))
     assert names == ["card-01.svg", "card-02.svg", "card-03.svg", "card-04.svg"]
@@ -186,14 +189,14 @@ def test_the_command_writes_a_picture_a_card(deck: Path) -> None:
     assert "<title>my.deck: card 4</title>" in text
 
 
-def test_the_command_takes_a_built_in_program(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_command_accepts_a_built_in_program(deck: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["punched", "program2"]) == 0
     drawn = cards(capsys.readouterr().out)
     assert [read(card) for card in drawn] == [card.text for card in programs.deck("program2").cards]
 
 
 @pytest.mark.parametrize(
-    ("words", "message"),
+    ("arguments", "message"),
     [
         (["my.deck", "--across", "0"], "--across: 0 is not a number of cards"),
         (["my.deck", "-o", "card-%s.svg"], "--output: 'card-%s.svg' has no place for a number as in 'card-%03d.svg'"),
@@ -203,10 +206,10 @@ def test_the_command_takes_a_built_in_program(deck: Path, capsys: pytest.Capture
         (["none.deck"], "none.deck: no such file or directory"),
     ],
 )
-def test_what_cannot_be_drawn_is_one_line(
-    deck: Path, capsys: pytest.CaptureFixture[str], words: list[str], message: str
+def test_punched_command_reports_errors_in_one_line(
+    deck: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], message: str
 ) -> None:
     Path("small.f").write_text("A=1\nC  x\n", encoding="ascii")
-    assert main(["punched", *words]) == 2
+    assert main(["punched", *arguments]) == 2
     assert capsys.readouterr().err == f"hull1620: {message}\n"
     assert list(Path().glob("**/*.svg")) == []

@@ -100,7 +100,7 @@ def _construction(hull: Hull, number: int) -> str:
         stages = frames(hull)
     except ExportError:
         return ""
-    steps = "".join(text("li", "; ".join(words for words in stage.words if words)) for stage in stages)
+    steps = "".join(text("li", "; ".join(words for words in stage.caption if words)) for stage in stages)
     caption = "H1 to Hf, each with the vertex that was added. The same direction of view throughout."
     return figure(strip(stages), f"stages{number}", caption) + element("ol", steps, cls="steps")
 

@@ -184,7 +184,7 @@ def plates_svg(plates: Sequence[Plate], eye: Eye, titles: Sequence[str]) -> tupl
 
     def dots(plate: Plate) -> Iterator[str]:
         for point, hidden in plate.points:
-            yield svg.circle(at(point), "3.6", more='fill="#fff"' if hidden else 'fill="#000"')
+            yield svg.circle(at(point), "3.6", attributes='fill="#fff"' if hidden else 'fill="#000"')
 
     def drawn(plate: Plate, title: str) -> str:
         items = [

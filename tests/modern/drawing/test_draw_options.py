@@ -1,4 +1,4 @@
-"""What a picture shows when asked: numbers, hidden parts, differences from a punched result, the construction."""
+"""Options of a picture: numbers, hidden parts, differences from a punched result, the construction."""
 
 from __future__ import annotations
 
@@ -30,18 +30,18 @@ SOLID = [(9, -3, 4), (-8, 2, 7), (5, 8, -9), (-7, -9, -2), (3, 6, 8), (-2, 7, -6
 
 
 def groups(text: str) -> dict[str, list[ElementTree.Element]]:
-    """The marks of a picture by their class, wherever they stand."""
-    found: dict[str, list[ElementTree.Element]] = {}
+    """Return the elements of a picture by the class of their group, at any depth."""
+    by_class: dict[str, list[ElementTree.Element]] = {}
     for group in ElementTree.fromstring(text).iter(f"{SVG}g"):
-        found.setdefault(group.get("class", ""), []).extend(group)
-    return found
+        by_class.setdefault(group.get("class", ""), []).extend(group)
+    return by_class
 
 
 def numbers(text: str) -> set[str]:
     return {name for element in groups(text).get("numbers", []) for name in str(element.text).split(",")}
 
 
-def test_numbers_are_the_programs_the_inputs_or_none() -> None:
+def test_vertices_are_numbered_by_program_or_by_input_or_not_at_all() -> None:
     hull = convex_hull(SOLID)
     assert hull.vertices != tuple(sorted(hull.vertices))
     count = len(hull.vertices)
@@ -51,7 +51,7 @@ def test_numbers_are_the_programs_the_inputs_or_none() -> None:
     assert "not numbered" not in draw_svg(hull, show=Show("none"))
 
 
-def test_what_is_behind_and_what_is_no_vertex_can_be_left_out() -> None:
+def test_hidden_parts_and_other_points_can_be_omitted() -> None:
     hull = convex_hull(BOX)
     whole = groups(draw_svg(hull))
     assert {"hidden", "vertices-hidden", "inside"} <= whole.keys()
@@ -64,10 +64,9 @@ def test_what_is_behind_and_what_is_no_vertex_can_be_left_out() -> None:
     assert "hidden" in bare
 
 
-def test_three_hundred_points_are_wider_with_smaller_type_and_no_numbers_behind() -> None:
-    ring = [(x, y, x * x + y * y) for x in range(-9, 10) for y in range(-8, 9)]
-    hull = convex_hull(ring)
-    assert len(ring) > 300
+def test_a_crowded_picture_is_wider_with_smaller_type_and_no_hidden_numbers() -> None:
+    hull = convex_hull([(x, y, x * x + y * y) for x in range(-6, 7) for y in range(-5, 6)])
+    assert len(hull.vertices) > 120
     text = draw_svg(hull)
     root = ElementTree.fromstring(text)
     assert root.get("width") == "1000"
@@ -78,7 +77,7 @@ def test_three_hundred_points_are_wider_with_smaller_type_and_no_numbers_behind(
     assert ElementTree.fromstring(draw_svg(hull, width=700)).get("width") == "700"
 
 
-# --- beside a punched result
+# --- comparison with a punched result
 
 
 def punched(points: Sequence[tuple[int, int, int]]) -> list[str]:
@@ -86,41 +85,42 @@ def punched(points: Sequence[tuple[int, int, int]]) -> list[str]:
 
 
 @pytest.mark.parametrize("points", [SOLID, [(0, 0, 1), (4, 0, 1), (4, 5, 1), (0, 5, 1), (1, 1, 1), (2, 0, 1)]])
-def test_a_right_result_differs_in_nothing(points: list[tuple[int, int, int]]) -> None:
+def test_a_correct_result_has_no_differences(points: list[tuple[int, int, int]]) -> None:
     hull = convex_hull(points)
     claim = card_differences(read_hull(punched(points)), hull, "cards")
     assert claim == CardDifferences()
-    assert "nothing differs" in draw_against(hull, claim)
+    assert "no differences" in draw_against(hull, claim)
 
 
-def test_a_vertex_taken_from_the_cards_is_missed_and_a_face_turned_is_none() -> None:
+def test_missing_vertices_and_false_faces_of_cards_are_drawn() -> None:
     hull, cards = convex_hull(SOLID), punched(SOLID)
     first = cards.index(next(card for card in cards if card.startswith("  1 ")))
-    seen = read_hull(cards)
-    gone = read_hull([card for k, card in enumerate(cards) if k != first])
-    claim = card_differences(gone, hull, "cards")
-    index = next(i for i, p in enumerate(hull.points) if tuple(map(float, p)) == tuple(map(float, seen.vertices[0])))
+    complete = read_hull(cards)
+    incomplete = read_hull([card for k, card in enumerate(cards) if k != first])
+    claim = card_differences(incomplete, hull, "cards")
+    removed = tuple(map(float, complete.vertices[0]))
+    index = next(i for i, p in enumerate(hull.points) if tuple(map(float, p)) == removed)
     assert claim.missed == (index,)
-    equation = next(k for k, card in enumerate(cards) if k > first + len(seen.vertices) and card.startswith("  1 "))
+    equation = next(k for k, card in enumerate(cards) if k > first + len(complete.vertices) and card.startswith("  1 "))
     turned = list(cards)
     turned[equation] = turned[equation][:4] + "   .10000000E+01   .10000000E+01   .10000000E+01  -.90000000E+02"
     claim = card_differences(read_hull(turned), hull, "cards")
     assert len(claim.not_found) == len(claim.polygons) == 1
     assert set(claim.polygons[0]) == set(hull.faces[claim.not_found[0]].polygon)
     text = draw_against(hull, claim)
-    found = groups(text)
-    assert len(found["not-found"]) == len(found["no-face"]) == 1
-    assert "face not found: 1" in text
-    assert "no face, called one: 1" in text
+    drawn = groups(text)
+    assert len(drawn["not-found"]) == len(drawn["no-face"]) == 1
+    assert "missing face: 1" in text
+    assert "false face: 1" in text
 
 
-def test_marks_of_points_and_their_legend() -> None:
+def test_differences_of_points_are_drawn_and_explained() -> None:
     hull = convex_hull(BOX)
     claim = CardDifferences(missed=hull.vertices[:2], added=hull.inside[:1], others=3)
     text = draw_against(hull, claim, show=Show(points=False))
-    found = groups(text)
-    assert [str(ring[0].text).split(":")[0] for ring in found["missed"]] == ["vertex missed"] * 2
-    assert f"point {hull.inside[0] + 1}" in str(found["added"][0][0].text)
+    drawn = groups(text)
+    assert [str(ring[0].text).split(":")[0] for ring in drawn["missed"]] == ["missing vertex"] * 2
+    assert f"point {hull.inside[0] + 1}" in str(drawn["added"][0][0].text)
     assert "not drawn: 3" in text
 
 
@@ -139,34 +139,34 @@ def staged(points: Sequence[tuple[int, int, int]]) -> Hull:
     return convex_hull(points, history=True)
 
 
-def test_every_stage_shows_the_hull_of_the_vertices_so_far() -> None:
+def test_every_stage_has_the_hull_of_the_vertices_so_far() -> None:
     hull = staged(SOLID)
-    found = frames(hull)
-    assert len(found) == len(hull.history) > 2
-    assert set(found[-1].hull.points) == {hull.points[index] for index in hull.vertices}
-    for frame, stage in zip(found, hull.history, strict=True):
+    stages = frames(hull)
+    assert len(stages) == len(hull.history) > 2
+    assert set(stages[-1].hull.points) == {hull.points[index] for index in hull.vertices}
+    for frame, stage in zip(stages, hull.history, strict=True):
         assert len(frame.hull.faces) <= len(stage.equations)
         assert len(frame.added) == len(stage.added)
-        assert frame.words[0].startswith(f"H{stage.number}: point")
-    assert len({frame.picture.view.eye for frame in found}) == 1
-    assert found[-1].waiting == ()
+        assert frame.caption[0].startswith(f"H{stage.number}: point")
+    assert len({frame.picture.view.eye for frame in stages}) == 1
+    assert stages[-1].waiting == ()
 
 
-def test_a_strip_and_a_picture_that_plays_have_all_stages() -> None:
-    found = frames(staged(SOLID))
-    text = strip(found, "solid")
-    assert len(groups(text)["words"]) >= len(found)
+def test_strip_and_animation_contain_all_stages() -> None:
+    construction = frames(staged(SOLID))
+    text = strip(construction, "solid")
+    assert len(groups(text)["words"]) >= len(construction)
     assert ElementTree.fromstring(text).find(f"{SVG}title").text == "solid"  # type: ignore[union-attr]
-    moving = played(found)
+    moving = played(construction)
     stages = [g for g in ElementTree.fromstring(moving).iter(f"{SVG}g") if "stage" in g.get("class", "").split()]
-    assert len(stages) == len(found)
+    assert len(stages) == len(construction)
     assert stages[-1].get("class") == "stage end"
     delays = [float(re.findall(r"([\d.]+)s", g.get("style", ""))[0]) for g in stages]
     assert delays == sorted(set(delays))
     assert "prefers-reduced-motion" in moving
 
 
-def test_a_polygon_is_built_too_and_a_segment_is_not() -> None:
+def test_polygons_have_stages_and_segments_have_none() -> None:
     assert len(frames(staged([(0, 0, 0), (5, 0, 0), (6, 4, 0), (2, 7, 0), (-3, 4, 0), (2, 2, 0)]))) > 1
     with pytest.raises(ExportError, match="no stages"):
         frames(staged([(0, 0, 0), (1, 1, 1), (2, 2, 2)]))
@@ -175,14 +175,16 @@ def test_a_polygon_is_built_too_and_a_segment_is_not() -> None:
 # --- the command
 
 
-def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_draw_command_accepts_every_option(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.chdir(tmp_path)
     Path("s.csv").write_text("".join(f"{x},{y},{z}\n" for x, y, z in SOLID), encoding="utf-8")
     assert call(capsys, "cards", "s.csv", "-o", "s.deck")[0] == 0
     assert call(capsys, "hull", "s.deck", "--punch", "s.punch", "--typewriter", "s.typed")[0] == 0
     code, out, err = call(capsys, "draw", "s.csv", "--against", "s.punch", "--labels", "input", "--width", "800")
     assert (code, err) == (0, "")
-    assert "nothing differs" in out
+    assert "no differences" in out
     assert 'width="800"' in out
     for option in ("--stages", "--animate"):
         code, out, err = call(capsys, "draw", "s.csv", option)
@@ -192,17 +194,17 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeyp
 
 
 @pytest.mark.parametrize(
-    ("arguments", "words"),
+    ("arguments", "message"),
     [
         (["s.csv", "--stages", "--width", "400"], "--stages and --animate have one form"),
         (["-", "--against", "-"], "points and cards cannot both come from standard input"),
         (["s.csv", "--against", "s.csv"], "there are no vertices on these cards"),
-        (["s.csv", "--width", "10"], "a picture 10 pixels wide is not drawn"),
+        (["s.csv", "--width", "10"], "expected 320 to 4000 pixels, found 10"),
     ],
 )
-def test_what_cannot_be_drawn_is_a_line(
+def test_draw_command_reports_errors_in_one_line(
     arguments: list[str],
-    words: str,
+    message: str,
     tmp_path: Path,
     capsys: pytest.CaptureFixture[str],
     monkeypatch: pytest.MonkeyPatch,
@@ -211,13 +213,13 @@ def test_what_cannot_be_drawn_is_a_line(
     Path("s.csv").write_text("0,0,0\n1,0,0\n0,1,0\n0,0,1\n", encoding="utf-8")
     code, out, err = call(capsys, "draw", *arguments)
     assert (code, out, err.count("\n")) == (2, "", 1)
-    assert words in err
+    assert message in err
 
 
-# --- the page that turns
+# --- the interactive page
 
 
-def test_the_page_holds_the_solid_and_fetches_nothing() -> None:
+def test_interactive_page_contains_the_solid_and_loads_nothing() -> None:
     hull = convex_hull(BOX)
     text = export_text(hull, "html")
     data = json.loads(text.split('id="hull">')[1].split("</script>")[0])
