@@ -33,7 +33,7 @@ wheel: $(VENV)/.dev
 	SOURCE_DATE_EPOCH=$(EPOCH) $(BIN)/python -m build --wheel --no-isolation --outdir dist .
 
 benchmark: $(VENV)/.dev
-	$(BIN)/python -m modern.bench
+	$(BIN)/python -m modern.bench.suite
 
 mutants: $(VENV)/.dev
 	$(BIN)/python -m tests.mutants --jobs $(JOBS)

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from modern.bench import __main__ as bench
-from modern.bench import digital
+from modern.bench.suite import __main__ as bench
+from modern.bench.suite import digital
 from modern.bench.timing import Curve, Figure, plotted
 from modern.digital.solids import ball
 from modern.papers.kovalevsky_schulz import voxel_hull

@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from modern.bench import __main__ as bench
-from modern.bench import hulls, peers
-from modern.bench.peers import Missing, Peers, cgal, qhull
+from modern.bench.suite import __main__ as bench
+from modern.bench.suite import hulls, peers
+from modern.bench.suite.peers import Missing, Peers, cgal, qhull
 from modern.bench.timing import Curve, Figure, Measured, side_by_side
 
 POINTS = np.array([(x, y, z) for x in (0, 2) for y in (0, 2) for z in (0, 2)])

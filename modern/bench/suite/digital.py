@@ -1,8 +1,8 @@
 """Digital hulls: the filled hull of solid balls, beside scikit-image where it is installed, and its memory; the octree
 hull, and the cell list of Kovalevsky and Schulz, beside them.
 
-``python -m modern.bench.digital FILE.svg`` measures how the time of solids' hulls grows with the number of voxels, and
-plots it with the slope of each curve (extra ``plot``).
+``python -m modern.bench.suite.digital FILE.svg`` measures how the time of solids' hulls grows with the number of
+voxels, and plots it with the slope of each curve (extra ``plot``).
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from typing import Any
 
 import numpy as np
 
-from modern.bench.hulls import STYLES, Table
-from modern.bench.peers import Work
+from modern.bench.suite.hulls import STYLES, Table
+from modern.bench.suite.peers import Work
 from modern.bench.timing import Curve, Figure, plotted, side_by_side, timed, timed_once
 from modern.digital.hull import digital_hull
 from modern.digital.solids import VERTEX, Volume, ball

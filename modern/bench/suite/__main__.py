@@ -1,6 +1,6 @@
 """Run the benchmarks: what, median, least, most, and what to compare it with.
 
-``python -m modern.bench`` runs every group, ``python -m modern.bench digital papers`` those named.
+``python -m modern.bench.suite`` runs every group, ``python -m modern.bench.suite digital papers`` those named.
 """
 
 from __future__ import annotations
@@ -11,9 +11,9 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from emulator.language.cards import deck_from_lines
 from emulator.machine.machine import Machine
-from modern.bench import digital, hulls, papers
 from modern.bench.decks import POINTS, data_deck, random_points
 from modern.bench.measure import lines, measure
+from modern.bench.suite import digital, hulls, papers
 from modern.bench.timing import RUNS, timed
 from modern.edition import programs
 

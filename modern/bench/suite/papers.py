@@ -12,8 +12,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from modern.bench import hidden_line
-from modern.bench.hulls import ball, eight_digits
+from modern.bench.suite import hidden_line
+from modern.bench.suite.hulls import ball, eight_digits
 from modern.bench.timing import Figure, timed
 from modern.digital import solids
 from modern.exact_hull import exact_hull

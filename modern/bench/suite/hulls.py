@@ -1,7 +1,7 @@
 """Hulls: the exact judge and the port in float64, each row beside its peers, Qhull and CGAL, in one run.
 
-``python -m modern.bench.hulls FILE.svg`` measures how their time grows with the number of points, and plots it with
-the slope of each curve (extra ``plot``).
+``python -m modern.bench.suite.hulls FILE.svg`` measures how their time grows with the number of points, and plots it
+with the slope of each curve (extra ``plot``).
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from modern.bench.peers import Peers, Work
+from modern.bench.suite.peers import Peers, Work
 from modern.bench.timing import Curve, Figure, plotted, side_by_side, timed, timed_once
 from modern.exact_hull import exact_hull
 from modern.geometry.hull import as_tuple
@@ -176,7 +176,7 @@ def growth(peers: Peers, counts: Sequence[int] = COUNTS) -> list[Curve]:
 def main() -> None:
     """Measure the growth, print and plot it."""
     if len(sys.argv) != 2:
-        sys.exit("usage: python -m modern.bench.hulls FILE.svg")
+        sys.exit("usage: python -m modern.bench.suite.hulls FILE.svg")
     with Peers() as peers:
         curves = growth(peers)
         print(*peers.remarks, sep="\n", end="\n" if peers.remarks else "")

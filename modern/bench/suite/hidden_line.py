@@ -1,6 +1,6 @@
 """Hidden lines by Nakamae and Nishita: all three steps, and how their time grows with the number of cuboids.
 
-``python -m modern.bench.hidden_line FILE.svg`` measures the growth and plots it (extra ``plot``).
+``python -m modern.bench.suite.hidden_line FILE.svg`` measures the growth and plots it (extra ``plot``).
 """
 
 from __future__ import annotations
@@ -80,7 +80,7 @@ def curves(found: dict[str, list[tuple[int, float, int]]]) -> list[Curve]:
 def main() -> None:
     """Measure, print and plot."""
     if len(sys.argv) != 2:
-        sys.exit("usage: python -m modern.bench.hidden_line FILE.svg")
+        sys.exit("usage: python -m modern.bench.suite.hidden_line FILE.svg")
     for figure in figures():
         print(figure.line())
     found = growth()
