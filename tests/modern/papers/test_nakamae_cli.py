@@ -82,7 +82,7 @@ def test_tables(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
         ((".",), "is a directory"),
         (("cube.off", "-o", "no/a.svg"), "no/a.svg: no such file or directory"),
         (("cube.off", "--eye", "0,0,0"), "the direction of view is 0,0,0"),
-        (("cube.off", "--eye", "1,2"), "the direction of view is 2 numbers; it has three, X,Y,Z"),
+        (("cube.off", "--eye", "1,2"), "the direction of view: expected 3 numbers X,Y,Z, found 2"),
         (("cube.off", "--perspective"), "--perspective needs the observation point, --eye X,Y,Z"),
         (("cube.off", "--perspective", "--eye", "0.5,0.5,0.5"), "the observation point is the point looked at"),
         (("cube.off", "--perspective", "--eye", "0.5,0.5,0.6"), "cube.off: not wholly before the observation point"),
