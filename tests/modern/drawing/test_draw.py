@@ -318,5 +318,7 @@ def test_invalid_directions_widths_and_hulls_are_refused() -> None:
     with pytest.raises(ExportError, match=r"^there is no hull: DATA NOT ACCEPTABLE$"):
         draw_svg(replace(hull, status="DATA NOT ACCEPTABLE"))
     for width in (319, 4001):
-        with pytest.raises(ExportError, match=f"a picture cannot be {width} pixels wide; the width is from 320 to 4000"):
+        with pytest.raises(
+            ExportError, match=f"a picture cannot be {width} pixels wide; the width is from 320 to 4000"
+        ):
             draw_svg(hull, width=width)
