@@ -51,7 +51,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _line(proof: Proof) -> str:
-    return f"{'holds' if proof.holds else 'FAILS'}  {proof.subject:<18} {proof.words}"
+    return f"{'holds' if proof.holds else 'FAILS'}  {proof.subject:<18} {proof.message}"
 
 
 def show(row: Row, width: int) -> Iterator[str]:

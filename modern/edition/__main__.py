@@ -1,6 +1,6 @@
-"""The editor's tool for chapter 6: write the device files from their sources, or check everything.
+"""Write the device files of chapter 6 from witness, apparatus and layout, or check the chapter.
 
-Nothing here reads a run of a program.
+No run of a program is an input.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from modern.edition.chapter6_checks import check_chapter
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """``--write`` the device files or ``--check`` the chapter; returns the exit status."""
-    asked = list(sys.argv[1:] if arguments is None else arguments)
-    if asked not in (["--write"], ["--check"]):
+    """Run with ``--write`` or ``--check`` and return the exit status."""
+    options = list(sys.argv[1:] if arguments is None else arguments)
+    if options not in (["--write"], ["--check"]):
         print("usage: python -m modern.edition --write | --check", file=sys.stderr)
         return 2
     try:
         chapter = load_chapter()
-        if asked == ["--write"]:
+        if options == ["--write"]:
             for name in write_files(chapter, Path(str(chapter6_folder()))):
                 print(name)
             return 0

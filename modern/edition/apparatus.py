@@ -1,17 +1,18 @@
-"""The executable apparatus: a text is its witness plus the rows of its apparatus.
+"""Apply the apparatus of a text: a text is its witness plus the rows of its apparatus.
 
-A *witness* is the OCR text of the printed page, kept verbatim; lines beginning ``## `` are the editor's
-page marks and no part of it.  A *row* is one emendation: where it applies, what the witness reads, what
-is read instead (the lemma), why, and on what evidence.  :func:`build` applies the rows of chosen layers
-and returns lines that still know which witness line, or which row, they came from.
+A *witness* is the OCR text of a printed page, kept verbatim.  Lines beginning with ``## `` are page marks of the
+editor and not part of the witness.  A *row* is one emendation: its place, the reading of the witness, the accepted
+reading (the lemma), the reason and the evidence.  :func:`build` applies the rows of chosen layers.  Each line of the
+result records which witness line or which row it comes from.
 
-The file format is described in ``fortran_src/README.md``.  Nothing here knows about FORTRAN or hulls.
+``fortran_src/README.md`` describes the file format.  This module knows nothing about FORTRAN or hulls.
 """
 
 from __future__ import annotations
 
 import re
 import tomllib
+from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import date
@@ -25,13 +26,13 @@ PAGE_MARK = "## page "
 LAST_COLUMN = 72
 _OURS = ("lacuna", "examples", "epsilon", "translation", "corrected")
 _LIKENESS = ("sibling",)
-_KEPT = 16
-"""A page in work is kept before every sixteenth row."""
+_SNAPSHOT_EVERY = 16
+"""A snapshot of the page is stored before every sixteenth row."""
 _ADDS = ("lost", "lost-sign", "slip")
-"""Kinds that put in what the witness has not."""
+"""Kinds that insert text that the witness does not have."""
 _CAUSES = ("ocr", "typist", "author", "editor", "undecidable")
 _CAUSE = {"ocr": "ocr", "typist": "typist", "author": "author", "print": "undecidable", "lacuna": "undecidable"}
-"""The cause of a row that names none, by layer; of the other layers it is the editor."""
+"""The default cause of a row by its layer.  For the other layers the cause is the editor."""
 _FIELDS = ("id", "layer", "kind", "reason", "evidence", "change")
 _OPTIONAL = ("ground", "cause", "editor", "date", "rdg")
 Certainty = Literal["certain", "probable", "conjecture"]
@@ -43,14 +44,14 @@ class ApparatusError(EmulatorError, ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """One place of a row.
+    """One change of a row.
 
-    ``line`` is a line's id: a witness line number ("17") or an inserted card ("P1-031.2").  ``witness`` is
-    the fragment found there exactly once, ``lemma`` what replaces it; a lemma with line ends makes several
-    lines.  A line emptied by a change is no line of the text.  With ``after`` the lemma's lines are inserted
-    after the line instead; with ``through`` every line from ``line`` to ``through`` is dropped; with
-    ``form`` they are set out as on the coding form: number in columns 1 to 5, statement from column 7, or from
-    column 1 where that passes column 72.  With ``dense`` the line loses its blanks.
+    ``line`` is the id of a line: a witness line number ("17") or an inserted card ("P1-031.2").  ``witness`` is a
+    fragment that occurs there exactly once, and ``lemma`` replaces it.  A lemma with line ends makes several lines.
+    A line that becomes empty is removed from the text.  With ``after``, the lines of the lemma are inserted after the
+    line instead.  With ``through``, every line from ``line`` to ``through`` is removed.  With ``form``, those lines are
+    kept and set out as on the coding form: the number in columns 1 to 5 and the statement from column 7, or from
+    column 1 if it would pass column 72.  With ``dense``, the blanks of the line are removed.
     """
 
     line: str
@@ -64,7 +65,7 @@ class Change:
 
 @dataclass(frozen=True, slots=True)
 class Rejected:
-    """A reading considered and not accepted, and why."""
+    """A reading that was considered and rejected, with the reason."""
 
     reading: str
     reason: str
@@ -72,11 +73,10 @@ class Rejected:
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One emendation, with what a reader of an edition has to know of it.
+    """One emendation with its documentation.
 
-    ``cause`` says whose the departure is: of ``ocr``, ``typist``, ``author``, ``editor``, or ``undecidable``.
-    ``page`` follows from the witness lines the row touches, ``certainty`` from layer, kind and ground; neither is
-    stored.
+    ``cause`` names the origin of the error: ``ocr``, ``typist``, ``author``, ``editor`` or ``undecidable``.
+    ``page`` is derived from the witness lines of the row, and ``certainty`` from layer, kind and ground.
     """
 
     id: str
@@ -95,34 +95,35 @@ class Row:
 
     @property
     def certainty(self) -> Certainty:
-        """How sure the reading is, by the first rule that applies (fortran_src/README.md).
+        """The certainty of the reading, by the first rule that applies (fortran_src/README.md).
 
-        Cards of ours and what is conjectured to be missing: conjecture.  What may be the author's or the typist's, or
-        whose cause is undecidable, and what rests on likeness to another place alone: probable.  The rest: certain.
+        Cards added by the project and text supplied for a gap are conjectures.  A reading is probable if the error may
+        be the author's or the typist's, if its cause is undecidable, or if only a similar passage supports it.  All
+        other readings are certain.
         """
         if self.layer in _OURS or not self.ground:
             return "conjecture"
-        likeness = self.ground["kind"] in _LIKENESS and self.kind in _ADDS
-        whole = self.ground.get("whole", False) or self.ground.get("check") == "minus-with-point"
-        departed = self.cause not in ("ocr", "editor") and self.layer != "print"
-        if departed or likeness or whole:
+        rests_on_likeness = self.ground["kind"] in _LIKENESS and self.kind in _ADDS
+        rests_on_whole = self.ground.get("whole", False) or self.ground.get("check") == "minus-with-point"
+        cause_in_doubt = self.cause not in ("ocr", "editor") and self.layer != "print"
+        if cause_in_doubt or rests_on_likeness or rests_on_whole:
             return "probable"
         return "certain"
 
     @property
     def witness(self) -> str:
-        """The witness's reading, for a table: fragments joined with a vertical bar."""
+        """The reading of the witness for a table: fragments joined with vertical bars."""
         return " | ".join(_shown(change.witness) or _scope(change) for change in self.changes)
 
     @property
     def lemma(self) -> str:
-        """The accepted reading, for a table."""
-        return " | ".join(_shown(change.lemma) or _done(change) for change in self.changes)
+        """The accepted reading for a table."""
+        return " | ".join(_shown(change.lemma) or _effect(change) for change in self.changes)
 
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A line of a built text: its id, its words, its page, and the rows that touched it."""
+    """A line of a built text: its id, its text, its page, and the rows that changed it."""
 
     id: str
     text: str
@@ -132,7 +133,7 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Text:
-    """A witness and its apparatus.  ``furniture`` are whole lines that are no part of any text (code fences)."""
+    """A witness with its apparatus."""
 
     id: str
     title: str
@@ -143,20 +144,20 @@ class Text:
     pages: dict[tuple[str, ...], tuple[tuple[Row, ...], dict[int, _Page]]] = field(
         default_factory=dict, init=False, compare=False, repr=False
     )
-    """By layers: their rows in order, and the page before some of them; builds that differ later have it in common."""
+    """A cache by layers: their rows in order, and snapshots of the page before some rows, which builds share."""
 
     def row(self, row_id: str) -> Row:
         for row in self.rows:
             if row.id == row_id:
                 return row
-        raise ApparatusError(f"{self.id}: there is no row {row_id}")
+        raise ApparatusError(f"{self.id} has no row {row_id}")
 
 
 def read_witness(source: str, furniture: Collection[str] = ()) -> tuple[Line, ...]:
-    """The lines of a witness, numbered from 1 without the page marks; furniture and blank lines are left out.
+    """Return the lines of a witness, numbered from 1 without the page marks.
 
-    The numbers count every line of the printed text's OCR, also those left out, so that a number is a place
-    in the file a reader can find.
+    Blank lines and ``furniture`` (lines such as code fences that belong to no text) are left out of the result but
+    counted, so that a number leads to the same line of the file.
     """
     lines: list[Line] = []
     page, number = "", 0
@@ -171,9 +172,9 @@ def read_witness(source: str, furniture: Collection[str] = ()) -> tuple[Line, ..
 
 
 def load(folder: Traversable, name: str) -> Text:
-    """Read ``apparatus/NAME.toml`` (or ``NAME.toml``) of a data folder with the witness it names.
+    """Read ``apparatus/NAME.toml`` (or ``NAME.toml``) of a data folder, with the witness that it names.
 
-    Raises ApparatusError where a row lacks a field, uses an unknown layer or repeats an id.
+    Raises ApparatusError if a row lacks a field, uses an unknown layer or repeats an id.
     """
     entry = folder.joinpath("apparatus", f"{name}.toml")
     if not entry.is_file():
@@ -186,38 +187,39 @@ def load(folder: Traversable, name: str) -> Text:
     rows = tuple(_row(head, raw) for raw in data.get("row", ()))
     pages, origins = {line.id: line.page for line in lines}, {row.id: row for row in rows}
     rows = tuple(_with_page(row, pages, origins) for row in rows)
-    seen: set[str] = set()
-    for row in rows:
-        if row.id in seen:
-            raise ApparatusError(f"{head['id']}: row {row.id} stands twice")
-        seen.add(row.id)
+    for row_id, times in Counter(row.id for row in rows).items():
+        if times > 1:
+            raise ApparatusError(f"{head['id']}: row id {row_id} is used {times} times")
     return Text(head["id"], head["title"], lines, rows, layers, tuple(head["default"]))
 
 
 def build(
     text: Text, layers: Iterable[str] | None = None, without: Collection[str] = (), instead: Row | None = None
 ) -> tuple[Line, ...]:
-    """Witness plus the rows of ``layers`` (the text's default layers if None), leaving out rows ``without``.
+    """Return the lines of the witness after the rows of ``layers`` (by default, the text's default layers).
 
-    ``instead`` stands in the place of the text's row of its id.
+    The rows ``without`` are left out, and ``instead`` replaces the row with the same id.  Layers always apply in the
+    text's order, so that a later layer can change the result of an earlier one.
 
-    Layers apply in the text's own order whatever order they are asked for in, so that a later layer may
-    change what an earlier one established.  Raises ApparatusError for an unknown layer and for a row whose
-    witness fragment does not stand in its line exactly once.
+    Raises ApparatusError for an unknown layer, and RowMisfit if the witness fragment of a row does not occur exactly
+    once in its line.
     """
-    wanted = set(text.default if layers is None else layers)
-    unknown = wanted.difference(text.layers)
+    chosen = set(text.default if layers is None else layers)
+    unknown = chosen.difference(text.layers)
     if unknown:
         raise ApparatusError(f"{text.id} has no layer {', '.join(sorted(unknown))}; it has {', '.join(text.layers)}")
-    order = tuple(layer for layer in text.layers if layer in wanted)
-    rows, kept = text.pages.setdefault(order, (tuple(r for layer in order for r in text.rows if r.layer == layer), {}))
-    left_out = {*without, instead.id} if instead else without
-    changed = next((n for n, row in enumerate(rows) if row.id in left_out), len(rows))
-    done = max((number for number in kept if number <= changed), default=0)
-    page = kept[done].copy() if kept else _Page({line.id: line for line in text.witness})
-    for number, row in enumerate(rows[done:], done):
-        if number <= changed and number % _KEPT == 0 and number not in kept:
-            kept[number] = page.copy()
+    order = tuple(layer for layer in text.layers if layer in chosen)
+    default_rows = tuple(row for layer in order for row in text.rows if row.layer == layer)
+    rows, snapshots = text.pages.setdefault(order, (default_rows, {}))
+    changed_rows = {*without, instead.id} if instead else without
+    first_changed = next((n for n, row in enumerate(rows) if row.id in changed_rows), len(rows))
+    # The checks build a text hundreds of times, each time without one row.  All builds agree up to that row, so a build
+    # starts from the last snapshot before it.
+    start = max((number for number in snapshots if number <= first_changed), default=0)
+    page = snapshots[start].copy() if snapshots else _Page({line.id: line for line in text.witness})
+    for number, row in enumerate(rows[start:], start):
+        if number <= first_changed and number % _SNAPSHOT_EVERY == 0 and number not in snapshots:
+            snapshots[number] = page.copy()
         if instead and row.id == instead.id:
             row = instead
         if row.id not in without:
@@ -226,22 +228,22 @@ def build(
 
 
 def built_without(text: Text, row_id: str) -> tuple[frozenset[str], tuple[Line, ...]]:
-    """A row with those that cannot stand without it, and the text of all layers without them.
+    """Return a row with the rows that depend on it, and the text of all layers without them.
 
-    Such rows change a card it inserted, or a fragment it supplied.
+    A row depends on another if it changes a card that the other inserts, or a fragment that the other supplies.
     """
-    lost = {row_id}
+    removed = {row_id}
     while True:
         try:
-            lines = build(text, text.layers, lost)
+            lines = build(text, text.layers, removed)
         except RowMisfit as misfit:
-            lost.add(misfit.row_id)
+            removed.add(misfit.row_id)
         else:
-            return frozenset(lost), lines
+            return frozenset(removed), lines
 
 
 class RowMisfit(ApparatusError):
-    """A row's fragment is not where the row says; carries the row's id."""
+    """The fragment of a row does not occur at the place that the row names."""
 
     def __init__(self, row_id: str, message: str) -> None:
         super().__init__(f"row {row_id}: {message}")
@@ -249,7 +251,7 @@ class RowMisfit(ApparatusError):
 
 
 class _Page:
-    """A text in work: its lines by id, and their order."""
+    """A text to which rows are applied: its lines by id, and their order."""
 
     def __init__(self, at: dict[str, Line], order: Iterable[str] = ()) -> None:
         self._at, self._order = at, list(order or at)
@@ -261,7 +263,7 @@ class _Page:
         return (self._at[name] for name in self._order)
 
     def apply(self, row: Row) -> None:
-        """Make a row's changes.  Raises RowMisfit."""
+        """Apply the changes of a row.  Raises RowMisfit."""
         inserted = 0
         for change in row.changes:
             line = self._line(row, change.line)
@@ -278,21 +280,21 @@ class _Page:
             else:
                 times = line.text.count(change.witness)
                 if times != 1:
-                    raise RowMisfit(row.id, f"{change.witness!r} stands {times} times in line {line.id}: {line.text!r}")
+                    raise RowMisfit(row.id, f"{change.witness!r} occurs {times} times in line {line.id}: {line.text!r}")
                 first_piece, *rest = line.text.replace(change.witness, change.lemma).split("\n")
                 self._put(row, line, first_piece)
                 inserted = self._insert(row, line, rest, inserted)
 
     def _line(self, row: Row, name: str) -> Line:
         if name not in self._at:
-            raise RowMisfit(row.id, f"there is no line {name}")
+            raise RowMisfit(row.id, f"line {name} does not exist")
         return self._at[name]
 
     def _put(self, row: Row, line: Line, text: str) -> None:
         self._at[line.id] = Line(line.id, text, line.page, (*line.rows, row.id))
 
     def _insert(self, row: Row, behind: Line, texts: Sequence[str], inserted: int) -> int:
-        """Lines after another, named by the row and numbered from ``inserted`` + 1; how many the row has now."""
+        """Insert lines after another one.  Their ids continue the numbering of the row; return its last number."""
         if texts:
             new = [f"{row.id}.{inserted + k}" for k in range(1, len(texts) + 1)]
             at = self._order.index(behind.id) + 1
@@ -304,13 +306,13 @@ class _Page:
 
 @lru_cache(4096)
 def on_form(text: str) -> str:
-    """A statement in the columns of the coding form (C26-5619 p. 12); a comment keeps its own."""
+    """Return a statement in the columns of the coding form (C26-5619 p. 12).  Comments are unchanged."""
     if text.startswith("C  "):
         return text
-    words = text.strip()
-    number = re.match(r"\d*", words)
+    label_and_statement = text.strip()
+    number = re.match(r"\d*", label_and_statement)
     label = number[0] if number else ""
-    statement = words[len(label) :].strip()
+    statement = label_and_statement[len(label) :].strip()
     card = f"{label:>5} {statement}"
     return card if len(card) <= LAST_COLUMN else label + statement
 
@@ -320,14 +322,15 @@ def _row(head: Mapping[str, Any], raw: Mapping[str, Any]) -> Row:
     missing = [k for k in _FIELDS if k not in raw]
     if missing:
         raise ApparatusError(f"{text_id}: row {name} lacks {', '.join(missing)}")
-    strange = [k for k in raw if k not in (*_FIELDS, *_OPTIONAL)]
-    if strange:
-        raise ApparatusError(f"{text_id}: row {name} has {', '.join(strange)}, which no row stores")
+    unknown = [k for k in raw if k not in (*_FIELDS, *_OPTIONAL)]
+    if unknown:
+        raise ApparatusError(f"{text_id}: row {name} has the unknown field {', '.join(unknown)}")
     if raw["layer"] not in layers:
-        raise ApparatusError(f"{text_id}: row {name} is of layer {raw['layer']!r}; the text has {', '.join(layers)}")
+        expected = ", ".join(layers)
+        raise ApparatusError(f"{text_id}: row {name}: unknown layer {raw['layer']!r}; expected one of {expected}")
     cause = str(raw.get("cause", _CAUSE.get(raw["layer"], "editor")))
     if cause not in _CAUSES:
-        raise ApparatusError(f"{text_id}: row {name}: the cause is one of {', '.join(_CAUSES)}")
+        raise ApparatusError(f"{text_id}: row {name}: unknown cause {cause!r}; expected one of {', '.join(_CAUSES)}")
     changes = tuple(
         Change(
             line=str(c["line"]),
@@ -347,7 +350,7 @@ def _row(head: Mapping[str, Any], raw: Mapping[str, Any]) -> Row:
             )
     rejected = tuple(Rejected(str(r.get("reading", "")), str(r.get("reason", ""))) for r in raw.get("rdg", ()))
     if not all(r.reading and r.reason for r in rejected):
-        raise ApparatusError(f"{text_id}: row {name}: a rejected reading has a reading and a reason")
+        raise ApparatusError(f"{text_id}: row {name}: a rejected reading needs a reading and a reason")
     when = raw.get("date", head.get("date", ""))
     return Row(
         id=name,
@@ -366,7 +369,7 @@ def _row(head: Mapping[str, Any], raw: Mapping[str, Any]) -> Row:
 
 
 def _with_page(row: Row, pages: Mapping[str, str], origins: Mapping[str, Row]) -> Row:
-    """The row with the page, or the first and the last, of the witness lines it touches."""
+    """Return the row with the page, or the first and last page, of the witness lines that it changes."""
 
     def page(line: str) -> str:
         if line in pages:
@@ -375,15 +378,15 @@ def _with_page(row: Row, pages: Mapping[str, str], origins: Mapping[str, Row]) -
         return page(maker.changes[0].line) if maker and maker is not row else ""
 
     touched = {page(line) for change in row.changes for line in (change.line, change.through) if line}
-    found = [name for name in dict.fromkeys(pages.values()) if name in touched]
-    return replace(row, page="-".join(found if len(found) < 2 else (found[0], found[-1])))
+    in_order = [name for name in dict.fromkeys(pages.values()) if name in touched]
+    return replace(row, page="-".join(in_order if len(in_order) < 2 else (in_order[0], in_order[-1])))
 
 
 def _shown(text: str) -> str:
     return text.replace("\n", " / ")
 
 
-def _done(change: Change) -> str:
+def _effect(change: Change) -> str:
     return "(set out as on the form)" if change.form else "(without blanks)" if change.dense else "-"
 
 

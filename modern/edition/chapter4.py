@@ -1,7 +1,7 @@
-"""The worked examples of chapter 4 (theorems 4.1, 4.2 with Table 1, 4.8) as exact data tied to the print.
+"""The worked examples of chapter 4 (theorems 4.1, 4.2 with Table 1, and 4.8) as exact data.
 
-Points and planes are rationals; each names the line of the corrected print (witness + apparatus of
-``transcripts/chapter4``) and the words there, and :func:`theorem_faults` reads those words again and compares.
+Points and planes are rational.  Each names its line of the corrected print (witness and apparatus of
+``transcripts/chapter4``) and the words there.  :func:`theorem_faults` parses those words and compares.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _TERM = re.compile(r"([+-]?)(\d*)([xyz]?)")
 
 @dataclass(frozen=True, slots=True)
 class Point:
-    """A printed point: name, exact coordinates (x, y, z), printed line and the words there."""
+    """A printed point: its name, exact coordinates (x, y, z), printed line and words."""
 
     name: str
     at: Vector
@@ -35,7 +35,7 @@ class Point:
 
 @dataclass(frozen=True, slots=True)
 class Plane:
-    """Ax + By + Cz + D = 0 with the points the thesis says it contains."""
+    """The plane Ax + By + Cz + D = 0, with the points that it contains according to the thesis."""
 
     number: int
     coefficients: Vector
@@ -44,16 +44,18 @@ class Plane:
     printed: str
 
     def at(self, point: Point) -> Fraction:
-        """The left member at a point, exactly."""
+        """Return Ax + By + Cz + D at a point."""
         products = (a * x for a, x in zip(self.coefficients, point.at, strict=False))
         return sum(products, self.coefficients[3])
 
 
 @dataclass(frozen=True, slots=True)
 class Theorem:
-    """A worked example.  ``extremes`` maps lx, sx, ly, sy, lz, sz to point names; ``signs`` are (plane, point, sign).
+    """A worked example.
 
-    ``lost`` names points the OCR lost and the text does not determine; they have no coordinates here.
+    ``extremes`` maps lx, sx, ly, sy, lz and sz (the points with largest and smallest x, y and z) to point names;
+    ``signs`` holds (plane, point, sign).  ``lost`` names points that the OCR lost and that the text does not
+    determine; they have no coordinates.
     """
 
     id: str
@@ -79,12 +81,12 @@ def chapter4_folder() -> Traversable:
 
 
 def load_text() -> Text:
-    """The text of the three examples with its apparatus."""
+    """Return the text of the three examples with its apparatus."""
     return load(chapter4_folder(), "chapter4")
 
 
 def load_theorems() -> tuple[Theorem, ...]:
-    """The data of ``theorems.toml``, in the order of the chapter."""
+    """Return the data of ``theorems.toml`` in the order of the chapter."""
     data = tomllib.loads(chapter4_folder().joinpath("theorems.toml").read_text(encoding="utf-8"))
     return tuple(_theorem(raw) for raw in data["theorem"])
 
@@ -111,27 +113,27 @@ def _vector(texts: Sequence[str]) -> Vector:
     return tuple(Fraction(text) for text in texts)
 
 
-def printed_point(words: str) -> Vector:
-    """The coordinates in ``(9/4, 4, 1/8)`` or ``P_1 = (9,6,-8)``."""
-    return _vector([part.strip() for part in words[words.index("(") + 1 : words.rindex(")")].split(",")])
+def printed_point(text: str) -> Vector:
+    """Return the coordinates printed as ``(9/4, 4, 1/8)`` or ``P_1 = (9,6,-8)``."""
+    return _vector([part.strip() for part in text[text.index("(") + 1 : text.rindex(")")].split(",")])
 
 
-def printed_plane(words: str) -> Vector:
-    """A, B, C, D of ``2x - 5y + 14z = 0``; a term that is not printed is 0."""
-    left, right = words.replace(" ", "").split("=")
+def printed_plane(equation: str) -> Vector:
+    """Return A, B, C, D of ``2x - 5y + 14z = 0``.  A term that is not printed is 0."""
+    left, right = equation.replace(" ", "").split("=")
     if right != "0":
-        raise ValueError(f"{words}: the right member is not 0")
-    found = dict.fromkeys(("x", "y", "z", ""), Fraction(0))
+        raise ValueError(f"{equation}: the right-hand side is not 0")
+    coefficients = dict.fromkeys(("x", "y", "z", ""), Fraction(0))
     for sign, digits, variable in _TERM.findall(left):
         if digits or variable:
-            found[variable] = Fraction(f"{sign}{digits or 1}")
-    return tuple(found[v] for v in ("x", "y", "z", ""))
+            coefficients[variable] = Fraction(f"{sign}{digits or 1}")
+    return tuple(coefficients[v] for v in ("x", "y", "z", ""))
 
 
 def theorem_faults(theorem: Theorem, text: Text, lines: Sequence[Line] | None = None) -> tuple[str, ...]:
-    """What is wrong with a theorem's data or claims: the tie to the print and exact arithmetic.
+    """Return the faults of a theorem's data: differences from the print, and claims that exact arithmetic refutes.
 
-    ``lines`` are the corrected print (default: the text's default layers).
+    ``lines`` are the lines of the corrected print, by default those of the text's default layers.
     """
     faults: list[str] = []
     at = {line.id: "".join(line.text.split()) for line in (build(text) if lines is None else lines)}
@@ -140,52 +142,53 @@ def theorem_faults(theorem: Theorem, text: Text, lines: Sequence[Line] | None = 
         if "".join(point.printed.split()) not in at.get(point.line, ""):
             faults.append(f"{name}: line {point.line} does not print {point.printed}")
         if printed_point(point.printed) != point.at:
-            faults.append(f"{name}: {point.name} is not {point.printed}")
+            faults.append(f"{name}: {point.name} differs from {point.printed}")
     for plane in theorem.planes:
         if "".join(plane.printed.split()) not in at.get(plane.line, ""):
             faults.append(f"{name}: line {plane.line} does not print {plane.printed}")
         if printed_plane(plane.printed) != plane.coefficients:
-            faults.append(f"{name}: plane {plane.number} is not {plane.printed}")
+            faults.append(f"{name}: plane {plane.number} differs from {plane.printed}")
         faults += _plane_faults(theorem, plane, at.get(plane.line, ""))
     if len(theorem.points) + len(theorem.lost) != theorem.points_stated:
-        faults.append(f"{name}: it speaks of {theorem.points_stated} points")
+        total = len(theorem.points) + len(theorem.lost)
+        faults.append(f"{name}: the text states {theorem.points_stated} points, the data have {total}")
     for label, extreme in theorem.extremes.items():
         faults += _extreme_faults(theorem, label, extreme)
     for number, named, sign in theorem.signs:
-        found = theorem.point(named)
-        value = theorem.plane(number).at(found) if found else Fraction(0)
+        sign_point = theorem.point(named)
+        value = theorem.plane(number).at(sign_point) if sign_point else Fraction(0)
         if (value > 0) != (sign == "+") or value == 0:
-            faults.append(f"{name}: plane {number} at {named} is {value}, stated {sign}")
+            faults.append(f"{name}: plane {number} has the value {value} at {named}, the text states {sign}")
     return tuple(faults)
 
 
-def _plane_faults(theorem: Theorem, plane: Plane, words: str) -> list[str]:
+def _plane_faults(theorem: Theorem, plane: Plane, printed_line: str) -> list[str]:
     faults = []
     for vertex in plane.vertices:
         point = theorem.point(vertex)
         if point is None or plane.at(point):
             faults.append(f"theorem {theorem.id}: plane {plane.number} does not contain {vertex}")
-        if len(theorem.planes) > 1 and point and not _named(point, words):
+        if len(theorem.planes) > 1 and point and not _named(point, printed_line):
             faults.append(f"theorem {theorem.id}: the table does not list {vertex} for plane {plane.number}")
-    for other in theorem.outside_plane:
-        point = theorem.point(other)
+    for name in theorem.outside_plane:
+        point = theorem.point(name)
         if point is None or not plane.at(point):
-            faults.append(f"theorem {theorem.id}: plane {plane.number} contains {other}")
+            faults.append(f"theorem {theorem.id}: plane {plane.number} contains {name}")
     return faults
 
 
-def _named(point: Point, words: str) -> bool:
-    """A table names a point by its coordinates (4.8) or by a P with a small digit below (4.2)."""
-    small = "P" + "₀₁₂₃₄₅₆₇₈₉"[int(point.name[1:])]
-    return small in words or "".join(str(point.at[i]) + ",)"[i == 2] for i in range(3)) in words
+def _named(point: Point, printed_line: str) -> bool:
+    """Return True if a line of a table names a point by its coordinates (4.8) or by P with a subscript (4.2)."""
+    subscripted = "P" + "₀₁₂₃₄₅₆₇₈₉"[int(point.name[1:])]
+    return subscripted in printed_line or "".join(str(point.at[i]) + ",)"[i == 2] for i in range(3)) in printed_line
 
 
 def _extreme_faults(theorem: Theorem, label: str, name: str) -> list[str]:
-    """``lx``: no point has a larger x; ``sx``: none a smaller one.  A lost point is not compared."""
+    """Check an extreme: no point has a larger x than ``lx``, or a smaller one than ``sx``.  Lost points are skipped."""
     axis, point = "xyz".index(label[1]), theorem.point(name)
     if point is None:
-        return [] if name in theorem.lost else [f"theorem {theorem.id}: there is no {name}"]
+        return [] if name in theorem.lost else [f"theorem {theorem.id}: {name} does not exist"]
     values = [p.at[axis] for p in theorem.points]
     if point.at[axis] != (max(values) if label[0] == "l" else min(values)):
-        return [f"theorem {theorem.id}: {name} has not the extreme {label}"]
+        return [f"theorem {theorem.id}: {name} is not the extreme {label}"]
     return []

@@ -1,9 +1,9 @@
-"""Chapter 6 as it is printed: its layout, ``transcripts/chapter6/layout.toml``, and its committed device files.
+"""The layout of chapter 6 (``transcripts/chapter6/layout.toml``) and its committed device files.
 
-The print of chapter 6 gives words, numbers and their order.  The layout gives what the OCR lost and the
-FORMAT statements still say: columns and blank cards (layer ``layout``), and the typewriter lines that the
-thesis states but does not print (layer ``stated``).  A device file is what :mod:`modern.edition.chapter6_cards`
-makes of both: an input deck, the cards a program punches, the lines it types.
+The print of chapter 6 gives words, numbers and their order.  The OCR lost the columns and the blank cards; the layout
+supplies them from the FORMAT statements (layer ``layout``).  It also supplies the typewriter lines, which the thesis
+states but does not print (layer ``stated``).  :mod:`modern.edition.chapter6_cards` combines print and layout into
+*device files*: an input deck, the cards that a program punches, or the lines that it types.
 """
 
 from __future__ import annotations
@@ -21,24 +21,24 @@ EXAMPLES = (1, 2, 3, 4, 5, 6)
 
 Output = Literal["punch", "typewriter"]
 Device = Literal["deck", "punch", "typewriter"]
-"""What a device file is of: the input deck, the cards punched, the lines typed."""
+"""The kind of a device file: the input deck, the punched cards or the typed lines."""
 
 Origin = Literal["layout", "stated"]
-"""The layer of a device file: its blanks are the layout's, or all of it is stated in the text and printed nowhere."""
+"""The layer of a device file: only its blanks come from the layout, or the text states it and does not print it."""
 
 Role = Literal[
     "", "n", "point", "centre", "plane", "carrier", "inside", "boundary", "vertex", "endpoint", "equation", "incidence"
 ]
-"""What a card holds; empty for headings and blank cards."""
+"""The contents of a card; empty for headings and blank cards."""
 
 
 class LayoutError(ValueError):
-    """A layout that cannot be read; one line naming the card or the device file."""
+    """An invalid layout; the message names the card or the device file."""
 
 
 @dataclass(frozen=True, slots=True)
 class Format:
-    """A FORMAT statement: ``text`` as restored, ``listed`` as the OCR of the listing has it (page in ``page``)."""
+    """A FORMAT statement: ``text`` as restored, and ``listed`` as in the OCR text of the listing on ``page``."""
 
     program: int
     number: int
@@ -50,7 +50,7 @@ class Format:
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """Columns ``first`` to ``last`` (from 1); ``word`` for printed words, otherwise a number set to the right."""
+    """Columns ``first`` to ``last``, counted from 1.  ``word`` marks printed words; numbers are right-aligned."""
 
     first: int
     last: int
@@ -63,7 +63,7 @@ class Field:
 
 @dataclass(frozen=True, slots=True)
 class CardShape:
-    """One card of a FORMAT: card ``record`` (from 1, blank cards counted) for a list of ``values`` numbers."""
+    """One card of a FORMAT: card ``record`` (from 1, including blank cards) of a list of ``values`` numbers."""
 
     id: str
     program: int
@@ -76,7 +76,7 @@ class CardShape:
 
 @dataclass(frozen=True, slots=True)
 class DeviceLayout:
-    """One device file: its printed lines and its cards with their roles, or (layer ``stated``) its typed lines."""
+    """A device file: its printed lines and its cards with their roles, or (layer ``stated``) its typed lines."""
 
     example: int
     program: int
@@ -98,7 +98,7 @@ class Layout:
 
 
 def load_layout(folder: Traversable) -> Layout:
-    """Read ``layout.toml`` of a transcript folder.  Raises LayoutError for a card, role, device or layer it has not."""
+    """Read ``layout.toml`` of a transcript folder.  Raises LayoutError for an unknown card, role, device or layer."""
     data = tomllib.loads(folder.joinpath("layout.toml").read_text(encoding="utf-8"))
     formats = tuple(
         Format(f["program"], f["number"], f["page"], f["text"], f.get("listed", f["text"]), f.get("note", ""))
@@ -108,7 +108,7 @@ def load_layout(folder: Traversable) -> Layout:
     for raw in data["card"]:
         fields = tuple(Field(first, last, kind == "l") for first, last, kind in raw["fields"])
         if raw["id"] in shapes:
-            raise LayoutError(f"layout.toml: card {raw['id']} stands twice")
+            raise LayoutError(f"layout.toml: card {raw['id']} is defined twice")
         shapes[raw["id"]] = CardShape(
             raw["id"], raw["program"], raw["format"], raw["record"], raw["values"], fields, raw["source"]
         )
@@ -125,15 +125,15 @@ def _device(raw: Mapping[str, Any], shapes: Mapping[str, CardShape]) -> DeviceLa
     for item in raw.get("cards", ()):
         entry: Mapping[str, Any] = {"id": item} if isinstance(item, str) else item
         if entry["id"] not in shapes:
-            raise LayoutError(f"layout.toml: {raw['file']}: there is no card {entry['id']}")
+            raise LayoutError(f"layout.toml: {raw['file']}: unknown card {entry['id']}")
         role: Role = entry.get("role", "")
         if role not in get_args(Role):
-            raise LayoutError(f"layout.toml: {raw['file']}: there is no role {role!r}")
+            raise LayoutError(f"layout.toml: {raw['file']}: unknown role {role!r}")
         cards += [(shapes[entry["id"]], role)] * entry.get("times", 1)
     if raw["device"] not in get_args(Device):
-        raise LayoutError(f"layout.toml: {raw['file']}: there is no device {raw['device']!r}")
+        raise LayoutError(f"layout.toml: {raw['file']}: unknown device {raw['device']!r}")
     if raw["layer"] not in get_args(Origin) or (raw["layer"] == "layout") != ("lines" in raw):
-        raise LayoutError(f"layout.toml: {raw['file']}: layer `layout` names printed lines, layer `stated` none")
+        raise LayoutError(f"layout.toml: {raw['file']}: printed lines are required in layer `layout` and only there")
     return DeviceLayout(
         example=raw["example"],
         program=raw["program"],
@@ -149,7 +149,7 @@ def _device(raw: Mapping[str, Any], shapes: Mapping[str, CardShape]) -> DeviceLa
 
 @dataclass(frozen=True, slots=True)
 class Print:
-    """What the thesis prints (or, for a typewriter, states) of one device in one example, a card or line each."""
+    """The output of one device in one example as the thesis prints it, or for a typewriter states it, line by line."""
 
     example: int
     program: int
@@ -158,19 +158,19 @@ class Print:
 
 
 def chapter6_folder() -> Traversable:
-    """The data folder of chapter 6, in a checkout or an installed wheel."""
+    """Return the data folder of chapter 6, in a checkout or an installed wheel."""
     return files("transcripts").joinpath("chapter6")
 
 
 def input_deck(example: int, folder: Traversable | None = None) -> Deck:
-    """The example's input data for program 1."""
+    """Return the input data of an example for program 1."""
     name = f"example{example}/program1.deck"
     text = (folder or chapter6_folder()).joinpath(*name.split("/")).read_text(encoding="ascii")
     return deck_from_text(name, text)
 
 
 def prints(example: int, folder: Traversable | None = None) -> Iterator[Print]:
-    """Every output device of every program the example prints, program by program."""
+    """Yield the print of every output device of every program of an example."""
     outputs: tuple[Output, ...] = ("punch", "typewriter")
     place = (folder or chapter6_folder()).joinpath(f"example{example}")
     for program in (1, 2, 3):

@@ -1,12 +1,11 @@
-"""The printed examples of chapter 6 as card images, each character tied to the page.
+"""The printed examples of chapter 6 as card images, with the printed line of every character.
 
-A device file (an input deck, the cards a program punches, the lines it types) is the corrected print
-(witness + apparatus, :mod:`modern.edition.apparatus`) set into the columns of ``layout.toml``.  The print
-gives every non-blank character and their order; the layout gives only blanks and blank cards.  Typewriter
-lines are of the layer ``stated``: chapter 6 prints none.
+A device file (an input deck, the punched cards or the typed lines of a program) is the corrected print (witness and
+apparatus, :mod:`modern.edition.apparatus`) set into the columns of ``layout.toml``.  The print gives every nonblank
+character and their order.  The layout gives only blanks and blank cards, and the typewriter lines, which chapter 6
+does not print.
 
-``python -m modern.edition --write`` writes the device files from witness, apparatus and layout; nothing here
-reads a run.  ``python -m modern.edition --check`` runs every check of :mod:`modern.edition.chapter6_checks`.
+``python -m modern.edition --write`` writes the device files from these sources.  No run of a program is an input.
 """
 
 from __future__ import annotations
@@ -26,12 +25,12 @@ _BLANK = " \t"
 
 
 class TranscriptError(ValueError):
-    """The corrected print does not fit its cards; one line naming device file, card, line and columns."""
+    """The corrected print does not fit its cards; the message names device file, card, line and columns."""
 
 
 @dataclass(frozen=True, slots=True)
 class Token:
-    """A printed number or word on a card: its text, its columns (from 1, inclusive) and its printed line."""
+    """A printed number or word on a card: its text, its first and last column (from 1) and its printed line."""
 
     text: str
     first: int
@@ -41,9 +40,9 @@ class Token:
 
 @dataclass(frozen=True, slots=True)
 class Card:
-    """A card of a device file; ``number`` counts from 1 with blank cards, ``image`` has no trailing blanks.
+    """A card of a device file.  ``number`` counts from 1 and includes blank cards; ``image`` has no trailing blanks.
 
-    A typed line has no tokens: nothing of it is printed.
+    A typed line has no tokens, because it is not printed.
     """
 
     example: int
@@ -66,30 +65,30 @@ class Chapter:
     layers: tuple[str, ...]
     without: frozenset[str]
     places: Mapping[str, int] = field(default_factory=dict, compare=False)
-    """Each line's place in the print."""
+    """The index of each line in the print."""
     read: dict[tuple[str, ...], tuple[Card, ...]] = field(default_factory=dict, compare=False)
-    """Cards already read, by device file and lines; a chapter and what is made of it share them."""
+    """A cache of cards by device file and lines, shared by a chapter and its variants."""
     last: dict[str, Chapter] = field(default_factory=dict, compare=False)
-    """The chapter without a row, for the row asked for last: more than one check of a row asks for it."""
+    """A cache of the latest variant without a row, because several checks of a row use it."""
 
 
 def load_chapter(layers: Iterable[str] | None = None, without: Collection[str] = ()) -> Chapter:
-    """Chapter 6 with the rows of ``layers`` (default: all), leaving out the rows ``without``.
+    """Read chapter 6 with the rows of ``layers`` (by default all), except the rows ``without``.
 
-    Raises ApparatusError where rows do not fit, LayoutError for a layout that cannot be read.
+    Raises ApparatusError if a row does not fit, and LayoutError for an invalid layout.
     """
     folder = chapter6_folder()
     return rebuilt(load(folder, "chapter6"), load_layout(folder), layers, without)
 
 
 def rebuilt(text: Text, layout: Layout, layers: Iterable[str] | None = None, without: Collection[str] = ()) -> Chapter:
-    """A chapter from a text and a layout already read; used to see what the print is without some rows."""
-    wanted = tuple(text.default if layers is None else layers)
-    return _chapter(text, build(text, wanted, without), layout, wanted, frozenset(without), {})
+    """Return the chapter for a text and a layout that are already read."""
+    applied = tuple(text.default if layers is None else layers)
+    return _chapter(text, build(text, applied, without), layout, applied, frozenset(without), {})
 
 
 def without_row(chapter: Chapter, row_id: str) -> Chapter:
-    """The chapter without a row and those that cannot stand without it, in all layers."""
+    """Return the chapter without a row and the rows that depend on it, with all layers."""
     if row_id not in chapter.last:
         gone, lines = built_without(chapter.text, row_id)
         chapter.last.clear()
@@ -109,7 +108,7 @@ def _chapter(
 
 
 def device_files(chapter: Chapter | None = None) -> tuple[tuple[int, int, Device, str], ...]:
-    """(example, program, device, file name) of every device file, in the order of the chapter."""
+    """Return (example, program, device, file name) of every device file in the order of the chapter."""
     layout = chapter.layout if chapter else load_layout(chapter6_folder())
     return tuple((d.example, d.program, d.device, d.file) for d in layout.devices)
 
@@ -122,20 +121,20 @@ def device_layout(chapter: Chapter, example: int, program: int, device: Device) 
 
 
 def printed_lines(chapter: Chapter, entry: DeviceLayout) -> tuple[Line, ...]:
-    """The lines of the corrected print a device file covers; none for a typewriter."""
+    """Return the lines of the corrected print that a device file covers; empty for a typewriter."""
     if entry.span is None:
         return ()
     places = chapter.places
     for end in entry.span:
         if end not in places:
-            raise TranscriptError(f"{entry.file}: there is no line {end} in the corrected print")
+            raise TranscriptError(f"{entry.file}: the corrected print has no line {end}")
     return chapter.print[places[entry.span[0]] : places[entry.span[1]] + 1]
 
 
 def cards(chapter: Chapter, example: int, program: int, device: Device) -> tuple[Card, ...]:
-    """The cards (or typed lines) of one device file, in order.
+    """Return the cards (or typed lines) of one device file in order.
 
-    Raises TranscriptError when the printed numbers and words do not fill the fields of the cards exactly.
+    Raises TranscriptError if the printed numbers and words do not fill the fields of the cards exactly.
     """
     entry = device_layout(chapter, example, program, device)
     if entry.layer == "stated":
@@ -155,12 +154,12 @@ def cards(chapter: Chapter, example: int, program: int, device: Device) -> tuple
 
 
 def card_images(chapter: Chapter, example: int, program: int, device: Device) -> tuple[str, ...]:
-    """The card images of one device file, without trailing blanks; a blank card is an empty string."""
+    """Return the card images of one device file without trailing blanks; a blank card is an empty string."""
     return tuple(card.image for card in cards(chapter, example, program, device))
 
 
 def built_files(chapter: Chapter) -> Iterator[tuple[str, str]]:
-    """(file name, contents) of every device file: one card a line, each line ended."""
+    """Yield (file name, contents) of every device file, one card on each line."""
     for example, program, device, name in device_files(chapter):
         images = card_images(chapter, example, program, device)
         yield name, "".join(image + "\n" for image in images)
@@ -169,7 +168,7 @@ def built_files(chapter: Chapter) -> Iterator[tuple[str, str]]:
 def write_files(chapter: Chapter, folder: Path) -> tuple[str, ...]:
     """Write the device files under ``folder`` and return their names.
 
-    Everything is built before anything is written, so that an error leaves the folder as it was.
+    Everything is built before anything is written, so that an error leaves the folder unchanged.
     """
     built = tuple(built_files(chapter))
     for name, contents in built:
@@ -180,7 +179,7 @@ def write_files(chapter: Chapter, folder: Path) -> tuple[str, ...]:
 
 
 class _Reader:
-    """Takes the fields of cards one after the other from printed lines whose spacing means nothing."""
+    """Reads the fields of cards one after another from printed lines whose spacing has no meaning."""
 
     def __init__(self, name: str, lines: Sequence[Line]) -> None:
         self._name = name
@@ -193,20 +192,21 @@ class _Reader:
         if not self._seek():
             raise TranscriptError(f"{place}: the printed lines end before it")
         line = self._lines[self._line]
-        found = self._word(field.width) if field.word else self._number(field.width)
-        if found is None:
-            wanted = f"{field.width} characters of words" if field.word else f"a number of {field.width} columns"
+        token = self._word(field.width) if field.word else self._number(field.width)
+        if token is None:
+            expected = f"{field.width} characters of words" if field.word else f"a number of {field.width} columns"
             rest = line.text[self._at :].strip()
-            raise TranscriptError(f"{place}: line {line.id} should have {wanted}, it has {rest!r}")
-        if len(found) > field.width:
-            raise TranscriptError(f"{place}: line {line.id}: {found} is wider than its field")
-        first = field.first if field.word else field.last - len(found) + 1
-        return Token(found, first, first + len(found) - 1, line.id)
+            raise TranscriptError(f"{place}: line {line.id}: expected {expected}, found {rest!r}")
+        if len(token) > field.width:
+            raise TranscriptError(f"{place}: line {line.id}: {token} is wider than its field")
+        first = field.first if field.word else field.last - len(token) + 1
+        return Token(token, first, first + len(token) - 1, line.id)
 
     def finish(self) -> None:
         if self._seek():
             line = self._lines[self._line]
-            raise TranscriptError(f"{self._name}: line {line.id}: {line.text[self._at :].strip()!r} is left over")
+            rest = line.text[self._at :].strip()
+            raise TranscriptError(f"{self._name}: line {line.id}: {rest!r} remains after the last field")
 
     def _seek(self) -> bool:
         while self._line < len(self._lines):
@@ -220,11 +220,11 @@ class _Reader:
 
     def _number(self, width: int) -> str | None:
         pattern = E14 if width == 14 else _INTEGER
-        found = pattern.match(self._lines[self._line].text, self._at)
-        if not found:
+        match = pattern.match(self._lines[self._line].text, self._at)
+        if not match:
             return None
-        self._at = found.end()
-        return found[0]
+        self._at = match.end()
+        return match[0]
 
     def _word(self, width: int) -> str | None:
         text, at, taken = self._lines[self._line].text, self._at, ""

@@ -1,18 +1,17 @@
-"""The grounds of the chapter 6 rows as checks by machine, with exact decimals.
+"""Check the grounds of the rows of chapter 6 with exact decimals.
 
-A row of the apparatus stands on its ground when the ground holds in the corrected print and fails when the
-row (and the rows that need it) is left out.  So a superfluous row is caught, and so is a wrong one.  Every
-ground speaks of the print alone; no run of a program enters.
+The ground of a row must hold in the corrected print, and must fail if the row and the rows that depend on it are left
+out.  This detects both superfluous and wrong rows.  Grounds use the print alone, never a run of a program.
 
-Kinds of ground (the row's ``ground`` table; ``also`` may hold a second one, which must hold too):
+The kinds of ground (table ``ground`` of a row; ``also`` may hold a second ground, which must hold too):
 
-``width``       the row's lines hold something that is not a number of its field; with the row they do not
-``deck``        the numbers of ``example, program, device, card`` (one of them with ``field``) stand in the row's line
-``arithmetic``  ``check = "plane"``: equation n vanishes at its printed vertices, which are the ones named;
+``width``       without the row, its lines contain something that is not a number of the field; with it, they do not
+``deck``        the numbers of ``example, program, device, card`` (or only number ``field``) occur in the row's line
+``arithmetic``  ``check = "plane"``: equation n vanishes at its printed vertices, which are the named ones;
                 ``"carrier"``: the plane of example 4 vanishes at all points; ``"centre"``: the centre is the mean of
-                the first four points; ``"minus-with-point"``: where the OCR lost a point it lost a minus with it
-``sibling``     the words stand in the ``own`` lines and in the ``lines`` of another place of the chapter
-``order``       ``lines``: sorted by their columns the pieces give the row's order; ``role``: the numbers of a
+                the first four points; ``"minus-with-point"``: a decimal point that the OCR lost had a minus before it
+``sibling``     the words occur in the ``own`` lines and in the ``lines`` of another part of the chapter
+``order``       ``lines``: the pieces sorted by their columns have the order of the row; ``role``: the numbers of a
                 table count up from 1; ``page``: the piece is the number of its page
 """
 
@@ -35,18 +34,18 @@ Ground = Mapping[str, Any]
 
 
 def row_faults(chapter: Chapter, row: Row) -> tuple[str, ...]:
-    """Why the row does not stand: its ground fails in the corrected print, or holds without the row too."""
+    """Return the faults of a row: a ground that fails in the corrected print, or that holds without the row."""
     grounds = [row.ground, *([row.ground["also"]] if "also" in row.ground else [])]
     faults = []
     without = without_row(chapter, row.id)
     for ground in grounds:
         check = _CHECKS.get(str(ground.get("kind", "")))
         if check is None:
-            return (f"row {row.id}: there is no ground {ground.get('kind')!r}",)
+            return (f"row {row.id}: unknown kind of ground {ground.get('kind')!r}",)
         if not _holds(check, chapter, row, ground):
-            faults.append(f"row {row.id}: its ground ({ground['kind']}) does not hold in the corrected print")
+            faults.append(f"row {row.id}: its ground ({ground['kind']}) fails in the corrected print")
         elif _holds(check, without, row, ground):
-            faults.append(f"row {row.id}: its ground ({ground['kind']}) holds without it")
+            faults.append(f"row {row.id}: its ground ({ground['kind']}) also holds without the row")
     return tuple(faults)
 
 
@@ -66,14 +65,14 @@ def _touched(chapter: Chapter, row: Row) -> tuple[Line, ...]:
 
 
 def solid(text: str) -> str:
-    """The text without its blanks."""
+    """Return the text without blanks."""
     return "".join(text.split())
 
 
 def well_formed(text: str, signed: bool) -> bool:
-    """Whether a printed line holds only E14.8 numbers, short integers and words of the card code.
+    """Return True if a printed line holds only E14.8 numbers, short integers and words in card characters.
 
-    ``signed``: the line is of an input deck, where every number has its sign printed.
+    ``signed`` is True for a line of an input deck, where every number has a printed sign.
     """
     rest = (_SIGNED if signed else E14).sub(" ", text)
     if _STRAY.search(rest):
@@ -92,7 +91,7 @@ def _width(chapter: Chapter, row: Row, ground: Ground) -> bool:
 
 
 def numbers(card: Card) -> tuple[Decimal, ...]:
-    """The E14.8 numbers of a card as exact decimals."""
+    """Return the E14.8 numbers of a card as exact decimals."""
     return tuple(Decimal(t.text) for t in card.tokens if E14.fullmatch(t.text))
 
 
@@ -101,16 +100,16 @@ def integers(card: Card) -> tuple[int, ...]:
 
 
 def of_role(chapter: Chapter, example: int, program: int, role: Role, device: Device = "punch") -> tuple[Card, ...]:
-    """The cards of one role, in their order on the device file."""
+    """Return the cards of one role in the order of the device file."""
     return tuple(card for card in cards(chapter, example, program, device) if card.role == role)
 
 
 def _deck(chapter: Chapter, row: Row, ground: Ground) -> bool:
     source = cards(chapter, ground["example"], ground["program"], ground["device"])[ground["card"] - 1]
-    wanted = numbers(source)
+    card_numbers = numbers(source)
     if "field" not in ground:
-        return wanted in (_values(chapter, line) for line in _touched(chapter, row))
-    value = wanted[ground["field"] - 1]
+        return card_numbers in (_values(chapter, line) for line in _touched(chapter, row))
+    value = card_numbers[ground["field"] - 1]
     without = chapter if row.id in chapter.without else without_row(chapter, row.id)
     return _count(chapter, row, value) > _count(without, row, value)
 
@@ -125,21 +124,21 @@ def _count(chapter: Chapter, row: Row, value: Decimal) -> int:
 
 
 def vertices(chapter: Chapter, example: int, program: int) -> tuple[tuple[Decimal, ...], ...]:
-    """The points that the planes of a program's output are numbered by: vertices, endpoints, or first four points."""
+    """Return the points to which the planes of an output refer: vertices, endpoints, or the first four points."""
     roles: tuple[Role, ...] = ("vertex", "endpoint", "point")
     for role in roles:
-        if found := of_role(chapter, example, program, role):
-            return tuple(numbers(card) for card in found[: 4 if role == "point" else None])
+        if point_cards := of_role(chapter, example, program, role):
+            return tuple(numbers(card) for card in point_cards[: 4 if role == "point" else None])
     raise TranscriptError(f"example {example}, program {program} prints no points")
 
 
 def plane_at(plane: Sequence[Decimal], point: Sequence[Decimal]) -> Decimal:
-    """Ax + By + Cz + D, exactly."""
+    """Return Ax + By + Cz + D."""
     return sum((a * x for a, x in zip(plane[:3], point, strict=True)), plane[3])
 
 
 def incidences(chapter: Chapter, example: int, program: int) -> dict[int, tuple[int, ...]]:
-    """Equation number to the vertices the print gives it (the intermediate decks: on the plane's own card)."""
+    """Map each equation number to its printed vertices, which intermediate decks have on the card of the plane."""
     if planes := of_role(chapter, example, program, "plane"):
         return {n: integers(card) for n, card in enumerate(planes, start=1)}
     if program == 1 and (table := of_role(chapter, example, 1, "incidence")):
@@ -150,9 +149,9 @@ def incidences(chapter: Chapter, example: int, program: int) -> dict[int, tuple[
 
 
 def planes(chapter: Chapter, example: int, program: int) -> dict[int, tuple[Decimal, ...]]:
-    """Equation number to its printed A, B, C, D."""
-    if found := of_role(chapter, example, program, "plane"):
-        return {n: numbers(card) for n, card in enumerate(found, start=1)}
+    """Map each equation number to its printed A, B, C, D."""
+    if plane_cards := of_role(chapter, example, program, "plane"):
+        return {n: numbers(card) for n, card in enumerate(plane_cards, start=1)}
     return {integers(c)[0]: numbers(c) for c in of_role(chapter, example, program, "equation")}
 
 
@@ -183,22 +182,21 @@ def _centre(chapter: Chapter, row: Row, ground: Ground) -> bool:
 
 
 def _minus_with_point(chapter: Chapter, row: Row, ground: Ground) -> bool:
-    """In the named table lines a number has lost its point in the witness just when it carries a minus."""
+    """Return True if, in the named lines of the witness, exactly the negative numbers have lost their point."""
     for line in _lines(chapter, ground["lines"]):
         witness = next(w for w in chapter.text.witness if w.id == line.id)
         cells = [cell.strip() for cell in witness.text.split("\t") if "E" in cell]
-        found = E14.findall(line.text)
-        if len(cells) != len(found):
+        printed = E14.findall(line.text)
+        if len(cells) != len(printed):
             return False
-        if any(cell[0].isdigit() != text.startswith("-") for cell, text in zip(cells, found, strict=True)):
+        if any(cell[0].isdigit() != text.startswith("-") for cell, text in zip(cells, printed, strict=True)):
             return False
     return True
 
 
 def _sibling(chapter: Chapter, row: Row, ground: Ground) -> bool:
-    words = solid(ground["words"])
-    own, other = (solid("".join(line.text for line in _lines(chapter, ground[k]))) for k in ("own", "lines"))
-    return words in own and words in other
+    phrase = solid(ground["words"])
+    return all(phrase in solid("".join(line.text for line in _lines(chapter, ground[k]))) for k in ("own", "lines"))
 
 
 def _order(chapter: Chapter, row: Row, ground: Ground) -> bool:
@@ -214,7 +212,7 @@ def _order(chapter: Chapter, row: Row, ground: Ground) -> bool:
 
 
 def _by_columns(chapter: Chapter, row: Row, ids: Sequence[str]) -> bool:
-    """The row alone puts the pieces of the witness into the order of their columns, and they were out of it."""
+    """Return True if the row alone sorts the pieces of the witness by their columns, and they were not sorted."""
     witness = [line for line in chapter.text.witness if line.id in ids]
     ordered = sorted(witness, key=lambda line: len(line.text) - len(line.text.lstrip()))
     others = frozenset(r.id for r in chapter.text.rows) - {row.id}
@@ -222,11 +220,11 @@ def _by_columns(chapter: Chapter, row: Row, ids: Sequence[str]) -> bool:
         alone = build(chapter.text, chapter.layers, others)
     except ApparatusError:
         return False
-    was, wanted, now = (
+    before, expected, after = (
         solid("".join(line.text for line in lines))
         for lines in (witness, ordered, [line for line in alone if line.id in ids])
     )
-    return was != wanted == now
+    return before != expected == after
 
 
 _ARITHMETIC: Mapping[str, Callable[[Chapter, Row, Ground], bool]] = {

@@ -1,14 +1,17 @@
-"""Why each row of the listings' apparatus must stand: five grounds, each of them tested.
+"""Prove that each row of the apparatus of the listings is needed.
 
-``parse``: without the row the deck does not compile.  ``print``: without it a printed result that came out
-comes out no more.  ``deck``: without it a named data deck gives other cards.  ``forced``: with it the card
-is a sibling card with names exchanged, and without it is not.  ``cosmetic``: with or without it the object
-code is the same.
+The ground of a row names the evidence, and :func:`check_row` removes the row and tests it.  There are five kinds:
 
-A row of several steps (:mod:`modern.edition.readings`) needs each: without any one of them the ground must fail.
+``parse``     without the row, the deck does not compile
+``print``     without the row, a printed result is no longer reproduced
+``deck``      without the row, a data deck punches different cards
+``forced``    with the row, the card equals a similar card with the names exchanged; without it, it does not
+``cosmetic``  the object code is the same with and without the row
 
-A row of a layer the committed decks are built without is judged with its layer switched on, in all three
-programs, and with the layers its ground names: all rows of the layer against all but this one.
+If a row consists of several steps (:mod:`modern.edition.readings`), the ground must fail without each single step.
+
+A row of an optional layer is judged with its whole layer switched on in all three programs, and with the layers that
+its ground names.  All rows of the layer are compared with all rows except this one.
 """
 
 from __future__ import annotations
@@ -34,22 +37,22 @@ from modern.thesis.job import run_hull
 
 LISTED = Options(limit=200_000)
 LAYERED = Options(limit=1_000_000, core=60_000)
-"""The later layers' tables and cards need a machine of 60,000 positions."""
-PATIENCE = 4
-"""A job that has not ended after so many times the statements it takes with the row is another."""
+"""The tables and cards of the optional layers need 60,000 digits of memory."""
+LIMIT_FACTOR = 4
+"""A job without a row counts as different once it takes this many times the statements of the job with the row."""
 
 
 @dataclass(frozen=True, slots=True)
 class Proof:
-    """What a check gave: the row or deck, whether it holds, and in words what was seen."""
+    """The result of a check: its subject (a row or deck), whether the check holds, and a message."""
 
     subject: str
     holds: bool
-    words: str
+    message: str
 
 
 def check_decks() -> Iterator[Proof]:
-    """Whether witness and rows build each committed deck, character by character."""
+    """Check that witness and rows build each committed deck, character by character."""
     for entry in programs.BUILT_INS:
         built, committed = programs.built(entry.name), programs.committed(entry.name)
         same = built.text() == committed.text()
@@ -58,46 +61,46 @@ def check_decks() -> Iterator[Proof]:
         yield Proof(
             f"{entry.name}.f",
             same and compiles,
-            f"{len(built.cards)} cards {'are' if same else 'ARE NOT'} witness and {rows} rows"
+            f"{len(built.cards)} cards {'equal' if same else 'DIFFER from'} witness and {rows} rows"
             + ("" if compiles else ", and do NOT compile"),
         )
 
 
 def _compiles(name: str, built: Deck, same: bool) -> bool:
     try:
-        # What every row is judged by is compiled once.
+        # All rows are judged by the committed deck, so its compiled program is shared.
         return bool(programs.program(name) if same else compile_deck(built))
     except CompileError:
         return False
 
 
 def check_row(row: Row) -> Proof:
-    """Whether a row's ground holds."""
+    """Check the ground of a row."""
     kind = str(row.ground.get("kind", ""))
     test = {"parse": _parse, "print": _print, "deck": _deck, "forced": _forced, "cosmetic": _cosmetic}.get(kind)
     if test is None:
-        return Proof(row.id, False, f"names no ground (it says {kind!r})")
-    holds, words = test(row, None)
+        return Proof(row.id, False, f"unknown kind of ground: {kind!r}")
+    holds, message = test(row, None)
     if holds and row.layer == "ocr":
-        for step in _each(row):
+        for step in _several_steps(row):
             if not test(row, step)[0]:
                 return Proof(row.id, False, f"{kind}: {step.pair.lemma!r} for {step.pair.witness!r} is not needed")
-    return Proof(row.id, holds, f"{kind}: {words}")
+    return Proof(row.id, holds, f"{kind}: {message}")
 
 
-def _each(row: Row) -> tuple[Step, ...]:
-    """The steps of a row that has several; a single one is the row."""
+def _several_steps(row: Row) -> tuple[Step, ...]:
+    """Return the steps of a row that has more than one; a single step is the row itself."""
     made = steps(row) or ()
     return made if len(made) > 1 else ()
 
 
 def _name(row: Row) -> str:
-    """The built-in program a row is judged by: the one its ground names, else the plain listing."""
+    """Return the built-in program by which a row is judged: the one that its ground names, or the listing."""
     return str(row.ground.get("program", "program1_examples" if row.layer == "examples" else row.text))
 
 
 def layers_for(row: Row) -> tuple[str, ...]:
-    """The layers switched on to judge a row: none for one of the committed decks, else its own and those it names."""
+    """Return the optional layers with which a row is judged: its own and those that its ground names."""
     if row.layer in programs.built_in(_name(row)).layers:
         return ()
     return (row.layer, *(str(layer) for layer in row.ground.get("layers", ())))
@@ -108,18 +111,15 @@ def _built(row: Row) -> Deck:
 
 
 def _without(row: Row, step: Step | None) -> Deck:
-    """The deck without a row and those that cannot stand without it, or without one step of the row."""
+    """Return the deck without a row and the rows that depend on it, or without one step of the row."""
     if step is None:
-        return programs.built(_name(row), layers_for(row), _lost(row))
+        dependents, _ = built_without(programs.text(row.text), row.id)
+        return programs.built(_name(row), layers_for(row), dependents)
     return programs.built(_name(row), layers_for(row), (), without_step(row, step))
 
 
-def _lost(row: Row) -> frozenset[str]:
-    return built_without(programs.text(row.text), row.id)[0]
-
-
 def _compiled(row: Row, step: Step | None) -> tuple[Program | None, str]:
-    """The program without the row, or without a step of it; or why there is none."""
+    """Compile the program without the row, or without a step of it.  Return the program or an error message."""
     try:
         return _program(_without(row, step))
     except EmulatorError as error:
@@ -127,7 +127,7 @@ def _compiled(row: Row, step: Step | None) -> tuple[Program | None, str]:
 
 
 def _program(deck: Deck) -> tuple[Program | None, str]:
-    """A deck's program, or the compiler's first message where there is none.  Raises DeckError for an empty deck."""
+    """Compile a deck.  Return the program or the first error message.  Raises DeckError for an empty deck."""
     try:
         return compile_deck(deck), ""
     except CompileError as error:
@@ -135,7 +135,7 @@ def _program(deck: Deck) -> tuple[Program | None, str]:
 
 
 def _whole(row: Row) -> Program:
-    """The program with the row, as it is built in where it is of a committed deck."""
+    """Return the program with the row."""
     return programs.with_layers(_name(row), layers_for(row))
 
 
@@ -157,7 +157,7 @@ def _cosmetic(row: Row, step: Step | None) -> tuple[bool, str]:
     if program is None:
         return False, f"without it the deck does not compile: {message}"
     same = program.code == whole.code and program.formats == whole.formats
-    return same, f"the object code is {'the same with and without it' if same else 'another without it'}"
+    return same, f"the object code is {'the same' if same else 'not the same'} with and without it"
 
 
 def _print(row: Row, step: Step | None) -> tuple[bool, str]:
@@ -166,21 +166,21 @@ def _print(row: Row, step: Step | None) -> tuple[bool, str]:
     state: State = "listing" if name == "program1" else "examples"
     examples = row.ground.get("examples", ())
     if not examples:
-        return False, "names no example"
+        return False, "the ground names no example"
     program, message = _compiled(row, step)
     if program is None:
         return False, f"without it the deck does not compile: {message}"
     for example in examples:
         with_row, without_row = _printed(example, state, number), _exact(example, state, number, {name: program})
         if not with_row or without_row:
-            words = ["exact" if exact else "not exact" for exact in (with_row, without_row)]
-            return False, f"example {example}, program {number}: {words[0]} with it, {words[1]} without"
+            exactness = ["exact" if exact else "not exact" for exact in (with_row, without_row)]
+            return False, f"example {example}, program {number}: {exactness[0]} with it, {exactness[1]} without"
     return True, f"example {', '.join(map(str, examples))} is exact with it, not without"
 
 
 @cache
 def _printed(example: int, state: State, number: int) -> bool:
-    """Whether an example comes out as the decks are."""
+    """Return True if the committed decks reproduce an example exactly."""
     return _exact(example, state, number, {})
 
 
@@ -196,32 +196,33 @@ def _deck(row: Row, step: Step | None) -> tuple[bool, str]:
     deck_name = str(row.ground.get("deck", ""))
     data = ground_deck(deck_name)
     if data is None:
-        return False, f"there is no deck {deck_name!r}"
+        return False, f"deck {deck_name!r} does not exist"
     whole = _whole(row)
     program, message = _compiled(row, step)
     if program is None:
         return False, f"without it the deck does not compile: {message}"
     if whole.storage != program.storage and len(whole.code) == len(program.code):
-        # Only sizes differ: a run that leaves an array without the row and not with it is another.
-        stopped = _outcome(_name(row), layers_for(row), program, data).ending
-        if isinstance(stopped, Ending) and stopped.kind == "bounds" and _has_room(whole, stopped):
-            return True, f"deck {deck_name} needs the room; without it: {stopped.message}"
-    one = _with_row(_name(row), layers_for(row), deck_name)
-    other = _outcome(_name(row), layers_for(row), program, data, PATIENCE * one.longest + LOOP_WINDOW)
-    if one.same_as(other):
-        return False, f"deck {deck_name} gives the same cards without it"
-    ends = one.trouble or "an empty hopper"
-    return True, f"deck {deck_name} ends with {ends}; without it: {other.trouble or 'other cards'}"
+        # The row only changes the size of an array.  The cards may be the same without it, but the run then leaves the
+        # array, which is enough to show that the row is needed.
+        ending = _outcome(_name(row), layers_for(row), program, data).ending
+        if isinstance(ending, Ending) and ending.kind == "bounds" and _has_room(whole, ending):
+            return True, f"deck {deck_name} needs the larger array; without it: {ending.message}"
+    with_row = _with_row(_name(row), layers_for(row), deck_name)
+    without_row = _outcome(_name(row), layers_for(row), program, data, LIMIT_FACTOR * with_row.longest + LOOP_WINDOW)
+    if with_row.same_as(without_row):
+        return False, f"deck {deck_name} punches the same cards without it"
+    normal_end = with_row.trouble or "an empty hopper"
+    return True, f"deck {deck_name} ends with {normal_end}; without it: {without_row.trouble or 'different cards'}"
 
 
 def _has_room(program: Program, ending: Ending) -> bool:
-    """Whether the element at which a run stopped is one of the program's array."""
+    """Return True if the element at which a run stopped exists in the program's array."""
     shape = next(entry.shape for entry in program.storage.entries if entry.name == ending.name)
     return all(1 <= n <= size for n, size in zip(ending.subscripts, shape, strict=True))
 
 
 def ground_deck(name: str) -> Deck | None:
-    """A deck a row names: an example's input data, or one of those made for the purpose."""
+    """Return a deck that a row names: the input of an example, or a deck of ``fortran_src/grounds``."""
     examples = {f"example{number}": number for number in chapter6.EXAMPLES}
     if name in examples:
         return chapter6.input_deck(examples[name])
@@ -231,9 +232,9 @@ def ground_deck(name: str) -> Deck | None:
 
 @dataclass(frozen=True, slots=True)
 class _Outcome:
-    """What a data deck gave: every line punched and typed, and the last program's ending, or the error of the job.
+    """The outcome of a job: every line punched and typed, and the ending of the last program or the error of the job.
 
-    ``longest`` counts the statements of the longer program.
+    ``longest`` is the number of statements that the longest run of the job executed.
     """
 
     lines: tuple[str, ...]
@@ -242,32 +243,37 @@ class _Outcome:
 
     @property
     def trouble(self) -> str:
-        """Why the job did not end as it should; empty where it did."""
+        """The message of an abnormal end; empty after a normal end."""
         return self.ending.message if isinstance(self.ending, Ending) else str(self.ending)
 
     def same_as(self, other: _Outcome) -> bool:
-        """Whether the same was put out and the job ended for the same reason; cards are numbered anew without a row."""
-        one, two = self.ending, other.ending
-        if isinstance(one, Ending) and isinstance(two, Ending):
-            where = [(e.kind, e.name, e.subscripts, [line.label for line in e.loop]) for e in (one, two)]
-            return self.lines == other.lines and where[0] == where[1]
-        return self.lines == other.lines and str(one) == str(two)
+        """Return True if the output is equal and the job ended for the same reason.
+
+        Card numbers are not compared, because cards are renumbered if a row is removed.
+        """
+        return self.lines == other.lines and _reason(self.ending) == _reason(other.ending)
+
+
+def _reason(ending: Ending | EmulatorError) -> tuple[object, ...]:
+    if isinstance(ending, Ending):
+        return ending.kind, ending.name, ending.subscripts, [line.label for line in ending.loop]
+    return (str(ending),)
 
 
 @cache
 def _with_row(name: str, layers: tuple[str, ...], deck_name: str) -> _Outcome:
-    """What a deck gives with the rows of these layers as they are: many rows are judged by one deck."""
+    """Return the outcome of a deck with all rows; cached, because one deck judges many rows."""
     data = ground_deck(deck_name)
     assert data is not None
     return _outcome(name, layers, programs.with_layers(name, layers), data)
 
 
 def _outcome(name: str, layers: tuple[str, ...], program: Program, deck: Deck, limit: int = 0) -> _Outcome:
-    """What a data deck gives with ``program`` in the place of the built-in ``name``, the others with ``layers``."""
+    """Run a data deck with ``program`` instead of the built-in ``name``, and the other programs with ``layers``."""
     first = "program1_examples" if name == "program1_examples" else "program1"
 
-    def load(wanted: str) -> Program:
-        return program if wanted == name else programs.with_layers(wanted, layers)
+    def load(requested: str) -> Program:
+        return program if requested == name else programs.with_layers(requested, layers)
 
     try:
         options = LAYERED if layers else LISTED
@@ -283,18 +289,18 @@ def _forced(row: Row, step: Step | None) -> tuple[bool, str]:
     names = list(row.ground["rename"])
     exchange = dict(zip(names[::2], names[1::2], strict=True))
     with_row = _card(_built(row), card)
-    other = _renamed(_card(_built(row), sibling), exchange)
+    expected = _renamed(_card(_built(row), sibling), exchange)
     without_row = _card(_without(row, step), card)
-    if with_row != other:
-        return False, f"card {card} is not card {sibling} with names exchanged"
-    if without_row == other:
-        return False, f"card {card} is card {sibling} with names exchanged also without it"
+    if with_row != expected:
+        return False, f"card {card} differs from card {sibling} with names exchanged"
+    if without_row == expected:
+        return False, f"card {card} equals card {sibling} with names exchanged also without it"
     exchanged = ", ".join(f"{a} for {b}" for a, b in exchange.items())
-    return True, f"card {card} is card {sibling} with {exchanged}, not so without it"
+    return True, f"card {card} equals card {sibling} with {exchanged}, but not without it"
 
 
 def _card(deck: Deck, place: str) -> str:
-    """The statement at LABEL or LABEL+n, without blanks and number."""
+    """Return the statement at LABEL or LABEL+n without blanks and number."""
     label, _, steps = place.partition("+")
     statements = list(sources(deck))
     at = next(i for i, s in enumerate(statements) if s.label == label)

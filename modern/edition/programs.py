@@ -1,4 +1,4 @@
-"""The built-in programs: decks as committed, or built from witness and apparatus with further layers."""
+"""The built-in programs, as committed or built from witness and apparatus with additional layers."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from modern.edition.apparatus import Row, Text, build, load
 
 @dataclass(frozen=True, slots=True)
 class BuiltIn:
-    """A built-in program: its name, its number in the thesis, the text it comes from, and the layers of its deck."""
+    """A built-in program: its name, its number in the thesis, its text, and the layers of its deck."""
 
     name: str
     number: int
@@ -46,12 +46,12 @@ TEXTS = ("program1", "program2", "program3")
 
 
 def sources() -> Traversable:
-    """The data folder ``fortran_src``, in a checkout or an installed wheel."""
+    """Return the data folder ``fortran_src`` of a checkout or an installed wheel."""
     return files("fortran_src")
 
 
 def built_in(name: str) -> BuiltIn:
-    """The built-in program of that name.  Raises KeyError."""
+    """Return the built-in program of that name.  Raises KeyError."""
     for entry in BUILT_INS:
         if entry.name == name:
             return entry
@@ -60,41 +60,42 @@ def built_in(name: str) -> BuiltIn:
 
 @cache
 def text(name: str) -> Text:
-    """The witness and apparatus of ``program1``, ``program2`` or ``program3``."""
+    """Return the witness and apparatus of ``program1``, ``program2`` or ``program3``."""
     return load(sources(), name)
 
 
 @cache
 def _named(name: str, layers: tuple[str, ...]) -> tuple[tuple[str, frozenset[str]], ...]:
-    """For each card of a built-in with ``layers`` what an edition calls it, and the rows that touched it."""
+    """Return the name of each card of a built-in program in the edition, and the rows that changed the card.
+
+    A card is named by its statement number, or by its distance from the last one (``147+1``); a comment by the
+    statement that follows it.
+    """
     entry = built_in(name)
     lines = build(text(entry.text), (*entry.layers, *layers))
-    found: list[tuple[str, frozenset[str]]] = []
-    before: list[int] = []
+    named: list[tuple[str, frozenset[str]]] = []
+    comments: list[int] = []
     label, steps = "", 0
     for number, line in enumerate(lines):
         match = re.match(r"\s*(\d+)\s*(FORMAT)?", line.text)
         if line.text.startswith("C  "):
-            before.append(number)
-            found.append(("title", frozenset(line.rows)))
+            comments.append(number)
+            named.append(("title", frozenset(line.rows)))
             continue
         if match:
             label, steps = ("FORMAT " if match[2] else "") + match[1], 0
         name = f"{label}+{steps}" if steps else label
         name = name or line.text.split("(")[0].split()[0]
-        for comment in before if number > 1 else ():
-            found[comment] = (f"before {name}", found[comment][1])
-        before = []
+        for comment in comments if number > 1 else ():
+            named[comment] = (f"before {name}", named[comment][1])
+        comments = []
         steps += bool(label)
-        found.append((name, frozenset(line.rows)))
-    return tuple(found)
+        named.append((name, frozenset(line.rows)))
+    return tuple(named)
 
 
 def cards_of(row: Row) -> str:
-    """The cards of a listing's row as an edition calls them: ``147+1``, ``FORMAT 9``, ``before 106``, ``131 to 133``.
-
-    They are counted in the deck: a statement number, and how many statements come after it.
-    """
+    """Return the names of the cards that a row changes: ``147+1``, ``FORMAT 9``, ``before 106``, ``131 to 133``."""
     entry = next(b for b in BUILT_INS if b.text == row.text and (row.layer in b.layers or b.name == row.text))
     if row.layer == "examples":
         entry = built_in("program1_examples")
@@ -106,16 +107,16 @@ def cards_of(row: Row) -> str:
 
 
 def committed(name: str) -> Deck:
-    """The committed deck of a built-in program."""
+    """Return the committed deck of a built-in program."""
     return deck_from_text(f"{name}.f", sources().joinpath(f"{name}.f").read_text(encoding="ascii"))
 
 
 def built(name: str, layers: Sequence[str] = (), without: Collection[str] = (), instead: Row | None = None) -> Deck:
-    """A built-in program built anew from witness and apparatus.
+    """Build a built-in program from witness and apparatus.
 
-    ``layers`` are added to its own, the rows ``without`` left out; ``instead`` stands in the place of the row of its
-    id.  Raises ApparatusError where that does not build, CardError where the result is no deck (a reading the OCR left,
-    with a row switched off).
+    ``layers`` are added to the layers of the program, the rows ``without`` are left out, and ``instead`` replaces the
+    row with the same id.  Raises ApparatusError if a row does not fit, and CardError if the result is not a deck
+    because a reading of the OCR remains.
     """
     entry = built_in(name)
     lines = build(text(entry.text), (*entry.layers, *layers), without, instead)
@@ -123,9 +124,9 @@ def built(name: str, layers: Sequence[str] = (), without: Collection[str] = (), 
 
 
 def deck(name: str, layers: Sequence[str] = ()) -> Deck:
-    """A built-in program's deck, as committed or with layers added.
+    """Return the deck of a built-in program, as committed or with additional layers.
 
-    Raises DeckError for a layer the program has no row of.
+    Raises DeckError if the program has no row of a layer.
     """
     if not layers:
         return committed(name)
@@ -133,30 +134,30 @@ def deck(name: str, layers: Sequence[str] = ()) -> Deck:
     present = {row.layer for row in text(entry.text).rows}
     for layer in layers:
         if layer not in present:
-            raise DeckError(f"{name} has no rows of a layer {layer!r}; it has {', '.join(sorted(present))}")
+            raise DeckError(f"{name} has no layer {layer!r}; its layers are {', '.join(sorted(present))}")
     return built(name, layers)
 
 
 @cache
 def program(name: str, layers: tuple[str, ...] = ()) -> Program:
-    """A built-in program compiled; the same object each time, as it is plain data."""
+    """Compile a built-in program.  The result is cached."""
     return compile_deck(deck(name, layers))
 
 
 def with_layers(name: str, layers: Sequence[str]) -> Program:
-    """A built-in program compiled with those of ``layers`` that it has rows of; the three need not have all."""
+    """Compile a built-in program with those of ``layers`` for which it has rows."""
     present = {row.layer for row in text(built_in(name).text).rows}
     return program(name, tuple(layer for layer in layers if layer in present))
 
 
 def loader(layers: tuple[str, ...]) -> Callable[[str], Program]:
-    """Programs by name with layers added, each layer to those programs that have rows of it.
+    """Return a function that compiles programs by name with ``layers`` added to those that have rows of them.
 
-    Raises DeckError for a layer none of them has.
+    Raises DeckError for a layer that no program has.
     """
     present = {row.layer for name in TEXTS for row in text(name).rows}
     for layer in layers:
         if layer not in present:
-            further = sorted(present - set(_BASE))
-            raise DeckError(f"no program has rows of a layer {layer!r}; the layers are {', '.join(further)}")
+            optional = sorted(present - set(_BASE))
+            raise DeckError(f"no program has a layer {layer!r}; the layers are {', '.join(optional)}")
     return lambda name: with_layers(name, layers)

@@ -1,22 +1,22 @@
-"""What a row may change: each kind of row has a rule, and characters are exchanged by a table alone.
+"""Rules for the readings of the layer ``ocr``: each kind of row may change the witness only in certain ways.
 
-A row's lemma is made from its witness by steps, each a pair of what the OCR gives and what is read: ``l`` and ``1``.
-:func:`steps` finds them, or finds that there is no way.  The kinds:
+The lemma of a row is made from the witness by *steps*.  Each step replaces the characters that the OCR gives by those
+that are read, such as ``l`` by ``1``.  The pairs that may be exchanged are listed in
+``fortran_src/apparatus/confusables.toml``.  :func:`steps` finds the steps of a row.  The kinds:
 
 ``displaced``   the words of the witness in another order
-``fused``, ``spacing``, ``columns``  the characters of the witness, blanks and line ends apart
-``noise``       pairs of the table's ``noise``, or a line that goes
-``misread``     pairs of the table, of any class
-``dropped-zero``  a zero of a run of zeros
-``lost-sign``   signs, points and zeros put in
-``comment``     the C of a comment card put before its words
-``lost``        words put in among those of the witness, or characters of them
-``doubled``     words of the witness: the others are of its neighbours
-``overlaid``    no rule: a heading of another table stands where words were
-``omission``, ``conjecture`` and the other kinds of cards that are ours: no rule; their grounds alone vouch for them
+``fused``, ``spacing``, ``columns``  the same characters with other blanks and line ends
+``noise``       pairs of the class ``noise``, or a line that is deleted
+``misread``     pairs of any class
+``dropped-zero``  a zero in a run of zeros is inserted
+``lost-sign``   signs, points and zeros are inserted
+``comment``     the C of a comment card is inserted before its words
+``lost``        words, or characters of words, are inserted
+``doubled``     words that belong to a neighbouring cell are deleted
+``overlaid``    no rule: the heading of another table has replaced the words
+``omission``, ``conjecture`` and the kinds of cards added by the project: no rule; only their grounds support them
 
-The table, ``fortran_src/apparatus/confusables.toml``, says of each pair its class.  That a pair occurs elsewhere too is
-counted from the rows; one that does not says by what else it is known.
+A pair must be used by at least two rows, or its entry in the table must name other evidence.
 """
 
 from __future__ import annotations
@@ -41,12 +41,15 @@ CLASSES: Mapping[str, frozenset[Class]] = {
 }
 KEEPS = ("fused", "spacing", "columns")
 RULED = (*CLASSES, *KEEPS, "displaced", "lost", "doubled", "overlaid")
-"""The kinds with a rule."""
+"""The kinds that have a rule."""
 
 
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """What the OCR gives and what is read.  ``known``: by what besides our rows; ``cls`` its class."""
+    """Characters of the witness and the characters that are read instead.
+
+    ``cls`` is the class of the pair, ``known`` the evidence for it other than our rows.
+    """
 
     witness: str
     lemma: str
@@ -56,7 +59,10 @@ class Pair:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """A pair at a place: the number of the row's change, and where it begins in witness and lemma without blanks."""
+    """A pair at a place: the number of the change, and its start in the witness (``at``) and in the lemma (``to``).
+
+    Both positions are counted without blanks.
+    """
 
     change: int
     at: int
@@ -66,34 +72,38 @@ class Step:
 
 @cache
 def table() -> tuple[Pair, ...]:
-    """The pairs of the table, longest first."""
+    """Return the pairs of the table of confusables, longest first."""
     text = files("fortran_src").joinpath("apparatus", "confusables.toml").read_text(encoding="utf-8")
     pairs = [Pair(p["witness"], p["lemma"], p["class"], p.get("known", "")) for p in tomllib.loads(text)["pair"]]
     return tuple(sorted(pairs, key=lambda pair: (-len(pair.witness) - len(pair.lemma), pair.witness, pair.lemma)))
 
 
 def solid(text: str) -> str:
-    """The text without its blanks."""
+    """Return the text without blanks."""
     return "".join(text.split())
 
 
 def steps(row: Row) -> tuple[Step, ...] | None:
-    """The fewest steps that make a row's lemmas from its witness, or None where the kind's pairs do not."""
+    """Return the fewest steps that make the lemmas of a row from its witness, or None if the pairs cannot make them."""
     classes = CLASSES.get(row.kind, frozenset())
     pairs = tuple(pair for pair in table() if pair.cls in classes)
-    found: list[Step] = []
+    row_steps: list[Step] = []
     for number, change in enumerate(row.changes):
         if change.after or change.through or change.dense or (row.kind == "noise" and not change.lemma):
             continue
         way = _way(solid(change.witness), solid(change.lemma), pairs)
         if way is None:
             return None
-        found += [Step(number, at, pair, to) for at, to, pair in way]
-    return tuple(found)
+        row_steps += [Step(number, at, pair, to) for at, to, pair in way]
+    return tuple(row_steps)
 
 
 def _way(witness: str, lemma: str, pairs: tuple[Pair, ...]) -> list[tuple[int, int, Pair]] | None:
-    """The cheapest way through both texts: equal characters are free, a pair costs one."""
+    """Return the pairs of a cheapest alignment of both texts: equal characters cost nothing, a pair costs one.
+
+    This is the dynamic programme of an edit distance, over (position in the witness, position in the lemma).  The state
+    that a cell was reached from is kept, so that the pairs can be read back from the end.
+    """
     best: dict[tuple[int, int], tuple[int, tuple[int, int] | None, Pair | None]] = {(0, 0): (0, None, None)}
     for i in range(len(witness) + 1):
         for j in range(len(lemma) + 1):
@@ -104,6 +114,7 @@ def _way(witness: str, lemma: str, pairs: tuple[Pair, ...]) -> list[tuple[int, i
                 _better(best, (i + 1, j + 1), cost, (i, j), None)
             for pair in pairs:
                 if witness.startswith(pair.witness, i) and lemma.startswith(pair.lemma, j):
+                    # A dropped zero must have another zero next to it: the OCR shortens runs of zeros.
                     if pair.cls == "zero" and "0" not in (lemma[j - 1 : j], lemma[j + 1 : j + 2]):
                         continue
                     if pair.cls == "comment" and j > 0:
@@ -112,29 +123,29 @@ def _way(witness: str, lemma: str, pairs: tuple[Pair, ...]) -> list[tuple[int, i
     end = (len(witness), len(lemma))
     if end not in best:
         return None
-    found: list[tuple[int, int, Pair]] = []
+    backwards: list[tuple[int, int, Pair]] = []
     at: tuple[int, int] | None = end
     while at is not None:
         _, before, used = best[at]
         if used is not None and before is not None:
-            found.append((*before, used))
+            backwards.append((*before, used))
         at = before
-    return found[::-1]
+    return backwards[::-1]
 
 
 def _better(
     best: dict[tuple[int, int], tuple[int, tuple[int, int] | None, Pair | None]],
     to: tuple[int, int],
     cost: int,
-    come: tuple[int, int],
+    origin: tuple[int, int],
     pair: Pair | None,
 ) -> None:
     if to not in best or cost < best[to][0]:
-        best[to] = (cost, come, pair)
+        best[to] = (cost, origin, pair)
 
 
 def without_step(row: Row, step: Step) -> Row:
-    """The row with one step not made."""
+    """Return the row with one step undone."""
     change = row.changes[step.change]
     lemma = _blanked(change.lemma, step.to, len(step.pair.lemma), step.pair.witness)
     changes = tuple(replace(c, lemma=lemma) if n == step.change else c for n, c in enumerate(row.changes))
@@ -142,54 +153,57 @@ def without_step(row: Row, step: Step) -> Row:
 
 
 def _blanked(text: str, at: int, length: int, instead: str) -> str:
-    """The text with ``length`` characters from the ``at``-th that is not blank replaced."""
-    places = [n for n, char in enumerate(text) if not char.isspace()]
-    first = places[at] if at < len(places) else len(text)
-    last = places[at + length - 1] + 1 if length else first
+    """Replace ``length`` characters of the text, beginning with the ``at``-th that is not blank."""
+    positions = [n for n, char in enumerate(text) if not char.isspace()]
+    first = positions[at] if at < len(positions) else len(text)
+    last = positions[at + length - 1] + 1 if length else first
     return text[:first] + instead + text[last:]
 
 
 def attested(rows: Iterable[Row]) -> Counter[tuple[str, str]]:
-    """How many places each pair is used at by rows of the layer ``ocr``."""
-    found: Counter[tuple[str, str]] = Counter()
+    """Count the places where rows of the layer ``ocr`` use each pair."""
+    uses: Counter[tuple[str, str]] = Counter()
     for row in rows:
         if row.layer == "ocr" and row.kind in CLASSES:
-            found.update((step.pair.witness, step.pair.lemma) for step in steps(row) or ())
-    return found
+            uses.update((step.pair.witness, step.pair.lemma) for step in steps(row) or ())
+    return uses
 
 
 def reading_faults(row: Row, places: Mapping[tuple[str, str], int]) -> Iterator[str]:
-    """In what a row's readings break the rule of its kind.  ``places``: :func:`attested` of all rows."""
+    """Yield the ways in which the readings of a row break the rule of its kind.
+
+    ``places`` is the result of :func:`attested` for all rows.
+    """
     if row.layer != "ocr":
         return
     if row.kind not in RULED:
-        yield f"the layer ocr has no kind {row.kind!r}"
+        yield f"unknown kind {row.kind!r} for the layer ocr"
     elif row.kind in KEEPS:
         if any(solid(c.witness) != solid(c.lemma) for c in row.changes if c.witness or c.after):
-            yield f"{row.kind} keeps every character that is not blank"
+            yield f"a row of kind {row.kind} must not change a character that is not blank"
     elif row.kind == "displaced":
         marks = {pair.witness for pair in table() if pair.cls == "noise"}
-        given = [word for c in row.changes for word in c.witness.split()]
-        read = [word for c in row.changes for word in c.lemma.split()]
-        if sorted(w for w in given if w not in marks) != sorted(w for w in read if w not in marks):
-            yield "displaced words are those of the witness in another order"
+        witness_words = [word for c in row.changes for word in c.witness.split() if word not in marks]
+        lemma_words = [word for c in row.changes for word in c.lemma.split() if word not in marks]
+        if sorted(witness_words) != sorted(lemma_words):
+            yield "a row of kind displaced must keep the words of the witness and change only their order"
     elif row.kind == "lost":
         if not all(_within(solid(c.witness), solid(c.lemma)) for c in row.changes):
-            yield "what is lost is put in among what the witness has"
+            yield "a row of kind lost must keep every character of the witness in its order"
     elif row.kind == "doubled":
         if not all(_within(c.lemma.split(), c.witness.split()) for c in row.changes):
-            yield "what is left of a doubled cell are words of it"
+            yield "a row of kind doubled must only delete words"
     elif row.kind in CLASSES:
         made = steps(row)
         if made is None:
-            yield f"no pairs for {row.kind} in the table of confusables make the lemma of the witness"
+            yield f"the pairs that the table of confusables allows for {row.kind} do not make the lemma"
         for step in made or ():
             pair = step.pair
             if places[pair.witness, pair.lemma] < 2 and not pair.known:
-                yield f"{pair.lemma!r} is read as {pair.witness!r} nowhere else"
+                yield f"no other row reads {pair.witness!r} as {pair.lemma!r}, and the table names no other evidence"
 
 
-def _within(some: Iterable[str], all_of_them: Iterable[str]) -> bool:
-    """Whether the first stand in the second in their order."""
-    rest = iter(all_of_them)
-    return all(one in rest for one in some)
+def _within(subsequence: Iterable[str], sequence: Iterable[str]) -> bool:
+    """Return True if the elements of ``subsequence`` occur in ``sequence`` in the same order."""
+    rest = iter(sequence)
+    return all(element in rest for element in subsequence)

@@ -1,11 +1,11 @@
 """Run the examples of chapter 6 and give a verdict on every printed result.
 
-Each example runs twice: through program 1 in the state that produced the examples, and through program 1 as
-listed, which chapter 5 prints and which chooses its first points in another way.  Programs 2 and 3 follow on
-the cards just punched.
+Each example runs twice.  The first run uses program 1 in the state that produced the examples, which was reconstructed
+from them.  The second run uses program 1 as chapter 5 lists it, which chooses its first points differently.  Programs
+2 and 3 then read the punched cards.
 
-What the print proves - numbers, signs, order, words - is kept apart from what it cannot: blank cards and
-columns, which the OCR lost and the FORMATs supply.
+The print proves numbers, signs, order and words.  It does not prove blank cards and columns, which the OCR lost and
+the FORMATs supply; a verdict distinguishes the two.
 """
 
 from __future__ import annotations
@@ -27,27 +27,27 @@ from modern.thesis.job import Load, Step, run_hull
 
 State = Literal["examples", "listing"]
 STATES: dict[State, str] = {"examples": "program1_examples", "listing": "program1"}
-"""The built-in that plays program 1 in each of its two states."""
+"""The built-in program for each of the two states of program 1."""
 
 EXACT: Final = "exact"
-SPACING: Final = "exact but for spacing"
+SPACING: Final = "exact except for spacing"
 ORDER: Final = "exact in another order"
 DIFFERENT: Final = "different"
-Kind = Literal["exact", "exact but for spacing", "exact in another order", "different"]
+Kind = Literal["exact", "exact except for spacing", "exact in another order", "different"]
 
 Part = Literal["points", "inside", "boundary", "vertices", "equations"]
-"""What can agree in another order: the points of an intermediate deck, or the parts of a hull."""
+"""The parts that can agree in another order: the points of an intermediate deck, or the parts of a hull."""
 
 _NUMBER = re.compile(r"[+-]?\.\d+E[+-]\d\d|(?<![A-Z0-9.])\d+")
 
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """A verdict on one device.
+    """A verdict on the output of one device.
 
-    ``numbers`` and ``words`` are how many of each the print shows, ``cards`` how many cards carry print,
-    ``blank`` how many are blank; ``differences`` are (card, printed, produced), with an empty string where one side
-    has no such card; ``same`` counts what agrees where the order differs.
+    ``numbers``, ``words``, ``cards`` and ``blank`` count the printed numbers, the printed words, the cards with print
+    and the blank cards.  ``differences`` are (card, printed, produced), with an empty string for a missing card.
+    ``same`` counts the parts that agree in another order.
     """
 
     kind: Kind
@@ -60,15 +60,15 @@ class Verdict:
 
     @property
     def holds(self) -> bool:
-        """Whether what the print proves came out, in whatever order."""
+        """True if the output agrees with the print in some order."""
         return self.kind != DIFFERENT
 
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """The verdict on one device of one example, for one state of program 1.
+    """The verdict on one device of one example for one state of program 1.
 
-    ``ending`` is how the program ended, the error that ended the job, or None where the program was not reached.
+    ``ending`` is the ending of the program, the error that ended the job, or None if the program did not start.
     """
 
     example: int
@@ -83,7 +83,7 @@ class Report:
 
     @property
     def stated(self) -> bool:
-        """Whether these are typewriter lines, which chapter 6 does not print: chapter 5 states them."""
+        """True for typewriter lines, which chapter 5 states and chapter 6 does not print."""
         return self.device == "typewriter"
 
 
@@ -93,38 +93,38 @@ def reproduce(
     folder: Traversable | None = None,
     states: Iterable[State] = STATES,
 ) -> Iterator[Report]:
-    """Run examples and judge them, one report a device.
+    """Run examples and judge them, with one report for each device.
 
-    ``load`` gives the programs compiled and ``folder`` the corrected print, by default the committed ones.
+    ``load`` returns the compiled programs and ``folder`` holds the corrected print; by default, the committed ones.
     """
     states = tuple(states)
     for example in examples:
         expected = tuple(prints(example, folder))
         for state in states:
-            yield from _one(example, state, expected, load, folder)
+            yield from _reports(example, state, expected, load, folder)
 
 
 def summary(reports: Iterable[Report]) -> tuple[bool, int, int, int]:
-    """(whether everything printed came out, exact results, results in another order, different ones).
+    """Return (whether everything is reproduced, exact results, results in another order, different results).
 
-    In the examples' state only exact counts as come out.
+    In the state of the examples, a result counts as reproduced only if it is exact.
     """
     kinds = [(report.state, report.verdict.kind) for report in reports]
     exact = sum(kind == EXACT for _, kind in kinds)
     order = sum(kind == ORDER for _, kind in kinds)
-    good = all(kind == EXACT or (state == "listing" and kind == ORDER) for state, kind in kinds)
-    return good, exact, order, len(kinds) - exact - order
+    all_reproduced = all(kind == EXACT or (state == "listing" and kind == ORDER) for state, kind in kinds)
+    return all_reproduced, exact, order, len(kinds) - exact - order
 
 
-def _one(
+def _reports(
     example: int, state: State, expected: tuple[Print, ...], load: Load, folder: Traversable | None
 ) -> Iterator[Report]:
-    trouble: EmulatorError | None = None
+    job_error: EmulatorError | None = None
     steps: tuple[Step, ...] = ()
     try:
         steps = run_hull(input_deck(example, folder), load, Options(limit=200_000), STATES[state]).steps
     except EmulatorError as error:
-        trouble = error
+        job_error = error
     last = max(p.program for p in expected)
     produced = {step.number: step for step in steps}
     for printed in expected:
@@ -132,7 +132,7 @@ def _one(
         lines = () if step is None else step.result.punched if printed.device == "punch" else step.result.typed
         final = printed.program == last
         verdict = compare(printed.lines, lines, final, oriented=printed.program > 1)
-        ending = trouble if step is None else step.result.ending
+        ending = job_error if step is None else step.result.ending
         if not (isinstance(ending, Ending) and ending.normal) and verdict.kind != DIFFERENT:
             verdict = replace(verdict, kind=DIFFERENT, same=(), differences=())
         name = STATES[state] if printed.program == 1 else f"program{printed.program}"
@@ -142,16 +142,16 @@ def _one(
 
 
 def compare(printed: Sequence[str], produced: Sequence[str], final: bool, oriented: bool) -> Verdict:
-    """The verdict on a device's lines.
+    """Return the verdict on the lines of a device.
 
-    ``final`` cards are a hull's, others an intermediate deck; ``oriented``: see
+    ``final`` is True if the cards hold a hull, and False for an intermediate deck.  For ``oriented`` see
     :func:`modern.thesis.cards.same_hull`.
     """
     tokens = [token for line in printed for token in line.split()]
     numbers = sum(len(_NUMBER.findall(line)) for line in printed)
-    words = sum(any(c.isalpha() for c in token) and not _NUMBER.search(token) for token in tokens)
+    word_count = sum(any(c.isalpha() for c in token) and not _NUMBER.search(token) for token in tokens)
     blank = sum(not line.strip() for line in printed)
-    base = (numbers, words, len(printed) - blank, blank)
+    base = (numbers, word_count, len(printed) - blank, blank)
     if list(printed) == list(produced):
         return Verdict(EXACT, *base)
     differences = _differences(printed, produced)
@@ -164,7 +164,7 @@ def compare(printed: Sequence[str], produced: Sequence[str], final: bool, orient
 
 
 def _agreement(printed: Sequence[str], final: bool) -> tuple[tuple[Part, int], ...]:
-    """What two results in different order have in common, counted."""
+    """Count the parts that two results in different order have in common."""
     if not final:
         middle = read_intermediate(printed)
         return (("points", len(middle.points)),) if middle else ()
@@ -182,23 +182,28 @@ def _dense(lines: Sequence[str]) -> list[str]:
     return [dense for line in lines if (dense := "".join(line.split()))]
 
 
-def _words(lines: Sequence[str]) -> Counter[str]:
-    """The lines without numbers: headings."""
+def _headings(lines: Sequence[str]) -> Counter[str]:
+    """Count the headings: the lines without their numbers."""
     return Counter(text for line in lines if (text := " ".join(_NUMBER.sub("", line).replace(",", " ").split())))
 
 
 def _same_results(printed: Sequence[str], produced: Sequence[str], oriented: bool) -> bool:
-    """The same hull under the same headings, and an order that does differ: a lost sign of a zero is no order."""
-    one, other = read_hull(printed), read_hull(produced)
-    return _words(printed) == _words(produced) and one != other and same_hull(one, other, oriented)
+    """Return True for the same hull in another order under the same headings.
+
+    If the hulls are equal as read, the lines differ in something else, such as the sign of a zero.
+    """
+    printed_hull, produced_hull = read_hull(printed), read_hull(produced)
+    in_other_order = printed_hull != produced_hull and same_hull(printed_hull, produced_hull, oriented)
+    return in_other_order and _headings(printed) == _headings(produced)
 
 
 def _same_deck(printed: Sequence[str], produced: Sequence[str]) -> bool:
-    """The same points under the same N in another order, with planes that fit that order."""
-    one, other = read_intermediate(printed), read_intermediate(produced)
-    if one is None or other is None or one.points == other.points:
+    """Return True for the same points in another order under the same N, with planes that agree with that order."""
+    expected, actual = read_intermediate(printed), read_intermediate(produced)
+    if expected is None or actual is None or expected.points == actual.points:
         return False
-    return one.count == other.count and Counter(one.points) == Counter(other.points) and planes_hold(other)
+    same_points = expected.count == actual.count and Counter(expected.points) == Counter(actual.points)
+    return same_points and planes_hold(actual)
 
 
 def _differences(printed: Sequence[str], produced: Sequence[str]) -> tuple[tuple[int, str, str], ...]:

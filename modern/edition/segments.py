@@ -1,10 +1,9 @@
-"""A text with both readings at every place: what a row found, and what it put there.
+"""A text with both readings of every emendation, for TEI's parallel segmentation (TEI P5 Guidelines, 12.2.3).
 
-:func:`modern.edition.apparatus.build` applies rows and keeps the result.  Here the same rows make *places*: pieces
-of a line that have an old and a new reading and know their row.  Places nest, since a row of a later layer may change
-what an earlier one established.  From the tree every state of the text can be taken (:func:`reading`): the witness
-where no layer is wanted, a deck where its layers are.  This is what parallel segmentation writes (TEI P5 Guidelines,
-12.2.3).
+:func:`modern.edition.apparatus.build` applies rows and returns only the result.  Here the same rows make *places*:
+pieces of a line with an old and a new reading and their row.  Places nest, because a row of a later layer may change
+the result of an earlier one.  :func:`reading` extracts any state of the text from this tree: with no layers the
+witness, with the layers of a deck the deck.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ from modern.edition.apparatus import Change, Row, RowMisfit, Text, on_form
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A piece of a line with two readings: ``old`` where the row is not applied, ``new`` where it is."""
+    """A piece of a line with two readings: ``old`` without the row, ``new`` with it."""
 
     row: Row
     old: tuple[Piece, ...]
@@ -29,7 +28,7 @@ Piece = str | Place
 
 @dataclass(frozen=True, slots=True)
 class Segments:
-    """A line in pieces; ``id`` and ``page`` as of :class:`modern.edition.apparatus.Line`."""
+    """A line in pieces, with the ``id`` and ``page`` of its :class:`modern.edition.apparatus.Line`."""
 
     id: str
     page: str
@@ -37,12 +36,12 @@ class Segments:
 
     @property
     def inserted(self) -> bool:
-        """Whether a row put the line in: the witness has no such line."""
+        """True if a row inserted the line."""
         return not self.id.isdigit()
 
 
 def reading(pieces: Iterable[Piece], layers: Collection[str]) -> str:
-    """The text of pieces with the rows of these layers applied."""
+    """Return the text of the pieces after the rows of these layers."""
     return "".join(
         piece if isinstance(piece, str) else reading(piece.new if piece.row.layer in layers else piece.old, layers)
         for piece in pieces
@@ -50,20 +49,20 @@ def reading(pieces: Iterable[Piece], layers: Collection[str]) -> str:
 
 
 def segments(text: Text) -> tuple[Segments, ...]:
-    """Every line of a text, those put in too, with every row of every layer as places.
+    """Return every line of a text, inserted lines included, with the rows of all layers as places.
 
-    Raises RowMisfit where a row does not fit, as ``build`` does.
+    Raises RowMisfit if a row does not fit, as ``build`` does.
     """
-    work = _Work(text)
+    segmented = _SegmentedText(text)
     for layer in text.layers:
         for row in text.rows:
             if row.layer == layer:
-                work.apply(row)
-    return tuple(work.lines)
+                segmented.apply(row)
+    return tuple(segmented.lines)
 
 
-class _Work:
-    """The lines of a text in work."""
+class _SegmentedText:
+    """The lines of a text to which rows are applied one after another."""
 
     def __init__(self, text: Text) -> None:
         self._layers = text.layers
@@ -88,7 +87,7 @@ class _Work:
         for number, line in enumerate(self.lines):
             if line.id == name:
                 return number
-        raise RowMisfit(row.id, f"there is no line {name}")
+        raise RowMisfit(row.id, f"line {name} does not exist")
 
     def _text(self, number: int) -> str:
         return reading(self.lines[number].pieces, self._layers)
@@ -96,23 +95,24 @@ class _Work:
     def _whole(self, row: Row, number: int, new: str) -> None:
         line = self.lines[number]
         if self._text(number) != new:
-            self.lines[number] = replace(line, pieces=(Place(row, line.pieces, _one(new)),))
+            self.lines[number] = replace(line, pieces=(Place(row, line.pieces, _pieces(new)),))
 
     def _replace(self, row: Row, change: Change, at: int, inserted: int) -> int:
         text = self._text(at)
         if text.count(change.witness) != 1:
-            raise RowMisfit(row.id, f"{change.witness!r} does not stand once in line {change.line}: {text!r}")
+            raise RowMisfit(row.id, f"{change.witness!r} does not occur exactly once in line {change.line}: {text!r}")
         first = text.index(change.witness)
         last = first + len(change.witness)
         lemma, *rest = change.lemma.split("\n")
         if row.layer not in self._default:
-            # Layers that combine freely may touch one statement; only what they change is theirs.
+            # Optional layers can be combined, and two of them may change the same statement.  So a place of such a
+            # layer holds only the characters that differ.
             first, lemma = _trimmed(change.witness, first, lemma)
             if not rest:
-                tail = _same(text[first:last][::-1], lemma[::-1])
+                tail = _common_prefix(text[first:last][::-1], lemma[::-1])
                 last, lemma = last - tail, lemma[: len(lemma) - tail]
         if rest:
-            # What stands after the fragment goes with the last of the new lines.
+            # The rest of the line after the fragment moves to the end of the last new line.
             rest[-1] += text[last:]
             last = len(text)
         line = self.lines[at]
@@ -122,7 +122,7 @@ class _Work:
     def _insert(self, row: Row, at: int, texts: list[str], inserted: int) -> int:
         page = self.lines[at].page
         new = [
-            Segments(f"{row.id}.{inserted + number}", page, (Place(row, (), _one(text)),))
+            Segments(f"{row.id}.{inserted + number}", page, (Place(row, (), _pieces(text)),))
             for number, text in enumerate(texts, 1)
         ]
         self.lines[at + 1 : at + 1] = new
@@ -130,37 +130,38 @@ class _Work:
 
 
 def _trimmed(witness: str, first: int, lemma: str) -> tuple[int, str]:
-    """Where a change begins, and its lemma, without the characters at its beginning that it leaves as they are."""
-    same = _same(witness, lemma)
-    return first + same, lemma[same:]
+    """Return the start and the lemma of a change without the characters at its beginning that do not change."""
+    length = _common_prefix(witness, lemma)
+    return first + length, lemma[length:]
 
 
-def _same(one: str, other: str) -> int:
-    """How many characters two texts begin with alike."""
-    return next((n for n, (a, b) in enumerate(zip(one, other, strict=False)) if a != b), min(len(one), len(other)))
+def _common_prefix(a: str, b: str) -> int:
+    """Return the length of the longest common prefix."""
+    return next((n for n, (x, y) in enumerate(zip(a, b, strict=False)) if x != y), min(len(a), len(b)))
 
 
-def _one(text: str) -> tuple[Piece, ...]:
+def _pieces(text: str) -> tuple[Piece, ...]:
     return (text,) if text else ()
 
 
 def _changed(
     pieces: tuple[Piece, ...], first: int, last: int, row: Row, lemma: str, layers: Collection[str]
 ) -> tuple[Piece, ...]:
-    """Pieces with characters ``first`` to ``last`` (of the text that all layers give) made a place.
+    """Return the pieces with the characters ``first`` to ``last`` (of the text with all layers) turned into a place.
 
-    A place that holds the whole fragment takes it into its new reading; one that holds a part of it becomes a part of
-    the old reading, and what is left of its text stands on both sides.
+    If one place contains the whole fragment, the new place goes into its new reading.  A place that contains only a
+    part of the fragment becomes part of the old reading, and the rest of its text is repeated in both readings.
     """
     before: list[Piece] = []
     within: list[Piece] = []
     behind: list[Piece] = []
-    left = right = ""
+    text_before = text_after = ""
     at = 0
     for number, piece in enumerate(pieces):
-        words = piece if isinstance(piece, str) else reading((piece,), layers)
-        start, end = at, at + len(words)
+        text = piece if isinstance(piece, str) else reading((piece,), layers)
+        start, end = at, at + len(text)
         at = end
+        # The fragment lies inside this place: descend into its new reading.
         if isinstance(piece, Place) and start <= first and last <= end and (first < last or start < first < end):
             inner = _changed(piece.new, first - start, last - start, row, lemma, layers)
             return (*pieces[:number], replace(piece, new=inner), *pieces[number + 1 :])
@@ -169,11 +170,13 @@ def _changed(
         elif start >= last:
             behind.append(piece)
         elif isinstance(piece, str):
-            before += _one(words[: max(first - start, 0)])
-            within += _one(words[max(first - start, 0) : last - start])
-            behind += _one(words[last - start :]) if last < end else ()
+            # Plain text is cut at the ends of the fragment.
+            before += _pieces(text[: max(first - start, 0)])
+            within += _pieces(text[max(first - start, 0) : last - start])
+            behind += _pieces(text[last - start :]) if last < end else ()
         else:
-            left += words[: max(first - start, 0)]
-            right += words[last - start :] if last < end else ""
+            # A place that the fragment only overlaps cannot be cut: it goes whole into the old reading.
+            text_before += text[: max(first - start, 0)]
+            text_after += text[last - start :] if last < end else ""
             within.append(piece)
-    return (*before, Place(row, tuple(within), _one(left + lemma + right)), *behind)
+    return (*before, Place(row, tuple(within), _pieces(text_before + lemma + text_after)), *behind)

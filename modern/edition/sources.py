@@ -1,8 +1,8 @@
-"""Where every text comes from: documents, the excerpts of them that are witnesses, and the way back to a line.
+"""The documents, the excerpts of them that are witnesses, and the line of a document from which a line comes.
 
-The data are ``fortran_src/SOURCES.toml``.  Of each document the project has used the text an OCR made; that text is no
-part of it, a witness is a stated excerpt with its own hash.  :func:`check_files` compares the hashes with what is
-there, :func:`check_against` the excerpts with the whole text of a document, for whoever holds it.
+The data are ``fortran_src/SOURCES.toml``.  The project works from the OCR text of each document.  It does not contain
+that text, but stated excerpts of it, the witnesses, each with a hash.  :func:`check_files` verifies the hashes.
+:func:`check_against` compares the excerpts with the whole text of a document if a user has it.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ from modern.edition.apparatus import PAGE_MARK, ApparatusError
 
 @dataclass(frozen=True, slots=True)
 class Document:
-    """A document and what is held of it: its OCR text by SHA-256 and length.
+    """A document, with the SHA-256 and the length of its OCR text.
 
-    ``lines`` counts the last one too, which has no line end; ``pages`` says of lines of that text (first, last) what
-    pages they are; "unknown" stands where a fact is.
+    ``lines`` includes the last line, which has no line end.  ``pages`` maps lines of that text (page, first, last) to
+    pages.  A fact that is not known has the value "unknown".
     """
 
     id: str
@@ -45,7 +45,10 @@ class Document:
 
 @dataclass(frozen=True, slots=True)
 class Stretch:
-    """Lines ``first`` to ``last`` of a witness are the document's from ``at`` on; with ``part``, words of them."""
+    """Lines ``first`` to ``last`` of a witness, which begin at line ``at`` of the document.
+
+    With ``part``, the witness holds only some words of those lines.
+    """
 
     first: int
     last: int
@@ -55,7 +58,7 @@ class Stretch:
 
 @dataclass(frozen=True, slots=True)
 class Excerpt:
-    """A witness: the text (of the apparatus) it is of, its file, its document, its hash and its lines."""
+    """A witness: the id of its text, its file, its document, its hash and its lines."""
 
     text: str
     file: str
@@ -64,7 +67,7 @@ class Excerpt:
     stretches: tuple[Stretch, ...]
 
     def line(self, witness_line: int) -> int | None:
-        """The document's line a witness line is; None for one of ours (blank, between two stretches)."""
+        """Return the document's line for a witness line, or None for a blank line between two stretches."""
         for stretch in self.stretches:
             if stretch.first <= witness_line <= stretch.last:
                 return stretch.at + witness_line - stretch.first
@@ -73,7 +76,7 @@ class Excerpt:
 
 @dataclass(frozen=True, slots=True)
 class Sources:
-    """All of SOURCES.toml; ``decks`` are files of ours and their hashes."""
+    """The contents of SOURCES.toml; ``decks`` are the data decks of grounds with their hashes."""
 
     documents: tuple[Document, ...]
     excerpts: tuple[Excerpt, ...]
@@ -83,16 +86,16 @@ class Sources:
         return next(document for document in self.documents if document.id == name)
 
     def excerpt(self, text: str) -> Excerpt:
-        """The excerpt that is the witness of a text.  Raises ApparatusError."""
+        """Return the excerpt that is the witness of a text.  Raises ApparatusError."""
         for excerpt in self.excerpts:
             if excerpt.text == text:
                 return excerpt
-        raise ApparatusError(f"SOURCES.toml: no excerpt is the witness of {text}")
+        raise ApparatusError(f"SOURCES.toml: {text} has no witness")
 
 
 @cache
 def sources() -> Sources:
-    """The table of sources."""
+    """Read SOURCES.toml."""
     data = tomllib.loads(files("fortran_src").joinpath("SOURCES.toml").read_text(encoding="utf-8"))
     return Sources(
         tuple(
@@ -123,63 +126,64 @@ def sources() -> Sources:
 
 
 def read(file: str) -> str:
-    """A data file by its path in the project, in a checkout or an installed wheel."""
+    """Return a data file by its path in the project, in a checkout or an installed wheel."""
     package, *parts = file.split("/")
     return files(package).joinpath(*parts).read_text(encoding="utf-8")
 
 
 def digest(text: str) -> str:
-    """SHA-256 of a text without our page marks."""
-    kept = "".join(line for line in text.splitlines(keepends=True) if not line.startswith(PAGE_MARK))
-    return hashlib.sha256(kept.encode()).hexdigest()
+    """Return the SHA-256 of a text without the page marks."""
+    unmarked = "".join(line for line in text.splitlines(keepends=True) if not line.startswith(PAGE_MARK))
+    return hashlib.sha256(unmarked.encode()).hexdigest()
 
 
 def check_files() -> Iterator[tuple[str, bool, str]]:
-    """Each excerpt and each deck of a ground: its file, whether it has its hash, and words."""
+    """Yield (file, whether its hash is right, message) for each excerpt, and once for all decks of grounds."""
     table = sources()
     for excerpt in table.excerpts:
         same = digest(read(excerpt.file)) == excerpt.sha256
         count = sum(s.last - s.first + 1 for s in excerpt.stretches)
-        words = f"{count} lines of {excerpt.document}"
-        yield excerpt.file, same, words if same else f"it is NOT the excerpt of {excerpt.document} it was"
+        message = f"{count} lines of {excerpt.document}" if same else "CHANGED: its hash is not that of SOURCES.toml"
+        yield excerpt.file, same, message
     wrong = [file for file, sha in table.decks if digest(read(file)) != sha]
-    yield "grounds", not wrong, f"{len(table.decks)} decks" if not wrong else f"{', '.join(wrong)}: NOT as it was"
+    yield "grounds", not wrong, f"CHANGED: {', '.join(wrong)}" if wrong else f"{len(table.decks)} decks"
 
 
 def check_against(text: str) -> Iterator[tuple[str, bool, str]]:
-    """The length of the document whose whole text this is, and each of its excerpts, compared line by line.
+    """Compare the whole text of a document with its recorded length, and its excerpts line by line.
 
-    Raises ApparatusError for a text that is none of the documents'.
+    Yields (subject, whether it agrees, message).  Raises ApparatusError if the text is not that of a document.
     """
     sha = hashlib.sha256(text.encode()).hexdigest()
     table = sources()
     known = [document for document in table.documents if document.sha256 == sha]
     if not known:
-        raise ApparatusError(f"a text with SHA-256 {sha[:16]}... is none of the documents in SOURCES.toml")
+        raise ApparatusError(f"no document of SOURCES.toml has the SHA-256 {sha[:16]}...")
     whole = text.split("\n")
     document = known[0]
-    found = (len(text.encode()), len(text), len(whole))
-    same = found == (document.bytes, document.characters, document.lines)
-    words = "{} bytes, {} characters, {} lines".format(*found)
-    yield document.id, same, words if same else f"it has {words}, NOT as SOURCES.toml says"
+    size = (len(text.encode()), len(text), len(whole))
+    same = size == (document.bytes, document.characters, document.lines)
+    message = "{} bytes, {} characters, {} lines".format(*size)
+    yield document.id, same, message if same else f"DIFFERS from SOURCES.toml: {message}"
     for excerpt in table.excerpts:
         if excerpt.document != document.id:
             continue
         lines = [line for line in read(excerpt.file).split("\n") if not line.startswith(PAGE_MARK)]
         wrong = [n for s in excerpt.stretches for n in range(s.first, s.last + 1) if not _same(lines, whole, s, n)]
-        words = f"its lines are those of {document.id}" if not wrong else f"line {wrong[0]} is NOT the text's"
-        yield excerpt.file, not wrong, words
+        message = f"DIFFERS from {document.id} in line {wrong[0]}" if wrong else f"equal to the lines of {document.id}"
+        yield excerpt.file, not wrong, message
 
 
 def _same(lines: list[str], whole: list[str], stretch: Stretch, number: int) -> bool:
-    mine, other = lines[number - 1], whole[stretch.at + number - stretch.first - 1]
+    witness_line, document_line = lines[number - 1], whole[stretch.at + number - stretch.first - 1]
     if not stretch.part:
-        return mine == other
-    rest = iter(other.split())
-    return mine.strip() in other or all(word in rest for word in mine.split())
+        return witness_line == document_line
+    # The witness may leave words out, but not change their order: each word is looked up in the rest of the line.
+    rest = iter(document_line.split())
+    return witness_line.strip() in document_line or all(word in rest for word in witness_line.split())
 
 
 def place(text: str, line: str) -> str:
-    """Where a line of a witness stands: the line of its document's text; empty for a card a row put in."""
-    found = sources().excerpt(text).line(int(line)) if line.isdigit() else None
-    return f"line {found} of {sources().excerpt(text).document}" if found else ""
+    """Return the place of a witness line in its document, such as ``line 17 of thesis``; empty for an inserted card."""
+    document_line = sources().excerpt(text).line(int(line)) if line.isdigit() else None
+    return f"line {document_line} of {sources().excerpt(text).document}" if document_line else ""

@@ -1,10 +1,16 @@
-"""What an OCR or a typist might have made of a card: each token of a listing altered in turn, as data.
+"""Variants of the listings: each token altered in every way in which an OCR or a typist might have altered it.
 
-Tokens are altered one at a time: a statement number in every digit, and exchanged with the others of its statement; a
-name for every other of its statement and mode; an operator for every other; a constant up and down in every digit; a
-character for one it is confused with (``fortran_src/apparatus/confusables.toml``, both ways); a FORMAT's counts, signs
-and one letter of every text; and each card is left out once.  What a variant does is found out in
-:mod:`modern.edition.weight`.
+One token is altered at a time:
+
+* Each digit of a statement number is exchanged for every other digit, and the number for the others of its statement.
+* A name is exchanged for every other name of its statement with the same mode (fixed or floating point).
+* An operator is exchanged for every other operator.
+* Each digit of a constant is changed by one, up and down.
+* A character is exchanged for those that it is confused with (``fortran_src/apparatus/confusables.toml``).
+* The counts and separators of a FORMAT, and one letter of every literal, are changed.
+* Each card is left out once.
+
+:mod:`modern.edition.weight` runs the variants.
 """
 
 from __future__ import annotations
@@ -29,7 +35,7 @@ _LABELS = {
     "do": re.compile(r"^DO(\d+)(?=[A-Z])"),
     "input_output": re.compile(r"^(?:READ|PUNCH|PRINT)(\d+)"),
 }
-"""Where a kind of statement has the numbers of others."""
+"""The positions at which each kind of statement refers to other statement numbers."""
 _WORDS = {
     "if": "IF",
     "if_switch": "IF(SENSESWITCH",
@@ -45,11 +51,11 @@ FUNCTIONS = ("SQRT",)
 
 @dataclass(frozen=True, slots=True)
 class Variant:
-    """A card of a listing read otherwise.
+    """A card of a listing with another reading.
 
-    ``card`` counts the deck's cards from 1, ``place`` is what an edition calls it; ``how`` one of ``number``, ``name``,
-    ``operator``, ``constant``, ``character``, ``format``, ``card``; ``was`` and ``reads`` the statement without blanks,
-    ``reads`` empty where the card is left out.
+    ``card`` counts the cards of the deck from 1, and ``place`` is the name of the card in the edition.  ``how`` is
+    ``number``, ``name``, ``operator``, ``constant``, ``character``, ``format`` or ``card``.  ``was`` and ``reads`` are
+    the statement before and after the change, without blanks; ``reads`` is empty if the card is left out.
     """
 
     program: str
@@ -61,13 +67,13 @@ class Variant:
 
     @property
     def key(self) -> str:
-        """What tells it from all others."""
+        """A unique key."""
         return f"{self.program} {self.card} {self.reads}"
 
 
 @dataclass(frozen=True, slots=True)
 class Statement:
-    """A statement of a listing with its place, and the spans of its text that are numbers of other statements."""
+    """A statement of a listing with its place, and the spans of its text that hold other statement numbers."""
 
     source: Source
     place: str
@@ -80,8 +86,8 @@ class Statement:
 
 @cache
 def statements(name: str) -> tuple[Statement, ...]:
-    """The statements of a built-in program, comments left out."""
-    found, label, steps = [], "", 0
+    """Return the statements of a built-in program without comments."""
+    listing, label, steps = [], "", 0
     for source in sources(programs.committed(name)):
         word = "FORMAT " if source.kind == "format" else ""
         label, steps = (word + source.label, 0) if source.label else (label, steps + 1)
@@ -93,23 +99,24 @@ def statements(name: str) -> tuple[Statement, ...]:
             if match
             else []
         )
-        found.append(Statement(source, place, tuple(spans)))
-    return tuple(found)
+        listing.append(Statement(source, place, tuple(spans)))
+    return tuple(listing)
 
 
 @cache
 def variants(name: str) -> tuple[Variant, ...]:
-    """Every variant of a built-in program, each once, in the order of its cards."""
-    found: dict[str, Variant] = {}
+    """Return every variant of a built-in program once, in the order of its cards."""
+    by_key: dict[str, Variant] = {}
     for statement in statements(name):
-        for how, reads in _of(statement):
+        for how, reads in _altered(statement):
             variant = Variant(name, statement.card, statement.place, how, statement.source.text, reads)
             if reads != statement.source.text:
-                found.setdefault(variant.key, variant)
-    return tuple(found.values())
+                by_key.setdefault(variant.key, variant)
+    return tuple(by_key.values())
 
 
-def _of(statement: Statement) -> Iterator[tuple[str, str]]:
+def _altered(statement: Statement) -> Iterator[tuple[str, str]]:
+    """Yield (kind of change, new text) for every variant of a statement."""
     source, text = statement.source, statement.source.text
     if source.kind != "end":
         yield "card", ""
@@ -121,16 +128,17 @@ def _of(statement: Statement) -> Iterator[tuple[str, str]]:
     for a, b in statement.labels:
         for new in (*_digits(text[a:b]), *numbers):
             yield "number", text[:a] + new + text[b:]
-    held = [range(a, b) for a, b in statement.labels]
+    label_spans = [range(a, b) for a, b in statement.labels]
     if source.kind in ("do", "input_output"):
         start = statement.labels[0][1] if statement.labels else len(text)
     names = [match for match in _NAME.finditer(text, start) if match[0] not in FUNCTIONS]
     for match in names:
-        for new in sorted({other[0] for other in names} | _alike(match[0])):
+        for new in sorted({name[0] for name in names} | _alike(match[0])):
+            # The first letter determines the mode; a change of mode would not compile.
             if (new[0] in "IJKLMN") is (match[0][0] in "IJKLMN"):
                 yield "name", text[: match.start()] + new + text[match.end() :]
     for at in range(start, len(text)):
-        if any(at in span for span in held):
+        if any(at in span for span in label_spans):
             continue
         if text[at] in _OPERATORS and "**" not in text[at - 1 : at + 2]:
             yield from (("operator", text[:at] + new + text[at + 1 :]) for new in _OPERATORS)
@@ -138,32 +146,32 @@ def _of(statement: Statement) -> Iterator[tuple[str, str]]:
             yield "character", text[:at] + new + text[at + 1 :]
     for match in _NUMBER.finditer(text, start):
         in_name = match.start() and text[match.start() - 1].isalpha()
-        if not in_name and not any(match.start() in span for span in held):
+        if not in_name and not any(match.start() in span for span in label_spans):
             yield from (("constant", text[: match.start()] + new + text[match.end() :]) for new in _steps(match[0]))
 
 
 def _digits(number: str) -> Iterator[str]:
-    """The number with one digit another."""
+    """Yield the number with one digit exchanged for every other digit."""
     for at, digit in enumerate(number):
         yield from (number[:at] + new + number[at + 1 :] for new in "0123456789" if new != digit)
 
 
 def _steps(number: str) -> Iterator[str]:
-    """The number with one digit up or down by one."""
+    """Yield the number with one digit changed by one, up or down."""
     for at, digit in enumerate(number):
         yield from (number[:at] + str((int(digit) + by) % 10) + number[at + 1 :] for by in (1, -1))
 
 
 def _alike(name: str) -> set[str]:
-    """Names of the listings of two characters or more that differ from one in a single character."""
+    """Return the names of the listings, of two or more characters, that differ from this one in one character."""
     if len(name) < 2:
         return set()
-    return {other for other in _names() if len(other) == len(name) and sum(map(str.__ne__, name, other)) == 1}
+    return {known for known in _names() if len(known) == len(name) and sum(map(str.__ne__, name, known)) == 1}
 
 
 @cache
 def _names() -> frozenset[str]:
-    """All names of fixed and floating variables of the listings."""
+    """Return all names of variables of the listings."""
     return frozenset(
         entry.name for n in programs.TEXTS for entry in programs.program(n).storage.entries if entry.name[:1].isalpha()
     )
@@ -171,23 +179,23 @@ def _names() -> frozenset[str]:
 
 @cache
 def _confused(char: str) -> tuple[str, ...]:
-    """The card characters one is confused with, either way."""
+    """Return the card characters that are confused with this one, in either direction."""
     pairs = [(p.witness, p.lemma) for p in table() if p.cls == "confusable" and len(p.witness) == len(p.lemma) == 1]
-    found = [b for a, b in (*pairs, *((b, a) for a, b in pairs)) if a == char]
-    return tuple(dict.fromkeys(c for c in found if c in CHARACTERS))
+    partners = [b for a, b in (*pairs, *((b, a) for a, b in pairs)) if a == char]
+    return tuple(dict.fromkeys(c for c in partners if c in CHARACTERS))
 
 
 def _formats(text: str) -> Iterator[str]:
-    """A FORMAT with a count up or down, a text's first letter another, a comma a point, a stroke more or less."""
+    """Yield a FORMAT with one change: a count up or down by one, another first letter of a text, another separator."""
     at = 0
     while at < len(text):
         count = re.compile(r"(\d+)H").match(text, at)
         if count:
             first, last = count.end(), count.end() + int(count[1])
-            words = text[first:last]
-            letter = next((n for n, c in enumerate(words) if c.isalpha()), None)
+            literal = text[first:last]
+            letter = next((n for n, c in enumerate(literal) if c.isalpha()), None)
             if letter is not None:
-                new = "X" if words[letter] != "X" else "Y"
+                new = "X" if literal[letter] != "X" else "Y"
                 yield text[: first + letter] + new + text[first + letter + 1 :]
             yield from (text[:at] + new + text[count.end() - 1 :] for new in _steps(count[1]))
             at = last
@@ -206,7 +214,7 @@ def _formats(text: str) -> Iterator[str]:
 
 
 def deck_with(name: str, card: int, reads: str) -> Deck:
-    """The deck of a built-in program with one card reading otherwise; without the card where nothing is read."""
+    """Return the deck of a built-in program with another reading of one card, or without it if ``reads`` is empty."""
     deck = programs.committed(name)
     old = next(s.source for s in statements(name) if s.card == card)
     word = "FORMAT " if old.kind == "format" else ""

@@ -1,20 +1,20 @@
-"""The weight of evidence, measured: every variant of the listings is run, and what notices it is recorded.
+"""The weight of evidence: run every variant of the listings and record the first check that detects it.
 
-For each variant (:mod:`modern.edition.variants`) the first of these that notices it:
+The checks of a variant (:mod:`modern.edition.variants`), in this order:
 
 ``compiler``  the deck no longer compiles
-``no change`` the object code is the same: it is no reading of its own, and is not counted
-``print``     an example of chapter 6 comes out otherwise: program 1 in the state of the examples, where the card is in
-              it, and programs 2 and 3 on the printed intermediate decks; of a card the listing alone has, no longer in
-              agreement with the print up to order
-``machine``   a deck whose cards are known from a second restoration comes out otherwise
-``equation``  the card computes a formula of chapter 3 (:data:`EQUATIONS`, found by reading) and reads otherwise
-``sibling``   the card has the form of two other cards at least of the three listings (:func:`alike`), and reads so that
-              it has the form of none: names and numbers stand in another order, or something else does
-``nothing``   none of them
+``no change`` the object code is the same, so the variant is not a different reading and is not counted
+``print``     an example of chapter 6 is no longer reproduced.  Program 1 runs in the state of the examples if the card
+              is in it, and programs 2 and 3 run on the printed intermediate decks.  For a card that only the listing
+              has, the listing must no longer agree with the print up to order.
+``machine``   a deck whose cards are known from a second restoration gives a different result
+``equation``  the card computes a formula of chapter 3 (:data:`EQUATIONS`, compiled by hand)
+``sibling``   at least two other cards of the listings have the form of the card (:func:`alike`), and the variant has a
+              form that no card has
+``nothing``   no check detects the variant
 
-Those two are comparisons a reader makes, not runs.  Only decks whose run reaches the card are run, up to the first
-that differs.  Answers are kept one by one in the folder, so that a run is resumed where it ended.
+``equation`` and ``sibling`` are comparisons that a reader makes, not runs.  Only decks whose run reaches the card are
+run, up to the first that differs.  Each answer is stored at once, so that an interrupted run can be resumed.
 """
 
 from __future__ import annotations
@@ -46,8 +46,8 @@ from modern.thesis.job import punched_deck, run_hull
 
 NOTICED = ("compiler", "print", "machine", "equation", "sibling", "nothing")
 CORE = 60_000
-PATIENCE, ATTEMPTS = 3, 5_000
-"""A variant's run may take so many times the statements of the listing's, and so many more."""
+LIMIT_FACTOR, LIMIT_EXTRA = 3, 5_000
+"""The run of a variant is stopped after LIMIT_FACTOR times the statements of the listing's run, plus LIMIT_EXTRA."""
 
 EQUATIONS: tuple[tuple[str, str, str, str], ...] = (
     ("program1", "113", "113+2", "(3.1)"),
@@ -64,12 +64,15 @@ EQUATIONS: tuple[tuple[str, str, str, str], ...] = (
     ("program2", "133+13", "133+15", "(3.5)"),
     ("program3", "130+3", "130+10", "(3.4)"),
 )
-"""Program, first and last card, and the formula of chapter 3 that the floating-point assignments of these compute."""
+"""Program, first card, last card, and the formula of chapter 3 that their floating-point assignments compute."""
 
 
 @dataclass(frozen=True, slots=True)
 class Bench:
-    """A program on its decks: what the listing gives, and how many statements of which index each run begins."""
+    """A program with its decks and the results of the listing on them.
+
+    ``kinds`` is ``print`` or ``machine`` for each deck, and ``examples`` the number of the example or 0.
+    """
 
     program: Program
     decks: tuple[Deck, ...]
@@ -78,27 +81,31 @@ class Bench:
     examples: tuple[int, ...]
 
     def reaching(self, statement: int) -> Sequence[int]:
-        """The decks whose run begins a statement."""
+        """Return the decks whose run executes a statement."""
         counters = [n for n, c in enumerate(self.program.counters) if c.statement == statement and c.begins]
         return [d for d, result in enumerate(self.results) if any(result.counts[n] for n in counters)]
 
 
 def benches(runs: str) -> dict[str, Bench]:
-    """The three programs and the state of the examples on the decks they read; ``runs`` is a folder of known decks."""
+    """Return every built-in program with the decks that it reads.
+
+    ``runs`` is a folder of decks whose cards are known from a second restoration, or empty.
+    """
     known = [
         ("machine", 0, deck_from_text(path.parent.name, path.read_text(encoding="ascii")))
         for path in (sorted(Path(runs).glob("*/deck.cards")) if runs else ())
     ]
     data = [("print", n, chapter6.input_deck(n)) for n in chapter6.EXAMPLES] + known
-    found: dict[str, list[tuple[str, int, Deck]]] = {name: [] for name in programs.NAMES}
+    decks: dict[str, list[tuple[str, int, Deck]]] = {name: [] for name in programs.NAMES}
     for first in ("program1", "program1_examples"):
         for kind, number, deck in data:
-            found[first].append((kind, number, deck))
+            decks[first].append((kind, number, deck))
             steps = run_hull(deck, programs.program, Options(limit=200_000), first).steps
-            wanted = first == "program1_examples" if kind == "print" else first == "program1"
-            if len(steps) > 1 and wanted:
-                found[steps[1].name].append((kind, number, punched_deck(steps[0])))
-    return {name: _bench(programs.program(name), decks) for name, decks in found.items()}
+            # The print comes from the state of the examples, the second restoration from the listing.
+            punched_by = "program1_examples" if kind == "print" else "program1"
+            if len(steps) > 1 and first == punched_by:
+                decks[steps[1].name].append((kind, number, punched_deck(steps[0])))
+    return {name: _bench(programs.program(name), inputs) for name, inputs in decks.items()}
 
 
 def _bench(program: Program, decks: Sequence[tuple[str, int, Deck]]) -> Bench:
@@ -108,7 +115,7 @@ def _bench(program: Program, decks: Sequence[tuple[str, int, Deck]]) -> Bench:
 
 
 def judged(variant: Variant, known: dict[str, Bench]) -> str:
-    """What notices a variant first."""
+    """Return the first check that detects a variant."""
     if variant.how == "number" and not _numbers(variant.reads) <= _numbers(variant.was) | _labels(variant.program):
         return "compiler"
     try:
@@ -137,7 +144,7 @@ def judged(variant: Variant, known: dict[str, Bench]) -> str:
 
 
 def _numbers(text: str) -> set[str]:
-    """The numbers of a statement, those of names apart."""
+    """Return the numbers of a statement, except digits of names."""
     return set(re.findall(r"(?<![A-Z\d])\d+", text))
 
 
@@ -147,41 +154,44 @@ def _labels(name: str) -> frozenset[str]:
 
 
 def _run(variant: Variant, program: Program, known: dict[str, Bench]) -> str:
-    """``print`` or ``machine`` where a run differs; else empty."""
+    """Return ``print`` or ``machine`` if a run differs, and otherwise an empty string."""
     bench, run = known[variant.program], _begun(variant.program)
     reached = bench.reaching(run.index(variant.card)) if variant.card in run else range(len(bench.decks))
     prints = [d for d in reached if bench.kinds[d] == "print"]
     if variant.program == "program1":
-        other = _in_the_examples(variant)
-        if other is not None:
-            if _differs(other, known["program1_examples"], "print"):
+        in_examples = _in_the_examples(variant)
+        if in_examples is not None:
+            examples_bench = known["program1_examples"]
+            if any(
+                _differs(in_examples, examples_bench, d) for d, k in enumerate(examples_bench.kinds) if k == "print"
+            ):
                 return "print"
         elif any(_disagrees(program, bench, d) for d in prints):
             return "print"
-    elif any(_other(program, bench, d) for d in prints):
+    elif any(_differs(program, bench, d) for d in prints):
         return "print"
-    return "machine" if any(_other(program, bench, d) for d in reached if bench.kinds[d] == "machine") else ""
+    return "machine" if any(_differs(program, bench, d) for d in reached if bench.kinds[d] == "machine") else ""
 
 
 def _begun(name: str) -> list[int]:
-    """The cards of the statements a run begins, in the order of Program.statements; FORMATs are none."""
+    """Return the card of each executable statement, in the order of Program.statements."""
     return [line.place.card for line in programs.program(name).statements]
 
 
-def _differs(program: Program, bench: Bench, kind: str) -> bool:
-    return any(_other(program, bench, d) for d, k in enumerate(bench.kinds) if k == kind)
-
-
-def _other(program: Program, bench: Bench, d: int) -> bool:
-    """Whether a deck gives other cards, other typed lines or another kind of end."""
-    was, now = bench.results[d], _result(program, bench, d)
-    if now is None:
+def _differs(program: Program, bench: Bench, d: int) -> bool:
+    """Return True if a deck gives different cards, different typed lines or another kind of ending."""
+    expected, actual = bench.results[d], _result(program, bench, d)
+    if actual is None:
         return True
-    return (was.punched, was.typed, was.ending.kind) != (now.punched, now.typed, now.ending.kind)
+    return (expected.punched, expected.typed, expected.ending.kind) != (
+        actual.punched,
+        actual.typed,
+        actual.ending.kind,
+    )
 
 
 def _result(program: Program, bench: Bench, d: int) -> Result | None:
-    limit = PATIENCE * bench.results[d].statements + ATTEMPTS
+    limit = LIMIT_FACTOR * bench.results[d].statements + LIMIT_EXTRA
     try:
         return run_batch(program, [bench.decks[d]], Options(limit=limit, core=CORE))[0]
     except EmulatorError:
@@ -189,30 +199,30 @@ def _result(program: Program, bench: Bench, d: int) -> Result | None:
 
 
 def _disagrees(program: Program, bench: Bench, d: int) -> bool:
-    """Whether program 1 as listed no longer agrees with the print, up to order."""
-    now, example = _result(program, bench, d), bench.examples[d]
-    if now is None or now.typed != bench.results[d].typed:
+    """Return True if program 1 as listed no longer agrees with the print up to order."""
+    actual, example = _result(program, bench, d), bench.examples[d]
+    if actual is None or actual.typed != bench.results[d].typed:
         return True
-    pages = [p for p in chapter6.prints(example) if p.program == 1 and p.device == "punch"]
-    last = max(p.program for p in chapter6.prints(example)) == 1
-    return any(compare(p.lines, now.punched, last, oriented=False).kind == DIFFERENT for p in pages)
+    prints = [p for p in chapter6.prints(example) if p.program == 1 and p.device == "punch"]
+    final = max(p.program for p in chapter6.prints(example)) == 1
+    return any(compare(p.lines, actual.punched, final, oriented=False).kind == DIFFERENT for p in prints)
 
 
 def _in_the_examples(variant: Variant) -> Program | None:
-    """The same change in the state of the examples; None where the card is not in it, or does not compile there."""
-    old = {(s.place, s.source.label, s.source.text): s for s in statements("program1_examples")}
-    mine = next(s for s in statements("program1") if s.card == variant.card)
-    other = old.get((mine.place, mine.source.label, mine.source.text))
-    if other is None:
+    """Compile the same change in the state of the examples; None if the card is not in it or does not compile."""
+    examples = {(s.place, s.source.label, s.source.text): s for s in statements("program1_examples")}
+    listed = next(s for s in statements("program1") if s.card == variant.card)
+    counterpart = examples.get((listed.place, listed.source.label, listed.source.text))
+    if counterpart is None:
         return None
     try:
-        return compile_deck(deck_with("program1_examples", other.card, variant.reads))
+        return compile_deck(deck_with("program1_examples", counterpart.card, variant.reads))
     except EmulatorError:
         return None
 
 
 def equation_of(name: str, place: str) -> str:
-    """The formula of chapter 3 a card computes; empty where it is none."""
+    """Return the formula of chapter 3 that a card computes, or an empty string."""
     order = [s.place for s in statements(name)]
     source = statements(name)[order.index(place)].source
     if source.kind == "assignment" and not is_fixed_name(source.text):
@@ -224,20 +234,20 @@ def equation_of(name: str, place: str) -> str:
 
 @cache
 def _forms() -> Counter[str]:
-    """How many cards of the three listings have each form."""
+    """Count the cards of the three listings by form."""
     return Counter(
         _form(s.source.text) for name in programs.TEXTS for s in statements(name) if s.source.kind != "format"
     )
 
 
 def _form(text: str) -> str:
-    """A statement with its names and numbers replaced by their order: ``a(b)=c(b)``."""
-    seen: dict[str, str] = {}
-    return re.sub(r"[A-Z][A-Z0-9]*|\d+", lambda m: seen.setdefault(m[0], f"<{len(seen)}>"), text)
+    """Return a statement with each name or number replaced by the order of its first occurrence: ``<0>(<1>)=<2>``."""
+    order: dict[str, str] = {}
+    return re.sub(r"[A-Z][A-Z0-9]*|\d+", lambda m: order.setdefault(m[0], f"<{len(order)}>"), text)
 
 
 def alike(text: str) -> int:
-    """How many other cards of the three listings have a card's form: its names and numbers by their order alone."""
+    """Count the other cards of the three listings that have the form of a statement."""
     return max(_forms()[_form(text)] - 1, 0)
 
 
@@ -246,47 +256,48 @@ def _unlike(variant: Variant) -> bool:
 
 
 def ordered(names: Iterable[str] = programs.TEXTS) -> list[Variant]:
-    """All variants in an order that any part of is a fair sample: by SHA-256 of their keys."""
-    found = [variant for name in names for variant in variants(name)]
-    return sorted(found, key=lambda v: hashlib.sha256(v.key.encode()).digest())
+    """Return all variants ordered by the SHA-256 of their keys, so that the first n are a random sample."""
+    every = [variant for name in names for variant in variants(name)]
+    return sorted(every, key=lambda v: hashlib.sha256(v.key.encode()).digest())
 
 
 _KNOWN: dict[str, Bench] = {}
+"""The benches of a worker process."""
 
 
 def _begin(runs: str) -> None:
     _KNOWN.update(benches(runs))
 
 
-def _judge(some: Sequence[Variant]) -> list[str]:
-    return [judged(variant, _KNOWN) for variant in some]
+def _judge(chunk: Sequence[Variant]) -> list[str]:
+    return [judged(variant, _KNOWN) for variant in chunk]
 
 
 def weigh(folder: Path, runs: str, workers: int = 1, most: int = 0, chunk: int = 20) -> dict[str, str]:
-    """Judge every variant (or the first ``most``), keeping each answer in ``folder/variants.jsonl``; key to answer.
+    """Judge every variant, or the first ``most``, and return the answers by key.
 
-    Raises FileError where ``runs`` holds no deck, and where the folder holds answers of other listings or cannot
-    be written.
+    Answers are stored in ``folder/variants.jsonl`` and read from there if the run is resumed.  Raises FileError if
+    ``runs`` holds no deck, and if the folder holds answers for other listings or cannot be written.
     """
     if runs and not any(Path(runs).glob("*/deck.cards")):
         raise FileError(f"{runs}: no folder in it has a deck.cards")
-    wanted = ordered()[: most or None]
+    sample = ordered()[: most or None]
     print_of = hashlib.sha256("".join(programs.committed(n).text() for n in programs.NAMES).encode()).hexdigest()
     path = folder / "variants.jsonl"
     try:
         folder.mkdir(parents=True, exist_ok=True)
         lines = path.read_text(encoding="utf-8").split("\n") if path.exists() else []
         if lines and json.loads(lines[0]) != {"decks": print_of}:
-            raise FileError(f"{path}: holds answers of other listings")
-        # The last line may have been cut where a run was killed.
+            raise FileError(f"{path}: holds answers for other listings")
+        # If a run was killed, its last line may be incomplete: it is dropped and judged again.
         done = {key: answer for line in lines[1:-1] for key, answer in [json.loads(line)]}
         with path.open("w", encoding="utf-8") as file:
             file.write(json.dumps({"decks": print_of}) + "\n")
             file.writelines(json.dumps([key, answer]) + "\n" for key, answer in done.items())
             file.flush()
-            left = [variant for variant in wanted if variant.key not in done]
-            parts = [left[k : k + chunk] for k in range(0, len(left), chunk)]
-            progress = Progress(len(wanted), len(wanted) - len(left))
+            remaining = [variant for variant in sample if variant.key not in done]
+            parts = [remaining[k : k + chunk] for k in range(0, len(remaining), chunk)]
+            progress = Progress(len(sample), len(sample) - len(remaining))
             with ProcessPoolExecutor(workers, initializer=_begin, initargs=(runs,)) as pool:
                 for part, answers in zip(parts, pool.map(_judge, parts), strict=True):
                     for variant, answer in zip(part, answers, strict=True):
@@ -297,11 +308,11 @@ def weigh(folder: Path, runs: str, workers: int = 1, most: int = 0, chunk: int =
             progress.close()
     except (OSError, json.JSONDecodeError) as error:
         raise FileError(f"{path}: {error}") from None
-    return {variant.key: done[variant.key] for variant in wanted}
+    return {variant.key: done[variant.key] for variant in sample}
 
 
 def by_card(answers: Mapping[str, str]) -> Iterator[tuple[Variant, Counter[str]]]:
-    """For each card one of its variants, and how many of its variants each thing notices."""
+    """Yield, for each card, one of its variants and the number of its variants by the check that detects them."""
     cards: dict[tuple[str, int], tuple[Variant, Counter[str]]] = {}
     for variant in sorted(ordered(), key=lambda v: (v.program, v.card)):
         if variant.key in answers:
@@ -311,6 +322,6 @@ def by_card(answers: Mapping[str, str]) -> Iterator[tuple[Variant, Counter[str]]
 
 
 def silent(answers: Mapping[str, str]) -> list[Variant]:
-    """The variants nothing notices, in the order of the cards."""
-    found = [variant for variant in ordered() if answers.get(variant.key) == "nothing"]
-    return sorted(found, key=lambda v: (v.program, v.card, v.reads))
+    """Return the variants that no check detects, in the order of the cards."""
+    undetected = [variant for variant in ordered() if answers.get(variant.key) == "nothing"]
+    return sorted(undetected, key=lambda v: (v.program, v.card, v.reads))

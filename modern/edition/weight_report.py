@@ -1,4 +1,4 @@
-"""What the weight of evidence came to: a report, a table of cards and the readings nothing notices."""
+"""Write the results of the weight of evidence: a report, a table of cards and the undetected variants."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from modern.edition import programs
 from modern.edition.variants import Variant
 from modern.edition.weight import EQUATIONS, NOTICED, alike, by_card, equation_of, ordered, silent
 
-SEEN = ("print", "machine", "equation", "sibling")
-"""What vouches for a reading, besides that it compiles."""
+CONFIRMING = ("print", "machine", "equation", "sibling")
+"""The checks that confirm a reading, apart from the compiler."""
 
 
 def write_weight(folder: Path, answers: Mapping[str, str]) -> str:
-    """Write ``report.md``, ``cards.csv`` and ``silent.csv`` in a folder; the report's text."""
+    """Write ``report.md``, ``cards.csv`` and ``silent.csv`` to a folder, and return the text of the report."""
     text = report(answers)
     write_text(str(folder / "report.md"), text)
     write_text(str(folder / "cards.csv"), _table(cards_table(answers)))
@@ -34,88 +34,92 @@ def _table(rows: Iterator[tuple[str, ...]] | list[tuple[str, ...]]) -> str:
 
 
 def cards_table(answers: Mapping[str, str]) -> Iterator[tuple[str, ...]]:
-    """A row a card: place and words, what notices how many of its variants, its formula, how many cards are alike."""
+    """Yield a row for each card: its statement, its variants by check, its formula and the number of similar cards."""
     yield ("program", "card", "place", "statement", *NOTICED, "no change", "formula", "alike")
-    for one, count in by_card(answers):
+    for variant, count in by_card(answers):
         numbers = (str(count[name]) for name in (*NOTICED, "no change"))
-        formula = equation_of(one.program, one.place)
-        yield (one.program, str(one.card), one.place, one.was, *numbers, formula, str(alike(one.was)))
+        formula = equation_of(variant.program, variant.place)
+        card = (variant.program, str(variant.card), variant.place, variant.was)
+        yield (*card, *numbers, formula, str(alike(variant.was)))
 
 
 def unvouched(answers: Mapping[str, str]) -> list[Variant]:
-    """A variant of each card that only the compiler vouches for: two readings or more, and nothing notices any."""
-    return [one for one, count in by_card(answers) if count["nothing"] > 1 and not any(count[name] for name in SEEN)]
+    """Return a variant of each card that only the compiler confirms: it has two or more undetected variants."""
+    return [
+        variant
+        for variant, count in by_card(answers)
+        if count["nothing"] > 1 and not any(count[name] for name in CONFIRMING)
+    ]
 
 
 def report(answers: Mapping[str, str]) -> str:
-    """The report in Markdown."""
+    """Return the report in Markdown."""
     everything = ordered()
     judged = [variant for variant in everything if variant.key in answers]
     counted = [variant for variant in judged if answers[variant.key] != "no change"]
     compiling = [variant for variant in counted if answers[variant.key] != "compiler"]
-    unseen = [variant for variant in compiling if answers[variant.key] == "nothing"]
+    undetected = [variant for variant in compiling if answers[variant.key] == "nothing"]
+    detected = len(compiling) - len(undetected)
+    sample = " They are a random sample, ordered by SHA-256." if len(judged) < len(everything) else ""
     lines = [
         "# The weight of evidence",
         "",
-        "Each token of the three listings is altered in every way an OCR or a typist might have, one at a time; each",
-        "variant compiled and run over the examples of chapter 6 and the decks of the second restoration.",
+        "How sure is each character of the listings? To find out, each token of the three listings was altered in",
+        "every way in which an OCR or a typist might have altered it, one at a time. Each variant was compiled and",
+        "run on the examples of chapter 6 and on the decks of the second restoration. If no check distinguishes a",
+        "reading from its variants, the reading rests on the witness alone.",
         "",
-        f"{len(judged):,} of {len(everything):,} variants were judged"
-        + (
-            ", in an order of which any part is a fair sample (SHA-256 of the variant)."
-            if len(judged) < len(everything)
-            else "."
-        ),
-        f"{len(judged) - len(counted):,} have the object code and the storage map of the listing, and are not counted.",
-        f"Of the other {len(counted):,} the compiler refuses {len(counted) - len(compiling):,};",
-        f"of the {len(compiling):,} that compile",
-        f"{len(compiling) - len(unseen):,} ({_share(len(compiling) - len(unseen), len(compiling))}) are noticed and",
-        f"{len(unseen):,} ({_share(len(unseen), len(compiling))}) by nothing.",
+        f"{len(judged):,} of {len(everything):,} variants were judged.{sample}",
+        f"{len(judged) - len(counted):,} of them have the object code and the storage map of the listing and are not",
+        f"counted. The compiler rejects {len(counted) - len(compiling):,} of the other {len(counted):,}.",
+        f"{len(compiling):,} variants compile: a check detects {detected:,} of them"
+        f" ({_share(detected, len(compiling))}),",
+        f"and no check detects {len(undetected):,} ({_share(len(undetected), len(compiling))}).",
         "",
-        "| what notices first | " + " | ".join(programs.TEXTS) + " | all |",
+        "| first check that detects the variant | " + " | ".join(programs.TEXTS) + " | all |",
         "|---|" + "---:|" * (len(programs.TEXTS) + 1),
     ]
     for name in NOTICED:
         per = Counter(v.program for v in counted if answers[v.key] == name)
         lines.append(f"| {name} | " + " | ".join(str(per[p]) for p in programs.TEXTS) + f" | {per.total()} |")
-    lines += ["", "| what is altered | " + " | ".join(NOTICED) + " |", "|---|" + "---:|" * len(NOTICED)]
+    lines += ["", "| altered token | " + " | ".join(NOTICED) + " |", "|---|" + "---:|" * len(NOTICED)]
     for how in dict.fromkeys(sorted(v.how for v in counted)):
-        seen = Counter(answers[v.key] for v in counted if v.how == how)
-        lines.append(f"| {how} | " + " | ".join(str(seen[name]) for name in NOTICED) + " |")
-    lines += ["", *_how_noticed(), "## Cards nothing vouches for", ""]
+        by_check = Counter(answers[v.key] for v in counted if v.how == how)
+        lines.append(f"| {how} | " + " | ".join(str(by_check[name]) for name in NOTICED) + " |")
+    lines += ["", *_how_noticed(), "## Cards that no check confirms", ""]
     lines += [
-        "Two or more of their variants judged compile, and none is noticed by print, machine, equation or sibling:",
+        "Two or more variants of these cards compile, and print, machine, equation and sibling detect none of them:",
         "",
     ]
-    found = unvouched(answers)
+    unconfirmed = unvouched(answers)
     for name in programs.TEXTS:
-        cards = [f"{v.place} `{v.was.strip()}`" for v in found if v.program == name]
+        cards = [f"{v.place} `{v.was.strip()}`" for v in unconfirmed if v.program == name]
         lines.append(f"- {name} ({len(cards)}): " + ("; ".join(cards) if cards else "none"))
     lines += [
         "",
-        "`cards.csv` has every card with what notices how many of its variants, `silent.csv` every reading that",
+        "`cards.csv` lists every card with the number of its variants that each check detects. `silent.csv` lists the",
+        f"{len(undetected):,} variants that no check detects.",
     ]
-    lines += [f"nothing notices ({len(unseen):,})."]
     return "\n".join(lines) + "\n"
 
 
 _HOW = """\
-## How each of them notices
+## The checks
 
-In this order; what notices a variant first is counted.
+A variant is counted under the first of these checks that detects it.
 
-- `compiler`: the deck no longer compiles. A variant with the object code and the storage map of the listing is no
-  reading of its own, and is not counted.
-- `print`: a printed example of chapter 6 comes out otherwise. Of program 1 the state that made the examples is run,
-  which has the same card; where it has not, the listing, whose cards agree with the print up to their order.
-- `machine`: a deck of the second restoration comes out otherwise.
-- `equation`: every run is the same, and the card is an assignment of floating-point numbers among those below, which
-  compute a formula of chapter 3. They were found by reading chapter and listing side by side; who knows the formula
-  sees that another reading is not it. `formula` in `cards.csv` names the formula of a card.
-- `sibling`: every run is the same, no formula is computed, and two other cards or more of the three listings have the
-  card's form, while the variant has the form of none. The form is the statement with its names and numbers replaced
-  by the order in which they first stand in it: `X(K)=X(K+1)` and `Y(J)=Y(J+1)` have one form, `X(K)=X(J+1)` has
-  another. `alike` in `cards.csv` is how many other cards have a card's form.
+- `compiler`: the deck no longer compiles. A variant with the object code and the storage map of the listing is not a
+  different reading and is not counted.
+- `print`: a printed example of chapter 6 is no longer reproduced. Program 1 runs in the state that produced the
+  examples if the card is in it. Otherwise the listing runs, and its cards must agree with the print up to their order.
+- `machine`: a deck of the second restoration gives a different result.
+- `equation`: all runs are the same, and the card is a floating-point assignment of the table below, which computes a
+  formula of chapter 3. The table was compiled by reading chapter and listing side by side. A reader who knows the
+  formula sees that the variant is wrong. The column `formula` of `cards.csv` names the formula of a card.
+- `sibling`: all runs are the same, the card computes no formula, and at least two other cards of the three listings
+  have its form, while no card has the form of the variant. The form of a statement has each name and number replaced
+  by the order of its first occurrence: `X(K)=X(K+1)` and `Y(J)=Y(J+1)` have the same form, `X(K)=X(J+1)` has another.
+  The column `alike` of `cards.csv` counts the other cards with the same form.
 
 | formula of chapter 3 | cards |
 |---|---|"""
@@ -133,5 +137,5 @@ def _how_noticed() -> Iterator[str]:
     yield ""
 
 
-def _share(some: int, of: int) -> str:
-    return f"{100 * some / of:.1f} %" if of else "none"
+def _share(part: int, total: int) -> str:
+    return f"{100 * part / total:.1f} %" if total else "none"

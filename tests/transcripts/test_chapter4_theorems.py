@@ -112,7 +112,7 @@ def test_guard_an_altered_coefficient_is_caught(theorem: Theorem) -> None:
     plane = theorem.planes[0]
     wrong = dataclasses.replace(plane, coefficients=(plane.coefficients[0] + 1, *plane.coefficients[1:]))
     faults = theorem_faults(dataclasses.replace(theorem, planes=(wrong, *theorem.planes[1:])), TEXT)
-    assert f"theorem {theorem.id}: plane 1 is not {plane.printed}" in faults
+    assert f"theorem {theorem.id}: plane 1 differs from {plane.printed}" in faults
     assert any("does not contain" in fault for fault in faults)
 
 
@@ -121,16 +121,16 @@ def test_guard_an_altered_point_is_caught(theorem: Theorem) -> None:
     point = theorem.points[-1]
     wrong = dataclasses.replace(point, at=(point.at[0] + 30, *point.at[1:]))
     faults = theorem_faults(dataclasses.replace(theorem, points=(*theorem.points[:-1], wrong)), TEXT)
-    assert f"theorem {theorem.id}: {point.name} is not {point.printed}" in faults
+    assert f"theorem {theorem.id}: {point.name} differs from {point.printed}" in faults
 
 
 def test_guard_a_wrong_sign_and_extreme_are_caught() -> None:
     theorem = THEOREMS["4.2"]
     wrong = dataclasses.replace(theorem, signs=((7, "P4", "-"),), extremes={"lx": "P2"}, points_stated=7)
     assert theorem_faults(wrong, TEXT) == (
-        "theorem 4.2: it speaks of 7 points",
-        "theorem 4.2: P2 has not the extreme lx",
-        "theorem 4.2: plane 7 at P4 is 30, stated -",
+        "theorem 4.2: the text states 7 points, the data have 6",
+        "theorem 4.2: P2 is not the extreme lx",
+        "theorem 4.2: plane 7 has the value 30 at P4, the text states -",
     )
 
 

@@ -1,4 +1,4 @@
-"""The printed examples of chapter 6 as card images: tie to the print, committed files, guards."""
+"""The printed examples of chapter 6 as card images: agreement with the print, committed files, altered data."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def test_witness_has_its_stray_page_number_on_its_page() -> None:
 
 
 @pytest.mark.parametrize(("example", "program", "device", "name"), device_files(CHAPTER), ids=NAMES)
-def test_committed_file_is_its_build(example: int, program: int, device: str, name: str) -> None:
+def test_committed_file_equals_its_build(example: int, program: int, device: str, name: str) -> None:
     committed = chapter6_folder().joinpath(*name.split("/")).read_bytes()
     images = card_images(CHAPTER, example, program, device)
     assert committed.decode("ascii") == "".join(image + "\n" for image in images)
@@ -71,14 +71,14 @@ def test_no_other_device_file_is_committed() -> None:
 
 
 @pytest.mark.parametrize("entry", [d for d in CHAPTER.layout.devices if d.layer == "layout"], ids=lambda d: str(d.file))
-def test_characters_of_the_cards_are_those_of_the_print(entry) -> None:  # type: ignore[no-untyped-def]
-    """Read from the committed file and the built lines, without the card reader."""
+def test_cards_have_the_characters_of_the_print(entry) -> None:  # type: ignore[no-untyped-def]
+    """Compare the committed file with the built lines, without the card reader."""
     committed = chapter6_folder().joinpath(*entry.file.split("/")).read_text(encoding="ascii")
     printed = "".join(line.text for line in printed_lines(CHAPTER, entry))
     assert "".join(committed.split()) == "".join(printed.split())
 
 
-def test_printed_columns_are_the_columns_that_are_not_blank() -> None:
+def test_printed_columns_are_the_nonblank_columns() -> None:
     for example, program, device, _ in device_files(CHAPTER):
         for card in cards(CHAPTER, example, program, device):
             if device == "typewriter":
@@ -131,12 +131,12 @@ def test_typed_line_as_chapter_5_states_it(example: int, typed: str) -> None:
 
 
 @pytest.mark.parametrize(("example", "program"), [(4, 2), (5, 3), (6, 3)])
-def test_second_programs_type_nothing(example: int, program: int) -> None:
+def test_programs_2_and_3_type_nothing(example: int, program: int) -> None:
     assert card_images(CHAPTER, example, program, "typewriter") == ()
 
 
 def _digits() -> list[tuple[str, str, str]]:
-    """One digit of the first and of the last number of every printed device file."""
+    """Alter one digit of the first and of the last number of every printed device file."""
     places = []
     for entry in CHAPTER.layout.devices:
         found = [(line.id, n) for line in printed_lines(CHAPTER, entry) for n in re.findall(r"\.\d{8}E...", line.text)]
@@ -164,7 +164,7 @@ def test_guard_one_altered_digit_is_caught(line: str, old: str, new: str) -> Non
             "67",
             ".65020000",
             ".65030000",
-            "example2/program1.punch: an endpoint is no point of the input deck",
+            "example2/program1.punch: an endpoint is not a point of the input deck",
         ),
         (
             "31",
@@ -176,7 +176,7 @@ def test_guard_one_altered_digit_is_caught(line: str, old: str, new: str) -> Non
             "213",
             ".19000000",
             ".18000000",
-            "example5/program1.punch: its points are not those of the input deck",
+            "example5/program1.punch: its points differ from those of the input deck",
         ),
         (
             "320",
@@ -193,7 +193,7 @@ def test_guard_arithmetic_of_the_print(line: str, old: str, new: str, fault: str
 
 
 def test_guard_a_reversed_plane_is_caught() -> None:
-    """An equation with all its signs turned round still vanishes at its vertices; the points then lie outside."""
+    """An equation with all signs reversed still vanishes at its vertices, but the points then lie outside."""
     lines = [
         Line(w.id, re.sub(r"(-?)(\.\d+E)", lambda m: ("" if m[1] else "-") + m[2], w.text), w.page)
         if w.id in ("316", "317", "318")
@@ -216,7 +216,7 @@ def test_guard_a_line_used_twice_is_caught() -> None:
     assert check_tie(rebuilt(CHAPTER.text, layout)) == ("line 58 is used twice",)
 
 
-def test_guard_a_touched_device_file_is_caught(tmp_path: Path) -> None:
+def test_guard_a_changed_device_file_is_caught(tmp_path: Path) -> None:
     write_files(CHAPTER, tmp_path)
     assert check_files(CHAPTER, tmp_path) == ()
     path = tmp_path / "example5" / "program3.punch"
@@ -224,7 +224,7 @@ def test_guard_a_touched_device_file_is_caught(tmp_path: Path) -> None:
     (tmp_path / "example1" / "program1.deck").unlink()
     assert check_files(CHAPTER, tmp_path) == (
         "example1/program1.deck is missing",
-        "example5/program3.punch is not what witness, apparatus and layout give",
+        "example5/program3.punch differs from the file built from witness, apparatus and layout",
     )
 
 
@@ -238,15 +238,15 @@ def test_written_files_are_the_built_ones(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("line", "old", "new", "message"),
     [
-        ("67", ".65020000E+04", ".6502E+04", r"columns 8 to 21: line 67 should have a number of 14 columns"),
+        ("67", ".65020000E+04", ".6502E+04", r"columns 8 to 21: line 67: expected a number of 14 columns"),
         ("66", "1", "1234", r"line 66: 1234 is wider than its field$"),
         (
             "60",
             "POINTS ARE COLLINEAR",
             "POINTS ARE COLL",
-            r"line 60 should have 9 characters of words, it has 'COLL'$",
+            r"line 60: expected 9 characters of words, found 'COLL'$",
         ),
-        ("90", "DETERMINED", "DETERMINED 5", r"line 90: '5' is left over$"),
+        ("90", "DETERMINED", "DETERMINED 5", r"line 90: '5' remains after the last field$"),
     ],
 )
 def test_a_print_that_does_not_fit_is_one_clear_line(line: str, old: str, new: str, message: str) -> None:
@@ -261,14 +261,14 @@ def test_unknown_device_is_one_clear_line() -> None:
         card_images(CHAPTER, 7, 1, "punch")
 
 
-def test_command_line_checks_and_refuses(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_line_checks_and_rejects_wrong_options(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--check"]) == 0
     assert capsys.readouterr().out == ""
     assert main(["--run"]) == 2
     assert capsys.readouterr().err.startswith("usage: ")
 
 
-def test_no_emendation_brings_in_what_the_card_code_lacks() -> None:
-    """Printed lines of the corrected print are ASCII (the headings of the thesis too)."""
+def test_emendations_use_only_card_characters() -> None:
+    """All lines of the corrected print are ASCII, including the headings of the thesis."""
     assert all(line.text.isascii() for line in CHAPTER.print)
     assert not files("transcripts").joinpath("chapter6", "witness.txt").read_text(encoding="utf-8").isascii()

@@ -42,11 +42,11 @@ def test_format_columns(text: str, values: int, expected: list[list[tuple[int, i
 
 
 @pytest.mark.parametrize(
-    ("text", "values", "words"),
+    ("text", "values", "message"),
     [("(I2)", 2, "1 of 2 numbers"), ("I2", 1, "parenthesis"), ("(5HABC)", 0, "5H"), ("(I2,Q)", 1, "'Q'")],
 )
-def test_a_format_that_cannot_be_read_is_one_line(text: str, values: int, words: str) -> None:
-    with pytest.raises(Refused, match=words) as caught:
+def test_a_format_that_cannot_be_read_is_one_line(text: str, values: int, message: str) -> None:
+    with pytest.raises(Refused, match=message) as caught:
         records(text, values)
     assert "\n" not in str(caught.value)
 
@@ -55,7 +55,7 @@ _ITEM = re.compile(r"(\d+)X|(\d+)H|(/)|(\d*)(?:E(\d+)\.\d+|I(\d+))|,| ")
 
 
 def on_paper(text: str, values: int) -> list[str]:
-    """The cards as a picture, by a reader of its own: # a number's column, a literal's characters, blanks."""
+    """Draw the cards with an independent reader: # for the columns of numbers, literals as they are, blanks."""
     picture, at, left = [""], 1, values
     while text[at] != ")" or at < len(text) - 1:
         found = _ITEM.match(text, at)
@@ -80,7 +80,7 @@ def on_paper(text: str, values: int) -> list[str]:
 
 @pytest.mark.parametrize("entry", CHAPTER.layout.formats, ids=lambda f: f"p{f.program}-{f.number}")
 def test_columns_are_those_of_a_second_reader(entry: Format) -> None:
-    """A FORMAT's columns by the compiler's reader and by one of the test's own, for every list it can serve."""
+    """The compiler's reader and the reader of this test agree for every list that the FORMAT can serve."""
     most = sum(int(found[4] or 1) for found in _ITEM.finditer(entry.text) if found[5] or found[6])
     for values in range(most + 1):
         drawn = []
@@ -97,15 +97,15 @@ def test_layout_agrees_with_its_formats() -> None:
 
 
 @pytest.mark.parametrize("entry", CHAPTER.layout.formats, ids=lambda f: f"p{f.program}-{f.number}")
-def test_listed_format_stands_in_the_listing(entry: Format) -> None:
-    """`listed` is what the OCR of the listing says, blanks apart; a change to it carries a note."""
+def test_listed_format_occurs_in_the_listing(entry: Format) -> None:
+    """`listed` equals the OCR text of the listing except for blanks, and a change to it has a note."""
     witness = files("fortran_src").joinpath("witness", f"program{entry.program}.txt").read_text(encoding="utf-8")
     statement = f"{entry.number}FORMAT{entry.listed}".replace(" ", "")
     assert statement in witness.replace(" ", "")
     assert (entry.listed == entry.text) == (not entry.note)
 
 
-def test_listed_format_stands_on_its_page() -> None:
+def test_listed_format_is_on_its_page() -> None:
     for entry in CHAPTER.layout.formats:
         witness = files("fortran_src").joinpath("witness", f"program{entry.program}.txt").read_text(encoding="utf-8")
         page = next(p for p in witness.split("## page ") if p.startswith(f"{entry.page}\n"))
@@ -113,7 +113,7 @@ def test_listed_format_stands_on_its_page() -> None:
 
 
 def test_layout_holds_no_sign_or_digit_of_a_card() -> None:
-    """Apart from typed lines a card of the layout is columns only."""
+    """Except for typed lines, a card of the layout consists of columns only."""
     names = {field.name for field in dataclasses.fields(CardShape)}
     assert names == {"id", "program", "format", "record", "values", "fields", "source"}
     for device in CHAPTER.layout.devices:
@@ -135,7 +135,9 @@ def with_card(card_id: str, **changes: object) -> Chapter:
 def test_guard_a_moved_column_is_caught() -> None:
     card = next(c for c in CHAPTER.layout.cards if c.id == "p1.10.1")
     moved = tuple(dataclasses.replace(f, first=f.first + 1, last=f.last + 1) for f in card.fields)
-    assert check_layout(with_card("p1.10.1", fields=moved)) == ("card p1.10.1: its columns are not those of FORMAT 10",)
+    assert check_layout(with_card("p1.10.1", fields=moved)) == (
+        "card p1.10.1: its columns differ from those of FORMAT 10",
+    )
 
 
 def without_card(file: str, at: int) -> Chapter:
@@ -156,8 +158,8 @@ def test_guard_a_missing_blank_card_is_caught(at: int) -> None:
     assert "cannot follow" in fault
 
 
-def test_guard_a_word_that_is_not_the_formats_is_caught() -> None:
-    """With the typist's row off, example 4 prints CONVES where FORMAT 20 has CONVEX."""
+def test_guard_a_word_that_differs_from_the_format_is_caught() -> None:
+    """Without the row of the layer typist, example 4 prints CONVES and FORMAT 20 has CONVEX."""
     (row,) = [r for r in CHAPTER.text.rows if "CONVES" in r.changes[0].witness]
     faults = check_layout(load_chapter(without={row.id}))
     assert faults == ("example4/program2.punch: line 172 prints CONVES, the FORMAT CONVEX",)
@@ -165,5 +167,7 @@ def test_guard_a_word_that_is_not_the_formats_is_caught() -> None:
 
 def test_a_missing_card_is_one_clear_line() -> None:
     chapter = without_card("example3/program1.deck", 1)
-    with pytest.raises(TranscriptError, match=r"^example3/program1.deck: line \S+: '\+\.1.*' is left over$"):
+    with pytest.raises(
+        TranscriptError, match=r"^example3/program1.deck: line \S+: '\+\.1.*' remains after the last field$"
+    ):
         check_layout(chapter)

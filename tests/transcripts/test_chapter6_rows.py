@@ -1,4 +1,4 @@
-"""Every row of the chapter 6 apparatus stands on its ground; a superfluous or wrong row is caught."""
+"""The ground of every row of the chapter 6 apparatus holds; a superfluous or wrong row is detected."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ KINDS = {"dropped-zero", "lost-sign", "lost-point", "lost", "fused", "displaced"
 
 
 def with_rows(*rows: Row) -> Chapter:
-    """The chapter with rows put in place of those of the same id, or added at the end."""
+    """Return the chapter with rows that replace those of the same id or are added at the end."""
     new = {row.id: row for row in rows}
     kept = [new.pop(row.id, row) for row in CHAPTER.text.rows]
     text: Text = dataclasses.replace(CHAPTER.text, rows=(*kept, *new.values()))
@@ -30,7 +30,7 @@ def faults(chapter: Chapter, row_id: str) -> tuple[str, ...]:
 
 
 @pytest.mark.parametrize("row", CHAPTER.text.rows, ids=lambda row: row.id)
-def test_row_stands_on_its_ground(row: Row) -> None:
+def test_the_ground_of_a_row_holds(row: Row) -> None:
     assert row_faults(CHAPTER, row) == ()
 
 
@@ -59,7 +59,7 @@ def test_dropped_zero_rows_add_a_zero_to_the_run_and_nothing_else() -> None:
         assert re.sub("0+", "0", new) == re.sub("0+", "0", old)
 
 
-def test_displaced_rows_move_characters_and_change_none() -> None:
+def test_displaced_rows_only_move_characters() -> None:
     for row in CHAPTER.text.rows:
         if row.kind == "displaced":
             old, new = ("".join(getattr(c, part) for c in row.changes) for part in ("witness", "lemma"))
@@ -67,7 +67,7 @@ def test_displaced_rows_move_characters_and_change_none() -> None:
 
 
 def test_deck_grounds_name_the_same_point() -> None:
-    """The card a `deck` ground names has all three coordinates of the row's own card, not only the one number."""
+    """The card that a ground of kind `deck` names has all three coordinates of the card of the row."""
     seen = 0
     for row in CHAPTER.text.rows:
         for ground in (row.ground, row.ground.get("also", {})):
@@ -86,7 +86,7 @@ def all_cards() -> list[Card]:
 
 
 @pytest.mark.parametrize(
-    ("text", "signed", "good"),
+    ("text", "signed", "is_well_formed"),
     [
         (" .20000000E+01-.16000000E+02", False, True),
         (" .2000000E+01", False, False),  # 13 characters
@@ -103,8 +103,8 @@ def all_cards() -> list[Card]:
         ("1, 2 3", False, True),
     ],
 )
-def test_width_ground(text: str, signed: bool, good: bool) -> None:
-    assert well_formed(text, signed) is good
+def test_width_ground(text: str, signed: bool, is_well_formed: bool) -> None:
+    assert well_formed(text, signed) is is_well_formed
 
 
 def extra(ground: dict[str, object], change: Change, kind: str = "noise") -> Row:
@@ -151,7 +151,7 @@ def test_a_wrong_vertex_is_caught() -> None:
 
 
 def test_the_minus_zero_of_example_4_rests_on_the_page() -> None:
-    """Without its minus equation 2's C would be the only number of the page to lose its point and no minus."""
+    """Without its minus, C of equation 2 would be the only number of the page that lost a point but not a minus."""
     row = CHAPTER.text.row("C6-089")
     assert row.certainty == "probable"
     change = dataclasses.replace(row.changes[0], lemma="\t.00000000E-99")
@@ -176,7 +176,7 @@ def test_lost_points_of_example_4_line_by_line() -> None:
 
 def test_an_unknown_ground_is_a_fault() -> None:
     chapter = with_rows(extra({"kind": "opinion"}, Change("58", "CONVEX", " CONVEX")))
-    assert faults(chapter, "X-1") == ("row X-1: there is no ground 'opinion'",)
+    assert faults(chapter, "X-1") == ("row X-1: unknown kind of ground 'opinion'",)
 
 
 def test_readme_counts_the_rows() -> None:

@@ -1,4 +1,4 @@
-"""The executable apparatus: witness plus rows builds the decks, and every row is needed."""
+"""Witness and rows build the committed decks, and every row is needed."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ def test_every_page_is_marked(name: str, first: int, last: int) -> None:
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.id)
 def test_row_is_needed(row: Row) -> None:
-    finding = check_row(row)
-    assert finding.holds, finding.words
+    proof = check_row(row)
+    assert proof.holds, proof.message
 
 
 def test_splitting_the_fused_page_changes_only_spacing() -> None:
@@ -49,7 +49,7 @@ def test_the_counts_in_the_readme_are_those_of_the_rows() -> None:
     assert f"alone shows {parse} of the {len(misread)}; {len(misread) - parse} left" in text
 
 
-# Guards: each kind of claim fails where it is false.
+# Each kind of ground fails if it is false.
 
 
 def superfluous(ground: dict[str, object], row_id: str = "P1-038") -> Row:
@@ -57,9 +57,9 @@ def superfluous(ground: dict[str, object], row_id: str = "P1-038") -> Row:
 
 
 FORCED: dict[str, object] = {"kind": "forced", "card": "125+1", "sibling": "125+3"}
-FALSE_CLAIMS: list[tuple[str, dict[str, object], str]] = [
+FALSE_GROUNDS: list[tuple[str, dict[str, object], str]] = [
     ("P1-043", {"kind": "parse"}, "parse: without it the deck still compiles"),
-    ("P1-038", {"kind": "cosmetic"}, "cosmetic: the object code is another without it"),
+    ("P1-038", {"kind": "cosmetic"}, "cosmetic: the object code is not the same with and without it"),
     ("P1-001", {"kind": "cosmetic"}, "cosmetic: without it the deck does not compile: not a statement"),
     ("P1-001", {"kind": "deck", "deck": "example1"}, "deck: without it the deck does not compile: not a statement"),
     (
@@ -72,13 +72,13 @@ FALSE_CLAIMS: list[tuple[str, dict[str, object], str]] = [
         {"kind": "print", "program": "program1", "examples": [3]},
         "print: example 3, program 1: exact with it, exact without",
     ),
-    # Exact, but in another order: that is not exact.
+    # Example 1 is exact only in another order, which does not count.
     (
         "P1-038",
         {"kind": "print", "program": "program1", "examples": [1]},
         "print: example 1, program 1: not exact with it, not exact without",
     ),
-    ("P1-038", {"kind": "print", "program": "program1", "examples": []}, "print: names no example"),
+    ("P1-038", {"kind": "print", "program": "program1", "examples": []}, "print: the ground names no example"),
     (
         "P1-018",
         {"kind": "print", "program": "program1", "examples": [2]},
@@ -87,27 +87,27 @@ FALSE_CLAIMS: list[tuple[str, dict[str, object], str]] = [
     (
         "P1-043",
         {"kind": "deck", "program": "program1", "deck": "example1"},
-        "deck: deck example1 gives the same cards without it",
+        "deck: deck example1 punches the same cards without it",
     ),
-    ("P1-039", {"kind": "deck", "program": "program1", "deck": "nosuch"}, "deck: there is no deck 'nosuch'"),
-    ("P1-018", FORCED | {"rename": ["O3", "O1"]}, "forced: card 125+1 is not card 125+3 with names exchanged"),
+    ("P1-039", {"kind": "deck", "program": "program1", "deck": "nosuch"}, "deck: deck 'nosuch' does not exist"),
+    ("P1-018", FORCED | {"rename": ["O3", "O1"]}, "forced: card 125+1 differs from card 125+3 with names exchanged"),
     (
         "P1-038",
         FORCED | {"rename": ["O3", "O1", "X", "Y", "Y", "Z"]},
-        "forced: card 125+1 is card 125+3 with names exchanged also without it",
+        "forced: card 125+1 equals card 125+3 with names exchanged also without it",
     ),
-    ("P1-038", {"kind": "because"}, "names no ground (it says 'because')"),
-    ("P1-038", {}, "names no ground (it says '')"),
+    ("P1-038", {"kind": "because"}, "unknown kind of ground: 'because'"),
+    ("P1-038", {}, "unknown kind of ground: ''"),
 ]
 
 
 @pytest.mark.parametrize(
-    ("row_id", "ground", "words"), FALSE_CLAIMS, ids=[f"{r}-{g.get('kind')}" for r, g, _ in FALSE_CLAIMS]
+    ("row_id", "ground", "message"), FALSE_GROUNDS, ids=[f"{r}-{g.get('kind')}" for r, g, _ in FALSE_GROUNDS]
 )
-def test_a_false_ground_fails(row_id: str, ground: dict[str, object], words: str) -> None:
-    found = check_row(superfluous(ground, row_id))
-    assert not found.holds
-    assert found.words.startswith(words)
+def test_a_false_ground_fails(row_id: str, ground: dict[str, object], message: str) -> None:
+    proof = check_row(superfluous(ground, row_id))
+    assert not proof.holds
+    assert proof.message.startswith(message)
 
 
 def test_names_are_exchanged_in_pairs() -> None:
@@ -115,27 +115,27 @@ def test_names_are_exchanged_in_pairs() -> None:
         check_row(superfluous(FORCED | {"rename": ["O3", "O1", "X"]}, "P1-018"))
 
 
-TRUE_CLAIMS = [
+TRUE_GROUNDS = [
     ("P1-001", "parse: without it: not a statement of this FORTRAN: C"),
     ("P1-002", "parse: without it: program1.f: card 22, column 9: '#' is "),
-    ("P1-018", "forced: card 125+1 is card 125+3 with O3 for O1, X for Y, Y for Z, not so without it"),
+    ("P1-018", "forced: card 125+1 equals card 125+3 with O3 for O1, X for Y, Y for Z, but not without it"),
     ("P1-037", "print: example 2 is exact with it, not without"),
     ("P1-042", "print: example 5 is exact with it, not without"),
     ("P1-043", "cosmetic: the object code is the same with and without it"),
-    ("P2-024", "deck: deck between ends with an empty hopper; without it: other cards"),
+    ("P2-024", "deck: deck between ends with an empty hopper; without it: different cards"),
     ("P2-026", "deck: deck epsplane ends with an empty hopper; without it: program2.f: card 53: EPS is undefined"),
 ]
 
 
-@pytest.mark.parametrize(("row_id", "words"), TRUE_CLAIMS, ids=[row_id for row_id, _ in TRUE_CLAIMS])
-def test_a_true_ground_says_what_was_seen(row_id: str, words: str) -> None:
-    """Some rows of each ground; that every row's holds is tested above."""
-    found = check_row(next(row for row in ROWS if row.id == row_id))
-    assert found.holds
-    assert found.words.startswith(words)
+@pytest.mark.parametrize(("row_id", "message"), TRUE_GROUNDS, ids=[row_id for row_id, _ in TRUE_GROUNDS])
+def test_the_message_of_a_true_ground_names_the_evidence(row_id: str, message: str) -> None:
+    """Check the messages of some rows of each kind of ground."""
+    proof = check_row(next(row for row in ROWS if row.id == row_id))
+    assert proof.holds
+    assert proof.message.startswith(message)
 
 
-def test_outcomes_are_the_same_by_cards_and_ending() -> None:
+def test_outcomes_are_equal_if_cards_and_ending_are() -> None:
     job = grounds._outcome("program1", (), programs.program("program1"), chapter6.input_deck(1))
     assert job.same_as(job)
     assert not job.same_as(replace(job, lines=job.lines[1:]))
@@ -146,46 +146,46 @@ def test_outcomes_are_the_same_by_cards_and_ending() -> None:
     assert not refused.same_as(replace(refused, ending=DeckError("y")))
 
 
-def test_a_card_is_named_by_its_number_or_the_one_before() -> None:
+def test_a_card_is_named_by_its_number_or_its_distance_from_the_last_one() -> None:
     deck = deck_from_lines("d.f", ["5 A=1.", "C  COMMENT", "B=2.", "6 END"])
     assert [grounds._card(deck, place) for place in ("5", "5+1", "6")] == ["A=1.", "B=2.", "END"]
 
 
 def test_check_of_decks_covers_all_four() -> None:
-    findings = list(check_decks())
-    assert [f.subject for f in findings] == [f"{name}.f" for name in programs.NAMES]
-    assert all(f.holds for f in findings)
-    for finding in findings:
-        cards = len(programs.committed(finding.subject.removesuffix(".f")).cards)
-        assert finding.words.startswith(f"{cards} cards are witness and ")
+    proofs = list(check_decks())
+    assert [proof.subject for proof in proofs] == [f"{name}.f" for name in programs.NAMES]
+    assert all(proof.holds for proof in proofs)
+    for proof in proofs:
+        cards = len(programs.committed(proof.subject.removesuffix(".f")).cards)
+        assert proof.message.startswith(f"{cards} cards equal witness and ")
 
 
 @pytest.mark.parametrize(
-    ("line", "words"),
+    ("line", "message"),
     [
-        ("END", "cards are witness and "),
-        ("STOP", "cards ARE NOT witness and "),
-        ("GO TO", "cards ARE NOT witness and "),
+        ("END", "cards equal witness and "),
+        ("STOP", "cards DIFFER from witness and "),
+        ("GO TO", "cards DIFFER from witness and "),
     ],
 )
-def test_a_deck_that_is_not_its_build_fails(line: str, words: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The last card, END, made another; one that does not parse is told of besides."""
+def test_a_deck_that_differs_from_its_build_fails(line: str, message: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Replace the last card, END; the message also reports a card that does not compile."""
     cards = [card.text for card in programs.committed("program1").cards]
-    other = deck_from_lines("program1.f", [*cards[:-1], "      " + line])
-    monkeypatch.setattr(programs, "built", lambda name: other if name == "program1" else programs.committed(name))
-    found, *others = check_decks()
-    assert found.holds == (line == "END")
-    assert words in found.words
-    assert found.words.endswith(", and do NOT compile") == (line == "GO TO")
-    assert all(proof.holds for proof in others[:2])
+    changed = deck_from_lines("program1.f", [*cards[:-1], "      " + line])
+    monkeypatch.setattr(programs, "built", lambda name: changed if name == "program1" else programs.committed(name))
+    proof, *others = check_decks()
+    assert proof.holds == (line == "END")
+    assert message in proof.message
+    assert proof.message.endswith(", and do NOT compile") == (line == "GO TO")
+    assert all(other_proof.holds for other_proof in others[:2])
 
 
-def test_a_layer_without_rows_is_refused() -> None:
-    with pytest.raises(DeckError, match=r"^program2 has no rows of a layer 'examples'; it has "):
+def test_a_layer_without_rows_is_rejected() -> None:
+    with pytest.raises(DeckError, match=r"^program2 has no layer 'examples'; its layers are "):
         programs.deck("program2", ("examples",))
 
 
-# The mechanism itself, on a text of three lines.
+# The mechanism on a text of three lines.
 
 WITNESS = "## page 1\nalpha l\n\nbeta\n```\n## page 2\n  12 gamma\n"
 HEAD = '[text]\nid = "t"\ntitle = "t"\nwitness = "w.txt"\nfurniture = ["```"]\nlayers = ["a", "b"]\ndefault = ["a"]\n'
@@ -220,36 +220,34 @@ def test_changes_of_each_form(tmp_path: Path) -> None:
     assert [text for _, text, _ in built(folder, "a", "b")] == [*words[:3], "newer", words[4]]
 
 
-def test_a_later_layer_by_itself(tmp_path: Path) -> None:
+def test_a_later_layer_alone(tmp_path: Path) -> None:
     rows = [("r1", "a", '{ line = "1", witness = " l", lemma = " 1" }'), ("r2", "b", '{ line = "3", dense = true }')]
     rows.append(("r3", "b", '{ line = "5", dense = true }'))
     assert [text for _, text, _ in built(text_of(tmp_path, *rows[1:]), "b")] == ["alpha l", "beta", "12gamma"]
     assert [text for _, text, _ in built(text_of(tmp_path, *rows), "b")] == ["alpha l", "beta", "12gamma"]
 
 
-def test_a_change_replaces_its_fragment_and_keeps_blanks_where_nothing_else_is_said(tmp_path: Path) -> None:
+def test_a_change_replaces_only_its_fragment(tmp_path: Path) -> None:
     text = load(text_of(tmp_path, ("r", "a", '{ line = "1", witness = " l", lemma = " 1" }')), "t")
     changed = replace(text, rows=(replace(text.rows[0], changes=(Change("5", "gamma", "X = 1"),)),))
     assert build(changed)[-1].text == "  12 X = 1"
 
 
 @pytest.mark.parametrize("name", programs.TEXTS)
-def test_builds_that_have_rows_in_common_are_what_each_is_alone(name: str) -> None:
-    """Twice in two orders, each time beside one from a text nothing was built of before."""
+def test_builds_that_share_snapshots_equal_separate_builds(name: str) -> None:
+    """Build in two orders, and compare each with a text from which nothing was built before."""
     text = replace(programs.text(name))
     for row in (*text.rows[::3], *text.rows[::-4]):
         gone, lines = built_without(text, row.id)
-        alone = replace(text, rows=tuple(one for one in text.rows if one.id not in gone))
+        alone = replace(text, rows=tuple(r for r in text.rows if r.id not in gone))
         assert lines == build(alone, text.layers)
-        other = replace(row, changes=row.changes[:-1])
-        others = replace(
-            text, rows=tuple(other if one.id == row.id else one for one in text.rows if one.id not in gone - {row.id})
-        )
-        assert build(text, text.layers, gone - {row.id}, other) == build(others, text.layers)
+        shorter = replace(row, changes=row.changes[:-1])
+        rows = tuple(shorter if r.id == row.id else r for r in text.rows if r.id not in gone - {row.id})
+        assert build(text, text.layers, gone - {row.id}, shorter) == build(replace(text, rows=rows), text.layers)
 
 
 def test_readings_for_a_table(tmp_path: Path) -> None:
-    """Fragments as they are, lines parted by a stroke, places by a bar; in words what has no fragment."""
+    """Lines are separated by a slash and changes by a bar; a change without a fragment is described."""
     several = ['{ line = "1", witness = " l", lemma = " 1\\ntwo" }', '{ line = "3", after = true, lemma = "new" }']
     others = [
         '{ line = "3", through = "5" }',
@@ -265,19 +263,19 @@ def test_readings_for_a_table(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("rows", "message"),
     [
-        ([("r", "a", '{ line = "1", witness = "nope", lemma = "" }')], "stands 0 times"),
-        ([("r", "a", '{ line = "1", witness = "a", lemma = "" }')], "stands 2 times"),
-        ([("r", "a", '{ line = "2", witness = "a", lemma = "" }')], "there is no line 2"),
-        ([("r", "c", '{ line = "1", witness = "a", lemma = "" }')], "is of layer 'c'"),
+        ([("r", "a", '{ line = "1", witness = "nope", lemma = "" }')], "occurs 0 times"),
+        ([("r", "a", '{ line = "1", witness = "a", lemma = "" }')], "occurs 2 times"),
+        ([("r", "a", '{ line = "2", witness = "a", lemma = "" }')], "line 2 does not exist"),
+        ([("r", "c", '{ line = "1", witness = "a", lemma = "" }')], "unknown layer 'c'"),
         ([("r", "a", '{ line = "1", lemma = "x" }')], "needs a witness reading"),
-        ([("r", "a", '{ line = "1", witness = " l", lemma = "" }')] * 2, "stands twice"),
+        ([("r", "a", '{ line = "1", witness = " l", lemma = "" }')] * 2, "is used 2 times"),
     ],
 )
-def test_a_row_that_does_not_fit_is_refused(tmp_path: Path, rows: list[tuple[str, str, str]], message: str) -> None:
+def test_a_row_that_does_not_fit_is_rejected(tmp_path: Path, rows: list[tuple[str, str, str]], message: str) -> None:
     with pytest.raises(ApparatusError, match=message):
         built(text_of(tmp_path, *rows))
 
 
-def test_unknown_layer_is_refused(tmp_path: Path) -> None:
+def test_an_unknown_layer_is_rejected(tmp_path: Path) -> None:
     with pytest.raises(ApparatusError, match="has no layer z; it has a, b"):
         built(text_of(tmp_path), "z")

@@ -1,4 +1,4 @@
-"""The printed examples of chapter 6 (thesis p. 103-115), card for card, and verdicts that can fail."""
+"""The printed examples of chapter 6 (thesis p. 103-115) card by card, and verdicts that can fail."""
 
 from __future__ import annotations
 
@@ -50,16 +50,16 @@ LISTED = {(2, 1): EXACT, (3, 1): EXACT}
 
 @pytest.mark.parametrize(("example", "program"), PRINTED)
 def test_through_the_listing(reports: dict[tuple[int, str, int, str], Report], example: int, program: int) -> None:
-    """Examples 2 and 3 come out exactly through the listing; the others correctly, in another order."""
+    """The listing reproduces examples 2 and 3 exactly, and the others in another order."""
     verdict = reports[example, "listing", program, "punch"].verdict
     assert verdict.kind == LISTED.get((example, program), ORDER)
     assert (verdict.kind == ORDER) == bool(verdict.same)
 
 
 def test_summary_counts_cards(reports: dict[tuple[int, str, int, str], Report]) -> None:
-    good, exact, order, other = summary(reports.values())
-    assert good
-    assert (exact, order, other) == (29, 7, 0)
+    all_reproduced, exact, reordered, different = summary(reports.values())
+    assert all_reproduced
+    assert (exact, reordered, different) == (29, 7, 0)
 
 
 # Every verdict can fail.
@@ -78,9 +78,9 @@ def test_one_changed_digit_of_a_print_changes_its_verdict(tmp_path: Path, exampl
     at = max(i for i, c in enumerate(text) if c == "E" and text[i - 8 : i].isdigit()) - 8
     digit = str((int(text[at]) + 1) % 10)
     path.write_text(text[:at] + digit + text[at + 1 :])
-    found = {(r.program, r.device): r.verdict for r in reproduce((example,), folder=folder) if r.state == "examples"}
-    assert found[program, "punch"].kind == DIFFERENT
-    assert len(found[program, "punch"].differences) == 1
+    verdicts = {(r.program, r.device): r.verdict for r in reproduce((example,), folder=folder) if r.state == "examples"}
+    assert verdicts[program, "punch"].kind == DIFFERENT
+    assert len(verdicts[program, "punch"].differences) == 1
     assert not summary(reproduce((example,), folder=folder))[0]
 
 
@@ -123,22 +123,22 @@ def test_one_changed_card_of_a_program_changes_a_verdict(name: str, card: str, c
     text = programs.committed(name).text()
     assert text.count(card) == 1
     program = compile_deck(deck_from_text(f"{name}.f", text.replace(card, changed.replace(";", "."))))
-    load: Callable[[str], Program] = lambda wanted: program if wanted == name else programs.program(wanted)  # noqa: E731
-    good, _, _, _ = summary(r for r in reproduce((example,), load) if r.state == "examples")
-    assert not good
+    load: Callable[[str], Program] = lambda requested: program if requested == name else programs.program(requested)  # noqa: E731
+    all_reproduced, _, _, _ = summary(r for r in reproduce((example,), load) if r.state == "examples")
+    assert not all_reproduced
 
 
-def test_spacing_is_kept_apart_from_print() -> None:
+def test_a_difference_in_spacing_has_a_verdict_apart() -> None:
     verdict = compare([" N=   3", "", "X  Y"], ["N= 3", "X Y"], final=True, oriented=False)
     assert verdict.kind == SPACING
     assert (verdict.numbers, verdict.words, verdict.cards, verdict.blank) == (1, 3, 2, 1)
 
 
-def test_the_same_points_with_a_wrong_plane_are_no_other_order() -> None:
+def test_the_same_points_with_a_wrong_plane_differ() -> None:
     plane = " .10000000E+01 .00000000E-99 .00000000E-99-.10000000E+01"
     wrong = " .10000000E+01 .00000000E-99 .00000000E-99-.20000000E+01"
-    one = " .10000000E+01 .10000000E+01 .00000000E-99"
-    two = " .10000000E+01 .30000000E+01 .00000000E-99"
-    good = compare([plane, "   2 3", one, two], [plane, "   2 3", two, one], False, True)
-    bad = compare([plane, "   2 3", one, two], [wrong, "   2 3", two, one], False, True)
-    assert (good.kind, bad.kind) == (ORDER, DIFFERENT)
+    point_a = " .10000000E+01 .10000000E+01 .00000000E-99"
+    point_b = " .10000000E+01 .30000000E+01 .00000000E-99"
+    printed = [plane, "   2 3", point_a, point_b]
+    assert compare(printed, [plane, "   2 3", point_b, point_a], False, True).kind == ORDER
+    assert compare(printed, [wrong, "   2 3", point_b, point_a], False, True).kind == DIFFERENT

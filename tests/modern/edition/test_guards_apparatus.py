@@ -1,4 +1,4 @@
-"""What a row of an apparatus owes its reader is checked when it is read (fortran_src/README.md)."""
+"""The fields of an apparatus row are checked when the row is read (fortran_src/README.md)."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ FIELDS = {
 
 
 def read(folder: Path, **fields: str | None) -> Text:
-    """A text of one row whose fields are those above but for the ones given; None leaves a field out."""
+    """Return a text of one row with some of the fields above replaced; None removes a field."""
     row = "".join(f"{name} = {value}\n" for name, value in {**FIELDS, **fields}.items() if value is not None)
     (folder / "w.txt").write_text("## page 64\n  10l A=B\n")
     (folder / "t.toml").write_text(f"{TEXT}[[row]]\n{row}")
@@ -38,9 +38,8 @@ def read(folder: Path, **fields: str | None) -> Text:
 
 
 @pytest.mark.parametrize("name", ["page", "card", "certainty", "witness"])
-def test_what_is_derived_is_not_stored(tmp_path: Path, name: str) -> None:
-    """A certainty turned "certain" or a card turned 199 has no place to stand."""
-    with pytest.raises(ApparatusError, match=f"^t: row T-001 has {name}, which no row stores$"):
+def test_derived_fields_cannot_be_stored(tmp_path: Path, name: str) -> None:
+    with pytest.raises(ApparatusError, match=f"^t: row T-001 has the unknown field {name}$"):
         read(tmp_path, **{name: '"certain"'})
 
 
@@ -67,36 +66,36 @@ def test_a_page_is_that_of_the_witness_line(tmp_path: Path) -> None:
 
 def test_a_cause_is_one_of_five(tmp_path: Path) -> None:
     assert read(tmp_path).row("T-001").cause == "ocr"
-    with pytest.raises(ApparatusError, match=r"the cause is one of ocr, typist, author, editor, undecidable$"):
+    with pytest.raises(ApparatusError, match=r"expected one of ocr, typist, author, editor, undecidable$"):
         read(tmp_path, cause='"chance"')
 
 
 def test_rejected_readings_have_their_reasons(tmp_path: Path) -> None:
-    (found,) = read(tmp_path, rdg='[{ reading = "I", reason = "r" }]').row("T-001").rejected
-    assert (found.reading, found.reason) == ("I", "r")
-    with pytest.raises(ApparatusError, match="a rejected reading has a reading and a reason"):
+    (rejected,) = read(tmp_path, rdg='[{ reading = "I", reason = "r" }]').row("T-001").rejected
+    assert (rejected.reading, rejected.reason) == ("I", "r")
+    with pytest.raises(ApparatusError, match="a rejected reading needs a reading and a reason"):
         read(tmp_path, rdg='[{ reading = "I" }]')
 
 
 @pytest.mark.parametrize("name", FIELDS)
-def test_a_row_without_one_of_its_fields_is_refused(tmp_path: Path, name: str) -> None:
+def test_a_row_without_one_of_its_fields_is_rejected(tmp_path: Path, name: str) -> None:
     row = "(without id)" if name == "id" else "T-001"
     with pytest.raises(ApparatusError) as caught:
         read(tmp_path, **{name: None})
     assert str(caught.value) == f"t: row {row} lacks {name}"
 
 
-def test_every_field_that_is_missing_is_named(tmp_path: Path) -> None:
+def test_all_missing_fields_are_named(tmp_path: Path) -> None:
     with pytest.raises(ApparatusError, match=r"^t: row T-001 lacks reason, evidence$"):
         read(tmp_path, reason=None, evidence=None)
 
 
-def test_processes_prove_what_one_does_in_the_same_order() -> None:
+def test_several_processes_return_the_same_proofs_in_the_same_order() -> None:
     rows = [row for name in programs.TEXTS for row in programs.text(name).rows if row.ground.get("kind") == "parse"][
-        :24
+        :12
     ]
     alone = list(check_everything(rows, True))
-    assert len(rows) == 24
+    assert len(rows) == 12
     first = [proof.subject for proof in alone].index(rows[0].id)
-    assert [proof.subject for proof in alone[first : first + 24]] == [row.id for row in rows]
+    assert [proof.subject for proof in alone[first : first + 12]] == [row.id for row in rows]
     assert list(check_everything(rows, True, workers=2)) == alone

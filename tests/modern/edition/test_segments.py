@@ -1,4 +1,4 @@
-"""The tree of readings gives every state of a text that building gives, and no row is left out of it."""
+"""The tree of readings contains every state of a text that ``build`` returns, and every row."""
 
 from __future__ import annotations
 
@@ -16,22 +16,22 @@ TEXTS = texts()
 
 
 def states(text: Text) -> Iterator[tuple[str, ...]]:
-    """The witness, each step to the edition's text, and that text with any layers beyond it."""
+    """Yield the witness, each step to the text of the edition, and that text with any optional layers."""
     for count in range(len(text.default)):
         yield text.default[:count]
-    beyond = [layer for layer in text.layers if layer not in text.default]
-    for count in range(len(beyond) + 1):
-        for some in combinations(beyond, count):
-            yield (*text.default, *some)
+    optional = [layer for layer in text.layers if layer not in text.default]
+    for count in range(len(optional) + 1):
+        for chosen in combinations(optional, count):
+            yield (*text.default, *chosen)
 
 
 @pytest.mark.parametrize("name", TEXTS)
-def test_every_state_is_what_building_gives(name: str) -> None:
+def test_every_state_equals_the_built_text(name: str) -> None:
     text = TEXTS[name]
     lines = segments(text)
     for layers in states(text):
-        found = [words for line in lines if (words := reading(line.pieces, layers)).strip()]
-        assert found == [line.text for line in build(text, layers)], layers
+        texts_of_lines = [text_of_line for line in lines if (text_of_line := reading(line.pieces, layers)).strip()]
+        assert texts_of_lines == [line.text for line in build(text, layers)], layers
 
 
 def rows_in(pieces: tuple[Piece, ...]) -> Iterator[str]:
@@ -44,11 +44,11 @@ def rows_in(pieces: tuple[Piece, ...]) -> Iterator[str]:
 
 @pytest.mark.parametrize("name", TEXTS)
 def test_every_row_has_a_place(name: str) -> None:
-    found = {row for line in segments(TEXTS[name]) for row in rows_in(line.pieces)}
-    assert found == {row.id for row in TEXTS[name].rows}
+    row_ids = {row_id for line in segments(TEXTS[name]) for row_id in rows_in(line.pieces)}
+    assert row_ids == {row.id for row in TEXTS[name].rows}
 
 
-def test_two_layers_may_change_one_statement_each_without_the_other() -> None:
+def test_two_layers_can_change_the_same_statement_independently() -> None:
     line = next(line for line in segments(TEXTS["program3"]) if line.id == "121")
     ours = ("ocr", "print", "lacuna")
     assert reading(line.pieces, ours) == "      IF(E(I))135,133,134"
@@ -61,14 +61,16 @@ def test_a_row_that_does_not_fit_is_named() -> None:
     text = TEXTS["program1"]
     row = text.rows[1]
     strange = replace(row, changes=(replace(row.changes[0], witness="NOT THERE"),))
-    with pytest.raises(RowMisfit, match=f"row {row.id}: 'NOT THERE' does not stand once in line {row.changes[0].line}"):
+    with pytest.raises(
+        RowMisfit, match=f"row {row.id}: 'NOT THERE' does not occur exactly once in line {row.changes[0].line}"
+    ):
         segments(replace(text, rows=(strange,)))
     nowhere = replace(row, changes=(replace(row.changes[0], line="9999"),))
-    with pytest.raises(RowMisfit, match=f"row {row.id}: there is no line 9999"):
+    with pytest.raises(RowMisfit, match=f"row {row.id}: line 9999 does not exist"):
         segments(replace(text, rows=(nowhere,)))
 
 
-def test_a_lemma_of_two_lines_takes_what_follows_with_it() -> None:
+def test_the_rest_of_a_line_follows_a_lemma_of_two_lines() -> None:
     row = replace(TEXTS["program1"].rows[1], layer="ocr")
     changes = (replace(row.changes[0], line="1", witness="B", lemma="x\ny"),)
     text = replace(TEXTS["program1"], witness=(Line("1", "A B C", "64"),), rows=(replace(row, changes=changes),))

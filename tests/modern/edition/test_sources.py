@@ -1,4 +1,4 @@
-"""SOURCES.toml: every witness is a stated excerpt with its hash; a page and a line lead from any row to the text."""
+"""SOURCES.toml: every witness is a stated excerpt with a hash, and every row leads to a page and a line."""
 
 from __future__ import annotations
 
@@ -17,7 +17,6 @@ from tests.support.paths import ROOT
 
 TEXTS = texts()
 TABLE = sources.sources()
-UNKNOWN = {"unknown"}
 
 
 def test_every_witness_is_an_excerpt_of_a_document() -> None:
@@ -38,7 +37,7 @@ def test_every_ground_deck_has_its_hash() -> None:
 
 
 def test_a_changed_character_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """In each witness and each deck, one at a time."""
+    """Change one character in each witness and each deck, one file at a time."""
     for name in [excerpt.file for excerpt in TABLE.excerpts] + [file for file, _ in TABLE.decks]:
 
         def changed(file: str, name: str = name) -> str:
@@ -50,7 +49,7 @@ def test_a_changed_character_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None
             assert sum(not proof.holds for proof in check_sources()) == 1, name
 
 
-def test_page_marks_are_no_part_of_a_witness() -> None:
+def test_page_marks_do_not_belong_to_a_witness() -> None:
     assert digest("## page 1\na\n## page 2\nb\n") == digest("a\nb\n") != digest("a\nc\n")
 
 
@@ -60,13 +59,13 @@ def test_every_line_with_words_is_a_line_of_the_document() -> None:
         lines = [line for line in read(excerpt.file).split("\n") if not line.startswith("## page ")]
         for number, line in enumerate(lines, 1):
             if line.strip():
-                found = excerpt.line(number)
-                assert found is not None, (excerpt.file, number)
-                assert 1 <= found <= document.lines
+                document_line = excerpt.line(number)
+                assert document_line is not None, (excerpt.file, number)
+                assert 1 <= document_line <= document.lines
 
 
 def test_excerpts_of_the_later_papers_hold_no_running_text() -> None:
-    """Numbers, tables, captions and single formulas: no line has more than a dozen words in a row."""
+    """They hold numbers, tables, captions and formulas: no line has more than 14 words."""
     for excerpt in TABLE.excerpts:
         if excerpt.document != "butler-1963":
             for line in read(excerpt.file).split("\n"):
@@ -84,7 +83,7 @@ def test_a_row_leads_to_its_page_and_its_line() -> None:
 
 
 def test_the_whole_text_is_compared_with_its_excerpts(monkeypatch: pytest.MonkeyPatch) -> None:
-    with pytest.raises(ApparatusError, match=r"^a text with SHA-256 ca978112ca1bbdca\.\.\. is none of the documents"):
+    with pytest.raises(ApparatusError, match=r"^no document of SOURCES\.toml has the SHA-256 ca978112ca1bbdca"):
         list(check_sources("a"))
     whole = "first\nalpha beta gamma"
     excerpt = sources.Excerpt("t", "w.txt", "d", "", (Stretch(1, 1, 2, True),))
@@ -102,14 +101,14 @@ def test_the_whole_text_is_compared_with_its_excerpts(monkeypatch: pytest.Monkey
 
 
 def test_pages_of_lines_end_where_the_text_ends() -> None:
-    """The last line of each text carries words and no line end; it is counted, and is some page's."""
+    """The last line of each text has no line end, but it is counted and belongs to a page."""
     for document in TABLE.documents:
         assert document.pages[-1][2] == document.lines
         for (_, first, last), (_, after, _) in pairwise(document.pages):
             assert first <= last < after
 
 
-def test_what_is_not_known_is_marked() -> None:
+def test_unknown_facts_are_marked() -> None:
     for document in TABLE.documents:
         for field in ("author", "title", "year", "institution", "volume", "extent", "doi", "held", "rights"):
             assert getattr(document, field) or (field, document.id) == ("volume", "butler-1963")

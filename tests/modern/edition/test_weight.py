@@ -1,4 +1,4 @@
-"""The weight of evidence: variants are made, judged, kept and reported; the misreads that README names are silent."""
+"""The weight of evidence: variants are generated, judged, stored and reported."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ def known() -> dict[str, Bench]:
 
 
 def variant(program: str, place: str, reads: str) -> Variant:
-    """The variant of a card that reads so."""
-    (found,) = [v for v in variants(program) if v.place == place and v.reads == reads]
-    return found
+    """Return the variant of a card with this reading."""
+    (match,) = [v for v in variants(program) if v.place == place and v.reads == reads]
+    return match
 
 
-def test_misreads_that_pass_every_test(known: dict[str, Bench]) -> None:
-    """fortran_src/README.md names them."""
+def test_the_misreads_that_no_check_detects(known: dict[str, Bench]) -> None:
+    """fortran_src/README.md names these."""
     for program, place, reads in (
         ("program1", "101+6", "IF(N-2)102,105,134"),
         ("program2", "180+1", "IF(MM(K)-I)183,181,181"),
@@ -52,21 +52,22 @@ def test_misreads_that_pass_every_test(known: dict[str, Bench]) -> None:
         ("program3", "135+1", "DO136L=1,NV", "print"),
     ],
 )
-def test_what_notices_a_variant(known: dict[str, Bench], program: str, place: str, reads: str, answer: str) -> None:
+def test_the_first_check_that_detects_a_variant(
+    known: dict[str, Bench], program: str, place: str, reads: str, answer: str
+) -> None:
     assert judged(variant(program, place, reads), known) in answer
 
 
-def test_variants_are_other_cards_each_once() -> None:
+def test_variants_are_distinct_and_differ_from_their_cards() -> None:
     for name in programs.TEXTS:
-        found = variants(name)
-        assert len({v.key for v in found}) == len(found) > 4_000
-        assert all(v.was != v.reads for v in found)
-        assert {v.how for v in found} == {"number", "name", "operator", "constant", "character", "format", "card"}
-        assert len({v.card for v in found if v.how == "card"}) == len(statements(name)) - 1
+        every = variants(name)
+        assert len({v.key for v in every}) == len(every) > 4_000
+        assert all(v.was != v.reads for v in every)
+        assert {v.how for v in every} == {"number", "name", "operator", "constant", "character", "format", "card"}
+        assert len({v.card for v in every if v.how == "card"}) == len(statements(name)) - 1
 
 
-def test_a_deck_with_its_own_reading_is_the_deck() -> None:
-    """But for blanks: the card is set out anew."""
+def test_replacing_a_card_by_its_own_text_changes_only_blanks() -> None:
     for name in programs.TEXTS:
         text = programs.committed(name).text()
         for statement in statements(name)[::7]:
@@ -85,27 +86,27 @@ def test_formulas_of_chapter_3() -> None:
 
 @pytest.mark.parametrize("place", ["102+12", "102+13", "133+10", "133+12", "133+16"])
 def test_a_card_that_only_counts_computes_no_formula(place: str) -> None:
-    """``MM(1)=1``, ``I1=MM(I)``, ``NE=NE+1`` stand among the cards of (3.5)."""
+    """``MM(1)=1``, ``I1=MM(I)`` and ``NE=NE+1`` are between the cards of (3.5)."""
     assert equation_of("program2", place) == ""
 
 
-def test_answers_are_kept_and_a_run_goes_on(tmp_path: Path) -> None:
+def test_answers_are_stored_and_a_run_is_resumed(tmp_path: Path) -> None:
     first = weigh(tmp_path, "", most=6)
     path = tmp_path / "variants.jsonl"
-    kept = path.read_text()
-    path.write_text(kept[:-9])
+    stored = path.read_text()
+    path.write_text(stored[:-9])
     assert weigh(tmp_path, "", most=6) == first
-    assert path.read_text() == kept
+    assert path.read_text() == stored
     assert set(first) == {v.key for v in ordered()[:6]}
     text = write_weight(tmp_path, first)
     assert "6 of " in text
     assert {p.name for p in tmp_path.iterdir()} == {"variants.jsonl", "report.md", "cards.csv", "silent.csv"}
     path.write_text('{"decks": "others"}\n')
-    with pytest.raises(FileError, match="holds answers of other listings"):
+    with pytest.raises(FileError, match="holds answers for other listings"):
         weigh(tmp_path, "", most=6)
 
 
-def test_a_folder_without_decks_is_refused(tmp_path: Path) -> None:
+def test_a_folder_without_decks_is_rejected(tmp_path: Path) -> None:
     with pytest.raises(FileError, match=r"no folder in it has a deck\.cards$"):
         weigh(tmp_path / "out", str(tmp_path), most=1)
     assert not (tmp_path / "out").exists()
@@ -118,51 +119,49 @@ def committed() -> dict[str, str]:
     return dict(json.loads(line) for line in lines[1:])
 
 
-def test_the_committed_answers_are_to_every_variant_of_these_listings() -> None:
+def test_the_committed_answers_cover_every_variant_of_these_listings() -> None:
     assert set(committed()) == {v.key for v in ordered()}
 
 
 @pytest.mark.parametrize("name", ["report.md", "cards.csv", "silent.csv"])
-def test_what_is_committed_is_made_of_the_committed_answers(name: str, tmp_path: Path) -> None:
-    """Answers are kept beside report and tables; these are made from them alone."""
+def test_report_and_tables_are_computed_from_the_committed_answers(name: str, tmp_path: Path) -> None:
     write_weight(tmp_path, committed())
     assert (COMMITTED / name).read_text(encoding="utf-8") == (tmp_path / name).read_text(encoding="utf-8")
 
 
 def test_the_report_counts_the_answers() -> None:
-    """Counted here from the answers again: every figure of its first lines and of its first table."""
+    """Count the answers again and compare with the first paragraph and the first table."""
     answers, text = committed(), (COMMITTED / "report.md").read_text(encoding="utf-8")
     kinds = Counter(answers.values())
     compiling = len(answers) - kinds["no change"] - kinds["compiler"]
     noticed = compiling - kinds["nothing"]
-    for words in (
+    for sentence in (
         f"{len(answers):,} of {len(answers):,} variants were judged.",
-        f"{kinds['no change']:,} have the object code and the storage map of the listing, and are not counted.",
-        f"the compiler refuses {kinds['compiler']:,};",
-        f"of the {compiling:,} that compile",
-        f"{noticed:,} ({100 * noticed / compiling:.1f} %) are noticed",
-        f"{kinds['nothing']:,} ({100 * kinds['nothing'] / compiling:.1f} %) by nothing.",
+        f"{kinds['no change']:,} of them have the object code and the storage map of the listing and are not counted.",
+        f"The compiler rejects {kinds['compiler']:,} of the other {len(answers) - kinds['no change']:,}.",
+        f"{compiling:,} variants compile: a check detects {noticed:,} of them ({100 * noticed / compiling:.1f} %),",
+        f"no check detects {kinds['nothing']:,} ({100 * kinds['nothing'] / compiling:.1f} %).",
     ):
-        assert words in " ".join(text.split())
+        assert sentence in " ".join(text.split())
     for name in NOTICED:
         by_program = [sum(a == name and key.startswith(f"{p} ") for key, a in answers.items()) for p in programs.TEXTS]
         assert f"| {name} | {' | '.join(map(str, by_program))} | {kinds[name]} |" in text
 
 
 JUDGED_AGAIN = int(os.environ.get("HULL1620_WEIGHED", "12"))
-"""How many of the committed answers are found anew."""
+"""The number of committed answers that are computed again."""
 
 
-def test_committed_answers_are_what_is_found(known: dict[str, Bench]) -> None:
-    answers, found = committed(), ordered()
-    compiling = [v for v in found if answers[v.key] != "compiler"]
-    some = [*found[: JUDGED_AGAIN // 3], *compiling[: JUDGED_AGAIN - JUDGED_AGAIN // 3]]
-    assert {v.key: judged(v, known) for v in some} == {v.key: answers[v.key] for v in some}
+def test_committed_answers_equal_computed_ones(known: dict[str, Bench]) -> None:
+    answers, every = committed(), ordered()
+    compiling = [v for v in every if answers[v.key] != "compiler"]
+    sample = [*every[: JUDGED_AGAIN // 3], *compiling[: JUDGED_AGAIN - JUDGED_AGAIN // 3]]
+    assert {v.key: judged(v, known) for v in sample} == {v.key: answers[v.key] for v in sample}
 
 
-def test_what_nothing_vouches_for_is_named() -> None:
+def test_cards_that_no_check_confirms_are_listed() -> None:
     answers = committed()
-    named = report(answers).partition("## Cards nothing vouches for")[2]
+    named = report(answers).partition("## Cards that no check confirms")[2]
     assert all(f"{v.place} `{v.was.strip()}`" in named for v in unvouched(answers))
     for card in unvouched(answers):
         of_it = {answers[v.key] for v in ordered() if (v.program, v.card) == (card.program, card.card)}
@@ -170,7 +169,7 @@ def test_what_nothing_vouches_for_is_named() -> None:
 
 
 def test_a_sibling_has_the_form_of_two_other_cards() -> None:
-    """The form is the order of names and numbers; equations are cards of the listings, each of one formula."""
+    """Cards with exchanged names have the same form, and every card of EQUATIONS computes its formula."""
     assert alike("X(L)=X(L+1)") >= 2
     assert alike("X(L)=X(L+1)") == alike("Y(I)=Y(I+1)")
     assert alike("X(L)=Y(I+2)") == 0
