@@ -94,7 +94,7 @@ def _named(row: Row) -> Iterator[str]:
 @cache
 def _checked(name: str, row_id: str) -> str:
     proof = check_row(programs.text(name).row(row_id))
-    return proof.words.partition(": ")[2] or proof.words
+    return proof.message.partition(": ")[2] or proof.message
 
 
 def _seen(row: Row) -> str:
