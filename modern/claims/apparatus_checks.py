@@ -1,10 +1,11 @@
-"""Everything ``hull1620 apparatus --check`` proves, one :class:`Proof` a line: sources, decks, readings and grounds.
+"""All checks of ``hull1620 apparatus --check``, each reported as a :class:`Proof`: sources, decks, readings and
+grounds.
 
-A reading is proved twice: its kind allows the change (:mod:`modern.edition.readings`), and its ground fails without it.
-The grounds of the listings are in :mod:`modern.edition.grounds`, those of chapter 6 in
-:mod:`modern.edition.chapter6_grounds`; those of chapter 4 and of the papers are here: ``sibling``, words that stand in
-another line too; ``arithmetic``, the four conditions of theorem 4.2 in full; ``result``, a published result that is
-computed and comes out with the row alone.
+An emendation is checked twice: its kind must allow the change (:mod:`modern.edition.readings`), and its ground must
+fail without it. The grounds of the listings are in :mod:`modern.edition.grounds` and those of chapter 6 in
+:mod:`modern.edition.chapter6_grounds`. The grounds of chapter 4 and of the papers are here: ``sibling``, words that
+another line has too; ``arithmetic``, the four conditions of theorem 4.2 in full; and ``result``, a published result
+that is computed and is reproduced only with the emendation.
 """
 
 from __future__ import annotations
@@ -28,63 +29,64 @@ from modern.papers import Lines
 
 
 def texts() -> dict[str, Text]:
-    """Every text with an apparatus, by its id."""
+    """Return every text that has an apparatus, by its id."""
     loaded_texts = [programs.text(name) for name in programs.TEXTS]
     loaded_texts += [chapter4.load_text(), load_chapter().text]
     loaded_texts += [published.text_of(paper) for paper in published.PAPERS]
     return {text.id: text for text in loaded_texts}
 
 
-def places_of_pairs(all_texts: Mapping[str, Text]) -> Counter[tuple[str, str]]:
-    """How often each pair of the table of confusables is used in all texts."""
+def count_pair_uses(all_texts: Mapping[str, Text]) -> Counter[tuple[str, str]]:
+    """Count the uses of each pair of the table of confusables in all texts."""
     return attested(row for text in all_texts.values() for row in text.rows)
 
 
 def check_sources(whole: str = "") -> Iterator[Proof]:
-    """Witnesses and ground decks have their hashes; with the ``whole`` text of a document, its excerpts are its lines.
+    """Check the hashes of witnesses and ground decks and, if ``whole`` is the text of a document, that its excerpts are
+    in it.
 
-    Raises ApparatusError for a text that is no document's.
+    Raise ApparatusError for a text that does not belong to a document.
     """
     for file, holds, message in (*sources.check_files(), *(sources.check_against(whole) if whole else ())):
         yield Proof(file.removeprefix("fortran_src/").removeprefix("transcripts/"), holds, message)
 
 
-def check_listing(row: Row, places: Mapping[tuple[str, str], int]) -> Proof:
-    """A row of a listing: what its kind allows, and its ground."""
-    fault = next(reading_faults(row, places), "")
+def check_listing(row: Row, pair_uses: Mapping[tuple[str, str], int]) -> Proof:
+    """Check that the kind of an emendation of a listing allows the change, and check its ground."""
+    fault = next(reading_faults(row, pair_uses), "")
     return Proof(row.id, False, fault) if fault else check_row(row)
 
 
-def check_transcripts(places: Mapping[tuple[str, str], int]) -> Iterator[Proof]:
-    """Chapter 4, chapter 6 and the papers, a proof a text; the first fault where there is one."""
+def check_transcripts(pair_uses: Mapping[tuple[str, str], int]) -> Iterator[Proof]:
+    """Yield one proof for each of chapter 6, chapter 4 and the papers; it reports the first fault, if any."""
     chapter = load_chapter()
-    faults = [*_kinds(chapter.text, places), *check_chapter(chapter)]
+    faults = [*_kinds(chapter.text, pair_uses), *check_chapter(chapter)]
     files = len({(d.example, d.program, d.device) for d in chapter.layout.devices})
-    message = f"{files} device files are witness, {len(chapter.text.rows)} rows and layout, each row needed"
+    message = f"{files} device files equal witness, {len(chapter.text.rows)} rows and layout, and each row is needed"
     yield _proof("chapter6", faults, message)
     text = chapter4.load_text()
-    faults = [*_kinds(text, places), *(fault for row in text.rows for fault in chapter4_faults(text, row))]
+    faults = [*_kinds(text, pair_uses), *(fault for row in text.rows for fault in chapter4_faults(text, row))]
     for theorem in chapter4.load_theorems():
         faults += chapter4.theorem_faults(theorem, text)
-    yield _proof("chapter4", faults, f"the data of three theorems, and {len(text.rows)} rows, each needed")
+    yield _proof("chapter4", faults, f"the data of three theorems agree, and each of {len(text.rows)} rows is needed")
     for paper in published.PAPERS:
         text = published.text_of(paper)
-        faults = [*_kinds(text, places), *(fault for row in text.rows for fault in paper_faults(paper, text, row))]
-        yield _proof(text.id, faults, f"{len(text.rows)} rows, each needed for a result that is computed")
+        faults = [*_kinds(text, pair_uses), *(fault for row in text.rows for fault in paper_faults(paper, text, row))]
+        yield _proof(text.id, faults, f"each of {len(text.rows)} rows is needed for a computed result")
 
 
 def _proof(subject: str, faults: list[str], words: str) -> Proof:
     return Proof(subject, not faults, faults[0] if faults else words)
 
 
-def _kinds(text: Text, places: Mapping[tuple[str, str], int]) -> Iterator[str]:
+def _kinds(text: Text, pair_uses: Mapping[tuple[str, str], int]) -> Iterator[str]:
     for row in text.rows:
-        for fault in reading_faults(row, places):
+        for fault in reading_faults(row, pair_uses):
             yield f"row {row.id}: {fault}"
 
 
 def chapter4_faults(text: Text, row: Row) -> tuple[str, ...]:
-    """Why a row of chapter 4 does not stand; each step of it is needed."""
+    """Return the fault of a row of chapter 4, if any; each step of the row must be needed."""
     holds = {"sibling": _sibling, "arithmetic": _arithmetic}[str(row.ground["kind"])]
     if not holds(row, build(text)):
         return (f"row {row.id}: its ground does not hold",)
@@ -104,7 +106,7 @@ def _sibling(row: Row, lines: tuple[Line, ...]) -> bool:
 
 
 def _arithmetic(row: Row, lines: tuple[Line, ...]) -> bool:
-    """The conditions have z and D, and so hold at the point where without them one does not."""
+    """Return True if the conditions contain z and D, without which one fails at the point of the ground."""
     theorem = next(t for t in chapter4.load_theorems() if t.id == row.ground["theorem"])
     plane, point = theorem.plane(row.ground["equation"]), theorem.point(row.ground["point"])
     assert point is not None
@@ -120,13 +122,18 @@ def _produced(name: str) -> Lines:
     return published.produced_by(next(paper for paper in published.PAPERS if paper.name == name))
 
 
+@cache
+def _results(paper: published.Paper) -> tuple[published.PublishedResult, ...]:
+    return published.results_of(paper)
+
+
 def paper_faults(paper: published.Paper, text: Text, row: Row) -> tuple[str, ...]:
-    """Why a row of a paper does not stand: a result of its lines comes out with it, and without it does not."""
+    """Return the fault of a row of a paper, if any: its results must be reproduced with the row and not without it."""
     if row.ground.get("kind") != "result":
-        return (f"row {row.id}: there is no ground {row.ground.get('kind')!r}",)
+        return (f"row {row.id}: unknown ground {row.ground.get('kind')!r}",)
     has_computed_result = False
-    for first, last, result in spans(paper):
-        span = _span(text, row, first, last)
+    for result in _results(paper):
+        span = _span(text, row, *result.span)
         if result.cannot or not any(change.line in span for change in row.changes):
             continue
         has_computed_result = True
@@ -136,14 +143,14 @@ def paper_faults(paper: published.Paper, text: Text, row: Row) -> tuple[str, ...
             for left_out in ((), {row.id})
         )
         if with_row != computed_words and not result.differs:
-            return (f"row {row.id}: result {result.id} does not come out with it",)
+            return (f"row {row.id}: result {result.id} is not reproduced with it",)
         if without == computed_words:
-            return (f"row {row.id}: result {result.id} comes out without it",)
-    return () if has_computed_result else (f"row {row.id}: no result that is computed has its lines",)
+            return (f"row {row.id}: result {result.id} is reproduced without it",)
+    return () if has_computed_result else (f"row {row.id}: its lines do not belong to a computed result",)
 
 
 def _span(text: Text, row: Row, first: str, last: str) -> list[str]:
-    """The lines of a result, and those after its last that the row drops."""
+    """Return the lines of a result, and the lines after it that the row removes."""
     order = [line.id for line in text.witness]
     start, end = order.index(first), order.index(last) + 1
     for change in row.changes:
@@ -152,45 +159,52 @@ def _span(text: Text, row: Row, first: str, last: str) -> list[str]:
     return order[start:end]
 
 
-@cache
-def spans(paper: published.Paper) -> tuple[tuple[str, str, published.Published], ...]:
-    """Each published result with its first and its last line."""
-    return tuple((*result.span, result) for result in published.results_of(paper))
-
-
 def check_everything(rows: list[Row], transcripts: bool, whole: str = "", workers: int = 1) -> Iterator[Proof]:
-    """All of it, in the order it is printed: ``rows`` of the listings, and the ``transcripts`` too.
+    """Run all checks in the order in which they are printed.
 
-    workers: processes; with 1 nothing but this process works.  Raises ApparatusError for a ``whole`` text that is no
-    document's.
+    Parameters
+    ----------
+    rows
+        The rows of the listings to check.
+    transcripts
+        Whether to check the sources and the transcripts too.
+    whole
+        The complete text of a document, whose excerpts are then checked.
+    workers
+        The number of processes; with 1 everything runs in this process.
+
+    Raises
+    ------
+    ApparatusError
+        If ``whole`` does not belong to a document.
     """
-    places = places_of_pairs(texts())
+    pair_uses = count_pair_uses(texts())
     if workers == 1 or len(rows) < _MANY:
         if transcripts:
             yield from check_sources(whole)
         yield from check_decks()
-        yield from (check_listing(row, places) for row in rows)
-        yield from check_transcripts(places) if transcripts else ()
+        yield from (check_listing(row, pair_uses) for row in rows)
+        yield from check_transcripts(pair_uses) if transcripts else ()
         return
     pool = ProcessPoolExecutor(workers, get_context("spawn"), initializer=signal, initargs=(SIGINT, SIG_IGN))
     try:
-        # The transcripts take longest, and are begun first; this process does its part while the others begin.
-        others = pool.submit(_listed_transcripts, places) if transcripts else None
-        proofs = pool.map(check_listing, rows, repeat(places), chunksize=_CHUNK)
+        # Checking the transcripts takes longest and is submitted first; this process works while the others start.
+        transcript_proofs = pool.submit(_listed_transcripts, pair_uses) if transcripts else None
+        proofs = pool.map(check_listing, rows, repeat(pair_uses), chunksize=_CHUNK)
         if transcripts:
             yield from check_sources(whole)
         yield from check_decks()
         yield from proofs
-        yield from others.result() if others else ()
+        yield from transcript_proofs.result() if transcript_proofs else ()
     finally:
         pool.shutdown(cancel_futures=True)
 
 
 _CHUNK = 8
-"""Rows a process takes at a time: neighbours have a program in common."""
+"""The number of rows submitted to a process at a time; neighbouring rows share a program."""
 _MANY = 20
-"""Rows from which on further processes save time."""
+"""The number of rows from which on further processes save time."""
 
 
-def _listed_transcripts(places: Mapping[tuple[str, str], int]) -> list[Proof]:
-    return list(check_transcripts(places))
+def _listed_transcripts(pair_uses: Mapping[tuple[str, str], int]) -> list[Proof]:
+    return list(check_transcripts(pair_uses))

@@ -1,9 +1,9 @@
-"""Published results of the later papers and the verdict on each.
+"""Published results of the later papers, and the verdict on each.
 
-A paper's folder under ``transcripts`` holds a witness (the values as printed, page marks between), its apparatus
-(``apparatus`` rows, the one mechanism of :mod:`modern.edition.apparatus`), and ``results.toml``: which lines of the
-corrected print are one published result.  What a program produces is compared with the corrected print word by
-word; spacing is no evidence.
+The folder of a paper below ``transcripts`` holds a witness (the values as printed, with page marks), an apparatus (the
+emendations, see :mod:`modern.edition.apparatus`) and ``results.toml``, which names the lines of the corrected print
+that form one published result. The output of a program is compared with the corrected print word by word; spacing is
+ignored.
 """
 
 from __future__ import annotations
@@ -29,9 +29,10 @@ Kind = Literal["exact", "as corrected", "differs, explained", "not reproducible"
 
 @dataclass(frozen=True, slots=True)
 class Paper:
-    """A paper with published results: its name on the command line, its folder, the module that produces them.
+    """A paper with published results: its name on the command line, its title, its data folder and the module that
+    computes them.
 
-    The module has a function ``produced``; see :data:`modern.papers.Lines`.
+    The module provides a function ``produced``; see :data:`modern.papers.Lines`.
     """
 
     name: str
@@ -63,13 +64,13 @@ PAPERS: tuple[Paper, ...] = (
 
 
 @dataclass(frozen=True, slots=True)
-class Published:
-    """One published result.
+class PublishedResult:
+    """A published result.
 
-    ``place`` is where it stands (page, figure or table); ``printed`` its lines as the witness has them, ``corrected``
-    with the apparatus; ``rows`` the emendations that touch them; ``span`` the ids of its first and its last line.
-    ``differs`` says why what is computed is not what is printed, ``cannot`` why nothing can be computed; both empty
-    where the print is to come out.
+    ``place`` is its page, figure or table. ``printed`` are its lines as in the witness, ``corrected`` the lines after
+    the emendations ``rows``, and ``span`` the ids of its first and last line. ``differs`` explains why the computed
+    result differs from the printed one, and ``cannot`` why nothing can be computed; both are empty if the print is
+    reproduced.
     """
 
     id: str
@@ -88,48 +89,52 @@ class Finding:
     """The verdict on one published result of a paper."""
 
     paper: str
-    result: Published
+    result: PublishedResult
     kind: Kind
     produced: tuple[str, ...] = ()
 
     @property
     def holds(self) -> bool:
-        """Whether the result came out, or the data say why it cannot."""
+        """Return True if the result is reproduced or the data explain why it is not."""
         return self.kind != DIFFERENT
 
     @property
     def excused(self) -> bool:
-        """Whether the result did not come out and the data say why."""
+        """Return True if the result is not reproduced and the data explain why."""
         return self.kind in (EXPLAINED, CANNOT)
 
 
 def text_of(paper: Paper, folder: Traversable | None = None) -> Text:
-    """The paper's printed values: witness and apparatus."""
+    """Load the printed values of a paper: witness and apparatus."""
     return load(folder or files("transcripts").joinpath(paper.folder), "apparatus")
 
 
-def results_of(paper: Paper, folder: Traversable | None = None) -> tuple[Published, ...]:
-    """Every published result of a paper, in the order of ``results.toml``.
+def results_of(paper: Paper, folder: Traversable | None = None) -> tuple[PublishedResult, ...]:
+    """Return the published results of a paper in the order of ``results.toml``.
 
-    Raises ApparatusError for a result that names a line the print does not have, and for a line of the print that
-    belongs to no result or to two.
+    Raises
+    ------
+    ApparatusError
+        If a result names a line that does not exist, or if a line belongs to two results or to none.
     """
     folder = folder or files("transcripts").joinpath(paper.folder)
     text = text_of(paper, folder)
     witness = {line.id: line for line in text.witness}
     corrected = build(text)
     data = tomllib.loads(folder.joinpath("results.toml").read_text(encoding="utf-8"))
-    results: list[Published] = []
+    results: list[PublishedResult] = []
     free = [line.id for line in corrected]
     for entry in data["result"]:
         first, last = str(entry["lines"][0]), str(entry["lines"][-1])
         if first not in free or last not in free:
-            raise ApparatusError(f"{text.id}: result {entry['id']}: lines {first} to {last} are not free in the print")
+            raise ApparatusError(
+                f"{text.id}: result {entry['id']}: lines {first} to {last} do not exist or belong to another result"
+            )
         span = free[free.index(first) : free.index(last) + 1]
         free = [name for name in free if name not in span]
         lines = [line for line in corrected if line.id in span]
         results.append(
-            Published(
+            PublishedResult(
                 entry["id"],
                 entry["place"],
                 entry["says"],
@@ -142,15 +147,14 @@ def results_of(paper: Paper, folder: Traversable | None = None) -> tuple[Publish
             )
         )
     if free:
-        raise ApparatusError(f"{text.id}: lines {', '.join(free)} belong to no result")
+        raise ApparatusError(f"{text.id}: lines {', '.join(free)} do not belong to any result")
     return tuple(results)
 
 
-def judge(paper: Paper, result: Published, produced: Sequence[str]) -> Finding:
+def judge(paper: Paper, result: PublishedResult, produced: Sequence[str]) -> Finding:
     """Compare produced lines with the corrected print.
 
-    A result that is said to differ, or not to be reproducible, and comes out all the same is DIFFERENT from what
-    the data say.
+    A result that is reproduced although the data call it different or not reproducible is DIFFERENT.
     """
     same = [line.split() for line in produced] == [line.split() for line in result.corrected]
     kind: Kind
@@ -166,19 +170,19 @@ def judge(paper: Paper, result: Published, produced: Sequence[str]) -> Finding:
 
 
 def printed_lines(paper: Paper) -> Lines:
-    """The corrected print, by result."""
+    """Return the corrected print, by result."""
     return {result.id: result.corrected for result in results_of(paper)}
 
 
 @cache
 def produced_by(paper: Paper) -> Lines:
-    """What the paper's module computes, given the corrected print."""
+    """Return the output of the paper's module for the corrected print, by result."""
     produced: Lines = import_module(paper.module).produced(printed_lines(paper))
     return produced
 
 
 def findings(paper: Paper, folder: Traversable | None = None) -> Iterator[Finding]:
-    """The verdict on every published result of a paper."""
+    """Yield the verdict on every published result of a paper."""
     produced = produced_by(paper)
     for result in results_of(paper, folder):
         yield judge(paper, result, produced.get(result.id, ()))

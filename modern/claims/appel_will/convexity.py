@@ -1,4 +1,4 @@
-"""Claims of Appel and Will: properties of convex polyhedra, their two-dimensional methods, steps as printed."""
+"""Checks of Appel and Will: properties of convex polyhedra, their two-dimensional methods, and steps as printed."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ def _area(p: Flat, q: Flat, r: Flat) -> int:
 
 
 def method_against_judge(kind: str = "", count: str = COUNT) -> CheckResult:
-    """Edges and faces by the corrected method, against the judge's."""
+    """Compare the edges and faces found by the corrected method with those of the exact hull."""
     checks = []
     for sampled in sampled_sets(3, int(count)):
         hull = appel_will(sampled.points)
         faces = {frozenset(facet.polygon) for facet in sampled.judge.facets}
         checks.append(hull.edges == sampled.judge.edges() and {frozenset(s) for s in hull.surfaces} == faces)
-    message = f"{sum(checks)} of {len(checks)} sets as the exact judge"
+    message = f"{sum(checks)} of {len(checks)} sets agree with the exact hull"
     return holds_if(all(checks), message, conditional=not kind)
 
 
@@ -40,28 +40,28 @@ def _hulls(count: str = COUNT) -> list[tuple[tuple[Point, ...], ExactHull]]:
 
 
 def convex_body() -> CheckResult:
-    """Midpoints of vertices of hulls have no positive value."""
+    """Check that the midpoints of two vertices of a hull have no positive value."""
     checks = []
     for points, judge in _hulls("1"):
         for i, j in combinations(judge.vertices, 2):
             checks.append(
                 max(plane_value(f.plane, points[i]) + plane_value(f.plane, points[j]) for f in judge.facets) <= 0
             )
-    return holds_if(all(checks), f"{len(checks)} segments")
+    return holds_if(all(checks), f"the midpoints of {len(checks)} segments are in the hull")
 
 
 def corners_of_convex_polygon() -> CheckResult:
-    """Corners of the judge's polygons turn left, all of them."""
+    """Check that all corners of the exact polygons turn the same way."""
     checks = []
     for sampled in sampled_sets(2, 2):
         ring = [sampled.points[k][:2] for k in sampled.judge.polygon]
         turns = [_area(ring[k - 2], ring[k - 1], ring[k]) for k in range(len(ring))]
         checks.append(len({turn > 0 for turn in turns}) == 1 and 0 not in turns)
-    return holds_if(all(checks), f"{len(checks)} polygons")
+    return holds_if(all(checks), f"all corners of {len(checks)} polygons are convex")
 
 
 def deletion_passes() -> CheckResult:
-    """Simple polygons at random: passes that delete all nonconvex points end with the hull."""
+    """Check that passes that delete all nonconvex points of a simple polygon end with its hull."""
     random = Random(4)
     checks: list[bool] = []
     while len(checks) < 12:
@@ -69,17 +69,17 @@ def deletion_passes() -> CheckResult:
         if _simple(ring):
             hull = exact_hull([(x, y, 0) for x, y in ring])
             checks.append({*_passed(ring)} == {ring[k] for k in hull.vertices})
-    return holds_if(all(checks), f"{sum(checks)} of {len(checks)} polygons", conditional=True)
+    return holds_if(all(checks), f"{sum(checks)} of {len(checks)} polygons end as their hull", conditional=True)
 
 
 def deletion_makes_nonconvex() -> CheckResult:
-    """A polygon with a convex point that is nonconvex once a nonconvex one beside it is deleted."""
+    """Check a polygon in which a convex point becomes nonconvex once a nonconvex neighbour is deleted."""
     ring = [(0, 0), (10, 0), (10, 10), (6, 1), (5, 5), (4, 1), (0, 10)]
     before = {p for k, p in enumerate(ring) if _area(ring[k - 1], p, ring[(k + 1) % len(ring)]) > 0}
     remaining = [p for p in ring if p in before]
     after = {p for k, p in enumerate(remaining) if _area(remaining[k - 1], p, remaining[(k + 1) % len(remaining)]) > 0}
     lost = sorted(before - after)
-    return holds_if(bool(lost), f"{', '.join(map(str, lost))} is convex at first and not afterwards")
+    return holds_if(bool(lost), f"{', '.join(map(str, lost))} is convex at first and nonconvex after a deletion")
 
 
 def _passed(ring: Sequence[Flat]) -> list[Flat]:
@@ -101,7 +101,7 @@ def _simple(ring: Sequence[Flat]) -> bool:
 
 
 def jarvis_start_as_printed() -> CheckResult:
-    """The first point of least polar angle, from 0 to below 360, about an origin outside the set."""
+    """Check the first point by the smallest polar angle, from 0 to 360 degrees, about an origin outside the set."""
     origin, *points = counterexample_points("jarvis.csv")
     angles = [math.atan2(y - origin[1], x - origin[0]) % (2 * math.pi) for x, y, _ in points]
     first = angles.index(min(angles))
@@ -110,7 +110,7 @@ def jarvis_start_as_printed() -> CheckResult:
 
 
 def jarvis_deletions(kind: str = "") -> CheckResult:
-    """A point inside the polygon of some hull points is no vertex of the hull."""
+    """Check that a point inside a polygon of hull points is not a vertex of the hull."""
     checks = []
     for sampled in sampled_sets(2, 2):
         some = sampled.judge.vertices[:3]
@@ -118,24 +118,24 @@ def jarvis_deletions(kind: str = "") -> CheckResult:
         for k, point in enumerate(sampled.points):
             if k not in some and 3 not in exact_hull([*corners, point]).vertices:
                 checks.append(k not in sampled.judge.vertices)
-    return holds_if(all(checks), f"{len(checks)} points within triangles of vertices", conditional=kind)
+    return holds_if(all(checks), f"{len(checks)} points lie within triangles of vertices", conditional=kind)
 
 
 def polyhedron_property(number: str) -> CheckResult:
-    """A property of convex polyhedra, on the judge's hulls, of which some have points inside."""
+    """Check a property of convex polyhedra on exact hulls, some of which have points inside."""
     checks = [right for points, judge in _hulls("4") for right in _PROPERTIES[number](points, judge)]
-    return holds_if(bool(checks) and all(checks), f"{len(checks)} cases")
+    return holds_if(bool(checks) and all(checks), f"the property holds in {len(checks)} cases")
 
 
 def _inside_of_all(points: Sequence[Point], judge: ExactHull) -> list[bool]:
-    """The mean of the vertices, times their number, which is inside whatever the hull."""
+    """The mean of the vertices, times their number, is inside every plane."""
     count = len(judge.vertices)
     x, y, z = (sum(points[k][axis] for k in judge.vertices) for axis in range(3))
     return [dot(f.plane[:3], (x, y, z)) + count * f.plane[3] < 0 for f in judge.facets]
 
 
 def _cones(points: Sequence[Point], judge: ExactHull) -> list[bool]:
-    """All points lie in the cone of the planes at a vertex, and only the vertex is on all of them."""
+    """All points lie in the cone of the planes at a vertex, and only the vertex lies on all of these planes."""
     checks = []
     for k in judge.vertices:
         planes = [f.plane for f in judge.facets if k in f.polygon]
@@ -166,7 +166,7 @@ def _faces(points: Sequence[Point], judge: ExactHull) -> list[bool]:
 
 
 def _projections(points: Sequence[Point], judge: ExactHull) -> list[bool]:
-    """The image of the hull is the hull of the images: no image of another point is a corner of it."""
+    """The image of the hull is the hull of the images: no other point has a corner of it as its image."""
     checks = []
     for u, v in ((0, 1), (1, 2), (0, 2)):
         images = [(p[u], p[v], 0) for p in points]
@@ -179,11 +179,12 @@ _PROPERTIES = {"1": _inside_of_all, "2": _cones, "3": _dihedral, "4": _faces, "5
 
 
 ARM = 9
-"""Cubes in each of the three arms of a star."""
+"""The number of cubes in each of the three arms of a star."""
 
 
 def surface_area() -> CheckResult:
-    """A hull inside of a box has less surface than the box; three arms of cubes have less than their hull."""
+    """Compare surface areas: a hull inside a box has less than the box, and three arms of cubes have less than their
+    hull."""
     octahedron: list[Point] = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
     box = [(2 * x - 1, 2 * y - 1, 2 * z - 1) for x, y, z in CUBE]
     inner, outer = _surface(octahedron), _surface(box)
@@ -193,7 +194,10 @@ def surface_area() -> CheckResult:
     ways = [step for step in product((-1, 0, 1), repeat=3) if sum(map(abs, step)) == 1]
     star = sum((x + i, y + j, z + k) not in cubes for x, y, z in cubes for i, j, k in ways)
     around = _surface(sorted({(x + i, y + j, z + k) for x, y, z in cubes for i, j, k in CUBE}))
-    message = f"an octahedron {inner:.2f}, its cube {outer:.2f}; three arms of cubes {star}, their hull {around:.0f}"
+    message = (
+        f"an octahedron has {inner:.2f} and its cube {outer:.2f}; three arms of cubes have {star} and their "
+        f"hull {around:.0f}"
+    )
     return holds_if(inner < outer and star < around, message, conditional=True)
 
 
@@ -208,21 +212,23 @@ def _surface(points: list[Point]) -> float:
 
 
 def numbers_of_combinations(kind: str) -> CheckResult:
-    """Pairs and triples of 4 to 12 things."""
+    """Compare the numbers of pairs and triples of 4 to 12 objects."""
     pairs = {n: (math.comb(n, 2), math.comb(n, 3)) for n in range(4, 13)}
     if kind == "formula":
         passed = all(
             math.factorial(n) // (math.factorial(2) * math.factorial(n - 2)) == two for n, (two, _) in pairs.items()
         )
-        return holds_if(passed, "N! / (r! (N - r)!)", conditional=True)
+        return holds_if(passed, "the number is N! / (r! (N - r)!)", conditional=True)
     fewer = [n for n, (two, three) in pairs.items() if two < three]
     return holds_if(
-        fewer == list(range(6, 13)), "6 and 4 of four, 10 and 10 of five, 15 and 20 of six", conditional=True
+        fewer == list(range(6, 13)),
+        "pairs and triples: 6 and 4 of four, 10 and 10 of five, 15 and 20 of six",
+        conditional=True,
     )
 
 
 def edge_by_star_test() -> CheckResult:
-    """The definition with all other images, against the judge's edges."""
+    """Compare the definition of an edge, with the images of all other points, with the exact edges."""
     checks = []
     for points, judge in _hulls("1"):
         edges = {*judge.edges()}
@@ -230,23 +236,23 @@ def edge_by_star_test() -> CheckResult:
             projection = project(points, pair, range(len(points)))
             if len(projection.line) == 2:
                 checks.append(as_corrected(projection.images) == (pair in edges))
-    return holds_if(all(checks), f"{len(checks)} pairs")
+    return holds_if(all(checks), f"{len(checks)} pairs agree with the exact hull")
 
 
 def triangle_area() -> CheckResult:
-    """The determinant is positive counterclockwise, negative clockwise, and 0 in line."""
+    """Check that the determinant is positive counterclockwise, negative clockwise, and 0 for collinear points."""
     p, q, r = (0, 0), (4, 0), (0, 2)
     determinants = (determinant(p, q, r), determinant(p, r, q), determinant(p, q, (2, 0)), determinant(p, p, q))
-    return holds_if(determinants == (8, -8, 0, 0), f"twice the area: {', '.join(map(str, determinants))}")
+    return holds_if(determinants == (8, -8, 0, 0), f"twice the areas are {', '.join(map(str, determinants))}")
 
 
 def determinant(p: Flat, q: Flat, r: Flat) -> int:
-    """That of the rows x, y, 1 of three points."""
+    """Return the determinant with the rows x, y, 1 of three points."""
     return p[0] * (q[1] - r[1]) - p[1] * (q[0] - r[0]) + (q[0] * r[1] - q[1] * r[0])
 
 
 def inside_triangle() -> CheckResult:
-    """Grid points and a triangle: inside where the three senses are those of the corners."""
+    """Check that a grid point is inside a triangle if and only if its three senses are those of the corners."""
     p, q, r = (0, 0), (5, 1), (1, 4)
     checks = []
     for point in product((-1, 1, 2, 4), repeat=2):
@@ -254,30 +260,37 @@ def inside_triangle() -> CheckResult:
         senses = {_area(a, b, (x, y)) > 0 and _area(a, b, (x, y)) != 0 for a, b in ((p, q), (q, r), (r, p))}
         hull = exact_hull([(*t, 0) for t in (p, q, r, (x, y))])
         checks.append((senses == {True}) == (3 in hull.inside))
-    return holds_if(all(checks), f"{len(checks)} points")
+    return holds_if(all(checks), f"{len(checks)} grid points agree with the exact hull")
 
 
 def star_as_captioned() -> CheckResult:
-    """A cube's edges by Fig. 12 as it is captioned."""
+    """Check the star test on a cube as the caption of Fig. 12 describes it."""
     cube = counterexample_points("cube.csv")
     edges = appel_will(cube, method=Method(star=as_printed)).edges
-    return fails_if(len(edges) > 12, f"{len(edges)} edges of a cube, which has {len(exact_hull(cube).edges())}")
+    return fails_if(
+        len(edges) > 12, f"the test finds {len(edges)} edges of a cube, which has {len(exact_hull(cube).edges())}"
+    )
 
 
 def step_as_printed(step: str) -> CheckResult:
-    """A step of the appendix as printed, on its counterexample."""
+    """Check a step of the appendix as printed on its counterexample."""
     name = {"step5": "fig14.csv", "step7": "octahedron.csv", "step9": "pentagon.csv", "step10": "fig14.csv"}[step]
     points = counterexample_points(name)
     also = ("step3",) if step == "step9" else ()
     letter, corrected = appel_will(points, method=printed(step, *also)), appel_will(points, method=printed(*also))
     same = [loop.entries for loop in letter.table.loops] == [loop.entries for loop in corrected.table.loops]
-    message = letter.fault or ("the same loops" if same else "the loops come in another order than the printed ones")
+    message = letter.fault or (
+        "the same loops" if same else "the loops come in an order that differs from the printed one"
+    )
     return fails_if(letter.fault or not same, message)
 
 
 def planar_graph() -> CheckResult:
-    """The faces put the graph on a surface without crossings: each edge once in each sense, one ring of faces around
-    each vertex; connected and with V - E + F = 2 that surface is a sphere."""
+    """Check that the faces embed the graph in a sphere without crossings.
+
+    Each edge belongs to two faces, once in each direction, and the faces around each vertex form one ring. The surface
+    is connected and V - E + F = 2, so it is a sphere.
+    """
     checks = []
     for _, hull in _hulls():
         rings = [f.polygon for f in hull.facets]
@@ -298,4 +311,4 @@ def planar_graph() -> CheckResult:
             waiting += new
         checks.append(reached == {*hull.vertices})
         checks.append(len(hull.vertices) - len(hull.edges()) + len(hull.facets) == 2)
-    return holds_if(all(checks), f"{len(checks)} conditions of faces, vertices and hulls")
+    return holds_if(all(checks), f"{len(checks)} conditions of faces, vertices and hulls hold")

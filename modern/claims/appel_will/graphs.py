@@ -1,6 +1,6 @@
-"""Claims of Appel and Will's appendix on faces: told by the graph of the edges alone, by three points, by a list.
+"""Checks of Appel and Will's appendix on faces found from the graph of the edges, from three points, or from a list.
 
-The hulls looked at are those of small sets, of a cube and of the objects of Figs. 14 and 23.
+The hulls are those of sampled sets, of a cube, and of the objects of Figs. 14 and 23.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ def _sets(count: str) -> list[tuple[Point, ...]]:
 
 
 def faces_from_graph(count: str = COUNT) -> CheckResult:
-    """Faces found in the graph of a hull's edges, without coordinates, against the judge's faces.
+    """Compare the faces found in the graph of a hull's edges, without coordinates, with those of the exact hull.
 
-    Of a graph that stays connected without any two of its vertices the faces are the cycles that have no chord and
-    leave the rest connected (Tutte 1963); the graphs of convex polyhedra are such.
+    The graph of a convex polyhedron stays connected if any two vertices are removed. The faces of such a graph are the
+    cycles that have no chord and leave the rest connected (Tutte 1963).
     """
     checks, faces = [], 0
     for points in _sets(count):
@@ -36,7 +36,7 @@ def faces_from_graph(count: str = COUNT) -> CheckResult:
         found_faces = {cycle for cycle in _cycles(_graph(judge)) if _connected(_graph(judge), cycle)}
         checks.append(found_faces == {frozenset(facet.polygon) for facet in judge.facets})
         faces += len(found_faces)
-    return holds_if(all(checks), f"{faces} faces of {len(checks)} hulls by their edges alone")
+    return holds_if(all(checks), f"{faces} faces of {len(checks)} hulls follow from the edges alone")
 
 
 def _graph(judge: ExactHull) -> Graph:
@@ -45,7 +45,7 @@ def _graph(judge: ExactHull) -> Graph:
 
 
 def _cycles(graph: Graph) -> Iterator[frozenset[int]]:
-    """Cycles without chords, each by its points and from its least one on, both ways round."""
+    """Yield cycles without chords as sets of points, each found from its smallest point in both directions."""
     paths: list[tuple[int, ...]] = [(k,) for k in graph]
     while paths:
         path = paths.pop()
@@ -69,7 +69,7 @@ def _connected(graph: Graph, without: frozenset[int]) -> bool:
 
 
 def coplanar_loops(count: str = COUNT) -> CheckResult:
-    """Two lines with a common end: their three points are on one loop at the most, and no two loops have one plane."""
+    """Check that two edges with a common end are on at most one common loop, and that no two loops are coplanar."""
     checks = []
     for points in _sets(count):
         judge = exact_hull(points)
@@ -78,13 +78,13 @@ def coplanar_loops(count: str = COUNT) -> CheckResult:
             if len(three) == len(first_edge) + 1:
                 checks.append(sum(three <= {*facet.polygon} for facet in judge.facets) <= 1)
         checks.append(len({facet.plane for facet in judge.facets}) == len(judge.facets))
-    return holds_if(all(checks), f"{len(checks)} pairs of lines and hulls")
+    return holds_if(all(checks), f"{len(checks)} pairs of edges and hulls")
 
 
 def list_of_points(count: str = COUNT) -> CheckResult:
-    """The points that step 10 puts into the plane of a loop, in the order of the steps: step 7 has put them all there.
+    """Check that the plane tests of step 10 repeat those of step 7, which has already tested every point.
 
-    The points that it finds in the plane are those of the loop, so a list of them tells the rest of the steps all.
+    The points in the plane are those of the loop, so a list of them would be enough for the remaining steps.
     """
     checks: list[bool] = []
     asked = 0
@@ -107,5 +107,6 @@ def list_of_points(count: str = COUNT) -> CheckResult:
                 match = sum(hull.edges[chosen]) - match
             before = loop.uses
     return holds_if(
-        all(checks) and asked > 0, f"{asked} values of step 10 are known from step 7, in {len(checks)} cases right"
+        all(checks) and asked > 0,
+        f"step 7 has already computed the {asked} values that step 10 needs; {len(checks)} cases agree",
     )

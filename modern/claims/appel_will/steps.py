@@ -1,4 +1,4 @@
-"""Claims of Appel and Will that are steps on the way: lines that come and go, the star test, loops, inside corners."""
+"""Checks of single steps of Appel and Will: new and collinear lines, the star test, loops, and inside corners."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ FIG_18: tuple[tuple[Point, Point, Point], ...] = (
     ((-1, 0, 0), (0, -1, 0), (0, 0, -1)),
     ((1, 0, 0), (0, -1, 0), (0, 0, -1)),
 )
-"""I, K and L of [512], [723] and [643]."""
+"""The vectors I, K and L of [512], [723] and [643]."""
 
 
 def new_lines() -> CheckResult:
-    """A polygon with a notch: its hull has fewer points, and a line that the polygon does not have."""
+    """Check that the hull of a polygon with a notch has fewer points and a line that the polygon does not have."""
     ring: list[Flat] = [(0, 0), (6, 0), (6, 6), (3, 2), (0, 6)]
     polygon = exact_hull([(x, y, 0) for x, y in ring]).polygon
     sides = {frozenset((k, (k + 1) % len(ring))) for k in range(len(ring))}
     new = [pair for pair in zip(polygon, (*polygon[1:], polygon[0]), strict=True) if frozenset(pair) not in sides]
     message = ", ".join(f"{ring[a]} to {ring[b]}" for a, b in new)
-    return holds_if(len(polygon) < len(ring) and len(new) == 1, f"new: {message}")
+    return holds_if(len(polygon) < len(ring) and len(new) == 1, f"the new line is {message}")
 
 
 def collinear_points() -> CheckResult:
-    """Of three points in a line that are projected to one, the middle one is no vertex of any set's hull."""
+    """Check that the middle of three collinear points that are projected to one point is not a vertex of the hull."""
     checks = []
     for sampled in sampled_sets(3, int(COUNT)):
         doubled = [(2 * x, 2 * y, 2 * z) for x, y, z in sampled.points]
@@ -43,13 +43,13 @@ def collinear_points() -> CheckResult:
                 points = [*doubled, middle]
                 line = project(points, (points.index(p), points.index(q)), range(len(points))).line
                 checks.append(len(doubled) in line and len(doubled) not in exact_hull(points).vertices)
-    return holds_if(bool(checks) and all(checks), f"{len(checks)} points between two others")
+    return holds_if(bool(checks) and all(checks), f"{len(checks)} points between two others are not vertices")
 
 
 def star_test(kind: str = "") -> CheckResult:
-    """Grid points against five points of a plane: the senses around the star tell who is in their hull.
+    """Check that the senses around the star polygon decide which grid points are inside the hull of five points.
 
-    A point on the border counts as inside (Fig. 12, III).  ``change``: outside, whenever two sides turn differently.
+    A point on the border counts as inside (Fig. 12, III). ``change``: a point is outside if two sides turn differently.
     """
     five = [(0, 0), (6, 0), (7, 5), (0, 6), (3, 3)]
     checks, border = [], 0
@@ -63,13 +63,13 @@ def star_test(kind: str = "") -> CheckResult:
         star = star_polygon(images)
         senses = {turn > 0 for a, b in zip(star, (*star[1:], star[0]), strict=True) if (turn := vorticity(a, b))}
         checks.append(as_corrected(images) != held if not kind else len(senses) == 1 or not held)
-    return holds_if(all(checks) and border > 0, f"{len(checks)} points, {border} of them on the border")
+    return holds_if(all(checks) and border > 0, f"{len(checks)} points agree, {border} of them on the border")
 
 
 def closed_loops(kind: str = "") -> CheckResult:
-    """Loops of cubes and small sets: lines beside each other share an end, the last one shares one with the first.
+    """Check that consecutive lines of a loop share an end, and that each line is in two loops, once in each direction.
 
-    Each line is in two loops, once in each direction: a positive entry runs from its first point to its second.
+    A positive entry runs from the first point of its line to the second.
     """
     checks, signs = [], []
     for points in (CUBE, *(sampled.points for sampled in sampled_sets(3, int(COUNT)))):
@@ -79,36 +79,34 @@ def closed_loops(kind: str = "") -> CheckResult:
             checks.append(_joined(loop.entries, hull.edges))
             all_entries += loop.entries
         signs.append(sorted(map(abs, all_entries)) == sorted([*range(1, len(hull.edges) + 1)] * 2))
-    message = f"{len(checks)} loops"
-    return holds_if(all(checks) and all(signs), f"{message}, every line in two" if kind else message)
+    message = f"{len(checks)} loops are closed"
+    return holds_if(all(checks) and all(signs), f"{message}, and every line is in two" if kind else message)
 
 
 def fourth_loop() -> CheckResult:
-    """Fig. 22's fourth loop: its last entry has a minus, and without it line 5 would begin where it ends."""
+    """Check that the last entry of the fourth loop of Fig. 22 needs its minus."""
     hull = appel_will(counterexample_points("fig14.csv"))
     (loop,) = (loop.entries for loop in hull.table.loops if {4, 6, 9} <= {*loop.entries})
     as_it_is, without = (_joined(entries, hull.edges) for entries in (loop, (*loop[:-1], abs(loop[-1]))))
     checks = [*loop] == [4, 6, 9, -5] and as_it_is and not without
-    return holds_if(checks, f"{' '.join(map(str, loop))} runs around a face, 4 6 9 5 does not", conditional=True)
+    return holds_if(checks, f"{' '.join(map(str, loop))} runs around a face, and 4 6 9 5 does not", conditional=True)
 
 
 def limit_of_searches() -> CheckResult:
-    """Step 9 as printed on a pentagon: without a limit it comes to a point again, and so on for ever.
+    """Check step 9 as printed on a pentagon: without a limit it reaches a point again and never ends.
 
-    With the limit the program ends, and says that the loop does not close.
+    With the limit the program ends and reports that the loop does not close.
     """
     points = counterexample_points("pentagon.csv")
     hull = appel_will(points, method=printed("step9", "step3"))
     ring = exact_hull(points).polygon
     endless = sum(_comes_again(hull.edges, ring[k - 2], ring[k - 1], ring[k]) for k in range(len(ring)))
     ended = hull.fault.endswith("does not return to its start")
-    return holds_if(
-        ended and endless > 0, f"{endless} of {len(ring)} beginnings do not end; with the limit: {hull.fault}"
-    )
+    return holds_if(ended and endless > 0, f"{endless} of {len(ring)} starts do not end; with the limit: {hull.fault}")
 
 
 def _comes_again(edges: Sequence[tuple[int, int]], start: int, common: int, match: int) -> bool:
-    """Whether steps 9 and 10 as printed, from the lines start-common-match on, come to a point twice."""
+    """Return True if steps 9 and 10 as printed, starting with the lines start-common-match, reach a point twice."""
     visited: set[int] = set()
     while match != start and match not in visited:
         visited.add(match)
@@ -118,23 +116,23 @@ def _comes_again(edges: Sequence[tuple[int, int]], start: int, common: int, matc
 
 
 def _joined(entries: Sequence[int], edges: Sequence[tuple[int, int]]) -> bool:
-    """Whether each entry begins where the one before it ends, the first one where the last ends."""
+    """Return True if each entry starts at the end of the one before it, and the first at the end of the last."""
     ends = [edges[abs(e) - 1] if e > 0 else edges[abs(e) - 1][::-1] for e in entries]
     return all(a[1] == b[0] for a, b in pairwise([*ends, ends[0]]))
 
 
 def product_with_repeated_vector() -> CheckResult:
-    """Fig. 18's determinants with L as displayed, which is I again, and with the normal of l."""
+    """Check the determinants of Fig. 18 with L as displayed, which is I again, and with the normal of l."""
     determinants = []
     for i, k, m in FIG_18:
         determinants.append((triple_product(i, k, i), triple_product(i, k, m)))
     with_i, with_l = (", ".join(map(str, column)) for column in zip(*determinants, strict=True))
-    message = f"The determinants are {with_l} with l as printed in the text, and {with_i} with i as displayed."
+    message = f"the determinants are {with_l} with l, and {with_i} with i as displayed"
     return holds_if(determinants == [(0, 1), (0, -1), (0, 1)], message, conditional=True)
 
 
 def star_as_described() -> CheckResult:
-    """Of a cube the text on Fig. 12, as printed, gives more edges than twelve."""
+    """Check the star test on a cube as the text on Fig. 12 describes it."""
     cube = counterexample_points("cube.csv")
     edges = appel_will(cube, method=Method(star=as_printed)).edges
-    return fails_if(len(edges) > 12, f"{len(edges)} edges of a cube")
+    return fails_if(len(edges) > 12, f"the test finds {len(edges)} edges of a cube, which has 12")

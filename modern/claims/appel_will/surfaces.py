@@ -1,4 +1,4 @@
-"""Claims of Appel and Will on objects given by surfaces: the map, lines and planes, inside corners, preprocessing."""
+"""Checks of Appel and Will on objects given by surfaces: maps, lines and planes, inside corners, preprocessing."""
 
 from __future__ import annotations
 
@@ -34,26 +34,26 @@ PITS: dict[tuple[int, int, int], Point] = {
 
 @cache
 def fig_4() -> Solid:
-    """The object of Fig. 4 as the corrected print has it."""
+    """Return the object of Fig. 4 of the corrected print."""
     return printed_solid(printed_lines(next(paper for paper in PAPERS if paper.name == "appel-will")))
 
 
 def crown() -> Solid:
-    """A pyramid over a star with four points."""
+    """Return a pyramid over a star with four points."""
     mesh = parse_off(counterexample("crown.off"), "crown.off")
     points = tuple((int(x), int(y), int(z)) for x, y, z in mesh.points)
     return Solid(points, tuple(tuple(face) for face in mesh.faces))
 
 
 def bent() -> Solid:
-    """An L of three cubes, where three planes meet at each point."""
+    """Return an L of three cubes, in which three planes meet at each point."""
     ring: list[Flat] = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
     sides = [(k, (k + 1) % 6, (k + 1) % 6 + 6, k + 6) for k in range(6)]
     return Solid(tuple((x, y, z) for z in (0, 1) for x, y in ring), ((5, 4, 3, 2, 1, 0), (6, 7, 8, 9, 10, 11), *sides))
 
 
 def pitted() -> Solid:
-    """A tetrahedron with a pit in every face, the apex of each as PITS has it."""
+    """Return a tetrahedron with a pit in every face."""
     points, surfaces = [*TETRAHEDRON], []
     for face, apex in PITS.items():
         points.append(apex)
@@ -62,7 +62,7 @@ def pitted() -> Solid:
 
 
 def surface_three() -> CheckResult:
-    """The object of Fig. 4 with surface III as it is numbered: two of its lines are on no other surface."""
+    """Check Fig. 4 with surface III as numbered: two of its lines are on no other surface."""
     mesh = parse_off(counterexample("fig4_printed.off"), "fig4_printed.off")
     sides = Counter(frozenset(pair) for face in mesh.faces for pair in zip(face, (*face[1:], face[0]), strict=True))
     alone = sorted(tuple(sorted(k + 1 for k in side)) for side, n in sides.items() if n == 1)
@@ -70,29 +70,30 @@ def surface_three() -> CheckResult:
 
 
 def inside_corner_at_vertex(kind: str = "") -> CheckResult:
-    """A crown: rule ``any`` deletes a vertex of the hull, a condition where it is said to delete none."""
+    """Check that rule ``any`` deletes a vertex of the crown; with ``kind`` the statement says so."""
     solid = crown()
     deleted = preprocess(solid.points, solid.surfaces, "any").deleted
     lost = [k + 1 for k in deleted if k in exact_hull(solid.points).vertices]
-    message = f"point {', '.join(map(str, lost))} is deleted"
+    message = f"point {', '.join(map(str, lost))} is deleted although it is a vertex of the hull"
     return holds_if(lost, message, conditional=not kind)
 
 
 def two_inside_corners() -> CheckResult:
-    """A crown: points on two inside corners or more, and those of them with at most one outside corner."""
+    """Check points of the crown on two or more inside corners, and those of them with at most one outside corner."""
     solid = crown()
     vertices = {*exact_hull(solid.points).vertices}
     preprocessed = preprocess(solid.points, solid.surfaces, "two")
     at = Counter(end for corner in preprocessed.inside for end in corner.line.ends)
     wrong = [k for k, count in at.items() if count >= 2 and k in vertices]
-    message = f"point {', '.join(f'{k + 1} is on {at[k]} inside corners' for k in wrong)} and a vertex of the hull"
+    message = f"point {', '.join(f'{k + 1} is on {at[k]} inside corners' for k in wrong)} and is a vertex of the hull"
     return holds_if(wrong and not vertices & {*preprocessed.deleted}, message, conditional=True)
 
 
 def preprocessing_cost(kind: str = "") -> CheckResult:
-    """Fig. 4: projections and star polygons with inside corners and without; where nothing is deleted, as many.
+    """Compare the projections and star polygons of Fig. 4 with and without the deletion of inside corners.
 
-    ``cheap``: one triple product a line, against the images that are saved: of each pair all other points have one.
+    ``cheap``: compare one triple product for each line with the images saved; each pair needs those of all other
+    points.
     """
     solid, counts, stars = fig_4(), {}, [0]
 
@@ -106,19 +107,19 @@ def preprocessing_cost(kind: str = "") -> CheckResult:
         counts[rule] = (hull.projections, stars[0])
     plain, fewer = counts[None], counts["any"]
     passed = fewer[0] < plain[0] and fewer[1] < plain[1] and counts["two"] == plain
-    message = f"{plain[0]} projections and {plain[1]} stars, {fewer[0]} and {fewer[1]} without two points"
+    message = f"{plain[0]} projections and {plain[1]} stars, but {fewer[0]} and {fewer[1]} after two points are deleted"
     if kind:
         products = len(corners(solid.points, oriented(solid.points, solid.surfaces)))
         points_kept = len(solid.points) - len(preprocess(solid.points, solid.surfaces, "any").deleted)
         images = plain[0] * (len(solid.points) - 2) - fewer[0] * (points_kept - 2)
         return holds_if(passed and products < images, f"{products} triple products save {images} images of points")
-    return holds_if(passed, f"{message}; as many where none is deleted", conditional=True)
+    return holds_if(passed, f"{message}; the numbers do not change if nothing is deleted", conditional=True)
 
 
 def minimum_data() -> CheckResult:
-    """Fig. 4: its lines from its surfaces as sets of points alone; by its points alone another object is described.
+    """Check that the surfaces of Fig. 4, as sets of points, determine its lines, and that its points alone do not.
 
-    Of a cube the points alone are enough.
+    The points of a cube determine the cube.
     """
     solid = fig_4()
     sets = [frozenset(surface) for surface in solid.surfaces]
@@ -133,15 +134,17 @@ def minimum_data() -> CheckResult:
     cube = exact_hull(CUBE)
     passed = {*shared} == mapped != without and (len(cube.vertices), len(cube.facets)) == (8, 6)
     return holds_if(
-        passed, f"{len(mapped)} lines out of {len(sets)} surfaces; a cube from its points", conditional=True
+        passed,
+        f"{len(sets)} surfaces determine {len(mapped)} lines; a cube is determined by its points",
+        conditional=True,
     )
 
 
 def hulls_of_surfaces(kind: str) -> CheckResult:
-    """Objects of four kinds: in how many surfaces' own hulls each point stands.
+    """Check in how many hulls of surfaces the points of four kinds of objects occur.
 
-    ``redundant``: each is looked at three times or more; ``relation``: a vertex of the hull is one of the hulls of all
-    surfaces it is on, and some points are that and no vertices.
+    ``redundant``: each point occurs in three or more surfaces. ``relation``: a vertex of the hull is a vertex of the
+    hulls of all its surfaces, and the converse fails for some points.
     """
     checks, exceptions, point_count = [], 0, 0
     for solid in (fig_4(), crown(), bent(), pitted()):
@@ -153,15 +156,17 @@ def hulls_of_surfaces(kind: str) -> CheckResult:
             checks.append(len(on) >= 3 if kind == "redundant" else own or point not in vertices)
             exceptions += own and point not in vertices
     if kind == "redundant":
-        return holds_if(all(checks), f"{point_count} points, each on three surfaces or more")
-    message = f"{exceptions} of {point_count} points are vertices of all their surfaces' hulls and not of the hull"
+        return holds_if(all(checks), f"each of {point_count} points is on three or more surfaces")
+    message = (
+        f"{exceptions} of {point_count} points are vertices of the hulls of all their surfaces but not of the hull"
+    )
     return holds_if(all(checks) and exceptions, message, conditional=True)
 
 
 def vertex_without_supporting_surface() -> CheckResult:
-    """A pit in every face of a tetrahedron: no surface of the object supports, its corners are vertices all the same.
+    """Check a tetrahedron with a pit in every face: its corners are vertices although no surface supports.
 
-    No two surfaces are in one plane.
+    No two surfaces are coplanar.
     """
     solid = pitted()
     planes = {}
@@ -175,30 +180,34 @@ def vertex_without_supporting_surface() -> CheckResult:
         supporting += max(values) <= 0 or min(values) >= 0
     passed = supporting == 0 and exact_hull(solid.points).vertices == (0, 1, 2, 3)
     passed &= len({*planes.values()}) == len(solid.surfaces) == 12
-    return holds_if(passed, f"{len({*planes.values()})} planes, {supporting} of them supporting; four vertices")
+    return holds_if(
+        passed, f"{supporting} of {len({*planes.values()})} planes of surfaces support, but the hull has four vertices"
+    )
 
 
 def objects_with_same_hull() -> CheckResult:
-    """A cube with 1, 2 and 3 further points inside has the cube's hull."""
+    """Check that a cube with 1, 2 and 3 further points inside has the hull of the cube."""
     hulls = [
         exact_hull([*((4 * x, 4 * y, 4 * z) for x, y, z in CUBE), *((k, k, 1) for k in range(1, 1 + n))])
         for n in (1, 2, 3)
     ]
-    return holds_if(all(h.vertices == tuple(range(8)) and len(h.facets) == 6 for h in hulls), "three objects, one hull")
+    return holds_if(
+        all(h.vertices == tuple(range(8)) and len(h.facets) == 6 for h in hulls), "three objects have the same hull"
+    )
 
 
 def direction(p: Whole, q: Whole) -> tuple[Fraction, Fraction, Fraction, int]:
-    """a, b, c and l of the line from p to q, as printed.  Raises ValueError if l is no whole number."""
+    """Return a, b, c and l of the line from p to q as printed. Raise ValueError if l is not an integer."""
     square = sum((b - a) ** 2 for a, b in zip(p, q, strict=True))
     length = math.isqrt(square)
     if length * length != square:
-        raise ValueError(f"the length of {p} to {q} is no whole number")
+        raise ValueError(f"the length of {p} to {q} is not an integer")
     a, b, c = (Fraction(end - start, length) for start, end in zip(p, q, strict=True))
     return a, b, c, length
 
 
 def unit_directions() -> CheckResult:
-    """Lines whose length is whole: a, b, c are of length 1, and x1 + a t is at t = 0 one end, at t = l the other."""
+    """Check lines of integer length: (a, b, c) is a unit vector, and t = 0 and t = l give the ends."""
     checks = []
     for p, q in (((1, 2, 3), (2, 4, 5)), ((4, 0, -1), (6, 3, 5)), ((0, 0, 7), (4, -8, 6)), ((2, 2, 2), (2, 5, -2))):
         a, b, c, length = direction(p, q)
@@ -208,17 +217,17 @@ def unit_directions() -> CheckResult:
         third = Fraction(length, 3)
         gone = [u * third for u in (a, b, c)]
         checks.append(9 * sum(u * u for u in gone) == length * length)
-    return holds_if(all(checks), "four lines; at a third of l a third of the way is gone")
+    return holds_if(all(checks), "four lines agree; t = l / 3 is a third of the way")
 
 
 def unit_plane(p: Whole, q: Whole, r: Whole) -> tuple[Fraction, ...]:
-    """a, b, c of length 1 by the cross product of two lines, and d = -(a x0 + b y0 + c z0) of the point p."""
+    """Return the unit normal a, b, c by a cross product of two lines, and d = -(a x0 + b y0 + c z0) for the point p."""
     a, b, c, _ = direction((0, 0, 0), cross(minus(q, p), minus(r, p)))
     return a, b, c, -(a * p[0] + b * p[1] + c * p[2])
 
 
 def planes_of_surfaces() -> CheckResult:
-    """Planes of three points, whose normals have a whole length: all three are on it; beyond it, the value is t."""
+    """Check planes whose normals have an integer length: the value is 0 at three points and the distance elsewhere."""
     checks = []
     for n, length in (((1, 2, 2), 3), ((2, 3, 6), 7), ((4, -1, 8), 9)):
         u = (n[1], -n[0], 0)
@@ -230,13 +239,13 @@ def planes_of_surfaces() -> CheckResult:
         checks += [a * x + b * y + c * z + d == 0 for x, y, z in (p, q, r)]
         x, y, z = (k + m for k, m in zip(q, n, strict=True))
         checks.append(abs(a * x + b * y + c * z + d) == length)
-    return holds_if(all(checks), f"{len(checks)} values of three planes")
+    return holds_if(all(checks), f"{len(checks)} values of three planes agree")
 
 
 def normal_from_two_lines() -> CheckResult:
-    """Three objects: at each corner of each surface the cross product of its two lines stands upright on the surface.
+    """Check that the cross product of two lines at each corner of a surface is perpendicular to the surface.
 
-    Of unit directions it has the length 1 at right angles only; at a concave corner it points the other way.
+    For unit directions its length is 1 only at a right angle, and at a concave corner it points the other way.
     """
     checks, turned, shorter = [], 0, 0
     for solid in (fig_4(), crown(), bent()):
@@ -251,19 +260,19 @@ def normal_from_two_lines() -> CheckResult:
                 checks.append(lowest(product_) in (lowest(normal), minus((0, 0, 0), lowest(normal))))
                 turned += dot(product_, normal) < 0
                 shorter += dot(product_, product_) < dot(u, u) * dot(v, v)
-    message = f"{len(checks)} corners, {turned} where the product is turned over, {shorter} where its length is below 1"
+    message = f"{len(checks)} corners agree; at {turned} the product is reversed, and at {shorter} it is shorter than 1"
     return holds_if(all(checks) and 0 < turned < len(checks) and 0 < shorter < len(checks), message, conditional=True)
 
 
 def product_of_directions() -> CheckResult:
-    """Two sides of a triangle that meet at an obtuse angle: the product of their directions is negative."""
+    """Check two sides of a triangle that meet at an obtuse angle: the product of their directions is negative."""
     p, corner, r = counterexample_points("obtuse.csv")
     product_ = dot(minus(p, corner), minus(r, corner))
-    return fails_if(product_ < 0, f"the product is {product_}, the angle between 90 and 180 degrees")
+    return fails_if(product_ < 0, f"the product is {product_} for an angle between 90 and 180 degrees")
 
 
 def normal_line() -> CheckResult:
-    """From a point of a plane along its normal: at t the value of the plane is t times the normal's square."""
+    """Check that the value of a plane, at t along its normal, is t times the square of the normal."""
     checks = []
     for p, q, r in random_triples():
         plane = plane_through(p, q, r)
@@ -271,11 +280,11 @@ def normal_line() -> CheckResult:
         for t in (-2, 0, 3):
             x, y, z = (a + t * n for a, n in zip(p, plane[:3], strict=True))
             checks.append(plane_value(plane, (x, y, z)) == t * square)
-    return holds_if(all(checks), f"{len(checks)} points of normals; with unit normals the value is t")
+    return holds_if(all(checks), f"{len(checks)} points on normals agree; with unit normals the value is t")
 
 
 def direction_of_line(kind: str = "") -> CheckResult:
-    """Fig. 18's determinants with the line run the other way, and with the surfaces exchanged: each sign turns."""
+    """Check that the determinants of Fig. 18 change sign if the line is reversed or the surfaces are exchanged."""
     rows = {"512": ((-1, 0, 0), (0, 0, -1), (0, -1, 0)), "723": ((-1, 0, 0), (0, -1, 0), (0, 0, -1))}
     signs = {}
     for name, matrix in rows.items():
@@ -283,22 +292,24 @@ def direction_of_line(kind: str = "") -> CheckResult:
         i, k, m = columns
         signs[name] = (triple_product(i, k, m), triple_product(minus((0, 0, 0), i), k, m), triple_product(i, m, k))
     passed = signs == {"512": (1, -1, -1), "723": (-1, 1, 1)}
-    message = "[512] is 1 and [723] -1; run the other way, or with surfaces exchanged, -1 and 1"
+    message = "[512] is 1 and [723] is -1; they become -1 and 1 if the line is reversed or the surfaces are exchanged"
     return holds_if(passed, message, conditional=kind)
 
 
 def corners_of_three_planes() -> CheckResult:
-    """An L of three cubes, where three planes meet at each point: no point of its inside corner is a vertex."""
+    """Check that no point of the inside corner of an L of three cubes is a vertex."""
     points, faces = bent().points, bent().surfaces
     deleted = preprocess(points, faces, "any").deleted
     meeting = {sum(k in face for face in faces) for k in range(12)}
     passed = {*deleted} == {3, 9} and meeting == {3} and not {*deleted} & {*exact_hull(points).vertices}
-    return holds_if(passed, f"points {', '.join(str(points[k]) for k in sorted(deleted))} are deleted")
+    return holds_if(passed, f"the points {', '.join(str(points[k]) for k in sorted(deleted))} are deleted")
 
 
 def simple_hull_of_complex_object() -> CheckResult:
-    """A pit of 27 points in a cube's top, and the cube has its eight vertices and six faces still."""
+    """Check that a cube with a pit of 27 points in its top still has a hull with eight vertices and six faces."""
     cube = [(8 * x, 8 * y, 8 * z) for x, y, z in CUBE]
     pit = [(x, y, 7 - (x + y) % 3) for x in range(1, 8, 1) for y in range(1, 8, 2)][:27]
     hull = exact_hull([*cube, *pit])
-    return holds_if(hull.vertices == tuple(range(8)) and len(hull.facets) == 6, f"{8 + len(pit)} points, 8 vertices")
+    return holds_if(
+        hull.vertices == tuple(range(8)) and len(hull.facets) == 6, f"the hull of {8 + len(pit)} points has 8 vertices"
+    )

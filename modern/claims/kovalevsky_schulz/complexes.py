@@ -1,7 +1,7 @@
-"""Claims of the appendix of Kovalevsky and Schulz: abstract cell complexes, on the cells of a block of voxels.
+"""Checks of the appendix of Kovalevsky and Schulz: abstract cell complexes, on the cells of a block of voxels.
 
-A cell is a triple of topological coordinates: odd where it is a voxel's own, even where it is between two.  Subsets
-are drawn at random; what a definition calls the smallest or the greatest is looked for among all that would do.
+A cell is a triple of topological coordinates: a coordinate is odd inside a voxel and even between two voxels. Subsets
+are random. What a definition calls the smallest or the greatest subset is compared with all candidates.
 """
 
 from __future__ import annotations
@@ -24,45 +24,45 @@ from modern.papers.kovalevsky_schulz.corners import places
 Cells = frozenset[Point]
 SIDE = 2
 SPACE: Cells = frozenset((x, y, z) for x, y, z in product(range(2 * SIDE + 1), repeat=3))
-"""The cells of a block of two voxels a side."""
+"""The cells of a block of two voxels on each side."""
 VOXELS: Cells = frozenset(c for c in SPACE if all(x % 2 for x in c))
 
 
 def dimension(cell: Point) -> int:
-    """How many of the coordinates are odd."""
+    """Return the number of odd coordinates."""
     return sum(x % 2 for x in cell)
 
 
 @cache
 def sides(cell: Point) -> Cells:
-    """The cells that bound it: some odd coordinates one less or one more."""
+    """Return the cells that bound a cell: some of its odd coordinates are decreased or increased by 1."""
     near = product(*((x - 1, x, x + 1) if x % 2 else (x,) for x in cell))
     return frozenset((x, y, z) for x, y, z in near) - {cell}
 
 
 @cache
 def bounded(cell: Point) -> Cells:
-    """The cells of the block that it bounds, found by a search of all."""
+    """Return the cells of the block that a cell bounds, found by a search through all cells."""
     return frozenset(candidate for candidate in SPACE if cell in sides(candidate))
 
 
 def closure(cells: Iterable[Point]) -> Cells:
-    """The cells and all that bound them."""
+    """Return the cells and all cells that bound them."""
     return frozenset(c for cell in cells for c in (cell, *sides(cell)))
 
 
 def star(cells: Iterable[Point]) -> Cells:
-    """The cells and all that they bound."""
+    """Return the cells and all cells that they bound."""
     return frozenset(c for cell in cells for c in (cell, *bounded(cell)))
 
 
 def interior(cells: Cells) -> Cells:
-    """The cells all of whose bounded cells are there."""
+    """Return the cells for which all cells that they bound are present."""
     return frozenset(cell for cell in cells if bounded(cell) <= cells)
 
 
 def euclidean_cells() -> CheckResult:
-    """The cells of the block as closed boxes: two that meet have the box of a cell in common, their greatest one."""
+    """Check that two cells of the block, as closed boxes, intersect in the box of their greatest common cell."""
     low = {cell: [x - x % 2 for x in cell] for cell in SPACE}
     high = {cell: [x + x % 2 for x in cell] for cell in SPACE}
     meet, checks = 0, []
@@ -94,7 +94,7 @@ def _incident(a: Point, b: Point) -> bool:
 
 
 def _components(cells: Collection[Point]) -> list[set[Point]]:
-    """By steps from a cell to an incident one."""
+    """Return the components by steps from a cell to an incident one."""
     remaining, components = set(cells), []
     while remaining:
         component, queue = set[Point](), [remaining.pop()]
@@ -109,9 +109,9 @@ def _components(cells: Collection[Point]) -> list[set[Point]]:
 
 
 def subcomplex() -> CheckResult:
-    """The relation restricted to random subsets stays irreflexive, antisymmetric and transitive, with dimensions.
+    """Check that the relation restricted to a subset stays irreflexive, antisymmetric and transitive.
 
-    It is the part of all pairs, found by a search, whose both cells are there.
+    It consists of all pairs, found by a search, whose cells are both in the subset, and dimensions increase along it.
     """
     checks = []
     everywhere = {(a, b) for a in SPACE for b in bounded(a)}
@@ -125,13 +125,15 @@ def subcomplex() -> CheckResult:
 
 
 def sides_of_cell() -> CheckResult:
-    """Sides by dimension: of a voxel 8, 12 and 6, of a corner none."""
+    """Count the sides of a voxel and of a corner by dimension."""
     counts = Counter(dimension(c) for c in sides((1, 1, 1)))
-    return holds_if(counts == {0: 8, 1: 12, 2: 6} and not sides((2, 2, 2)), "a voxel has 26 sides, a corner none")
+    return holds_if(
+        counts == {0: 8, 1: 12, 2: 6} and not sides((2, 2, 2)), "a voxel has 26 sides, and a corner has none"
+    )
 
 
 def open_and_closed() -> CheckResult:
-    """A subset is open just if the rest is closed; unions and intersections of open ones are open; some are neither."""
+    """Check that a subset is open if and only if the rest is closed, and that unions and intersections stay open."""
     checks, neither = [], 0
     for cells in _subsets():
         up, down = star(cells), closure(cells)
@@ -139,45 +141,50 @@ def open_and_closed() -> CheckResult:
         neither += not _open(cells) and not _closed(cells)
     for first, second in combinations(map(star, _subsets(4)), 2):
         checks += [_open(first | second), _open(first & second)]
-    return holds_if(all(checks) and neither > 0, f"{len(checks)} cases; {neither} of the subsets drawn are neither")
+    return holds_if(
+        all(checks) and neither > 0,
+        f"{len(checks)} cases hold; {neither} of the random subsets are neither open nor closed",
+    )
 
 
 def smallest_neighbourhood() -> CheckResult:
-    """A cell with all it bounds: it is open, and without any one of its other cells it is not."""
+    """Check that a cell and all that it bounds form an open subset, which is not open without any of these cells."""
     checks = []
     for cell in SPACE:
         near = star([cell])
         checks.append(_open(near) and all(not _open(near - {neighbour}) for neighbour in near if neighbour != cell))
     inner = star([(2, 2, 2)])
     return holds_if(
-        all(checks) and len(inner) == 27, f"{len(checks)} cells; of the middle corner it has {len(inner)} cells"
+        all(checks) and len(inner) == 27,
+        f"{len(checks)} cells; the neighbourhood of the middle corner has {len(inner)} cells",
     )
 
 
 def smallest_closed_subset() -> CheckResult:
-    """The closure of some voxels is closed, and without any cell but the voxels it is not, or misses one."""
+    """Check that the closure of some voxels is closed, and not closed without any cell except the voxels."""
     checks = []
     for voxels in (*combinations(sorted(VOXELS), 2), tuple(VOXELS)):
         whole = closure(voxels)
         checks.append(_closed(whole) and all(not _closed(whole - {c}) for c in whole if c not in voxels))
         corners = {c for c in whole if dimension(c) == 0}
         checks.append(all(corners >= {c for c in sides(v) if dimension(c) == 0} for v in voxels))
-    return holds_if(all(checks), f"{len(checks) // 2} sets of voxels, with all their corners")
+    return holds_if(all(checks), f"{len(checks) // 2} sets of voxels, whose closures contain all their corners")
 
 
 def greatest_open_subset() -> CheckResult:
-    """The interior is open, is what the closure of the rest leaves, and no cell more makes an open subset."""
+    """Check that the interior is open, that it is the complement of the closure of the rest, and that it is the
+    greatest."""
     checks = []
     for cells in (*_subsets(4), closure([(1, 1, 1)]), closure([(1, 1, 1), (3, 1, 1)])):
         inside = interior(cells)
         checks.append(_open(inside) and inside == SPACE - closure(SPACE - cells))
         checks.append(all(not star([cell]) <= cells for cell in cells - inside))
     two = {c for c in interior(closure([(1, 1, 1), (3, 1, 1)])) if dimension(c) == 3}
-    return holds_if(all(checks) and two == {(1, 1, 1), (3, 1, 1)}, f"{len(checks) // 2} subsets")
+    return holds_if(all(checks) and two == {(1, 1, 1), (3, 1, 1)}, f"the interiors of {len(checks) // 2} subsets")
 
 
 def boundary() -> CheckResult:
-    """Closure of the faces that bound just one voxel: of one voxel its 26 sides, of two neighbours not their face."""
+    """Check the boundary, the closure of the faces that bound exactly one voxel, for one and for two voxels."""
 
     def border(voxels: Collection[Point]) -> Cells:
         return closure(c for c in SPACE if dimension(c) == 2 and sum(c in sides(v) for v in voxels) == 1)
@@ -193,11 +200,14 @@ def boundary() -> CheckResult:
     passed &= corner_neighbours == sides((1, 1, 1)) | sides((3, 3, 3)) and all(
         map(_closed, (single_voxel, face_neighbours, corner_neighbours))
     )
-    return holds_if(passed, "one voxel, two with a face in common, two with a corner in common")
+    return holds_if(passed, "one voxel, two voxels with a common face, and two voxels with a common corner")
 
 
 def manifold(kind: str = "") -> CheckResult:
-    """Around each vertex of a hull's surface edges and faces are in a ring, at the rim of a ``patch`` in a row."""
+    """Check that the edges and faces around each vertex of a hull form a ring.
+
+    Around a vertex at the rim of a ``patch`` they form a row.
+    """
     checks, rows = [], 0
     for _, judge in sampled_hulls():
         rings = [facet.polygon for facet in judge.facets][1 if kind else 0 :]
@@ -211,7 +221,8 @@ def manifold(kind: str = "") -> CheckResult:
             checks.append((row if kind and vertex in rim else closed) and bool(faces))
     message = f"{len(checks)} vertices"
     return holds_if(
-        all(checks) and bool(kind) == (rows > 0), f"{message}, {rows} at the rim of a patch" if kind else message
+        all(checks) and bool(kind) == (rows > 0),
+        f"{message}, {rows} of them at the rim of a patch" if kind else message,
     )
 
 
@@ -221,9 +232,9 @@ def _beside(ring: tuple[int, ...], vertex: int) -> tuple[int, int]:
 
 
 def connected(kind: str = "") -> CheckResult:
-    """The least relation with the recursion of the definition is that of steps between incident cells.
+    """Check that the smallest relation with the recursion of the definition is that of steps between incident cells.
 
-    ``region``: a star is open and connected, two stars of cells far from each other are open and are not.
+    ``region``: a star is open and connected, and two distant stars are open and not connected.
     """
     if kind:
         one_star, two_stars = star([(2, 2, 2)]), star([(1, 1, 1)]) | star([(3, 3, 3)])
@@ -233,7 +244,7 @@ def connected(kind: str = "") -> CheckResult:
             and _open(two_stars)
             and len(_components(two_stars)) == 2
         )
-        return holds_if(passed, "the neighbourhood of a corner is a region, two voxels without their sides are not")
+        return holds_if(passed, "the neighbourhood of a corner is a region, and two voxels without their sides are not")
     good_ones = []
     for cells in (frozenset(sorted(s)[:14]) for s in _subsets(3)):
         related = {(a, b) for a in cells for b in cells if _incident(a, b)}
@@ -241,11 +252,11 @@ def connected(kind: str = "") -> CheckResult:
             related |= more
         parts = _components(cells)
         good_ones.append(related == {(a, b) for part in parts for a in part for b in part})
-    return holds_if(all(good_ones), f"{len(good_ones)} subsets: the same parts")
+    return holds_if(all(good_ones), f"{len(good_ones)} subsets have the same components")
 
 
 def solid() -> CheckResult:
-    """Interiors of closed sets of voxels are solid; the block without a corner in its middle is a region and is not."""
+    """Check that interiors of closed sets of voxels are solid, and that a block without its middle corner is not."""
 
     def is_solid(region: Cells) -> bool:
         outside = VOXELS - region
@@ -256,11 +267,12 @@ def solid() -> CheckResult:
     ]
     holed = SPACE - closure([(2, 2, 2)])
     checks += [_open(holed), len(_components(holed)) == 1, not is_solid(holed)]
-    return holds_if(all(checks), "three solid regions, and one that is not")
+    return holds_if(all(checks), "three regions are solid and one is not")
 
 
 def half_space() -> CheckResult:
-    """Voxels by an inequality, with the cells between them: an open, connected and solid subset."""
+    """Check that voxels that satisfy an inequality form, with the cells between them, an open, connected and solid
+    subset."""
     checks = []
     for a, b, c, d in ((1, 0, 0, 2), (1, 1, 0, 4), (1, 2, 3, 10), (1, 1, 1, 7)):
         voxels = {v for v in VOXELS if a * v[0] + b * v[1] + c * v[2] <= d}
@@ -272,7 +284,7 @@ def half_space() -> CheckResult:
 
 
 def topological_line() -> CheckResult:
-    """Cells numbered 0 to 2n, even ones bounding odd ones: all but the two ends are incident to two others."""
+    """Check a line of cells 0 to 2n, in which even cells bound odd ones: all but the ends have two incident cells."""
     line = range(2 * SIDE + 1)
     near = {x: [y for y in line if abs(x - y) == 1] for x in line}
     product_pairs = {
@@ -282,26 +294,28 @@ def topological_line() -> CheckResult:
     passed &= all(near[x] == [x - 1, x + 1] for x in line[1:-1])
     passed &= product_pairs == {(a, b) for b in SPACE for a in sides(b) & SPACE}
     return holds_if(
-        passed, f"a line of {len(line)} cells; the product of three has {len(product_pairs)} bounding pairs"
+        passed, f"a line has {len(line)} cells; the product of three lines has {len(product_pairs)} bounding pairs"
     )
 
 
 def _in_line(x: int, y: int) -> bool:
-    """Whether a cell of a line bounds another or is it."""
+    """Return True if a cell of a line bounds another or is the same."""
     return x == y or (y % 2 == 1 and abs(x - y) == 1)
 
 
 def raster(kind: str) -> CheckResult:
-    """The topological raster: ``access`` one place a cell; ``incident`` neighbours by coordinates against a search.
+    """Check one statement about rasters.
 
-    The standard raster: ``shared`` by the eight cells of a voxel that are not farther from the origin than it.
+    ``access``: the topological raster has one element for each cell. ``incident``: neighbours by coordinates are those
+    found by a search. ``shared``: in the standard raster eight cells share a voxel, those that are not farther from the
+    origin.
     """
     if kind == "access":
         array = np.zeros((2 * SIDE + 1,) * 3, dtype=np.int64)
         for number, cell in enumerate(sorted(SPACE), 1):
             array[cell] = number
         return holds_if(
-            len({*array.ravel().tolist()}) == array.size == len(SPACE), f"{array.size} places for {len(SPACE)} cells"
+            len({*array.ravel().tolist()}) == array.size == len(SPACE), f"{array.size} elements for {len(SPACE)} cells"
         )
     if kind == "incident":
         checks = []
@@ -310,18 +324,20 @@ def raster(kind: str) -> CheckResult:
             incident = {c for c in near if all(_in_line(x, y) for x, y in zip(c, cell, strict=True))}
             incident |= {c for c in near if all(_in_line(y, x) for x, y in zip(c, cell, strict=True))}
             checks.append(incident == {c for c in SPACE if _incident(c, cell)})
-        return holds_if(all(checks), f"{len(checks)} cells: those found by coordinates are those of a search")
+        return holds_if(
+            all(checks), f"for {len(checks)} cells the incident cells by coordinates are those found by a search"
+        )
     held: dict[Point, list[int]] = {}
     for cell in SPACE:
         farthest = max(star([cell]) & VOXELS, default=None, key=sum)
         if farthest and all(f >= c for f, c in zip(farthest, cell, strict=True)):
             held.setdefault(farthest, []).append(dimension(cell))
     eight = {tuple(sorted(of)) for of in held.values()} == {(0, 1, 1, 1, 2, 2, 2, 3)} and len(held) == len(VOXELS)
-    return holds_if(eight, "eight cells of four dimensions have the coordinates of one voxel")
+    return holds_if(eight, "eight cells of four dimensions share the coordinates of one voxel")
 
 
 def cells_incident_to_voxels() -> CheckResult:
-    """Corners, edges and faces in the closure of some voxels: each is incident to one of them.
+    """Check that each corner, edge and face in the closure of some voxels is incident to one of them.
 
     The corners are those that the program finds.
     """
@@ -334,5 +350,8 @@ def cells_incident_to_voxels() -> CheckResult:
     passed &= all(any(max(abs(a - b) for a, b in zip(c, v, strict=True)) <= 1 for v in voxels) for c in whole)
     loose = whole | {(99, 98, 98)}
     bad = [c for c in loose if not any(max(abs(a - b) for a, b in zip(c, v, strict=True)) <= 1 for v in voxels)]
-    message = f"{counts[0]} corners, {counts[1]} edges and {counts[2]} faces; an edge put in alone is found loose"
+    message = (
+        f"{counts[0]} corners, {counts[1]} edges and {counts[2]} faces are incident to voxels; an added edge "
+        "is detected"
+    )
     return holds_if(passed and bad == [(99, 98, 98)], message)

@@ -1,4 +1,4 @@
-"""Claims of section 3 of Kovalevsky and Schulz: lemmas LZ, CH and BE and what their proofs say on the way."""
+"""Checks of section 3 of Kovalevsky and Schulz: lemmas LZ, CH and BE and the intermediate claims of their proofs."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from modern.papers.kovalevsky_schulz.cells import CellList
 
 
 def lemma_lz(kind: str = "") -> CheckResult:
-    """What planes through the middle cut off holds a vertex."""
+    """Check that each part of a hull cut off by a plane contains a vertex."""
     checks = []
     for points, judge in sampled_hulls():
         for a, b, c in ((1, 0, 0), (1, -2, 1), (0, 3, -1)):
@@ -26,59 +26,63 @@ def lemma_lz(kind: str = "") -> CheckResult:
                 checks.append(any(heights[k] >= cut for k in judge.vertices))
             most = [k for k, h in enumerate(heights) if h == max(heights)]
             checks.append(max(most, key=lambda k: points[k]) in judge.vertices)
-    return holds_if(all(checks), f"{len(checks)} cuts", conditional=not kind)
+    return holds_if(all(checks), f"{len(checks)} parts cut off by planes contain a vertex", conditional=not kind)
 
 
 def combination_of_three() -> CheckResult:
-    """(1, 1) within (0, 0), (3, 0), (0, 3): a combination of three, of no two."""
+    """Check that (1, 1) in the triangle (0, 0), (3, 0), (0, 3) is a combination of three points and not of two."""
     points: list[Point] = [(0, 0, 0), (3, 0, 0), (0, 3, 0), (1, 1, 0)]
     two = [1 for p, q in combinations(points[:3], 2) if not any(cross(minus(q, p), minus(points[3], p)))]
     passed = not two and 3 not in exact_hull(points).vertices
-    return holds_if(passed, "(1, 1) of that triangle", conditional=True)
+    return holds_if(
+        passed,
+        "(1, 1) in the triangle (0, 0), (3, 0), (0, 3) is a combination of three points and not of two",
+        conditional=True,
+    )
 
 
 def lemma_ch() -> CheckResult:
-    """A polyhedron on corners that holds all of them holds all voxels."""
+    """Check that a polyhedron with corners among the local corners that contains all of these contains all voxels."""
     volume = random_solid(3)
     corners = [*map(tuple, local_corners(volume, CENTRES).tolist())]
     judge = exact_hull(corners)
     checks = [
         max(plane_value(f.plane, p) for f in judge.facets) <= 0 for p in map(tuple, volume.coordinates().tolist())
     ]
-    return holds_if(all(checks), f"{len(checks)} voxels")
+    return holds_if(all(checks), f"{len(checks)} voxels are in the hull of the local corners")
 
 
 def hull_without_a_vertex() -> CheckResult:
-    """Each vertex left out is outside of the hull of the others."""
+    """Check that a vertex is outside the hull of the other vertices."""
     checks = []
     for points, judge in sampled_hulls():
         for k in judge.vertices[:4]:
             rest = exact_hull([points[i] for i in judge.vertices if i != k])
             checks.append(rest.dimension < 3 or max(plane_value(f.plane, points[k]) for f in rest.facets) > 0)
-    return holds_if(all(checks), f"{len(checks)} vertices")
+    return holds_if(all(checks), f"{len(checks)} vertices are outside the hull of the others")
 
 
 def smaller_polyhedron(kind: str = "") -> CheckResult:
-    """The counterexample: a tetrahedron, and one within it with its apex moved down an edge.
+    """Check the counterexample: a tetrahedron that contains another one, whose apex is moved down an edge.
 
-    No vertex of the smaller one is in the interior of the larger, as the proof has it; and with ``moved``, one of
-    them is neither a vertex of the larger nor in its interior, so that no moves of vertices into it end there.
+    No vertex of the smaller one is in the interior of the larger, contrary to the proof. ``moved``: one of them is
+    neither a vertex of the larger one nor in its interior, so that vertices moved into the interior never give it.
     """
     *corners, lower = counterexample_points("shortened.csv")
     larger, smaller = exact_hull(corners), exact_hull([*corners[:-1], lower])
     within = [max(plane_value(f.plane, p) for f in larger.facets) for p in (*corners[:-1], lower)]
     wrong = smaller.dimension == 3 and smaller.vertices == (0, 1, 2, 3) and max(within) == min(within) == 0
-    message = f"{lower} is a vertex of the smaller one, on the boundary of the larger"
+    message = f"{lower} is a vertex of the smaller tetrahedron and on the boundary of the larger"
     if kind:
-        return holds_if(not (wrong and lower not in corners), f"{message} and none of its vertices")
+        return holds_if(not (wrong and lower not in corners), f"{message}, but not one of its vertices")
     cube = [*product((0, 1), repeat=3)]
     four = [p for p in cube if sum(p) % 2 == 0]
     wrong &= exact_hull(four).dimension == 3
-    return holds_if(not wrong, f"{message}; and so are all of four alternate corners of a cube")
+    return holds_if(not wrong, f"{message}, like all of four alternate corners of a cube")
 
 
 def third_condition() -> CheckResult:
-    """Vertices of the polyhedron that is made are local corners."""
+    """Check that the vertices of the constructed polyhedron are local corners."""
     volume = random_solid(2)
     corners = local_corners(volume, CENTRES)
     cells = convex_polyhedron(corners)
@@ -86,23 +90,24 @@ def third_condition() -> CheckResult:
     hull_vertices = {v.point for v in cells.vertices}
     return holds_if(
         hull_vertices <= {*map(tuple, corners.tolist())},
-        f"{len(hull_vertices)} vertices of {len(corners)} local corners",
+        f"all {len(hull_vertices)} vertices are among {len(corners)} local corners",
     )
 
 
 def complex_of_polyhedron() -> CheckResult:
-    """Vertices, edges, faces and body of a hull: bounding is a partial order, and dimensions rise with it."""
+    """Check that bounding is a partial order of the vertices, edges, faces and body of a hull, along which dimensions
+    rise."""
     _, judge = sampled_hulls()[0]
     cells = [(0, frozenset([k])) for k in judge.vertices] + [(1, frozenset(e)) for e in judge.edges()]
     cells += [(2, frozenset(f.polygon)) for f in judge.facets] + [(3, frozenset(judge.vertices))]
     pairs = {(a, b) for a in cells for b in cells if a[1] < b[1]}
     passed = all(a[0] < b[0] for a, b in pairs) and not any((b, a) in pairs for a, b in pairs)
     passed &= all((a, c) in pairs for a, b in pairs for c in cells if (b, c) in pairs)
-    return holds_if(passed, f"{len(cells)} cells, {len(pairs)} pairs")
+    return holds_if(passed, f"{len(cells)} cells have {len(pairs)} bounding pairs")
 
 
 def maximum_of_combinations() -> CheckResult:
-    """Means of a point with the largest value and one with less have less, those of two with the largest have it."""
+    """Check that a midpoint has the largest value if and only if both of its ends have it."""
     checks = []
     for points, _ in sampled_hulls():
         for direction in ((1, 0, 0), (1, -2, 1), (0, 3, -1)):
@@ -111,11 +116,15 @@ def maximum_of_combinations() -> CheckResult:
                 if most in (dot(direction, p), dot(direction, q)):
                     both_highest = dot(direction, p) == dot(direction, q)
                     checks.append((dot(direction, plus(p, q)) == 2 * most) == both_highest)
-    return holds_if(all(checks), f"{len(checks)} combinations")
+    return holds_if(all(checks), f"{len(checks)} midpoints agree")
 
 
 def _horizons() -> Iterator[tuple[Point, Plane, Plane, Plane, list[Point], tuple[Point, Point]]]:
-    """New point, planes of a visible and an invisible face, plane of the point and their edge, vertices, the edge."""
+    """Yield the configurations at the horizon of sampled hulls for points outside them.
+
+    Each has the new point, the planes of a visible and an invisible face, the plane through the point and their common
+    edge, the vertices, and the edge.
+    """
     for points, judge in sampled_hulls():
         for new in ((9, 1, 0), (-8, 3, 7)):
             for edge in judge.edges():
@@ -129,7 +138,11 @@ def _horizons() -> Iterator[tuple[Point, Plane, Plane, Plane, list[Point], tuple
 
 
 def lemma_be(kind: str = "") -> CheckResult:
-    """The plane supports; its normal is a combination with positive coefficients, of a coplanar face with a = 0."""
+    """Check that the new plane supports and, with ``kind``, that its normal is a positive combination of the two
+    normals.
+
+    For a coplanar face a is 0.
+    """
     checks = []
     for _, visible, hidden, plane, vertices, _ in _horizons():
         values = [plane_value(plane, p) for p in vertices]
@@ -143,11 +156,11 @@ def lemma_be(kind: str = "") -> CheckResult:
         new, apex = (4, -1, 0), (0, 0, 2)
         coplanar = plane_through((0, 0, 0), (2, 0, 0), new)
         checks.append(_coefficients(plane_through((0, 0, 0), (2, 0, 0), apex)[:3], (0, 0, 1), coplanar[:3])[0] == 0)
-    return holds_if(all(checks) and checks, f"{len(checks)} edges", conditional=True)
+    return holds_if(all(checks) and checks, f"{len(checks)} conditions at edges hold", conditional=True)
 
 
 def closed_boundary() -> CheckResult:
-    """Edges around the visible faces bound one visible and one invisible face, by the vertices of the edges."""
+    """Check that the edges that bound one visible and one invisible face form closed boundaries."""
     checks = []
     for _, judge in sampled_hulls():
         for new in ((9, 1, 0), (-8, 3, 7)):
@@ -155,14 +168,14 @@ def closed_boundary() -> CheckResult:
             rim = [e for e in judge.edges() if sum({*e} <= {*f.polygon} for f in visible) == 1]
             ends = Counter(end for edge in rim for end in edge)
             checks.append(bool(rim) and {*ends.values()} == {2})
-    return holds_if(all(checks), f"{len(checks)} points outside of a hull")
+    return holds_if(all(checks), f"the boundary is closed for {len(checks)} points outside a hull")
 
 
 def section_angles() -> CheckResult:
-    """The angles of Fig. 9 with Q at the foot of P on the edge's line, and with Q at the edge's end.
+    """Check the angles of Fig. 9 with Q at the foot of the perpendicular from P on the edge, and with Q at an end.
 
-    Of the angles only squares of cosines and their signs are used: beta = 90 - alpha or alpha - 90 if the squares of
-    the two cosines add up to 1.
+    Only squares of cosines are compared: beta is 90 - alpha or alpha - 90 if the squares of the two cosines add up to
+    1.
     """
     right: list[bool] = []
     elsewhere: list[bool] = []
@@ -178,21 +191,22 @@ def section_angles() -> CheckResult:
                 sums.append(_cosine(normal, line) + _cosine(normal, outward) == 1)
     passed = all(right) and right and not all(elsewhere)
     message = (
-        f"{sum(right)} of {len(right)} angles with Q at the foot of P, {sum(elsewhere)} with Q at an end of the edge"
+        f"{sum(right)} of {len(right)} angles agree with Q at the foot of the perpendicular, and "
+        f"{sum(elsewhere)} with Q at an end of the edge"
     )
     return holds_if(passed, message, conditional=True)
 
 
 def _cosine(u: Sequence[int | Fraction], v: Sequence[int | Fraction]) -> Fraction:
-    """The square of the cosine of an angle."""
+    """Return the square of the cosine of an angle."""
     uv, uu, vv = (sum(a * b for a, b in zip(p, q, strict=True)) for p, q in ((u, v), (u, u), (v, v)))
     return Fraction(uv * uv) / (Fraction(uu) * vv)
 
 
 def coefficients_by_cosines() -> CheckResult:
-    """The counterexample: a tetrahedron, of which a point sees one face, and its edge with the slanted one.
+    """Check the counterexample: an edge of a tetrahedron between the one face that a point sees and a slanted face.
 
-    a : b of the unit normals is sin(beta_n) : sin(beta_v); compared are the squares.
+    For unit normals a : b is sin(beta_n) : sin(beta_v); the squares are compared.
     """
     *_, apex, new = points = counterexample_points("cosines.csv")
     p, q = points[1], points[2]
@@ -213,25 +227,25 @@ def coefficients_by_cosines() -> CheckResult:
 
 
 def _coefficients(u: Point, v: Point, w: Point) -> tuple[Fraction, Fraction]:
-    """a and b of w = a u + b v."""
+    """Return a and b of w = a u + b v."""
     uu, uv, vv, uw, vw = dot(u, u), dot(u, v), dot(v, v), dot(u, w), dot(v, w)
     determinant = uu * vv - uv * uv
     return Fraction(uw * vv - vw * uv, determinant), Fraction(vw * uu - uw * uv, determinant)
 
 
 def hulls_of_more_points() -> CheckResult:
-    """Vertices of a hull lie in that of more points."""
+    """Check that the vertices of a hull lie in the hull of more points."""
     checks = []
     for points, _ in sampled_hulls():
         for n in range(5, len(points)):
             few, more = exact_hull(points[:n]), exact_hull(points[: n + 1])
             if few.dimension == more.dimension == 3:
                 checks.append(all(plane_value(f.plane, points[k]) <= 0 for f in more.facets for k in few.vertices))
-    return holds_if(bool(checks) and all(checks), f"{len(checks)} steps")
+    return holds_if(bool(checks) and all(checks), f"{len(checks)} hulls lie in the next one")
 
 
 def moved_vertex() -> CheckResult:
-    """Each vertex of a hull moved into its interior, to the mean of all vertices: it is outside of what is left."""
+    """Check that a vertex is outside the hull after it is moved to the mean of all vertices."""
     checks = []
     for points, judge in sampled_hulls():
         count = len(judge.vertices)
@@ -241,26 +255,26 @@ def moved_vertex() -> CheckResult:
             moved = exact_hull([*rest, (x, y, z)])
             old = tuple(count * moved.scale * c for c in points[k])
             checks.append(max(plane_value(f.plane, old) for f in moved.facets) > 0)  # type: ignore[arg-type]
-    return holds_if(all(checks), f"{len(checks)} vertices")
+    return holds_if(all(checks), f"{len(checks)} vertices are lost when they are moved")
 
 
 def inner_side() -> CheckResult:
-    """From a point of the edge to any vertex: not along the two faces' normals, nor along that of the new plane."""
+    """Check that no vertex lies on the outer side of the two faces or of the new plane."""
     checks = []
     for _, visible, hidden, plane, vertices, edge in _horizons():
         ways = [minus(p, edge[0]) for p in vertices]
         sign = -1 if max(plane_value(plane, p) for p in vertices) > 0 else 1
         for normal in (visible[:3], hidden[:3], tuple(sign * n for n in plane[:3])):
             checks.append(max(dot(normal, way) for way in ways) == 0)  # type: ignore[arg-type]
-    return holds_if(bool(checks) and all(checks), f"{len(checks)} normals")
+    return holds_if(bool(checks) and all(checks), f"{len(checks)} normals point away from all vertices")
 
 
 def angles_at_edge() -> CheckResult:
-    """Products of the two normals with the way to the new point, from three points of each edge."""
+    """Check the signs of the products of both normals with the direction to the new point, from points of each edge."""
     checks = []
     for new, visible, hidden, _, _, (start, end) in _horizons():
         for share in (0, 1, 2):
             way = [2 * p - (2 - share) * a - share * b for p, a, b in zip(new, start, end, strict=True)]
             of_visible, of_hidden = (sum(n * w for n, w in zip(p[:3], way, strict=True)) for p in (visible, hidden))
             checks.append(of_visible > 0 > of_hidden)
-    return holds_if(bool(checks) and all(checks), f"{len(checks)} points of edges")
+    return holds_if(bool(checks) and all(checks), f"{len(checks)} points of edges have an acute and an obtuse angle")

@@ -1,4 +1,4 @@
-"""Claims of Kovalevsky and Schulz: definitions, local corners, Theorem PL, coplanar faces, sizes, symmetry."""
+"""Checks of Kovalevsky and Schulz: definitions, local corners, Theorem PL, coplanar faces, sizes and symmetry."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from modern.papers.kovalevsky_schulz.tables import cell_list_size, triangulation
 
 GRID = tuple(product(range(3), repeat=3))
 DIAMETERS = (8, 10, 12, 14, 16, 18, 20, 22)
-"""Of the half-balls of Table 5."""
+"""The diameters of the half-balls of Table 5."""
 PYRAMID: tuple[Point, ...] = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 2))
 
 
@@ -39,9 +39,10 @@ def sampled_hulls() -> tuple[tuple[tuple[Point, ...], ExactHull], ...]:
 
 
 def algorithm_against_judge(kind: str = "") -> CheckResult:
-    """Both counts of coplanar faces, on grids with many, against the judge."""
+    """Compare both treatments of coplanar faces with the exact hull, on a grid with many coplanar points and on
+    samples."""
     checks = _right_hulls()
-    return holds_if(all(checks), f"{len(checks) // 2} hulls as the exact judge", conditional=kind)
+    return holds_if(all(checks), f"{len(checks) // 2} hulls agree with the exact hull", conditional=kind)
 
 
 @cache
@@ -59,31 +60,31 @@ def _right_hulls() -> tuple[bool, ...]:
 
 
 def vertices_among_local_corners() -> CheckResult:
-    """Vertices of the hull of some voxels are among their local corners."""
+    """Check that the vertices of the hull of voxels are among their local corners."""
     checks = []
     for seed in (1, 2):
         volume = random_solid(seed)
         corners = {*map(tuple, local_corners(volume, CENTRES).tolist())}
         points = [*map(tuple, volume.coordinates().tolist())]
         checks.append({points[k] for k in exact_hull(points).vertices} <= corners and len(corners) < len(points))
-    return holds_if(all(checks), f"{len(checks)} solids")
+    return holds_if(all(checks), f"the vertices of {len(checks)} solids are local corners")
 
 
 def vertices_within_planes() -> CheckResult:
-    """All vertices and all planes of the judge's hulls."""
+    """Check that all vertices satisfy all planes of the exact hulls."""
     checks = [
         plane_value(f.plane, points[k]) <= 0
         for points, judge in sampled_hulls()
         for f in judge.facets
         for k in judge.vertices
     ]
-    return holds_if(all(checks), f"{len(checks)} values")
+    return holds_if(all(checks), f"{len(checks)} values are not positive")
 
 
 def combinations_not_vertices(kind: str = "") -> CheckResult:
-    """Midpoints of two points of a hull are no vertices when they are added; without a vertex it is not in the hull."""
+    """Check that midpoints of two points are not vertices, and that a vertex is outside the hull of the others."""
     checks = _combined()
-    return holds_if(all(checks), f"{len(checks)} points", conditional=kind)
+    return holds_if(all(checks), f"{len(checks)} points agree", conditional=kind)
 
 
 @cache
@@ -100,27 +101,27 @@ def _combined() -> tuple[bool, ...]:
 
 
 def local_corner_inside_hull() -> CheckResult:
-    """A voxel of the counterexample: none of its 13 pairs is there, yet it lies within three of its neighbours."""
+    """Check a voxel that has both voxels of none of its 13 opposite pairs and yet lies within three neighbours."""
     points = counterexample_points("tripod.csv")
     corners = {*map(tuple, local_corners(listed(points), CENTRES).tolist())}
     middle = points[-1]
     near = all(max(abs(a - b) for a, b in zip(p, middle, strict=True)) == 1 for p in points[:-1])
     wrong = middle in corners and near and len(points) - 1 not in exact_hull(points).vertices
-    return fails_if(wrong, f"{middle} is a local corner and a combination of its {len(points) - 1} neighbours")
+    return fails_if(wrong, f"{middle} is a local corner and a convex combination of its {len(points) - 1} neighbours")
 
 
 def choice_of_q() -> CheckResult:
-    """The product of the normal with P - Q for all corners Q of each face."""
+    """Check that the product of the normal with P - Q is the same for all corners Q of a face."""
     checks = []
     for points, judge in sampled_hulls():
         for facet in judge.facets:
             products = {dot(facet.plane[:3], minus(points[0], points[k])) for k in facet.polygon}
             checks.append(len(products) == 1)
-    return holds_if(all(checks), f"{len(checks)} faces")
+    return holds_if(all(checks), f"{len(checks)} faces give one product each")
 
 
 def points_that_see_no_face() -> CheckResult:
-    """Points of a grid: those that see no face of a hull are in it."""
+    """Check that grid points that see no face of a hull are in the hull."""
     points, judge = sampled_hulls()[0]
     checks, held = [], 0
     for point in ((x, y, z) for x, y, z in product((-4, -1, 0, 1, 4), repeat=3)):
@@ -128,51 +129,53 @@ def points_that_see_no_face() -> CheckResult:
         inside = point in points or len(points) not in exact_hull([*points, point]).vertices
         checks.append(unseen == inside)
         held += inside
-    return holds_if(all(checks) and held > 0, f"{len(checks)} points, {held} of them in the hull")
+    return holds_if(all(checks) and held > 0, f"{len(checks)} points agree, {held} of them in the hull")
 
 
 def cube_visible_from_corner() -> CheckResult:
-    """A cube and a point beyond one of its corners."""
+    """Check what is removed from a cube when a point beyond one of its corners is added."""
     cube = [*product((0, 2), repeat=3)]
     judge, after = exact_hull(cube), exact_hull([*cube, (3, 3, 3)])
     visible = [f for f in judge.facets if plane_value(f.plane, (3, 3, 3)) > 0]
     edges = [e for e in judge.edges() if sum({*e} <= {*f.polygon} for f in visible) == 2]
     gone = set(judge.vertices) - set(after.vertices)
-    return holds_if((len(visible), len(edges), len(gone)) == (3, 3, 1), "three faces, three edges and one vertex go")
+    return holds_if(
+        (len(visible), len(edges), len(gone)) == (3, 3, 1), "three faces, three edges and one vertex are removed"
+    )
 
 
 def coplanar_triangles() -> CheckResult:
-    """Counting coplanar faces as visible makes more triangles than the hull has faces."""
+    """Check that counting coplanar faces as visible makes more triangles than the hull has faces."""
     cells = convex_polyhedron(GRID, "visible")
     assert isinstance(cells, CellList)
-    return holds_if(len(cells.faces) > 6, f"{len(cells.faces)} triangles of a grid's cube, which has 6 faces")
+    return holds_if(len(cells.faces) > 6, f"the cube of a grid gets {len(cells.faces)} triangles, and has 6 faces")
 
 
 def extended_faces(kind: str = "") -> CheckResult:
-    """Faces extended to a coplanar point: the judge's faces, and fewer new ones than by triangles."""
+    """Check that extending faces to coplanar points gives the exact faces, and makes fewer new ones than triangles."""
     if kind:
         hull = coplanar_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (2, 0, 0)], EXTENDED)
         return holds_if(
-            hull.extended == 2, f"{hull.extended} faces are extended, {hull.straightened} edges come into line"
+            hull.extended == 2, f"{hull.extended} faces are extended, and {hull.straightened} edges become collinear"
         )
     extended, quadrangles_hull = coplanar_hull(GRID, EXTENDED), coplanar_hull(GRID, QUADRANGLES)
     right = list(extended.faces) == sorted(f.polygon for f in exact_hull(GRID).facets)
     return holds_if(
         right and extended.made < quadrangles_hull.made,
-        f"{extended.made} new faces of a grid's cube, {quadrangles_hull.made} as in Fig. 7",
+        f"the cube of a grid needs {extended.made} new faces, and {quadrangles_hull.made} by the method of Fig. 7",
     )
 
 
 def quadrangles() -> CheckResult:
-    """A point in the plane of a pyramid's square that sees two of its sides."""
+    """Check a point in the plane of a pyramid's square that sees two of its sides."""
     hull = coplanar_hull([*PYRAMID, (3, 3, 0)], QUADRANGLES)
     return holds_if(
-        hull.larger == 1 and hull.merged > 0, f"{hull.larger} new face with four corners, merged with the square"
+        hull.larger == 1 and hull.merged > 0, f"{hull.larger} new face with four corners is merged with the square"
     )
 
 
 def formula_5() -> CheckResult:
-    """Triangles of hulls, 2 V - 4 of them: three integers a vertex and three a triangle are 6 more than (5) says."""
+    """Check that three integers for each vertex and each of 2 V - 4 triangles are 6 more than formula (5)."""
     checks = []
     for points, _ in sampled_hulls():
         cells = convex_polyhedron(points, "visible")
@@ -181,20 +184,21 @@ def formula_5() -> CheckResult:
         checks.append(triangles == 2 * corners - 4)
         checks.append(3 * corners + 3 * triangles == triangulation_size(triangles) + 6)
     return holds_if(
-        all(checks), f"{len(checks) // 2} hulls of triangles: 6 integers more than by (5)", conditional=True
+        all(checks), f"{len(checks) // 2} hulls of triangles need 6 integers more than by (5)", conditional=True
     )
 
 
 def integers_per_face() -> CheckResult:
-    """The last column of Table 5: rounded at diameter 16, so that 1070 / 142 at 18 is 7.54, not 7.53."""
+    """Check the last column of Table 5: it is rounded at diameter 16, and so 1070 / 142 at 18 would be 7.54 and not
+    7.53."""
     sixteen, eighteen = (Fraction(100 * integers, faces) for _, _, faces, integers in _table_5()[4:6])
     passed = (int(sixteen), round(sixteen)) == (855, 856) and (int(eighteen), round(eighteen)) == (753, 754)
-    return holds_if(passed, "1010 / 118 is printed rounded, 8.56; 1070 / 142 is 7.535", conditional=True)
+    return holds_if(passed, "1010 / 118 is printed rounded as 8.56; 1070 / 142 is 7.535", conditional=True)
 
 
 @cache
 def _table_5() -> tuple[tuple[int, int, int, int], ...]:
-    """Of the half-balls of DIAMETERS: triangles and integers as printed, faces and integers of the hull as computed."""
+    """Return the rows of Table 5: printed triangles and integers, and computed faces and integers of the hull."""
     paper = next(paper for paper in PAPERS if paper.name == "kovalevsky-schulz")
     printed, made = printed_lines(paper), produced_by(paper)
     rows = [(printed[name][0].split(), made[name][0].split()) for name in (f"table5-{d}" for d in DIAMETERS)]
@@ -202,9 +206,10 @@ def _table_5() -> tuple[tuple[int, int, int, int], ...]:
 
 
 def memory_requirements() -> CheckResult:
-    """Table 5, all half-balls: integers of the cell list against Marching Cubes' and those of triangles.
+    """Compare the integers of the cell list with those of Marching Cubes and of triangles, for all half-balls of Table
+    5.
 
-    By (6) the hull has as many vertices as are left of the integers; of V vertices the hull has 2 V - 4 triangles.
+    Formula (6) gives the number V of vertices from the number of integers; a hull has 2 V - 4 triangles.
     """
     fewer, more = [], {}
     for diameter, (_, triangulated, faces, cells) in zip(DIAMETERS, _table_5(), strict=True):
@@ -213,28 +218,31 @@ def memory_requirements() -> CheckResult:
         if cells > own:
             more[diameter] = f"{cells} against {own} at {diameter}"
     fewer.append(cell_list_size(60, 63) < triangulation_size(3560))
-    message = f"fewer than Marching Cubes in {sum(fewer)} of {len(fewer)}; more than triangles of the hull: "
+    message = (
+        f"the cell list is smaller than that of Marching Cubes in {sum(fewer)} of {len(fewer)} cases, but "
+        "larger than the triangles of the hull: "
+    )
     return holds_if(all(fewer) and {*more} == {10, 18}, message + ", ".join(more.values()), conditional=True)
 
 
 def integers_of_triangles() -> CheckResult:
-    """Table 5: integers to save by (5), 4.5 for each of the printed triangles."""
+    """Check that Table 5 prints the integers of formula (5), 4.5 for each of the printed triangles."""
     checks = [triangulation_size(triangles) == integers for triangles, integers, _, _ in _table_5()]
-    return holds_if(len(checks) == 8 and all(checks), f"{sum(checks)} of {len(checks)} rows")
+    return holds_if(len(checks) == 8 and all(checks), f"{sum(checks)} of {len(checks)} rows agree")
 
 
 def planar_faces() -> CheckResult:
-    """The corners of each face of a half-ball's cell list satisfy one equation; some vertex has over four edges."""
+    """Check that the corners of each face of a half-ball are coplanar and that some vertex has over four edges."""
     cells = _half_ball()
     checks = []
     for face, plane in zip(cells.faces, cells.planes(), strict=True):
         checks.append(all(plane_value(plane, cells.vertices[v - 1].point) == 0 for v in face.vertices))
     most = max(len(vertex.edges) for vertex in cells.vertices)
-    return holds_if(all(checks) and most > 4, f"{len(checks)} faces; a vertex with {most} edges")
+    return holds_if(all(checks) and most > 4, f"{len(checks)} faces are planar; one vertex has {most} edges")
 
 
 def halves_of_sorted_set() -> CheckResult:
-    """Points sorted by x and halved: apart if all x differ; with equal x the halves' hulls can meet."""
+    """Check that the halves of points sorted by x are apart if all x differ, and may meet otherwise."""
     apart = []
     for points, _ in sampled_hulls():
         distinct = sorted({p[0]: p for p in points}.values())
@@ -243,12 +251,12 @@ def halves_of_sorted_set() -> CheckResult:
     halves = ([(0, 0, 0), (0, 2, 0)], [(0, 1, 0), (1, 1, 0)])
     meet = sorted(p[0] for half in halves for p in half) == [p[0] for half in halves for p in half]
     meet &= 2 not in exact_hull([*halves[0], halves[1][0]]).vertices
-    message = "halves of distinct x are apart; (0, 1) lies between (0, 0) and (0, 2) of the other half"
+    message = "halves with distinct x are apart; (0, 1) lies between (0, 0) and (0, 2) of the other half"
     return holds_if(all(apart) and meet, message, conditional=True)
 
 
 def cells_removed() -> CheckResult:
-    """A hull and one point more: visible faces go, edges between two of them, vertices on them only; the rest stays."""
+    """Check what a new point removes: visible faces, edges between two of them, and vertices on these faces only."""
     checks = []
     for points, judge in sampled_hulls():
         for new in ((9, 1, 0), (-8, 3, 7)):
@@ -264,17 +272,17 @@ def cells_removed() -> CheckResult:
             remaining_edges = {e for e in judge.edges() if any({*e} <= h for h in hidden)}
             checks.append({e for e in after.edges() if len(points) not in e} == remaining_edges)
     return holds_if(
-        bool(checks) and all(checks), f"{len(checks) // 3} points outside of a hull, in the plane of no face"
+        bool(checks) and all(checks), f"{len(checks) // 3} points outside a hull and in the plane of no face"
     )
 
 
 def collinear_edges(treatment: Treatment = EXTENDED) -> CheckResult:
-    """A square and a point on the line of one of its sides: the side's end is no vertex of the larger face."""
+    """Check that the end of a side is no longer a vertex if a point is added on the line of the side."""
     square = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0), (1, 1, 5)]
     judge = exact_hull([*square, (8, 0, 0)])
     treated = coplanar_hull([*square, (8, 0, 0)], treatment)
     passed = judge.vertices == (0, 2, 3, 4, 5) and treated.straightened > 0
-    return holds_if(passed, f"{treated.straightened} edges come into line; (4, 0, 0) is no vertex afterwards")
+    return holds_if(passed, f"{treated.straightened} edges become collinear; (4, 0, 0) is no longer a vertex")
 
 
 @cache
@@ -289,9 +297,9 @@ def _straight(volume: Volume) -> CellList:
 
 
 def symmetry() -> CheckResult:
-    """Of three bodies, the turns and reflections out of 48 that carry the voxels onto themselves: so they do the faces.
+    """Check that rotations and reflections that map the voxels of a body to themselves map the faces to themselves.
 
-    A half-ball has eight, an L of three voxels four, one of four voxels two.
+    A half-ball has eight of them, an L of three voxels four, and an L of four voxels two.
     """
     short: list[Point] = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
     numbers, checks = [], []
@@ -309,22 +317,23 @@ def symmetry() -> CheckResult:
                 )
                 checks.append(turned == stays)
     return holds_if(
-        all(checks) and numbers == [8, 4, 2], f"{', '.join(map(str, numbers))} symmetries, all of them the hull's"
+        all(checks) and numbers == [8, 4, 2],
+        f"{', '.join(map(str, numbers))} symmetries of three bodies are symmetries of their hulls",
     )
 
 
 def _moved(points: list[Point], order: tuple[int, ...] = (0, 1, 2), signs: tuple[int, ...] = (1, 1, 1)) -> list[Point]:
-    """Points turned about the middle of their box, in halves of a unit."""
+    """Return points turned about the middle of their box, in half units."""
     middle = [min(axis) + max(axis) for axis in zip(*points, strict=True)]
     turned = ([2 * p[k] - middle[k] for k in range(3)] for p in points)
     return [(signs[0] * p[order[0]], signs[1] * p[order[1]], signs[2] * p[order[2]]) for p in turned]
 
 
 def symmetric_faces() -> CheckResult:
-    """Of the half-ball of diameter 10, faces that some turn or reflection carries into themselves."""
+    """Count the faces of the half-ball of diameter 10 that some rotation or reflection maps to themselves."""
     cells = _half_ball()
     symmetric = [_is_symmetric([cells.vertices[v - 1].point for v in face.vertices]) for face in cells.faces]
-    return holds_if(all(symmetric), f"{sum(symmetric)} of {len(symmetric)} faces are")
+    return holds_if(all(symmetric), f"{sum(symmetric)} of {len(symmetric)} faces are symmetric")
 
 
 def _is_symmetric(ring: list[Point]) -> bool:
@@ -337,14 +346,14 @@ def _is_symmetric(ring: list[Point]) -> bool:
 
 
 def bounds(a: Point, b: Point) -> bool:
-    """Whether a cell bounds another, by topological coordinates."""
+    """Return True if a cell bounds another, by topological coordinates."""
     return a != b and all(x == y or (y % 2 == 1 and abs(x - y) == 1) for x, y in zip(a, b, strict=True))
 
 
 def bounding_relation() -> CheckResult:
-    """Cells of a voxel by topological coordinates: bounding is antisymmetric and transitive, incidence is not.
+    """Check that bounding is antisymmetric and transitive for the cells of a voxel, and that incidence is not.
 
-    The dimension, the number of odd coordinates, is less in the bounding cell.
+    The dimension, the number of odd coordinates, is smaller in the bounding cell.
     """
     cells: list[Point] = [(x, y, z) for x in range(3) for y in range(3) for z in range(3)]
     pairs = {(a, b) for a in cells for b in cells if bounds(a, b)}
@@ -353,4 +362,4 @@ def bounding_relation() -> CheckResult:
     apart = (0, 0, 0), (0, 0, 2)
     loose = (apart[0], (0, 0, 1)) in pairs and (apart[1], (0, 0, 1)) in pairs and apart not in pairs
     rising = all(sum(x % 2 for x in a) < sum(x % 2 for x in b) for a, b in pairs)
-    return holds_if(partial and rising and loose, f"{len(pairs)} pairs of the 27 cells of a voxel")
+    return holds_if(partial and rising and loose, f"the 27 cells of a voxel have {len(pairs)} bounding pairs")

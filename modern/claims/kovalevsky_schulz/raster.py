@@ -1,4 +1,4 @@
-"""Claims of Kovalevsky and Schulz on rasters: voxels and their corners, which voxel names a corner, local corners."""
+"""Checks of Kovalevsky and Schulz on rasters: voxels, their corners, names of corners, and local corners."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ STEPS: tuple[Point, ...] = tuple((x, y, z) for x in (0, 1) for y in (0, 1) for z
 
 
 def _placed(volume: Volume, of: str) -> set[Point]:
-    """The places of a volume by the program's own array."""
+    """Return the positions of a volume in the program's own array."""
     array = places(volume, CENTRES if of == CENTRES else VERTICES)
     return {(x, y, z) for x, y, z in np.argwhere(array).tolist()}
 
 
 def corners_against_centres(kind: str = "") -> CheckResult:
-    """The two hulls of some voxels, in half units: that of the corners is that of the centres with a cube about each.
+    """Check that the hull of the corners is that of the centres with a cube about each, in half units.
 
-    ``first``: Int(M) has the voxels, of which there is one place each, Cl(M) their vertices besides.
+    ``first``: Int(M) contains the voxels, and Cl(M) their vertices as well.
     """
     checks, sizes = [], []
     for volume in (random_solid(1, 3), listed([(0, 0, 0), (1, 0, 0), (1, 1, 0)]), half_ball(8)):
@@ -47,7 +47,7 @@ def corners_against_centres(kind: str = "") -> CheckResult:
         most = [max(_value(outer.scale, plane.plane, middle) for plane in outer.facets) for middle in middles]
         checks.append(max(most) < 0)
         sizes.append(f"{len(middles)} within {len(corners)}")
-    return holds_if(all(checks), f"places: {', '.join(sizes)}")
+    return holds_if(all(checks), f"numbers of centres and corners: {', '.join(sizes)}")
 
 
 def _value(scale: int, plane: tuple[int, ...], point: Point) -> int:
@@ -55,22 +55,22 @@ def _value(scale: int, plane: tuple[int, ...], point: Point) -> int:
 
 
 def topological_raster(kind: str = "") -> CheckResult:
-    """Cells of a cube of n voxels a side: (2n + 1)^3; their dimension is the number of odd coordinates."""
+    """Count the (2n + 1)^3 cells of a cube of n voxels on each side, and check their dimensions."""
     if kind == "cells":
         counts = Counter(sum(c % 2 for c in cell) for cell in product(range(3), repeat=3))
-        return holds_if(counts == {0: 8, 1: 12, 2: 6, 3: 1}, "one voxel: 8 corners, 12 edges, 6 faces, 1 body")
+        return holds_if(counts == {0: 8, 1: 12, 2: 6, 3: 1}, "one voxel has 8 corners, 12 edges, 6 faces and 1 body")
     ratios = {n: Fraction(cells_of(n), n**3) for n in (1, 10, 100)}
     passed = all(ratio > 8 for ratio in ratios.values()) and ratios[100] < Fraction(82, 10)
     return holds_if(passed, ", ".join(f"n = {n}: {float(r):.2f} times" for n, r in ratios.items()), conditional=True)
 
 
 def cells_of(n: int) -> int:
-    """How many cells a cube of n voxels a side has, those on its border among them: 2 n + 1 on each axis."""
+    """Return the number of cells of a cube of n voxels on each side, including its border."""
     return len(range(2 * n + 1)) ** 3
 
 
 def corner_of_single_voxel() -> CheckResult:
-    """Corners of the counterexample's voxels that bound a single one and are no local corners by 6 neighbours."""
+    """Check corners of the counterexample that bound a single voxel but are not local corners by 6 neighbours."""
     volume = listed(counterexample_points("two_voxels.csv"))
     corners = {*map(tuple, local_corners(volume, VERTICES, 6).tolist())}
     array = np.pad(volume.array, 1)
@@ -80,14 +80,14 @@ def corner_of_single_voxel() -> CheckResult:
         if array[x : x + 2, y : y + 2, z : z + 2].sum() == 1
     }
     wrong = single - corners
-    return fails_if(wrong and corners <= single, f"{', '.join(map(str, sorted(wrong)))} bounds one voxel only")
+    return fails_if(wrong and corners <= single, f"{', '.join(map(str, sorted(wrong)))} bounds only one voxel")
 
 
 def farthest_voxel_of_corner(kind: str = "") -> CheckResult:
-    """Corners of the voxels of a raster, and of the voxels at each the one farthest from the origin.
+    """Check that the farthest voxel at a corner has the coordinates of the corner, so that corners have different
+    names.
 
-    The farthest has the coordinates of the corner, so that no two corners have the same; the exception is the border
-    of the space, where that is no voxel of the raster and another corner's voxel is taken.  ``figure``: in the plane.
+    At the border of the space there is no such voxel, and another corner's voxel is taken. ``figure``: in the plane.
     """
     flat, size = bool(kind), 3
     raster = {(x, y, z) for x in range(size) for y in range(size) for z in range(1 if flat else size)}
@@ -101,12 +101,13 @@ def farthest_voxel_of_corner(kind: str = "") -> CheckResult:
     passed = all(corner == voxel for corner, voxel in within.items()) and {*within.values()} == raster
     passed &= len(within) == len(raster) and {*border} <= raster and len(border) == (7 if flat else 37)
     return holds_if(
-        passed, f"{len(within)} corners, each by its voxel; {len(border)} in the border of the space share one"
+        passed,
+        f"{len(within)} corners have their own voxels; {len(border)} corners at the border of the space share one",
     )
 
 
 def additional_labels() -> CheckResult:
-    """Elements beside some voxels: just those become labelled that lie behind a voxel, as seen from the origin."""
+    """Check that exactly the elements behind a voxel, seen from the origin, become labelled in addition."""
     checks, labelled_count = [], 0
     for volume in (random_solid(2, 3), half_ball(8), listed([(0, 0, 0), (1, 0, 0), (1, 1, 0)])):
         voxels = _placed(volume, CENTRES)
@@ -121,25 +122,27 @@ def additional_labels() -> CheckResult:
 
 
 def edges_at_corner() -> CheckResult:
-    """1-cells at the 0-cells of a Cartesian complex: at most four in the plane, six in space."""
+    """Check that a 0-cell of a Cartesian complex has at most four 1-cells in the plane and six in space."""
     numbers = {}
     for dimensions in (2, 3):
         cells = [*product(range(5), repeat=dimensions)]
         corners = [c for c in cells if not any(x % 2 for x in c)]
         numbers[dimensions] = max(sum(ends_at(edge, corner) for edge in cells) for corner in corners)
-    return holds_if(numbers == {2: 4, 3: 6}, f"{numbers[2]} in the plane, {numbers[3]} in space", conditional=True)
+    return holds_if(
+        numbers == {2: 4, 3: 6}, f"{numbers[2]} edges in the plane and {numbers[3]} in space", conditional=True
+    )
 
 
 def ends_at(edge: tuple[int, ...], corner: tuple[int, ...]) -> bool:
-    """Whether a cell has one odd coordinate and is beside a 0-cell."""
+    """Return True if a cell has one odd coordinate and is next to a 0-cell."""
     return sum(x % 2 for x in edge) == 1 == sum(abs(a - b) for a, b in zip(edge, corner, strict=True))
 
 
 def corners_of_eight_voxels(kind: str) -> CheckResult:
-    """All ways in which the eight voxels at a corner can be there, and its six neighbours among their corners.
+    """Check the neighbours of a corner for all subsets of its eight voxels.
 
-    ``more``: of two voxels or more some pair of opposite neighbours is there; ``edge``: where an edge at the corner
-    is one of two in line there are two voxels; ``first``: of one voxel alone no pair is there.
+    ``more``: with two or more voxels some pair of opposite neighbours is present. ``edge``: if an edge at the corner is
+    one of two collinear ones, there are at least two voxels. ``first``: with a single voxel no such pair is present.
     """
     checks = []
     for there in product((False, True), repeat=8):
@@ -153,9 +156,9 @@ def corners_of_eight_voxels(kind: str) -> CheckResult:
             checks += [len(voxels) > 1] if any(opposite) else []
         else:
             checks += [not any(opposite)] if len(voxels) == 1 else []
-    return holds_if(all(checks), f"{len(checks)} of the 256 ways")
+    return holds_if(all(checks), f"{len(checks)} of the 256 subsets")
 
 
 def _neighbours(voxel: tuple[int, ...]) -> list[tuple[int, ...]]:
-    """A voxel's corners that are neighbours of the corner at which it stands: 0 or 1 on one axis, 2 on the others."""
+    """Return the neighbours of the corner among the corners of a voxel: 0 or 1 on one axis and 2 on the others."""
     return [tuple(voxel[k] if k == axis else 2 for k in range(3)) for axis in range(3)]

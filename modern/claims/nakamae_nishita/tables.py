@@ -1,4 +1,4 @@
-"""Claims of Nakamae and Nishita on two contours: correlations, formulas (1) to (3) and (5), the tables PL and LP."""
+"""Checks of Nakamae and Nishita on two contours: correlations, formulas (1) to (3) and (5), the tables PL and LP."""
 
 from __future__ import annotations
 
@@ -38,14 +38,14 @@ def lines_of(places: tuple[Place, ...]) -> list[tuple[int, int, int]]:
 
 
 def tables_of(v: tuple[Place, ...], w: tuple[Place, ...]) -> tuple[list[list[int]], list[list[int]]]:
-    """PL and LP by (2), rows for V' and columns for V, whether the contours overlap or not."""
+    """Return PL and LP by formula (2) with rows for V' and columns for V, for contours that may or may not overlap."""
     pl = [[sign(value(line, p)) for line in lines_of(v)] for p in flat(w)]
     lp = [[sign(value(line, p)) for p in flat(v)] for line in lines_of(w)]
     return pl, lp
 
 
 def _polygons() -> Iterator[tuple[Place, ...]]:
-    """Convex polygons, clockwise: the squares above and some at random."""
+    """Yield convex polygons, clockwise: the squares above and a few random ones."""
     yield from (SQUARE, WITHIN, ACROSS, BESIDE, AGAINST)
     random = Random(32)
     for _ in range(4):
@@ -66,18 +66,19 @@ def inside(p: Place, v: tuple[Place, ...]) -> bool:
 
 
 def _apart(v: tuple[Place, ...], w: tuple[Place, ...]) -> bool:
-    """Whether a side of one has the other beyond it, or on it."""
+    """Return True if the other polygon is beyond or on a side of one of them."""
     return any(all(value(line, p) <= 0 for p in flat(b)) for a, b in ((v, w), (w, v)) for line in lines_of(a))
 
 
 ROOF: tuple[Point, ...] = ((0, 0, 0), (4, 0, 0), (4, 0, 2), (2, 0, 3), (0, 0, 2), (2, 5, 1))
-"""A pyramid over an upright pentagon, which is seen edge-on along z."""
+"""A pyramid over an upright pentagon that is seen edge-on along z."""
 
 
 def convex_contour() -> CheckResult:
-    """Hulls seen aslant, and one along a face: edges of front faces and of no other are one ring that turns clockwise.
+    """Check that the edges of exactly one front face form one ring that turns clockwise.
 
-    Its corners are those of the hull of all images; where a face is seen edge-on it may run straight at others.
+    The hulls are seen from oblique directions, and one along a face. The corners of the ring are those of the hull of
+    all images; the ring may have straight corners if a face is seen edge-on.
     """
     checks, straight = [], 0
     for points, judge, (u, v) in (
@@ -99,8 +100,8 @@ def convex_contour() -> CheckResult:
         checks.append(len(ring) == len(after) and {*turns} <= {-1, 0} and (0 in values or 0 not in turns))
         checks.append({contour[k - 1] for k, turn in enumerate(turns) if turn} == corners)
         straight += turns.count(0)
-    message = f"{len(checks) // 2} hulls: contours by their front faces turn clockwise only"
-    return holds_if(all(checks) and straight > 0, f"{message}; one runs straight at a corner of a face seen edge-on")
+    message = f"the contours of {len(checks) // 2} hulls turn only clockwise"
+    return holds_if(all(checks) and straight > 0, f"{message}; one is straight at a corner of a face seen edge-on")
 
 
 def _roof() -> tuple[tuple[Point, ...], ExactHull, tuple[int, int]]:
@@ -108,9 +109,9 @@ def _roof() -> tuple[tuple[Point, ...], ExactHull, tuple[int, int]]:
 
 
 def correlations(kind: str = "") -> CheckResult:
-    """Pairs of polygons, each relation by itself: a line between, all corners within, or sides that cross.
+    """Classify pairs of polygons independently: separated by a line, one inside the other, or with crossing sides.
 
-    Where they do not touch just one of the three is there; of those that touch some have none.
+    Exactly one of the three applies unless the polygons touch; for some that touch none applies.
     """
     counts: dict[str, int] = dict.fromkeys(("apart", "encloses", "partly", "touching"), 0)
     checks, loose = [], False
@@ -134,9 +135,9 @@ def correlations(kind: str = "") -> CheckResult:
 
 
 def formula(number: str, kind: str = "") -> CheckResult:
-    """A formula on small cases, by another way; (1) at points so far to the right of a line.
+    """Compare a formula with an independent computation; (1) for points at known distances to the right of a line.
 
-    (3) ``in_line``: with sides that overlap in one line, of which d says nothing.
+    (3) ``in_line``: with sides that overlap on one line, about which d says nothing.
     """
     checks: list[bool] = []
     if number == "1":
@@ -157,15 +158,12 @@ def formula(number: str, kind: str = "") -> CheckResult:
     if kind:
         overlap = overlap_in_line()
         fine = all(checks) and overlap.verdict == CONDITION
-        return holds_if(fine, f"{len(checks)} cases; {overlap.message}", conditional=True)
-    return holds_if(bool(checks) and all(checks), f"{len(checks)} cases")
+        return holds_if(fine, f"{len(checks)} cases agree; {overlap.message}", conditional=True)
+    return holds_if(bool(checks) and all(checks), f"{len(checks)} cases agree")
 
 
 def _formula_5() -> CheckResult:
-    """By the determinant and by the program, against the side on which the eye is: a face z = 0 seen from above.
-
-    In the face the value is 0.
-    """
+    """Compare the determinant of (5) and the program with the side of the eye, for a face z = 0 seen from above."""
     corners = [(0, 0, 0), (0, 4, 0), (4, 4, 0)]
     plane, signs = plane_through(*((*corner, 1) for corner in corners)), {}
     for z in (-2, 0, 3):
@@ -173,11 +171,11 @@ def _formula_5() -> CheckResult:
         (a, b, c) = (minus(row, rows[0]) for row in rows[1:])
         signs[z] = (sign(dot(a, cross(b, c))), sign(height(plane, (1, 2, z, 1))))
     fine = all(by_determinant == by_program == sign(z) for z, (by_determinant, by_program) in signs.items())
-    return holds_if(fine, "positive above the face, negative below it, 0 in it", conditional=True)
+    return holds_if(fine, "the value is positive above the face, negative below it, and 0 in it", conditional=True)
 
 
 def numbers_of_meetings(v: tuple[Place, ...], w: tuple[Place, ...]) -> Iterator[tuple[int, int]]:
-    """d of each pair of segments, and what it is to be: whether they cross, touch in one end or in two, or neither."""
+    """Yield d for each pair of segments, and the value expected from how the segments meet."""
     pl, lp = tables_of(v, w)
     tables = Tables(tuple(map(tuple, pl)), tuple(map(tuple, lp)))
     for i, j in product(range(len(v)), range(len(w))):
@@ -190,7 +188,7 @@ def numbers_of_meetings(v: tuple[Place, ...], w: tuple[Place, ...]) -> Iterator[
 
 
 def _between(p: Place, q: Place, r: Place) -> bool:
-    """Whether r lies on the segment from p to q."""
+    """Return True if r lies on the segment from p to q."""
     along = (r[0] - p[0]) * (r[0] - q[0]) + (r[1] - p[1]) * (r[1] - q[1])
     return side(p, q, r) == 0 and along <= 0
 
@@ -205,9 +203,9 @@ def crosses(v: tuple[Place, ...], i: int, w: tuple[Place, ...], j: int) -> bool:
 
 
 def table_properties(number: str) -> CheckResult:
-    """A property of the tables on pairs of convex polygons, some of which touch; what is said one way is tested so.
+    """Check a property of the tables in the direction in which it is stated, on pairs of convex polygons.
 
-    ``LP``: all four of LP, with rows for columns.
+    Some of the polygons touch. ``LP`` checks all four properties for LP, with rows for columns.
     """
     checks, touching = [], False
     for v, w in pairs():
@@ -232,9 +230,10 @@ def table_properties(number: str) -> CheckResult:
 def _property(
     number: str, v: tuple[Place, ...], w: tuple[Place, ...], of_lines: list[tuple[int, ...]], met: list[list[int]]
 ) -> tuple[list[bool], bool]:
-    """A property in each case, and whether lines that it says have no intersection touch something.
+    """Return the results for one pair of polygons, and True if lines without an intersection touch the other polygon.
 
-    of_lines: a row for each line of v, with the vertices of w; met: the same of d, with the lines of w.
+    ``of_lines`` has a row for each line of v with the signs of the vertices of w; ``met`` has the same rows with the
+    values of d for the lines of w.
     """
     if number == "1":
         return [_apart(v, w) or all(1 in line for line in of_lines)], False
@@ -248,16 +247,16 @@ def _property(
 
 
 def overlap_in_line() -> CheckResult:
-    """Two squares whose upper sides overlap in a line."""
+    """Check d for two squares whose upper sides overlap on one line."""
     pl, lp = tables_of(SQUARE, ((2, 2), (2, 4), (6, 4), (6, 2)))
     d = Tables(tuple(map(tuple, pl)), tuple(map(tuple, lp))).crossing_number(1, 1)
-    return holds_if(d == 0, f"d is {d} of two sides that overlap", conditional=True)
+    return holds_if(d == 0, f"d is {d} for two sides that overlap", conditional=True)
 
 
 def intersection_counts() -> CheckResult:
-    """Segments between grid points against polygons: their places on the contour, whatever they meet there.
+    """Count the different points in which segments between grid points meet the contours of polygons.
 
-    Two at most, unless the segment runs along a side; at a corner d of (3) is not 0 for both sides that meet there.
+    There are at most two unless the segment runs along a side. At a corner, d of (3) is not 0 for both adjacent sides.
     """
     counts, along, more = set(), 0, 0
     for v in _polygons():
@@ -279,6 +278,7 @@ def intersection_counts() -> CheckResult:
                 counts.add(len(places))
                 more += by_3 > 2
     message = (
-        f"{', '.join(map(str, sorted(counts)))} places; {along} segments run along a side, {more} meet more than two"
+        f"segments meet a contour in {', '.join(map(str, sorted(counts)))} points; {along} run along a side, "
+        f"and {more} meet more than two"
     )
     return holds_if(counts == {0, 1, 2} and along and more, f"{message} sides", conditional=True)

@@ -1,4 +1,4 @@
-"""Claims of Nakamae and Nishita: edges seen and hidden, indices of intersections, what is nearer, gaps."""
+"""Checks of Nakamae and Nishita on visibility: hidden edges, indices of intersections, nearer contours, and counts."""
 
 from __future__ import annotations
 
@@ -26,15 +26,15 @@ def _cuboid(way: tuple[int, int, int] = (3, -5, 2)) -> Drawing:
 
 
 def faces_and_edges(kind: str = "") -> CheckResult:
-    """A cuboid: three front faces; three inner and six contour edges.
+    """Check that a cuboid has three front faces, three inner edges and six contour edges.
 
-    Along an axis, with a ``kind``: four faces are neither front nor back, and by the letter there is no contour edge;
-    with those as back faces there are four.
+    With ``kind``, view it along an axis: four faces are neither front nor back. If these count as back faces, there are
+    four contour edges; by the printed definition there is none.
     """
     (solid,) = _cuboid().solids
     kinds = [edge.kind for edge in solid.edges]
     passed = (sum(s > 0 for s in solid.signs), kinds.count(INNER), kinds.count(CONTOUR)) == (3, 3, 6)
-    message = f"{kinds.count(INNER)} inner and {kinds.count(CONTOUR)} contour edges of a cuboid"
+    message = f"a cuboid has {kinds.count(INNER)} inner and {kinds.count(CONTOUR)} contour edges"
     if not kind:
         return holds_if(passed, message)
     (along,) = _cuboid((0, 0, 1)).solids
@@ -44,14 +44,18 @@ def faces_and_edges(kind: str = "") -> CheckResult:
     )
     contour = sum(edge.kind == CONTOUR for edge in along.edges)
     passed &= along.signs.count(0) == 4 == contour and not letter
-    return holds_if(passed, f"{message}; along an axis {contour} and, by the letter, {letter}", conditional=True)
+    return holds_if(
+        passed,
+        f"{message}; along an axis it has {contour} contour edges, and {letter} by the printed definition",
+        conditional=True,
+    )
 
 
 def hidden_contour_edges() -> CheckResult:
-    """Two boxes: pieces of contour edges of the farther are hidden."""
+    """Check that parts of the contour edges of the farther of two boxes are hidden."""
     drawing = _scene("enclosed.toml")
     hidden = {kind for kind in (INNER, CONTOUR) if _hidden(drawing, kind)}
-    return holds_if(CONTOUR in hidden, "contour edges of the box are hidden as well as inner ones", conditional=True)
+    return holds_if(CONTOUR in hidden, "contour edges of the box are hidden as well as inner edges", conditional=True)
 
 
 @cache
@@ -71,15 +75,19 @@ def _hidden(drawing: Drawing, kind: str) -> int:
 
 
 def three_collinear_points() -> CheckResult:
-    """(1) of three corners in a line."""
-    return holds_if(value(line_through((0, 0, 1), (1, 1, 1)), (2, 2, 1)) == 0, "0 of three in a line", conditional=True)
+    """Check formula (1) for three collinear corners."""
+    return holds_if(
+        value(line_through((0, 0, 1), (1, 1, 1)), (2, 2, 1)) == 0,
+        "the formula gives 0 for three collinear points",
+        conditional=True,
+    )
 
 
 def indices(kind: str = "") -> CheckResult:
-    """Segments between grid points against a square: the program's indices and those of (6), k being their number.
+    """Compare the indices of the program with those of (6), where k is the number of intersections.
 
-    In general position, each contour segment that is met by its determinant.  ``k``: whether an index is -1 only where
-    there is one intersection.
+    The segments between grid points and the square are in general position. ``k``: the index -1 occurs only if there is
+    one intersection.
     """
     checks, alone = [], set()
     ways = set()
@@ -99,26 +107,26 @@ def indices(kind: str = "") -> CheckResult:
         alone |= {len(met) for _, index in by_six if index == -1}
         ways.add(tuple(index for _, index in passage.marks))
     expected = {(), (1,), (-1,), (2, -2)}
-    message = f"{len(checks)} segments: 1 going in, -1 coming out, 2 and -2 where both"
+    message = f"{len(checks)} segments have the index 1 if they enter, -1 if they leave, and 2 and -2 if they do both"
     return holds_if(all(checks) and ways == expected and (not kind or alone == {1}), message)
 
 
 def touching_solids(kind: str = "") -> CheckResult:
-    """Two boxes that touch: by which rule it was found out which is nearer, and what is hidden without that rule."""
+    """Check which rule decides the nearer of two touching boxes, and what is hidden without that rule."""
     (relation,) = _scene("stacked.toml").relations
     without = _scene("stacked.toml", "touching")
     less = _hidden(without, INNER) + _hidden(without, CONTOUR) < _hidden(_scene("stacked.toml"), INNER) + _hidden(
         _scene("stacked.toml"), CONTOUR
     )
     passed = relation.by == "plane" and less
-    message = "decided by a separating plane; without it nothing is hidden"
+    message = "a separating plane decides; without this rule nothing is hidden"
     return holds_if(not passed, message) if kind else holds_if(passed, message, conditional=True)
 
 
 def three_conditions() -> CheckResult:
-    """Segments between grid points against a square: those with intersections go in, come out, or both.
+    """Check that a segment that crosses the contour of a square enters, leaves, or does both.
 
-    Some more meet a corner from outside, and are none of these.
+    A few segments only touch a corner from outside.
     """
     index_patterns, touching = set(), 0
     grid = [(x, y) for x in (-3, 1, 2, 7) for y in (-3, 1, 3, 6)]
@@ -131,28 +139,32 @@ def three_conditions() -> CheckResult:
             if passage.marks:
                 index_patterns.add(tuple(index for _, index in passage.marks))
     passed = index_patterns == {(1,), (-1,), (2, -2)} and touching > 0
-    return holds_if(passed, f"in; out; in and out; {touching} touch a corner only", conditional=True)
+    return holds_if(
+        passed, f"segments enter, leave, or enter and leave; {touching} only touch a corner", conditional=True
+    )
 
 
 def sense_of_intersection() -> CheckResult:
-    """The printed product and (6) for a segment that goes in."""
+    """Compare the printed product with (6) for a segment that enters."""
     p, q, a, b = (point[:2] for point in counterexample_points("sense.csv"))
     printed = (p[0] - q[0]) * (a[1] - b[1]) - (p[1] - q[1]) * (a[0] - b[0])
     six = (q[0] - p[0]) * (a[1] - b[1]) - (q[1] - p[1]) * (a[0] - b[0])
     goes_in = value(line_through((*p, 1), (*q, 1)), (*a, 1)) < 0 < value(line_through((*p, 1), (*q, 1)), (*b, 1))
-    return fails_if(goes_in and printed < 0 < six, f"as printed {printed}, by (6) {six}, for a segment going in")
+    return fails_if(
+        goes_in and printed < 0 < six, f"for an entering segment the printed product is {printed}, and (6) gives {six}"
+    )
 
 
 def edges_wholly_behind() -> CheckResult:
-    """A box behind a wall: passages without an intersection."""
+    """Check a box behind a wall, whose edges are hidden without an intersection."""
     corrected, without = _scene("enclosed.toml"), _scene("enclosed.toml", "enclosed")
     alone = any(passage == ENCLOSED for edge_passages in corrected.passages for _, passage in edge_passages.behind)
     newly_visible = sum(p.seen for p in without.pieces) - sum(p.seen for p in corrected.pieces)
-    return fails_if(alone and newly_visible > 0, f"{newly_visible} edges of the box would be seen through the wall")
+    return fails_if(alone and newly_visible > 0, f"{newly_visible} edges of the box would be visible through the wall")
 
 
 def overlap_by_neighbours() -> CheckResult:
-    """Sides of rectangles in one line: by the zeros of PL alone, and with the columns beside, against their ends."""
+    """Check that zeros of PL do not tell whether two collinear sides overlap, and that adjacent columns do."""
     zeros, beside = [], []
     for x, y, width in product(range(-5, 8), (-4, 0, 4), (2, 3)):
         rectangle = ((x, y), (x, y + 4), (x + width, y + 4), (x + width, y))
@@ -168,13 +180,14 @@ def overlap_by_neighbours() -> CheckResult:
                 apart = any(row[k] <= 0 >= next_row[k] for k in ((i - 1) % 4, (i + 1) % 4))
                 beside.append(overlap != apart)
     message = (
-        f"{len(zeros)} pairs in one line, of which {zeros.count(False)} do not overlap; the columns beside tell which"
+        f"{len(zeros)} pairs of sides are collinear and {zeros.count(False)} do not overlap; the adjacent "
+        "columns tell which"
     )
     return holds_if(all(beside) and False in zeros, message, conditional=True)
 
 
 def segments_within() -> CheckResult:
-    """Sides of V that cross an inner edge of V', here a diagonal: each has a part within V', some not all of them."""
+    """Check that every side of V that crosses a diagonal of V' has a part inside V', but is not always inside."""
     checks, partly = [], 0
     for v, w in pairs():
         for i, (p, q) in product(range(len(v)), combinations(range(len(w)), 2)):
@@ -183,25 +196,27 @@ def segments_within() -> CheckResult:
                 values_at_w = values(lines_of(w), [(*a, 0, 1), (*b, 0, 1)])
                 checks.append(values_at_w is not None and clipped(values_at_w, 0, 1) != CLEAR)
                 partly += not (inside(a, w) and inside(b, w))
-    message = f"{len(checks)} crossings of inner edges, {partly} by segments that are within in part only"
+    message = (
+        f"in {len(checks)} crossings of inner edges a part of the segment is inside, in {partly} of them not all of it"
+    )
     return holds_if(all(checks) and partly, message, conditional=True)
 
 
 def table_by_formula_4() -> CheckResult:
-    """The counterexample's eye, contour and edge: the table by the signs of (4), as printed, and by those of (1)."""
+    """Compare the table by the signs of (4), as printed, with that by (1) for the counterexample."""
     (eye, *contour), ends = (points := counterexample_points("table_by_4.csv"))[:-2], points[-2:]
     by_4 = {sign(dot(minus(p, eye), minus(p, end))) for p in contour for end in ends}
     flat = tuple((x, y) for x, y, _ in contour)
     by_1 = [[sign(value(line, (x, y, 1))) for line in lines_of(flat)] for x, y, _ in ends]
     goes_in = -1 in by_1[0] and -1 not in by_1[1]
     wrong = by_4 == {-1} and goes_in
-    return fails_if(wrong, "by (4) every element is -1, as if nothing met; by (1) the edge goes in")
+    return fails_if(wrong, "by (4) every element is -1 as if nothing intersected; by (1) the edge enters")
 
 
 def nearer_contour_inside() -> CheckResult:
-    """A box before a frustum, its contour within the other's: sides of the top are hidden without an intersection.
+    """Check a box in front of a frustum: sides of the top are hidden without an intersection.
 
-    Of the frustum's contour nothing is hidden.
+    No contour edge of the frustum is hidden.
     """
     corners = [(x, y, z) for z, low, high in ((0, 0, 8), (2, 3, 5)) for x, y in _ring(low, high)]
     walls = [(k, k + 4, (k + 1) % 4 + 4, (k + 1) % 4) for k in range(4)]
@@ -217,7 +232,9 @@ def nearer_contour_inside() -> CheckResult:
     ]
     whole, met = passages.count(ENCLOSED), sum(bool(passage.marks) for passage in passages)
     passed = whole > 0 < met and _hidden(drawing, INNER) > 0 == _hidden(drawing, CONTOUR)
-    message = f"{met} inner edges of the frustum meet the contour of the box, {whole} are hidden and do not"
+    message = (
+        f"{met} inner edges of the frustum meet the contour of the box; {whole} others are hidden without meeting it"
+    )
     return holds_if(passed, message, conditional=True)
 
 
@@ -226,13 +243,13 @@ def _ring(low: int, high: int) -> tuple[tuple[int, int], ...]:
 
 
 COUNTS = {"a": (11, 116, 80), "c": (60, 480, 360), "d": (30, 216, 158)}
-"""Table 1: polyhedra, vertices and faces."""
+"""The numbers of polyhedra, vertices and faces in Table 1."""
 
 
 def counts_of_table_1d() -> CheckResult:
-    """Table 1 (d): a solid of F faces has 2 F - 4 vertices at most, a plate none of that; the counts need plates.
+    """Check that the counts of Table 1 (d) need plates: a solid with F faces has at most 2 F - 4 vertices.
 
-    In (a) and (c) as many vertices as can be.
+    In (a) and (c) the number of vertices is the largest possible one.
     """
     most = {name: 2 * faces - 4 * parts for name, (parts, _, faces) in COUNTS.items()}
     bases = [4] * 23 + [3] * 2
@@ -240,17 +257,17 @@ def counts_of_table_1d() -> CheckResult:
     passed = all(most[name] == COUNTS[name][1] for name in "ac")
     passed &= most["d"] < COUNTS["d"][1] and plates == COUNTS["d"]
     message = (
-        f"30 solids with 158 faces have {most['d']} vertices at most; 25 prisms and five plates have the printed counts"
+        f"30 solids with 158 faces have at most {most['d']} vertices; 25 prisms and five plates have the printed counts"
     )
     return holds_if(passed, message, conditional=True)
 
 
 def convex_faces() -> CheckResult:
-    """Faces of the judge's hulls: the first three corners turn as any three in a row do, about the outward normal."""
+    """Check that any three consecutive corners of a face turn in the same direction about its outward normal."""
     checks = []
     for sampled in sampled_sets(3, 2):
         for facet in sampled.judge.facets:
             ring = [sampled.points[k] for k in facet.polygon]
             turns = [cross(minus(ring[k - 1], ring[k - 2]), minus(ring[k], ring[k - 1])) for k in range(len(ring))]
             checks.append(all(dot(turn, facet.plane[:3]) > 0 for turn in turns))
-    return holds_if(all(checks), f"{len(checks)} faces")
+    return holds_if(all(checks), f"{len(checks)} faces are convex")

@@ -1,7 +1,7 @@
-"""Claims of chapter 2: convex combinations, supporting planes, vertices, and the older ways to a hull.
+"""Checks of chapter 2: convex combinations, supporting planes, vertices, and earlier methods for finding a hull.
 
-The older ways are made here for small sets: all planes of three points and all lines of two, and a plane or a line
-that is turned about points and edges.
+The earlier methods are carried out on small sets: testing the planes through all triples and the lines through all
+pairs, and turning a plane or a line about points and edges (gift wrapping).
 """
 
 from __future__ import annotations
@@ -28,13 +28,13 @@ from modern.geometry.vectors import cross, dot, minus
 
 
 def weights_of_combination() -> CheckResult:
-    """2 P_1 - P_2 is a combination with sum 1, outside of the segment."""
+    """Check that weights must not be negative: 2 P_1 - P_2 has weights with the sum 1 and lies outside the segment."""
     hull = exact_hull([(0, 0, 0), (1, 0, 0), (-1, 0, 0)])
-    return holds_if(0 not in hull.vertices, "2 P - Q, with weights 2 and -1, lies beyond P", conditional=True)
+    return holds_if(0 not in hull.vertices, "2 P - Q, with the weights 2 and -1, lies beyond P", conditional=True)
 
 
 def triangle_of_combinations() -> CheckResult:
-    """Every grid point of a triangle is a combination of its corners, and no other is."""
+    """Check that the grid points of a triangle, and no others, are convex combinations of its corners."""
     p, q, r = (0, 0), (4, 1), (1, 5)
     agreeing = cases = 0
     for x, y in product((-1, 1, 2, 4), repeat=2):
@@ -45,7 +45,7 @@ def triangle_of_combinations() -> CheckResult:
         )
         cases += 1
         agreeing += (min(weights) >= 0) == inside and sum(weights) == 1
-    return holds_if(agreeing == cases, f"{agreeing} of {cases} grid points")
+    return holds_if(agreeing == cases, f"{agreeing} of {cases} grid points agree with the exact hull")
 
 
 def _area(p: tuple[int, int], q: tuple[int, int], r: tuple[int, int]) -> int:
@@ -53,17 +53,17 @@ def _area(p: tuple[int, int], q: tuple[int, int], r: tuple[int, int]) -> int:
 
 
 def supporting_planes(count: str = COUNT) -> CheckResult:
-    """The judge's planes meet the definition."""
+    """Check that the planes of the exact hull meet the definition of a supporting plane."""
     return _supporting(sampled_sets(3, int(count)), 3)
 
 
 def supporting_lines(count: str = COUNT) -> CheckResult:
-    """The judge's lines meet the definition."""
+    """Check that the lines of the exact hull meet the definition of a supporting line."""
     return _supporting(sampled_sets(2, int(count)), 2)
 
 
 def _supporting(sets: tuple[SampledSet, ...], dimension: int) -> CheckResult:
-    """Three points on it that are not collinear, or two that are distinct, and none beyond."""
+    """Check that each facet contains enough independent points and that no point lies beyond it."""
     supporting = cases = 0
     for sampled in sets:
         for facet in sampled.judge.facets:
@@ -72,13 +72,15 @@ def _supporting(sets: tuple[SampledSet, ...], dimension: int) -> CheckResult:
             cases += 1
             supporting += max(values) == 0 and exact_hull(on).dimension == dimension - 1
     message = {2: "two distinct points", 3: "three noncollinear points"}[dimension]
-    return holds_if(supporting == cases > 0, f"{supporting} of {cases} have {message} on them and none beyond")
+    return holds_if(
+        supporting == cases > 0, f"{supporting} of {cases} facets contain {message}, and no point lies beyond them"
+    )
 
 
 def vertex_formula_with_minus() -> CheckResult:
-    """The middle of three points in line: by the printed signs no two points give it, whatever lambda is.
+    """Check that the formula with the printed minus does not give the middle of three collinear points.
 
-    lambda follows from the coordinate x, which differs in the three; so every ordered pair has one at most.
+    The x coordinates of the points differ, so they determine lambda for each ordered pair.
     """
     points = counterexample_points("middle.csv")
     middle = points[1]
@@ -89,23 +91,32 @@ def vertex_formula_with_minus() -> CheckResult:
             right = all((1 - share) * p[k] + factor * share * q[k] == middle[k] for k in (1, 2))
             pair_counts[sign] += 0 < share < 1 and right
     wrong = 1 not in exact_hull(points).vertices and pair_counts == {"+": 2, "-": 0}
-    message = f"pairs that give {middle}: {pair_counts['+']} with a plus, {pair_counts['-']} with the printed minus"
+    message = (
+        f"ordered pairs that give the middle point {middle}: {pair_counts['+']} with a plus, "
+        f"{pair_counts['-']} with the printed minus"
+    )
     return fails_if(wrong, message)
 
 
 def vertex_of_hull() -> CheckResult:
-    """(1, 1) in the triangle (0, 0), (3, 0), (0, 3): between no two of the four points, yet no vertex."""
+    """Check that (1, 1) is not a vertex of the triangle (0, 0), (3, 0), (0, 3) although it lies between no two of the
+    points."""
     points = [(0, 0, 0), (3, 0, 0), (0, 3, 0), (1, 1, 0)]
     between = [(p, q) for p, q in combinations(points[:3], 2) if not any(cross(minus(q, p), minus(points[3], p)))]
     passed = not between and 3 not in exact_hull(points).vertices
-    return holds_if(passed, "(1, 1) of that triangle is on no line of two of the others", conditional=True)
+    return holds_if(
+        passed,
+        "the point (1, 1) lies on no line through two corners of the triangle (0, 0), (3, 0), (0, 3), and is "
+        "not a vertex",
+        conditional=True,
+    )
 
 
 def vertex_in_space(count: str = COUNT) -> CheckResult:
-    """With a plus for the minus: between no two points of the hull, by lines through each point and the others.
+    """Check the definition of a vertex, with the minus corrected, for points between two points of the hull.
 
-    A point is between two points of the hull if and only if the hull without it holds it.  Among the given points
-    alone the inside of a tetrahedron lies between no two.
+    A point lies between two points of the hull if and only if the hull of the other points contains it. Among the given
+    points alone, a point inside a tetrahedron lies between no two.
     """
     checks = []
     for sampled in sampled_sets(3, int(count)):
@@ -116,17 +127,22 @@ def vertex_in_space(count: str = COUNT) -> CheckResult:
     points = [(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4), (1, 1, 1)]
     between = [1 for p, q in combinations(points[:4], 2) if not any(cross(minus(q, p), minus(points[4], p)))]
     alone = not between and 4 not in exact_hull(points).vertices
-    message = f"{sum(checks)} of {len(checks)} points; (1, 1, 1) in a tetrahedron is between no two of the given points"
+    message = (
+        f"{sum(checks)} of {len(checks)} points agree; (1, 1, 1) lies inside a tetrahedron but between no two "
+        "of the given points"
+    )
     return holds_if(all(checks) and alone, message, conditional=True)
 
 
 def gift_wrapping(kind: str, count: str = COUNT) -> CheckResult:
-    """Planes turned about points and edges, ``lines`` in a plane about points: they hold what the judge's do."""
+    """Check that planes turned about points and edges, or lines turned about points, find all facets of the hull."""
     checks = []
     for sampled in sampled_sets(2 if kind == "lines" else 3, int(count)):
         expected = {_on(sampled.points, facet.plane) for facet in sampled.judge.facets}
         checks.append((_turned_lines(sampled) if kind == "lines" else _turned_planes(sampled.points)) == expected)
-    return holds_if(all(checks), f"{sum(checks)} of {len(checks)} sets: all supporting {kind} are met, and no others")
+    return holds_if(
+        all(checks), f"in {sum(checks)} of {len(checks)} sets turning finds all supporting {kind} and nothing else"
+    )
 
 
 def _on(points: Sequence[Point], plane: Plane) -> frozenset[int]:
@@ -134,7 +150,7 @@ def _on(points: Sequence[Point], plane: Plane) -> frozenset[int]:
 
 
 def _turned(points: Sequence[Point], p: Point, q: Point) -> Plane:
-    """The plane about the line of p and q that has turned until no point is beyond it."""
+    """Turn a plane about the line through p and q until no point lies beyond it."""
     best: Plane = (0, 0, 0, 0)
     for point in points:
         if not any(best[:3]) or plane_value(best, point) > 0:
@@ -176,7 +192,7 @@ def _turned_lines(sampled: SampledSet) -> set[frozenset[int]]:
 
 
 def planes_from_triples(count: str = COUNT) -> CheckResult:
-    """Planes of all triples that support, against the judge's."""
+    """Compare the supporting planes among the planes of all triples with the facets of the exact hull."""
     agreeing = 0
     sets = sampled_sets(3, int(count))
     for sampled in sets:
@@ -187,11 +203,11 @@ def planes_from_triples(count: str = COUNT) -> CheckResult:
             if any(plane[:3]) and (max(values) <= 0 or min(values) >= 0):
                 planes.add(reduced_plane(plane if max(values) <= 0 else tuple(-x for x in plane)))  # type: ignore[arg-type]
         agreeing += planes == {facet.plane for facet in sampled.judge.facets}
-    return holds_if(agreeing == len(sets), f"{agreeing} of {len(sets)} sets")
+    return holds_if(agreeing == len(sets), f"the planes of {agreeing} of {len(sets)} sets agree with the exact hull")
 
 
 def lines_from_pairs(count: str = COUNT) -> CheckResult:
-    """Lines of all pairs that support, against the judge's edges."""
+    """Compare the supporting lines among the lines of all pairs with the edges of the exact hull."""
     agreeing = 0
     sets = sampled_sets(2, int(count))
     for sampled in sets:
@@ -202,11 +218,11 @@ def lines_from_pairs(count: str = COUNT) -> CheckResult:
             if max(sides) <= 0 or min(sides) >= 0:
                 lines.add(frozenset(k for k, side in enumerate(sides) if not side))
         agreeing += len(lines) == len(sampled.judge.facets)
-    return holds_if(agreeing == len(sets), f"{agreeing} of {len(sets)} sets")
+    return holds_if(agreeing == len(sets), f"the lines of {agreeing} of {len(sets)} sets agree with the exact hull")
 
 
 def cost_of_triples() -> CheckResult:
-    """C(N, 3) planes with N substitutions each."""
+    """Count the cost of testing all triples: C(N, 3) planes with N substitutions each."""
     cost = {n: math.comb(n, 3) * n for n in (8, 16, 51)}
     message = ", ".join(f"{n} points: {math.comb(n, 3):,} planes, {cost[n]:,} substitutions" for n in cost)
     return holds_if(cost[16] > 2**3 * cost[8], message)

@@ -1,6 +1,6 @@
-"""Claims of chapters 1 and 3: what the procedure finds, few points, and the equations (3.1) to (3.5).
+"""Checks of chapters 1 and 3: the result of the procedure, very small sets, and the equations (3.1) to (3.5).
 
-Equations are transcribed as they are printed and compared with what they are to be, over integers.
+The equations are transcribed as printed and compared with independent formulas over integers.
 """
 
 from __future__ import annotations
@@ -15,7 +15,8 @@ Line = tuple[int, int, int]
 
 
 def procedure_against_judge(count: str = COUNT) -> CheckResult:
-    """The procedure over exact numbers against the judge: vertices, boundary and inside points, planes."""
+    """Compare the procedure, in exact arithmetic, with the exact hull: vertices, boundary points, inside points and
+    planes."""
     right = sets = 0
     for sampled in flat_and_spatial_sets(count):
         sets += 1
@@ -31,21 +32,23 @@ def procedure_against_judge(count: str = COUNT) -> CheckResult:
             {*sampled.judge.inside},
             len(sampled.judge.facets),
         )
-    return holds_if(right == sets, f"{right} of {sets} sets as the exact judge, in exact numbers", conditional=True)
+    return holds_if(
+        right == sets, f"in exact arithmetic {right} of {sets} sets agree with the exact hull", conditional=True
+    )
 
 
 def reversed_order(count: str = COUNT) -> CheckResult:
-    """The judge's hull of the points backwards."""
+    """Check that the exact hull does not depend on the order of the points."""
     same = [
         {sampled.points[k] for k in sampled.judge.vertices}
         == {sampled.points[::-1][k] for k in exact_hull(sampled.points[::-1]).vertices}
         for sampled in flat_and_spatial_sets(count)
     ]
-    return holds_if(all(same), f"{sum(same)} of {len(same)} sets, taken backwards, have the same vertices")
+    return holds_if(all(same), f"{sum(same)} of {len(same)} sets have the same vertices when their points are reversed")
 
 
 def collinear_points() -> CheckResult:
-    """Points on five lines: the ends, and that each point satisfies both equations."""
+    """Check the two ends and the two equations of points on each of five lines."""
     passed = 0
     lines: tuple[Point, ...] = ((1, 0, 0), (0, 2, 0), (0, 0, 3), (0, 1, -2), (3, -1, 2))
     for x, y, z in lines:
@@ -53,18 +56,20 @@ def collinear_points() -> CheckResult:
         hull = convex_hull(points)
         passed += hull.dimension == 1 and {*hull.vertices} == {2, 3}
         passed += all(not dot(tuple(map(int, e[:3])), p) + int(e[3]) for e in hull.lines for p in points)  # type: ignore[arg-type]
-    return holds_if(passed == 2 * len(lines), f"{passed // 2} of {len(lines)} lines")
+    return holds_if(passed == 2 * len(lines), f"{passed // 2} of {len(lines)} lines have the right ends and equations")
 
 
 def few_points() -> CheckResult:
-    """One, two and three points."""
+    """Check the hulls of one, two and three points."""
     hulls = [convex_hull([(1, 2, 3), (4, 0, 1), (0, 5, 5)][:n]) for n in (1, 2, 3)]
     outcomes = [(h.status, h.dimension, len(h.vertices)) for h in hulls]
-    return holds_if(outcomes == [("determined", k, k + 1) for k in range(3)], "a point, a segment, a triangle")
+    return holds_if(
+        outcomes == [("determined", k, k + 1) for k in range(3)], "the hulls are a point, a segment and a triangle"
+    )
 
 
 def first_two_points() -> CheckResult:
-    """Sets whose points differ in x, in y but not in x, in z alone: the largest and the smallest come first."""
+    """Check that the first two points are the largest and the smallest in x, or in y if all x are equal, or in z."""
     base = [(3, 1), (-2, 5), (4, 0), (0, 2), (4, 4)]
     sets = {
         0: [(a, b, (3 * a + b) % 5) for a, b in base],
@@ -78,13 +83,15 @@ def first_two_points() -> CheckResult:
         values = [point[axis] for point in points]
         checks.append((points[first][axis], points[second][axis]) == (max(values), min(values)))
         checks.append(max(values) > min(values))
-    return holds_if(all(checks), "by x, where all x are equal by y, where all y are too by z")
+    return holds_if(
+        all(checks), "the first two points are extreme in x, in y if all x are equal, or in z if all y are equal too"
+    )
 
 
 def equation(number: str) -> CheckResult:
-    """An equation as printed, against what it is to be, for points at random."""
+    """Check an equation as printed on random points."""
     passed = all(_EQUATIONS[number](p, q, r) for p, q, r in random_triples())
-    return holds_if(passed, "exactly, for six triples of points")
+    return holds_if(passed, "it agrees exactly for six triples of points")
 
 
 def _three_point_one(p: Point, q: Point, _: Point) -> bool:
@@ -92,12 +99,12 @@ def _three_point_one(p: Point, q: Point, _: Point) -> bool:
 
 
 def _upright(p: Point, q: Point, u: int, v: int) -> bool:
-    """The line as printed is 0 at both points, and moved off it not."""
+    """Return True if the line as printed is 0 at both points, and not 0 at a point moved off the line."""
     return _through_both(line_as_printed(p[u], p[v], q[u], q[v]), (p[u], p[v]), (q[u], q[v]))
 
 
 def line_as_printed(u1: int, v1: int, u2: int, v2: int) -> Line:
-    """(3.1), (3.2), (3.3): (v2 - v1) U + (u1 - u2) V + (u2 - u1) v1 + (v1 - v2) u1 = 0."""
+    """Return (3.1), (3.2) or (3.3): (v2 - v1) U + (u1 - u2) V + (u2 - u1) v1 + (v1 - v2) u1 = 0."""
     return v2 - v1, u1 - u2, (u2 - u1) * v1 + (v1 - v2) * u1
 
 
@@ -115,7 +122,7 @@ def _three_point_four(p: Point, q: Point, r: Point) -> bool:
 
 
 def plane_as_printed(i: Point, j: Point, k: Point) -> Plane:
-    """(3.4) as page 15 prints it."""
+    """Return equation (3.4) as page 15 prints it."""
     (xi, yi, zi), (xj, yj, zj), (xk, yk, zk) = i, j, k
     a = yi * zj + yj * zk + zi * yk - yk * zj - yi * zk - yj * zi
     b = xk * zj + xi * zk + xj * zi - xi * zj - xj * zk - xk * zi
@@ -129,7 +136,7 @@ def _three_point_five(k: Point, m: Point, _: Point) -> bool:
 
 
 def line_of_page_19(k: Point, m: Point) -> Line:
-    """(3.5) as page 19 prints it."""
+    """Return equation (3.5) as page 19 prints it."""
     return k[1] - m[1], m[0] - k[0], (k[0] - m[0]) * m[1] + (m[1] - k[1]) * m[0]
 
 

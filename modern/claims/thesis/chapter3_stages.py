@@ -1,7 +1,8 @@
-"""Claims about the approximations H_1, H_2, ...: what stands in every stage of the construction of small sets.
+"""Checks of the approximations H_1, H_2, ... in the construction of small sets.
 
-A kind is a function that looks at one set and yields a verdict for each case in it; ``reproduce`` takes two sets of
-each dimension, the tests more.
+A property is a function that examines the stages of one set and yields True or False for each case. ``reproduce``
+samples two sets of each dimension; the tests sample more. NV and NE are the numbers of vertices and equations of a
+stage, and NETC is the number of the first equation that a point is outside of, as in the thesis.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ from modern.port import convex_hull
 
 
 def stage_property(kind: str, count: str = COUNT) -> CheckResult:
-    """One property of H_1, H_2, ... in every stage of some sets: ``contain``, ``hulls``, ``struck``, ..."""
+    """Check one property of H_1, H_2, ... (a key of ``_PROPERTIES``) in every stage of the sampled sets."""
     sets = (
         sampled_sets(2, int(count))
         if kind in _FLAT
@@ -49,24 +50,24 @@ def stage_property(kind: str, count: str = COUNT) -> CheckResult:
 
 
 def eliminated_points(count: str = COUNT) -> CheckResult:
-    """What is struck at each stage, and a square with its middle and the middle of a side, of which one stays."""
+    """Check the points eliminated at each stage, and a square in which the midpoint of a side is not eliminated."""
     points = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (1, 0, 0), (1, 1, 0)]
     hull = convex_hull(points, history=True)
     stays = hull.boundary == (4,) and {k for stage in hull.history for k in stage.struck} == {5}
     inside_check = stage_property("struck_inside", count)
-    message = f"{inside_check.message}; of a square the middle of a side is on it and is not struck"
+    message = f"{inside_check.message}; the midpoint of a side of a square is on the boundary and is not eliminated"
     return holds_if(stays and inside_check.verdict == HOLDS, message, conditional=True)
 
 
 def _steps(sampled: SampledSet) -> Iterator[tuple[Approximation, Approximation, Stage, int]]:
-    """Each stage but the first with the one before it: both, what the port says of it, and the point added."""
+    """Yield each stage after the first: the stage before, the stage, the record of the port, and the point added."""
     stages = sampled.stages()
     for before, after, news in zip(stages, stages[1:], sampled.hull.history[1:], strict=False):
         yield before, after, news, news.added[0]
 
 
 def _contain(sampled: SampledSet) -> Iterator[bool]:
-    """H_j lies in H_j+1, and less of the point added lies in it: the next one is larger."""
+    """H_j lies in H_j+1, and the added point does not lie in H_j, so H_j+1 is larger."""
     for before, after, _, new in _steps(sampled):
         yield all(plane_value(plane, sampled.points[k]) <= 0 for plane in after.equations for k in before.vertices)
         yield any(plane_value(plane, sampled.points[new]) > 0 for plane in before.equations)
@@ -79,7 +80,7 @@ def _hulls(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _final(sampled: SampledSet) -> Iterator[bool]:
-    """The equations of a stage all support if and only if they are those of the hull of all points."""
+    """All equations of a stage support if and only if they are those of the hull of all points."""
     hull_planes = {facet.plane for facet in sampled.judge.facets}
     stages = sampled.stages()
     for stage in stages:
@@ -93,7 +94,7 @@ def _struck(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _eliminated(sampled: SampledSet) -> Iterator[bool]:
-    """Struck at a stage are just the points inside of it that are left: those on its boundary stay."""
+    """A stage eliminates exactly the remaining points inside it; those on its boundary remain."""
     eliminated_points: set[int] = set()
     for stage, news in zip(sampled.stages(), sampled.hull.history, strict=True):
         remaining = set(range(len(sampled.points))) - eliminated_points - {*stage.vertices}
@@ -103,7 +104,7 @@ def _eliminated(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _contained(sampled: SampledSet) -> Iterator[bool]:
-    """What an H_j holds, inside or on its boundary, and is not one of its vertices, is no vertex of the last hull."""
+    """A point inside or on the boundary of an H_j that is not one of its vertices is not a vertex of the last hull."""
     for stage in sampled.stages():
         for k, point in enumerate(sampled.points):
             if k not in stage.vertices and all(plane_value(plane, point) <= 0 for plane in stage.equations):
@@ -111,7 +112,7 @@ def _contained(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _never_back(sampled: SampledSet) -> Iterator[bool]:
-    """N_j, the points still looked at, is that of the stage before less those struck, and no struck one is used."""
+    """N_j, the number of remaining points, never grows, and an eliminated point is never used again."""
     remaining = len(sampled.points)
     gone: set[int] = set()
     for stage in sampled.hull.history:
@@ -141,14 +142,14 @@ def _outside(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _largest_of_all(sampled: SampledSet) -> Iterator[bool]:
-    """The largest value among the points left is the largest among all: what is struck is below zero."""
+    """The largest value among the remaining points is the largest among all points: eliminated points are negative."""
     for before, _, news, new in _steps(sampled):
         plane = before.equations[news.checked - 1]
         yield plane_value(plane, sampled.points[new]) == max(plane_value(plane, point) for point in sampled.points)
 
 
 def _one_more(sampled: SampledSet) -> Iterator[bool]:
-    """Where a point is outside of one equation only, that one goes and a face on each of its sides comes."""
+    """If a point is outside one equation only, that facet is removed and each of its sides gets a new facet."""
     for before, after, news, new in _steps(sampled):
         if news.outside == 1:
             gone = {*before.defining[news.checked - 1]}
@@ -161,7 +162,7 @@ def _one_more(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _both_new(sampled: SampledSet) -> Iterator[bool]:
-    """No given point is outside of both new lines; the corner they make is the new vertex."""
+    """No point is outside both new lines; they meet in the new vertex."""
     for _, after, _, new in _steps(sampled):
         lines = [plane for plane, ends in zip(after.equations, after.defining, strict=True) if new in ends]
         yield len(lines) == 2
@@ -169,7 +170,7 @@ def _both_new(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _counted(sampled: SampledSet) -> Iterator[bool]:
-    """In a plane NV and NE are 3 of H_1 and one more of each further one; in space H_1 has four of both."""
+    """In a plane NV and NE are 3 for H_1 and grow by one at each stage; in space both are 4 for H_1."""
     first = sampled.judge.dimension + 1
     for number, stage in enumerate(sampled.stages()):
         yield len(stage.vertices) == first + number
@@ -178,14 +179,14 @@ def _counted(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _moved_up(sampled: SampledSet) -> Iterator[bool]:
-    """The equations after the one removed have its number and the next ones, and the two new ones come last."""
+    """The equations after the removed one move up by one number, and the two new ones come last."""
     for before, after, news, _ in _steps(sampled):
         kept_lines = [d for k, d in enumerate(before.defining) if k != news.checked - 1]
         yield [{*d} for d in after.defining[:-2]] == [{*d} for d in kept_lines]
 
 
 def _turned_at_one(sampled: SampledSet) -> Iterator[bool]:
-    """NETC of a stage is not less than that of the stage before."""
+    """NETC never decreases from one stage to the next."""
     yield all(a.checked <= b.checked for a, b in pairwise(sampled.hull.history))
 
 
@@ -194,14 +195,14 @@ def _vertices_among_used(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _vertex_once(sampled: SampledSet) -> Iterator[bool]:
-    """Each point is a vertex of the hull of the points so far when it is added."""
+    """When a point is added, it is a vertex of the hull of the points used so far."""
     for stage, news in zip(sampled.stages(), sampled.hull.history, strict=True):
         judge = exact_hull([sampled.points[k] for k in stage.vertices])
         yield {stage.vertices.index(k) for k in news.added} <= {*judge.vertices}
 
 
 def _triangle_added(sampled: SampledSet) -> Iterator[bool]:
-    """Points of a lattice are in H_k+1 if and only if they are in H_k or in the triangle that is added."""
+    """A lattice point is in H_k+1 if and only if it is in H_k or in the added triangle."""
     plane = sampled.judge.plane
     assert plane is not None
     lattice = [
@@ -215,10 +216,10 @@ def _triangle_added(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _tetrahedra_added(sampled: SampledSet) -> Iterator[bool]:
-    """Points of a lattice are in H_k+1 if and only if in H_k or in a tetrahedron of the new point.
+    """A lattice point is in H_k+1 if and only if it is in H_k or in a tetrahedron at the new point.
 
-    Its other three corners define an equation that the new point is outside of; where no equation but NETC is such,
-    it is the only one.
+    The other three corners of such a tetrahedron define an equation that the new point is outside of. If NETC is the
+    only such equation, there is one tetrahedron.
     """
     lattice: list[Point] = [(x, y, z) for x, y, z in product(range(-5, 6, 2), repeat=3)]
     for before, after, news, new in _steps(sampled):
@@ -232,7 +233,7 @@ def _tetrahedra_added(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _in_tetrahedron(point: Point, corners: list[Point]) -> bool:
-    """Whether a point is on no other side of any face than the corner that is not on it."""
+    """Return True if, for every face, the point is not on the opposite side from the remaining corner."""
     for k, corner in enumerate(corners):
         plane = plane_through(*(c for m, c in enumerate(corners) if m != k))
         if plane_value(plane, point) * plane_value(plane, corner) < 0:
@@ -241,13 +242,13 @@ def _in_tetrahedron(point: Point, corners: list[Point]) -> bool:
 
 
 def _in_triangle(point: Point, a: Point, b: Point, c: Point) -> bool:
-    """Whether a point of the triangle's plane is a combination of its corners: none of the three areas turns back."""
+    """Return True if a point of the triangle's plane is in the triangle: none of the three areas is negative."""
     normal = cross(minus(b, a), minus(c, a))
     return all(dot(normal, cross(minus(q, p), minus(point, p))) >= 0 for p, q in ((a, b), (b, c), (c, a)))
 
 
 def _convex_if(sampled: SampledSet) -> Iterator[bool]:
-    """With equation NETC alone replaced the polyhedron is convex if and only if no other value was above zero."""
+    """If only equation NETC is replaced, the polyhedron is convex if and only if no other equation was positive."""
     inner = [sampled.points[k] for k in sampled.hull.history[0].added]
     for before, after, news, new in _steps(sampled):
         others = [plane for k, plane in enumerate(before.equations) if k != news.checked - 1]

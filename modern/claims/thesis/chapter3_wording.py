@@ -1,6 +1,6 @@
-"""Claims of chapters 1 and 3 as they are written: against the listing's steps, and against other ways to begin.
+"""Checks of chapters 1 and 3 as worded: the steps of the text against the listing, and other ways to start.
 
-Where the text leaves a step otherwise than the listing, the step is made here word for word and its end is looked at.
+If the text describes a step differently from the listing, the step is carried out as worded and its result is compared.
 """
 
 from __future__ import annotations
@@ -38,11 +38,11 @@ _ELIMINATE_CHECK_GROW = {
     "program2.f": {106: "E", 124: "C", 133: "G"},
     "program3.f": {103: "E", 114: "C", 125: "G"},
 }
-"""Statements of the listing where inside points are looked for, where a hull is checked, where a point is added."""
+"""The statements of the listings that eliminate inside points (E), check a hull (C) and add a point (G)."""
 
 
 def text_against_listing() -> CheckResult:
-    """Four steps are not the listing's: two lead to no hull or lose a line, two change an order only."""
+    """Check the four steps that differ from the listing: two lose the hull or a line, two only change an order."""
     results = (
         fourth_point_by_largest(),
         line_duplicates_as_printed(),
@@ -50,23 +50,28 @@ def text_against_listing() -> CheckResult:
         plane_duplicates_as_printed(),
     )
     checks = [result.verdict for result in results] == [FAILS, FAILS, CONDITION, HOLDS]
-    return holds_if(checks, "the fourth point, repeats of a line; the order of planes in two steps", conditional=True)
+    return holds_if(
+        checks,
+        "the fourth point and the removal of duplicate lines fail as worded; two other steps change only the "
+        "order of planes",
+        conditional=True,
+    )
 
 
 def line_duplicates_as_printed() -> CheckResult:
-    """Repeats of a line as page 28 has it: of a side with three used points both equations go."""
+    """Check the removal of duplicate lines on page 28: it removes both equations of a side with three used points."""
     points = counterexample_points("line_lost.csv")
     judge, hull = exact_hull(points), convex_hull(points, history=True)
     used = [k for stage in hull.history for k in stage.added]
     remaining = _by_letter(points, used, [(d[0], d[1]) for d in hull.history[-1].equations])
     lines = len({frozenset(_on(points, *pair)) for pair in remaining})
     right = len({face.lowest for face in hull.faces}) == len(judge.facets)
-    message = f"{lines} of {len(judge.facets)} lines stay as the text has it; the listing keeps all"
+    message = f"as worded {lines} of {len(judge.facets)} lines remain; the listing keeps all of them"
     return fails_if(lines < len(judge.facets) and right, message)
 
 
 def _by_letter(points: Sequence[Point], used: Sequence[int], equations: Sequence[Pair]) -> list[Pair]:
-    """Pages 26 to 28: for each point and each equation that it satisfies and does not define, equation k is removed."""
+    """Apply pages 26 to 28: remove equation k for each point that satisfies but does not define it."""
     remaining = list(equations)
     for i in used:
         for pair in [*remaining]:
@@ -81,7 +86,8 @@ def _on(points: Sequence[Point], a: int, b: int) -> list[int]:
 
 
 def plane_duplicates_as_printed(count: str = COUNT) -> CheckResult:
-    """Repeats of planes as page 34 has it: of each plane the last equation stays, of the listing's way the first."""
+    """Check the removal of duplicate planes. Page 34 keeps the last equation of each plane; the listing keeps the
+    first."""
     pyramid = [(x, y, 0) for x in (0, 1, 2) for y in (0, 1, 2)] + [(1, 1, 2)]
     checks, differing = [], 0
     for points in (pyramid, *(list(sampled.points) for sampled in sampled_sets(3, int(count)))):
@@ -98,8 +104,8 @@ def plane_duplicates_as_printed(count: str = COUNT) -> CheckResult:
             j for j, sampled in enumerate(planes) if _unsigned(sampled) not in map(_unsigned, planes[:j])
         ]
     message = (
-        f"{sum(checks)} of {len(checks)} sets keep one equation of each plane; "
-        f"in {differing} of them it is not the one that the listing keeps."
+        f"{sum(checks)} of {len(checks)} sets keep one equation of each plane; in {differing} sets it is not "
+        "the one that the listing keeps"
     )
     return holds_if(all(checks) and differing > 0, message)
 
@@ -111,7 +117,8 @@ def _unsigned(plane: tuple[int, int, int, int]) -> tuple[int, int, int, int]:
 
 
 def last_equation_accepted(dimension: str) -> CheckResult:
-    """A set of which an H_j has NETC = NE while its last equation is not supporting; at the end all support."""
+    """Check a set with an H_j whose last equation, NETC = NE, is not supporting, and that all equations support at the
+    end."""
     flat = dimension == "2"
     points = [(0, 3, 0), (0, 2, 0), (4, 4, 0), (4, 3, 0)]
     if not flat:
@@ -119,12 +126,12 @@ def last_equation_accepted(dimension: str) -> CheckResult:
     history = convex_hull(points, history=True).history
     equal = [before.number for before, after in pairwise(history) if after.checked == len(before.equations)]
     passed = bool(equal) and stage_property("last_hull").verdict == HOLDS
-    message = f"H_{', H_'.join(map(str, equal))} has NETC = NE and a point is outside of that equation"
+    message = f"H_{', H_'.join(map(str, equal))} has NETC = NE, and a point is outside that equation"
     return holds_if(passed, message, conditional=True)
 
 
 def collinearity_test() -> CheckResult:
-    """Two equations of the five kinds of lines: of the points of a lattice both are 0 on the line and nowhere else."""
+    """Check on a lattice that both equations of a line are 0 on the line only, for five kinds of lines."""
     checks = []
     for way in ((1, 0, 0), (0, 2, 0), (0, 0, 3), (0, 1, -2), (3, -1, 2)):
         p: Point = (1, 2, 3)
@@ -133,21 +140,24 @@ def collinearity_test() -> CheckResult:
         for x in ((x, y, z) for x in range(-3, 6) for y in range(-1, 5) for z in range(-1, 8)):
             both = not any(plane_value((a, b, c, d), x) for a, b, c, d in lines)
             checks.append(both == (not any(cross(way, minus(x, p)))))
-    return holds_if(all(checks), f"{sum(checks)} of {len(checks)} points of a lattice, about five lines")
+    return holds_if(all(checks), f"{sum(checks)} of {len(checks)} lattice points near five lines agree")
 
 
 def program3_against_program2() -> CheckResult:
-    """Program 3 against program 2: its code, and the step that the plane has not."""
+    """Compare program 3 with program 2: the size of its code, and the step that the plane does not need."""
     two, three = (programs.deck(f"program{k}").text() for k in (2, 3))
     code = [code_positions(programs.program(f"program{k}")) for k in (2, 3)]
     passed = code[0] < code[1] and "ELIMINATING INSIDE PLANES" in three and "ELIMINATING INSIDE" not in two
-    return holds_if(passed, f"about {code[0]:,} positions of code for program 2, {code[1]:,} for program 3")
+    return holds_if(
+        passed, f"the code of program 2 takes about {code[0]:,} positions, that of program 3 about {code[1]:,}"
+    )
 
 
 def substitution_counts() -> CheckResult:
-    """Values of equations at points: by the procedure at the most, and by all triples, where all points are vertices.
+    """Count substitutions of points into equations for sets in which all points are vertices.
 
-    For each H_j every point left is put into every equation twice: for what is inside, and for what supports.
+    At most, the procedure substitutes every remaining point twice into every equation of each H_j: to eliminate inside
+    points and to find the supporting equations.
     """
     needed = {}
     for n in (12, 24, 48):
@@ -155,26 +165,30 @@ def substitution_counts() -> CheckResult:
         history = convex_hull(points, history=True).history
         needed[n] = sum(2 * n * len(stage.equations) for stage in history), math.comb(n, 3) * n
     shares = [done / all_ for done, all_ in needed.values()]
-    message = ", ".join(f"{n} points: {done:,} at the most against {all_:,}" for n, (done, all_) in needed.items())
+    message = ", ".join(
+        f"{n} points: at most {done:,} substitutions instead of {all_:,}" for n, (done, all_) in needed.items()
+    )
     return holds_if(shares == sorted(shares, reverse=True) and shares[-1] < 1 / 3, message)
 
 
 def consecutive_hulls(count: str = COUNT) -> CheckResult:
-    """H_1 to H_f make f - 1 pairs H_j, H_j+1: j + 1 begins at 2, for no hull comes before H_1."""
+    """Check that H_1 to H_f make f - 1 pairs H_j, H_j+1, so that j + 1 starts at 2."""
     checks = []
     for sampled in (*sampled_sets(2, int(count)), *sampled_sets(3, int(count))):
         sizes = [len(stage.vertices) for stage in sampled.stages()]
         larger = sum(a < b for a, b in pairwise(sizes))
         checks.append(larger == len(sizes) - 1 and sampled.hull.history[0].number == 1)
     return holds_if(
-        all(checks), f"{sum(checks)} of {len(checks)} sets: H_2 is the first with one before", conditional=True
+        all(checks),
+        f"in {sum(checks)} of {len(checks)} sets H_2 is the first hull that has a predecessor",
+        conditional=True,
     )
 
 
 def order_of_elimination() -> CheckResult:
-    """The way of programs 2 and 3 in examples 4 to 6: for every hull inside points first, then whether it is the last.
+    """Trace programs 2 and 3 in examples 4 to 6: they eliminate inside points of each hull before they check it.
 
-    Only where it is not another hull comes.
+    Only if the hull is not the last one do they add a point.
     """
     sequences = []
     for example in (4, 5, 6):
@@ -188,25 +202,27 @@ def order_of_elimination() -> CheckResult:
         hulls = "".join(way)
         sequences.append((bool(re.fullmatch("(EC+G)*EC*", hulls)), hulls.count("E")))
     counts = ", ".join(str(hulls) for _, hulls in sequences)
-    message = f"Examples 4, 5 and 6 make {counts} hulls; inside points of each are eliminated before it is checked."
+    message = f"examples 4, 5 and 6 make {counts} hulls; the inside points of each are eliminated before it is checked"
     return holds_if(all(in_order and hulls > 1 for in_order, hulls in sequences), message)
 
 
 def coplanar_extremes() -> CheckResult:
-    """Sets with their six extreme points in one plane: their hull has no volume, that of all points has."""
+    """Check sets whose six extreme points are coplanar: their hull has no volume although the set has."""
     checks = []
     for points in EXTREMES_IN_A_PLANE:
         six, whole = exact_hull(_six(points)), exact_hull(points)
         checks.append(six.dimension == 2 and whole.dimension == 3 and _volume(points, whole) > 0)
     return holds_if(
-        all(checks), f"{sum(checks)} of {len(checks)} sets: the hull of the six is flat, that of all points is not"
+        all(checks),
+        f"in {sum(checks)} of {len(checks)} sets the hull of the six extreme points is flat and that of all "
+        "points is not",
     )
 
 
 def first_hull_against_extremes(count: str = "12") -> CheckResult:
-    """The volume of H_1 against that of the hull of the six extreme points, and the planes of both.
+    """Compare H_1 with the hull of the six extreme points by volume and number of planes.
 
-    In the sampled sets; where the six are in one plane; and in a counterexample, where they are not and H_1 is larger.
+    The sets are sampled sets, sets whose extreme points are coplanar, and a counterexample in which H_1 is larger.
     """
     within, fewer = [], []
     for sampled in sampled_sets(3, int(count)):
@@ -218,12 +234,14 @@ def first_hull_against_extremes(count: str = "12") -> CheckResult:
     first, six = _first_and_six(counterexample_points("first_hull.csv"), None)
     passed = min(within, default=-1) >= 0 < max(within, default=0) and all(fewer)
     passed &= all(sampled[0] > six_measures[0] == 0 for sampled, six_measures in flat) and first[0] > six[0] > 0
-    message = f"H_1 is of the six in {len(within)} of {len(fewer)} sets, and never larger there; in the counterexample "
-    return holds_if(passed, message + f"the volumes are {first[0]} and {six[0]}", conditional=True)
+    message = (
+        f"in {len(within)} of {len(fewer)} sets H_1 uses only extreme points, and is not larger; in the counterexample "
+    )
+    return holds_if(passed, message + f"six times the volumes are {first[0]} and {six[0]}", conditional=True)
 
 
 def _first_and_six(points: Sequence[Point], sampled: SampledSet | None) -> tuple[tuple[int, int], tuple[int, int]]:
-    """Six times the volume and the number of planes of H_1, and of the hull of the six extreme points."""
+    """Return six times the volume and the number of planes of H_1 and of the hull of the six extreme points."""
     hull = sampled.hull if sampled else convex_hull(points, history=True)
     first = [points[k] for k in hull.history[0].added]
     measures = []
@@ -234,13 +252,13 @@ def _first_and_six(points: Sequence[Point], sampled: SampledSet | None) -> tuple
 
 
 def _six(points: Sequence[Point]) -> list[Point]:
-    """The extreme points of a set; of equals the last, as in program 1 (134 to 146)."""
+    """Return the extreme points of a set; among equals the last one, as in program 1 (statements 134 to 146)."""
     extreme = {choose(reversed(points), key=lambda p, k=k: p[k]) for choose in (min, max) for k in range(3)}  # type: ignore[misc]
     return [point for point in points if point in extreme]
 
 
 def _volume(points: Sequence[Point], judge: ExactHull) -> int:
-    """Six times the volume of a hull; 0 of a flat one."""
+    """Return six times the volume of a hull, or 0 if it is flat."""
     return sum(_cones(points, judge)) if judge.dimension == 3 else 0
 
 

@@ -1,7 +1,7 @@
-"""The worked examples of chapter 4 judged: every equation and every claim, and the point sets through the programs.
+"""Checks of the worked examples of chapter 4: every equation and every claim, and their point sets in the programs.
 
-Each claim is computed anew from the points the thesis prints (transcripts/chapter4), exactly; the programs take
-them as cards hold them, cut to eight digits.
+The claims are computed exactly from the printed points (``transcripts/chapter4``). The programs read the points from
+cards, truncated to eight digits.
 """
 
 from __future__ import annotations
@@ -28,16 +28,16 @@ from modern.thesis.cards import scaled
 from modern.thesis.job import Load, run_hull
 
 _CARD = Context(prec=8, rounding=ROUND_DOWN)
-"""What a card holds of a number: eight significant digits, the rest cut."""
+"""The precision of a number on a card: eight significant digits, the rest truncated."""
 
 
 def theorem_of(name: str) -> Theorem:
-    """A theorem with a worked example.  Raises KeyError."""
+    """Return a theorem that has a worked example. Raise KeyError for any other."""
     return {theorem.id: theorem for theorem in load_theorems()}[name]
 
 
 def worked_example_checks(theorem: Theorem, load: Load = programs.program) -> Mapping[str, CheckResult]:
-    """Every claim of a worked example, by the name of its function.  ``load`` gives the programs."""
+    """Check every claim of a worked example, by the name of its function. ``load`` returns the programs."""
     checks: list[Callable[[Theorem], CheckResult]] = [_equations, *([_signs] if theorem.signs else [])]
     checks += {"4.1": [_six_extremes], "4.2": [_not_supporting], "4.8": [_growing, _supporting, _last_outside]}[
         theorem.id
@@ -52,7 +52,10 @@ def _computed(theorem: str) -> Mapping[str, CheckResult]:
 
 
 def worked_example(theorem: str, claim: str, kind: str = "") -> CheckResult:
-    """A claim of a worked example: ``4.1 six_extremes``, with a condition if ``kind`` is given.  Raises KeyError."""
+    """Return the check of a claim such as ``4.1 six_extremes``, with a condition if ``kind`` is given.
+
+    Raise KeyError for an unknown theorem or claim.
+    """
     result = _computed(theorem)[claim]
     return replace(result, verdict=CONDITION) if kind and result.verdict == HOLDS else result
 
@@ -63,31 +66,31 @@ EXTREMES_IN_A_PLANE: tuple[tuple[tuple[int, int, int], ...], ...] = (
     ((1, 0, 2), (0, 3, -6), (2, 4, -4), (4, 3, 2), (3, 1, 4), (1, 1, -5)),
     ((0, 1, -1), (3, 1, 2), (4, 3, 1), (3, 4, -1), (1, 3, -2), (1, 0, 1), (1, 1, -1)),
 )
-"""Sets in space whose extreme points, three to six, lie in one plane; one point, the last, does not."""
+"""Sets in space whose three to six distinct extreme points are coplanar; only the last point is not in their plane."""
 
 
 def number_of_extremes(claim: str) -> CheckResult:
-    """Theorem 4.1 for three to six distinct extreme points, coplanar with one more point beside; and its example."""
+    """Check theorem 4.1 for three to six distinct extreme points that are coplanar, and its example."""
     checks = []
     for points in EXTREMES_IN_A_PLANE:
         extreme = {f(points, key=lambda p, k=k: p[k]) for f in (min, max) for k in range(3)}  # type: ignore[misc]
         checks.append(extreme == {*points[:-1]})
         checks.append((exact_hull(points[:-1]).dimension, exact_hull(points).dimension) == (2, 3))
     example = worked_example("4.1", claim)
-    message = f"three to six distinct extreme points; the example: {example.message}"
+    message = f"three to six distinct extreme points are coplanar; the example: {example.message}"
     return holds_if(all(checks) and example.verdict == HOLDS, message)
 
 
 def _equations(theorem: Theorem) -> CheckResult:
-    """The printed equations hold at the points they are said to contain."""
+    """Check that the printed equations are 0 at the points that they contain according to the text."""
     faults = theorem_faults(theorem, load_text())
     return holds_if(not faults, faults[0] if faults else "exactly")
 
 
 def _signs(theorem: Theorem) -> CheckResult:
-    """The stated points lie outside or inside of the stated equations."""
+    """Check that the points lie outside or inside the equations as stated."""
     right = sum((theorem.plane(n).at(_point(theorem, p)) > 0) == (sign == "+") for n, p, sign in theorem.signs)
-    return holds_if(right == len(theorem.signs), f"{right} of {len(theorem.signs)} signs as stated")
+    return holds_if(right == len(theorem.signs), f"{right} of {len(theorem.signs)} signs are as stated")
 
 
 def _point(theorem: Theorem, name: str) -> Point:
@@ -97,7 +100,10 @@ def _point(theorem: Theorem, name: str) -> Point:
 
 
 def lost_candidates(theorem: Theorem) -> list[Vector]:
-    """The whole-number points P3 of theorem 4.1 can have been: in the plane, largest in y, extreme in nothing else."""
+    """Return the possible integer coordinates of the lost point P3 of theorem 4.1.
+
+    P3 lies in the plane, has the largest y and is not extreme in x or z.
+    """
     (plane,) = theorem.planes
     known = [point.at for point in theorem.points]
     low = [min(p[k] for p in known) for k in range(3)]
@@ -113,7 +119,7 @@ def lost_candidates(theorem: Theorem) -> list[Vector]:
 
 
 def _six_extremes(theorem: Theorem) -> CheckResult:
-    """Six extreme points in one plane, the others not in it, whatever point P3 was."""
+    """Check that six extreme points are coplanar and the others are not in their plane, for every possible P3."""
     candidates = lost_candidates(theorem)
     off = [_point(theorem, name) for name in theorem.outside_plane]
     nonplanar = 0
@@ -122,7 +128,7 @@ def _six_extremes(theorem: Theorem) -> CheckResult:
         nonplanar += exact_hull([*map(list, points)]).dimension == 3
     return holds_if(
         bool(candidates) and nonplanar == len(candidates) and all(theorem.planes[0].at(point) for point in off),
-        f"P3 is lost to the OCR; the claim holds for all {len(candidates)} whole-number points it can have been",
+        f"P3 is lost in the OCR text; the claim holds for all {len(candidates)} integer points that P3 can have been",
     )
 
 
@@ -132,45 +138,48 @@ def _faces(points: Sequence[Vector]) -> set[Vector]:
 
 
 def _not_supporting(theorem: Theorem) -> CheckResult:
-    """Equations 7 and 8 of Table 1 are no supporting planes."""
+    """Check that equations 7 and 8 of Table 1 are not supporting planes."""
     faces = _faces([point.at for point in theorem.points])
     table = [scaled(plane.coefficients, True) for plane in theorem.planes]
     inside = [number for number, plane in enumerate(table, 1) if plane in faces]
     return holds_if(
         inside == [1, 2, 3, 4, 5, 6],
-        f"the hull of the six points has equations {', '.join(map(str, inside))} of the table "
-        f"and {len(faces) - len(inside)} others",
+        f"the hull of the six points has the equations {', '.join(map(str, inside))} of the table and "
+        f"{len(faces) - len(inside)} others",
     )
 
 
 ADDED = ("Q1", "Q6", "Q7", "Q2", "Q8", "Q5", "Q3", "Q4")
-"""The vertices of H_5 of theorem 4.8: of H_1, then one added at a time."""
+"""The vertices of H_5 of theorem 4.8: those of H_1, followed by one added at each step."""
 
 
 def _growing(theorem: Theorem) -> CheckResult:
-    """H_1 to H_5 have the points added in turn as vertices."""
+    """Check that H_1 to H_5 have the added points as vertices."""
     points = [_point(theorem, name).at for name in ADDED]
     vertices = [len(exact_hull([*map(list, points[:n])]).vertices) for n in range(4, 9)]
-    return holds_if(vertices == [4, 5, 6, 7, 8], f"{', '.join(map(str, vertices))} vertices")
+    return holds_if(vertices == [4, 5, 6, 7, 8], f"the hulls have {', '.join(map(str, vertices))} vertices")
 
 
 def _supporting(theorem: Theorem) -> CheckResult:
-    """The table lists the supporting planes of H_5."""
+    """Check that the table lists the supporting planes of H_5."""
     faces = _faces([_point(theorem, name).at for name in ADDED])
     table = {scaled(plane.coefficients, True) for plane in theorem.planes}
-    return holds_if(faces == table, f"{len(faces & table)} of {len(table)} are, up to a factor; H5 has {len(faces)}")
+    return holds_if(
+        faces == table,
+        f"{len(faces & table)} of the {len(table)} listed planes support, up to a factor; H5 has {len(faces)} planes",
+    )
 
 
 def _last_outside(theorem: Theorem) -> CheckResult:
-    """The last point lies outside equations 3 to 8."""
+    """Check that the last point is outside equations 3 to 8."""
     points = [_point(theorem, name).at for name in ADDED]
     outside = [plane.number for plane in theorem.planes if plane.at(_point(theorem, "Q9")) > 0]
     passed = outside == [3, 4, 5, 6, 7, 8] and _point(theorem, "Q9").at not in points
-    return holds_if(passed, f"outside {', '.join(map(str, outside))}")
+    return holds_if(passed, f"the last point is outside equations {', '.join(map(str, outside))}")
 
 
 def _programs(theorem: Theorem, load: Load) -> CheckResult:
-    """The printed points through the listing: as the exact hull, or refused."""
+    """Check that the listing finds the exact hull of the printed points, or rejects them if cards truncate them."""
     cut = [[_CARD.divide(x.numerator, x.denominator) for x in point.at] for point in theorem.points]
     points: list[Vector] = [tuple(map(Fraction, point)) for point in cut]
     deck = data_deck([list(map(str, point)) for point in cut], "theorem")
@@ -178,17 +187,17 @@ def _programs(theorem: Theorem, load: Load) -> CheckResult:
     judge = from_judge(exact_hull([*map(list, points)]), points)
     outcome = from_cards("listing", run_hull(deck, load, Options(limit=200_000)), points)
     agrees = outcome.determined and disagreement(outcome, judge, points).agrees
-    taken = "the points" if exactly else "the points cut to eight digits"
-    missing = f", {', '.join(theorem.lost)} left out" if theorem.lost else ""
+    taken = "the printed points" if exactly else "the points truncated to eight digits"
+    missing = f", without {', '.join(theorem.lost)}" if theorem.lost else ""
     fine = agrees if exactly else outcome.status == NOT_ACCEPTABLE
     return holds_if(fine, f"{taken}{missing}: {_seen(outcome, agrees, judge)}")
 
 
 def procedure_of_4_8(kind: str = "") -> CheckResult:
-    """The procedure on the nine points: H_1, H_2 and H_5 are the text's; as page 29 has it there is no H_1.
+    """Check the procedure on the nine points: it makes H_1, H_2 and H_5 of the text, but takes other points for H_3 and
+    H_4.
 
-    In between the procedure takes the points in another order.  The last point is then outside of six planes, which is
-    what the ``theorem`` needs.
+    By the text of page 29 there is no H_1. ``theorem``: the last point is outside six planes of H_5.
     """
     theorem = theorem_of("4.8")
     points = [point.at for point in theorem.points]
@@ -198,14 +207,14 @@ def procedure_of_4_8(kind: str = "") -> CheckResult:
     letter = convex_hull(points, text=True, on_refusal="return")
     six = same[-1] and used[8:] == ["Q9"] and hull.history[-1].outside == 6
     if kind:
-        return holds_if(six, "H_5 as the procedure makes it has six planes that the last point is outside of")
+        return holds_if(six, "the last point is outside six planes of the H_5 that the procedure makes")
     passed = six and same == [True, True, False, False, True] and not letter.determined
-    message = "H_1, H_2 and H_5 are made, H_3 and H_4 of other points; the last point is outside of six planes"
+    message = "the procedure makes H_1, H_2 and H_5, but other hulls H_3 and H_4; the last point is outside six planes"
     return holds_if(passed, message, conditional=True)
 
 
 def slips_of_4_8(which: str) -> CheckResult:
-    """The two points as page 56 prints them: in the list (-4, -4, 2), in the table (3, 4, -1)."""
+    """Check the two points as page 56 prints them: (-4, -4, 2) in the list and (3, 4, -1) in the table."""
     theorem = theorem_of("4.8")
     printed_points, _ = csv_points(counterexample("slips_4_8.csv"), "slips_4_8.csv")
     listed, in_table = (Point("", tuple(map(Fraction, map(str, p))), "", "") for p in printed_points)
@@ -215,7 +224,8 @@ def slips_of_4_8(which: str) -> CheckResult:
     off = [plane.number for plane in theorem.planes if "Q6" in plane.vertices and plane.at(in_table)]
     none = in_table.at not in [point.at for point in theorem.points]
     message = (
-        f"(3, 4, -1) is none of the nine points; equations {', '.join(map(str, off))} of (3, 4, 1) are not 0 there"
+        f"(3, 4, -1) is not one of the nine points, and equations {', '.join(map(str, off))} of (3, 4, 1) are "
+        "not 0 there"
     )
     return fails_if(none and off == [1, 6], message)
 
@@ -223,6 +233,6 @@ def slips_of_4_8(which: str) -> CheckResult:
 def _seen(outcome: Outcome, agrees: bool, judge: Outcome) -> str:
     if not outcome.determined:
         hull = f"{len(judge.vertices)} vertices, {len(judge.equations)} planes"
-        return f"the listing ends with {outcome.status}; the hull has {hull}"
-    verdict = "as the exact hull" if agrees else "unlike the exact hull"
+        return f"the listing ends with {outcome.status}; the exact hull has {hull}"
+    verdict = "like the exact hull" if agrees else "unlike the exact hull"
     return f"{len(outcome.vertices)} vertices, {len(outcome.equations)} planes, {verdict}"

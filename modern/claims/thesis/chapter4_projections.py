@@ -1,4 +1,4 @@
-"""Claims beside the theorems: what a projection keeps, the coordinate planes, and inside of what is not convex."""
+"""Checks of projections, of the coordinate planes, and of points inside a polyhedron that is not convex."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from modern.exact_hull import ExactHull, exact_hull
 from modern.geometry.vectors import cross, dot, minus
 
 _RAY: Point = (101, 37, 11)
-"""A way that meets no edge of the polyhedron from the points looked at."""
+"""A direction in which a ray from the sampled points meets no edge of the polyhedron."""
 
 
 def coordinate_planes() -> CheckResult:
-    """Equations of the coordinate planes, by three points of each: one coefficient is not 0, that of its axis."""
+    """Check that the equation of a coordinate plane, from three of its points, has one nonzero coefficient."""
     checks = []
     for zero in range(3):
         for three in random_triples():
             p, q, r = (_with_0(point, zero) for point in three)
             checks.append([k for k, number in enumerate(plane_through(p, q, r)) if number] == [zero])
-    return holds_if(all(checks), f"{sum(checks)} of {len(checks)} planes have one coefficient that is not 0")
+    return holds_if(all(checks), f"{sum(checks)} of {len(checks)} planes have exactly one nonzero coefficient")
 
 
 def _with_0(point: Point, axis: int) -> Point:
@@ -31,9 +31,9 @@ def _with_0(point: Point, axis: int) -> Point:
 
 
 def hull_of_projection(count: str = COUNT) -> CheckResult:
-    """Flat sets and their projections: vertices, boundary and inside points, and the points of each line, are the same.
+    """Check that projections of flat sets keep the vertices, boundary and inside points, and the points of each line.
 
-    The judge's line of a set in space is the plane through it at right angles to the set's own plane.
+    The exact hull represents a line of a set in space by the plane through it perpendicular to the set.
     """
     checks = []
     for sampled in sampled_sets(2, int(count)):
@@ -42,7 +42,7 @@ def hull_of_projection(count: str = COUNT) -> CheckResult:
         for axis in (k for k in range(3) if plane[k]):
             image = [_with_0(point, axis) for point in sampled.points]
             checks.append(_parts(image, exact_hull(image)) == _parts(sampled.points, sampled.judge))
-    message = "projections: the same points are vertices, on the boundary, inside and on each line"
+    message = "projections keep the vertices, the boundary and inside points, and the points of each line"
     return holds_if(bool(checks) and all(checks), f"{sum(checks)} of {len(checks)} {message}")
 
 
@@ -52,9 +52,10 @@ def _parts(points: Sequence[Point], hull: ExactHull) -> tuple[object, ...]:
 
 
 def inside_nonconvex_polyhedron() -> CheckResult:
-    """The polyhedron of theorem 4.2: points inside of it, by the faces a ray goes through, above zero in an equation.
+    """Check that points inside the polyhedron of theorem 4.2 can be positive in an equation of a face.
 
-    Of its convex hull every such point is below zero in all equations.
+    Points inside are those whose ray meets an odd number of faces. They are negative in all equations of the convex
+    hull.
     """
     theorem = theorem_of("4.2")
     at = {point.name: _four_times(point.at) for point in theorem.points}
@@ -68,7 +69,7 @@ def inside_nonconvex_polyhedron() -> CheckResult:
     above = [point for point in inner if any(plane_value(plane, point) > 0 for plane in planes)]
     hull = exact_hull([*at.values()])
     within = all(plane_value(facet.plane, point) < 0 for facet in hull.facets for point in inner)
-    message = f"{len(above)} of {len(inner)} points inside are above zero in an equation of a face"
+    message = f"{len(above)} of {len(inner)} points inside the polyhedron are positive in an equation of a face"
     return holds_if(0 < len(above) < len(inner) and within, message)
 
 
@@ -78,7 +79,7 @@ def _four_times(numbers: Sequence[object]) -> Point:
 
 
 def _goes_through(start: Point, face: Sequence[Point]) -> bool:
-    """Whether the ray from a point meets a triangle."""
+    """Return True if the ray from a point meets a triangle."""
     a, b, c = (minus(corner, start) for corner in face)
     turns = [dot(_RAY, cross(p, q)) > 0 for p, q in ((a, b), (b, c), (c, a))]
     normal = cross(minus(b, a), minus(c, a))

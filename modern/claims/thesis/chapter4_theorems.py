@@ -1,6 +1,6 @@
-"""Claims of chapter 4 beside its worked examples: theorems 4.3 to 4.7, steps of the proofs, figures 1 to 4.
+"""Checks of chapter 4 apart from its worked examples: theorems 4.3 to 4.7, steps of the proofs, and figures 1 to 4.
 
-Theorems are looked at in small sets; the equations of the proofs are transcribed as they are printed.
+Theorems are checked on small sets. The equations of the proofs are transcribed as printed.
 """
 
 from __future__ import annotations
@@ -31,41 +31,45 @@ from modern.port import convex_hull
 
 
 def eight_theorems() -> CheckResult:
-    """The theorems that have worked examples here, and those that have claims: 4.1 to 4.8."""
+    """Check that theorems 4.1 to 4.8 each have a worked example or a check here."""
     examples = {theorem.id for theorem in load_theorems()}
     proofs = {"4.3": theorem_4_3, "4.4": theorem_4_4, "4.5": theorem_4_5, "4.6": theorem_4_6, "4.7": theorem_4_7}
     passed = examples | proofs.keys() == {f"4.{k}" for k in range(1, 9)} and gap_in_4_7().verdict == CONDITION
-    return holds_if(passed, "4.1 to 4.8, each with a claim here; the step of 4.7 is not proved", conditional=True)
+    return holds_if(
+        passed, "theorems 4.1 to 4.8 are all checked; one step of the proof of 4.7 does not follow", conditional=True
+    )
 
 
 def three_points_coplanar() -> CheckResult:
-    """Three points at random."""
-    return holds_if(all(exact_hull(three).dimension < 3 for three in random_triples()), "six triples of points")
+    """Check that three random points lie in a plane."""
+    return holds_if(
+        all(exact_hull(three).dimension < 3 for three in random_triples()), "six triples of points lie in a plane"
+    )
 
 
 def extremes_4_2() -> CheckResult:
-    """Largest and smallest x, y and z of the six points, in the order of the theorem."""
+    """Check that the six points are the extremes in x, y and z in the order of the theorem."""
     points = [point.at for point in theorem_of("4.2").points]
     passed = all(
         points[2 * k][k] == max(p[k] for p in points) and points[2 * k + 1][k] == min(p[k] for p in points)
         for k in range(3)
     )
-    return holds_if(passed, "P1 to P6 are the extremes in x, y and z, largest before smallest")
+    return holds_if(passed, "P1 to P6 are the extremes in x, y and z, the largest before the smallest")
 
 
 def inequalities_without_z() -> CheckResult:
-    """A x + B y + C at point 6 for equation 7, where the print has it below zero."""
+    """Check the printed inequality A x + B y + C < 0 for point 6 and equation 7."""
     (point,) = counterexample_points("point_6.csv")
     a, b, c, d = theorem_of("4.2").plane(7).coefficients
     as_printed, right = a * point[0] + b * point[1] + c, plane_value((int(a), int(b), int(c), int(d)), point)
     passed = as_printed > 0 > right and [*map(Fraction, point)] == [*theorem_of("4.2").points[5].at]
-    return fails_if(passed, f"at point 6 equation 7 is {as_printed} as printed, {right} with z and D")
+    return fails_if(passed, f"at point 6 equation 7 has the value {as_printed} as printed, and {right} with z and D")
 
 
 def theorem_4_3() -> CheckResult:
-    """V and the distance from the line order points alike: V is the distance squared times D squared.
+    """Check that V orders points by their distance from the line: V is the distance squared times D squared.
 
-    By our text of the theorem's own display, in which each i is a 1, V is 0 of every point and tells nothing.
+    In the theorem's own display our text has 1 for each i, so that V is 0 at every point.
     """
     value_check = value_v()
     as_text = []
@@ -74,14 +78,14 @@ def theorem_4_3() -> CheckResult:
         as_text.append(first_term**2 + ((z2 - z1) * (x2 - x1) - (x2 - x1) * (z2 - z1)) ** 2)
     return CheckResult(
         value_check.verdict if not any(as_text) else FAILS,
-        f"{value_check.message}; as our text of p. 41 has it 0 of every point",
+        f"{value_check.message}; as displayed in our text of p. 41 it is 0 at every point",
     )
 
 
 def distance_by_cosines(kind: str = "") -> CheckResult:
-    """d squared by three determinants with direction cosines, times (e D)^2, is V; the cosines' squares add to 1.
+    """Check that d squared, by three determinants with direction cosines, times (e D)^2 is V.
 
-    ``substituted``: with the cosines put in, and by our text of that display, which has lost signs and indices.
+    With any ``kind`` the display in our text, which has lost signs and indices, is compared as well.
     """
     checks, as_text = [], []
     for p, q, x in random_triples():
@@ -95,20 +99,24 @@ def distance_by_cosines(kind: str = "") -> CheckResult:
         as_text.append(Fraction(garbled, square) == d_squared)
     if kind:
         passed = all(checks) and not any(as_text)
-        return holds_if(passed, "exactly, for six triples of points; none as our text has it", conditional=True)
-    return holds_if(all(checks), "exactly, for six triples of points")
+        return holds_if(
+            passed,
+            "the formula agrees exactly for six triples of points; the display in our text agrees for none",
+            conditional=True,
+        )
+    return holds_if(all(checks), "the formula agrees exactly for six triples of points")
 
 
 def sign_e() -> CheckResult:
-    """The sign e of the counterexample's line, chosen as page 42 says."""
+    """Check the sign e of the counterexample's line, chosen as page 42 says."""
     p, q = counterexample_points("e_minus_one.csv")
     first = next(k for k in (q[2] - p[2], q[1] - p[1], q[0] - p[0]) if k)
     e = 1 if first > 0 else -1
-    return fails_if(e == -1 and e * e == 1, f"e is {e} where z falls from P1 to P2; its square is 1")
+    return fails_if(e == -1 and e * e == 1, f"e is {e} if z decreases from P1 to P2; its square is 1")
 
 
 def theorem_4_4(count: str = COUNT) -> CheckResult:
-    """Vertices of flat sets and of their projections along each coordinate their plane is not parallel to."""
+    """Check that projections of flat sets along a coordinate that their plane is not parallel to keep the vertices."""
     checks = []
     for sampled in sampled_sets(2, int(count)):
         plane = sampled.judge.plane
@@ -121,24 +129,28 @@ def theorem_4_4(count: str = COUNT) -> CheckResult:
 
 
 def constant_term_of_4_4() -> CheckResult:
-    """The constant terms of the three coordinate planes, by three points of each; and of planes beside two of them."""
+    """Check the constant terms of the coordinate planes, and of planes parallel to two of them."""
     units = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
     constants = {plane_through((0, 0, 0), p, q)[3] for p, q in combinations(units, 2)}
     plane_x, plane_z = plane_through((1, 0, 0), (1, 1, 0), (1, 0, 1)), plane_through((0, 0, 1), (1, 0, 1), (0, 1, 1))
     passed = constants == {0} and dot(plane_x[:3], plane_z[:3]) == 0 != plane_x[3] * plane_z[3]
     message = (
-        "D_C is 0 of a coordinate plane; the planes x = 1 and z = 1 are perpendicular, though the product of D is not 0"
+        "D_C is 0 for a coordinate plane; the planes x = 1 and z = 1 are perpendicular although the product "
+        "of their D is not 0"
     )
     return holds_if(passed, message, conditional=True)
 
 
 def proof_of_4_4(part: str) -> CheckResult:
-    """C_0 as page 46 prints it, for points (a), (b) and k between them: it is (3.4)'s, and 0.
+    """Check C_0 as page 46 prints it for two points and a point k between them: it is the C of (3.4), and 0.
 
-    ``letters``: with z for y it is B with its sign turned, with z for x A: as good, for both are to be 0.
+    ``letters``: with z for y the formula gives -B, and with z for x it gives -A. The sign does not matter because both
+    must be 0.
     """
     if part == "letters":
-        return holds_if(all(_letters(*three) for three in random_triples()), "-B and -A, for six triples of points")
+        return holds_if(
+            all(_letters(*three) for three in random_triples()), "the formulas give -B and -A for six triples of points"
+        )
     random = Random(44)
     coefficient, total, terms = [], [], []
     for _ in range(6):
@@ -154,20 +166,22 @@ def proof_of_4_4(part: str) -> CheckResult:
         substituted = [xb * ya * rest, xb * yb * share, ya * xa * rest, ya * xb * share]
         terms.append(sorted(printed) == sorted([xa * yb, *substituted]))
     if part == "coefficient":
-        return holds_if(all(coefficient), "exactly, for six cases")
+        return holds_if(all(coefficient), "they agree exactly in six cases")
     return holds_if(
-        all(total) and not any(terms), "both are 0; the terms differ from the substitution's", conditional=True
+        all(total) and not any(terms),
+        "both sums are 0, but their terms differ from those of the substitution",
+        conditional=True,
     )
 
 
 def _c_0(a: tuple[Fraction, ...], b: tuple[Fraction, ...], k: tuple[Fraction, ...]) -> Fraction:
-    """C_0 of three points of the x-y plane as page 46 prints it."""
+    """Return C_0 of three points of the x-y plane as page 46 prints it."""
     (xa, ya), (xb, yb), (xk, yk) = a, b, k
     return xa * yb + xb * yk + ya * xk - yb * xk - xa * yk - xb * ya
 
 
 def _letters(p: Point, q: Point, r: Point) -> bool:
-    """C_0 with y replaced by z, and with x replaced by z, against the plane through the points."""
+    """Compare C_0 with y replaced by z, and with x replaced by z, with the plane through the points."""
 
     def printed(u: int, v: int) -> int:
         (ua, va), (ub, vb), (uk, vk) = ((point[u], point[v]) for point in (p, q, r))
@@ -178,7 +192,7 @@ def _letters(p: Point, q: Point, r: Point) -> bool:
 
 
 def theorem_4_5(count: str = COUNT) -> CheckResult:
-    """Each H_j of flat sets is the hull of its vertices: their edges are the lines."""
+    """Check that each H_j of a flat set is the hull of its vertices and that its edges are the lines."""
     checks = []
     for sampled in sampled_sets(2, int(count)):
         for stage in sampled.stages():
@@ -187,7 +201,10 @@ def theorem_4_5(count: str = COUNT) -> CheckResult:
                 len(stage.equations) == len(stage.vertices) and _touches(sampled, stage.equations, stage.vertices)
             )
             checks.append(len({*judge.vertices}) <= len(stage.vertices))
-    return holds_if(all(checks), f"{len(checks) // 2} stages: no vertex is beyond a line, and two at least are on each")
+    return holds_if(
+        all(checks),
+        f"in {len(checks) // 2} stages no vertex is beyond a line, and each line contains at least two vertices",
+    )
 
 
 def _touches(sampled: SampledSet, equations: Sequence[tuple[int, int, int, int]], vertices: Sequence[int]) -> bool:
@@ -196,7 +213,7 @@ def _touches(sampled: SampledSet, equations: Sequence[tuple[int, int, int, int]]
 
 
 def combinations_inside() -> CheckResult:
-    """Combinations of a hull's vertices have no positive value."""
+    """Check that convex combinations of the vertices of a hull have no positive value."""
     random = Random(48)
     checks = []
     for sampled in sampled_sets(2, 1):
@@ -208,13 +225,13 @@ def combinations_inside() -> CheckResult:
                     for w, k in zip(weights, sampled.judge.vertices, strict=True)
                 )
                 checks.append(mixed <= 0)
-    return holds_if(all(checks), f"{len(checks)} values of combinations")
+    return holds_if(all(checks), f"none of {len(checks)} values of combinations is positive")
 
 
 def theorem_4_6(kind: str = "") -> CheckResult:
-    """Values of three lines and distances from them order points alike; ``bars``: with those of our text.
+    """Check that the values of a line order points by their distance from it, and that the printed formula gives it.
 
-    The distance is that from the foot of the perpendicular; the formula says that times a root it is the value.
+    The distance is measured to the foot of the perpendicular. ``bars`` uses the absolute values as placed in our text.
     """
     checks, as_text = [], []
     for (a, b, c), p, q in (((3, -2, 5), (1, 4), (3, 7)), ((4, -6, 2), (1, 1), (4, 3)), ((0, 5, -10), (0, 2), (1, 2))):
@@ -228,39 +245,42 @@ def theorem_4_6(kind: str = "") -> CheckResult:
         as_text += [
             s * (a * a + b * b) == (abs(a * x) + b * y + c) ** 2 for (x, y), s in zip(points, squares, strict=True)
         ]
-    message = "points of a grid, all pairs, about three lines"
+    message = "all pairs of grid points are ordered correctly for three lines"
     if kind:
         return holds_if(all(checks) and not all(as_text), message, conditional=True)
     return holds_if(all(checks), message)
 
 
 def _distance_squared(x: tuple[int, int], p: tuple[int, int], q: tuple[int, int]) -> Fraction:
-    """The square of the distance of a point from the foot of its perpendicular on the line of two others."""
+    """Return the squared distance of a point from the foot of its perpendicular to the line through two others."""
     along = q[0] - p[0], q[1] - p[1]
     t = Fraction((x[0] - p[0]) * along[0] + (x[1] - p[1]) * along[1], along[0] ** 2 + along[1] ** 2)
     return (p[0] + t * along[0] - x[0]) ** 2 + (p[1] + t * along[1] - x[1]) ** 2
 
 
 def theorem_4_7(count: str = COUNT) -> CheckResult:
-    """Of no H_j of flat sets is a given point outside of two lines."""
+    """Check that a point is outside at most one line of each H_j of flat sets."""
     most = cases = 0
     for sampled in sampled_sets(2, 2 * int(count)):
         for stage in sampled.stages():
             for point in sampled.points:
                 cases += 1
                 most = max(most, sum(plane_value(plane, point) > 0 for plane in stage.equations))
-    return holds_if(most == 1, f"{cases} points and stages: outside of {most} line at most")
+    return holds_if(most == 1, f"in {cases} pairs of a point and a stage, a point is outside at most {most} line")
 
 
 def choice_of_first_triangle() -> CheckResult:
-    """A triangle of three points not chosen so: a further point is outside of two of its lines."""
+    """Check a triangle that is not chosen by the rule: a further point is outside two of its lines."""
     triangle, point = [(0, 0, 0), (2, 0, 0), (0, 2, 0)], (-1, -1, 0)
     outside = sum(plane_value(facet.plane, point) > 0 for facet in exact_hull(triangle).facets)
-    return holds_if(outside == 2, "(-1, -1) is outside of two lines of the triangle (0, 0), (2, 0), (0, 2)")
+    return holds_if(outside == 2, "(-1, -1) is outside two lines of the triangle (0, 0), (2, 0), (0, 2)")
 
 
 def gap_in_4_7() -> CheckResult:
-    """What the written step does not exclude, and what does: where a used point is no boundary point it happens."""
+    """Check a case that the proof does not exclude: a point outside one line of H_k and outside two lines of H_k+1.
+
+    The choice of the used points excludes it.
+    """
     square = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0)]
     lines = [facet.plane for facet in exact_hull(square).facets]
     after = [facet.plane for facet in exact_hull([*square, (5, 2, 0)]).facets]
@@ -274,12 +294,12 @@ def gap_in_4_7() -> CheckResult:
         and sum(plane_value(plane, (x, y, 0)) > 0 for plane in after) > 1
     )
     theorem_holds = theorem_4_7().verdict == HOLDS
-    message = f"({point[0]}, {point[1]}) is outside of one line of the square at most and of two after (5, 2) is added"
+    message = f"({point[0]}, {point[1]}) is outside at most one line of a square, and outside two after (5, 2) is added"
     return holds_if(theorem_holds, message, conditional=True)
 
 
 def outside_unreplaced_line() -> CheckResult:
-    """The counterexample: a point outside of a line of H_1 that is not the one replaced, and so is a line of H_2."""
+    """Check the counterexample: a point is outside a line of H_1 that is not replaced and so remains a line of H_2."""
     points = counterexample_points("line_stays.csv")
     one = SampledSet(tuple(points), convex_hull(points, history=True), exact_hull(points))
     before, after = one.stages()[:2]
@@ -290,12 +310,12 @@ def outside_unreplaced_line() -> CheckResult:
         for point in points
         if k + 1 != checked and plane_value(plane, point) > 0 and plane in after.equations
     ]
-    message = ", ".join(f"{point[:2]} is outside of line {k}" for k, point in stays)
-    return fails_if(stays, f"{message}; line {checked} is replaced")
+    message = ", ".join(f"{point[:2]} is outside line {k}" for k, point in stays)
+    return fails_if(stays, f"{message}; the line replaced is line {checked}")
 
 
 def lines_of_figure_3(kind: str = "") -> CheckResult:
-    """P_3 at the origin, P_1 = (x1, y1), P_2 = (x1, y2) with y1 below y2: the printed lines, outward."""
+    """Check that the printed lines are outward, with P_3 at the origin, P_1 = (x1, y1), P_2 = (x1, y2) and y1 < y2."""
     checks = []
     for x1, y1, y2 in ((3, -1, 2), (5, -4, -1), (2, 1, 6)):
         lines = _printed_lines(x1, y1, y2)
@@ -306,19 +326,19 @@ def lines_of_figure_3(kind: str = "") -> CheckResult:
         checks += [
             x < 0 for x, y in product(range(-6, 7), repeat=2) if all(a * x + b * y + c > 0 for a, b, c in lines[1:])
         ]
-    message = f"{len(checks)} lines and points"
+    message = f"{len(checks)} lines and points agree"
     if not all(checks):
         return CheckResult(FAILS, message)
     return CheckResult(CONDITION if kind else HOLDS, message)
 
 
 def _printed_lines(x1: int, y1: int, y2: int) -> tuple[tuple[int, int, int], ...]:
-    """Equations (1), (2) and (3) of page 53."""
+    """Return the equations (1), (2) and (3) of page 53."""
     return (1, 0, -x1), (y1, -x1, 0), (-y2, x1, 0)
 
 
 def origin_is_third_point(count: str = COUNT) -> CheckResult:
-    """With P_3 at the origin and P_1 P_2 upright no point has a negative x: none is farther to P_3's side than P_3."""
+    """Check that no point has a negative x if P_3 is the origin and P_1 P_2 is parallel to the y axis."""
     checks = []
     for sampled in sampled_sets(2, int(count)):
         p, q, r = sampled.hull.history[0].added
@@ -334,17 +354,20 @@ def origin_is_third_point(count: str = COUNT) -> CheckResult:
             == 0
             > plane_value(line, sampled.points[r])
         )
-    return holds_if(all(checks), f"{len(checks)} points")
+    return holds_if(all(checks), f"{len(checks)} conditions hold")
 
 
 def single_point_outside() -> CheckResult:
-    """Of the nine points those that a plane of H_5 has on its positive side; the other eight are its vertices."""
+    """Check that exactly one of the nine points is outside H_5 and that the other eight are its vertices."""
     theorem = theorem_of("4.8")
     eight = [[*point.at] for point in theorem.points if point.name in ADDED]
     hull = exact_hull(eight)
     planes = [hull.plane_of(facet) for facet in hull.facets]
     beyond = {p.name for p in theorem.points if any(_at(plane, p.at) > 0 for plane in planes)}
-    return holds_if(beyond == {"Q9"} and len(hull.vertices) == len(eight) == 8, "the other eight are its vertices")
+    return holds_if(
+        beyond == {"Q9"} and len(hull.vertices) == len(eight) == 8,
+        "only Q9 is outside; the other eight points are the vertices of H_5",
+    )
 
 
 def _at(plane: Sequence[Fraction | int], point: Sequence[Fraction]) -> Fraction:
@@ -352,7 +375,7 @@ def _at(plane: Sequence[Fraction | int], point: Sequence[Fraction]) -> Fraction:
 
 
 def figure(number: str) -> CheckResult:
-    """What a figure shows, from its data."""
+    """Check what a figure shows, from its data."""
     return {"1": _figure_1, "2": _added_triangle, "3": lines_of_figure_3, "4": _added_triangle}[number]()
 
 
@@ -366,10 +389,11 @@ def _figure_1() -> CheckResult:
     closed = set(sides.values()) == {2} and v - e + f == 2
     beyond = sum(any(plane.at(p) > 0 for p in theorem.points) for plane in theorem.planes)
     return holds_if(
-        closed and beyond > 0, f"{v} vertices, {e} edges, {f} faces, closed; {beyond} faces have a vertex beyond"
+        closed and beyond > 0,
+        f"{v} vertices, {e} edges and {f} faces form a closed surface; {beyond} faces have a vertex beyond them",
     )
 
 
 def _added_triangle() -> CheckResult:
     replaced_lines = stage_property("replaced_line", "2")
-    return CheckResult(replaced_lines.verdict, f"each step takes one line away and adds two: {replaced_lines.message}")
+    return CheckResult(replaced_lines.verdict, f"each step removes one line and adds two: {replaced_lines.message}")

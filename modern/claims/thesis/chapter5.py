@@ -1,4 +1,4 @@
-"""Claims of chapters 5 and 6 and of the bibliography: what messages say, places for lines and planes, printed hulls."""
+"""Checks of chapters 5 and 6 and of the bibliography: messages, table sizes, printed hulls, and cited pages."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ from modern.thesis.job import COPLANAR, HullRun, run_hull
 
 MOST_POINTS = 51
 _SPACE = ((1, 2, 3), (2, 1, 5), (4, 4, 1), (3, 9, 2), (7, 1, 1))
-"""Five points in no plane."""
+"""Five points that are not coplanar."""
 
 
 def error_in_program() -> CheckResult:
-    """Two decks end with the message: one meets a slip of program 3, the other none but has too many digits for it."""
+    """Check two decks that end with the message: one meets a fault of program 3, the other has too many digits."""
     names = ("throughc.deck", "zeroplane.deck")
     ended = [typed(run_of(name)).endswith("ERROR IN PROGRAM") for name in names]
     hulls = [convex_hull([*exact_points(deck_of(name))[0].values()]) for name in names]
@@ -35,18 +35,19 @@ def error_in_program() -> CheckResult:
         all(ended) and all(hull.determined for hull in hulls) and bool(hulls[0].corrected) and not hulls[1].corrected
     )
     message = (
-        f"typed of both; over exact numbers {', '.join(hulls[0].corrected)} is needed of the one, nothing of the other"
+        "both runs type the message; in exact arithmetic the first deck needs "
+        f"{', '.join(hulls[0].corrected)} and the second nothing"
     )
     return holds_if(passed, message, conditional=True)
 
 
 def message_after_wrong_hull() -> CheckResult:
-    """The last cards of a run that has lost vertices."""
+    """Check the last cards of a run that has lost vertices."""
     punched = run_of("silent.deck").final.result.punched
     punched_vertices, hull_vertices = vertices_of("silent.deck")
     announced = any("CONVEX HULL HAS BEEN DETERMINED" in card for card in punched)
     wrong = announced and punched_vertices != hull_vertices
-    return fails_if(wrong, f"punched after {len(punched_vertices)} of {len(hull_vertices)} vertices")
+    return fails_if(wrong, f"the message is punched after {len(punched_vertices)} of {len(hull_vertices)} vertices")
 
 
 @cache
@@ -56,33 +57,40 @@ def _first_run(exponent: str) -> HullRun:
 
 
 def points_are_coplanar() -> CheckResult:
-    """Five points in space: the message at 10 to the power of -17, where squares are below the smallest number."""
+    """Check that points in space are reported as coplanar if their squared differences underflow."""
     typed_coplanar = [COPLANAR in _first_run(exponent).steps[0].result.typed for exponent in ("E+01", "E-16", "E-17")]
     passed = typed_coplanar == [False, False, True] and exact_hull(_SPACE).dimension == 3
-    return holds_if(passed, "typed of five points in no plane where coordinates are of 1E-18", conditional=True)
+    return holds_if(
+        passed,
+        "POINTS ARE COPLANAR is typed for five points that are not, if their coordinates are about 1E-18",
+        conditional=True,
+    )
 
 
 def underflow() -> CheckResult:
-    """Numbers of one digit times a power of 10: none needs more than eight digits, and the result depends on the power.
+    """Check that the result for one-digit coordinates depends on the power of ten that multiplies them.
 
-    So this error is neither of coordinates nor of truncation.
+    So this error comes neither from coordinates nor from truncation.
     """
     hulls = [_first_run(exponent) for exponent in ("E+01", "E-17")]
     names = [run.final.name for run in hulls]
     passed = names == ["program3", "program2"]
-    return holds_if(passed, f"the same points, times 1E-18: {names[0]} is asked for, and {names[1]}", conditional=True)
+    return holds_if(
+        passed, f"the same five points lead to {names[0]}, and multiplied by 1E-18 to {names[1]}", conditional=True
+    )
 
 
 def ninth_digit_of_product() -> CheckResult:
-    """Products and sums of eight digits: those that need nine lose the ninth."""
+    """Check that a product that needs nine digits loses the ninth."""
     arithmetic, (coordinates, *_) = take([("99999999", "0", "0"), ("11", "0", "0")], "truncating")
     product = Fraction(arithmetic.exact(coordinates[0] * coordinates[1], 2))
     passed = product == 1_099_999_900 == 99_999_999 * 11 - 89
-    return holds_if(passed, f"99999999 times 11 is {product}, for 1099999989")
+    return holds_if(passed, f"99999999 times 11 is {product} instead of 1099999989")
 
 
 def plane_table_size() -> CheckResult:
-    """98 places: as many as a hull of 51 points can have planes, which is 2N - 4; in between more are needed."""
+    """Check the 98 entries of the plane table: a hull of 51 points has at most 2N - 4 planes, but intermediate hulls
+    need more."""
     size = next(entry.size for entry in programs.program("program3").storage.arrays() if entry.name == "KK")
     hull = exact_hull([(k, k**2, k**3) for k in range(MOST_POINTS)])
     planes = len(hull.facets)
@@ -92,12 +100,12 @@ def plane_table_size() -> CheckResult:
         for before, after in zip(overrun.history, overrun.history[1:], strict=False)
     )
     passed = len(hull.vertices) == MOST_POINTS and planes == 2 * MOST_POINTS - 4 == size == PLACES < most
-    message = f"a hull of {len(hull.vertices)} vertices with {planes} planes fits; table.deck needs {most} places"
+    message = f"a hull of {len(hull.vertices)} vertices with {planes} planes fits; table.deck needs {most} entries"
     return holds_if(passed, message, conditional=True)
 
 
 def line_table_size() -> CheckResult:
-    """Points of a parabola, all of them vertices: lines in use at once, against the 51 places of program 2."""
+    """Check the 51 entries of the line table of program 2 with points on a parabola, all of which are vertices."""
     size = next(entry.size for entry in programs.program("program2").storage.arrays() if entry.name == "MM")
     most = {}
     for n in (MOST_POINTS - 1, MOST_POINTS):
@@ -109,7 +117,7 @@ def line_table_size() -> CheckResult:
 
 
 def printed_hulls() -> CheckResult:
-    """The hulls of examples 1 to 6 as chapter 6 prints them, against the judge's of their points."""
+    """Compare the hulls of examples 1 to 6 as printed in chapter 6 with the exact hulls."""
     checks = []
     for example in EXAMPLES:
         points = [tuple(map(Fraction, point)) for point in exact_points(input_deck(example))[0].values()]
@@ -117,12 +125,14 @@ def printed_hulls() -> CheckResult:
         printed_outcome = from_card_hull("print", f"program{last.program}", read_hull(last.lines), points)
         checks.append(disagreement(printed_outcome, from_judge(exact_hull(points), points), points).agrees)
     return holds_if(
-        all(checks), f"{sum(checks)} of {len(checks)} printed hulls: vertices, boundary and inside points, equations"
+        all(checks),
+        f"{sum(checks)} of {len(checks)} printed hulls have the exact vertices, boundary points, inside "
+        "points and equations",
     )
 
 
 def possible_output() -> CheckResult:
-    """Headings and messages that the listings punch or type, and those on the cards that chapter 6 prints."""
+    """Compare the headings and messages in the listings with those on the cards printed in chapter 6."""
     missing: dict[str, set[str]] = {"PUNCH": set(), "PRINT": set()}
     for number in (1, 2, 3):
         program = programs.program(f"program{number}")
@@ -138,7 +148,11 @@ def possible_output() -> CheckResult:
             lacking |= {heading for heading in headings if not any(heading in card for card in cards)}
     typed_only = {"ERROR IN PROGRAM", "DATA NOT ACCEPTABLE", "POINTS ARE COPLANAR", "POINTS ARE NOT COPLANAR"}
     passed = not missing["PUNCH"] and missing["PRINT"] == typed_only
-    return holds_if(passed, f"of the headings punched all; not {', '.join(sorted(missing['PRINT']))}", conditional=True)
+    return holds_if(
+        passed,
+        f"all punched headings are printed; the typed messages {', '.join(sorted(missing['PRINT']))} are not",
+        conditional=True,
+    )
 
 
 def _punched(result: Print) -> tuple[str, ...]:
@@ -146,21 +160,21 @@ def _punched(result: Print) -> tuple[str, ...]:
 
 
 def _heading(item: object) -> str:
-    """The words of a part of a FORMAT that are more than a column's name."""
+    """Return the text of a FORMAT item if it is longer than a column heading."""
     return item.text if isinstance(item, Literal) and len(item.text.strip()) > len("NO.") else ""
 
 
 def first_card() -> CheckResult:
-    """N in columns 1 and 2, read by FORMAT 1, then a card for each point."""
+    """Check that N is in columns 1 and 2, read by FORMAT 1, and that one card for each point follows."""
     deck = data_deck([["1", "2", "3"]] * 8, "eight")
     cards = [card.text.rstrip() for card in deck.cards]
     listing = programs.deck("program1").text()
     passed = cards[0] in (" 8", "08") and len(cards) == 9 and "READ 1,N" in listing and "1 FORMAT (I2)" in listing
-    return holds_if(passed, f"{len(cards)} cards of 8 points, the first one {cards[0]!r}")
+    return holds_if(passed, f"a deck of 8 points has {len(cards)} cards, and its first card is {cards[0]!r}")
 
 
 _WORKS = {1: 73, 2: 180, 3: 38, 4: 136, 5: 297, 6: 290, 7: 94, 8: 302, 9: 329, 11: 306, 12: 301}
-"""Pages of the works of the bibliography, by number (p. 121); work 10 is on pages 51 to 73 of its volume."""
+"""Numbers of pages of the works of the bibliography (p. 121), except work 10 on pages 51 to 73 of its volume."""
 _CITED = {
     2: (38,),
     3: (),
@@ -171,12 +185,15 @@ _CITED = {
     10: (),
     11: (43, 110, 234),
 }
-"""What the text cites, by number and page (p. 2 to 50)."""
+"""The pages that the text cites (p. 2 to 50), by the number of the work."""
 
 
 def cited_pages() -> CheckResult:
-    """Every page cited is one of the work; eight works of twelve are cited by number."""
+    """Check that every cited page exists in its work and which works are cited by number."""
     within = [page <= _WORKS[work] for work, pages in _CITED.items() for page in pages]
     uncited = sorted({*_WORKS, 10} - {*_CITED})
-    message = f"{sum(within)} of {len(within)} pages; works {', '.join(map(str, uncited))} are cited nowhere by number"
+    message = (
+        f"{sum(within)} of {len(within)} cited pages exist; works {', '.join(map(str, uncited))} are not "
+        "cited by number"
+    )
     return holds_if(all(within) and uncited == [1, 4, 7, 12], message, conditional=True)

@@ -1,7 +1,7 @@
-"""Claims of chapters 5 and 7: the machine, the data sheet, where data are refused, errors, the two modifications.
+"""Checks of chapters 5 and 7: the machine, the data sheet, rejected data, errors and the two modifications.
 
-What the programs do is seen by running them on small decks; what eight digits do, on three or four points in the
-arithmetic of the emulator.
+The behaviour of the programs is checked by running them on small decks, and the effect of eight digits on three or four
+points in the arithmetic of the emulator.
 """
 
 from __future__ import annotations
@@ -37,23 +37,23 @@ _THREE: tuple[Point, ...] = ((-220, -492, 405), (-70, -270, -113), (-452, 485, -
 
 
 def deck_of(name: str) -> Deck:
-    """A counterexample that is a data deck."""
+    """Return a counterexample that is a data deck."""
     return deck_from_text(name, counterexample(name))
 
 
 @cache
 def run_of(name: str) -> HullRun:
-    """A counterexample that is a data deck through the listing."""
+    """Run the listing on a counterexample that is a data deck."""
     return run_hull(deck_of(name), programs.program, Options(limit=100_000))
 
 
 def typed(run: HullRun) -> str:
-    """What the typewriter has of all programs of a run."""
+    """Return the typewriter output of all programs of a run."""
     return " / ".join(line for step in run.steps for line in step.result.typed)
 
 
 def programs_compile(kind: str = "") -> CheckResult:
-    """The decks of the listing compile."""
+    """Check that the decks of the listing compile."""
     cards = {name: len(programs.deck(name).cards) for name in THREE}
     compiled = all(programs.program(name).code for name in THREE)
     message = ", ".join(f"{name}: {n} cards" for name, n in cards.items())
@@ -66,64 +66,71 @@ def _positions(name: str) -> int:
 
 
 def program_sizes() -> CheckResult:
-    """Positions of each program with its data, by the estimate of the compiler's code; 20,000 would not do."""
+    """Check that each program and its data fit 40,000 positions, and not 20,000, by the estimated size of the code."""
     sizes = [_positions(name) for name in THREE]
-    return holds_if(SMALLER_CORE < max(sizes) <= CORE, f"about {', '.join(f'{n:,}' for n in sizes)} positions")
+    return holds_if(
+        SMALLER_CORE < max(sizes) <= CORE, f"the programs take about {', '.join(f'{n:,}' for n in sizes)} positions"
+    )
 
 
 def three_programs_needed() -> CheckResult:
-    """One program of all three would need the code of each beside the data of the largest."""
+    """Check that a single program would need more than 40,000 positions for all code and the largest data."""
     code = sum(code_positions(programs.program(name)) for name in THREE)
     data = max(programs.program(name).storage.fields * FIELD for name in THREE)
     total = OBJECT_PROGRAM + FUNCTION_NAMES + code + data
     return holds_if(
         total > CORE,
-        f"about {total:,} positions for the code of all three and the data of the largest",
+        f"the code of all three programs and the largest data take about {total:,} positions",
         conditional=True,
     )
 
 
 def fifty_one_points() -> CheckResult:
-    """Arrays of 51 points, and a deck of fewer for which the places for planes do not do."""
+    """Check the arrays for 51 points, and a deck of fewer points that overflows the plane table."""
     points, _ = exact_points(deck_of("table.deck"))
     sizes = {entry.size for entry in programs.program("program3").storage.arrays()}
     most = _most_planes(np.array([[int(Fraction(x)) for x in point] for point in points.values()], dtype=np.int64))
-    message = f"{len(points)} points need {most} places for planes at once; program 3 has {PLACES}"
+    message = f"{len(points)} points need {most} entries of the plane table at once; program 3 has {PLACES}"
     return holds_if(sizes == {51, PLACES} and len(points) <= 51 and most > PLACES, message, conditional=True)
 
 
 def _most_planes(points: np.ndarray) -> int:
-    """Places in use at once: of each step those before it, three more for each plane replaced, one less at a time."""
+    """Return the largest number of table entries in use at once.
+
+    Each step keeps the planes of the previous hull, adds three for each replaced plane and removes that plane.
+    """
     hull = convex_hull(points, history=True)
     pairs = zip(hull.history, hull.history[1:], strict=False)
     return max(len(before.equations) + 2 * after.outside + 1 for before, after in pairs)
 
 
 def plane_through_c() -> CheckResult:
-    """The deck of KNOWN-FAULTS 3: what is typed, and that the judge has a hull."""
+    """Check the deck of KNOWN-FAULTS 3: it ends with an error message although its exact hull exists."""
     message = typed(run_of("throughc.deck"))
     points = [[*map(Fraction, point)] for point in exact_points(deck_of("throughc.deck"))[0].values()]
     judge = exact_hull(points)
     passed = message.endswith("ERROR IN PROGRAM") and judge.dimension == 3
-    return fails_if(passed, f"typed: {message}; the judge: {len(judge.vertices)} vertices, {len(judge.facets)} planes")
+    return fails_if(
+        passed, f"typed: {message}; the exact hull has {len(judge.vertices)} vertices and {len(judge.facets)} planes"
+    )
 
 
 def truncated_roots() -> CheckResult:
-    """The deck of KNOWN-FAULTS 14: the vertices the listing punches are not the judge's."""
+    """Check that the listing punches wrong vertices for the deck of KNOWN-FAULTS 14."""
     punched, judge = vertices_of("between.deck")
-    message = f"{len(punched ^ judge)} points differ between the punched vertices and the judge's"
+    message = f"{len(punched ^ judge)} points differ between the punched vertices and the exact ones"
     return holds_if(punched != judge, message, conditional=True)
 
 
 def vertices_of(name: str) -> tuple[set[int], set[int]]:
-    """The vertices that the listing punches of a counterexample, and the judge's, by place."""
+    """Return the vertices that the listing punches for a counterexample and the exact ones, by index."""
     points = [tuple(map(Fraction, point)) for point in exact_points(deck_of(name))[0].values()]
     outcome = from_cards("listing", run_of(name), points)
     return set(outcome.vertices), set(exact_hull([*map(list, points)]).vertices)
 
 
 def silent_loss() -> CheckResult:
-    """Four points of five digits: a wrong hull without a message."""
+    """Check four five-digit points for which the listing punches a wrong hull without a message."""
     punched, judge = vertices_of("silent.deck")
     message = typed(run_of("silent.deck"))
     passed = punched != judge and "NOT ACCEPTABLE" not in message
@@ -131,7 +138,7 @@ def silent_loss() -> CheckResult:
 
 
 def notation() -> CheckResult:
-    """The names of chapter 3 among the variables of programs 2 and 3."""
+    """Check that programs 2 and 3 use the names of chapter 3 for their variables."""
     names = {entry.name for entry in programs.program("program3").storage.arrays()}
     text = programs.deck("program3").text() + programs.deck("program2").text()
     names_of_chapter_3 = ("NETC", "NE", "NV", "MM", "NN", "KK")
@@ -142,7 +149,7 @@ def notation() -> CheckResult:
 
 
 def inside_heading() -> CheckResult:
-    """Program 3 punches FORMAT 5, the heading of inside points, once: INSID is 1 before, 2 after."""
+    """Check that program 3 punches FORMAT 5, the heading of inside points, only once."""
     cards = [card.text.strip() for card in programs.deck("program3").cards]
     place = next(k for k, card in enumerate(cards) if card.endswith("PUNCH 5"))
     heading = next(card for card in cards if card.startswith("5 FORMAT"))
@@ -152,7 +159,7 @@ def inside_heading() -> CheckResult:
 
 
 def eight_digits() -> CheckResult:
-    """A card's field has eight digits and no room for a ninth; a ninth digit of a product is dropped."""
+    """Check that a card field holds eight digits and has no room for a ninth."""
     try:
         coordinate_field("1.23456789")
     except ValueError as error:
@@ -161,14 +168,17 @@ def eight_digits() -> CheckResult:
 
 
 def quotient_truncated() -> CheckResult:
-    """2/3 in eight digits ends in 6."""
+    """Check that 2/3 in eight digits ends in 6."""
     arithmetic, row = take([("2", "3", "1")], "truncating")
     quotient = arithmetic.text(arithmetic.quotient(row[0][0], 3), 1)
     return holds_if(Fraction(quotient) == Fraction(66666666, 10**8), f"2 / 3 is {quotient}")
 
 
 def two_kinds_of_error(kind: str = "") -> CheckResult:
-    """A third cut to eight digits is another point; coefficients of exact points are cut, or exact with more digits."""
+    """Check that truncation changes coordinates, and that coefficients of exact points are truncated too.
+
+    With ``kind``, check that more digits avoid the error in coefficients.
+    """
     third = coordinate_field("0.333333333", truncate=True)
     cut, exact = (_coefficients(_THREE, arithmetic) for arithmetic in ("truncating", "exact"))
     exact_coefficients = [*map(Fraction, plane_through(*_THREE))]
@@ -177,7 +187,8 @@ def two_kinds_of_error(kind: str = "") -> CheckResult:
     if kind:
         passed &= bool(_misses(_THREE)) and not _misses(_THREE, "exact")
     return holds_if(
-        passed, f"1/3 as a card holds it; {sum(differ)} coefficients of a plane cut, none of them in exact numbers"
+        passed,
+        f"a card truncates 1/3; of a plane's coefficients {sum(differ)} are truncated, and none in exact arithmetic",
     )
 
 
@@ -188,7 +199,7 @@ def _coefficients(points: tuple[Point, ...], name: str) -> list[Fraction]:
 
 
 def _misses(points: tuple[Point, ...], name: str = "truncating") -> list[int]:
-    """Which of the points do not satisfy the plane of the first three in the machine's arithmetic."""
+    """Return the points that do not satisfy the plane of the first three in the given arithmetic."""
     arithmetic, rows = take(points, name)
     all_points = [tuple(rows[axis][k] for axis in range(3)) for k in range(len(points))]
     equation = plane(*all_points[:3])
@@ -196,60 +207,69 @@ def _misses(points: tuple[Point, ...], name: str = "truncating") -> list[int]:
 
 
 def points_off_own_plane() -> CheckResult:
-    """Three points of three digits that do not satisfy their own plane."""
+    """Check three points of three digits that do not satisfy the plane through them."""
     missed = _misses(_THREE)
-    return holds_if(bool(missed), f"points {', '.join(str(_THREE[k]) for k in missed)} of the plane through the three")
+    return holds_if(bool(missed), f"the plane through three points misses {', '.join(str(_THREE[k]) for k in missed)}")
 
 
 def fourth_point_off_plane() -> CheckResult:
-    """A fourth point exactly in the plane of three that satisfy it."""
+    """Check that a fourth point in the plane of three points can miss it in eight digits."""
     exactly = not any(
         sum(a * x for a, x in zip(plane_through(*_FOURTH[:3]), (*_FOURTH[3], 1), strict=True)) for _ in (0,)
     )
-    return holds_if(exactly and _misses(_FOURTH) == [3], f"{_FOURTH[3]} lies in the plane of the other three exactly")
+    return holds_if(
+        exactly and _misses(_FOURTH) == [3],
+        f"{_FOURTH[3]} lies exactly in the plane of the other three points, but misses it in eight digits",
+    )
 
 
 def programs_rejecting_data() -> CheckResult:
-    """Which programs have the message."""
+    """Check which programs contain the message."""
     has = [name for name in THREE if "DATA NOT ACCEPTABLE" in programs.deck(name).text()]
-    return holds_if(has == ["program2", "program3"], f"the message stands in {' and '.join(has)}", conditional=True)
+    return holds_if(has == ["program2", "program3"], f"the message is in {' and '.join(has)}", conditional=True)
 
 
 def vertex_within_interval() -> CheckResult:
-    """A point about a tenth above a plane, in the port: exactly, and with e = 20."""
+    """Check that e = 20 hides a vertex that is about a tenth above a plane."""
     points = [("0", "0", "0"), ("4", "0", "0"), ("0", "4", "0"), ("0", "0", "4"), ("1.4", "1.4", "1.4")]
     without, with_e = convex_hull(points), convex_hull(points, epsilon="20")
     return holds_if(
-        4 in without.vertices and 4 not in with_e.vertices, "(1.4, 1.4, 1.4) is a vertex, with e = 20 it is none"
+        4 in without.vertices and 4 not in with_e.vertices,
+        "(1.4, 1.4, 1.4) is a vertex in exact arithmetic, and not with e = 20",
     )
 
 
 def interval_instead_of_rejection() -> CheckResult:
-    """Points in space whose first three miss their own plane: refused, and with e = 10 the hull is right.
+    """Check points whose first three miss their own plane: e = 10 gives the right hull instead of a rejection.
 
-    With e = 10,000,000 it is not.
+    e = 10,000,000 gives a wrong hull.
     """
     points = [*_THREE, (101, 77, -340), (250, 333, 90)]
     whole = [tuple(map(str, point)) for point in points]
     hulls = [convex_hull(whole, "truncating", epsilon=e, on_refusal="return") for e in (None, "10", "10000000")]
     judge = exact_hull(points)
     right = [hull.determined and {*hull.vertices} == {*judge.vertices} for hull in hulls]
-    message = f"{hulls[0].status}; with e = 10 {hulls[1].status}; with e = 10,000,000 {len(hulls[2].vertices)} vertices"
+    message = (
+        f"without e: {hulls[0].status}; with e = 10: {hulls[1].status}; with e = 10,000,000: "
+        f"{len(hulls[2].vertices)} vertices"
+    )
     return holds_if(right == [False, True, False], message, conditional=True)
 
 
 def value_against_distance() -> CheckResult:
-    """A point at the distance 1 of a plane, with a value of a hundredth."""
+    """Check that the value of an equation is not the distance: a point at the distance 1 has the value 1/100."""
     csv_rows, _ = csv_points(counterexample("short_normal.csv"), "short_normal.csv")
     p, q, r, x = (tuple(map(Fraction, map(str, point))) for point in csv_rows)
     a, b, c, d = plane(p, q, r)  # type: ignore[arg-type]
     value = at((a, b, c, d), x)
     distance = value * value / (a * a + b * b + c * c)
-    return holds_if(distance == 1 and abs(value) == Fraction(1, 100), "value 1/100, distance 1", conditional=True)
+    return holds_if(
+        distance == 1 and abs(value) == Fraction(1, 100), "the value is 1/100 at the distance 1", conditional=True
+    )
 
 
 def orientation_by_c(count: str = COUNT) -> CheckResult:
-    """The judge's planes of each H_j, which are outward, are negative at C; one that is struck may pass through C."""
+    """Check that the outward planes of each H_j are negative at C; a plane eliminated later may pass through C."""
     checks = []
     for sampled in sampled_sets(3, int(count)):
         added = sampled.hull.history[0].added
@@ -258,7 +278,7 @@ def orientation_by_c(count: str = COUNT) -> CheckResult:
             planes = [f.plane for f in exact_hull([sampled.points[k] for k in stage.vertices]).facets]
             checks += [dot(plane[:3], total) + plane[3] * len(added) < 0 for plane in planes]
     through_c = plane_through_c().verdict == FAILS
-    return holds_if(all(checks) and through_c, f"{len(checks)} planes of all H_j", conditional=True)
+    return holds_if(all(checks) and through_c, f"{len(checks)} planes of all H_j are negative at C", conditional=True)
 
 
 def _sum(points: tuple[Point, ...], which: tuple[int, ...]) -> tuple[int, int, int]:
@@ -267,9 +287,9 @@ def _sum(points: tuple[Point, ...], which: tuple[int, ...]) -> tuple[int, int, i
 
 
 def orientation_by_constant_term(count: str = COUNT) -> CheckResult:
-    """With the origin at C the constant term has the sign of the value at C, in the planes of all H_j, turned or not.
+    """Check that, with the origin at C, the constant term has the sign of the value at C.
 
-    Of any three points of the set too: where the plane passes through C both are 0.
+    If a plane passes through C, both are 0. The planes are those of all H_j and of all triples of five points.
     """
     checks = []
     for sampled in sampled_sets(3, int(count)):
@@ -281,7 +301,9 @@ def orientation_by_constant_term(count: str = COUNT) -> CheckResult:
             there, constant = a * x + b * y + c * z + d * len(added), plane_through(*(moved[k] for k in defining))[3]  # type: ignore[arg-type]
             checks.append((constant > 0, constant < 0) == (there > 0, there < 0))
     return holds_if(
-        all(checks) and plane_through_c().verdict == FAILS, f"{len(checks)} constant terms", conditional=True
+        all(checks) and plane_through_c().verdict == FAILS,
+        f"{len(checks)} constant terms have the sign of the value at C",
+        conditional=True,
     )
 
 
@@ -292,7 +314,7 @@ def _equations_made(sampled: SampledSet) -> int:
 
 
 def cost_of_orientation() -> CheckResult:
-    """Operations of the formula that puts C into an equation; the constant term is there and takes none."""
+    """Count the operations that substitute C into an equation; with the origin at C the constant term needs none."""
     operations: list[str] = []
 
     class Counted(int):
@@ -306,20 +328,23 @@ def cost_of_orientation() -> CheckResult:
 
     at(tuple(map(Counted, (1, -2, 3, -4))), tuple(map(Counted, (5, 6, 7))))
     products, sums = operations.count("product"), operations.count("sum")
-    return holds_if(products > 0 < sums, f"{products} products and {sums} sums an equation; none with the origin at C")
+    return holds_if(
+        products > 0 < sums, f"{products} products and {sums} sums for each equation, and none with the origin at C"
+    )
 
 
 def cost_of_translation(count: str = COUNT) -> CheckResult:
-    """Sums saved, three an equation, against sums of the translation, six a point."""
+    """Compare the sums saved, three for each equation, with the sums of the translation, six for each point."""
     few = [3 * _equations_made(sampled) - 6 * len(sampled.points) for sampled in sampled_sets(3, int(count))]
     many = 3 * 4 - 6 * 51
     return holds_if(
-        max(few) > 0 > many, f"sums saved: {', '.join(map(str, few))}; of 51 points in a tetrahedron {many}"
+        max(few) > 0 > many,
+        f"balance of sums saved: {', '.join(map(str, few))}; for 51 points with a tetrahedron as hull {many}",
     )
 
 
 def data_sheet(part: str) -> CheckResult:
-    """The sample cards of pages 58 and 59."""
+    """Check the sample cards of pages 58 and 59."""
     if part == "columns":
         points, _ = exact_points(deck_of("z_in_39.deck"))
         z = [point[2] for point in points.values()][-1]
@@ -331,6 +356,8 @@ def data_sheet(part: str) -> CheckResult:
         printed = "+.3000000E+01"
         whole = coordinate_field("3")
         passed = len(printed) == len(whole) - 1 and printed.replace("E", "0E") == whole
-        return holds_if(passed, f"{printed} has {len(printed)} characters, a field {len(whole)}", conditional=True)
+        return holds_if(
+            passed, f"{printed} has {len(printed)} characters, and a field has {len(whole)}", conditional=True
+        )
     numbers = {"12": "+.12000000E+02", ".0146": "+.14600000E-01", ".0261": "+.26100000E-01", "6": "+.60000000E+01"}
     return holds_if(all(coordinate_field(value) == field for value, field in numbers.items()), ", ".join(numbers))

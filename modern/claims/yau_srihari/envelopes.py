@@ -1,4 +1,4 @@
-"""Claims of Yau and Srihari: envelopes, the two theorems, floor and ceiling, and each statement as printed."""
+"""Checks of Yau and Srihari: envelopes, the two theorems, floor and ceiling, and the algorithm as printed."""
 
 from __future__ import annotations
 
@@ -43,27 +43,28 @@ def _hull() -> OctreeHull:
 
 
 def algorithm_as_printed(name: str) -> CheckResult:
-    """A statement as printed, on its counterexample: against the corrected algorithm."""
+    """Compare one statement as printed with the corrected algorithm, on its counterexample."""
     array = array_of(counterexample_points(f"yau_{name}.csv"))
     wrong, right = octree_hull(array, Printed.only(name)).filled, octree_hull(array).filled
     missing, more = int((right & ~wrong).sum()), int((wrong & ~right).sum())
-    return fails_if(missing or more, f"{missing} voxels missing, {more} too many, of {int(right.sum())}")
-
-
-def minimum_not_unique() -> CheckResult:
-    """Two voxels at a corner: two digitally convex solids with three voxels hold them, and no smaller one does."""
-    both: list[Point] = [(0, 0, 0), (1, 1, 0)]
-    least = [is_digitally_convex(array_of([*both, third])) for third in ((1, 0, 0), (0, 1, 0))]
-    return holds_if(
-        all(least) and not is_simple(array_of(both)), "either voxel beside both makes a convex solid of three"
+    return fails_if(
+        missing or more, f"of {int(right.sum())} voxels {missing} are missing, and {more} voxels are too many"
     )
 
 
-def envelopes_against_judge(kind: str = "") -> CheckResult:
-    """Faces of floor and ceiling envelopes of a solid are those of the judge that look down, or up.
+def minimum_not_unique() -> CheckResult:
+    """Check that two voxels with a common corner lie in two digitally convex solids of three voxels and in no smaller
+    one."""
+    both: list[Point] = [(0, 0, 0), (1, 1, 0)]
+    least = [is_digitally_convex(array_of([*both, third])) for third in ((1, 0, 0), (0, 1, 0))]
+    return holds_if(all(least) and not is_simple(array_of(both)), "either of two voxels makes a convex solid of three")
 
-    What lies between are the digital points of the Euclidean hull; of the counterexample they are no digital solid, a
-    condition where the digital hull is said to be found.
+
+def envelopes_against_judge(kind: str = "") -> CheckResult:
+    """Check that the faces of the envelopes are those of the exact hull that look down or up.
+
+    Between them lie the digital points of the Euclidean hull. With ``kind``, also check that those of the
+    counterexample do not form a digital solid.
     """
     judge = exact_hull(SOLID)
     checks = []
@@ -73,24 +74,24 @@ def envelopes_against_judge(kind: str = "") -> CheckResult:
         checks.append(faces == expected)
     inside = {p for p in _GRID if max(plane_value(f.plane, p) for f in judge.facets) <= 0}
     checks.append({*map(tuple, np.argwhere(_hull().filled).tolist())} == inside)
-    message = f"{len(SOLID)} voxels, {len(inside)} in the hull"
+    message = f"{len(SOLID)} voxels; the hull has {len(inside)}"
     if kind:
         return holds_if(all(checks) and disconnected_hull().verdict == FAILS, message, conditional=True)
     return holds_if(all(checks), message)
 
 
 def deficiency_of_solid() -> CheckResult:
-    """Hull less deficiency is the solid."""
+    """Check that the hull without the convex deficiency is the solid."""
     array = array_of(SOLID)
     missing = convex_deficiency(array)
     return holds_if(
         bool((_hull().filled & ~missing == array).all()),
-        f"{int(missing.sum())} voxels of the hull are not of the solid",
+        f"{int(missing.sum())} voxels of the hull are not in the solid",
     )
 
 
 def euclidean_convexity() -> CheckResult:
-    """A hull is its own hull; midpoints of its points are in it; less a vertex it does not hold all."""
+    """Check that the hull of the vertices is the hull, and that midpoints of vertices are in it."""
     checks = []
     for sampled in sampled_sets(3, 1):
         again = exact_hull([sampled.points[k] for k in sampled.judge.vertices])
@@ -103,11 +104,11 @@ def euclidean_convexity() -> CheckResult:
                 )
                 <= 0
             )
-    return holds_if(all(checks), f"{len(checks)} cases")
+    return holds_if(all(checks), f"{len(checks)} cases hold")
 
 
 def light_cap(kind: str = "") -> CheckResult:
-    """A point outside of a hull in general position: light faces make one cap with one closed boundary."""
+    """Check that the light faces seen from a point in general position form one cap with one closed boundary."""
     points: list[Point] = [(0, 0, 0), (7, 1, 2), (1, 8, 3), (2, 3, 9), (9, 9, 8)]
     judge, new = exact_hull(points), (11, -4, 13)
     light = [f for f in judge.facets if plane_value(f.plane, new) > 0]
@@ -116,27 +117,29 @@ def light_cap(kind: str = "") -> CheckResult:
     closed = bool(rim) and all(after.count(end) == 2 for end in after)
     if kind:
         bounds = [len(sampled.judge.edges()) <= 3 * len(sampled.points) - 6 for sampled in sampled_sets(3, 2)]
-        return holds_if(all(bounds), "n points, each with O(n) edges: at most 3n - 6")
-    return holds_if(closed, f"{len(light)} light faces, {len(rim)} edges around them, each end on two")
+        return holds_if(all(bounds), "a hull of n points has at most 3n - 6 edges")
+    return holds_if(
+        closed, f"{len(light)} light faces are surrounded by {len(rim)} edges, and two of these meet at each end"
+    )
 
 
 def voxels_fill_space() -> CheckResult:
-    """Every quarter of a grid is in exactly one half-open voxel: x - 1/2 < V <= x + 1/2."""
+    """Check that every multiple of 1/4 is in exactly one half-open voxel, x - 1/2 < V <= x + 1/2."""
     checks = []
     for k in range(-8, 9):
         checks.append(sum(in_voxel(Fraction(k, 4), v) for v in range(-4, 5)) == 1)
-    return holds_if(all(checks), f"{len(checks)} coordinates")
+    return holds_if(all(checks), f"{len(checks)} coordinates are each in one voxel")
 
 
 def in_voxel(x: Fraction, v: int) -> bool:
-    """Whether a coordinate is in the voxel v."""
+    """Return True if a coordinate is in the voxel v."""
     return x - Fraction(1, 2) < v <= x + Fraction(1, 2)
 
 
 def disconnected_hull() -> CheckResult:
-    """The counterexample: nine voxels, connected; the middle of the first and the last is in their hull and is a voxel.
+    """Check the counterexample: nine connected voxels whose hull contains a voxel without neighbours.
 
-    None of the six voxels beside it is in the hull.
+    The voxel is in the middle between the first and the last voxel.
     """
     stairs = counterexample_points("yau_stairs.csv")
     hull = octree_hull(array_of(stairs))
@@ -146,15 +149,16 @@ def disconnected_hull() -> CheckResult:
     alone = middle in inside and not any(sum(abs(a - b) for a, b in zip(p, middle, strict=True)) == 1 for p in inside)
     whole = tuple(2 * m for m in middle) == (x + u, y + v, z + w)
     wrong = hull.components == 1 and whole and alone and not is_simple(hull.filled)
-    message = f"{len(stairs)} voxels connected, {len(inside)} in the hull, of which {middle} has no neighbour"
+    message = f"the hull of {len(stairs)} connected voxels has {len(inside)}, and {middle} has no neighbour among them"
     return fails_if(wrong, message)
 
 
 def smallest_convex_solid() -> CheckResult:
-    """Of a solid the digital points of the hull are simple and pass the convexity test; a path of six voxels does not.
+    """Check that the digital points of the hull of a solid pass the convexity test, and that a path of six voxels does
+    not.
 
-    It is all digital points of its hull, but a point of that with two whole coordinates is near none of the six.  Two
-    solids of seven voxels that hold the path pass: there is no smallest one.
+    The path contains all digital points of its hull, but a point of the hull with two integer coordinates is near none
+    of the six voxels. Two solids of seven voxels that contain the path pass, so there is no smallest one.
     """
     hull = _hull()
     passed = hull.components == 1 and is_simple(hull.filled) and is_digitally_convex(hull.filled)
@@ -164,36 +168,44 @@ def smallest_convex_solid() -> CheckResult:
         far and (octree_hull(array_of(path)).filled == array_of(path)).all() and not is_digitally_convex(array_of(path))
     )
     more = [p for p in _GRID if p not in path and is_digitally_convex(array_of([*path, p]))]
-    message = f"{hull.given} voxels connected, {hull.voxels} in the hull; {len(more)} voxels, each makes a path convex"
+    message = (
+        f"the hull of {hull.given} connected voxels has {hull.voxels}; each of {len(more)} voxels makes the path convex"
+    )
     return holds_if(passed and len(more) > 1, message, conditional=True)
 
 
 def floor_and_ceiling(kind: str = "") -> CheckResult:
-    """Least and greatest z of each column; as alpha and beta they are named in this order."""
+    """Check that floor and ceiling are the smallest and the largest z of each column.
+
+    With ``kind`` the statement names them alpha and beta, in this order.
+    """
     columns = {(x, y): sorted(z for a, b, z in SOLID if (a, b) == (x, y)) for x, y, _ in SOLID}
     passed = all(_hull().floor[at] == zs[0] and _hull().ceiling[at] == zs[-1] for at, zs in columns.items())
-    return holds_if(passed, f"{len(columns)} columns", conditional=kind)
+    return holds_if(passed, f"{len(columns)} columns agree", conditional=kind)
 
 
 def ceiling_by_negation() -> CheckResult:
-    """Heights of the envelope found for -beta are those of the upper hull, negated."""
+    """Check that the envelope found for -beta has the negated heights of the upper hull."""
     judge = exact_hull(SOLID)
     envelope_points = {(x, y, -z) for face in _hull().upper.faces for x, y, z in face.vertices}
     upper = {SOLID[k] for f in judge.facets if f.plane[2] > 0 for k in f.polygon}
-    return holds_if(envelope_points == upper, f"{len(envelope_points)} vertices, turned over", conditional=True)
+    return holds_if(
+        envelope_points == upper, f"{len(envelope_points)} vertices agree with negated heights", conditional=True
+    )
 
 
 def extreme_points() -> CheckResult:
-    """Vertices of the faces of the floor's envelope are points of the floor and in the reduced set."""
+    """Check that the vertices of the lower envelope are points of the floor and of the reduced set."""
     floor = {(x, y, z) for (x, y), z in _hull().floor.items()}
     vertices = {v for face in _hull().lower.faces for v in face.vertices}
     return holds_if(
-        vertices <= floor and vertices <= {*_hull().lower.reduced}, f"{len(vertices)} vertices of {len(floor)} columns"
+        vertices <= floor and vertices <= {*_hull().lower.reduced},
+        f"{len(vertices)} vertices are among the points of {len(floor)} columns",
     )
 
 
 def integer_normals() -> CheckResult:
-    """Normals in the queue, of starting faces and others, and of all faces: whole, at right angles to edge or sides."""
+    """Check that all normals of faces and in the queue are integers and perpendicular to their edges or sides."""
     checks, upright = [], 0
     for side in (_hull().lower, _hull().upper):
         normals = [(face.normal, face.vertices) for face in side.faces]
@@ -202,21 +214,23 @@ def integer_normals() -> CheckResult:
         for normal, (first, *others) in normals:
             checks.append(any(normal) and all(type(n) is int for n in normal))
             checks += [dot(normal, minus(vertex, first)) == 0 for vertex in others]
-    return holds_if(upright > 0 and all(checks), f"{len(checks)} conditions; {upright} normals of starting faces")
+    return holds_if(
+        upright > 0 and all(checks), f"{len(checks)} conditions hold; {upright} normals belong to starting faces"
+    )
 
 
 def supporting_triangle() -> CheckResult:
-    """The counterexample: a plane that supports, of which three corners make a triangle that is not all of it."""
+    """Check the counterexample: a supporting plane contains a triangle of three corners that is not the whole face."""
     points = counterexample_points("yau_triangles.csv")
     judge = exact_hull(points)
     larger = [f for f in judge.facets if f.plane[2] < 0 and len(f.polygon) > 3]
     support = all(max(plane_value(f.plane, p) for p in points) == 0 for f in larger)
     message = ", ".join(str(len(f.polygon)) for f in larger)
-    return fails_if(larger and support, f"supporting planes that look down with {message} corners")
+    return fails_if(larger and support, f"supporting planes that look down have {message} corners")
 
 
 def opposite_sides() -> CheckResult:
-    """Planes of an edge of the floor's envelope and a further point: whether they support, and what lies opposite."""
+    """Check that planes through an edge of the lower envelope support unless a point lies on the opposite side."""
     checks = []
     floor = [(x, y, z) for (x, y), z in _hull().floor.items()]
     for face in _hull().lower.faces:
@@ -226,20 +240,20 @@ def opposite_sides() -> CheckResult:
                 values = [plane_value(plane, p) for p in floor]
                 opposite = any(v * plane_value(plane, v1) < 0 for v in values)
                 checks.append((max(values) <= 0 or min(values) >= 0) == (not opposite))
-    return holds_if(all(checks) and bool(checks), f"{len(checks)} planes")
+    return holds_if(all(checks) and bool(checks), f"{len(checks)} planes agree")
 
 
 def another_vertex() -> CheckResult:
-    """Faces of the floor's envelope: turned over, as v3 v2 v1, their normals point up; the neighbours' point down."""
+    """Check that the faces of the lower envelope have normals that point up when reversed, as v3 v2 v1."""
     normals = [normal_of(*reversed(face.vertices[:3])) for face in _hull().lower.faces]
     passed = all(n[2] > 0 for n in normals) and all(face.normal[2] < 0 for face in _hull().lower.faces)
-    return holds_if(passed, f"{len(normals)} faces turned over", conditional=True)
+    return holds_if(passed, f"the normals of {len(normals)} reversed faces point up", conditional=True)
 
 
 def epigraph_at_inner_nodes() -> CheckResult:
-    """Heights 0, 1, 1, 1 of four columns: as printed the root, of least height 0, is full; the epigraph is not.
+    """Check an inner node of four columns with the heights 0, 1, 1, 1: as printed it is full, but the epigraph is not.
 
-    By its greatest height, 1, the root is not full.
+    By its greatest height, 1, the node is not full.
     """
     tops = {(0, 0): 0, (0, 1): 1, (1, 0): 1, (1, 1): 1}
     tree = written(no_columns(2), {place: Leaf(top) for place, top in tops.items()})
@@ -247,30 +261,34 @@ def epigraph_at_inner_nodes() -> CheckResult:
     epigraph = count(graph_side(tree, above=True))
     columns = sum(z >= top for top in tops.values() for z in (0, 1))
     passed = by_letter == 8 > epigraph == columns == 5 and tree.high == 1
-    return holds_if(passed, f"{by_letter} voxels as printed at the root, {epigraph} in the epigraph", conditional=True)
+    return holds_if(
+        passed, f"as printed the root has {by_letter} voxels, and the epigraph has {epigraph}", conditional=True
+    )
 
 
 def pairs_of_points() -> CheckResult:
-    """Segments between n points, counted, for n up to 12."""
+    """Count the segments between n points for n up to 12."""
     counts = {n: len([*combinations(range(n), 2)]) for n in range(2, 13)}
-    return holds_if(all(2 * count == n * (n - 1) for n, count in counts.items()), "n from 2 to 12")
+    return holds_if(
+        all(2 * count == n * (n - 1) for n, count in counts.items()), "the number is n (n - 1) / 2 for n from 2 to 12"
+    )
 
 
 def outward_normals() -> CheckResult:
-    """Normals of the floor envelope's faces point away from all points of the floor, and down."""
+    """Check that the normals of the lower envelope point down and away from all points of the floor."""
     floor = [(x, y, z) for (x, y), z in _hull().floor.items()]
     checks = []
     for face in _hull().lower.faces:
         normal, first = face.normal, face.vertices[0]
         ways = [sum(n * (a - b) for n, a, b in zip(normal, p, first, strict=True)) for p in floor]
         checks.append(max(ways) == 0 and normal[2] < 0 and normal_of(*face.vertices[:3])[2] < 0)
-    return holds_if(bool(checks) and all(checks), f"{len(checks)} faces")
+    return holds_if(bool(checks) and all(checks), f"the normals of {len(checks)} faces point outward")
 
 
 def queued_edges_reversed() -> CheckResult:
-    """Edges removed from the queue, of solids at random: what is entered as u1 u3 or u3 u2 is met as its reverse.
+    """Check that edges entered in the queue as u1 u3 or u3 u2 are removed in the reverse direction, on random solids.
 
-    As u1 u3 or u3 u2 itself none would ever be found there.
+    In the printed direction none would ever be removed.
     """
     random = Random(8)
     same, reverse, neither = 0, 0, 0
@@ -283,13 +301,18 @@ def queued_edges_reversed() -> CheckResult:
                 same += (p, q) in entries
                 reverse += (q, p) in entries
                 neither += (p, q) not in entries and (q, p) not in entries
-    message = f"{reverse} edges are met as their reverse, {same} as they were entered"
+    message = (
+        f"{reverse} edges are removed in the reverse direction, and {same} in the direction in which they were entered"
+    )
     return holds_if(reverse and not same and not neither, message, conditional=True)
 
 
 def row_and_column_steps() -> CheckResult:
-    """Floors at random: what is extreme in its row and its column, and what is left after a step by rows and then one
-    by columns, by the program; either holds all vertices of the floor's hull, and the second sometimes more."""
+    """Compare points that are extreme in both their row and their column with those left after a step by rows and one
+    by columns.
+
+    On random floors both sets contain all vertices of the floor's hull; the second is sometimes larger.
+    """
     random = Random(29)
     checks, more = [], 0
     for _ in range(40):
@@ -301,16 +324,15 @@ def row_and_column_steps() -> CheckResult:
         hull = exact_hull([*floor, *((x, y, z + 9) for x, y, z in floor)])
         checks.append({floor[k][:2] for k in hull.vertices if k < len(floor)} <= extreme_in_both <= after_steps)
         more += extreme_in_both < after_steps
-    message = (
-        f"{len(checks)} floors; of {more} the second step keeps a point that is not extreme among all of its column"
-    )
+    message = f"{len(checks)} floors; in {more} the second step keeps a point that is not extreme in its whole column"
     return holds_if(all(checks) and more, message, conditional=True)
 
 
 def angle_counts() -> CheckResult:
-    """Angles of the lower halves of two balls: one for each point beyond an edge, of the floor and of the reduced set.
+    """Count angles in the lower halves of two balls: one for each point beyond an edge, of the floor and of the reduced
+    set.
 
-    And those that the search in the tree computes, for points and for the corners of squares.
+    They are compared with the angles that the search in the tree computes, for points and for corners of squares.
     """
     counts = []
     for diameter in (8, 40):
@@ -322,18 +344,19 @@ def angle_counts() -> CheckResult:
         counts.append((all_angles, reduced_angles, sum(step.angles for step in steps)))
     (all_8, left_8, search_8), (all_40, left_40, search_40) = counts
     passed = left_8 < all_8 and left_40 < all_40 and left_8 < search_8 and search_40 < left_40
-    message = "; ".join(f"{a:,} of the floor, {b:,} of the reduced set, {c:,} by the search" for a, b, c in counts)
+    message = "; ".join(f"{a:,} for the floor, {b:,} for the reduced set, {c:,} by the search" for a, b, c in counts)
     return holds_if(passed, message, conditional=True)
 
 
 def _beyond(edge: tuple[Point, Point], places: Iterable[Place]) -> int:
-    """How many places can hold the third point of a face on an edge."""
+    """Return the number of columns that can contain the third point of a face on an edge."""
     search = Search(*edge, (0, 0, -1), Printed())
     return sum(search.beyond(x, y) for x, y in places)
 
 
 def _extreme(place: Place, axis: int, heights_: Mapping[Place, int]) -> bool:
-    """Whether a place is a vertex of the lower chain of its row or column: below every line of two others around it."""
+    """Return True if a point is a vertex of the lower chain of its row or column, below all lines of two points around
+    it."""
     at, z = place[axis], heights_[place]
     line = [(p[axis], h) for p, h in heights_.items() if p[1 - axis] == place[1 - axis]]
     around = product([entry for entry in line if entry[0] < at], [entry for entry in line if entry[0] > at])

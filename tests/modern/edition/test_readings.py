@@ -16,7 +16,7 @@ import pytest
 from emulator.errors import EmulatorError
 from emulator.language.cards import Deck
 from modern.claims import published
-from modern.claims.apparatus_checks import chapter4_faults, check_listing, paper_faults, places_of_pairs, texts
+from modern.claims.apparatus_checks import chapter4_faults, check_listing, count_pair_uses, paper_faults, texts
 from modern.edition import grounds, programs
 from modern.edition.apparatus import ApparatusError, Change, Row, Text
 from modern.edition.chapter6 import LayoutError
@@ -27,7 +27,7 @@ from modern.edition.readings import attested, reading_faults, steps, table, with
 
 COUNT = int(os.environ.get("HULL1620_ALTERATIONS", "24"))
 TEXTS = texts()
-PLACES = places_of_pairs(TEXTS)
+PLACES = count_pair_uses(TEXTS)
 CHAPTER = load_chapter()
 CHARACTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789=+-*/(),."
 OCR = [row for text in TEXTS.values() for row in text.rows if row.layer == "ocr"]

@@ -16,7 +16,7 @@ from modern.claims.published import (
     EXPLAINED,
     PAPERS,
     Paper,
-    Published,
+    PublishedResult,
     findings,
     judge,
     produced_by,
@@ -27,7 +27,7 @@ from modern.edition.apparatus import ApparatusError
 from modern.edition.reproduce import DIFFERENT, EXACT
 
 PAPER = PAPERS[0]
-PLAIN = Published("one", "Fig. 1", "two numbers", ("1 2",), ("1 2",), ())
+PLAIN = PublishedResult("one", "Fig. 1", "two numbers", ("1 2",), ("1 2",), ())
 ROW = next(result.rows[0] for result in results_of(PAPER) if result.rows)
 
 
@@ -47,7 +47,7 @@ ROW = next(result.rows[0] for result in results_of(PAPER) if result.rows)
         (replace(PLAIN, cannot="no data"), ["1 2"], DIFFERENT),
     ],
 )
-def test_verdicts(result: Published, produced: list[str], kind: str) -> None:
+def test_verdicts(result: PublishedResult, produced: list[str], kind: str) -> None:
     finding = judge(PAPER, result, produced)
     assert finding.kind == kind
     assert finding.holds == (kind != DIFFERENT)
@@ -57,9 +57,9 @@ def test_verdicts(result: Published, produced: list[str], kind: str) -> None:
 @pytest.mark.parametrize(
     ("lines", "message"),
     [
-        (('"1", "2"', '"2", "3"'), "two: result two: lines 2 to 3 are not free in the print"),
-        (('"1", "2"', '"3", "4"'), "two: result two: lines 3 to 4 are not free in the print"),
-        (('"1", "1"', '"3", "3"'), "two: lines 2 belong to no result"),
+        (('"1", "2"', '"2", "3"'), "two: result two: lines 2 to 3 do not exist or belong to another result"),
+        (('"1", "2"', '"3", "4"'), "two: result two: lines 3 to 4 do not exist or belong to another result"),
+        (('"1", "1"', '"3", "3"'), "two: lines 2 do not belong to any result"),
     ],
 )
 def test_every_line_of_the_print_belongs_to_one_result(tmp_path: Path, lines: tuple[str, str], message: str) -> None:
