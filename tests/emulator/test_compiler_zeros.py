@@ -60,7 +60,7 @@ def zeros_of(program: Path) -> list[tuple[str, str, str]]:
     return found
 
 
-def test_the_signs_of_fortran_ii_d_s_zeros_are_those_of_each_operation_where_it_stands() -> None:
+def test_fortran_ii_d_applies_each_unary_minus_in_place() -> None:
     """All zeros of z1 and of the 450 random expressions by one rule: only a unary minus that comes last leaves one."""
     found = {program.stem: zeros_of(program) for program in PROGRAMS if program.stem.startswith(("z1", "expr"))}
     assert all(rule == printed for zeros in found.values() for _, rule, printed in zeros)
@@ -68,7 +68,7 @@ def test_the_signs_of_fortran_ii_d_s_zeros_are_those_of_each_operation_where_it_
     assert [text for text, rule, _ in found["z1"] if rule == "-"] == ["R=-0.", "R=-D"]
 
 
-def test_the_signs_of_pdq_s_zeros_are_those_of_the_emulator() -> None:
+def test_pdq_has_the_zero_signs_of_the_emulator() -> None:
     """z1 whole: a unary minus of a factor comes last.  PDQ alone loses the minus of -(C)**2."""
     program = RUNS / "z1.f"
     theirs = of_pdq(program)
@@ -83,7 +83,7 @@ def test_the_signs_of_pdq_s_zeros_are_those_of_the_emulator() -> None:
     ("expression", "rule", "thesis"),
     [("(Y)*(B)*(-Y)", " ", "-"), ("((-C))-((-C))", " ", "-"), ("A-B*C", " ", "-"), ("-D", "-", "-")],
 )
-def test_no_one_rule_has_the_zeros_of_both(expression: str, rule: str, thesis: str) -> None:
+def test_no_single_rule_gives_the_zeros_of_both(expression: str, rule: str, thesis: str) -> None:
     """The thesis prints -.00000000E-99 where its programs end a sum in minus a product; so does the emulator."""
     names = {
         name: Signed(Fraction(n)) for name, n in zip("ABCDY", (2, 0 if "Y" in expression else 1, 2, 0, 1), strict=True)

@@ -23,7 +23,9 @@ from emulator.files import read_bytes, read_text, write_text, writing, writing_b
         ("x" * 5000, "x" * 5000 + ": file name too long"),
     ],
 )
-def test_what_cannot_be_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, message: str) -> None:
+def test_unreadable_file_gives_a_one_line_error(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, message: str
+) -> None:
     monkeypatch.chdir(tmp_path)
     for read in (read_bytes, read_text):
         with pytest.raises(FileError) as caught:
@@ -31,7 +33,7 @@ def test_what_cannot_be_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, na
         assert str(caught.value) == message
 
 
-def test_the_name_that_messages_use() -> None:
+def test_caller_can_name_the_file_in_messages() -> None:
     with pytest.raises(FileError, match=r"^a: line 8: no such file or directory$"):
         read_bytes("/nowhere/at all", "a: line 8")
 
@@ -45,7 +47,7 @@ def test_the_name_that_messages_use() -> None:
         ("\u00e9\u00e9\n\u00e9".encode() + b"\x80", "line 2, column 2"),
     ],
 )
-def test_a_byte_that_is_no_text(tmp_path: Path, data: bytes, place: str) -> None:
+def test_invalid_utf8_is_reported_with_line_and_column(tmp_path: Path, data: bytes, place: str) -> None:
     path = tmp_path / "a"
     path.write_bytes(data)
     with pytest.raises(FileError) as caught:
@@ -53,7 +55,7 @@ def test_a_byte_that_is_no_text(tmp_path: Path, data: bytes, place: str) -> None
     assert str(caught.value) == f"{path}: {place}: not a text file in UTF-8"
 
 
-def test_a_byte_order_mark_is_no_text(tmp_path: Path) -> None:
+def test_byte_order_mark_is_removed(tmp_path: Path) -> None:
     (tmp_path / "a").write_bytes(b"\xef\xbb\xbf1,2\r\n")
     assert read_text(str(tmp_path / "a")) == "1,2\r\n"
 
@@ -70,7 +72,7 @@ def test_write_text(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     write_text(os.devnull, "D\n")
 
 
-def test_write_text_where_it_cannot(tmp_path: Path) -> None:
+def test_unwritable_file_gives_an_error_and_leaves_nothing(tmp_path: Path) -> None:
     for name in (tmp_path / "no" / "out", tmp_path):
         with pytest.raises(FileError, match=str(name)):
             write_text(str(name), "A\n")
@@ -79,7 +81,7 @@ def test_write_text_where_it_cannot(tmp_path: Path) -> None:
     assert os.listdir(tmp_path) == []
 
 
-def test_a_link_is_followed_and_a_mode_kept(tmp_path: Path) -> None:
+def test_writing_follows_links_and_keeps_the_mode(tmp_path: Path) -> None:
     target, link = tmp_path / "target", tmp_path / "link"
     target.write_text("old")
     target.chmod(0o640)
@@ -90,7 +92,7 @@ def test_a_link_is_followed_and_a_mode_kept(tmp_path: Path) -> None:
     assert target.stat().st_mode & 0o777 == 0o640
 
 
-def test_what_breaks_off_leaves_the_old_file(tmp_path: Path) -> None:
+def test_failed_write_leaves_the_old_file(tmp_path: Path) -> None:
     path = tmp_path / "a"
     path.write_bytes(b"old")
     with pytest.raises(KeyError):

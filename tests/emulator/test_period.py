@@ -51,7 +51,7 @@ def ran(program: str, switches: set[int]) -> Result:
 
 
 @pytest.mark.parametrize(("program", "switches", "computed"), RUNS, ids=[f"{p} {sorted(s)}" for p, s, _ in RUNS])
-def test_it_puts_out_what_is_computed_by_hand(
+def test_output_agrees_with_the_independent_computation(
     program: str, switches: set[int], computed: Callable[[frozenset[int]], Lines]
 ) -> None:
     result = ran(program, switches)
@@ -61,7 +61,7 @@ def test_it_puts_out_what_is_computed_by_hand(
     assert result.ending.normal
 
 
-def test_hands_write_as_fortran_ii_d_does() -> None:
+def test_independent_e_fields_agree_with_fortran_ii_d() -> None:
     """Every number of compiler_runs/e in every E field, as II-D punched it, but for E-00 and what is too small."""
     widths = dict(zip("ABCDEFGHIJK", ("14.8 16.8 16.5 20.2 10.3 9.2 12.5 13.7 10.4 14.0 14.4").split(), strict=True))
     runs = DATA / "compiler_runs"
@@ -77,7 +77,7 @@ def test_hands_write_as_fortran_ii_d_does() -> None:
     assert compared == 7 * 11 - 7
 
 
-def test_hands_reckon_as_fortran_ii_d_does() -> None:
+def test_independent_arithmetic_agrees_with_known_values() -> None:
     """Two roots and a difference II-D gave, a field of the manual's page 39, and two numbers everybody knows."""
     assert [str(Eight(n).root().x * 10**7) for n in (2, 10)] == ["14142135", "31622776"]
     assert (Eight(1) - Eight(".99999999")).x == Fraction(1, 10**7)
@@ -98,7 +98,7 @@ def test_all_programs_compile_without_a_message() -> None:
         assert translate(deck_of(path.stem))[1] == ()
 
 
-def test_but_for_one_they_need_no_edit() -> None:
+def test_only_pi_is_in_lower_case() -> None:
     """pi.f stands in small letters, to be read with --upcase; the others are capitals."""
     small = [path.stem for path in PROGRAMS if any(map(str.islower, path.read_text(encoding="ascii")))]
     assert small == ["pi"]
@@ -109,7 +109,7 @@ def test_but_for_one_they_need_no_edit() -> None:
     )
 
 
-def test_every_statement_verb_switch_and_specification_occurs() -> None:
+def test_programs_cover_every_statement_and_specification() -> None:
     bodies = list(statements())
     assert {type(body) for body in bodies} == set(tree.Body.__args__)
     assert {body.verb for body in bodies if isinstance(body, tree.InputOutput)} == {
@@ -132,7 +132,7 @@ def names() -> set[str]:
     return {Path(path).name for path in PERIOD.iterdir()}
 
 
-def test_whoever_asks_for_a_line_has_an_operator() -> None:
+def test_programs_that_accept_lines_have_an_operator_file() -> None:
     for path in PROGRAMS:
         asks = any(
             body.verb == "ACCEPT"

@@ -102,7 +102,7 @@ def calls(cards: list[str]) -> int:
 
 
 @pytest.mark.parametrize("name", SHAPES)
-def test_twice_the_cards_take_twice_the_work(name: str) -> None:
+def test_work_grows_linearly_with_the_cards(name: str) -> None:
     """Work in proportion to the square would be four times as much."""
     shape = SHAPES[name]
     calls(shape(20))  # what is done once
@@ -113,7 +113,7 @@ FULL = ("GO TO a number there is not", "numbers in a DO", "FORMATs of wide field
 
 
 @pytest.mark.parametrize("name", FULL)
-def test_9999_cards_are_answered_within_bounds(name: str) -> None:
+def test_9999_cards_compile_within_time_and_memory(name: str) -> None:
     """In the processor time and with the memory the operating system allows.
 
     The most memory a process had counts, where it can be told, from its own start: not what its parent had.
@@ -136,7 +136,7 @@ def test_9999_cards_are_answered_within_bounds(name: str) -> None:
     assert kilobytes < MEGABYTES * 1024
 
 
-def test_an_array_in_a_list_is_one_instruction() -> None:
+def test_array_in_a_list_is_a_single_instruction() -> None:
     """With its length in core as of one for each element, as before."""
     lines = ["DIMENSION X(7),M(2,3)", "PUNCH 1,X,M,A", "1 FORMAT(7E14.8,6I2,E14.8)", "END"]
     items = [instruction for instruction in program(*lines).code if repeats(instruction) > 1]
@@ -146,14 +146,14 @@ def test_an_array_in_a_list_is_one_instruction() -> None:
     assert code_positions(program(*lines)) == code_positions(program(*single))
 
 
-def test_a_statement_is_as_long_as_the_largest_machine_could_hold() -> None:
+def test_statement_beyond_the_largest_machine_is_rejected() -> None:
     """And not longer: what follows is not parsed."""
     assert errors(*continued("A=B", "+C" * 33, 290), "END") == ()
     (message,) = errors(*continued("A=B", "+C" * 33, 400), "END")
     assert (message.card, message.message) == (1, "a statement of more than 20000 characters")
 
 
-def test_formats_that_fill_the_largest_machine_are_the_last_read() -> None:
+def test_formats_beyond_the_largest_machine_give_one_message() -> None:
     """One message, at the first beyond, in place of as many as there are."""
     found = errors(*(f"{k} FORMAT(2000I5)" for k in range(1, 100)), "END")
     assert [(m.card, m.message[:7]) for m in found] == [(7, "OVERLAP")]

@@ -42,7 +42,7 @@ def test_digits_and_signs_of_the_reference_card() -> None:
     assert {c: PUNCHES[c] for c in signs} == signs
 
 
-def test_only_the_quote_shares_its_holes() -> None:
+def test_only_the_quote_shares_its_punches_with_another_character() -> None:
     """The 026's H keyboard prints the holes 4-8 as a quote, the reference card as @."""
     shared = {c for c in PUNCHES if list(PUNCHES.values()).count(PUNCHES[c]) > 1}
     assert shared == {"@", "'"}
@@ -90,7 +90,7 @@ def test_deck_from_text(text: str, lines: list[str]) -> None:
     ],
     ids=ascii,
 )
-def test_a_strange_character_is_named_with_card_and_column(line: str, column: int, words: str) -> None:
+def test_invalid_character_is_reported_with_card_and_column(line: str, column: int, words: str) -> None:
     with pytest.raises(CardError) as caught:
         deck_from_lines("my.deck", ["A", line])
     assert str(caught.value).startswith(f"my.deck: card 2, column {column}: ")
@@ -98,13 +98,13 @@ def test_a_strange_character_is_named_with_card_and_column(line: str, column: in
     assert (caught.value.source, caught.value.card, caught.value.column) == ("my.deck", 2, column)
 
 
-def test_an_81st_column_is_refused_but_blanks_there_are_nothing() -> None:
+def test_line_of_more_than_80_columns_is_rejected_unless_blank() -> None:
     assert deck_from_lines("x", ["A" * 80 + "   "]).cards[0].text == "A" * 80
     with pytest.raises(CardError, match="x: card 1, column 81: a card has 80 columns; this line has 81"):
         deck_from_lines("x", ["A" * 81])
 
 
-def test_too_many_cards() -> None:
+def test_deck_with_too_many_cards_is_rejected() -> None:
     with pytest.raises(DeckError, match="100001 cards"):
         deck_from_text("x", "\n" * (cards.MAX_CARDS + 1))
     assert len(deck_from_text("x", "\n" * cards.MAX_CARDS).cards) == cards.MAX_CARDS
@@ -119,7 +119,7 @@ def test_round_trip_through_text(lines: list[str]) -> None:
 
 
 @given(st.text(max_size=100))
-def test_any_text_is_a_deck_or_a_card_error(text: str) -> None:
+def test_any_text_gives_a_deck_or_a_card_error(text: str) -> None:
     lines = text.replace("\r\n", "\n").split("\n")
     read = [(n, line) for n, line in enumerate(lines, 1) if not line.startswith("C")]  # a comment holds anything
     strange = [(n, c) for n, line in read for c, char in enumerate(line, 1) if char not in CHARACTERS]
@@ -143,7 +143,7 @@ def test_read_deck_from_files(tmp_path: Path) -> None:
     ("content", "words"),
     [(b"", "the deck is empty"), (b"\n  \n", "only blank cards"), (b"A\xff\n", "card 1, column 2"), (b"\xc3\xa9", "1")],
 )
-def test_read_deck_refuses(tmp_path: Path, content: bytes, words: str) -> None:
+def test_invalid_deck_file_is_rejected(tmp_path: Path, content: bytes, words: str) -> None:
     path = tmp_path / "a.deck"
     path.write_bytes(content)
     with pytest.raises((CardError, DeckError), match=words) as caught:
@@ -153,7 +153,7 @@ def test_read_deck_refuses(tmp_path: Path, content: bytes, words: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["missing.deck", ".", "a\0b", "x" * 5000])
-def test_read_deck_without_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+def test_missing_deck_file_gives_a_one_line_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
     monkeypatch.chdir(tmp_path)
     with pytest.raises(FileError) as caught:
         read_deck(name)

@@ -23,7 +23,7 @@ T1 = "temporary 1"
         ("D=A*B+C*D", ["TOFAC A", "FMP B", f"FMFAC {T1}", "TOFAC C", "FMP D", f"FAD {T1}", "FMFAC D"]),
     ],
 )
-def test_patterns_of_part_two_2_3(statement: str, expected: list[str]) -> None:
+def test_code_has_the_order_of_a_compiler_of_the_time(statement: str, expected: list[str]) -> None:
     assert code(statement, "END")[:-1] == expected
 
 
@@ -55,7 +55,7 @@ def test_expressions(statement: str, expected: list[str]) -> None:
     assert code(statement, "END")[:-1] == expected
 
 
-def test_temporaries_are_used_again_by_the_next_statement() -> None:
+def test_next_statement_reuses_temporaries() -> None:
     made = program("D=A*B+C*D", "E=A*B+C*D", "END")
     assert [e.name for e in made.storage.entries if e.kind == "temporary"] == [T1]
 
@@ -67,7 +67,7 @@ def test_two_temporaries() -> None:
     assert words[-3:-1] == [f"FSBR {words[-3].removeprefix('FSBR ')}", "FMFAC D"]
 
 
-def test_constant_subscripts_are_addresses() -> None:
+def test_constant_subscripts_become_addresses() -> None:
     assert code("DIMENSION X(5),A(2,3)", "X(4)=A(2,3)", "END")[:-1] == ["SEND A(2,3)", "TRANSMIT X(4)"]
 
 
@@ -83,7 +83,7 @@ def test_variable_subscripts(subscript: str, factor: int, addend: int) -> None:
     assert made.storage.name_of(found.v1) == "I"
 
 
-def test_what_has_no_subscript_says_so() -> None:
+def test_instruction_without_subscript_holds_minus_one() -> None:
     made = program("DIMENSION X(5)", "A=X(I)", "GO TO 5", "5 END")
     assert [i.subscript for i in made.code if i.operation == op.SEND] == [0]
     assert {i.subscript for i in made.code if i.operation != op.SEND} == {-1}
@@ -119,5 +119,5 @@ def test_branches_hold_instruction_numbers() -> None:
     assert [made.line_at(t).label for t in targets] == [5, 6, 7]
 
 
-def test_the_name_of_every_operation_is_that_of_its_number() -> None:
+def test_operation_numbers_follow_the_order_of_their_names() -> None:
     assert [getattr(op, name) for name in op.NAMES] == list(range(op.STOP + 1))

@@ -99,7 +99,7 @@ def test_all_messages_in_order_of_cards() -> None:
     assert [d.card for d in found] == [2, 3, 4]  # where a card does not parse, jumps are not judged
 
 
-def test_jumps_are_judged_where_all_parse() -> None:
+def test_branches_are_checked_only_if_all_statements_parse() -> None:
     assert [d.card for d in errors("GO TO 7", "I=A+1", "END")] == [1, 2]
 
 
@@ -130,12 +130,12 @@ def test_line_of_a_message() -> None:
 
 
 @pytest.mark.parametrize("lines", [[], [""], ["C  ONLY A COMMENT", ""]])
-def test_a_deck_without_statement(lines: list[str]) -> None:
+def test_deck_without_statements_is_rejected(lines: list[str]) -> None:
     with pytest.raises(DeckError, match=r"deck\.f: the source deck has no statement"):
         translate(source(*lines))
 
 
-def test_only_formats_is_a_program() -> None:
+def test_deck_of_formats_alone_compiles() -> None:
     assert diagnostics("5 FORMAT(I4)", "END") == ()
     assert [d.warning for d in diagnostics("5 FORMAT(I4)")] == [True]
 
@@ -149,12 +149,12 @@ def test_card_behind_an_end_with_a_number() -> None:
 
 
 @pytest.mark.parametrize("last", ["5 X=I+1.", "5 X=+*"])
-def test_a_refused_last_statement_of_a_do_gives_one_message(last: str) -> None:
+def test_invalid_last_statement_of_a_do_gives_one_message(last: str) -> None:
     assert [d.card for d in errors("DO 5 I=1,3", last, "END")] == [2]
 
 
 @pytest.mark.parametrize("last", ["5 FORMAT(I4)", "5 DIMENSION X(3)"])
-def test_do_ends_on_what_cannot_be_executed(last: str) -> None:
+def test_do_cannot_end_with_a_statement_that_is_not_executed(last: str) -> None:
     (message,) = errors("DO 5 I=1,3", last, "END")
     assert (message.card, message.message) == (2, "a DO cannot end with this statement; use CONTINUE")
 
@@ -162,7 +162,7 @@ def test_do_ends_on_what_cannot_be_executed(last: str) -> None:
 @pytest.mark.parametrize(
     ("size", "words"), [("9999,9999", "OVERLAP"), ("99999999999", "more than four digits"), ("9999", "OVERLAP")]
 )
-def test_a_huge_array_in_a_list_is_refused_at_once(size: str, words: str) -> None:
+def test_huge_array_in_a_list_is_rejected_at_once(size: str, words: str) -> None:
     """No object code is made for an array that no core can hold."""
     with within(2):
         assert words in errors(f"DIMENSION X({size})", "PUNCH 90,X", F, "END")[0].message
@@ -176,7 +176,7 @@ def test_the_largest_core_holds_5988_fields() -> None:
     assert "OVERLAP" in errors("DIMENSION X(5988)", "X(1)=Y", "END")[0].message
 
 
-def test_a_label_missing_twice_in_one_statement() -> None:
+def test_label_missing_twice_in_a_statement_gives_one_message() -> None:
     assert len(errors("IF(A)5,6,5", "6 END")) == 1
 
 

@@ -71,13 +71,13 @@ STATEMENTS = [
 
 
 @pytest.mark.parametrize(("line", "words"), STATEMENTS, ids=[line.strip() for line, _ in STATEMENTS])
-def test_a_statement_of_another_fortran_is_named_and_nothing_else_said(line: str, words: str) -> None:
+def test_foreign_statement_gives_exactly_one_message(line: str, words: str) -> None:
     message = only(line)
     assert (message.card, message.column) == (1, len(line) - len(line.lstrip()) + 1)
     assert words in message.message
 
 
-def test_every_statement_that_is_known_is_tried() -> None:
+def test_every_foreign_statement_has_an_example() -> None:
     tried = {word for line, _ in STATEMENTS if (word := identify(classify(t := line.replace(" ", "")), t))}
     assert {word.name for word in FOREIGN_STATEMENTS} - {word.name for word in tried} == {
         "SUBROUTINE",
@@ -88,7 +88,7 @@ def test_every_statement_that_is_known_is_tried() -> None:
 
 
 @pytest.mark.parametrize("line", ["IF(A)5,6", "READ", "DO 5 I=", "X=A+", "IF=(", "GO TO", "DATA=+", "WRIT(6,90)A"])
-def test_what_is_wrong_in_this_fortran_too_is_said_as_before(line: str) -> None:
+def test_plain_syntax_error_is_not_taken_for_a_foreign_statement(line: str) -> None:
     (message,) = errors(line, "END")
     assert " belongs to " not in message.message
 
@@ -96,13 +96,13 @@ def test_what_is_wrong_in_this_fortran_too_is_said_as_before(line: str) -> None:
 @pytest.mark.parametrize(
     "line", ["COMMON=1.", "CALL=2.", "DATA=3.", "IF=4", "REAL=5.", "DATA(1)=2.", "FIND(I)=3.", "READ=1.", "RETUR=2."]
 )
-def test_these_words_are_names_as_well(line: str) -> None:
+def test_foreign_keywords_may_be_names(line: str) -> None:
     """Nothing is reserved: a word of another FORTRAN is that only where no statement of this one is meant."""
     lines = ("DIMENSION DATA(2),FIND(3)", "I=1", " " + line.replace("COMMON", "COMMN"), "END")
     assert errors(*lines) == () if "DATA=" not in line else len(errors(*lines)) == 1
 
 
-def test_each_is_said_once_with_the_cards_of_the_others() -> None:
+def test_repeated_foreign_statement_gives_one_message_with_all_cards() -> None:
     lines = ["  CALL A(X)", "Y=1.", "  CALL B", "5   CALL C(Y,Z)", "GO TO 5"]
     message = only(*lines)
     assert (message.card, message.message[-21:]) == (1, "(also on cards 3, 4)"[-21:].rjust(21))
@@ -123,7 +123,7 @@ SUBPROGRAMS = [
 ]
 
 
-def test_a_subprogram_is_one_finding_before_and_after_the_program() -> None:
+def test_subprogram_gives_one_message_before_or_after_the_program() -> None:
     program = ["5 X=1.", "GO TO 6", "6 STOP", "END"]
     assert [d.card for d in errors(*program, *SUBPROGRAMS)] == [5]
     assert [d.card for d in errors(*SUBPROGRAMS, *program)] == [1]
@@ -131,13 +131,13 @@ def test_a_subprogram_is_one_finding_before_and_after_the_program() -> None:
     assert message.message.endswith("the cards from this one to its END are skipped (also on card 14)")
 
 
-def test_the_cards_beside_a_subprogram_are_checked() -> None:
+def test_cards_around_a_subprogram_are_checked() -> None:
     found = errors("X=A+I", "END", *SUBPROGRAMS, "Y=2.")
     assert [(d.card, d.number) for d in found] == [(1, 5), (3, 0), (12, 0)]
     assert found[2].message == "a card after END; the program's data belong in a separate deck"
 
 
-def test_data_after_the_program_are_one_finding() -> None:
+def test_data_after_the_program_give_one_message() -> None:
     found = errors("READ 90,X", F, "END", "  1.0  2.0", "X=A+I", "5 FORMAT(A4)", "  CALL EXIT", "END")
     assert [(d.card, d.message[-23:]) for d in found] == [(4, "(also on cards 5, 6, 7, 8)"[-23:])]
 
@@ -145,7 +145,7 @@ def test_data_after_the_program_are_one_finding() -> None:
 @pytest.mark.parametrize(
     "opening", ["FUNCTION G(X)", "REAL FUNCTION G(X)", "INTEGER FUNCTION G(X)", "      FUNCTION G(I)"]
 )
-def test_a_function_of_the_deck_may_be_used(opening: str) -> None:
+def test_function_defined_in_the_deck_may_be_used(opening: str) -> None:
     (message,) = errors("Y=1.", "X=G(Y)+G(2.)*3.", "END", opening, "G=X", "RETURN", "END")
     assert (message.card, "FUNCTION belongs to FORTRAN II" in message.message) == (4, True)
 
@@ -155,23 +155,23 @@ def test_block_data_and_entry() -> None:
     assert "ENTRY belongs to FORTRAN IV" in only("ENTRY SUB(X)").message
 
 
-def test_a_statement_function_and_what_uses_it_are_one_finding() -> None:
+def test_statement_function_and_its_uses_give_one_message() -> None:
     message = only("F(X)=X**2+1.", "ROOTF(A,B)=A/B", "Y=F(2.)+ROOTF(Y,F(Y))", "PUNCH 90,Y")
     assert message.message.startswith("a statement function belongs to FORTRAN II; write its expression")
     assert message.message.endswith("(also on card 2)")
 
 
 @pytest.mark.parametrize("line", ["X(I)=2.", "X(1)=2.", "X(I+1)=2."])
-def test_an_element_of_no_array_is_no_statement_function(line: str) -> None:
+def test_element_of_an_undeclared_array_is_not_a_statement_function(line: str) -> None:
     assert only("I=1", line).message == "X is not an array (no DIMENSION before this card)"
 
 
-def test_arrays_in_common_and_names_of_the_other_mode_are_not_judged() -> None:
+def test_names_declared_by_foreign_statements_are_not_checked() -> None:
     found = errors("  COMMON A(10),B", "REAL I", "X=A(1)+I", "A(2)=I*2.", "C=B+J", "Z=Q(2)", F, "END")
     assert [(d.card, d.number) for d in found] == [(1, 0), (2, 0), (5, 5), (6, 0)]
 
 
-def test_a_function_there_is_not_is_named_once_with_those_there_are() -> None:
+def test_unknown_function_is_reported_once_with_the_known_ones() -> None:
     first, second = errors("X=ABSF(Y)", "Z=SQR(X)+ABSF(ABSF(X))", "PUNCH 90,(X,I=1,2)", F, "END")
     known = "; the functions are SIN, COS, ATAN, EXP, LOG and SQRT; "
     assert first.message.startswith(f"ABSF is neither an array nor a library function{known}for ABSF write IF (X)")
@@ -197,12 +197,12 @@ def test_a_function_there_is_not_is_named_once_with_those_there_are() -> None:
         ("LO", "and SQRT"),
     ],
 )
-def test_what_may_be_meant(name: str, words: str) -> None:
+def test_unknown_function_gets_a_suggestion(name: str, words: str) -> None:
     assert suggest_function(name, LIBRARY).endswith(words) or words.endswith("IF (X)")
     assert words in suggest_function(name, LIBRARY)
 
 
-def test_fields_of_other_fortrans_are_said_once_each() -> None:
+def test_each_foreign_field_is_reported_once() -> None:
     lines = ["READ 1,X", "1 FORMAT(10A4)", "2 FORMAT(I2,A1)", "3 FORMAT(1PE14.8)", "4 FORMAT('TEXT')", "5 FORMAT(3A1)"]
     found = errors(*lines, "END")
     assert [(d.card, d.number) for d in found] == [(2, 11), (4, 11), (5, 11)]
@@ -225,7 +225,7 @@ HOLLERITH = [
 
 
 @pytest.mark.parametrize(("text", "column", "words"), HOLLERITH, ids=[text for text, _, _ in HOLLERITH])
-def test_a_hollerith_count_that_does_not_fit_is_told_the_one_that_would(text: str, column: int, words: str) -> None:
+def test_wrong_hollerith_count_gets_a_suggestion(text: str, column: int, words: str) -> None:
     (message,) = errors(f"5 FORMAT{text}", "END")
     assert (message.card, message.column, message.number, message.message) == (1, 8 + column, 11, words)
 
@@ -239,7 +239,7 @@ def test_a_hollerith_count_that_does_not_fit_is_told_the_one_that_would(text: st
         ("(3HABC,F4,4HDEFG)", "F4 has no decimal point and decimals"),
     ],
 )
-def test_a_count_that_fits_is_not_blamed_for_another_mistake(text: str, words: str) -> None:
+def test_correct_hollerith_count_is_not_blamed_for_another_error(text: str, words: str) -> None:
     (message,) = errors(f"5 FORMAT{text}", "END")
     assert message.message == words
 
@@ -252,7 +252,7 @@ def test_a_count_that_fits_is_not_blamed_for_another_mistake(text: str, words: s
         ("(I2,4HA , F4.1)", "4H includes a comma and none follows; write 2H if it is a separator"),
     ],
 )
-def test_a_count_that_swallowed_a_comma_is_warned_of(text: str, words: str) -> None:
+def test_hollerith_count_that_includes_a_comma_gives_a_warning(text: str, words: str) -> None:
     (message,) = diagnostics(f"5 FORMAT{text}", "END")
     assert (message.warning, message.number, message.message) == (True, 11, words)
 
@@ -260,7 +260,7 @@ def test_a_count_that_swallowed_a_comma_is_warned_of(text: str, words: str) -> N
 @pytest.mark.parametrize(
     "text", ["(4HABC,,I4)", "(4HABC,)", "(4HABC,/I4)", "(1H,I4)", "(3HABCI4)", "(4HA,BCI4)", "(3H(A),I4)"]
 )
-def test_text_that_may_hold_a_comma(text: str) -> None:
+def test_hollerith_text_may_contain_a_comma(text: str) -> None:
     assert diagnostics(f"5 FORMAT{text}", "END") == ()
 
 
@@ -268,6 +268,6 @@ def test_text_that_may_hold_a_comma(text: str) -> None:
     "line",
     ["{n} FORMAT(I2,3HA,B,3HC,D,3HE,F,3HG,H,3HI,J,3HK,L,3HM,N,3HO,P,4HQ,RS", "X{n}=ABSF(Y)", "  CALL SUB(X)", "F(X)=Y"],
 )
-def test_many_of_them_take_little_time(line: str) -> None:
+def test_many_foreign_statements_are_reported_quickly(line: str) -> None:
     with within(8):
         assert errors(*(line.format(n=n) for n in range(1, 1500)), "END")

@@ -82,7 +82,7 @@ def test_hollerith_ends_at_column_72() -> None:
         "(2000I4,I4)",
     ],
 )
-def test_error_11(text: str) -> None:
+def test_invalid_specification_is_error_11(text: str) -> None:
     """C26-5619 p. 56: a wrong letter, a missing point or d."""
     lines = [f"5 FORMAT{text}", "END"]
     if text == "I4":
@@ -104,7 +104,7 @@ def test_error_11(text: str) -> None:
         ("((((I4))))", 12, "groups are nested too deep"),
     ],
 )
-def test_what_is_wrong_and_where(text: str, column: int, words: str) -> None:
+def test_message_and_column_of_a_format_error(text: str, column: int, words: str) -> None:
     (message,) = errors(f"5 FORMAT{text}", "END")
     assert message.column == column
     assert message.message.startswith(words)
@@ -121,6 +121,6 @@ def test_width_of_x_and_h(text: str, warned: int) -> None:
     assert [d.warning for d in found] == [True] * warned
 
 
-def test_a_bad_format_is_reported_once() -> None:
+def test_invalid_format_is_reported_once() -> None:
     assert len(errors("PUNCH 5,A", "5 FORMAT(A4)", "END")) == 1
     assert len(errors("PUNCH 5", "5 FORMAT(A4)", "END")) == 1

@@ -34,7 +34,7 @@ def nested(item: str, *variables: str) -> str:
     ],
     ids=["one", "two", "three"],
 )
-def test_lists_stand_three_deep(item: str, card: str) -> None:
+def test_lists_may_be_nested_three_deep(item: str, card: str) -> None:
     """Three are taken, one more than an array has subscripts; the innermost variable goes fastest, as in DO's."""
     assert punched(f"PUNCH 1,{item}", "1 FORMAT(24I2)", "END") == (card,)
 
@@ -44,7 +44,7 @@ def test_lists_stand_three_deep(item: str, card: str) -> None:
     [nested("J", "J", "K", "L", "M"), f"({nested('J', 'J', 'K', 'L')},M,M=1,2)", f"I,{nested('J', *'JKLM')}"],
     ids=["alone", "with another item", "not the first item"],
 )
-def test_a_fourth_list_inside_is_refused(item: str) -> None:
+def test_fourth_level_of_lists_is_rejected(item: str) -> None:
     """One message, on the statement's card; a list beside another is not inside it."""
     (message,) = errors("I=1", *cards(f"PUNCH 1,{item}"), "1 FORMAT(24I2)", "END")
     assert (message.card, "nested too deep" in message.message) == (2, True)
@@ -52,14 +52,14 @@ def test_a_fourth_list_inside_is_refused(item: str) -> None:
     assert errors(*cards(f"PUNCH 1,{beside}"), "1 FORMAT(24I2)", "END") == ()
 
 
-def test_groups_of_a_format_stand_two_deep() -> None:
+def test_format_groups_may_be_nested_two_deep() -> None:
     """A FORMAT's own parentheses are none of them: 2(1X,2(I1)) is four fields."""
     assert punched("PUNCH 1,(J,J=1,4)", "1 FORMAT(2(1X,2(I1)))", "END") == (" 12 34",)
     (message,) = errors("1 FORMAT(2(1X,2(2(I1))))", "END")
     assert (message.card, message.number) == (1, 11)
 
 
-def test_sixty_parentheses_are_parsed_and_sixty_one_are_not() -> None:
+def test_parentheses_may_be_nested_sixty_deep() -> None:
     """The limit keeps the parser within Python's own; it is the parentheses open at once that count."""
     sixty = f"{'(' * 60}1.{')' * 60}"
     assert diagnostics(*cards(f"X={sixty}"), "END") == ()
@@ -79,7 +79,7 @@ def test_sixty_parentheses_are_parsed_and_sixty_one_are_not() -> None:
         ("data", "5,988 numbers in 60,000 positions"),
     ],
 )
-def test_the_manual_has_every_limit(what: str, much: str) -> None:
+def test_manual_states_every_limit(what: str, much: str) -> None:
     """Those that are no numbers of the code are tried by the tests of this file and of the compiler's messages."""
     assert f"| {what} | {much} |" in (ROOT / "docs" / "reference" / "fortran.md").read_text(encoding="utf-8")
 
@@ -88,7 +88,7 @@ def test_the_manual_has_every_limit(what: str, much: str) -> None:
     ("subscript", "element"),
     [("2*3", 6), ("2*3+1", 7), ("2*3-1", 5), ("3*1", 3), ("2+3", 5), ("7-3", 4), ("9*1-8", 1), ("3*3", 9)],
 )
-def test_a_constant_subscript_is_reckoned(subscript: str, element: int) -> None:
+def test_constant_subscript_gives_the_address(subscript: str, element: int) -> None:
     """Factor times constant, then the addend, as c*v+k is (C26-5619 p. 18): an address, without code for it."""
     lines = [*FILLED, f"J=A({subscript})", "PUNCH 1,J", "1 FORMAT(I2)", "END"]
     assert punched(*lines) == (f"{element:2}",)
@@ -102,21 +102,21 @@ def test_constant_factors_in_both_subscripts() -> None:
 
 
 @pytest.mark.parametrize(("subscript", "element"), [("2*3", 6), ("2*4-1", 7), ("2*3-6", 0), ("3-4", -1)])
-def test_a_constant_subscript_out_of_bounds_is_found_in_the_run(subscript: str, element: int) -> None:
+def test_constant_subscript_out_of_bounds_stops_the_run(subscript: str, element: int) -> None:
     """The subscript named is the one reckoned."""
     result = run("DIMENSION A(5)", f"A({subscript})=1.", "END")
     assert result.ending.kind == "bounds"
     assert str(element) in result.ending.message
 
 
-def test_a_factor_before_a_variable_is_its_own() -> None:
+def test_subscript_factor_does_not_change_the_loop() -> None:
     """2*J+1 is 7 for J = 3, and the limit of the loop is not touched by it."""
     lines = [*FILLED, "J=3", "K=A(2*J+1)", "L=A(3*J-2)", "PUNCH 1,K,L,J", "1 FORMAT(3I2)", "END"]
     assert punched(*lines) == (" 7 7 3",)
 
 
 @pytest.mark.parametrize("subscript", ["4/2", "2*3*1", "1+2+3", "-2", "-2*J", "-J+5", "+2*J+1-1", "J*2", "1+J"])
-def test_other_subscripts_are_refused(subscript: str) -> None:
+def test_other_forms_of_subscript_are_rejected(subscript: str) -> None:
     """C26-5619 p. 18 has v, c, v+c, v-c, c*v, c*v+c and c*v-c only."""
     (message,) = errors("DIMENSION A(9)", f"X=A({subscript})", "END")
     assert (message.card, message.number) == (2, 0)

@@ -15,7 +15,7 @@ WORDS = " ".join(TEXT.split())
 
 
 @pytest.mark.parametrize("number", explanations())
-def test_an_error_has_a_heading_and_all_that_is_known_of_it(number: str) -> None:
+def test_manual_explains_every_error(number: str) -> None:
     found = explanations()[number]
     (section,) = re.findall(rf"^### Error {number}: (.*?)(?=^### |\Z)", TEXT, re.DOTALL | re.MULTILINE)
     example = "\n".join(found.example)
@@ -25,23 +25,23 @@ def test_an_error_has_a_heading_and_all_that_is_known_of_it(number: str) -> None
     )
 
 
-def test_no_error_is_explained_that_there_is_not() -> None:
+def test_manual_explains_only_existing_errors() -> None:
     assert re.findall(r"^### Error (\w+):", TEXT, re.MULTILINE) == list(explanations())
 
 
 @pytest.mark.parametrize(
     "statement", [*foreign.FOREIGN_STATEMENTS, foreign.STATEMENT_FUNCTION], ids=lambda statement: statement.name
 )
-def test_a_word_of_another_fortran_is_named_with_its_owner(statement: foreign.ForeignStatement) -> None:
+def test_manual_lists_every_foreign_statement(statement: foreign.ForeignStatement) -> None:
     assert f"| {statement.name} | {statement.origin} | {statement.replacement} |" in TEXT
 
 
 @pytest.mark.parametrize("letter", foreign.FOREIGN_FIELDS)
-def test_a_field_of_another_fortran_is_named(letter: str) -> None:
+def test_manual_lists_every_foreign_field(letter: str) -> None:
     what, instead = foreign.FOREIGN_FIELDS[letter].split("; ")
     assert f"| `{letter}` | {what} | {instead} |" in TEXT
 
 
-def test_a_function_of_another_fortran_is_named_with_what_to_write() -> None:
+def test_manual_lists_every_foreign_function() -> None:
     for instead, names in foreign._INSTEAD.items():
         assert f"| {', '.join(names)} | `{instead}` |" in TEXT

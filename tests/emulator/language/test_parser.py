@@ -176,7 +176,7 @@ REFUSED = [
 
 
 @pytest.mark.parametrize(("line", "column", "number", "words"), REFUSED, ids=[line[:30] for line, *_ in REFUSED])
-def test_refused(line: str, column: int, number: int, words: str) -> None:
+def test_invalid_statement_is_rejected_with_column_and_type(line: str, column: int, number: int, words: str) -> None:
     """Error types by C26-5619 p. 56: 6 name, 7 sense switch, 8 DO, 9 DIMENSION, 13 input and output."""
     found = parsed("C  FIRST CARD", line)
     (message,) = found.diagnostics
@@ -203,7 +203,7 @@ def test_error_types_of_page_56(line: str, number: int) -> None:
     assert message.number == number
 
 
-def test_a_long_card_that_is_no_statement_is_quoted_to_forty_characters() -> None:
+def test_unknown_statement_is_quoted_to_forty_characters() -> None:
     (message,) = parsed("XYZ " + "ABCDEFGHIJ" * 6).diagnostics
     assert message.message == "not a statement of this FORTRAN: XYZ" + ("ABCDEFGHIJ" * 4)[:37]
 
@@ -213,7 +213,7 @@ def test_a_statement_number_without_a_statement() -> None:
     assert "a statement number without a statement" in message.message
 
 
-def test_a_bad_card_does_not_stop_the_others() -> None:
+def test_parsing_continues_after_an_invalid_card() -> None:
     found = parsed("X=", "Y=1.", "Z==1.", "END")
     assert [d.card for d in found.diagnostics] == [1, 3]
     assert len(found.statements) == 2
@@ -227,6 +227,6 @@ def test_do_without_a_limit_is_an_assignment() -> None:
 
 
 @pytest.mark.parametrize(("first", "last"), [("100", ""), ("DIMENSION X(", "     1)"), ("X=1.E", ""), ("GO TO ", "")])
-def test_a_number_over_seventy_cards(first: str, last: str) -> None:
+def test_number_may_continue_over_seventy_cards(first: str, last: str) -> None:
     cards = [first, *["     1" + "2" * 66] * 70, last]
     assert diagnostics(*cards, "END")

@@ -44,7 +44,7 @@ def test_a_format_keeps_its_columns() -> None:
     assert len(found.text) == len(found.places) == 72 - 9
 
 
-def test_a_statement_that_runs_into_the_identification_is_warned_of_once() -> None:
+def test_statement_that_reaches_column_73_gives_one_warning() -> None:
     """It would lose its end without a word: a sum that ends in 12 at column 73 ends in 1."""
     long = "JK=1" + "+2" * 33 + "+12"
     (message,) = diagnostics(long[:70].ljust(72) + "NAME", long, "  " + long, "END")
@@ -75,20 +75,20 @@ def test_comments(card: str) -> None:
 
 
 @pytest.mark.parametrize("card", ["C-----", "C TEXT", "COMMENT", "Cany text, any \u00e9 #", "C*** 1 ***"])
-def test_comments_as_the_compilers_take_them(card: str) -> None:
+def test_comments_that_the_compilers_of_the_time_accept(card: str) -> None:
     """IBM's FORTRAN II-D and PDQ FORTRAN, executed (c1 of tests/data/compiler_runs)."""
     assert diagnostics(card, "X=1.", "END") == ()
 
 
 @pytest.mark.parametrize("card", ["C=A+", "CONTINU", "CONTINUE 5", "CALL SUB(X)", "COMMON X", "C SEE X=1 BELOW"])
-def test_a_comment_that_looks_like_a_statement_is_warned_of(card: str) -> None:
+def test_comment_that_looks_like_a_statement_gives_a_warning(card: str) -> None:
     (message,) = diagnostics(card, "X=1.", "END")
     assert message.warning
     assert (message.card, message.column) == (1, 1)
     assert "taken as a comment" in message.message
 
 
-def test_a_card_of_data_may_not_hold_what_a_comment_may() -> None:
+def test_data_card_with_invalid_characters_is_rejected() -> None:
     with pytest.raises(CardError, match=r"data\.cards: card 1, column 3: 'x' is not in the card code"):
         run("READ 1,I", "1 FORMAT(I4)", "END", data=["C x"])
 
@@ -98,7 +98,7 @@ def test_not_comments(card: str) -> None:
     assert only(card).text == card.replace(" ", "")
 
 
-def test_identification_alone_is_no_statement() -> None:
+def test_card_with_identification_alone_is_ignored() -> None:
     """Nothing in columns 1 to 72: there is no statement to read, whatever is punched behind."""
     assert [s.text for s in sources(source(" " * 72 + "BUTL0010", "X=1."))] == ["X=1."]
 
@@ -110,7 +110,7 @@ def test_continuation_by_column_6() -> None:
     assert found.places[-1] == Place(3, 7)
 
 
-def test_continuation_of_hollerith_goes_on_in_column_7() -> None:
+def test_hollerith_field_continues_in_column_7() -> None:
     first = "   10 FORMAT(6HAB"
     found = only(first.ljust(70) + "12", "     1CD)")
     assert found.text.rstrip() == (first[12:].ljust(58) + "12CD)")
@@ -130,7 +130,7 @@ def test_a_comment_does_not_end_a_continued_statement() -> None:
         ("    11 B", ["X=A+", "B"]),
     ],
 )
-def test_what_does_not_continue(card: str, texts: list[str]) -> None:
+def test_cards_that_are_not_continuations(card: str, texts: list[str]) -> None:
     """A zero in column 6, something in columns 1 to 5, or a statement of its own (OPEN-QUESTIONS 1)."""
     assert [s.text for s in sources(source("      X = A +", card))] == texts
 
@@ -186,7 +186,7 @@ Continue
 """
 
 
-def test_small_letters_are_read_as_capitals_but_for_comments() -> None:
+def test_lower_case_becomes_capitals_except_in_comments() -> None:
     """A card has no small letters, in Hollerith fields either; after the C of a comment anything may stand."""
     deck = deck_from_text("small.f", capitals(SMALL))
     assert deck.text() == SMALL.upper().replace("C  A COMMENT, AS IT WAS TYPED", "C  a comment, as it was typed")
@@ -199,7 +199,7 @@ def test_capitals_keep_every_line(text: str) -> None:
     assert found == "C" + text[1:] if text.startswith(("c", "C")) else found == text
 
 
-def test_capitals_do_not_make_characters_that_are_not_letters_of_the_card_code() -> None:
+def test_capitals_change_ascii_letters_only() -> None:
     assert capitals("x=\u00df\u00e9\n") == "X=\u00df\u00e9\n"
     with pytest.raises(CardError, match="column 3: '\u00df' is not in the card code"):
         deck_from_text("small.f", capitals("x=\u00df\n"))

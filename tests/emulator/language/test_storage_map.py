@@ -102,7 +102,7 @@ def test_core_mode_overwrites_the_neighbour() -> None:
     assert punched(*lines, "PUNCH 1,Y(1),X(3)", "1 FORMAT(2F5.1)", "END", bounds="core") == ("  7.0  8.0",)
 
 
-def test_core_mode_of_two_dimensions() -> None:
+def test_core_mode_with_two_dimensions() -> None:
     lines = ["DIMENSION M(2,2),N(2)", "M(1,2)=5", "I=3", "K=M(I,1)", "J=3", "M(1,J)=6", "PUNCH 1,K,N(1)"]
     assert punched(*lines, "1 FORMAT(2I3)", "END", bounds="core") == ("  5  6",)
 
@@ -113,7 +113,7 @@ def test_core_mode_stops_outside_the_data() -> None:
     assert result.ending.message.startswith("deck.f: card 3: a subscript reaches outside the data")
 
 
-def test_one_past_the_end_may_be_copied() -> None:
+def test_element_one_past_the_end_may_be_copied() -> None:
     """DO 119 J=I,N / R(J)=R(J+1) copies element N+1 of an array of N (part two 5; OPEN-QUESTIONS 22)."""
     lines = ["DIMENSION X(3),Y(3)", "Y(1)=5.", "DO 1 I=1,3", "1 X(I)=2.", "I=3", "X(I)=X(I+1)"]
     made = machine(*lines, "A=X(I)", "END")
@@ -126,11 +126,11 @@ def test_one_past_the_end_may_be_copied() -> None:
     assert number(core, "A") == ".50000000E+01"
 
 
-def test_two_past_the_end_may_not() -> None:
+def test_element_two_past_the_end_may_not_be_copied() -> None:
     assert run("DIMENSION X(3)", "I=3", "A=X(I+2)", "END").ending.kind == "bounds"
 
 
-def test_overlap_names_the_core() -> None:
+def test_overlap_message_names_the_core_size() -> None:
     made = ["DIMENSION X(51,50)", "X(1,1)=1.", "END"]
     with pytest.raises(DeckError, match=r"deck\.f: OVERLAP: .* a machine of 20000 has "):
         machine(*made, core=20_000)

@@ -76,7 +76,7 @@ def plus(a: Number, b: Number, found: Profile) -> Number:
 
 
 @given(operands("truncating"))
-def test_products_and_quotients_are_the_exact_ones_cut(case: tuple[Profile, Number, Number]) -> None:
+def test_products_and_quotients_are_the_exact_ones_truncated(case: tuple[Profile, Number, Number]) -> None:
     found, a, b = case
     p = found.digits
     assert multiply(*a, *b, found.rules) == nearest(value(a, p) * value(b, p), p, half=False)
@@ -84,7 +84,7 @@ def test_products_and_quotients_are_the_exact_ones_cut(case: tuple[Profile, Numb
 
 
 @given(operands("truncating"))
-def test_sums_are_those_of_the_operand_cut_first(case: tuple[Profile, Number, Number]) -> None:
+def test_sum_truncates_the_smaller_operand_first(case: tuple[Profile, Number, Number]) -> None:
     """Part two 2.1: the operand of smaller exponent loses its digits before the addition, the sum is then cut."""
     found, a, b = case
     p = found.digits
@@ -97,7 +97,7 @@ def test_sums_are_those_of_the_operand_cut_first(case: tuple[Profile, Number, Nu
 
 
 @given(operands("guarded"))
-def test_a_guard_digit_keeps_the_first_of_the_digits_that_drop_off(case: tuple[Profile, Number, Number]) -> None:
+def test_guard_digit_keeps_the_first_digit_shifted_out(case: tuple[Profile, Number, Number]) -> None:
     found, a, b = case
     p = found.digits
     if a[1] < b[1]:
@@ -159,7 +159,7 @@ def test_results_are_normalised(case: tuple[Profile, Number, Number]) -> None:
 
 
 @given(families.flatmap(operands))
-def test_a_number_less_itself_is_zero_and_one_changes_nothing(case: tuple[Profile, Number, Number]) -> None:
+def test_difference_of_equal_numbers_is_zero_and_one_is_neutral(case: tuple[Profile, Number, Number]) -> None:
     found, a, _ = case
     one = from_integer(1, found.rules)
     assert plus(a, (-a[0], a[1]), found) == (0, ZERO)
@@ -168,7 +168,7 @@ def test_a_number_less_itself_is_zero_and_one_changes_nothing(case: tuple[Profil
 
 
 @given(families.flatmap(operands))
-def test_a_zero_added_or_subtracted_changes_nothing(case: tuple[Profile, Number, Number]) -> None:
+def test_adding_or_subtracting_zero_changes_nothing(case: tuple[Profile, Number, Number]) -> None:
     found, a, _ = case
     assert accumulator.add(*a, 0, ZERO, found.rules) == (*a, 0)
     assert accumulator.add(0, ZERO, *a, found.rules) == (*a, 0)
@@ -176,7 +176,7 @@ def test_a_zero_added_or_subtracted_changes_nothing(case: tuple[Profile, Number,
 
 
 @pytest.mark.parametrize("p", range(3, MAX_DIGITS + 1))
-def test_a_product_just_below_a_power_of_ten_is_rounded_up_to_it(p: int) -> None:
+def test_product_below_a_power_of_ten_rounds_up_to_it(p: int) -> None:
     """(10**(p-1) + 1) * (10**p - 10) = 10**(2p-1) - 10, whole numbers of p digits."""
     product = multiply(10 ** (p - 1) + 1, p, 10**p - 10, p, profile(f"rounding:{p}").rules)
     assert product == (10 ** (p - 1), 2 * p)
@@ -202,7 +202,7 @@ def test_multiply_and_divide_agree_with_decimal_rounding_down(a: Number, b: Numb
     assert decimal(divide(*a, *b, TRUNCATING.rules)) == DOWN.divide(decimal(a), decimal(b))
 
 
-def test_decimal_is_not_this_addition() -> None:
+def test_addition_differs_from_the_decimal_module() -> None:
     """1.0-.99999999 is .1E-06 on the machine: .99999999 becomes .9999999 before the subtraction."""
     one, nines = (10**7, 1), (99999999, 0)
     assert DOWN.subtract(decimal(one), decimal(nines)) == Decimal("1E-8")
@@ -214,7 +214,7 @@ def test_decimal_is_not_this_addition() -> None:
 
 
 @given(st.integers(-9999, 9999), families.flatmap(profiles))
-def test_whole_numbers_go_to_floating_point_and_back(whole: int, found: Profile) -> None:
+def test_integers_convert_to_floating_point_and_back(whole: int, found: Profile) -> None:
     mantissa, exponent = from_integer(whole, found.rules)
     assert normalised((mantissa, exponent), found.digits)
     back = to_integer(mantissa, exponent, found.rules)
@@ -262,7 +262,7 @@ def test_profiles_by_name(name: str) -> None:
         "x:8",
     ],
 )
-def test_no_such_profile(name: str) -> None:
+def test_unknown_profile_is_rejected(name: str) -> None:
     with pytest.raises(ValueError, match=r"no arithmetic is called|the number of digits must be"):
         profile(name)
 

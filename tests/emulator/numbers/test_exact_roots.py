@@ -46,7 +46,7 @@ def triples(count: int) -> list[tuple[int, int, int]]:
     return found
 
 
-def test_the_sign_of_al_plus_bl_minus_cl() -> None:
+def test_sign_of_al_plus_bl_minus_cl_is_exact() -> None:
     """Card 169 of program 2, on 6,000 triples, against (sqrt a + sqrt b)**2 - c compared in whole numbers."""
     zero = 0
     for a, b, c in triples(6_000):
@@ -57,7 +57,7 @@ def test_the_sign_of_al_plus_bl_minus_cl() -> None:
     assert zero >= 2_000
 
 
-def test_double_precision_gets_some_of_them_wrong() -> None:
+def test_double_precision_gets_some_signs_wrong() -> None:
     wrong = 0
     for a, b, c in triples(600):
         exact = EXACT.sign(EXACT.subtract(EXACT.add(root(a), root(b)), root(c)))
@@ -113,13 +113,13 @@ def test_quotients_by_a_sum_of_two_roots(one: list[tuple[Fraction, int]], two: l
 
 @settings(max_examples=100)
 @given(SUMS)
-def test_the_whole_part_of_a_sum(terms: list[tuple[Fraction, int]]) -> None:
+def test_integer_part_of_a_sum_is_exact(terms: list[tuple[Fraction, int]]) -> None:
     exact, near = summed(terms)
     whole = int(CONTEXT.floor(abs(near) + CONTEXT.mpf(10) ** -60)) % 10000
     assert EXACT.to_integer(exact) == (-whole if EXACT.sign(exact) < 0 else whole)
 
 
-def test_a_power_and_a_negative_power() -> None:
+def test_powers_of_a_sum_are_exact() -> None:
     assert EXACT.integer_power(Fraction(2, 3), 5) == (Fraction(32, 243), "")
     assert EXACT.integer_power(Fraction(2, 3), -2) == (Fraction(9, 4), "")
     assert EXACT.integer_power(root(2), 4) == (4, "")
@@ -130,7 +130,7 @@ def test_a_power_and_a_negative_power() -> None:
     assert EXACT.function("COS", 0) == (1, "")
 
 
-def test_too_many_roots_end_the_run() -> None:
+def test_sum_of_too_many_roots_ends_the_run() -> None:
     lines = ["A=0.", "P=1.", "5 P=P+1.", "A=A+SQRT(P)", "GO TO 5"]
     result = run("exact", *lines)
     assert result.ending.kind == "undecided"
@@ -138,7 +138,7 @@ def test_too_many_roots_end_the_run() -> None:
 
 
 @pytest.mark.parametrize("whole", range(10**9, 10**9 + 30))
-def test_the_sign_of_a_sum_that_nearly_vanishes(whole: int) -> None:
+def test_sign_of_a_sum_that_nearly_vanishes(whole: int) -> None:
     """The root's third derivative is positive, so that is the sign of the third difference, some 1E-23 here."""
     terms = [((whole + k), (-1) ** (3 - k) * math.comb(3, k)) for k in range(4)]
     total = sum((square_root(n) * c for n, c in terms), start=RootSum(()))
@@ -147,7 +147,7 @@ def test_the_sign_of_a_sum_that_nearly_vanishes(whole: int) -> None:
     assert (total.floor(), (-total).floor()) == (0, -1)
 
 
-def test_roots_of_one_kind_are_one_root() -> None:
+def test_roots_of_the_same_kind_are_combined() -> None:
     """1 + 2 + ... + 200 times the root of 2, and nothing left of it."""
     total: object = 0
     for k in range(1, 201):
@@ -157,7 +157,7 @@ def test_roots_of_one_kind_are_one_root() -> None:
     assert EXACT.subtract(total, root(2 * 20100**2)) == 0
 
 
-def test_an_undecided_sum_is_not_written_wrong() -> None:
+def test_digits_of_an_irrational_number_are_truncated_exactly() -> None:
     """The digits of an irrational number are cut where they stand, however long its zeros or nines are."""
     tiny = EXACT.subtract(root(10**60 + 1), 10**30)
     assert EXACT.write(FALLBACK, tiny)[0] == " .49999999E-30"

@@ -56,7 +56,7 @@ def test_wide_e_fields_round_trip(number: tuple[int, int], width: int, decimals:
 
 
 @given(mantissas, st.integers(-9, 12), st.integers(2, 20), st.integers(0, 8))
-def test_f_fields_cut(mantissa: int, exponent: int, width: int, decimals: int) -> None:
+def test_f_fields_truncate(mantissa: int, exponent: int, width: int, decimals: int) -> None:
     """p. 39: the value cut behind d decimals; too big a number goes by E14.8."""
     columns, overflowed = write_floating(Field("F", width, decimals), mantissa, exponent, RULES)
     value = Decimal(mantissa).scaleb(exponent - 8)
@@ -93,19 +93,19 @@ def test_small_i_fields_lose_high_digits(value: int, width: int) -> None:
 @pytest.mark.parametrize(
     "columns", ["ABC", "1.2.3", "1E", "E5", "--1", "1-", ".", "+", "1E+", "1.E5.", "1,5", "1/2", "1E+5+3"]
 )
-def test_no_number(columns: str) -> None:
+def test_invalid_floating_field_is_rejected(columns: str) -> None:
     with pytest.raises(FieldError, match="is not a number"):
         read_floating(E14, columns, RULES)
 
 
 @pytest.mark.parametrize("columns", ["1.5", "1E2", "A", "+-1", "-", "1 -"])
-def test_no_whole_number(columns: str) -> None:
+def test_invalid_fixed_field_is_rejected(columns: str) -> None:
     with pytest.raises(FieldError, match="is not an integer"):
         read_fixed(columns)
 
 
 @pytest.mark.parametrize("columns", ["1.E99", "1.E100", ".1E-100", "-1.E+99", "1.E" + "9" * 40])
-def test_out_of_range(columns: str) -> None:
+def test_exponent_out_of_range_is_rejected(columns: str) -> None:
     with pytest.raises(FieldError, match="the exponent must be -99 to 99"):
         read_floating(E14, columns, RULES)
 
@@ -154,7 +154,7 @@ def test_blanks_in_an_e_field(columns: str, expected: tuple[int, int], warned: b
     assert bool(found.remark) == warned
 
 
-def test_lost_digits_warn() -> None:
+def test_lost_digits_give_a_warning() -> None:
     assert words(read_floating(E14, ".123456789", RULES)) == "9 digits; those after the first 8 are dropped"
     assert read_floating(E14, ".1234567800", RULES).remark is None
     assert words(read_fixed("12345")) == "12345 has more than four digits; the last four are kept"
@@ -165,7 +165,7 @@ def test_lost_digits_warn() -> None:
     assert words(read_fixed("10000")) == "10000 has more than four digits; the last four are kept"
 
 
-def test_undefined_cannot_be_written() -> None:
+def test_undefined_number_cannot_be_written() -> None:
     with pytest.raises(FieldError, match="undefined"):
         write_floating(E14, 0, UNDEFINED, RULES)
 

@@ -19,7 +19,7 @@ mantissas = st.integers(10**7, 10**8 - 1)
 
 
 @given(mantissas, st.integers(-99, 99))
-def test_sqrt_is_the_exact_root_cut(mantissa: int, exponent: int) -> None:
+def test_sqrt_is_the_exact_root_truncated(mantissa: int, exponent: int) -> None:
     """Executed on FORTRAN II-D: the exactly truncated square root (part two 2.1)."""
     found = function("SQRT", mantissa, exponent, RULES)
     assert 10**7 <= found.mantissa < 10**8
@@ -43,14 +43,14 @@ def cut(value: Decimal) -> tuple[int, int]:
 
 
 @given(mantissas, st.integers(-7, 2))
-def test_exp_is_the_exact_value_cut(mantissa: int, exponent: int) -> None:
+def test_exp_is_the_exact_value_truncated(mantissa: int, exponent: int) -> None:
     """:mod:`decimal` computes exp and ln correctly rounded, by other means than mpmath."""
     exact = Context(prec=60).exp(Decimal(mantissa).scaleb(exponent - 8))
     assert function("EXP", mantissa, exponent, RULES) == Value(*cut(exact))
 
 
 @given(mantissas, st.integers(-20, 20))
-def test_log_is_the_exact_value_cut(mantissa: int, exponent: int) -> None:
+def test_log_is_the_exact_value_truncated(mantissa: int, exponent: int) -> None:
     if (mantissa, exponent) == (10**7, 1):
         return
     exact = Context(prec=60).ln(Decimal(mantissa).scaleb(exponent - 8))
@@ -75,7 +75,7 @@ def test_log_is_the_exact_value_cut(mantissa: int, exponent: int) -> None:
         ("SIN(.00001)", ".99999999E-05"),
     ],
 )
-def test_known_values_cut_to_eight_digits(statement: str, expected: str) -> None:
+def test_known_values_are_truncated_to_eight_digits(statement: str, expected: str) -> None:
     """Tables of mathematical constants; 4 * .78539816 = 3.14159264, cut."""
     made = machine(f"D={statement}", "END")
     assert made.run().errors == ()
@@ -95,13 +95,15 @@ def test_known_values_cut_to_eight_digits(statement: str, expected: str) -> None
         ("EXP", (-(10**7), 99), 0, ZERO, "F5"),
     ],
 )
-def test_impossible_arguments(name: str, argument: tuple[int, int], mantissa: int, exponent: int, code: str) -> None:
+def test_invalid_arguments_give_the_error_codes(
+    name: str, argument: tuple[int, int], mantissa: int, exponent: int, code: str
+) -> None:
     """GOTRAN's table F1 to F5 (C26-5594 p. 28); ln 2.7182818 = .99999998..."""
     assert function(name, *argument, RULES) == Value(mantissa, exponent, code)
 
 
 @given(mantissas, st.integers(-3, 3), st.integers(1, 9), st.booleans(), st.sampled_from(["truncating", "rounding:8"]))
-def test_whole_powers_are_the_exact_power_cut(m: int, e: int, count: int, over: bool, name: str) -> None:
+def test_integer_powers_are_the_exact_power_truncated(m: int, e: int, count: int, over: bool, name: str) -> None:
     """IBM FORTRAN II-D, executed (pow, pow2 of tests/data/compiler_runs); rounded half up where products are."""
     exact = (Fraction(m) * Fraction(10) ** (e - 8)) ** (-count if over else count)
     found = integer_power(m, e, -count if over else count, profile(name).rules)
@@ -115,7 +117,7 @@ def test_whole_powers_are_the_exact_power_cut(m: int, e: int, count: int, over: 
 
 
 @given(mantissas, st.integers(-3, 3), st.integers(1, 6))
-def test_ibm1962_multiplies_whole_powers_out(mantissa: int, exponent: int, count: int) -> None:
+def test_ibm1962_computes_integer_powers_by_multiplication(mantissa: int, exponent: int, count: int) -> None:
     """OPEN-QUESTIONS 8: how the set of 1962 takes powers is not known; PDQ FORTRAN multiplies."""
     rules = IBM1962.rules
     m, e = mantissa, exponent
@@ -137,7 +139,7 @@ def test_ibm1962_multiplies_whole_powers_out(mantissa: int, exponent: int, count
         ((10000000, 61), -2, Value(0, ZERO, "E4")),
     ],
 )
-def test_whole_powers_at_the_edges(base: tuple[int, int], count: int, expected: Value) -> None:
+def test_integer_powers_at_the_limits_of_the_range(base: tuple[int, int], count: int, expected: Value) -> None:
     assert integer_power(*base, count, RULES) == expected
 
 
@@ -159,7 +161,7 @@ def test_floating_powers(base: tuple[int, int], exponent: tuple[int, int], expec
 
 
 @pytest.mark.parametrize("base", range(2, 22))
-def test_a_power_that_is_exact_is_not_cut_to_the_number_below(base: int) -> None:
+def test_exact_power_is_not_truncated_to_the_number_below(base: int) -> None:
     """With floating exponents the logarithm may give 2.9999..., however many digits it has."""
     for count in range(2, 7):
         whole, exact = from_integer(base, RULES), from_integer(base**count, RULES)
@@ -168,7 +170,7 @@ def test_a_power_that_is_exact_is_not_cut_to_the_number_below(base: int) -> None
     assert power(from_integer(base * base, RULES), half, RULES) == Value(*from_integer(base, RULES))
 
 
-def test_sqrt_is_rounded_where_products_are() -> None:
+def test_sqrt_is_rounded_if_products_are() -> None:
     """Module text: cut to the profile's digits, rounded where products are rounded."""
     made = machine("A=SQRT(10.)", "B=EXP(1.)", "END", arithmetic="rounding:8")
     made.run()

@@ -37,13 +37,13 @@ def floating(columns: str, words: str) -> tuple[int, int]:
         ("-.2 3E1", -23000000, 1),
     ],
 )
-def test_blanks_between_the_point_and_the_exponent_are_nothing(columns: str, mantissa: int, exponent: int) -> None:
+def test_blanks_between_point_and_exponent_are_ignored(columns: str, mantissa: int, exponent: int) -> None:
     """Digits there may be those of an exponent, as after the E: a zero for the blank of .2 3E1 would make it 2.03."""
     assert floating(columns, BLANKS) == (mantissa, exponent)
 
 
 @pytest.mark.parametrize(("columns", "exponent"), [(".5E1 0", 10), (".5E 1", 1), ("5E1 2", 5), (".5E1  ", 1)])
-def test_blanks_in_an_exponent_and_after_it_are_nothing(columns: str, exponent: int) -> None:
+def test_blanks_in_and_after_an_exponent_are_ignored(columns: str, exponent: int) -> None:
     """A zero for each would multiply the number by powers of ten; 5 without a point is .00000005."""
     found = read_floating(E14, columns, RULES)
     assert (found.mantissa, found.exponent) == (50000000, exponent)
@@ -53,7 +53,7 @@ def test_blanks_in_an_exponent_and_after_it_are_nothing(columns: str, exponent: 
     ("columns", "mantissa", "exponent"),
     [("1. 5", 10500000, 1), (".2 3", 20300000, 0), ("-1. 5", -10500000, 1), ("1.5 +1", 15000000, 2)],
 )
-def test_blanks_after_the_point_are_zeros_where_no_exponent_follows(columns: str, mantissa: int, exponent: int) -> None:
+def test_blanks_after_the_point_are_zeros_without_an_exponent(columns: str, mantissa: int, exponent: int) -> None:
     """A blank among the digits is a zero; no E says that an exponent may be meant (so 1. 5 is 1.05)."""
     assert floating(columns, BLANKS) == (mantissa, exponent)
 
@@ -67,19 +67,19 @@ def test_blanks_before_an_exponent_without_a_point_are_zeros() -> None:
     ("columns", "words"),
     [("1 2.34567891", BLANKS), ("1.23456789 E1", BLANKS), ("123456789  ", AS_ZEROS), (".123456789", "9 digits")],
 )
-def test_a_number_with_blanks_and_too_many_digits_warns_of_its_blanks(columns: str, words: str) -> None:
+def test_blanks_are_reported_rather_than_lost_digits(columns: str, words: str) -> None:
     """A field gives one warning.  A blank may change the value tenfold, a ninth digit only by one in 10**8."""
     floating(columns, words)
 
 
-def test_the_digits_counted_end_with_the_last_that_is_not_zero() -> None:
+def test_trailing_zeros_do_not_count_as_lost_digits() -> None:
     """Zeros at the end are cut without a loss, so they are not counted among the digits there are."""
     floating(".12345678900", "9 digits")
     floating("00123456700000", "")
 
 
 @pytest.mark.parametrize(("columns", "value"), [("1234 ", 2340), ("1 234", 234), ("-1234 ", -2340)])
-def test_a_whole_number_of_five_digits_by_its_blanks_warns_of_the_digits_lost(columns: str, value: int) -> None:
+def test_integer_with_five_digits_after_filling_blanks_gives_a_warning(columns: str, value: int) -> None:
     """The digits named are those read, zeros for blanks among them, so that one line says both."""
     found = read_fixed(columns)
     assert found.mantissa == value
@@ -87,7 +87,7 @@ def test_a_whole_number_of_five_digits_by_its_blanks_warns_of_the_digits_lost(co
     assert found.remark.message.startswith(f"{columns.replace(' ', '0')} has more than four digits")
 
 
-def test_blanks_of_a_whole_number_are_named_as_zeros() -> None:
+def test_blanks_in_an_integer_are_reported_as_zeros() -> None:
     """Without point and exponent even blanks after the number count, which the warning says; those before do not."""
     for columns in ("12 ", "1 2"):
         found = read_fixed(columns)
@@ -98,7 +98,7 @@ def test_blanks_of_a_whole_number_are_named_as_zeros() -> None:
     floating(" 12", "")
 
 
-def test_an_i_field_keeps_to_its_columns() -> None:
+def test_i_field_changes_only_its_own_columns() -> None:
     """At every width and sign: right-justified digits, the sign before them, and nothing beside the field touched."""
     for width in range(1, 6):
         for value in (0, 1, -1, 7, -7, 10, -10, 99, -99, 100, -100, -305, 1234, -1234, 9999, -9999):
@@ -111,7 +111,7 @@ def test_an_i_field_keeps_to_its_columns() -> None:
             assert columns.decode() == f"ABC{field}XYZ", (width, value)
 
 
-def test_a_negative_number_in_one_column_is_a_minus_sign() -> None:
+def test_negative_number_in_a_single_column_is_a_minus_sign() -> None:
     """The sign takes the only column and every digit is lost; the field before keeps its last one (p. 38)."""
     lines = ["I=12", "J=-7", "K=3", "PUNCH 1,I,J,K", "1 FORMAT(I2,I1,I1)", "END"]
     assert punched(*lines) == ("12-3",)

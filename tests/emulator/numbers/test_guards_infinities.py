@@ -46,7 +46,7 @@ OPERATIONS: dict[str, Callable[[Numbers, float, float], float]] = {
         ("/", 2.0, inf, 0.0),
     ],
 )
-def test_an_infinite_operand_is_no_overflow(
+def test_infinite_operand_does_not_overflow(
     name: str, operation: str, first: float, second: float, result: float
 ) -> None:
     """A Trap would be an error code typed a second time for the one operation that overflowed."""
@@ -65,9 +65,7 @@ def test_an_infinite_operand_is_no_overflow(
         *((operation, *pair) for operation in "+-*/" for pair in ((nan, 1.0), (1.0, nan), (nan, inf), (inf, nan))),
     ],
 )
-def test_what_has_no_answer_is_no_number_and_no_overflow(
-    name: str, operation: str, first: float, second: float
-) -> None:
+def test_invalid_operation_gives_nan_without_overflow(name: str, operation: str, first: float, second: float) -> None:
     assert isnan(OPERATIONS[operation](numbers(name), first, second))
 
 
@@ -75,7 +73,7 @@ def test_what_has_no_answer_is_no_number_and_no_overflow(
 @pytest.mark.parametrize(
     ("operation", "sign", "other"), [("+", 1, 1.0), ("-", 1, -1.0), ("*", 1, 2.0), ("*", -1, 2.0), ("/", 1, 0.5)]
 )
-def test_finite_operands_do_overflow(name: str, largest: float, operation: str, sign: int, other: float) -> None:
+def test_finite_operands_overflow(name: str, largest: float, operation: str, sign: int, other: float) -> None:
     """The largest power of two doubled, by each operation, either sign."""
     second = other * largest if operation in "+-" else other
     with pytest.raises(Trap) as caught:
@@ -83,7 +81,7 @@ def test_finite_operands_do_overflow(name: str, largest: float, operation: str, 
     assert caught.value.value == sign * inf
 
 
-def test_an_infinity_of_many_bits_is_no_overflow() -> None:
+def test_multiprecision_infinity_does_not_overflow() -> None:
     system = numbers("mp:40")
     with pytest.raises(Trap) as caught:
         system.divide(system.decimal(1, 0), system.decimal(0, 0))

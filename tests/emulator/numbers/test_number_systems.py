@@ -35,7 +35,7 @@ def test_names() -> None:
 
 
 @pytest.mark.parametrize("name", ["mp", "mp:", "mp:1", "mp:100001", "mp:x", "mp:-5", "float", "Exact", "truncating:1"])
-def test_names_there_are_not(name: str) -> None:
+def test_unknown_names_are_rejected(name: str) -> None:
     with pytest.raises(ValueError, match=r"no arithmetic is called|the number of (bits|digits) must be"):
         numbers(name)
 
@@ -47,7 +47,7 @@ SINGLES = st.floats(width=32, allow_nan=False, allow_infinity=False)
 
 @settings(max_examples=150)
 @given(SINGLES, SINGLES)
-def test_single_precision_is_numpys(x: float, y: float) -> None:
+def test_single_precision_agrees_with_numpy(x: float, y: float) -> None:
     """Double precision rounded after each operation is the correctly rounded single result."""
     a, b = np.float32(x), np.float32(y)
     with np.errstate(all="ignore"):
@@ -66,7 +66,7 @@ def test_single_precision_is_numpys(x: float, y: float) -> None:
 
 @settings(max_examples=100)
 @given(SINGLES)
-def test_the_shortest_decimal_of_a_single(x: float) -> None:
+def test_shortest_decimal_of_a_single_agrees_with_numpy(x: float) -> None:
     """As numpy prints it, read back as the same number."""
     assert float(np.float32(SINGLE.text(x))) == x
     if x and abs(x) > 1e-90:
@@ -77,7 +77,7 @@ def test_the_shortest_decimal_of_a_single(x: float) -> None:
 
 @settings(max_examples=100)
 @given(st.floats(allow_nan=False, allow_infinity=False, min_value=-1e80, max_value=1e80), st.integers(20, 120))
-def test_a_number_of_many_bits_is_written_as_it_was_read(x: float, bits: int) -> None:
+def test_multiprecision_number_reads_back_as_written(x: float, bits: int) -> None:
     system = numbers(f"mp:{bits}")
     whole, power = int(x * 2**40) % 10**6, random.Random(x).randint(-40, 40)
     if bits >= 24:
@@ -88,7 +88,7 @@ def test_a_number_of_many_bits_is_written_as_it_was_read(x: float, bits: int) ->
 
 @pytest.mark.parametrize("name", SYSTEMS)
 @pytest.mark.parametrize(("base", "count"), [(2, 1), (2, 5), (3, 4), (-2, 3), (-2, 4), (-3, 5), (2, -2), (-2, -3)])
-def test_a_whole_power(name: str, base: int, count: int) -> None:
+def test_integer_power_is_exact_in_every_system(name: str, base: int, count: int) -> None:
     """Small enough for every system to hold the exact one."""
     system = numbers(name)
     found, code = system.integer_power(system.decimal(base, 0), count)
@@ -96,19 +96,19 @@ def test_a_whole_power(name: str, base: int, count: int) -> None:
 
 
 @pytest.mark.parametrize("name", SYSTEMS)
-def test_the_sign_of_small_and_large_numbers(name: str) -> None:
+def test_sign_of_small_and_large_numbers(name: str) -> None:
     system = numbers(name)
     for power in (-30, -1, 0, 30):
         assert [system.sign(system.decimal(whole, power)) for whole in (-1, 0, 1)] == [-1, 0, 1]
 
 
 @pytest.mark.parametrize("name", SYSTEMS)
-def test_the_exact_value_of_zero_is_zero(name: str) -> None:
+def test_exact_value_of_zero_is_zero(name: str) -> None:
     assert numbers(name).exact(numbers(name).decimal(0, 0), 30) == 0
 
 
 @pytest.mark.parametrize("name", [name for name in SYSTEMS if name not in BINARY])
-def test_a_power_of_ten_for_a_reader_has_no_point(name: str) -> None:
+def test_power_of_ten_is_shown_without_a_point(name: str) -> None:
     """Digits as they are up to twenty, beyond them an exponent."""
     system = numbers(name)
     assert system.text(system.decimal(1, 19)) == "1" + "0" * 19
@@ -118,7 +118,7 @@ def test_a_power_of_ten_for_a_reader_has_no_point(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["float64", "float32"])
-def test_a_whole_binary_number_for_a_reader_has_no_point(name: str) -> None:
+def test_binary_integer_is_shown_without_a_point(name: str) -> None:
     assert [numbers(name).text(value) for value in (2.0, -40.0, 0.5)] == ["2", "-40", "0.5"]
 
 
@@ -126,7 +126,7 @@ def test_a_whole_binary_number_for_a_reader_has_no_point(name: str) -> None:
 
 
 @pytest.mark.parametrize("system", [DOUBLE, SINGLE])
-def test_zeros_have_signs_and_so_have_quotients_by_them(system: Numbers) -> None:
+def test_signed_zeros_give_signed_quotients(system: Numbers) -> None:
     """IEEE 754 (1985) 6.3 and 7.2."""
     minus_zero = system.read(FALLBACK, "-.00000000E+00")[0]
     assert (minus_zero, math.copysign(1, minus_zero)) == (0, -1)
@@ -142,7 +142,7 @@ def test_zeros_have_signs_and_so_have_quotients_by_them(system: Numbers) -> None
         assert trap.value.value == expected
 
 
-def test_overflow_is_an_infinity_noted_with_the_machines_code() -> None:
+def test_overflow_gives_an_infinity_and_the_error_code() -> None:
     result = run("float64", "A=1.E90", "B=A*A*A*A", "K=1", "IF(B)1,1,2", "1 STOP", "2 PUNCH 3,K", "3 FORMAT(I2)")
     assert result.punched == (" 1",)
     assert result.errors == (MachineError("E3", 2, 1),)
@@ -179,7 +179,7 @@ def test_codes_of_binary_numbers(name: str, statement: str, code: str) -> None:
     assert result.ending.kind == "end"
 
 
-def test_what_is_no_number_has_no_sign() -> None:
+def test_nan_has_no_sign() -> None:
     for name in ("float64", "mp:40"):
         result = run(name, "Z=0.", "A=Z/Z", "7 IF(A)1,1,1", "1 STOP")
         assert (result.ending.kind, result.ending.message) == (
@@ -190,7 +190,7 @@ def test_what_is_no_number_has_no_sign() -> None:
 
 @settings(max_examples=100)
 @given(st.fractions(), st.integers(1, 30))
-def test_the_digits_of_a_fraction_are_cut(value: Fraction, digits: int) -> None:
+def test_digits_of_a_fraction_are_truncated(value: Fraction, digits: int) -> None:
     mantissa, exponent = EXACT.cut(value, digits)
     shown = Fraction(mantissa) * Fraction(10) ** (exponent - digits)
     assert abs(shown) <= abs(value) < abs(shown) + Fraction(10) ** (exponent - digits)
@@ -217,7 +217,7 @@ UNDECIDED = [
 
 
 @pytest.mark.parametrize(("statement", "words"), UNDECIDED)
-def test_exact_numbers_say_what_they_cannot(statement: str, words: str) -> None:
+def test_exact_arithmetic_reports_unsupported_operations(statement: str, words: str) -> None:
     if statement.count("**") > 1:
         first, last = statement[2:].rsplit("**", 1)
         result = run("exact", "B=2.", f"C={first}", f"A=C**{last}")
@@ -228,13 +228,13 @@ def test_exact_numbers_say_what_they_cannot(statement: str, words: str) -> None:
     assert (result.ending.kind, result.ending.message) == ("undecided", f"deck.f: card {card}: {words}, in {statement}")
 
 
-def test_a_number_that_grows_in_a_loop_ends_the_run() -> None:
+def test_growing_exact_number_ends_the_run() -> None:
     result = run("exact", "A=3.", "5 A=A*A", "GO TO 5")
     assert result.ending.kind == "undecided"
     assert "more than 100000 bits, in 5 A=A*A" in result.ending.message
 
 
-def test_what_a_card_cannot_hold_ends_the_run() -> None:
+def test_number_too_large_for_a_card_ends_the_run() -> None:
     for name in ("float64", "exact", "mp:100"):
         result = run(name, "A=1.E60", "B=A*A", "8 PUNCH 1,B", "1 FORMAT(E14.8)")
         assert result.ending.kind == "undecided"
@@ -247,7 +247,7 @@ def test_what_a_card_cannot_hold_ends_the_run() -> None:
 
 
 @pytest.mark.parametrize("name", ["float64", "mp:60"])
-def test_an_infinity_is_no_whole_number(name: str) -> None:
+def test_infinity_cannot_become_an_integer(name: str) -> None:
     result = run(name, "A=0.", "B=1./A", "K=B")
     assert result.ending.kind == "undecided"
     assert "has no whole number for" in result.ending.message
@@ -267,22 +267,22 @@ def test_an_infinity_is_no_whole_number(name: str) -> None:
         ("B=SIN(1./Z)", "F1"),
     ],
 )
-def test_codes_of_many_bits(statement: str, code: str) -> None:
+def test_codes_of_multiprecision_numbers(statement: str, code: str) -> None:
     result = run("mp:70", "Z=0.", statement)
     assert [error.code for error in result.errors][-1:] == [code]
 
 
-def test_many_bits_have_a_range_too() -> None:
+def test_multiprecision_range_is_limited() -> None:
     result = run("mp:20", "A=3.", "DO 5 I=1,40", "5 A=A*A", "B=1.", "C=B/3.", "DO 6 I=1,40", "6 C=C*C")
     assert {error.code for error in result.errors} == {"E3", "E4"}
 
 
-def test_a_root_of_a_negative_number_is_that_of_its_size() -> None:
+def test_root_of_a_negative_number_is_that_of_its_magnitude() -> None:
     for name in ("exact", "float64", "float32", "mp:50", "truncating"):
         assert run(name, "A=SQRT(-16.)", "PUNCH 1,A", "1 FORMAT(F5.2)").punched == (" 4.00",)
 
 
-def test_a_blank_field_and_blanks_warn_as_in_the_decimal_engine() -> None:
+def test_blanks_give_the_same_warnings_as_in_decimal() -> None:
     result = run("exact", "READ 1,A,B", "PUNCH 1,A,B", "1 FORMAT(2E14.8)", data=("",))
     assert result.punched == (" .00000000E-99 .00000000E-99",)
     assert any("a blank field is read as zero" in notice.message for notice in result.notices)

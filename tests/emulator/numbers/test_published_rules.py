@@ -29,17 +29,17 @@ IMPOSSIBLE = {("lost digits", "truncating:2"), ("lost digits", "rounding:2")}
 
 
 @pytest.mark.parametrize("operation", OPERATIONS, ids=lambda operation: operation.name)
-def test_the_files_are_what_the_rules_make(operation: Operation) -> None:
+def test_published_files_follow_from_the_rules(operation: Operation) -> None:
     assert (PUBLISHED / (operation.name + SUFFIX)).read_text(encoding="ascii") == operation.file()
 
 
-def test_there_is_a_file_for_every_operation_and_no_other() -> None:
+def test_every_operation_has_exactly_one_file() -> None:
     assert names() == sorted(operation.name for operation in OPERATIONS)
     others = {path.name for path in PUBLISHED.iterdir() if path.suffix != SUFFIX}
     assert others == {"README.md", "counts.tsv"}
 
 
-def test_the_table_counts_every_class() -> None:
+def test_counts_table_matches_the_vectors() -> None:
     header, *lines = (PUBLISHED / "counts.tsv").read_text(encoding="ascii").splitlines()
     operation, kind, *profiles = header.split("\t")
     assert (operation, kind) == ("operation", "class")
@@ -50,7 +50,7 @@ def test_the_table_counts_every_class() -> None:
     assert +shown == table()
 
 
-def test_the_rules_use_nothing_of_the_emulator() -> None:
+def test_rules_do_not_import_the_emulator() -> None:
     folder = ROOT / "tests" / "support" / "published"
     for path in folder.glob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
@@ -67,7 +67,7 @@ def table() -> Counter[tuple[str, str, str]]:
     return Counter((v.operation, v.profile, v.kind) for name in names() for v in load(name))
 
 
-def test_no_operation_profile_and_class_is_empty() -> None:
+def test_every_operation_profile_and_class_has_vectors() -> None:
     found = table()
     wanted = {(o.name, profile, kind) for o in OPERATIONS for profile in o.profiles for kind in o.classes}
     assert {key for key in wanted if not found[key]} == {
@@ -76,13 +76,13 @@ def test_no_operation_profile_and_class_is_empty() -> None:
     assert set(found) <= wanted
 
 
-def test_every_set_of_rules_is_there() -> None:
+def test_every_set_of_rules_is_published() -> None:
     assert set(OF_THE_TIME) <= set(PROFILES)
     assert {f"{name.partition(':')[0]}:P" for name in PROFILES if ":" in name} == set(FAMILIES)
     assert {MIN_DIGITS, MAX_DIGITS} <= {profile(name).digits for name in PROFILES}
 
 
-def test_every_line_says_the_operation_of_its_file_and_every_code_occurs() -> None:
+def test_every_error_code_occurs_in_the_vectors() -> None:
     codes = set()
     for name in names():
         for vector in load(name):
@@ -91,7 +91,7 @@ def test_every_line_says_the_operation_of_its_file_and_every_code_occurs() -> No
     assert codes == {"", *(f"E{n}" for n in range(1, 9)), "F8", "INVALID", "RANGE"}
 
 
-def test_the_readme_counts_the_lines() -> None:
+def test_readme_states_the_numbers_of_lines() -> None:
     words = README.read_text(encoding="utf-8")
     found = table()
     rows = dict(re.findall(r"^\| `(\w+)` \|.*\| ([\d,]+) \|$", words, re.M))
@@ -120,7 +120,7 @@ def test_the_readme_counts_the_lines() -> None:
         "add0 add .1E+01 -> .1E+01",
     ],
 )
-def test_a_line_that_is_no_vector_is_refused(line: str) -> None:
+def test_invalid_line_is_rejected_with_its_number(line: str) -> None:
     good = "version: 1\nprofile: truncating\ndigits: 8\nclass: plain\nadd0 add .1E+01 .1E+01 -> .2E+01\n"
     assert len(list(parsed(good))) == 1
     with pytest.raises(ValueError, match="line 6"):
@@ -162,7 +162,7 @@ def noticed(changed: Profile, *operations: str) -> int:
 
 
 @pytest.mark.parametrize("name", PROFILES)
-def test_the_rules_as_they_are_give_every_line(name: str) -> None:
+def test_unchanged_rules_give_every_line(name: str) -> None:
     assert noticed(profile(name)) == 0
 
 
@@ -192,7 +192,7 @@ OTHERWISE = [
 
 
 @pytest.mark.parametrize(("name", "rule", "value"), OTHERWISE)
-def test_a_rule_that_is_changed_is_noticed(name: str, rule: str, value: int) -> None:
+def test_vectors_detect_every_changed_rule(name: str, rule: str, value: int) -> None:
     rules = profile(name).rules
     assert getattr(rules, rule) != value
     assert noticed(Profile(name, "changed", rules._replace(**{rule: value}))) > 0

@@ -136,7 +136,7 @@ def runs(operation: str) -> Iterator[tuple[Program, Vector, Options]]:
 
 
 @pytest.mark.parametrize("operation", names())
-def test_the_interpreter_gives_every_result(operation: str) -> None:
+def test_interpreter_gives_every_published_result(operation: str) -> None:
     wrong = [
         (vector, found)
         for made, vector, options in runs(operation)
@@ -146,7 +146,7 @@ def test_the_interpreter_gives_every_result(operation: str) -> None:
 
 
 @pytest.mark.parametrize("operation", names())
-def test_the_compiled_engine_gives_every_result_or_leaves_it_to_the_interpreter(operation: str) -> None:
+def test_compiled_engine_gives_every_published_result_or_defers(operation: str) -> None:
     pytest.importorskip("numba")
     wrong, left = [], 0
     runner, loaded = None, None

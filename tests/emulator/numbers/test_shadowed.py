@@ -35,7 +35,7 @@ DECIMALS = st.tuples(st.integers(-9999, 9999), st.integers(-4, 2))
     st.lists(DECIMALS, min_size=2, max_size=5),
     st.lists(st.tuples(st.sampled_from(OPERATIONS), st.integers(0, 99), st.integers(0, 99)), max_size=12),
 )
-def test_the_exact_number_lies_within_the_bound(
+def test_exact_number_lies_within_the_bound(
     name: str, decimals: list[tuple[int, int]], steps: list[tuple[str, int, int]]
 ) -> None:
     """Any formula of sums, products and quotients; a bound of none is right to the last digit."""
@@ -60,7 +60,7 @@ def test_the_exact_number_lies_within_the_bound(
 
 
 @pytest.mark.parametrize("name", ROUNDING)
-def test_what_nothing_has_rounded_is_not_off(name: str) -> None:
+def test_unrounded_number_has_the_bound_zero(name: str) -> None:
     """3 * 5 - 15, 7/8 and the root of 9 are exact in every arithmetic of three digits and more; a third is not."""
     system = shadowed(name)
     three, five, fifteen, seven, eight, nine = (system.from_integer(n) for n in (3, 5, 15, 7, 8, 9))
@@ -76,7 +76,7 @@ def test_what_nothing_has_rounded_is_not_off(name: str) -> None:
     assert system.error(system.subtract(third, third)) == 0
 
 
-def test_a_decimal_that_binary_numbers_cannot_hold_is_off_from_the_card_on() -> None:
+def test_decimal_input_not_representable_in_binary_has_an_error() -> None:
     for name, off in (("float64", True), ("mp:100", True), ("truncating", False)):
         system = shadowed(name)
         tenth = system.constant(".1")
@@ -104,7 +104,7 @@ def test_functions_of_thirds(name: str, function: str, third: int) -> None:
     assert 0 < abs(Fraction(value) - Fraction(int(over), int(under))) <= bound
 
 
-def test_the_bound_of_a_loop_that_forgets_does_not_grow() -> None:
+def test_bound_stays_small_in_a_contracting_loop() -> None:
     """X = X/2 + 1/3 a thousand times: an error is halved each time, though it enters two products of a bound."""
     system = shadowed("float64")
     x, half, third = system.constant(".7"), system.constant(".5"), system.divide(*map(system.from_integer, (1, 3)))
@@ -115,7 +115,7 @@ def test_the_bound_of_a_loop_that_forgets_does_not_grow() -> None:
     assert 0 < bound < Fraction(1, 10**15)
 
 
-def test_nothing_is_known_of_an_infinity() -> None:
+def test_infinity_has_no_error_bound() -> None:
     system = shadowed("float64")
     with pytest.raises(Trap) as trap:
         system.divide(system.from_integer(1), system.from_integer(0))
