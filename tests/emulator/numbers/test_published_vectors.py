@@ -1,7 +1,7 @@
 """The published vectors (``tests/data/vectors/published``) as FORTRAN, on the interpreter and on the compiled engine.
 
-Every line is a run: the operands are read from a card, one statement does the operation, and the result is looked up in
-core, or on the card punched.
+Every line is a run: the program reads the operands from a card and performs the operation in one statement, and the
+test compares the result in core or on the punched card.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ from emulator.numbers.arithmetic import FIXED_POINT, MINUS_ZERO
 from tests.support.deckwork import pair, program
 from tests.support.published.lines import Vector, load, names
 
-Found = tuple[str, str]
-"""Result and code."""
+Outcome = tuple[str, str]
+"""Result and error code."""
 
 STATEMENTS = {
     "add": "D=A+B",
     "subtract": "D=A-B",
-    # What is computed is subtracted by FSBR: here -A, from a card with A's sign turned.
+    # FSBR subtracts a computed operand: here -A, where the card holds A with its sign reversed.
     "subtractfrom": "D=B-(-A)",
     "multiply": "D=A*B",
     "divide": "D=A/B",
@@ -45,21 +45,21 @@ STATEMENTS = {
 }
 BRANCHES = {"if": "A", "compare": "A-B", "fixcompare": "I-J"}
 WAYS = ("", "negative", "zero", "positive")
-LEFT = {"power", "read", "readfixed"}
-"""Where the compiled engine leaves cases to the interpreter: powers it does not multiply out, cards with a remark."""
+DEFERRED = {"power", "read", "readfixed"}
+"""Operations with cases that the compiled engine leaves to the interpreter: some powers, and fields with a remark."""
 FLOATING, FIXED = "E38.0", "I5"
-"""The fields operands are read by: wide enough for 28 digits."""
+"""The fields that read the operands, wide enough for 28 digits."""
 
 
 @cache
 def compiled(operation: str, field: str) -> Program:
-    """The program of an operation; ``field`` is empty but for those that read or write one."""
+    """Return the program of an operation.  ``field`` is empty except for operations that read or write a field."""
     if operation.startswith("read"):
         name = "M" if operation == "readfixed" else "D"
         return program(f"READ 1,{name}", f"1 FORMAT({field})", "END")
     if operation.startswith("write"):
-        name, given = ("I", FIXED) if operation == "writefixed" else ("A", FLOATING)
-        return program(f"READ 1,{name}", f"PUNCH 2,{name}", f"1 FORMAT({given})", f"2 FORMAT({field})", "END")
+        name, operand_field = ("I", FIXED) if operation == "writefixed" else ("A", FLOATING)
+        return program(f"READ 1,{name}", f"PUNCH 2,{name}", f"1 FORMAT({operand_field})", f"2 FORMAT({field})", "END")
     if operation in BRANCHES:
         work = [
             f"IF({BRANCHES[operation]})11,12,13",
@@ -73,36 +73,36 @@ def compiled(operation: str, field: str) -> Program:
         uses = BRANCHES[operation]
     else:
         work, uses = [STATEMENTS[operation]], STATEMENTS[operation].replace("SQRT", "").partition("=")[2]
-    given = [name for name in "ABIJ" if name in uses]
-    fields = ",".join(FIXED if name in "IJ" else FLOATING for name in given)
-    return program(f"READ 1,{','.join(given)}", f"1 FORMAT({fields})", *work, "END")
+    names_read = [name for name in "ABIJ" if name in uses]
+    fields = ",".join(FIXED if name in "IJ" else FLOATING for name in names_read)
+    return program(f"READ 1,{','.join(names_read)}", f"1 FORMAT({fields})", *work, "END")
 
 
 def card(vector: Vector) -> Deck:
-    """The card with the operands of a vector."""
+    """Return the card with the operands of a vector."""
     if vector.operation.startswith("read"):
         return deck_from_lines("data", [vector.operands[1]])
-    given = list(vector.operands[1:] if vector.operation.startswith("write") else vector.operands)
+    operands = list(vector.operands[1:] if vector.operation.startswith("write") else vector.operands)
     if vector.operation == "subtractfrom":
-        given[0] = given[0].removeprefix("-") if given[0].startswith("-") else "-" + given[0]
-    return deck_from_lines("data", ["".join(word.rjust(38 if "." in word else 5) for word in given)])
+        operands[0] = operands[0].removeprefix("-") if operands[0].startswith("-") else "-" + operands[0]
+    return deck_from_lines("data", ["".join(word.rjust(38 if "." in word else 5) for word in operands)])
 
 
 def address(made: Program) -> int | None:
-    """Where the result is in core; None for a program that punches it."""
-    found = [entry.first for entry in made.storage.entries if entry.kind == "variable" and entry.name in ("D", "M")]
-    return found[0] if found else None
+    """Return the address of the result, or None for a program that punches it."""
+    addresses = [entry.first for entry in made.storage.entries if entry.kind == "variable" and entry.name in ("D", "M")]
+    return addresses[0] if addresses else None
 
 
 def written(mantissa: int, exponent: int, vector: Vector) -> str:
-    """A field of core as the vectors have it."""
+    """Return a field of core in the notation of the vectors."""
     if exponent == FIXED_POINT:
         return WAYS[mantissa] if vector.operation in BRANCHES else str(mantissa)
     minus = mantissa < 0 or exponent == MINUS_ZERO
     return f"{'-' if minus else ''}.{abs(mantissa):0{vector.digits}}E{max(exponent, -99):+03}"
 
 
-def interpreted(made: Program, vector: Vector, options: Options) -> Found:
+def interpreted(made: Program, vector: Vector, options: Options) -> Outcome:
     machine = Machine(made, card(vector), options)
     try:
         result = machine.run()
@@ -114,8 +114,8 @@ def interpreted(made: Program, vector: Vector, options: Options) -> Found:
     return shown, " ".join(error.code for error in result.errors)
 
 
-def on_the_kernel(runner: Runner, made: Program, vector: Vector) -> Found | None:
-    """What the compiled engine finds; None where it leaves the deck to the interpreter."""
+def on_the_kernel(runner: Runner, made: Program, vector: Vector) -> Outcome | None:
+    """Return the outcome on the compiled engine, or None if it leaves the deck to the interpreter."""
     (run,) = runner.runs([packed(card(vector))])
     if run is None:
         return None
@@ -128,7 +128,7 @@ def on_the_kernel(runner: Runner, made: Program, vector: Vector) -> Found | None
 
 
 def runs(operation: str) -> Iterator[tuple[Program, Vector, Options]]:
-    """Every vector with its program and machine, those of one program and profile together."""
+    """Yield every vector with its program and options, grouped by program and profile."""
     for vector in sorted(load(operation), key=lambda vector: (vector.profile, vector.operands[0])):
         field = vector.operands[0] if operation.startswith(("read", "write")) else ""
         system = numbers("truncating" if vector.profile == "any" else vector.profile)
@@ -138,9 +138,9 @@ def runs(operation: str) -> Iterator[tuple[Program, Vector, Options]]:
 @pytest.mark.parametrize("operation", names())
 def test_interpreter_gives_every_published_result(operation: str) -> None:
     wrong = [
-        (vector, found)
+        (vector, outcome)
         for made, vector, options in runs(operation)
-        if (found := interpreted(made, vector, options)) != (vector.result, vector.code)
+        if (outcome := interpreted(made, vector, options)) != (vector.result, vector.code)
     ]
     assert not wrong, f"{len(wrong)} lines: {wrong[:5]}"
 
@@ -148,16 +148,16 @@ def test_interpreter_gives_every_published_result(operation: str) -> None:
 @pytest.mark.parametrize("operation", names())
 def test_compiled_engine_gives_every_published_result_or_defers(operation: str) -> None:
     pytest.importorskip("numba")
-    wrong, left = [], 0
+    wrong, deferred = [], 0
     runner, loaded = None, None
     for made, vector, options in runs(operation):
         if vector.digits > MAX_DIGITS:
             continue
         if runner is None or loaded != (made, vector.profile):
             runner, loaded = Runner(made, options), (made, vector.profile)
-        found = on_the_kernel(runner, made, vector)
-        left += found is None
-        if found not in (None, (vector.result, vector.code)):
-            wrong.append((vector, found))
+        outcome = on_the_kernel(runner, made, vector)
+        deferred += outcome is None
+        if outcome not in (None, (vector.result, vector.code)):
+            wrong.append((vector, outcome))
     assert not wrong, f"{len(wrong)} lines: {wrong[:5]}"
-    assert (left > 0) == (operation in LEFT), f"{left} lines were left to the interpreter"
+    assert (deferred > 0) == (operation in DEFERRED), f"{deferred} lines were left to the interpreter"

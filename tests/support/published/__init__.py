@@ -1,1 +1,1 @@
-"""The published vectors: rules in fractions, operands, lines. Nothing of ``emulator`` is used here."""
+"""The published vectors: rules in fractions, operands and lines.  Nothing of ``emulator`` is used here."""

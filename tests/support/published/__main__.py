@@ -1,4 +1,4 @@
-"""Writes the published vectors into a folder."""
+"""Write the published vectors into a folder."""
 
 from __future__ import annotations
 

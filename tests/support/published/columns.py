@@ -1,4 +1,4 @@
-"""Fields of cards as lines of the published vectors: E, F and I fields read and written."""
+"""Lines of the published vectors for card fields: E, F and I fields, read and written."""
 
 from __future__ import annotations
 
@@ -129,7 +129,7 @@ WRITE_FIXED = ("plain", "minus", "fits exactly", "digits lost", "zero")
 def read_bounds(by: Arithmetic) -> Iterator[Row]:
     for kind, cards in READ_CARDS.items():
         for field, columns in cards:
-            # A card punched in fewer columns than the field has is blank in the others.
+            # Columns of the field that are not punched are blank.
             columns = columns.ljust(fields.parts(field)[1])
             number, code = fields.read_floating(field, columns, by)
             yield row(kind, (field, f"'{columns}'"), (number if number is not None else "?", code), by)
@@ -147,8 +147,8 @@ def write_e(by: Arithmetic) -> Iterator[Row]:
     for e, field in ((-97, "E14.5"), (-98, "E20.2"), (-99, "E14.7"), (-98, "E10.2"), (LOWEST, "E12.5")):
         yield from _written("exponent out", field, operands.number(10 ** (by.digits - 1), e, by), by)
     for number in operands.singles(by):
-        for kind, its in WRITE_E_FIELDS.items():
-            for field in its:
+        for kind, names in WRITE_E_FIELDS.items():
+            for field in names:
                 if not number.size and kind != "too small":
                     kind = "zeros"
                 e = decade(number.size) if number.size else 0

@@ -1,4 +1,4 @@
-"""The lines of the published vectors, read as their README describes them, by nothing but that description."""
+"""A reader of the published vectors, written from the description of their format in the README alone."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _TOKEN = re.compile(r"'[^']*'|\S+")
 
 @dataclass(frozen=True)
 class Vector:
-    """One line: operands and result as they stand there, the columns of a card without their quotes."""
+    """A line: operands and result as text, the columns of a card without their quotes."""
 
     id: str
     operation: str
@@ -28,33 +28,33 @@ class Vector:
 
 
 def names() -> list[str]:
-    """The operations there is a file for."""
+    """Return the operations that have a file."""
     return sorted(path.stem for path in PUBLISHED.glob(f"*{SUFFIX}"))
 
 
 @cache
 def load(operation: str) -> tuple[Vector, ...]:
-    """The vectors of an operation's file."""
+    """Return the vectors of an operation's file."""
     return tuple(parsed((PUBLISHED / (operation + SUFFIX)).read_text(encoding="ascii")))
 
 
 def parsed(text: str) -> Iterator[Vector]:
-    """The vectors of a file's text.  Raises ValueError with the line's number for a line that is no vector."""
-    said: dict[str, str] = {}
-    seen: set[str] = set()
+    """Yield the vectors of a file's text.  Raise ValueError with the line number if a line is invalid."""
+    header: dict[str, str] = {}
+    ids: set[str] = set()
     for row, line in enumerate(text.splitlines(), 1):
         if not line or line.startswith("--"):
             continue
         word, colon, value = line.partition(": ")
         if colon and word in ("version", "profile", "digits", "class"):
-            said[word] = value
+            header[word] = value
             continue
         tokens = [token.strip("'") for token in _TOKEN.findall(line)]
         arrow = tokens.index("->") if "->" in tokens else 0
-        if arrow < 3 or len(tokens) - arrow not in (2, 3) or tokens[0] in seen or len(said) < 4:
+        if arrow < 3 or len(tokens) - arrow not in (2, 3) or tokens[0] in ids or len(header) < 4:
             raise ValueError(f"line {row}: {line!r} is not a vector")
-        seen.add(tokens[0])
+        ids.add(tokens[0])
         code = tokens[arrow + 2] if len(tokens) - arrow == 3 else ""
-        digits = 0 if said["digits"] == "any" else int(said["digits"])
-        what = (said["profile"], digits, said["class"])
-        yield Vector(tokens[0], tokens[1], tuple(tokens[2:arrow]), tokens[arrow + 1], code, *what)
+        digits = 0 if header["digits"] == "any" else int(header["digits"])
+        section = (header["profile"], digits, header["class"])
+        yield Vector(tokens[0], tokens[1], tuple(tokens[2:arrow]), tokens[arrow + 1], code, *section)

@@ -1,4 +1,4 @@
-"""Operands for the published vectors: the boundaries of each operation, and a fixed sequence of numbers."""
+"""Operands for the published vectors: the boundary cases of each operation, and a fixed sequence of numbers."""
 
 from __future__ import annotations
 
@@ -12,25 +12,25 @@ Pair = tuple[Number, Number]
 
 
 class Sequence:
-    """Whole numbers that look random and are the same everywhere (Lehmer's generator, modulus 2**61 - 1)."""
+    """Pseudo-random integers that are the same on every machine (Lehmer's generator, modulus 2**61 - 1)."""
 
     def __init__(self, seed: int) -> None:
         self.state = seed * 7919 + 12345
 
     def below(self, bound: int) -> int:
-        """0 to bound - 1."""
-        found = 0
+        """Return an integer from 0 to ``bound`` - 1."""
+        value = 0
         for _ in range(bound.bit_length() // 48 + 1):
             self.state = self.state * 437799614237992725 % (2**61 - 1)
-            found = (found << 48) + (self.state >> 13)
-        return found % bound
+            value = (value << 48) + (self.state >> 13)
+        return value % bound
 
     def one_of(self, *choices: int) -> int:
         return choices[self.below(len(choices))]
 
 
 def number(mantissa: int, e: int, by: Arithmetic) -> Number:
-    """``.ddd * 10**e`` from its digits; a mantissa of 0 is a plus zero."""
+    """Return ``.ddd * 10**e`` from its digits.  A mantissa of 0 gives a plus zero."""
     return Number(mantissa < 0, abs(mantissa) * ten(e - by.digits))
 
 
@@ -39,18 +39,18 @@ def zero(minus: bool = False) -> Number:
 
 
 def edges(by: Arithmetic) -> list[int]:
-    """Mantissas beside which something changes."""
+    """Return mantissas at which the behaviour changes: powers of ten, halves and all nines."""
     low, high = 10 ** (by.digits - 1), 10**by.digits
     five, fifteen = 5 * low, 15 * low // 10
-    found = [low, low + 1, low + 5, fifteen, five - 1, five, five + 1, 9 * low, high - 10, high - 5, high - 1]
-    return sorted(set(found))
+    mantissas = [low, low + 1, low + 5, fifteen, five - 1, five, five + 1, 9 * low, high - 10, high - 5, high - 1]
+    return sorted(set(mantissas))
 
 
 def mantissa(by: Arithmetic, sequence: Sequence) -> int:
-    """A magnitude: half of them at the edges."""
+    """Return a mantissa, every second one from :func:`edges`."""
     if sequence.below(2):
-        found = edges(by)
-        return found[sequence.below(len(found))]
+        mantissas = edges(by)
+        return mantissas[sequence.below(len(mantissas))]
     low = 10 ** (by.digits - 1)
     return low + sequence.below(9 * low)
 
@@ -60,14 +60,14 @@ def signed(size: int, sequence: Sequence) -> int:
 
 
 def zero_pairs(by: Arithmetic) -> Iterator[Pair]:
-    """Every pair with a zero in it, by signs."""
+    """Yield every combination of signs of a pair that contains a zero."""
     some = number(25 * 10 ** (by.digits - 2), 1, by)
     numbers = [zero(), zero(True), some, some.reversed()]
     yield from ((a, b) for a, b in product(numbers, numbers) if not (a.size and b.size))
 
 
 def sum_bounds(by: Arithmetic) -> Iterator[Pair]:
-    """Zeros; the last sum in range and the first out of it, above and below; sums that only rounding takes there."""
+    """Yield zeros, sums at both ends of the range, and sums that only rounding moves out of range."""
     yield from zero_pairs(by)
     low, high, p = 10 ** (by.digits - 1), 10**by.digits - 1, by.digits
     top = number(high, 99, by)
@@ -80,7 +80,7 @@ def sum_bounds(by: Arithmetic) -> Iterator[Pair]:
     for a, b in product((low, low + 1, high), repeat=2):
         for first, second in ((1, 1), (1, -1), (-1, 1)):
             yield number(first * a, -99, by), number(second * b, -99, by)
-    # Sums that are just a power of ten.
+    # Sums that are exactly a power of ten.
     for sign in (1, -1):
         yield number(sign * 5 * low, 1, by), number(sign * 5 * low, 1, by)
         yield number(sign * high, 1, by), number(sign * low, 2 - p, by)
@@ -91,7 +91,7 @@ def sum_bounds(by: Arithmetic) -> Iterator[Pair]:
 
 
 def sums(by: Arithmetic) -> Iterator[Pair]:
-    """Pairs of all shifts from 0 to beyond the digits, near 1 and at both ends of the range."""
+    """Yield pairs with every shift from 0 to more than P digits, near 1 and at both ends of the range."""
     sequence, p = Sequence(by.digits), by.digits
     for _ in range(2000):
         shift = sequence.one_of(0, 0, 1, 1, 2, max(p - 1, 0), p, p + 1, sequence.below(p + 4), 40)
@@ -103,13 +103,13 @@ def sums(by: Arithmetic) -> Iterator[Pair]:
 
 
 def product_bounds(by: Arithmetic) -> Iterator[Pair]:
-    """Zeros; products at the last power of ten in range and the first beyond it; nines that rounding carries."""
+    """Yield zeros, products at both ends of the range, and products of nines that rounding carries."""
     yield from zero_pairs(by)
     low, high = 10 ** (by.digits - 1), 10**by.digits - 1
     exponents = (50, 49), (50, 50), (99, 1), (1, 99), (-50, -49), (-49, -49), (-99, 0), (-99, 1)
     for a, b in ((low, low), (high, -high), (-low - 1, high - 9)):
         yield from ((number(a, e, by), number(b, f, by)) for e, f in exponents)
-    # A product that is just a power of ten.
+    # A product that is exactly a power of ten.
     yield number(2 * low, 1, by), number(5 * low, 1, by)
     yield number(-4 * low, 3, by), number(25 * low // 10, -1, by)
     # With two digits .12 * .83 is the only product that rounding carries; with more it is exact.
@@ -120,7 +120,7 @@ def product_bounds(by: Arithmetic) -> Iterator[Pair]:
 
 
 def products(by: Arithmetic) -> Iterator[Pair]:
-    """Pairs, and pairs whose product ends just beside a tie or beside a whole last place."""
+    """Yield pairs, some with a product next to a tie or next to an integer multiple of the last place."""
     sequence, p = Sequence(by.digits + 100), by.digits
     for _ in range(2000):
         e, f = sequence.below(60) - 30, sequence.below(60) - 30
@@ -128,15 +128,15 @@ def products(by: Arithmetic) -> Iterator[Pair]:
         b = mantissa(by, sequence)
         way = sequence.below(3)
         if way and a % 2 and a % 5:
-            wanted = (5 * 10 ** (p - 1) + sequence.one_of(1, -1)) if way == 1 else sequence.one_of(1, -1)
-            b = wanted * pow(a, -1, 10**p) % 10**p
+            remainder = (5 * 10 ** (p - 1) + sequence.one_of(1, -1)) if way == 1 else sequence.one_of(1, -1)
+            b = remainder * pow(a, -1, 10**p) % 10**p
             if b < 10 ** (p - 1):
                 continue
         yield number(signed(a, sequence), e, by), number(signed(b, sequence), f, by)
 
 
 def quotient_bounds(by: Arithmetic) -> Iterator[Pair]:
-    """Zeros; quotients at both ends of the range; exact ties: odd numbers halved, 8n + 4 divided by 8."""
+    """Yield zeros, quotients at both ends of the range, and exact ties (odd numbers / 2, and (8n + 4) / 8)."""
     yield from zero_pairs(by)
     low, high = 10 ** (by.digits - 1), 10**by.digits - 1
     exponents = (50, -49), (50, -50), (99, 1), (99, 0), (-50, 49), (-50, 50), (-99, 1), (-99, 0)
@@ -151,22 +151,22 @@ def quotient_bounds(by: Arithmetic) -> Iterator[Pair]:
 
 
 def quotients(by: Arithmetic) -> Iterator[Pair]:
-    """Pairs, and pairs whose quotient lies as near to a tie or to a whole last place as its divisor lets it."""
+    """Yield pairs, some with a quotient as near as possible to a tie or to a multiple of the last place."""
     sequence, p = Sequence(by.digits + 200), by.digits
     for _ in range(2000):
         e, f = sequence.below(60) - 30, sequence.below(60) - 30
         a, b = mantissa(by, sequence), mantissa(by, sequence)
         way = sequence.below(3)
         if way and b % 2 and b % 5:
-            wanted = (b + sequence.one_of(1, -1)) // 2 if way == 1 else sequence.one_of(1, -1)
-            a = wanted * pow(10**p, -1, b) % b
+            remainder = (b + sequence.one_of(1, -1)) // 2 if way == 1 else sequence.one_of(1, -1)
+            a = remainder * pow(10**p, -1, b) % b
             if a < 10 ** (p - 1):
                 continue
         yield number(signed(a, sequence), e, by), number(signed(b, sequence), f, by)
 
 
 def comparisons(by: Arithmetic) -> Iterator[Pair]:
-    """Sums' pairs, equal ones, and ones that differ in the last place."""
+    """Yield equal numbers, numbers that differ in the last place, and the pairs of :func:`sums`."""
     sequence = Sequence(by.digits + 300)
     yield from zero_pairs(by)
     low, high = 10 ** (by.digits - 1), 10**by.digits - 1
@@ -187,7 +187,7 @@ def comparisons(by: Arithmetic) -> Iterator[Pair]:
 
 
 def powers(by: Arithmetic) -> Iterator[tuple[Number, int]]:
-    """Numbers near 1, of one digit and of all, to powers that stay in range, reach its ends and go beyond."""
+    """Yield numbers of one digit and of all digits, with powers inside, at the ends of, and outside the range."""
     sequence = Sequence(by.digits + 400)
     low = 10 ** (by.digits - 1)
     small = [2 * low, 3 * low, 11 * low // 10, low + 1, 9 * low, 10 * low - 1]
@@ -215,7 +215,7 @@ def power_bounds(by: Arithmetic) -> Iterator[tuple[Number, int]]:
 
 
 def singles(by: Arithmetic) -> Iterator[Number]:
-    """Zeros, both ends of the range, then numbers of every size."""
+    """Yield zeros, both ends of the range, then numbers of every size."""
     sequence = Sequence(by.digits + 500)
     low, high = 10 ** (by.digits - 1), 10**by.digits - 1
     yield from (zero(), zero(True), number(low, -99, by), number(-low, -99, by))
@@ -228,7 +228,7 @@ def singles(by: Arithmetic) -> Iterator[Number]:
 
 
 def radicands(by: Arithmetic) -> Iterator[Number]:
-    """Zero, both ends of the range, squares, their neighbours, and numbers of either parity of the exponent."""
+    """Yield zero, both ends of the range, squares, their neighbours, and numbers with odd and even exponents."""
     sequence = Sequence(by.digits + 600)
     low, high = 10 ** (by.digits - 1), 10**by.digits - 1
     yield zero()
@@ -249,12 +249,12 @@ def radicands(by: Arithmetic) -> Iterator[Number]:
         yield number(-a if sequence.below(8) == 0 else a, sequence.below(60) - 30, by)
 
 
-def wholes() -> Iterator[tuple[int, int]]:
-    """Pairs of fixed-point numbers: the bounds, both signs, zeros, then others."""
+def integer_pairs() -> Iterator[tuple[int, int]]:
+    """Yield pairs of fixed-point numbers: the bounds, both signs, zeros, then others."""
     sequence = Sequence(7)
     some = (0, 1, -1, 7, -7, 100, 9999, -9999, 5000, -5001)
     yield from ((9998, 1), (-9998, -1), (-9999, 0), (1, -9998), (9998, -1), (99, 101), (-9, 1111), (3333, 3))
     yield from product(some, some)
     for _ in range(2000):
-        size, other = sequence.one_of(10, 100, 1000, 10_000), sequence.one_of(10, 100, 10_000)
-        yield signed(sequence.below(size), sequence), signed(sequence.below(other), sequence)
+        bound, second_bound = sequence.one_of(10, 100, 1000, 10_000), sequence.one_of(10, 100, 10_000)
+        yield signed(sequence.below(bound), sequence), signed(sequence.below(second_bound), sequence)

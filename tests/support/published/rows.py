@@ -1,6 +1,6 @@
-"""Operations on numbers as lines of the published vectors: the result by the rules, and the class the line is of.
+"""Lines of the published vectors for operations on numbers: the result by the rules, and the class of the case.
 
-A class is found from the exact result, not from how the operands came about.
+The class depends on the exact result, not on the way in which the operands were chosen.
 """
 
 from __future__ import annotations
@@ -12,29 +12,29 @@ from tests.support.published import specification as spec
 from tests.support.published.specification import Arithmetic, Number, Outcome, decade, ten, text
 
 Case = tuple[str, ...]
-"""Operands, then result and code as they are written."""
+"""The operands, the result and the code as text."""
 Row = tuple[str, Case]
 """A class and a case."""
 
 
-def row(kind: str, given: Iterable[Number | int | str], outcome: Outcome | tuple[object, str], by: Arithmetic) -> Row:
-    """A line: its operands and its result as they are written."""
+def row(kind: str, values: Iterable[Number | int | str], outcome: Outcome | tuple[object, str], by: Arithmetic) -> Row:
+    """Return a class and a case with operands and result as text."""
 
     def written(value: object) -> str:
         return text(value, by.digits) if isinstance(value, Number) else str(value)
 
     result, code = (outcome.number, outcome.code) if isinstance(outcome, Outcome) else outcome
-    return kind, (*map(written, given), written(result), code)
+    return kind, (*map(written, values), written(result), code)
 
 
 def rest_of(value: Fraction, by: Arithmetic) -> Fraction:
-    """The part of the last place that an exact result, not zero, has beyond the profile's digits."""
+    """Return the fraction of the last place that an exact result, not zero, has beyond the profile's digits."""
     scaled = abs(value) / ten(decade(abs(value)) - by.digits)
     return scaled - scaled // 1
 
 
 def at_the_ends(outcome: Outcome) -> str:
-    """Whether a result lies out of range or beside its bounds."""
+    """Return the class of a result out of range or at the ends of the range, or an empty string."""
     if outcome.code:
         return {"1": "overflow", "3": "overflow", "5": "overflow", "7": "zero divisor"}.get(
             outcome.code[1], "underflow"
@@ -44,7 +44,7 @@ def at_the_ends(outcome: Outcome) -> str:
 
 
 def of_the_last_place(value: Fraction, by: Arithmetic) -> str:
-    """What cutting and rounding of an exact result would show: a tie, nearly one, nines before a carry, or nothing."""
+    """Return the class of an exact result that rounding treats specially (a tie, next to one, nines), or nothing."""
     rounded = spec.shortened(abs(value), by.digits, True)
     if decade(rounded) > decade(abs(value)):
         return "nines"
@@ -147,8 +147,8 @@ def root_row(a: Number, by: Arithmetic) -> Row:
     kind = "negative" if a.minus else {99: "top", -99: "bottom"}.get(e, "")
     if not kind and outcome.number.size**2 == a.size:
         kind = "exact"
-    for other, side in ((a.size - unit, "above a square"), (a.size + unit, "below a square")):
-        if not kind and other and spec.square_root(Number(False, other), by).number.size ** 2 == other:
+    for neighbour, side in ((a.size - unit, "above a square"), (a.size + unit, "below a square")):
+        if not kind and neighbour and spec.square_root(Number(False, neighbour), by).number.size ** 2 == neighbour:
             kind = side
     return row(kind or ("odd exponent" if e % 2 else "even exponent"), (a,), outcome, by)
 
@@ -170,7 +170,7 @@ COMPARISONS = ("less", "equal", "greater", "beside", "zeros", "underflow", "over
 
 
 def compare_row(a: Number, b: Number, by: Arithmetic) -> Row:
-    """IF (A-B): by subtraction, whose underflow is a zero."""
+    """Return the row of IF (A-B), which is computed by a subtraction whose underflow is zero."""
     outcome = spec.subtract(a, b, by)
     kind = at_the_ends(outcome) if outcome.code else ""
     if not kind and not (a.size and b.size):
@@ -242,7 +242,7 @@ FIXED_COMPARISONS = ("less", "equal", "greater", "four digits kept")
 
 
 def fixed_sign_row(i: int, j: int, by: Arithmetic) -> Row:
-    """IF (I-J): of a difference of five digits four stay."""
+    """Return the row of IF (I-J).  A difference of five digits keeps four."""
     value = i - j
     kind = "four digits kept" if abs(value) > 9999 else "equal" if not value else "less" if value < 0 else "greater"
     return row(kind, (i, j), (spec.branch(spec.four_digits(value)), ""), by)
