@@ -80,7 +80,7 @@ def _compared(literal: NDArray[np.bool_], corrected: NDArray[np.bool_]) -> int:
 def _lines(hull: OctreeHull, source: str, origin: Point, tables: bool, trace: bool) -> Iterator[str]:
     x, y, z = origin
     over = f"an octree of {counted(nodes(hull.solid), 'node')} over a cube of side {hull.side}"
-    yield f"{source}: {counted(hull.given, 'voxel')}, {over}"
+    yield f"{source}: {counted(hull.solid_voxels, 'voxel')}, {over}"
     if tables:
         for name, heights in (("floor", hull.floor), ("ceiling", hull.ceiling)):
             yield from _table(name, {(i + x, j + y): value + z for (i, j), value in heights.items()})

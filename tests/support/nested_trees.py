@@ -1,7 +1,7 @@
-"""Octrees and quadtrees of heights as objects, a tuple a node: the plain way, for tests of those held in arrays.
+"""Octrees and quadtrees of heights as nested tuples, a direct implementation to compare the trees in arrays with.
 
-An octree is True where every voxel of its cube is full, False where none is, else its eight sons.  A quadtree of
-heights is None where it has no column, a number where one height holds in all of it, else its four sons.
+An octree is True if every voxel of its cube is full, False if none is, otherwise the tuple of its eight sons. A
+quadtree of heights is None if it has no column, a number if it is one leaf, otherwise the tuple of its four sons.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from modern.papers.yau_srihari.quadtree import Quadtree, sons_of
 
 
 def octree(array: Any, side: int) -> Any:
-    """The tree of a cube of which ``array`` is what lies in it."""
+    """Build the tree of a cube that contains ``array`` at its origin and is empty otherwise."""
     if not array.any():
         return False
     if array.shape == (side, side, side) and array.all():
@@ -26,31 +26,17 @@ def octree(array: Any, side: int) -> Any:
 
 
 def joined(sons: tuple[Any, ...]) -> Any:
-    """A node, or a leaf where all sons are the same leaf."""
+    """Return a node with these sons, or a leaf if all sons are the same leaf."""
     return sons[0] if all(son is True for son in sons) or all(son is False for son in sons) else sons
 
 
-def intersection(a: Any, b: Any) -> Any:
-    """Full where both are."""
-    if a is False or b is False:
-        return False
-    if a is True or b is True:
-        return b if a is True else a
-    return joined(tuple(intersection(p, q) for p, q in zip(a, b, strict=True)))
-
-
-def count(tree: Any, side: int) -> int:
-    """How many voxels are full."""
-    return sum(count(son, side // 2) for son in tree) if isinstance(tree, tuple) else side**3 * tree
-
-
 def nodes(tree: Any) -> int:
-    """How many nodes there are, leaves included."""
+    """Count the nodes, including leaves."""
     return 1 + sum(map(nodes, tree)) if isinstance(tree, tuple) else 1
 
 
 def ends(tree: Any, side: int, top: bool, bottom: int = 0) -> Any:
-    """The floor, or with ``top`` the ceiling: what sons 0 to 7 write, the first value, or the last."""
+    """Return the floor, or with ``top`` the ceiling: the first (last) height that sons 0 to 7 assign to a column."""
     if not isinstance(tree, tuple):
         return (bottom + side - 1 if top else bottom) if tree else None
     half = side // 2
@@ -60,7 +46,7 @@ def ends(tree: Any, side: int, top: bool, bottom: int = 0) -> Any:
 
 
 def over(first: Any, second: Any) -> Any:
-    """The first tree, and the second where the first has no column."""
+    """Return the first tree with the columns that it lacks taken from the second."""
     if first is None or second is None:
         return second if first is None else first
     if not isinstance(first, tuple):
@@ -70,7 +56,7 @@ def over(first: Any, second: Any) -> Any:
 
 
 def graph_side(tree: Any, side: int, above: bool, bottom: int = 0) -> Any:
-    """The epigraph of heights, or their hypograph."""
+    """Return the epigraph (``above``) or the hypograph of heights."""
     if tree is None:
         return False
     if not isinstance(tree, tuple):
@@ -83,19 +69,19 @@ def graph_side(tree: Any, side: int, above: bool, bottom: int = 0) -> Any:
 
 
 def nested(tree: Octree) -> Any:
-    """An octree in arrays as one of tuples: every full leaf sought from the root."""
-    found: list[Any] = [False]
+    """Convert an octree in arrays to nested tuples by entering every full leaf from the root."""
+    root: list[Any] = [False]
     for code, level in zip(tree.codes.tolist(), tree.levels.tolist(), strict=True):
-        at, place = found, 0
+        node, son = root, 0
         for k in range(level):
-            if not isinstance(at[place], list):
-                assert at[place] is False, "a leaf lies in another"
-                at[place] = [False] * 8
-            at, place = at[place], code >> 3 * (tree.depth - 1 - k) & 7
-        assert at[place] is False
+            if not isinstance(node[son], list):
+                assert node[son] is False, "a leaf lies in another leaf"
+                node[son] = [False] * 8
+            node, son = node[son], code >> 3 * (tree.depth - 1 - k) & 7
+        assert node[son] is False
         assert code % 8 ** (tree.depth - level) == 0
-        at[place] = True
-    return frozen(found[0])
+        node[son] = True
+    return frozen(root[0])
 
 
 def frozen(tree: Any) -> Any:
@@ -103,7 +89,7 @@ def frozen(tree: Any) -> Any:
 
 
 def nested_heights(tree: Quadtree) -> Any:
-    """A quadtree in arrays as one of tuples."""
+    """Convert a quadtree in arrays to nested tuples."""
     if not tree.there.any():
         return None
     if tree.is_leaf():

@@ -169,7 +169,8 @@ def smallest_convex_solid() -> CheckResult:
     )
     more = [p for p in _GRID if p not in path and is_digitally_convex(array_of([*path, p]))]
     message = (
-        f"the hull of {hull.given} connected voxels has {hull.voxels}; each of {len(more)} voxels makes the path convex"
+        f"the hull of {hull.solid_voxels} connected voxels has {hull.voxels}; "
+        f"each of {len(more)} voxels makes the path convex"
     )
     return holds_if(passed and len(more) > 1, message, conditional=True)
 

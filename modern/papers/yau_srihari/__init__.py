@@ -1,7 +1,12 @@
-"""Yau and Srihari, "Digital convex hulls from hierarchical data structures": octrees in, octrees out.
+"""Yau and Srihari's algorithm: the digital convex hull of an octree, as an octree.
 
-``octree_hull(volume)`` follows the paper step by step; ``Printed`` says which of its statements are taken as printed
-where the print is wrong.
+``octree_hull(volume)`` follows the paper step by step. The hull lies between two functions of the column (x, y): the
+convex envelope of the floor (the lowest voxels) and the concave envelope of the ceiling (the highest voxels).
+``Printed`` selects statements to apply as printed although the print is wrong.
+
+References
+----------
+M.-M. Yau and S. N. Srihari, "Digital Convex Hulls from Hierarchical Data Structures".
 """
 
 from modern.papers.yau_srihari.hull import OctreeHull, octree_hull

@@ -1,15 +1,14 @@
-"""Digital convexity as section 3.2 defines it, three ways, and the convex deficiency of section 1.
+"""Definitions of digital convexity (sections 3.2.2 and 3.2.3) and the convex deficiency (section 1), decided exactly.
 
-A digital region is a set of voxels, here the truth values of an array.  All tests are exact.  3.2.1 asks for a convex
-object whose image the region is; only an object that is given can be proved to be one (:func:`is_image_of_hull`).
-3.2.2 asks of every two voxels for a voxel at their midpoint.  3.2.3 asks for a convex solid with the image of the
-half-cell expansion; Kim and Rosenfeld's test for it looks at the semidigital points on the faces of the hull.
+A digital region is a set of voxels, given as an array of truth values. Definition 3.2.2 requires a voxel of the region
+at the midpoint of any two of its voxels. Definition 3.2.3 requires a convex solid whose image is the half-cell
+expansion of the region. Kim and Rosenfeld's test for it examines the semidigital points on the faces of the hull.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from fractions import Fraction
 from itertools import combinations, product
 
@@ -25,20 +24,20 @@ Place = tuple[Fraction, Fraction, Fraction]
 
 
 def voxels_of(region: Voxels) -> list[Voxel]:
-    """The voxels of a region by their indices."""
+    """List the voxels of a region by their indices."""
     return [(x, y, z) for x, y, z in np.argwhere(region).tolist()]
 
 
 def half_cell_expansion(region: Voxels) -> Voxels:
-    """E(S): the voxels of the lattice moved by half a cell that the region's voxels meet, eight of each (3.2.3)."""
-    wide = np.zeros([size + 1 for size in region.shape], dtype=np.bool_)
+    """Return E(S): the cells of the lattice shifted by half a cell that meet the region, eight per voxel (3.2.3)."""
+    expanded = np.zeros([size + 1 for size in region.shape], dtype=np.bool_)
     for step in product((0, 1), repeat=3):
-        wide[tuple(slice(k, k + size) for k, size in zip(step, region.shape, strict=True))] |= region
-    return wide
+        expanded[tuple(slice(k, k + size) for k, size in zip(step, region.shape, strict=True))] |= region
+    return expanded
 
 
 def is_simple(region: Voxels) -> bool:
-    """Whether a region is 6-connected and no line along an axis leaves it and comes back (3.2.3)."""
+    """Return True if a region is 6-connected and meets every line along an axis in one run at most (3.2.3)."""
     if components(region) != 1:
         return False
     for axis in range(3):
@@ -50,48 +49,27 @@ def is_simple(region: Voxels) -> bool:
 
 
 def is_midpoint_convex(region: Voxels) -> bool:
-    """Whether of every two voxels a midpoint voxel is in the region (3.2.2).
-
-    Midpoints of points of X and Y fill a unit cube about the middle of the two centres: where X + Y is odd it reaches
-    into two voxels, so the cover has one, two, four or eight.
-    """
+    """Return True if the region contains a midpoint voxel of any two of its voxels (3.2.2)."""
     inside = set(voxels_of(region))
     return all(any(z in inside for z in midpoint_cover(x, y)) for x, y in combinations(inside, 2))
 
 
 def midpoint_cover(x: Voxel, y: Voxel) -> list[Voxel]:
-    """The midpoint voxels of two voxels (3.2.2)."""
+    """Return the midpoint voxels of two voxels (3.2.2).
+
+    The midpoints of points of X and Y fill a unit cube around the midpoint of the two centres. On each axis on which
+    X + Y is odd, this cube reaches into two voxels, so there are one, two, four or eight midpoint voxels.
+    """
     ranges = [range((a + b) // 2, (a + b + 1) // 2 + 1) for a, b in zip(x, y, strict=True)]
     return [(i, j, k) for i, j, k in product(*ranges)]
 
 
-def is_image_of_hull(region: Voxels) -> bool:
-    """Whether the Euclidean hull of the digital points meets no voxel outside the region and so is a preimage.
-
-    A voxel is met if its cube and the hull are not separated by a plane; cubes are taken closed, so the answer True
-    is certain, and False says nothing about other objects.
-    """
-    points = voxels_of(region)
-    inside = set(points)
-    low, high = (tuple(f(p[k] for p in points) for k in range(3)) for f in (min, max))
-    around = product(*(range(a - 1, b + 2) for a, b in zip(low, high, strict=True)))
-    return all(place in inside or _apart(points, place) for place in around)
-
-
-def _apart(points: list[Voxel], voxel: Iterable[int]) -> bool:
-    """Whether the hull of the points and the closed cube about a voxel have no point in common.
-
-    They have one if and only if the origin is in the hull of all differences of their corners.
-    """
-    corners = [[2 * c + d for c, d in zip(voxel, step, strict=True)] for step in product((-1, 1), repeat=3)]
-    differences = {tuple(2 * a - b for a, b in zip(p, c, strict=True)) for p in points for c in corners}
-    hull = exact_hull([*differences])
-    return any(facet.plane[3] > 0 for facet in hull.facets)
-
-
 def is_digitally_convex(region: Voxels) -> bool:
-    """Kim and Rosenfeld's test (3.2.3): the region is simple, and every semidigital point on the faces of the hull of
-    its digital points is near one of them."""
+    """Return True if a region passes Kim and Rosenfeld's test (3.2.3).
+
+    The region must be simple, and every semidigital point on the faces of the hull of its digital points must be near
+    one of them. A semidigital point has at least one integer coordinate.
+    """
     if not is_simple(region):
         return False
     points = voxels_of(region)
@@ -100,30 +78,32 @@ def is_digitally_convex(region: Voxels) -> bool:
 
 
 def semidigital_segments(hull: ExactHull) -> Iterator[tuple[Place, Place]]:
-    """Where the faces of a hull have a whole coordinate: the segments in which planes x = k, y = k, z = k cut them.
+    """Yield the segments in which the planes x = k, y = k and z = k, for integers k, cut the faces of a hull.
 
-    A polygon that lies in such a plane is cut by the other two kinds only: in an open unit square of its plane a
-    point is near all four corners, and one of them is a digital point of the region if the polygon's points on the
-    square's sides are near one.  Of a flat hull the one polygon is its face, of a segment, which is simple along an
-    axis only, the segment.
+    A face that lies in such a plane is cut by the other two kinds only. This is enough: a point in an open unit square
+    of its plane is near all four corners of the square, and one of them is a digital point of the region if the face's
+    points on the square's sides are near one. The face of a flat hull is its polygon. A region whose hull is a segment
+    is simple only along an axis, and the segment itself is yielded.
     """
     corners = [tuple(map(Fraction, point)) for point in hull.scaled]
     if hull.dimension < 2:
         ends = hull.vertices
         yield corners[ends[0]], corners[ends[-1]]  # type: ignore[misc]
         return
-    rings = [facet.polygon for facet in hull.facets] if hull.dimension == 3 else [hull.polygon]
-    for ring in rings:
-        polygon: list[Place] = [corners[k] for k in ring]  # type: ignore[misc]
+    cycles = [facet.polygon for facet in hull.facets] if hull.dimension == 3 else [hull.polygon]
+    for cycle in cycles:
+        polygon: list[Place] = [corners[k] for k in cycle]  # type: ignore[misc]
         for axis in range(3):
             low, high = min(p[axis] for p in polygon), max(p[axis] for p in polygon)
             for k in range(math.ceil(low), math.floor(high) + 1):
-                cut = sorted(set(_cut(polygon, axis, Fraction(k))))
-                if cut and low < high:
-                    yield cut[0], cut[-1]
+                # A plane cuts the boundary of a convex polygon in two points, in one vertex or along an edge.
+                section = sorted(set(_boundary_points(polygon, axis, Fraction(k))))
+                if section and low < high:
+                    yield section[0], section[-1]
 
 
-def _cut(polygon: list[Place], axis: int, at: Fraction) -> Iterator[Place]:
+def _boundary_points(polygon: list[Place], axis: int, at: Fraction) -> Iterator[Place]:
+    """Yield the vertices of a polygon in the plane x[axis] = at and the points where its sides cross the plane."""
     for p, q in zip(polygon, (*polygon[1:], polygon[0]), strict=True):
         if p[axis] == at:
             yield p
@@ -134,12 +114,13 @@ def _cut(polygon: list[Place], axis: int, at: Fraction) -> Iterator[Place]:
 
 
 def _covered(segment: tuple[Place, Place], points: list[Voxel]) -> bool:
-    """Whether every point of a segment is near a digital point, that is less than 1 away on every axis."""
+    """Return True if every point of a segment is near a digital point: less than 1 away on every axis."""
     p, q = segment
     spans = sorted(span for point in points if (span := near_span(p, q, point)))
     reached = Fraction(0)
     if not any(low < 0 for low, _ in spans):
         return False
+    # The spans are open intervals sorted by their lower ends. They must overlap without a gap from t = 0 to t = 1.
     for low, high in spans:
         if low < reached or (low < 0 and reached == 0):
             reached = max(reached, high)
@@ -147,7 +128,7 @@ def _covered(segment: tuple[Place, Place], points: list[Voxel]) -> bool:
 
 
 def near_span(p: Place, q: Place, point: Voxel) -> tuple[Fraction, Fraction] | None:
-    """The open interval of t in which p + t (q - p) is near a digital point, None where it nowhere is."""
+    """Return the open interval of t in which p + t (q - p) is near a digital point, or None if it is empty."""
     low, high = Fraction(-1), Fraction(2)
     for a, b, c in zip(p, q, point, strict=True):
         along = b - a
@@ -161,5 +142,5 @@ def near_span(p: Place, q: Place, point: Voxel) -> tuple[Fraction, Fraction] | N
 
 
 def convex_deficiency(region: Voxels) -> Voxels:
-    """The voxels of the digital hull that are not in the region (section 1)."""
+    """Return the voxels of the digital hull that are not in the region (section 1)."""
     return octree_hull(region).filled & ~region

@@ -1,7 +1,8 @@
-"""The convex envelope of a floor: its faces one after the other, and their heights entered in the tree (section 5).
+"""The convex envelope of a floor: its faces, found one after another, and their heights (section 5).
 
-It is computed from the reduced set A of section 4.6.1, over the hull H(A) of A's places.  Both come from lower chains:
-the paper finds them by Sklansky's scan, which goes once along a polygon and back where it turns the wrong way.
+The envelope is computed from the reduced set A of section 4.6.1 over the hull H(A) of the projection of A. Both come
+from lower chains. The paper computes these by Sklansky's scan, which follows a polygon once and steps back whenever it
+turns the wrong way.
 """
 
 from __future__ import annotations
@@ -32,19 +33,22 @@ from modern.papers.yau_srihari.search import Candidates, Normal, Search, normal_
 
 
 def reduced_tree(tree: Quadtree) -> Quadtree:
-    """The floor tree with only the columns that are vertices of the lower chain of their row, and among those of the
-    rows' only the vertices of their own column's chain (sections 4.6.1 and 5)."""
+    """Reduce a floor tree to the columns that can be vertices of the envelope (sections 4.6.1 and 5).
+
+    These are the vertices of the lower chain of every line x = const and, of these, the vertices of the lower chain of
+    every line y = const.
+    """
     for axis in (0, 1):
-        kept = [(at, t, z) for at in range(tree.side) for t, z in lower_chain(line(tree, axis, at))]
-        own, other, z = np.array(kept, dtype=np.int64).T
-        tree = with_columns(no_columns(tree.side), *((own, other) if axis == 0 else (other, own)), z)
+        vertices = [(at, t, z) for at in range(tree.side) for t, z in lower_chain(line(tree, axis, at))]
+        at, t, z = np.array(vertices, dtype=np.int64).T
+        tree = with_columns(no_columns(tree.side), *((at, t) if axis == 0 else (t, at)), z)
     return tree
 
 
 def outline(places: Iterable[Place]) -> list[Place]:
-    """The vertices of the hull of places, counterclockwise, from their floor and ceiling in y (section 5).
+    """Return the vertices of the hull of places (x, y), counterclockwise, from the floor and ceiling in y (section 5).
 
-    Of places on one line the two ends, of a single place that one.
+    The hull of places on one line has two vertices, that of a single place has one.
     """
     least: dict[int, int] = {}
     most: dict[int, int] = {}
@@ -57,27 +61,31 @@ def outline(places: Iterable[Place]) -> list[Place]:
 
 
 def chain_above(start: Place, end: Place, points: Grid) -> list[Point]:
-    """The lower chain of the points above the segment between two places, both included, from one to the other.
+    """Return the lower chain of the points above the segment from ``start`` to ``end``, both ends included.
 
-    points: shape (n, 3), one over a place.
+    ``points`` has the shape (n, 3) and at most one point above each place.
     """
     dx, dy = end[0] - start[0], end[1] - start[1]
     x, y = points[:, 0] - start[0], points[:, 1] - start[1]
-    ahead = dx * x + dy * y
-    above = np.flatnonzero((dx * y == dy * x) & (ahead >= 0) & (ahead <= dx * dx + dy * dy))
-    by_way: dict[int, Point] = {
-        t: (x, y, z) for t, (x, y, z) in zip(ahead[above].tolist(), points[above].tolist(), strict=True)
+    # The product with the direction of the segment measures the position along it, in units of its length.
+    along = dx * x + dy * y
+    above = np.flatnonzero((dx * y == dy * x) & (along >= 0) & (along <= dx * dx + dy * dy))
+    point_at: dict[int, Point] = {
+        t: (x, y, z) for t, (x, y, z) in zip(along[above].tolist(), points[above].tolist(), strict=True)
     }
-    return [by_way[t] for t, _ in lower_chain(sorted((t, point[2]) for t, point in by_way.items()))]
+    return [point_at[t] for t, _ in lower_chain(sorted((t, point[2]) for t, point in point_at.items()))]
 
 
 def over_edges(corners: list[Place], points: Grid, whole: bool) -> list[tuple[Point, Point]]:
-    """The edges above those of H(A), counterclockwise: all of the lower chains, or with ``whole`` one over each."""
-    found: list[tuple[Point, Point]] = []
+    """List the edges above those of H(A), counterclockwise.
+
+    They are all edges of the lower chains, or with ``whole`` one edge above each edge of H(A) as printed.
+    """
+    edges: list[tuple[Point, Point]] = []
     for start, end in zip(corners, corners[1:] + corners[:1], strict=True):
         chain = chain_above(start, end, points)
-        found.extend([(chain[0], chain[-1])] if whole else pairwise(chain))
-    return found
+        edges.extend([(chain[0], chain[-1])] if whole else pairwise(chain))
+    return edges
 
 
 Edge = tuple[Point, Point]
@@ -87,23 +95,23 @@ Edge = tuple[Point, Point]
 class Face:
     """A face of the envelope.
 
-    ``vertices``: counterclockwise seen from outside, which is below; ``normal``: outward, as the vertices give it.
+    The vertices run counterclockwise as seen from outside, which is below. The normal points outward.
     """
 
     vertices: tuple[Point, ...]
     normal: Normal
 
     def height(self, x: int, y: int) -> tuple[int, int]:
-        """The face's plane over a place: numerator and denominator, the latter positive."""
+        """Return the height of the face's plane at (x, y) as a numerator and a positive denominator."""
         a, b, c = self.normal
         p = self.vertices[0]
         return a * (x - p[0]) + b * (y - p[1]) - c * p[2], -c
 
     def places(self) -> Iterable[Place]:
-        """The digital points of the face's projection, boundary included."""
+        """Yield the digital points of the face's projection, including its boundary."""
         x = [vertex[0] for vertex in self.vertices]
         y = [vertex[1] for vertex in self.vertices]
-        # Seen from above the vertices run clockwise: the face is to the right of every side.
+        # As seen from above the vertices run clockwise, so the face is to the right of every side.
         sides = list(zip(self.vertices, self.vertices[1:] + self.vertices[:1], strict=True))
         for i in range(min(x), max(x) + 1):
             for j in range(min(y), max(y) + 1):
@@ -113,11 +121,11 @@ class Face:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One turn of the loop of section 5: an entry taken from the queue, and what became of it.
+    """One pass of the loop of section 5: an edge taken from the queue and the face built on it.
 
-    ``face`` is None where no point was found.  ``entered`` and ``removed``: edges entered in the queue and taken off
-    it; ``marked``: places whose value was entered in the tree; ``visited``: nodes of the tree the search looked at;
-    ``angles``: how many it computed; ``waiting``: the length of the queue afterwards.
+    ``face`` is None if the search found no point. ``entered`` and ``removed`` are the edges added to the queue and
+    removed from it. ``marked`` counts the heights entered in the tree, ``visited`` the nodes of the tree that the
+    search visited, ``angles`` the angles it computed, and ``waiting`` the edges in the queue afterwards.
     """
 
     edge: Edge
@@ -135,10 +143,10 @@ class Step:
 class Envelope:
     """The convex envelope of a floor.
 
-    ``reduced``: the points of the reduced set A; ``outline``: the corners of H(A), counterclockwise; ``faces``: none
-    where A lies over one line, then ``chain`` has the envelope's vertices; ``tree``: the floor with the envelope's
-    values; ``fault``: why the construction stopped early, which only a statement taken as printed can bring about.
-    ``construction``: what makes the paper's steps.
+    ``reduced`` holds the points of the reduced set A, ``outline`` the vertices of H(A), counterclockwise. If A lies
+    above one line, there are no ``faces``, and ``chain`` holds the envelope's vertices. ``tree`` is the floor tree with
+    the heights of the envelope. ``fault`` is the reason for a premature end, which only statements as printed can
+    cause. ``construction`` computes the paper's steps.
     """
 
     reduced: tuple[Point, ...]
@@ -151,48 +159,53 @@ class Envelope:
 
     @cached_property
     def steps(self) -> tuple[Step, ...]:
-        """The construction edge by edge, each face searched for in the quadtree; made when asked for first, as the
-        faces alone are found without it."""
+        """The construction edge by edge, with a search of the quadtree for each face.
+
+        It is computed on first access, because the faces are found without it.
+        """
         return self.construction()
 
 
 def envelope(floor: Quadtree, printed: Printed) -> Envelope:
-    """The convex envelope of the heights of a tree (algorithm Convex Envelope, sections 4.6 and 5)."""
+    """Compute the convex envelope of the heights of a tree (algorithm Convex Envelope, sections 4.6 and 5)."""
+    # Section 4.6.1: the reduced set A and its outline H(A).
     tree = reduced_tree(floor)
     x, y = np.nonzero(tree.there)
     grid = np.stack((x, y, tree.values[x, y]), axis=1)
     points: tuple[Point, ...] = tuple((x, y, z) for x, y, z in grid.tolist())
     corners = outline((x, y) for x, y, _ in points)
     if len(corners) < 3:
+        # The paper assumes that H(A) is a polygon. Over one line the envelope is the lower chain itself.
         chain = chain_above(corners[0], corners[-1], grid)
         return Envelope(points, tuple(corners), (), tuple(chain), written(tree, _along(chain, printed)), tuple)
     edges = over_edges(corners, grid, whole=printed.start)
     if printed.names():
-        steps, after, fault = _by_steps(edges, points, tree, printed)
-        found = tuple(step.face for step in steps if step.face is not None)
-        return Envelope(points, tuple(corners), found, (), after, lambda: steps, fault)
+        steps, tree_after, fault = _by_steps(edges, points, tree, printed)
+        built = tuple(step.face for step in steps if step.face is not None)
+        return Envelope(points, tuple(corners), built, (), tree_after, lambda: steps, fault)
     faces = _by_candidates(edges, points)
-    again = partial(_by_steps, edges, points, tree, printed)
-    return Envelope(points, tuple(corners), faces, (), _entered(tree, faces), lambda: again()[0])
+    construction = partial(_by_steps, edges, points, tree, printed)
+    return Envelope(points, tuple(corners), faces, (), _entered(tree, faces), lambda: construction()[0])
 
 
 def _queue(edges: Iterable[Edge]) -> dict[Edge, Normal]:
-    """The edges above those of H(A), turned, each with the outward normal of the upright face over it."""
+    """Return the reversed edges above those of H(A), each with the outward normal of its upright starting face."""
     return {(end, start): normal_of(start, end, (start[0], start[1], start[2] + 1)) for start, end in edges}
 
 
 def _by_candidates(edges: list[Edge], points: tuple[Point, ...]) -> tuple[Face, ...]:
-    """The faces in the order of the queue, each found among all points at once."""
+    """Find the faces in the order of the queue, each by one pass over all points."""
     queue, candidates = _queue(edges), Candidates(points)
     faces: list[Face] = []
     while queue:
+        # Gift wrapping: rotate a plane about the edge from the known face to the first points it meets.
         edge = next(iter(queue))
-        found = candidates.face_on(*edge, queue.pop(edge))
-        if not found or len(faces) > _most(points):
-            raise AssertionError(f"no face stands on the edge {edge}")
-        face = Face(_polygon(*edge, found), normal_of(*edge, found[0]))
-        _join(face, edge, queue)
-        candidates.mark(found, face.vertices)
+        in_plane = candidates.face_on(*edge, queue.pop(edge))
+        if not in_plane or len(faces) > _most(points):
+            raise AssertionError(f"the edge {edge} has no second face")
+        face = Face(_polygon(*edge, in_plane), normal_of(*edge, in_plane[0]))
+        _update_queue(face, edge, queue)
+        candidates.mark(in_plane, face.vertices)
         faces.append(face)
     return tuple(faces)
 
@@ -200,7 +213,10 @@ def _by_candidates(edges: list[Edge], points: tuple[Point, ...]) -> tuple[Face, 
 def _by_steps(
     edges: list[Edge], points: tuple[Point, ...], tree: Quadtree, printed: Printed
 ) -> tuple[tuple[Step, ...], Quadtree, str]:
-    """The steps of section 5, each face searched for in the tree; the tree after them; why they stopped early."""
+    """Run the steps of section 5 with a search of the tree for each face.
+
+    Return the steps, the tree after the last step and the reason for a premature end.
+    """
     queue = _queue(edges)
     steps: list[Step] = []
     while queue:
@@ -208,60 +224,65 @@ def _by_steps(
         step, tree = _step(edge, queue.pop(edge), queue, tree, printed)
         steps.append(step)
         if step.face is None and not printed.names():
-            raise AssertionError(f"no face stands on the edge {edge}")
+            raise AssertionError(f"the edge {edge} has no second face")
         if len(steps) > _most(points):
             return tuple(steps), tree, f"the queue is not empty after {len(steps)} faces"
-    open_ = sum(step.face is None for step in steps)
-    return tuple(steps), tree, f"no point is found for {open_} of {len(steps)} edges" if open_ else ""
+    without_face = sum(step.face is None for step in steps)
+    return tuple(steps), tree, f"no point found for {without_face} of {len(steps)} edges" if without_face else ""
 
 
 def _most(points: Sized) -> int:
-    """More faces than an envelope of so many points has."""
+    """Return a number greater than the number of faces of any envelope of these points."""
     return 8 * len(points) + 8
 
 
 def _step(
     edge: Edge, normal: Normal, queue: dict[Edge, Normal], tree: Quadtree, printed: Printed
 ) -> tuple[Step, Quadtree]:
+    """Search the tree for the face on an edge, update the queue and enter the heights of the face in the tree."""
     search = Search(*edge, normal, printed)
-    found = search.run(tree)
-    if not found:
+    in_plane = search.run(tree)
+    if not in_plane:
         return Step(edge, normal, None, (), (), 0, search.visited, search.angles, len(queue)), tree
     start, end = edge
-    vertices = (start, end, found[0]) if printed.triangles else _polygon(start, end, found)
-    face = Face(vertices, normal_of(start, end, found[0]))
-    entered, removed = _join(face, edge, queue)
-    cells = _values(face, printed)
-    step = Step(edge, normal, face, entered, removed, len(cells), search.visited, search.angles, len(queue))
-    return step, written(tree, cells)
+    vertices = (start, end, in_plane[0]) if printed.triangles else _polygon(start, end, in_plane)
+    face = Face(vertices, normal_of(start, end, in_plane[0]))
+    entered, removed = _update_queue(face, edge, queue)
+    leaves = _leaves(face, printed)
+    step = Step(edge, normal, face, entered, removed, len(leaves), search.visited, search.angles, len(queue))
+    return step, written(tree, leaves)
 
 
-def _join(face: Face, edge: Edge, queue: dict[Edge, Normal]) -> tuple[tuple[Edge, ...], tuple[Edge, ...]]:
-    """Enter the sides of a face in the queue, but for the edge it stands on, and take off it those that wait there
-    already; both lists."""
+def _update_queue(face: Face, edge: Edge, queue: dict[Edge, Normal]) -> tuple[tuple[Edge, ...], tuple[Edge, ...]]:
+    """Push the edges of a new face onto the queue, except the edge it was built on.
+
+    An edge that is already queued is removed, because both of its faces are then known. Return the edges added and the
+    edges removed.
+    """
     entered, removed = [], []
     for p, q in zip(face.vertices, face.vertices[1:] + face.vertices[:1], strict=True):
         if (p, q) == edge:
             continue
-        waiting = next((other for other in ((p, q), (q, p)) if other in queue), None)
-        if waiting is None:
+        queued = next((direction for direction in ((p, q), (q, p)) if direction in queue), None)
+        if queued is None:
+            # The second face of the edge runs along it in the opposite direction.
             queue[q, p] = face.normal
             entered.append((q, p))
         else:
-            del queue[waiting]
-            removed.append(waiting)
+            del queue[queued]
+            removed.append(queued)
     return tuple(entered), tuple(removed)
 
 
 def _entered(tree: Quadtree, faces: Iterable[Face]) -> Quadtree:
-    """The tree with the heights of all faces; their places are marked, but for the vertices."""
+    """Return the tree with the heights of all faces entered. Their columns are marked, except the vertices."""
     triangles, planes = [], []
     for face in faces:
-        first, *others = face.vertices
+        first, *rest = face.vertices
         a, b, c = face.normal
         plane = (-a, -b, -c, a * first[0] + b * first[1] + c * first[2])
-        for p, q in pairwise(others):
-            triangles.append((first, q, p))  # counterclockwise seen from above
+        for p, q in pairwise(rest):
+            triangles.append((first, q, p))  # counterclockwise as seen from above
             planes.append(plane)
     values = np.where(tree.there, tree.values, NO_COLUMN)
     write_heights(values, np.array(triangles), np.array(planes), rounded_up=True)
@@ -272,33 +293,36 @@ def _entered(tree: Quadtree, faces: Iterable[Face]) -> Quadtree:
     return Quadtree(np.where(there, values, 0), there, marked, np.ones_like(values))
 
 
-def _polygon(start: Point, end: Point, found: list[Point]) -> tuple[Point, ...]:
-    """The vertices of the face of all points in one supporting plane, from ``start`` and ``end`` on."""
-    by_place = {(x, y): (x, y, z) for x, y, z in (start, end, *found)}
-    turned = [by_place[place] for place in reversed(outline(by_place))]
-    first = turned.index(start)
-    return tuple(turned[first:] + turned[:first])
+def _polygon(start: Point, end: Point, in_plane: list[Point]) -> tuple[Point, ...]:
+    """Return the vertices of the face that contains all points of one supporting plane, beginning with ``start``."""
+    point_at = {(x, y): (x, y, z) for x, y, z in (start, end, *in_plane)}
+    clockwise = [point_at[place] for place in reversed(outline(point_at))]
+    first = clockwise.index(start)
+    return tuple(clockwise[first:] + clockwise[:first])
 
 
-def _values(face: Face, printed: Printed) -> dict[Place, Leaf]:
-    """The leaves a face enters in the tree: marked, but for its vertices, which its neighbours need."""
-    kept = () if printed.marks else [vertex[:2] for vertex in face.vertices]
-    return {place: Leaf(_whole(*face.height(*place), printed), marked=place not in kept) for place in face.places()}
+def _leaves(face: Face, printed: Printed) -> dict[Place, Leaf]:
+    """Return the leaves that a face enters in the tree, marked except its vertices, which its neighbours need."""
+    unmarked = () if printed.marks else [vertex[:2] for vertex in face.vertices]
+    return {
+        place: Leaf(_rounded(*face.height(*place), printed), marked=place not in unmarked) for place in face.places()
+    }
 
 
-def _whole(numerator: int, denominator: int, printed: Printed) -> int:
-    """A height rounded up; truncated where that is taken as printed."""
+def _rounded(numerator: int, denominator: int, printed: Printed) -> int:
+    """Round a height up, or truncate it if that statement is applied as printed."""
     if printed.truncation and numerator > 0:
         return numerator // denominator
     return -(-numerator // denominator)
 
 
 def _along(chain: list[Point], printed: Printed) -> dict[Place, Leaf]:
-    """The leaves of an envelope over one line of places."""
-    cells = {(x, y): Leaf(z) for x, y, z in chain}
+    """Return the leaves of an envelope over one line."""
+    leaves = {(x, y): Leaf(z) for x, y, z in chain}
     for (x, y, z), (i, j, k) in pairwise(chain):
+        # An edge passes over gcd - 1 digital points between its ends, at equal distances.
         steps = math.gcd(i - x, j - y)
         for n in range(1, steps):
             place = x + n * (i - x) // steps, y + n * (j - y) // steps
-            cells[place] = Leaf(_whole(z * (steps - n) + k * n, steps, printed), marked=True)
-    return cells
+            leaves[place] = Leaf(_rounded(z * (steps - n) + k * n, steps, printed), marked=True)
+    return leaves

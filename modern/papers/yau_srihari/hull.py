@@ -1,6 +1,6 @@
 """Algorithm Digital Convex Hull (section 4.5) on octrees, step by step.
 
-Section 3.1 asks for a solid of one 6-connected part; how many parts a volume has is counted here.
+Section 3.1 requires a 6-connected solid, so this module also counts the 6-connected components of a volume.
 """
 
 from __future__ import annotations
@@ -22,49 +22,67 @@ from modern.papers.yau_srihari.quadtree import Place, Quadtree, ceiling, floor, 
 
 
 def components(volume: NDArray[np.bool_]) -> int:
-    """How many 6-connected parts the voxels of an array have: the runs along its last axis are joined to those beside
-    them until none touches another part."""
-    # One empty place behind every line keeps the runs of one line, and lines at two ends of an axis, apart.
+    """Count the 6-connected components of the voxels of an array.
+
+    The runs of voxels along the last axis are the nodes of a graph, and touching runs are its edges.
+    """
+    # An empty cell after every line separates the runs of neighbouring lines in the flat array.
     padded = np.zeros((volume.shape[0], *(length + 1 for length in volume.shape[1:])), dtype=np.bool_)
     padded[(slice(None), *(slice(-1) for _ in volume.shape[1:]))] = volume
     flat = padded.ravel()
     starts = np.flatnonzero(flat[1:] & ~flat[:-1]) + 1
     starts = np.concatenate(([0], starts)) if flat[0] else starts
     ends = np.flatnonzero(flat[:-1] & ~flat[1:]) + 1
-    beside = [_touching(starts, ends, size // padded.itemsize) for size in padded.strides[:-1]]
-    return _parts(len(starts), *(np.concatenate(side) for side in zip(*beside, strict=True)))
+    touching = [_touching(starts, ends, size // padded.itemsize) for size in padded.strides[:-1]]
+    return _component_count(len(starts), *(np.concatenate(side) for side in zip(*touching, strict=True)))
 
 
 def _touching(starts: Grid, ends: Grid, step: int) -> tuple[Grid, Grid]:
-    """The pairs of runs of which the second has a voxel ``step`` places behind one of the first."""
+    """List the pairs of runs whose second run has a voxel ``step`` cells after a voxel of the first."""
     first = np.searchsorted(ends, starts + step, side="right")
     count = np.searchsorted(starts, ends + step, side="left") - first
     pair = np.repeat(np.arange(len(starts)), count)
     return pair, np.arange(len(pair)) + np.repeat(first - np.cumsum(count) + count, count)
 
 
-def _parts(count: int, a: Grid, b: Grid) -> int:
-    """How many parts so many nodes have that are joined in pairs: each takes the least number that one of its pairs
-    has, and then what the node of that number has taken, until nothing changes."""
-    least = np.arange(count)
+def _component_count(count: int, a: Grid, b: Grid) -> int:
+    """Count the components of a graph with ``count`` nodes and the edges a[k] - b[k].
+
+    Every node is labelled with the least node known to be connected with it. The loop merges the labels of the edges'
+    ends and then replaces each label by its own label until nothing changes (union-find on whole arrays).
+    """
+    label = np.arange(count)
     while len(a):
-        np.minimum.at(least, least[a], least[b])
-        np.minimum.at(least, least[b], least[a])
-        while not np.array_equal(least, above := least[least]):
-            least = above
-        apart = least[a] != least[b]
-        a, b = a[apart], b[apart]
-    return len(np.unique(least))
+        np.minimum.at(label, label[a], label[b])
+        np.minimum.at(label, label[b], label[a])
+        while not np.array_equal(label, shortened := label[label]):
+            label = shortened
+        unequal = label[a] != label[b]
+        a, b = a[unequal], b[unequal]
+    return len(np.unique(label))
 
 
 @dataclass(frozen=True, eq=False)
 class OctreeHull:
-    """The digital hull of a solid, with all that leads to it.
+    """The digital hull of a solid and all intermediate results.
 
-    side: of the cube the trees divide.  solid, hull: octrees.  lowest, highest: quadtrees of floor and
-    ceiling.  lower: the convex envelope of the floor; upper: that of the negative ceiling, heights negative.
-    filled: the hull as truth values of the volume's shape.  components: how many 6-connected parts the volume has; of
-    one part the hull, the digital points of the Euclidean one, is what section 3.3 takes for the digital convex hull.
+    Attributes
+    ----------
+    side
+        The side of the cube that the trees divide.
+    solid, hull
+        The octrees of the solid and of its digital hull.
+    lowest, highest
+        The quadtrees of the floor and the ceiling.
+    lower
+        The convex envelope of the floor.
+    upper
+        The convex envelope of the negated ceiling, with negated heights.
+    filled
+        The hull as truth values in the shape of the volume.
+    components
+        The number of 6-connected components of the volume. If there is one, section 3.3 takes the digital points of
+        the Euclidean hull for the digital convex hull.
     """
 
     side: int
@@ -79,41 +97,50 @@ class OctreeHull:
 
     @cached_property
     def floor(self) -> dict[Place, int]:
-        """The lowest voxel of every column, by (x, y)."""
+        """The z of the lowest voxel of every column, by (x, y)."""
         return heights(self.lowest)
 
     @cached_property
     def ceiling(self) -> dict[Place, int]:
-        """The highest voxel of every column, by (x, y)."""
+        """The z of the highest voxel of every column, by (x, y)."""
         return heights(self.highest)
 
     @property
     def columns(self) -> int:
-        """How many columns have voxels."""
+        """The number of columns with voxels."""
         return int(np.count_nonzero(self.lowest.there))
 
     @property
-    def given(self) -> int:
-        """How many voxels the solid has."""
+    def solid_voxels(self) -> int:
+        """The number of voxels of the solid."""
         return trees.count(self.solid)
 
     @property
     def voxels(self) -> int:
-        """How many voxels the hull has."""
+        """The number of voxels of the hull."""
         return trees.count(self.hull)
 
     @property
     def faults(self) -> tuple[str, ...]:
-        """Where a construction stopped early; empty for the corrected algorithm."""
-        named = (("floor", self.lower), ("ceiling", self.upper))
-        return tuple(f"{name}: {found.fault}" for name, found in named if found.fault)
+        """The reasons why a construction stopped early. The corrected algorithm has none."""
+        envelopes = (("floor", self.lower), ("ceiling", self.upper))
+        return tuple(f"{name}: {side.fault}" for name, side in envelopes if side.fault)
 
 
 def octree_hull(volume: Volume | NDArray[np.bool_], printed: Printed | None = None) -> OctreeHull:
-    """The digital hull by octrees of a volume of truth values with two or three axes.
+    """Compute the digital hull of a volume by octrees.
 
-    printed: the statements of the paper taken as printed; none by default.  Raises VolumeError for another array, for
-    one without voxels, and for one whose cube has more than ``MAX_CELLS``.
+    Parameters
+    ----------
+    volume
+        Truth values with two or three axes.
+    printed
+        The statements of the paper to apply as printed; none by default.
+
+    Raises
+    ------
+    VolumeError
+        If the array has other values or axes, no voxels, or needs a cube of more than ``MAX_CELLS`` voxels.
     """
     volume = as_volume(volume)
     printed = printed or Printed()
@@ -122,14 +149,16 @@ def octree_hull(volume: Volume | NDArray[np.bool_], printed: Printed | None = No
         raise NoVoxels(f"{volume.source}: there are no voxels")
     side = trees.side_for(max(array.shape))
     if side**3 > MAX_CELLS:
-        raise VolumeError(f"{volume.source}: a cube of side {side}, more than {MAX_CELLS} voxels, is not divided")
+        raise VolumeError(f"{volume.source}: the octree's cube has side {side}, more than {MAX_CELLS} voxels")
     solid = trees.octree(array)
-    lowest, highest = floor(solid), ceiling(solid)  # step 1
-    lower = envelope(lowest, printed)  # step 2
-    upper = envelope(mirrored(highest), printed)  # step 3: the envelope of -beta is that of beta, negated
-    hull = trees.intersection(
-        graph_side(lower.tree, above=True), graph_side(mirrored(upper.tree), above=False)
-    )  # step 4
+    # Step 1: the floor alpha and the ceiling beta.
+    lowest, highest = floor(solid), ceiling(solid)
+    # Step 2: the convex envelope of the floor.
+    lower = envelope(lowest, printed)
+    # Step 3: the concave envelope of beta is the negated convex envelope of -beta.
+    upper = envelope(mirrored(highest), printed)
+    # Step 4: the hull is above the lower envelope and below the upper one.
+    hull = trees.intersection(graph_side(lower.tree, above=True), graph_side(mirrored(upper.tree), above=False))
     nx, ny, nz = array.shape
     filled = trees.voxels_of(hull, (nx, ny, nz)).reshape(volume.array.shape)
     return OctreeHull(side, solid, hull, lowest, highest, lower, upper, filled, components(array))

@@ -1,4 +1,4 @@
-"""``hull1620 octree-hull`` and ``hull1620 voxel-hull --fill`` as a user meets them."""
+"""The command ``hull1620 octree-hull``, and the filled hull of ``hull1620 voxel-hull --fill``."""
 
 from __future__ import annotations
 
@@ -25,7 +25,9 @@ def stair(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
     return "stair.csv"
 
 
-def test_every_stage_is_printed_in_the_coordinates_given(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_tables_print_every_stage_in_the_coordinates_of_the_input(
+    stair: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     code, out, err = call(capsys, "octree-hull", stair, "--tables")
     assert (code, err) == (0, "")
     assert out == (
@@ -54,7 +56,7 @@ def test_every_stage_is_printed_in_the_coordinates_given(stair: str, capsys: pyt
     )
 
 
-def test_by_itself_a_summary_is_printed(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_default_output_is_a_summary(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = call(capsys, "octree-hull", stair)
     assert (code, err) == (0, "")
     assert out == (
@@ -79,33 +81,31 @@ def test_by_itself_a_summary_is_printed(stair: str, capsys: pytest.CaptureFixtur
         ("plane", "x,y\n2,2\n5,2\n2,9\n"),
     ],
 )
-def test_the_mesh_is_the_hull_of_the_voxels_centres(
+def test_the_mesh_is_that_of_export_for_the_centres_of_the_voxels(
     stair: str, name: str, voxels: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """As another command makes it of the centres as points."""
     Path("v.csv").write_text(voxels, encoding="utf-8")
     rows = [row if row.count(",") == 2 else f"{row},0" for row in voxels.split()[1:]]
     Path("p.csv").write_text("\n".join(rows) + "\n", encoding="utf-8")
     assert call(capsys, "octree-hull", "v.csv", "-o", "v.off")[0] == 0
     assert call(capsys, "export", "p.csv", "-o", "p.off")[0] == 0
-    meshes = [parse_off(Path(name).read_text(encoding="utf-8"), name) for name in ("v.off", "p.off")]
-    places = [set(mesh.points) for mesh in meshes]
-    assert places[0] == places[1]
-    faces = [{frozenset(mesh.points[k] for k in face) for face in mesh.faces} for mesh in meshes]
-    assert faces[0] == faces[1]
+    actual, expected = (
+        (set(mesh.points), {frozenset(mesh.points[k] for k in face) for face in mesh.faces})
+        for mesh in (parse_off(Path(name).read_text(encoding="utf-8"), name) for name in ("v.off", "p.off"))
+    )
+    assert actual == expected
 
 
-def test_what_the_reader_says_comes_only_when_all_went_well(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_notes_of_the_reader_are_printed_only_on_success(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
     Path("far.csv").write_text("0,0,0\n0,0,0\n999999999,0,0\n", encoding="utf-8")
     code, out, err = call(capsys, "octree-hull", "far.csv", "-o", "far.npy")
     assert (code, out, err.count("\n")) == (2, "", 1), err
-    assert call(capsys, "octree-hull", "far.csv")[2].endswith("is not divided\n")
     Path("twice.csv").write_text("0,0,0\n0,0,0\n", encoding="utf-8")
-    said = "note: twice.csv: 1 of 2 voxels are listed before\n"
-    assert call(capsys, "octree-hull", "twice.csv")[::2] == (0, said)
+    note = "note: twice.csv: 1 of 2 voxels are listed before\n"
+    assert call(capsys, "octree-hull", "twice.csv")[::2] == (0, note)
 
 
-def test_one_voxel_is_one(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_counts_of_one_are_singular(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
     Path("one.csv").write_text("4,5,6\n", encoding="utf-8")
     out = call(capsys, "octree-hull", "one.csv")[1].splitlines()
     assert out[0] == "one.csv: 1 voxel, an octree of 1 node over a cube of side 1"
@@ -117,10 +117,10 @@ def test_faces_run_counterclockwise_seen_from_outside(stair: str, capsys: pytest
     faces = re.findall(r"^  (\S+): (\S+) (\S+) (\S+)", out, re.MULTILINE)
     assert len(faces) == 4
     for face in faces:
-        normal, *points = (np.array([int(word) for word in text.strip("()").split(",")]) for text in face)
-        turned = np.cross(points[1] - points[0], points[2] - points[0])
-        assert turned @ normal > 0
-        assert not np.cross(turned, normal).any()
+        normal, *points = (np.array([int(number) for number in text.strip("()").split(",")]) for text in face)
+        normal_of_points = np.cross(points[1] - points[0], points[2] - points[0])
+        assert normal_of_points @ normal > 0
+        assert not np.cross(normal_of_points, normal).any()
 
 
 def test_the_trace_has_a_step_for_every_face(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
@@ -134,17 +134,19 @@ def test_the_trace_has_a_step_for_every_face(stair: str, capsys: pytest.CaptureF
     assert "    entered (6,0,-1)-(5,1,-1)\n    removed (5,0,-1)-(5,1,-1)\n    3 values entered, 3 edges waiting" in out
 
 
-def test_the_letter_of_the_paper_differs(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_literal_reports_the_difference_and_gives_exit_code_1(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = call(capsys, "octree-hull", stair, "--literal")
     assert code == 1
     assert out.endswith(
         "digital hull: 8 voxels, an octree of 25 nodes\nagainst the corrected algorithm: 0 voxels missing, 1 too many\n"
     )
     assert f"note: taken as printed: {', '.join(NAMES)}\n" in err
-    assert "note: floor: no point is found for 4 of 6 edges" in err
+    assert "note: floor: no point found for 4 of 6 edges" in err
 
 
-def test_a_statement_that_does_no_harm_here(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_printed_statements_that_change_nothing_give_exit_code_0(
+    stair: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     Path("row.csv").write_text("0,0,0\n1,0,0\n2,0,0\n", encoding="utf-8")
     code, out, err = call(capsys, "octree-hull", "row.csv", "--printed", "marks, start")
     assert code == 0
@@ -159,7 +161,9 @@ def test_help_names_every_statement(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 @pytest.mark.parametrize("command", [["octree-hull"], ["voxel-hull", "--fill"]])
-def test_the_filled_hull_as_an_array(stair: str, command: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_filled_hull_is_written_as_an_array(
+    stair: str, command: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
     Path("far.csv").write_text("0,0,0\n3,3,3\n0,3,0\n3,0,0\n", encoding="utf-8")
     code, _, _ = call(capsys, *command, "far.csv", "-o", "hull.npy")
     assert code == 0
@@ -167,11 +171,11 @@ def test_the_filled_hull_as_an_array(stair: str, command: list[str], capsys: pyt
     assert np.array_equal(np.load("hull.npy"), expected)
 
 
-def test_where_an_array_begins_is_said(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_index_of_the_first_voxel_of_an_array_is_reported(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert call(capsys, "octree-hull", stair, "-o", "hull.npy")[2] == "note: the array's first voxel is (5,0,-1)\n"
 
 
-def test_what_is_not_connected_says_so(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_components_and_a_hull_over_one_line_are_reported(stair: str, capsys: pytest.CaptureFixture[str]) -> None:
     Path("apart.csv").write_text("0,0\n4,2\n", encoding="utf-8")
     code, out, _ = call(capsys, "octree-hull", "apart.csv", "--tables")
     assert code == 0
@@ -193,7 +197,7 @@ def test_what_is_not_connected_says_so(stair: str, capsys: pytest.CaptureFixture
         (["stair.csv", "--shape", "1,b"], "--shape: '1,b' is not NX,NY,NZ"),
     ],
 )
-def test_bad_input_is_one_line(
+def test_an_error_is_one_line(
     stair: str, arguments: list[str], message: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     code, out, err = call(capsys, "octree-hull", *arguments)

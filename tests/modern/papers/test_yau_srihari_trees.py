@@ -1,4 +1,4 @@
-"""Yau and Srihari: octrees, floor and ceiling quadtrees, and the search with its bounds."""
+"""Yau and Srihari: octrees, the quadtrees of floor and ceiling, and the search with its bounds."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
 from modern.digital.intervals import lower_chain
 from modern.papers.yau_srihari import Printed, octree_hull
 from modern.papers.yau_srihari.envelope import outline, reduced_tree
-from modern.papers.yau_srihari.octree import QUADRANTS, count, intersection, nodes, octree, side_for, voxels_of
+from modern.papers.yau_srihari.octree import QUADRANTS, count, nodes, octree, side_for, voxels_of
 from modern.papers.yau_srihari.quadtree import (
     NO_COLUMN,
     Leaf,
@@ -36,12 +36,14 @@ from modern.papers.yau_srihari.search import Search, normal_of
 from tests.support.digital_judge import random_solid, solid_of
 from tests.support.nested_trees import nested
 
+FEW = settings(max_examples=40)
 ARRAYS = arrays.arrays(np.bool_, st.tuples(*[st.integers(1, 9)] * 3))
 CUBES = st.sampled_from([1, 2, 4, 8]).flatmap(lambda side: arrays.arrays(np.bool_, (side, side, side)))
 
 
+@FEW
 @given(ARRAYS)
-def test_an_octree_holds_its_array(array: np.ndarray) -> None:
+def test_an_octree_stores_its_array(array: np.ndarray) -> None:
     side = side_for(max(array.shape))
     cube = np.zeros((side, side, side), dtype=np.bool_)
     cube[tuple(slice(length) for length in array.shape)] = array
@@ -58,7 +60,7 @@ def test_sides_are_powers_of_two(length: int, side: int) -> None:
     assert side_for(length) == side
 
 
-def test_sons_two_by_two_stand_over_quadrants() -> None:
+def test_two_sons_lie_over_each_quadrant() -> None:
     for number in range(8):
         i, j = QUADRANTS[number // 2]
         cube = np.zeros((2, 2, 2), dtype=np.bool_)
@@ -73,14 +75,7 @@ def test_uniform_octants_are_leaves() -> None:
     assert nodes(octree(cube)) == 9
 
 
-@given(st.data())
-def test_intersection_node_by_node(data: st.DataObject) -> None:
-    side = data.draw(st.sampled_from([1, 2, 4]))
-    a, b = (data.draw(arrays.arrays(np.bool_, (side, side, side))) for _ in range(2))
-    both = intersection(octree(a), octree(b))
-    assert both == octree(a & b)
-
-
+@FEW
 @given(CUBES)
 def test_floor_and_ceiling_are_the_ends_of_columns(cube: np.ndarray) -> None:
     tree = octree(cube)
@@ -95,12 +90,11 @@ def test_floor_and_ceiling_are_the_ends_of_columns(cube: np.ndarray) -> None:
 
 
 def values_hold(tree: Quadtree) -> bool:
-    """Whether every node has the least and the greatest unmarked value below it, and the levels have the same."""
+    """Return True if every node and every level has the least and the greatest unmarked height below it."""
     levels = bounds_by_level(tree)
     for part, x, y, side in squares(tree, tree.side):
-        below = [
-            int(z) for z, there, marked in zip(*map(np.ravel, cells_of(part)), strict=True) if there and not marked
-        ]
+        columns = zip(*map(np.ravel, (part.values, part.there, part.marked)), strict=True)
+        below = [int(z) for z, there, marked in columns if there and not marked]
         low, high = (grid[x // side, y // side] for grid in levels[side.bit_length() - 1])
         if (part.low, part.high) != (min(below, default=None), max(below, default=None)):
             return False
@@ -109,23 +103,21 @@ def values_hold(tree: Quadtree) -> bool:
     return True
 
 
-def cells_of(tree: Quadtree) -> tuple[Any, Any, Any]:
-    return tree.values, tree.there, tree.marked
-
-
+@FEW
 @given(CUBES)
-def test_lines_of_a_quadtree(cube: np.ndarray) -> None:
+def test_a_line_of_a_quadtree_lists_its_columns(cube: np.ndarray) -> None:
     side = len(cube)
     tree = floor(octree(cube))
-    found = heights(tree)
+    columns = heights(tree)
     assert values_hold(tree)
     for at in range(side):
-        assert list(line(tree, 0, at)) == sorted((y, z) for (x, y), z in found.items() if x == at)
-        assert list(line(tree, 1, at)) == sorted((x, z) for (x, y), z in found.items() if y == at)
+        assert list(line(tree, 0, at)) == sorted((y, z) for (x, y), z in columns.items() if x == at)
+        assert list(line(tree, 1, at)) == sorted((x, z) for (x, y), z in columns.items() if y == at)
 
 
+@FEW
 @given(CUBES, st.data())
-def test_written_leaves_stand_in_the_tree(cube: np.ndarray, data: st.DataObject) -> None:
+def test_written_leaves_replace_those_of_the_tree(cube: np.ndarray, data: st.DataObject) -> None:
     side = len(cube)
     places = st.tuples(*[st.integers(0, side - 1)] * 2)
     cells = data.draw(st.dictionaries(places, st.builds(Leaf, st.integers(-9, 9), st.booleans()), max_size=9))
@@ -141,8 +133,9 @@ def test_a_node_without_unmarked_leaves_has_no_value() -> None:
     assert (tree.low, tree.high) == (None, None)
 
 
+@FEW
 @given(CUBES)
-def test_epigraph_and_hypograph(cube: np.ndarray) -> None:
+def test_epigraph_and_hypograph_are_the_voxels_above_and_below(cube: np.ndarray) -> None:
     tree = octree(cube)
     over = voxels_of(graph_side(floor(tree), above=True), cube.shape)
     under = voxels_of(graph_side(ceiling(tree), above=False), cube.shape)
@@ -169,7 +162,7 @@ def test_a_lower_chain_turns_left_and_has_no_point_below(points: dict[int, int])
         ([(x, y) for x in range(3) for y in range(2)], [(0, 0), (2, 0), (2, 1), (0, 1)]),
     ],
 )
-def test_outlines(places: list[tuple[int, int]], corners: list[tuple[int, int]]) -> None:
+def test_an_outline_is_the_hull_of_places(places: list[tuple[int, int]], corners: list[tuple[int, int]]) -> None:
     assert outline(places) == corners
 
 
@@ -186,18 +179,18 @@ def squares(tree: Quadtree, side: int, x: int = 0, y: int = 0) -> Iterator[tuple
 
 
 def lower_tree(array: Any) -> Quadtree:
-    """The reduced tree that the lower half of a solid's hull is searched in, made anew."""
+    """Return the reduced tree in which the faces of the lower half of a solid's hull are searched."""
     return reduced_tree(floor(octree(array)))
 
 
-def broken(array: Any, printed: Printed) -> tuple[int, int, int]:
-    """Squares bounded; those of which every point scores less than delta_1; those with a point above delta_2.
+def violations(array: Any, printed: Printed) -> tuple[int, int, int]:
+    """Count the squares with bounds, those without a point at delta_1 or above, and those with one above delta_2.
 
     The edges and faces are those of the corrected algorithm.
     """
     hull = octree_hull(array)
     tree = lower_tree(array)
-    seen = least_broken = most_broken = 0
+    bounded = least_violated = most_violated = 0
     for step in hull.lower.steps:
         search = Search(*step.edge, step.normal, printed)
         for square in squares(tree, hull.side):
@@ -207,25 +200,27 @@ def broken(array: Any, printed: Printed) -> tuple[int, int, int]:
             least, most = search.bounds(part.low, part.high, x, y, side)
             if least is None or most is None:
                 continue
-            found = [search.score((x + i, y + j, z)) for (i, j), z in heights(part).items()]
-            best = max(score for score in found if score is not None)
-            seen += 1
-            least_broken += best < least
-            most_broken += best > most
-    return seen, least_broken, most_broken
+            scores = [search.score((x + i, y + j, z)) for (i, j), z in heights(part).items()]
+            best = max(score for score in scores if score is not None)
+            bounded += 1
+            least_violated += best < least
+            most_violated += best > most
+    return bounded, least_violated, most_violated
 
 
+@settings(max_examples=25)
 @given(st.integers(0, 10**9))
-def test_no_square_breaks_its_bounds(seed: int) -> None:
+def test_the_bounds_hold_for_every_square(seed: int) -> None:
     array = random_solid(random.Random(seed), side=9, steps=60)
-    assert broken(array, Printed())[1:] == (0, 0)
-    # Theorem 2 as printed asks for the greatest angle, and z = max goes with it.
-    assert broken(array, Printed(angle=True))[1:] == (0, 0)
+    assert violations(array, Printed())[1:] == (0, 0)
+    # Theorem 2 as printed requires the greatest angle, which z = max fits.
+    assert violations(array, Printed(angle=True))[1:] == (0, 0)
 
 
+@settings(max_examples=25)
 @given(st.integers(0, 10**9))
-def test_no_face_stands_over_a_square_on_the_known_side(seed: int) -> None:
-    """Rule 1: there n_3(r) >= 0, and the next face has no corner there."""
+def test_the_next_face_has_no_vertex_in_a_square_on_the_known_side(seed: int) -> None:
+    """Rule 1: n_3(r) >= 0 in such a square."""
     array = random_solid(random.Random(seed), side=9, steps=60)
     hull = octree_hull(array)
     tree = lower_tree(array)
@@ -234,7 +229,7 @@ def test_no_face_stands_over_a_square_on_the_known_side(seed: int) -> None:
         search = Search(start, end, step.normal, Printed())
         for face in hull.lower.faces:
             if face.normal == step.normal and {start, end} <= {*face.vertices}:
-                assert not any(search.beyond(x, y) for x, y, _ in face.vertices), "the known face's side"
+                assert not any(search.beyond(x, y) for x, y, _ in face.vertices), "the known face lies beyond its edge"
         for part, x, y, side in squares(tree, hull.side):
             if any(search.beyond(x + i * (side - 1), y + j * (side - 1)) for i, j in QUADRANTS):
                 continue
@@ -244,15 +239,16 @@ def test_no_face_stands_over_a_square_on_the_known_side(seed: int) -> None:
                 assert {*points} & {*step.face.vertices} <= {start, end}
 
 
-def test_a_starting_face_has_no_side_of_its_own() -> None:
-    """Its third corner is above the edge, on u^3 u^2 itself: rule 1 takes the side where faces look up."""
+def test_a_starting_face_is_upright() -> None:
+    """Its third vertex is above the edge, so rule 1 uses the side on which faces look up."""
     first = octree_hull(solid_of([(0, 0, 0), (1, 0, 0), (0, 1, 0)])).lower.steps[0]
     assert first.normal[2] == 0
 
 
+@settings(max_examples=25)
 @given(st.integers(0, 10**9))
-def test_a_square_below_the_bound_or_empty_has_no_point_of_the_next_face(seed: int) -> None:
-    """Rule 2, with the least angle: the search looks at few squares, and finds what all points together give."""
+def test_the_search_finds_the_best_of_all_points(seed: int) -> None:
+    """Rule 2, with the least angle, skips only squares without a point of the next face."""
     array = random_solid(random.Random(seed), side=9, steps=60)
     hull = octree_hull(array)
     tree = lower_tree(array)
@@ -267,8 +263,8 @@ def test_a_square_below_the_bound_or_empty_has_no_point_of_the_next_face(seed: i
 
 def test_z_max_does_not_bound_the_least_angle() -> None:
     array = solid_of([(0, 1, 0), (0, 2, 0), (1, 0, 1), (1, 1, 0), (1, 1, 1), (2, 0, 1), (2, 1, 0)])
-    seen, _, most = broken(array, Printed(bound=True))
-    assert 0 < most < seen
+    bounded, _, most_violated = violations(array, Printed(bound=True))
+    assert 0 < most_violated < bounded
 
 
 LOW_CORNER = [
@@ -277,18 +273,18 @@ LOW_CORNER = [
     *[(4, 2, 2), (4, 2, 3), (4, 2, 4), (4, 3, 3), (4, 4, 4), (5, 0, 2), (5, 1, 2), (5, 1, 3), (5, 2, 2), (5, 2, 3)],
     *[(6, 0, 2), (6, 1, 3)],
 ]
-"""A square of this solid has a corner below the plane of a face, and a point that turns the plane hardly at all."""
+"""A solid with a square that has a corner below the plane of a face and a point at a small angle to that face."""
 
 
-def test_a_corner_below_the_known_face_bounds_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_corner_below_the_known_face_must_count_as_in_its_plane(monkeypatch: pytest.MonkeyPatch) -> None:
     array = np.zeros((8, 5, 6), dtype=np.bool_)
     array[tuple(np.array(LOW_CORNER).T)] = True
-    assert broken(array, Printed())[1:] == (0, 0)
+    assert violations(array, Printed())[1:] == (0, 0)
     monkeypatch.setattr(Search, "_corner", lambda search, corner: search.score(corner))
-    assert broken(array, Printed())[2] > 0
+    assert violations(array, Printed())[2] > 0
 
 
-def test_the_search_does_not_look_everywhere() -> None:
+def test_the_search_visits_less_than_half_of_the_nodes() -> None:
     source = np.random.default_rng(5)
     array = source.random((32, 32, 32)) < 0.02
     hull = octree_hull(array)

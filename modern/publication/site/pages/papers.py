@@ -242,8 +242,8 @@ def _octree() -> Iterator[str]:
     hull, levels = steps.rods()
     yield text(
         "p",
-        f"Three rods of {steps.RODS} voxels along the axes, {hull.given} voxels together, have a digital hull of "
-        f"{hull.voxels} voxels. Its octree, level by level:",
+        f"Three rods of {steps.RODS} voxels along the axes, {hull.solid_voxels} voxels together, have a digital hull "
+        f"of {hull.voxels} voxels. Its octree, level by level:",
     )
     rows = [
         (str(level.number), str(hull.side >> level.number), *map(str, (level.full, level.divided, level.empty)))
