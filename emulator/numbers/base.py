@@ -112,7 +112,7 @@ class Numbers(ABC):
 
     @abstractmethod
     def power(self, base: Number, exponent: Number) -> tuple[Number, str]:
-        """Return ``A ** B`` and the error code: |A| ** B and F6 for a negative base.  May raise Undecided."""
+        """Return ``A ** B`` and the error code: ``|A| ** B`` and F6 for a negative base.  May raise Undecided."""
 
     @abstractmethod
     def integer_power(self, base: Number, count: int) -> tuple[Number, str]:

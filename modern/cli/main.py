@@ -79,6 +79,11 @@ def build_parser(words: Sequence[str]) -> Parser:
     return parser
 
 
+def parser_of_all() -> Parser:
+    """Return the parser of every command, which the reference of the commands is made from."""
+    return build_parser([])
+
+
 def _version() -> str:
     from importlib.metadata import PackageNotFoundError, version
 

@@ -1,1 +1,8 @@
-"""What is published of the project: flow charts of its programs."""
+"""The edition: everything the project publishes about its programs, as a site, a book, TEI documents and a deposit.
+
+``building``, ``deposit``, ``metadata``: the builds.  ``site/``: the website; its docstring explains how to add a page.
+``book/``: the book.  ``tei``, ``tei_reading``: the TEI documents.  ``flow``, ``chart``, ``chart_svg``: flow charts.
+``console``, ``desk``, ``parting``: the emulator in the browser.  The other modules hold the facts that pages show, as
+frozen dataclasses without HTML: ``facing``, ``uses``, ``measured``, ``core`` (programs), ``examples``, ``numbered``
+(numbered lists in documents), ``steps`` (pictures of papers), ``figures`` (results quoted by name in documents).
+"""

@@ -33,10 +33,12 @@ def chart_svg(chart: Chart, page: int | None = None, link: Link | None = None) -
     left, right = extent(chart)
     width = right - left
     title = f"Flow chart of {chart.flow.source}" + ("" if page is None else f", page {page} of {len(chart.pages)}")
+    # A screen reader does not look for links inside an image.
+    role = "img" if link is None else "group"
     boxes = sum(len(each.boxes) for each in pages)
     lines = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
-        f'viewBox="{left} 0 {width} {height}" role="img" aria-labelledby="title desc">',
+        f'viewBox="{left} 0 {width} {height}" role="{role}" aria-labelledby="title desc">',
         f'<title id="title">{escape(title)}</title>',
         f'<desc id="desc">{boxes} boxes in the order of the cards, made from the compiled program. Of an IF, minus '
         "leaves to the left, zero below, plus to the right; a number in a circle is the statement gone to.</desc>",

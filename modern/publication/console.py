@@ -1,9 +1,8 @@
-"""The machine in the page: what its two pages hold when they are made, and what is laid beside them to be loaded.
+"""The emulator in the browser: the HTML of its two pages, and the files that they load.
 
-The pages' HTML and their worker lie in ``docs/console``, their scripts in ``docs/_static``.  Python for the browser is
-the npm package ``pyodide``, which ``package-lock.json`` there names with its hash; the project itself goes into the
-page as its wheel, unpacked, with lark and mpmath as they are installed where the site is built.  Without the npm
-package, or without a wheel, the site has recorded answers alone, and says so.
+The HTML and the worker are in ``docs/console``, the scripts in ``docs/_static``.  Python for the browser is the npm
+package ``pyodide``, which ``docs/console/package-lock.json`` pins.  The project itself is loaded from its wheel, lark
+and mpmath from the installed packages.  Without the npm package or the wheel, the pages show recorded answers only.
 """
 
 from __future__ import annotations
@@ -28,44 +27,42 @@ ROOT = Path(__file__).parents[2]
 SOURCE = ROOT / "docs" / "console"
 PERIOD = ROOT / "tests" / "data" / "period"
 PYODIDE = ("pyodide.mjs", "pyodide.asm.mjs", "python_stdlib.zip", "pyodide-lock.json")
-"""What of the npm package a page loads as it is."""
+"""The files of the npm package that a page loads unchanged."""
 PACKED = "pyodide.asm.wasm"
-"""What it loads compressed: servers do not compress it by themselves, and it is two thirds of all."""
-_NEEDS = ("lark", "mpmath")
-_LEFT_OUT = ("/tests/", "/__pyinstaller/", "__pycache__")
+"""The file that a page loads compressed; it is two thirds of the total and servers do not compress it."""
+_PACKAGES = ("lark", "mpmath")
+_NOT_LOADED = ("/tests/", "/__pyinstaller/", "__pycache__")
 _EPOCH = (1980, 1, 1, 0, 0, 0)
 
 
 def console_page() -> str:
-    """The console's HTML: its controls, a recorded session, and programs in the manner of the time."""
+    """Return the HTML of the emulator: its controls, a recorded session, and programs in the style of the period."""
     return _filled("console.html", RECORDED=html.escape(recorded()), PERIOD=_json(_period()))
 
 
 def parting_page() -> str:
-    """The HTML of the page where 1963 and exact numbers part: point sets by name, and the answer to the first."""
+    """Return the HTML of the comparison of the programs with exact arithmetic, with the answer for the first set."""
     sets = point_sets()
     first = next(iter(sets.values()))
     return _filled("parting.html", POINTS=html.escape(first), SETS=_json(sets), FIRST=_json(parted(first)))
 
 
 def point_sets() -> dict[str, str]:
-    """Sets to begin with, a point a line."""
-    thirds = "\n".join(f"{x} {y} 0" for x, y in ((0, 0), (90, 10), (100, 60), (40, 90), (-30, 60), (30, 40), (50, 35)))
+    """Return the point sets that the page offers, one point per line."""
+    seven = "\n".join(f"{x} {y} 0" for x, y in ((0, 0), (90, 10), (100, 60), (40, 90), (-30, 60), (30, 40), (50, 35)))
     decks = {
         "four points of five digits: three vertices lost": read("transcripts/counterexamples/silent.deck"),
         "example 6 of the thesis": input_deck(6).text(),
         "example 5 of the thesis": input_deck(5).text(),
         "a pyramid over four points": read("fortran_src/grounds/pyramid5.deck"),
     }
-    found = {name: "\n".join(" ".join(p) for p in parse_bytes(t.encode(), name).points) for name, t in decks.items()}
-    return found | {"seven points in a plane, to be dragged": thirds, "a triangle and its middle, in thirds": _THIRDS}
-
-
-_THIRDS = "0 0 0\n1 0 0\n0 1 0\n.33333333 .33333333 0\n.5 .5 0"
+    sets = {name: "\n".join(" ".join(p) for p in parse_bytes(t.encode(), name).points) for name, t in decks.items()}
+    thirds = "0 0 0\n1 0 0\n0 1 0\n.33333333 .33333333 0\n.5 .5 0"
+    return sets | {"seven points in a plane that can be dragged": seven, "a triangle and its centre, in thirds": thirds}
 
 
 def recorded() -> str:
-    """The log of example 4: program 1 in the state of the examples, and program 2 with the cards it punched."""
+    """Return the operator's log of example 4: program 1 in the state of the examples, then program 2 with its cards."""
     desk = Desk(clock=lambda: 0.0)
     for program, deck in (("program1_examples", "example4"), ("program2", "stacker")):
         desk.load({"program": program, "deck": deck})
@@ -76,8 +73,11 @@ def recorded() -> str:
     return desk.log()
 
 
-def lay(folder: Path, wheel: Path | None, source: Path = SOURCE) -> int:
-    """Lay everything the pages load into ``folder``; returns its size in bytes, 0 where there is no machine to lay."""
+def install_machine(folder: Path, wheel: Path | None, source: Path = SOURCE) -> int:
+    """Write the files that the pages load into ``folder`` and return their size in bytes.
+
+    Without a wheel or the npm package, the size is 0 and only ``size.js`` is written, which tells the pages so.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     npm, size = source / "node_modules" / "pyodide", 0
     if npm.is_dir() and wheel is not None:
@@ -88,7 +88,7 @@ def lay(folder: Path, wheel: Path | None, source: Path = SOURCE) -> int:
         packed.write_bytes(gzip.compress((npm / PACKED).read_bytes(), mtime=0))
         shutil.copyfile(source / "worker.mjs", folder / "worker.mjs")
         (folder / "packages.zip").write_bytes(packages(wheel))
-        # The worker itself and pyodide.mjs are modules, whose loading nobody can count.
+        # The progress bar cannot count the worker and pyodide.mjs: the browser loads them as modules.
         fetched = [folder / "pyodide" / name for name in PYODIDE if name != "pyodide.mjs"]
         counted = [*fetched, packed, folder / "packages.zip"]
         size = sum(path.stat().st_size for path in counted)
@@ -97,42 +97,42 @@ def lay(folder: Path, wheel: Path | None, source: Path = SOURCE) -> int:
 
 
 def packages(wheel: Path) -> bytes:
-    """The wheel, lark and mpmath in one archive, the same bytes for the same files."""
-    found: dict[str, bytes] = {}
+    """Pack the wheel, lark and mpmath into one archive.  The same files always give the same bytes."""
+    files: dict[str, bytes] = {}
     with zipfile.ZipFile(wheel) as archive:
-        found |= {name: archive.read(name) for name in archive.namelist() if not name.endswith("/")}
-    for package in _NEEDS:
-        found |= dict(_installed(package))
-    held = BytesIO()
-    with zipfile.ZipFile(held, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
-        for name, data in sorted(found.items()):
+        files |= {name: archive.read(name) for name in archive.namelist() if not name.endswith("/")}
+    for package in _PACKAGES:
+        files |= dict(_installed(package))
+    buffer = BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+        for name, data in sorted(files.items()):
             archive.writestr(zipfile.ZipInfo(name, _EPOCH), data, zipfile.ZIP_DEFLATED)
-    return held.getvalue()
+    return buffer.getvalue()
 
 
 def _installed(package: str) -> Iterator[tuple[str, bytes]]:
-    """The files of an installed package that a program imports, and its licence."""
+    """Return the Python and grammar files of an installed package, and its licence."""
     for file in distribution(package).files or ():
         name = file.as_posix()
-        if name.startswith("..") or any(part in f"/{name}" for part in _LEFT_OUT):
+        if name.startswith("..") or any(part in f"/{name}" for part in _NOT_LOADED):
             continue
         if file.suffix in (".py", ".lark") or "license" in name.lower():
             yield name, Path(str(file.locate())).read_bytes()
 
 
 def _period() -> Mapping[str, str]:
-    """The programs of the time and their decks, by name."""
+    """Return the programs in the style of the period and their decks by file name."""
     files = (path for path in sorted(PERIOD.glob("*.*")) if path.suffix in (".f", ".deck"))
     return {path.name: path.read_text(encoding="ascii") for path in files}
 
 
-def _filled(name: str, **marks: str) -> str:
+def _filled(name: str, **placeholders: str) -> str:
     page = (SOURCE / name).read_text(encoding="utf-8")
-    for mark, text in marks.items():
-        page = page.replace(f"__{mark}__", text)
+    for placeholder, text in placeholders.items():
+        page = page.replace(f"__{placeholder}__", text)
     return page
 
 
 def _json(value: object) -> str:
-    """JSON that a script element may hold."""
+    """Return JSON that is safe inside a script element."""
     return json.dumps(value).replace("<", "\\u003c")

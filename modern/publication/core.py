@@ -1,7 +1,7 @@
-"""How core is used: the storage of a built-in program from address 0 up, region by region.
+"""Storage maps: the regions of core storage that a built-in program uses, from address 0 up.
 
-What lies where is IBM's order (C26-5619 p. 66-69, :mod:`emulator.language.storage`); the length of the object
-program is an estimate (:func:`emulator.language.objectcode.code_positions`), so what is free is one too.
+The order of the regions is IBM's (form C26-5619, p. 66-69; :mod:`emulator.language.storage`).  The length of the object
+program is an estimate (:func:`emulator.language.objectcode.code_positions`), and so is the free space.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from modern.edition import programs
 from modern.thesis.capacity import array_lengths, largest
 
 CORE = 40_000
-"""Positions of the machine of 1963."""
+"""The positions of core storage in the machine of 1963."""
 SYSTEM, PROGRAM, FREE, ARRAY, SINGLE, NAMES = (
     "subroutines and tables",
     "object program",
@@ -31,11 +31,11 @@ SYSTEM, PROGRAM, FREE, ARRAY, SINGLE, NAMES = (
 
 @dataclass(frozen=True, slots=True)
 class Region:
-    """Positions from ``low`` to ``high``, both counted in.
+    """A region of core storage from address ``low`` to address ``high``, both included.
 
-    ``name`` is an array's, ``X(51)``; ``fields`` its fields of ten digits, or how many single fields of each kind lie
-    there (``variable``, ``constant``, ``temporary``, ``statement number``).  ``estimated``: the length is not known
-    exactly.
+    ``name`` is that of an array, such as ``X(51)``.  ``fields`` counts the fields of ten digits by kind: those of the
+    array, or the single fields (``variable``, ``constant``, ``temporary``, ``statement number``).  ``estimated`` is
+    True if the length is not known exactly.
     """
 
     kind: str
@@ -52,10 +52,10 @@ class Region:
 
 @dataclass(frozen=True, slots=True)
 class CoreMap:
-    """A program's storage, from address 0 up without a gap.
+    """The storage of a program from address 0 up, without gaps.
 
-    ``points``: how many points would fit each size of core, 0 where the program does not; ``lengths``: those of the
-    arrays as formulas of the number of points.
+    ``points`` pairs each size of core with the largest number of points that fits, or 0 if the program does not fit.
+    ``lengths`` are the lengths of the arrays as formulas of the number of points.
     """
 
     program: str
@@ -64,12 +64,12 @@ class CoreMap:
     lengths: tuple[str, ...]
 
     def positions(self, kind: str) -> int:
-        """The positions of all regions of a kind."""
+        """Return the number of positions in all regions of a kind."""
         return sum(region.positions for region in self.regions if region.kind == kind)
 
 
 def core_map(name: str) -> CoreMap:
-    """The storage of a built-in program in 40,000 positions.  Raises KeyError."""
+    """Return the storage map of a built-in program in 40,000 positions.  Raise KeyError for an unknown name."""
     program = programs.program(name)
     code = code_positions(program)
     lowest = core_address(program.storage.fields, CORE) + 1
@@ -85,7 +85,7 @@ def core_map(name: str) -> CoreMap:
 
 
 def _data(entries: tuple[Entry, ...]) -> Iterator[Region]:
-    """The regions of the data, lowest first: every array, and single fields that lie side by side as one."""
+    """Return the regions of the data, lowest first: each array, and each group of adjacent single fields."""
     for single, group in groupby(reversed(entries), key=lambda entry: not entry.shape):
         if single:
             yield _single(tuple(group))

@@ -1,14 +1,13 @@
-"""A deposit for archives: ``python -m modern.publication.deposit dist``.
+"""Pack a deposit for archives: ``python -m modern.publication.deposit dist``.
 
-A BagIt bag (RFC 8493) with the source, the wheel, the site, the book, the TEI documents and the studies' rows where
-they are at hand; described as an RO-Crate, by CodeMeta and, its tables, by Frictionless schemas
-(:mod:`modern.publication.metadata`).  It lies there as a folder and as one file, and both are the same bytes whenever
-they are made of the same parts.
+The deposit is a BagIt bag (RFC 8493) with the source, the wheel, the site, the book, the TEI documents and, optionally,
+the rows of studies.  It is described as an RO-Crate, by CodeMeta and by Frictionless schemas of its tables
+(:mod:`modern.publication.metadata`).  The deposit is written as a folder and as one compressed archive.  The same parts
+always give the same bytes.
 """
 
 from __future__ import annotations
 
-import argparse
 import gzip
 import hashlib
 import re
@@ -18,6 +17,7 @@ import sys
 import tarfile
 import tempfile
 import tomllib
+from argparse import ArgumentParser
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from io import BytesIO
@@ -25,10 +25,10 @@ from pathlib import Path
 
 from modern.edition.sources import sources
 from modern.publication import tei
+from modern.publication.building import DIST, ROOT, BuildError, check_replaceable, newest_wheel, read_citation, run
 from modern.publication.metadata import Work, codemeta, crate, data_package, work
 
-ROOT = Path(__file__).parents[2]
-_SKIPPED = {
+_NOT_SOURCE = {
     ".git",
     ".venv",
     "dist",
@@ -39,49 +39,50 @@ _SKIPPED = {
     ".ruff_cache",
     ".pytest_cache",
 }
-_OURS = "bagit.txt"
 FOLDERS = {
-    "source": "every file of the project: decks in fortran_src, prints in transcripts, vectors in tests/data",
-    "wheel": "the project as it is installed",
-    "site": "the edition as pages: open site/index.html",
+    "source": "all files of the project: decks in fortran_src, prints in transcripts, vectors in tests/data",
+    "wheel": "the package that pip installs",
+    "site": "the edition as a website: open site/index.html",
     "book": "the edition as a book, PDF/A",
     "tei": "listings and prints with their apparatus, TEI P5",
-    "rows": "rows of studies, as they were judged",
+    "rows": "rows of studies, one for each judged hull",
 }
-
-
-class DepositError(Exception):
-    """Why there is no deposit, in one line."""
+"""The folders of a deposit and a description of each."""
 
 
 @dataclass(frozen=True, slots=True)
 class Parts:
-    """What a deposit is made of: files by their paths in the bag, and which of them may be run."""
+    """The files of a deposit by their paths in the bag, and the paths of those that are executable."""
 
     files: Mapping[str, bytes]
     executable: frozenset[str] = frozenset()
 
 
 def source_files(root: Path = ROOT) -> tuple[str, ...]:
-    """The project's files: those git tracks, or of a copy without git all but what is made.  Sorted paths."""
+    """Return the sorted paths of the project's files.
+
+    In a git checkout these are the tracked files; elsewhere all files except build results and caches.
+    """
     if (root / ".git").exists():
         listed = subprocess.run(["git", "ls-files", "-z"], cwd=root, capture_output=True, check=True).stdout
         return tuple(sorted(name for name in listed.decode().split("\0") if name and (root / name).is_file()))
-    found = (path.relative_to(root) for path in root.rglob("*") if path.is_file() and not path.is_symlink())
-    return tuple(sorted(path.as_posix() for path in found if not _SKIPPED & set(path.parts) and path.suffix != ".pyc"))
+    paths = (path.relative_to(root) for path in root.rglob("*") if path.is_file() and not path.is_symlink())
+    return tuple(
+        sorted(path.as_posix() for path in paths if not _NOT_SOURCE & set(path.parts) and path.suffix != ".pyc")
+    )
 
 
 def gather(wheel: Path, site: Path, book: Path, rows: Path | None = None, root: Path = ROOT) -> Parts:
-    """The parts of a deposit.  Raises DepositError for one that is not there."""
-    for path, words in ((wheel, "make wheel"), (site / "index.html", "make edition"), (book, "make book")):
+    """Read the files of a deposit.  Raise BuildError for a missing part and name the command that builds it."""
+    for path, command in ((wheel, "make wheel"), (site / "index.html", "make edition"), (book, "make book")):
         if not path.is_file():
-            raise DepositError(f"{path}: is not there; {words} makes it")
+            raise BuildError(f"{path}: no such file; {command} builds it")
     files: dict[str, bytes] = {}
-    runs = set()
+    executable = set()
     for name in source_files(root):
         files[f"source/{name}"] = (root / name).read_bytes()
         if (root / name).stat().st_mode & 0o100:
-            runs.add(f"source/{name}")
+            executable.add(f"source/{name}")
     files[f"wheel/{wheel.name}"] = wheel.read_bytes()
     files[f"book/{book.name}"] = book.read_bytes()
     files |= {f"site/{name}": data for name, data in _tree(site)}
@@ -90,9 +91,9 @@ def gather(wheel: Path, site: Path, book: Path, rows: Path | None = None, root: 
     files["tei/hull1620.rng"] = tei.schema().encode()
     if rows is not None:
         if not rows.is_dir():
-            raise DepositError(f"{rows}: is no folder of rows")
+            raise BuildError(f"{rows}: not a folder")
         files |= {f"rows/{name}": data for name, data in _tree(rows)}
-    return Parts(files, frozenset(runs))
+    return Parts(files, frozenset(executable))
 
 
 def _tree(folder: Path) -> Iterator[tuple[str, bytes]]:
@@ -102,81 +103,81 @@ def _tree(folder: Path) -> Iterator[tuple[str, bytes]]:
 
 
 def described(root: Path = ROOT) -> Work:
-    """The work as the project's own files describe it.  Raises ValueError where they do not agree."""
+    """Return the description of the project from its own files.  Raise ValueError if they contradict each other."""
     project = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    named = (f"{d.author}: {d.title}. {d.year}" for d in sources().documents)
-    return work((root / "CITATION.cff").read_text(encoding="utf-8"), project, named)
+    references = (f"{d.author}: {d.title}. {d.year}" for d in sources().documents)
+    return work(read_citation((root / "CITATION.cff").read_text(encoding="utf-8")), project, references)
 
 
 def with_descriptions(parts: Parts, root: Path = ROOT) -> Parts:
-    """The parts with the files that describe them."""
+    """Add the files that describe a deposit: README.txt, CodeMeta, the data package and the RO-Crate."""
     about = described(root)
     files = dict(parts.files)
     tables = {name: data.decode() for name, data in files.items() if name.endswith(".csv") and "/docs/" in name}
     files["datapackage.json"] = data_package(about, tables).encode()
     files["codemeta.json"] = codemeta(about).encode()
     files["README.txt"] = readme(about, Parts(files, parts.executable), root).encode()
-    folders = {name: words for name, words in FOLDERS.items() if any(f.startswith(f"{name}/") for f in files)}
+    folders = {name: description for name, description in FOLDERS.items() if _has_folder(files, name)}
     kinds = {
-        "README.txt": ("what is here and how to use it", "text/plain"),
+        "README.txt": ("the contents of the deposit and how to use them", "text/plain"),
         "codemeta.json": ("the software, described by CodeMeta", "application/ld+json"),
         "datapackage.json": ("the tables, described by Frictionless schemas", "application/json"),
         **{name: ("the edition as a book", "application/pdf") for name in files if name.startswith("book/")},
-        **{name: ("the project as it is installed", "application/zip") for name in files if name.startswith("wheel/")},
+        **{name: ("the package that pip installs", "application/zip") for name in files if name.startswith("wheel/")},
     }
     files["ro-crate-metadata.json"] = crate(about, folders, kinds).encode()
     return Parts(files, parts.executable)
 
 
 def readme(about: Work, parts: Parts, root: Path = ROOT) -> str:
-    """Plain text for somebody who has the bag and nothing else."""
+    """Return the README.txt of a deposit, for a reader who has only the bag."""
     files = parts.files
     wheel = next(name for name in files if name.startswith("wheel/"))
     lock = (root / "locks" / "run.lock").read_text(encoding="utf-8")
-    needed = {re.split(r"[^A-Za-z0-9_-]", each)[0] for each in about.needs}
-    pinned = [line.split(" ")[0] for line in lock.splitlines() if line.split("==")[0] in needed]
-    held = "\n".join(f"  {name + '/':<10}{words}" for name, words in FOLDERS.items() if _has(files, name))
-    whole = {name.removeprefix("source/"): data for name, data in files.items() if name.startswith("source/")}
+    required = {re.split(r"[^A-Za-z0-9_-]", requirement)[0] for requirement in about.requirements}
+    pinned = [line.split(" ")[0] for line in lock.splitlines() if line.split("==")[0] in required]
+    contents = "\n".join(f"  {name + '/':<10}{text}" for name, text in FOLDERS.items() if _has_folder(files, name))
+    source = {name.removeprefix("source/"): data for name, data in files.items() if name.startswith("source/")}
     return f"""{about.title}
 Version {about.version}, {about.date}, by {about.author}.
 
 {about.description}.
 
-What is here (this folder is "data" of a BagIt bag, RFC 8493):
+Contents (this folder is the "data" folder of a BagIt bag, RFC 8493):
 
-{held}
+{contents}
 
-Read first: site/index.html in any browser, or the book. source/README.md tells what the
-software does; source/LICENSE says file by file what is whose.
+Start with site/index.html in any browser, or with the book. source/README.md describes the
+software; source/LICENSE states the rights in each file.
 
-To do it again you need Python {about.python} and some wheels: this one and those of
-{", ".join(pinned)} (their hashes stand in source/locks/run.lock). Without a network:
+To reproduce the results you need Python {about.python} and some wheels: this one and those of
+{", ".join(pinned)} (source/locks/run.lock has their hashes). Without a network:
 
   python3 -m venv env
   env/bin/python -m pip install --no-index --find-links FOLDER_OF_WHEELS {wheel}
   env/bin/hull1620 reproduce
 
-The last command computes everything that the thesis and four later papers print, and ends
-with exit code 0 where all comes out as it is recorded.
+The last command computes every result that the thesis and four later papers print. Its exit
+code is 0 if all results agree with the recorded verdicts.
 
-To see that nothing has changed: every file's SHA-512 stands in manifest-sha512.txt one
-folder up; "python -m bagit --validate FOLDER" compares them. The source as a Software
-Heritage directory: {swhid(whole, {name.removeprefix("source/") for name in parts.executable})}
+To verify the files: manifest-sha512.txt, one folder up, has the SHA-512 of every file, and
+"python -m bagit --validate FOLDER" compares them. The source as a Software Heritage
+directory: {swhid(source, {name.removeprefix("source/") for name in parts.executable})}
 """
 
 
-def _has(files: Mapping[str, bytes], folder: str) -> bool:
+def _has_folder(files: Mapping[str, bytes], folder: str) -> bool:
     return any(name.startswith(f"{folder}/") for name in files)
 
 
 def swhid(files: Mapping[str, bytes], executable: set[str]) -> str:
-    """The Software Heritage identifier of a folder (SWHID 1.2, 5.3): git's hash of its tree."""
+    """Return the Software Heritage identifier of a folder (SWHID 1.2, section 5.3), which is git's hash of its tree."""
 
     def tree(prefix: str) -> bytes:
-        inside = sorted(name for name in files if name.startswith(prefix))
         entries: dict[bytes, bytes] = {}
-        for name in inside:
+        for name in (name for name in files if name.startswith(prefix)):
             first, slash, _ = name[len(prefix) :].partition("/")
+            # Git sorts a folder as if its name ended with a slash, hence the slash in the key.
             if slash:
                 if first.encode() + b"/" not in entries:
                     entries[first.encode() + b"/"] = b"40000 " + first.encode() + b"\0" + tree(f"{prefix}{first}/")
@@ -193,35 +194,34 @@ def _hash(kind: bytes, data: bytes) -> bytes:
 
 
 def write(out: Path, parts: Parts, root: Path = ROOT) -> tuple[Path, Path]:
-    """Write the bag into the folder ``out`` and as one file beside it; returns both.
+    """Write the bag as a folder in ``out`` and as an archive next to it, and return both paths.
 
-    Raises DepositError where something that is no bag stands in the way, or a package is missing.
+    Raise BuildError if the folder exists and is not a bag, or if the package bagit is missing.
     """
     try:
         import bagit
     except ImportError:
-        raise DepositError("the deposit is packed by bagit: pip install 'hull1620[edition]'") from None
+        raise BuildError("bagit packs the deposit: pip install 'hull1620[edition]'") from None
     about = described(root)
-    bag, packed = out / f"{about.name}-{about.version}-deposit", out / f"{about.name}-{about.version}-deposit.tar.gz"
-    if bag.exists() and not (bag / _OURS).is_file():
-        raise DepositError(f"{bag}: is there and is no bag; nothing is replaced")
+    name = f"{about.name}-{about.version}-deposit"
+    bag, archive = out / name, out / f"{name}.tar.gz"
+    check_replaceable(bag, "bagit.txt", "a BagIt bag")
     out.mkdir(parents=True, exist_ok=True)
-    whole = with_descriptions(parts, root)
-    with tempfile.TemporaryDirectory(prefix=".deposit-", dir=out) as room:
-        made = Path(room) / bag.name
-        for name, data in sorted(whole.files.items()):
-            path = made / name
+    described_parts = with_descriptions(parts, root)
+    with tempfile.TemporaryDirectory(prefix=".deposit-", dir=out) as folder:
+        new_bag, new_archive = Path(folder) / bag.name, Path(folder) / archive.name
+        for name, data in sorted(described_parts.files.items()):
+            path = new_bag / name
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_bytes(data)
-            path.chmod(0o755 if name in whole.executable else 0o644)
-        bagit.make_bag(str(made), _information(about), checksums=["sha512"])
-        beside = Path(room) / packed.name
-        beside.write_bytes(_packed(made, whole.executable))
+            path.chmod(0o755 if name in parts.executable else 0o644)
+        bagit.make_bag(str(new_bag), _information(about), checksums=["sha512"])
+        new_archive.write_bytes(_packed(new_bag, parts.executable))
         if bag.exists():
-            shutil.move(bag, Path(room) / "before")
-        made.rename(bag)
-        beside.replace(packed)
-    return bag, packed
+            shutil.move(bag, Path(folder) / "before")
+        new_bag.rename(bag)
+        new_archive.replace(archive)
+    return bag, archive
 
 
 def _information(about: Work) -> dict[str, str]:
@@ -234,35 +234,31 @@ def _information(about: Work) -> dict[str, str]:
 
 
 def _packed(folder: Path, executable: frozenset[str]) -> bytes:
-    """A folder as a compressed tar archive in which nothing tells when or by whom it was made."""
-    held = BytesIO()
-    with tarfile.open(fileobj=held, mode="w", format=tarfile.PAX_FORMAT) as archive:
+    """Pack a folder into a compressed tar archive without times and owners."""
+    buffer = BytesIO()
+    with tarfile.open(fileobj=buffer, mode="w", format=tarfile.PAX_FORMAT) as archive:
         for path in sorted(path for path in folder.rglob("*") if path.is_file()):
             name = path.relative_to(folder).as_posix()
             entry = tarfile.TarInfo(f"{folder.name}/{name}")
             entry.size, entry.mode = path.stat().st_size, 0o755 if name.removeprefix("data/") in executable else 0o644
             with path.open("rb") as file:
                 archive.addfile(entry, file)
-    return gzip.compress(held.getvalue(), 9, mtime=0)
+    return gzip.compress(buffer.getvalue(), 9, mtime=0)
 
 
-def main(words: Sequence[str]) -> int:
-    """Make the deposit of what ``make wheel``, ``edition`` and ``book`` have made.  0, or 2 with one line."""
-    parser = argparse.ArgumentParser(prog="deposit", description="Pack a deposit for archives.")
-    parser.add_argument(
-        "out", nargs="?", type=Path, default=ROOT / "dist", help="the folder it goes to (default: dist)"
-    )
-    parser.add_argument("--rows", type=Path, help="a folder with rows of studies")
-    args = parser.parse_args(words)
-    made = ROOT / "dist"
-    wheel = max(made.glob("hull1620-*.whl"), key=lambda path: path.stat().st_mtime, default=made / "hull1620.whl")
-    try:
-        bag, packed = write(args.out, gather(wheel, made / "edition", made / "hull1620.pdf", args.rows))
-    except (DepositError, ValueError, OSError) as error:
-        print(f"deposit: {error}", file=sys.stderr)
-        return 2
-    print(f"{bag}: a bag; {packed.name}: {packed.stat().st_size / 1e6:.1f} MB")
-    return 0
+def main(arguments: Sequence[str]) -> int:
+    """Pack the results of ``make wheel``, ``make edition`` and ``make book``.  Return 0, or 2 after one line."""
+    parser = ArgumentParser(prog="deposit", description="Pack a deposit for archives.")
+    parser.add_argument("out", nargs="?", type=Path, default=DIST, help="output folder (default: dist)")
+    parser.add_argument("--rows", type=Path, help="a folder with rows of studies to include")
+    args = parser.parse_args(arguments)
+
+    def summary() -> str:
+        parts = gather(newest_wheel() or DIST / "hull1620.whl", DIST / "edition", DIST / "hull1620.pdf", args.rows)
+        bag, archive = write(args.out, parts)
+        return f"{bag}: a BagIt bag; {archive.name}: {archive.stat().st_size / 1e6:.1f} MB"
+
+    return run("deposit", summary)
 
 
 if __name__ == "__main__":

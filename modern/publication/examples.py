@@ -1,7 +1,7 @@
-"""A printed example as data: witness, corrected print and run side by side, card by card.
+"""The printed examples as data: witness, corrected print and today's run, card by card.
 
-The corrected print and its tie to the lines of the witness come from :mod:`modern.edition.chapter6_cards`, what the
-programs give from :mod:`modern.edition.reproduce`, which judges it.  Nothing here knows how it is shown.
+The corrected print and its relation to the lines of the witness come from :mod:`modern.edition.chapter6_cards`.  The
+run and its comparison with the print come from :mod:`modern.edition.reproduce`.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ from modern.edition.reproduce import Report, reproduce
 from modern.edition.segments import Place, Segments, reading, segments
 from modern.edition.sources import sources
 
-_ALL = ("ocr", "typist")
+_LAYERS = ("ocr", "typist")
 Spans = tuple[tuple[int, int], ...]
 TITLES = {"deck": "cards read", "punch": "cards punched", "typewriter": "lines typed"}
 
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """A line of the witness: its number, the line of the document's text, its words, and where rows change them."""
+    """A line of the witness: its number, its line ``at`` in the document, its text, and the spans that rows change."""
 
     line: str
     page: str
@@ -36,23 +36,24 @@ class Source:
 
 @dataclass(frozen=True, slots=True)
 class Shown:
-    """A card: ``print`` as corrected, ``run`` what came out (None where nothing is to come out, as of an input deck).
+    """A card as printed and as produced today.
 
-    ``sources`` are the lines of the witness whose first words are on this card, ``again`` further lines that cards
-    before it have begun.  ``differs`` are columns of ``run`` that are not those of the print.
+    ``print`` is the corrected print, ``run`` the card of the run, or None for an input deck.  ``sources`` are the lines
+    of the witness that begin on this card, ``continued`` the lines that began on an earlier card.  ``differs`` are the
+    columns of ``run`` that differ from the print.
     """
 
     number: int
     print: str
     sources: tuple[Source, ...]
-    again: tuple[str, ...]
+    continued: tuple[str, ...]
     run: str | None
     differs: Spans
 
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A device of an example: its cards, the verdict on each state of program 1 that was run, and the rows in it."""
+    """The cards or lines of one device in an example, the verdicts for both states of program 1, and the rows used."""
 
     example: int
     program: int
@@ -65,13 +66,13 @@ class Part:
 
     @property
     def id(self) -> str:
-        """Its address: ``program1-punch``."""
+        """The id on the page, such as ``program1-punch``."""
         return f"program{self.program}-{self.device}"
 
 
 @cache
 def example(number: int) -> tuple[Part, ...]:
-    """Every device of an example of chapter 6, in the order of the print."""
+    """Return the devices of an example of chapter 6 in the order of the print."""
     chapter = load_chapter()
     reports = tuple(reproduce((number,)))
     lines = _origins(segments(chapter.text))
@@ -80,84 +81,94 @@ def example(number: int) -> tuple[Part, ...]:
 
 @cache
 def homes() -> dict[str, tuple[int, str]]:
-    """Each row that an example shows, and the first example and device that do: a row may touch two."""
-    found: dict[str, tuple[int, str]] = {}
+    """Return the first example and device that show each row; a row may concern several."""
+    first_shown: dict[str, tuple[int, str]] = {}
     for number in EXAMPLES:
         for part in example(number):
             for row in part.rows:
-                found.setdefault(row.id, (number, part.id))
-    return found
+                first_shown.setdefault(row.id, (number, part.id))
+    return first_shown
 
 
 def rest() -> tuple[Row, ...]:
-    """Rows of chapter 6 that touch no card: what they drop stands between the cards, as a page's number does."""
+    """Return the rows of chapter 6 that concern no card; they drop text between the cards, such as page numbers."""
     return tuple(row for row in load_chapter().text.rows if row.id not in homes())
 
 
 def _origins(lines: Sequence[Segments]) -> dict[str, list[Segments]]:
-    """Each line of the corrected print with the line of the witness it is of, and the lines that rows made of that."""
-    found: dict[str, list[Segments]] = {}
+    """Map each line of the corrected print to its line of the witness and the lines that rows made from that."""
+    families: dict[str, list[Segments]] = {}
     family: list[Segments] = []
     for line in lines:
         family = [*family, line] if line.inserted else [line]
-        for one in family:
-            found[one.id] = family
-    return found
+        for member in family:
+            families[member.id] = family
+    return families
 
 
 def _part(chapter: Chapter, entry: DeviceLayout, lines: dict[str, list[Segments]], reports: Sequence[Report]) -> Part:
-    mine = tuple(r for r in reports if (r.program, r.device) == (entry.program, entry.device))
-    produced = next((r.produced for r in mine if r.state == "examples"), None)
-    found: list[Shown] = []
-    seen: set[str] = set()
-    made = cards(chapter, entry.example, entry.program, entry.device)
-    longest = max(len(made), len(produced or ()))
-    for n in range(longest):
-        card = made[n] if n < len(made) else None
+    reports_of_part = tuple(r for r in reports if (r.program, r.device) == (entry.program, entry.device))
+    produced = next((r.produced for r in reports_of_part if r.state == "examples"), None)
+    shown_cards: list[Shown] = []
+    shown_lines: set[str] = set()
+    printed = cards(chapter, entry.example, entry.program, entry.device)
+    # The run may have more or fewer cards than the print.
+    for n in range(max(len(printed), len(produced or ()))):
+        card = printed[n] if n < len(printed) else None
         run = None if produced is None else produced[n] if n < len(produced) else ""
-        found.append(_shown(n + 1, card, run, lines, seen))
-    touched = {row for line in printed_lines(chapter, entry) for row in line.rows}
-    rows = tuple(row for row in chapter.text.rows if row.id in touched)
+        shown_cards.append(_shown(n + 1, card, run, lines, shown_lines))
+    rows_used = {row for line in printed_lines(chapter, entry) for row in line.rows}
+    rows = tuple(row for row in chapter.text.rows if row.id in rows_used)
     return Part(
-        entry.example, entry.program, entry.device, entry.file, entry.layer == "stated", tuple(found), mine, rows
+        entry.example,
+        entry.program,
+        entry.device,
+        entry.file,
+        entry.layer == "stated",
+        tuple(shown_cards),
+        reports_of_part,
+        rows,
     )
 
 
-def _shown(number: int, card: Card | None, run: str | None, lines: dict[str, list[Segments]], seen: set[str]) -> Shown:
-    named = tuple(dict.fromkeys(lines[token.line][0].id for token in card.tokens)) if card else ()
-    new = tuple(name for name in named if name not in seen)
-    seen |= set(new)
+def _shown(
+    number: int, card: Card | None, run: str | None, lines: dict[str, list[Segments]], shown_lines: set[str]
+) -> Shown:
+    """Compare a printed card with the run; add the lines of the witness that begin on it to ``shown_lines``."""
+    line_ids = tuple(dict.fromkeys(lines[token.line][0].id for token in card.tokens)) if card else ()
+    new = tuple(line for line in line_ids if line not in shown_lines)
+    shown_lines |= set(new)
     image = card.image if card else ""
     return Shown(
         number,
         image,
-        tuple(_source(lines[name]) for name in new),
-        tuple(name for name in named if name not in new),
+        tuple(_source(lines[line]) for line in new),
+        tuple(line for line in line_ids if line not in new),
         run,
         () if run is None else differing(image, run),
     )
 
 
 def _source(family: Sequence[Segments]) -> Source:
-    """A line of the witness, with the stretches that a row reads otherwise; a break of the line is none."""
-    line, *after = family
-    words, spans = "", []
+    """Return a line of the witness with the spans that rows change; the insertion of a line break is no change."""
+    line, *inserted = family
+    text, spans = "", []
     for piece in line.pieces:
         if isinstance(piece, Place):
             old = reading((piece,), ())
-            rest = [one for one in after if one.id.startswith(f"{piece.row.id}.")]
-            new = " ".join(reading(pieces, _ALL) for pieces in ((piece,), *(one.pieces for one in rest)))
-            spans += [(len(words) + first, len(words) + last) for first, last in differing(new, old) if old]
-            words += old
+            continuation = [part.pieces for part in inserted if part.id.startswith(f"{piece.row.id}.")]
+            new = " ".join(reading(pieces, _LAYERS) for pieces in ((piece,), *continuation))
+            spans += [(len(text) + first, len(text) + last) for first, last in differing(new, old) if old]
+            text += old
         else:
-            words += piece
-    return Source(line.id, line.page, sources().excerpt("chapter6").line(int(line.id)) or 0, words, tuple(spans))
+            text += piece
+    return Source(line.id, line.page, sources().excerpt("chapter6").line(int(line.id)) or 0, text, tuple(spans))
 
 
-def differing(one: str, other: str) -> Spans:
-    """The stretches of the second text that are not the first's; all of it where the first has more and all of this."""
-    if one == other:
+def differing(expected: str, actual: str) -> Spans:
+    """Return the spans of ``actual`` that differ from ``expected``, or all of it if it only lacks characters."""
+    if expected == actual:
         return ()
-    codes = SequenceMatcher(None, one, other, autojunk=False).get_opcodes()
-    found = tuple((first, last) for kind, _, _, first, last in codes if kind != "equal" and first < last)
-    return found or ((0, len(other)),)
+    codes = SequenceMatcher(None, expected, actual, autojunk=False).get_opcodes()
+    spans = tuple((first, last) for kind, _, _, first, last in codes if kind != "equal" and first < last)
+    return spans or ((0, len(actual)),)

@@ -1,10 +1,12 @@
-"""A listing card by card: what the witness has, what the deck has, and which rows of the apparatus stand between.
+"""The facing text of a listing: for each card the witness, the deck, and the rows of the apparatus between them.
 
-The facts of a facing text, without a word of presentation: the site, the book and whatever comes later say them in
-their own way.  Every card has a place that outlives changes of the deck's numbering, because it is counted from the
-numbers the programmer gave: ``147+2`` is the second statement after statement 147, ``0+1`` the first statement of a
-deck whose first number has not come yet, ``before-106`` the comment before statement 106, ``title`` the first comment.
-A count may go on past the next number, so that 147+2 is 148+1 as well; such places are the card's too.
+The module holds facts only; the site and the book present them.
+
+Every card has a *place*, a name that stays valid when the numbering of the deck changes, because it is counted from the
+programmer's statement numbers.  ``147+2`` is the second statement after statement 147.  ``0+1`` is the first statement
+of a deck that does not begin with a number.  ``before-106`` is the comment before statement 106, and ``title`` the
+first comment.  Counting may continue past the next number: if 148 is the statement after 147, ``147+2`` is also
+``148+1``, and the card has both names.
 """
 
 from __future__ import annotations
@@ -12,7 +14,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from difflib import SequenceMatcher
 from functools import cache
 from typing import Literal
@@ -23,18 +25,18 @@ from modern.edition.sources import sources
 
 Kind = Literal["title", "comment", "statement", "format"]
 FURTHER = 3
-"""How many statements a count goes on past the next number."""
+"""The number of statements that are counted past the next statement number."""
 Span = tuple[int, int]
-"""Characters of a text: the first, counted from 0, and the one after the last."""
+"""A range of characters: the index of the first, and that of the first after the range."""
 
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """A line of the witness, or the part of one, that a card was made from.
+    """A line of the witness, or a part of one, that became a card.
 
-    ``line`` counts the witness's lines from 1, page marks left out; ``source`` is the line of the document's whole OCR
-    text, 0 where it is not known.  ``changed`` are the characters that the deck has not.  ``part``: the line makes
-    other cards too.
+    ``line`` is its number in the witness, counted from 1 without page marks.  ``source`` is its number in the whole OCR
+    text of the document, or 0 if unknown.  ``changed`` are the characters that the deck does not have.  ``part`` is
+    True if the line became several cards.
     """
 
     page: str
@@ -46,8 +48,8 @@ class Piece:
 
 
 @dataclass(frozen=True, slots=True)
-class Otherwise:
-    """What stands in the place of a card when a further layer is on: its cards, none where the card falls away."""
+class Variant:
+    """The cards that replace a card if a further layer is applied; there are none if the layer removes the card."""
 
     layer: str
     rows: tuple[str, ...]
@@ -56,12 +58,12 @@ class Otherwise:
 
 @dataclass(frozen=True, slots=True)
 class Card:
-    """A card of a deck with what faces it.
+    """A card of a deck with the witness that it was made from.
 
-    ``number`` counts the deck's cards from 1; ``also`` are further places of it; ``label`` is the statement's number, 0
-    without one.  ``witness`` is empty
-    for a card of ours.  ``changed`` are characters the witness has otherwise, or not at all; ``rows`` the rows that
-    touched this card, but for those that touched most cards of the deck.  ``page`` is the thesis's.
+    ``number`` is its number in the deck, counted from 1, ``label`` its statement number or 0, and ``page`` the page of
+    the thesis.  ``also`` are its further places.  ``witness`` is empty for a card that the witness does not have.
+    ``changed`` are the characters that differ from the witness.  ``rows`` are the rows that changed this card, except
+    those that changed most cards of the deck.  ``variants`` are the readings of further layers.
     """
 
     number: int
@@ -74,16 +76,16 @@ class Card:
     changed: tuple[Span, ...]
     rows: tuple[str, ...]
     layers: tuple[str, ...]
-    otherwise: tuple[Otherwise, ...] = ()
+    variants: tuple[Variant, ...] = ()
     also: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
 class Facing:
-    """A built-in program's facing text.
+    """The facing text of a built-in program.
 
-    ``everywhere`` are the rows that touch most cards (the columns of the coding form); ``dropped`` the lines of the
-    witness that this deck leaves out, by the row that replaces them.
+    ``everywhere`` are the rows that change most cards (the columns of the coding form).  ``dropped`` are the lines of
+    the witness that this deck omits, by the row that replaces them.
     """
 
     program: str
@@ -94,40 +96,40 @@ class Facing:
     dropped: tuple[tuple[str, tuple[Piece, ...]], ...]
 
     def rows(self) -> tuple[Row, ...]:
-        """The rows of every layer that touch this deck, or would with their layer on, in the order of the apparatus."""
-        named = {name for card in self.cards for name in card.rows}
-        named |= {name for card in self.cards for other in card.otherwise for name in other.rows}
-        named |= {row.id for row in self.everywhere} | {name for name, _ in self.dropped}
-        return tuple(row for row in self.text.rows if row.id in named)
+        """Return the rows that change this deck, in any layer, in the order of the apparatus."""
+        ids = {row for card in self.cards for row in card.rows}
+        ids |= {row for card in self.cards for variant in card.variants for row in variant.rows}
+        ids |= {row.id for row in self.everywhere} | {row for row, _ in self.dropped}
+        return tuple(row for row in self.text.rows if row.id in ids)
 
     def cards_of(self, row: str) -> tuple[Card, ...]:
-        """The cards that a row touched, or would with its layer on."""
+        """Return the cards that a row changes, or would change if its layer were applied."""
         return tuple(
-            card for card in self.cards if row in card.rows or any(row in other.rows for other in card.otherwise)
+            card for card in self.cards if row in card.rows or any(row in variant.rows for variant in card.variants)
         )
 
     def pages(self) -> Iterator[tuple[str, tuple[Card, ...]]]:
-        """The cards by the page of the thesis they stand on, in order."""
+        """Return the pages of the thesis in order, each with its cards."""
         for page in dict.fromkeys(card.page for card in self.cards):
             yield page, tuple(card for card in self.cards if card.page == page)
 
 
 @cache
 def facing(name: str) -> Facing:
-    """The facing text of a built-in program.  Raises KeyError for another name."""
+    """Return the facing text of a built-in program.  Raise KeyError for an unknown name."""
     entry = programs.built_in(name)
     text = programs.text(entry.text)
     lines = build(text, entry.layers)
     everywhere = _everywhere(lines)
     places = tuple(_places(lines))
     pieces, dropped = _pieces(text, lines, entry.layers, everywhere)
-    others = _others(text, lines, entry.layers)
-    further = _further(places)
+    variants = _variants(text, lines, entry.layers)
+    further_places = _further_places(places)
     layer_of = {row.id: row.layer for row in text.rows}
     cards = []
     for number, (line, (place, kind, label)) in enumerate(zip(lines, places, strict=True), 1):
         rows = tuple(name for name in line.rows if name not in everywhere)
-        made, changed = _marked(pieces.get(line.id, ()), line.text)
+        witness, changed = _compared(pieces.get(line.id, ()), line.text)
         cards.append(
             Card(
                 number,
@@ -136,12 +138,12 @@ def facing(name: str) -> Facing:
                 label,
                 line.page,
                 line.text,
-                made,
+                witness,
                 changed,
                 rows,
                 tuple(dict.fromkeys(layer_of[name] for name in rows)),
-                others.get(line.id, ()),
-                further.get(place, ()),
+                variants.get(line.id, ()),
+                further_places.get(place, ()),
             )
         )
     return Facing(
@@ -150,20 +152,20 @@ def facing(name: str) -> Facing:
 
 
 def _everywhere(lines: Sequence[Line]) -> frozenset[str]:
-    """The rows that touch more than half of all cards."""
-    touched = Counter(name for line in lines for name in set(line.rows))
-    return frozenset(name for name, count in touched.items() if 2 * count > len(lines))
+    """Return the rows that change more than half of all cards."""
+    counts = Counter(row for line in lines for row in set(line.rows))
+    return frozenset(row for row, count in counts.items() if 2 * count > len(lines))
 
 
 def _places(lines: Iterable[Line]) -> Iterator[tuple[str, Kind, int]]:
-    """The place, the kind and the number of each card."""
-    comments: list[int] = []
-    found: list[tuple[str, Kind, int]] = []
-    number, steps = 0, 0
-    for at, line in enumerate(lines):
+    """Return the place, the kind and the statement number of each card."""
+    comments: list[int] = []  # indices of comments whose following statement has not come yet
+    places: list[tuple[str, Kind, int]] = []
+    number, steps = 0, 0  # the last statement number, and the statements since then
+    for index, line in enumerate(lines):
         if line.text.startswith("C  "):
-            comments.append(at)
-            found.append(("", "comment", 0))
+            comments.append(index)
+            places.append(("", "comment", 0))
             continue
         match = re.match(r"\s*(\d+)\s*(FORMAT)?", line.text)
         label = int(match[1]) if match else 0
@@ -171,20 +173,20 @@ def _places(lines: Iterable[Line]) -> Iterator[tuple[str, Kind, int]]:
         place = f"{number}+{steps}" if steps else str(number)
         for k, comment in enumerate(comments):
             if comment == 0:
-                found[0] = ("title", "title", 0)
+                places[0] = ("title", "title", 0)
             else:
-                # Several comments before one statement are told apart by a letter: before-106, before-106b.
-                found[comment] = (f"before-{place}{'' if k == 0 else chr(ord('a') + k)}", "comment", 0)
+                # Further comments before the same statement get a letter: before-106, before-106b.
+                places[comment] = (f"before-{place}{'' if k == 0 else chr(ord('a') + k)}", "comment", 0)
         comments = []
-        found.append((place, "format" if match and match[2] else "statement", label))
-    yield from found
+        places.append((place, "format" if match and match[2] else "statement", label))
+    yield from places
 
 
-def _further(places: Sequence[tuple[str, Kind, int]]) -> Mapping[str, tuple[str, ...]]:
-    """The places of a card that are counted from the numbers before its own."""
+def _further_places(places: Sequence[tuple[str, Kind, int]]) -> Mapping[str, tuple[str, ...]]:
+    """Return the additional places of the cards, counted from earlier statement numbers."""
     known = {place for place, _, _ in places}
-    found: dict[str, list[str]] = {}
-    counted: list[tuple[int, int]] = []
+    further: dict[str, list[str]] = {}
+    counted: list[tuple[int, int]] = []  # earlier statement numbers with the statements since then
     for place, kind, label in places:
         if kind in ("comment", "title"):
             continue
@@ -192,51 +194,59 @@ def _further(places: Sequence[tuple[str, Kind, int]]) -> Mapping[str, tuple[str,
         for number, steps in counted:
             name = f"{number}+{steps}"
             if steps <= FURTHER and name not in known:
-                found.setdefault(place, []).append(name)
+                further.setdefault(place, []).append(name)
         if label:
             counted = [(number, steps) for number, steps in counted if steps < FURTHER] + [(label, 0)]
-    return {place: tuple(names) for place, names in found.items()}
+    return {place: tuple(names) for place, names in further.items()}
 
 
 def _pieces(
     text: Text, lines: Sequence[Line], layers: Sequence[str], everywhere: Collection[str]
 ) -> tuple[dict[str, tuple[Piece, ...]], tuple[tuple[str, tuple[Piece, ...]], ...]]:
-    """The witness lines of each card by its id, those cut up that make several; and the lines a row drops, by row."""
+    """Return the witness lines of each card by its id, and the lines that the deck omits by the row that drops them.
+
+    A witness line that became several cards is divided among them.
+    """
     witness = {line.id: line for line in text.witness}
-    order = {name: at for at, name in enumerate(witness)}
+    order = {name: index for index, name in enumerate(witness)}
     bases = {line.id: _base(text, line.id) for line in lines}
-    made: dict[str, list[str]] = {}
+    cards_of_base: dict[str, list[str]] = {}
     for line in lines:
         if bases[line.id]:
-            made.setdefault(bases[line.id], []).append(line.id)
-    more: dict[str, list[str]] = {}
+            cards_of_base.setdefault(bases[line.id], []).append(line.id)
+    # A witness line without a card was joined to a card nearby by the same row, or dropped by its row.
+    joined: dict[str, list[str]] = {}
     dropped: dict[str, list[Piece]] = {}
     for name in witness:
-        if name in made:
+        if name in cards_of_base:
             continue
-        row = _emptier(text, name, layers, everywhere)
-        near = [line for line in lines if row in line.rows and bases[line.id]]
-        if near:
-            nearest = min(near, key=lambda line: abs(order[bases[line.id]] - order[name]))
-            more.setdefault(bases[nearest.id], []).append(name)
+        row = _emptying_row(text, name, layers, everywhere)
+        candidates = [line for line in lines if row in line.rows and bases[line.id]]
+        if candidates:
+            nearest = min(candidates, key=lambda line: abs(order[bases[line.id]] - order[name]))
+            joined.setdefault(bases[nearest.id], []).append(name)
         else:
             dropped.setdefault(row, []).append(_piece(text, witness[name], witness[name].text))
-    found: dict[str, tuple[Piece, ...]] = {}
+    pieces_of: dict[str, tuple[Piece, ...]] = {}
     texts = {line.id: line.text for line in lines}
-    for base, cards in made.items():
-        cut = _cut(witness[base].text, [texts[card] for card in cards])
-        for card, part in zip(cards, cut, strict=True):
-            own = [_piece(text, witness[base], part, len(cards) > 1)]
-            own += [_piece(text, witness[name], witness[name].text) for name in more.get(base, ()) if card == cards[0]]
-            found[card] = tuple(sorted(own, key=lambda piece: piece.line))
-    return found, tuple((row, tuple(pieces)) for row, pieces in dropped.items())
+    for base, cards in cards_of_base.items():
+        parts = _divided(witness[base].text, [texts[card] for card in cards])
+        for card, part in zip(cards, parts, strict=True):
+            pieces = [_piece(text, witness[base], part, len(cards) > 1)]
+            if card == cards[0]:
+                pieces += [_piece(text, witness[name], witness[name].text) for name in joined.get(base, ())]
+            pieces_of[card] = tuple(sorted(pieces, key=lambda piece: piece.line))
+    return pieces_of, tuple((row, tuple(pieces)) for row, pieces in dropped.items())
 
 
 def _base(text: Text, line: str) -> str:
-    """The witness line a card was made from; empty for one that a row puts in."""
+    """Return the witness line from which a card was made, or an empty string for a card that a row inserts.
+
+    The id of a card made by a row is the row's id and a count: ``P1-012.2``.
+    """
     while not line.isdigit():
         row_id, _, count = line.rpartition(".")
-        made = 0
+        made = 0  # lines that the changes of the row so far have made
         for change in text.row(row_id).changes:
             if change.through or change.dense:
                 continue
@@ -251,8 +261,8 @@ def _base(text: Text, line: str) -> str:
     return line
 
 
-def _emptier(text: Text, line: str, layers: Collection[str], everywhere: Collection[str]) -> str:
-    """The last row of the deck's layers that leaves nothing of a witness line."""
+def _emptying_row(text: Text, line: str, layers: Collection[str], everywhere: Collection[str]) -> str:
+    """Return the last row in the layers of the deck that changes a witness line of which nothing remains."""
     for row in reversed([row for row in text.rows if row.layer in layers and row.id not in everywhere]):
         for change in row.changes:
             span = range(int(change.line), int(change.through) + 1) if change.through else ()
@@ -261,82 +271,85 @@ def _emptier(text: Text, line: str, layers: Collection[str], everywhere: Collect
     return ""
 
 
-def _piece(text: Text, line: Line, words: str, part: bool = False) -> Piece:
+def _piece(text: Text, line: Line, content: str, part: bool = False) -> Piece:
     source = sources().excerpt(text.id).line(int(line.id)) or 0
-    return Piece(line.page, int(line.id), source, words, (), part)
+    return Piece(line.page, int(line.id), source, content, (), part)
 
 
-def _cut(line: str, cards: Sequence[str]) -> list[str]:
-    """The parts of a line that several cards were made from, in order; together they are the line."""
+def _divided(line: str, cards: Sequence[str]) -> list[str]:
+    """Divide a line among the cards that were made from it."""
     if len(cards) == 1:
         return [line]
-    whole = "".join(cards)
-    paired = {b: a for a, b in _pairs(line, whole)}
-    cuts, begun = [0], 0
+    all_cards = "".join(cards)
+    in_line = {b: a for a, b in _pairs(line, all_cards)}
+    starts, end = [0], 0
     for card in cards[:-1]:
-        begun += len(card)
-        ahead = [paired[at] for at in range(begun, len(whole)) if at in paired]
-        cuts.append(max(ahead[0] if ahead else len(line), cuts[-1]))
-    return [line[first:last] for first, last in zip(cuts, (*cuts[1:], len(line)), strict=True)]
+        end += len(card)
+        # The next part begins with the first character of the line that a later card still has.
+        later = [in_line[index] for index in range(end, len(all_cards)) if index in in_line]
+        starts.append(max(later[0] if later else len(line), starts[-1]))
+    return [line[first:last] for first, last in zip(starts, (*starts[1:], len(line)), strict=True)]
 
 
-def _marked(pieces: Sequence[Piece], card: str) -> tuple[tuple[Piece, ...], tuple[Span, ...]]:
-    """Pieces and card with the characters marked in which they differ; blanks are not compared."""
+def _compared(pieces: Sequence[Piece], card: str) -> tuple[tuple[Piece, ...], tuple[Span, ...]]:
+    """Return the pieces with the characters that the card lacks, and the characters that only the card has.
+
+    Blanks are not compared.
+    """
     if not pieces:
         return (), ((0, len(card)),)
     joined = "\n".join(piece.text for piece in pieces)
     pairs = _pairs(joined, card)
-    kept, taken = {a for a, _ in pairs}, {b for _, b in pairs}
-    marked, begun = [], 0
+    in_witness, in_card = {a for a, _ in pairs}, {b for _, b in pairs}
+    compared, start = [], 0
     for piece in pieces:
-        lost = {at - begun for at in range(begun, begun + len(piece.text)) if at not in kept}
-        marked.append(
-            Piece(piece.page, piece.line, piece.source, piece.text, tuple(_spans(piece.text, lost)), piece.part)
-        )
-        begun += len(piece.text) + 1
-    return tuple(marked), tuple(_spans(card, {at for at in range(len(card)) if at not in taken}))
+        lost = {index for index in range(len(piece.text)) if start + index not in in_witness}
+        compared.append(replace(piece, changed=tuple(_spans(piece.text, lost))))
+        start += len(piece.text) + 1
+    return tuple(compared), tuple(_spans(card, set(range(len(card))) - in_card))
 
 
-def _pairs(one: str, other: str) -> list[tuple[int, int]]:
-    """The characters two texts have in common, in order, by their places; blanks and line ends are passed over."""
-    first, second = ([at for at, char in enumerate(text) if not char.isspace()] for text in (one, other))
-    matcher = SequenceMatcher(None, [one[at] for at in first], [other[at] for at in second], autojunk=False)
+def _pairs(line: str, card: str) -> list[tuple[int, int]]:
+    """Return the indices of the characters that two texts have in common, in order and without blanks."""
+    first, second = ([n for n, char in enumerate(text) if not char.isspace()] for text in (line, card))
+    matcher = SequenceMatcher(None, [line[n] for n in first], [card[n] for n in second], autojunk=False)
     return [
         (first[block.a + k], second[block.b + k]) for block in matcher.get_matching_blocks() for k in range(block.size)
     ]
 
 
-def _spans(text: str, marked: Collection[int]) -> Iterator[Span]:
-    """Runs of marked characters that are not blank; a blank between two of them does not part them."""
-    found = [at for at in sorted(marked) if not text[at].isspace()]
-    while found:
-        first = last = found.pop(0)
-        while found and not text[last + 1 : found[0]].strip():
-            last = found.pop(0)
+def _spans(text: str, indices: Collection[int]) -> Iterator[Span]:
+    """Join characters to spans, which neither begin nor end with a blank but may contain blanks."""
+    remaining = [index for index in sorted(indices) if not text[index].isspace()]
+    while remaining:
+        first = last = remaining.pop(0)
+        while remaining and not text[last + 1 : remaining[0]].strip():
+            last = remaining.pop(0)
         yield first, last + 1
 
 
-def _others(text: Text, lines: Sequence[Line], layers: Sequence[str]) -> Mapping[str, tuple[Otherwise, ...]]:
-    """What each layer the deck is built without would put in the place of a card, by the card's id."""
-    found: dict[str, list[Otherwise]] = {}
+def _variants(text: Text, lines: Sequence[Line], layers: Sequence[str]) -> Mapping[str, tuple[Variant, ...]]:
+    """Return the variants of each card, by its id, in the layers that the deck does not contain."""
+    variants: dict[str, list[Variant]] = {}
     own = {line.id: line for line in lines}
     for layer in text.layers:
         rows = {row.id for row in text.rows if row.layer == layer}
         if layer in layers or not rows or layer == "examples":
             continue
-        now: dict[str, list[Line]] = {}
-        at = ""
+        # A line that the layer inserts belongs to the card of this deck before it.
+        replacements: dict[str, list[Line]] = {}
+        card_id = ""
         for line in build(text, (*layers, layer)):
-            at = line.id if line.id in own else at
-            now.setdefault(at, []).append(line)
+            card_id = line.id if line.id in own else card_id
+            replacements.setdefault(card_id, []).append(line)
         for name, line in own.items():
-            cards = now.get(name, [])
+            cards = replacements.get(name, [])
             if [card.text for card in cards] == [line.text]:
                 continue
-            touched = tuple(dict.fromkeys(r for card in cards for r in card.rows if r in rows))
-            touched = touched or tuple(row.id for row in text.rows if row.id in rows and name in _lines(row))
-            found.setdefault(name, []).append(Otherwise(layer, touched, tuple(card.text for card in cards)))
-    return {name: tuple(others) for name, others in found.items()}
+            changed_by = tuple(dict.fromkeys(r for card in cards for r in card.rows if r in rows))
+            changed_by = changed_by or tuple(row.id for row in text.rows if row.id in rows and name in _lines(row))
+            variants.setdefault(name, []).append(Variant(layer, changed_by, tuple(card.text for card in cards)))
+    return {name: tuple(of_card) for name, of_card in variants.items()}
 
 
 def _lines(row: Row) -> set[str]:

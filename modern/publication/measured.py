@@ -1,7 +1,8 @@
-"""What is measured of every card: executions and machine time in a printed example, and the weight of its evidence.
+"""Measurements of every card: its executions and machine time in the printed examples, and its weight of evidence.
 
-Times are those of :mod:`emulator.machine.timing`: processor seconds of a 1620 Model 1, known to about 10 %.  The weight
-of evidence is that of ``docs/weight/cards.csv`` (:mod:`modern.edition.weight`), which is there in a checkout only.
+Times are processor seconds of a 1620 Model 1 (:mod:`emulator.machine.timing`), accurate to about 10 %.  The weight of
+evidence counts altered readings of a card by the first check that detects them.  It is read from
+``docs/weight/cards.csv``, which exists only in a checkout.
 """
 
 from __future__ import annotations
@@ -18,17 +19,19 @@ from modern.edition.chapter6 import EXAMPLES, input_deck
 from modern.thesis.job import run_hull
 
 LIMIT = 200_000
+"""The largest number of statements that a run may execute."""
 TABLE = Path(__file__).parents[2] / "docs" / "weight" / "cards.csv"
-NOTICED = ("compiler", "print", "machine", "equation", "sibling", "nothing")
-"""What notices a reading first; the columns of the table."""
+DETECTED_BY = ("compiler", "print", "machine", "equation", "sibling", "nothing")
+"""The checks in the order in which they are applied; the columns of the table."""
 
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """One example through one program: executions and processor seconds by card, those never executed left out.
+    """A run of one example through one program.
 
-    ``seconds`` is the processor's, ``total`` with reader, punch and typewriter one after the other; ``statements``
-    counts the statements executed; ``rows`` say what the time is made of, the processor's causes and then the devices.
+    ``executions`` and ``times`` (processor seconds) have an entry for each card that was executed.  ``statements`` is
+    the number of statements executed, ``seconds`` the processor time, and ``total`` the time including reader, punch
+    and typewriter without overlap.  ``rows`` break the time down by cause: first the processor's, then the devices'.
     """
 
     example: int
@@ -43,29 +46,24 @@ class Run:
 
 @cache
 def runs(program: str) -> tuple[Run, ...]:
-    """The runs of the printed examples that come to a built-in program, by example.
+    """Return the runs of a built-in program in the printed examples.
 
-    Program 1 as listed and in the state of the examples each reads the six decks; programs 2 and 3 read what the
-    state of the examples punches.
+    Program 1 reads the six input decks, both as listed and in the state of the examples.  Programs 2 and 3 read the
+    cards that the state of the examples punches.
     """
     first = program if program.startswith("program1") else "program1_examples"
-    found = []
-    for example in EXAMPLES:
-        for step in _job(example, first):
-            if step.program == program:
-                found.append(step)
-    return tuple(found)
+    return tuple(run for example in EXAMPLES for run in _job(example, first) if run.program == program)
 
 
 @cache
 def _job(example: int, first: str) -> tuple[Run, ...]:
     steps = run_hull(input_deck(example), programs.program, Options(limit=LIMIT), first).steps
-    found = []
+    job_runs = []
     for step in steps:
         timing = measure(step.program, step.result)
         counts, seconds = dict(timing.statements), shares(step.program, step.result)
         cards = {line.place.card: line.index for line in step.program.statements}
-        found.append(
+        job_runs.append(
             Run(
                 example,
                 step.name,
@@ -77,32 +75,26 @@ def _job(example: int, first: str) -> tuple[Run, ...]:
                 (*timing.processor, *timing.devices),
             )
         )
-    return tuple(found)
+    return tuple(job_runs)
 
 
 @dataclass(frozen=True, slots=True)
 class Weight:
-    """Of the readings of a card how many each of :data:`NOTICED` notices first; those that change nothing left out."""
+    """The altered readings of a card, counted by the check of :data:`DETECTED_BY` that detects them first.
 
-    noticed: tuple[int, ...]
+    Readings that change nothing are not counted.  ``formula`` is what the card computes.
+    """
+
+    detected: tuple[int, ...]
     formula: str
-
-    @property
-    def readings(self) -> int:
-        return sum(self.noticed)
-
-    @property
-    def silent(self) -> int:
-        """How many nothing notices."""
-        return self.noticed[-1]
 
 
 @cache
 def weights(program: str, table: Path = TABLE) -> dict[int, Weight]:
-    """The weight of each card of a listing, by its number; empty for a program that was not weighed."""
+    """Return the weights of the cards of a listing by card number, or nothing for a program that was not measured."""
     with table.open(encoding="utf-8", newline="") as file:
         return {
-            int(row["card"]): Weight(tuple(int(row[what]) for what in NOTICED), row["formula"])
+            int(row["card"]): Weight(tuple(int(row[check]) for check in DETECTED_BY), row["formula"])
             for row in csv.DictReader(file)
             if row["program"] == program
         }

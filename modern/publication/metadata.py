@@ -1,7 +1,7 @@
-"""What archives ask of a work, made from one place: CITATION.cff says it, this module says it in their words.
+"""Descriptions of the project for archives, made from CITATION.cff and pyproject.toml.
 
-``codemeta.json`` (CodeMeta 3.0), the RO-Crate's root (RO-Crate 1.1, by the package ``rocrate``), and a Frictionless
-data package with a schema for every CSV table.  Only what a standard asks for by name is here; nothing is typed twice.
+The module writes ``codemeta.json`` (CodeMeta 3.0), ``ro-crate-metadata.json`` (RO-Crate 1.1, with the package
+``rocrate``) and ``datapackage.json`` (a Frictionless data package with a schema for every CSV table).
 """
 
 from __future__ import annotations
@@ -15,12 +15,15 @@ from io import StringIO
 from typing import Any
 
 SPDX = "https://spdx.org/licenses/"
-_FIELD = re.compile(r'^([a-z-]+): "?([^"\n]+)"?$', re.MULTILINE)
 
 
 @dataclass(frozen=True, slots=True)
 class Work:
-    """The edition, as CITATION.cff and pyproject.toml have it.  ``references`` are the documents it is about."""
+    """The project as CITATION.cff and pyproject.toml describe it.
+
+    ``python`` is the range of supported versions, ``requirements`` are the packages that it needs, and ``references``
+    the documents that it restores.
+    """
 
     name: str
     title: str
@@ -31,93 +34,91 @@ class Work:
     author: str
     keywords: tuple[str, ...]
     python: str
-    needs: tuple[str, ...]
+    requirements: tuple[str, ...]
     references: tuple[str, ...]
 
 
-def work(citation: str, project: Mapping[str, Any], references: Iterable[str]) -> Work:
-    """The work from the text of CITATION.cff and the table ``project`` of pyproject.toml.
+def work(citation: Mapping[str, Any], project: Mapping[str, Any], references: Iterable[str]) -> Work:
+    """Combine the fields of CITATION.cff with the table ``project`` of pyproject.toml.
 
-    Raises ValueError where the two do not say the same of version or licence.
+    Raise ValueError if the two disagree about version or licence.
     """
-    fields = dict(_FIELD.findall(citation.split("references:")[0]))
-    for key, name in (("version", "version"), ("license", "license")):
-        if fields[key] != project[name]:
-            raise ValueError(f"CITATION.cff has {key} {fields[key]}, pyproject.toml {project[name]}")
-    authors = re.search(r'^authors:\n  - name: "([^"]+)"', citation, re.MULTILINE)
-    keywords = re.search(r"^keywords:\n((?:  - .+\n)+)", citation, re.MULTILINE)
+    for key in ("version", "license"):
+        if citation[key] != project[key]:
+            raise ValueError(f"CITATION.cff has {key} {citation[key]}, pyproject.toml {project[key]}")
     return Work(
         project["name"],
-        fields["title"],
+        citation["title"],
         project["description"],
-        fields["version"],
-        fields["date-released"],
-        fields["license"],
-        authors[1] if authors else "",
-        tuple(re.findall(r"- (.+)", keywords[1])) if keywords else (),
+        citation["version"],
+        str(citation["date-released"]),
+        citation["license"],
+        citation["authors"][0]["name"],
+        tuple(citation["keywords"]),
         project["requires-python"],
         tuple(project["dependencies"]),
         tuple(references),
     )
 
 
-def codemeta(found: Work) -> str:
-    """codemeta.json."""
+def codemeta(about: Work) -> str:
+    """Return the text of codemeta.json."""
     return _json(
         {
             "@context": "https://w3id.org/codemeta/3.0",
             "type": "SoftwareSourceCode",
-            "name": found.title,
-            "identifier": found.name,
-            "description": found.description,
-            "version": found.version,
-            "dateModified": found.date,
-            "license": SPDX + found.license,
-            "author": [{"type": "Organization", "name": found.author}],
-            "keywords": list(found.keywords),
+            "name": about.title,
+            "identifier": about.name,
+            "description": about.description,
+            "version": about.version,
+            "dateModified": about.date,
+            "license": SPDX + about.license,
+            "author": [{"type": "Organization", "name": about.author}],
+            "keywords": list(about.keywords),
             "programmingLanguage": "Python",
-            "runtimePlatform": f"Python {found.python}",
-            "softwareRequirements": list(found.needs),
+            "runtimePlatform": f"Python {about.python}",
+            "softwareRequirements": list(about.requirements),
         }
     )
 
 
-def crate(found: Work, folders: Mapping[str, str], files: Mapping[str, tuple[str, str]]) -> str:
-    """ro-crate-metadata.json.
+def crate(about: Work, folders: Mapping[str, str], files: Mapping[str, tuple[str, str]]) -> str:
+    """Return the text of ro-crate-metadata.json.
 
-    ``folders`` are the paths of datasets and what they are, ``files`` those of files, what they are and their media
-    type.
+    ``folders`` maps the path of a dataset to its description, ``files`` the path of a file to its description and
+    media type.
     """
     from rocrate.model.data_entity import DataEntity
     from rocrate.model.person import Person
     from rocrate.rocrate import ROCrate
 
-    made = ROCrate()
-    made.name, made.description = found.title, found.description
-    made.datePublished = found.date
-    made.license = SPDX + found.license
-    made.keywords = ", ".join(found.keywords)
-    author = made.add(Person(made, "#author", {"@type": "Organization", "name": found.author}))
-    made.root_dataset["author"] = author
-    made.root_dataset["version"] = found.version
-    made.root_dataset["citation"] = list(found.references)
-    for path, words in folders.items():
-        made.add(DataEntity(made, f"{path}/", {"@type": "Dataset", "name": path, "description": words}))
-    for path, (words, kind) in files.items():
-        about = {"@type": "File", "name": path, "description": words, "encodingFormat": kind}
-        made.add(DataEntity(made, path, about))
-    held = made.metadata.generate()
-    held["@graph"].sort(key=lambda entity: entity["@id"])
-    for entity in held["@graph"]:
+    rocrate = ROCrate()
+    rocrate.name, rocrate.description = about.title, about.description
+    rocrate.datePublished = about.date
+    rocrate.license = SPDX + about.license
+    rocrate.keywords = ", ".join(about.keywords)
+    author = rocrate.add(Person(rocrate, "#author", {"@type": "Organization", "name": about.author}))
+    rocrate.root_dataset["author"] = author
+    rocrate.root_dataset["version"] = about.version
+    rocrate.root_dataset["citation"] = list(about.references)
+    for path, description in folders.items():
+        rocrate.add(DataEntity(rocrate, f"{path}/", {"@type": "Dataset", "name": path, "description": description}))
+    for path, (description, media_type) in files.items():
+        properties = {"@type": "File", "name": path, "description": description, "encodingFormat": media_type}
+        rocrate.add(DataEntity(rocrate, path, properties))
+    document = rocrate.metadata.generate()
+    # The package writes entities in the order of a set; sorting makes the file the same every time.
+    document["@graph"].sort(key=lambda entity: entity["@id"])
+    for entity in document["@graph"]:
         if isinstance(entity.get("hasPart"), list):
             entity["hasPart"].sort(key=lambda part: part["@id"])
-    return _json(held)
+    return _json(document)
 
 
-def data_package(found: Work, tables: Mapping[str, str]) -> str:
-    """datapackage.json: a Frictionless resource for each CSV table, by its path and text.
+def data_package(about: Work, tables: Mapping[str, str]) -> str:
+    """Return the text of datapackage.json: a Frictionless resource for each CSV table, given by path and text.
 
-    Raises ValueError for a table with two columns of one name, by which no cell could be named.
+    Raise ValueError if two columns of a table have the same name.
     """
     resources = [
         {
@@ -134,10 +135,10 @@ def data_package(found: Work, tables: Mapping[str, str]) -> str:
     return _json(
         {
             "profile": "tabular-data-package",
-            "name": found.name,
-            "title": f"Tables of {found.title}",
-            "version": found.version,
-            "created": f"{found.date}T00:00:00Z",
+            "name": about.name,
+            "title": f"Tables of {about.title}",
+            "version": about.version,
+            "created": f"{about.date}T00:00:00Z",
             "licenses": [{"name": "CC0-1.0", "path": "https://creativecommons.org/publicdomain/zero/1.0/"}],
             "resources": resources,
         }
@@ -145,10 +146,10 @@ def data_package(found: Work, tables: Mapping[str, str]) -> str:
 
 
 def _fields(path: str, text: str) -> list[dict[str, str]]:
-    """A table's columns: whole numbers, numbers or words, as all of their cells are."""
+    """Return the columns of a table with their types, which all cells of the column must have."""
     head, *rows = list(csv.reader(StringIO(text)))
-    if twice := [name for name in head if head.count(name) > 1]:
-        raise ValueError(f"{path}: two columns are called {twice[0]}")
+    if duplicates := [name for name in head if head.count(name) > 1]:
+        raise ValueError(f"{path}: two columns are called {duplicates[0]}")
     return [{"name": name, "type": _kind([row[k] for row in rows])} for k, name in enumerate(head)]
 
 

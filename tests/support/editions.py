@@ -1,4 +1,7 @@
-"""The site built once for all tests, whatever worker asks first; a page as its ids and links; Chromium, where it is."""
+"""Support for tests of the site: build it once for all workers, read its pages, and find Chromium.
+
+Set ``HULL1620_SITE`` to the folder of a site that is already built to skip the build.
+"""
 
 from __future__ import annotations
 
@@ -21,19 +24,26 @@ from tests.support.paths import ROOT
 
 CHROMIUM = which("chromium") or which("chromium-browser") or ""
 MODULES = ROOT / "docs" / "console" / "node_modules"
-"""Where ``npm ci --prefix docs/console`` puts axe and html-validate."""
+"""The folder into which ``npm ci --prefix docs/console`` installs axe and html-validate."""
 
 
-def build(out: Path, **environment: str) -> subprocess.CompletedProcess[str]:
-    """Build the site into a folder, as ``make edition`` does."""
-    words = [sys.executable, "-m", "modern.publication.site.build", str(out)]
-    told = {**os.environ, "PYTHONPATH": str(ROOT), **environment}
-    return subprocess.run(words, capture_output=True, text=True, check=False, cwd=ROOT, env=told)
+def build(out: Path) -> None:
+    """Build the site into a folder as ``make edition`` does, with an unusual time zone, locale and hash seed."""
+    environment = {"PYTHONPATH": str(ROOT), "PYTHONHASHSEED": "1963", "TZ": "Pacific/Auckland", "LC_ALL": "C"}
+    process = subprocess.run(
+        [sys.executable, "-m", "modern.publication.site.build", str(out)],
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=ROOT,
+        env={**os.environ, **environment},
+    )
+    assert process.returncode == 0, process.stdout + process.stderr
 
 
 @contextmanager
-def once(folder: Path) -> Iterator[bool]:
-    """Whether the caller is the first to come here; others wait until the first is done."""
+def first_caller(folder: Path) -> Iterator[bool]:
+    """Yield True to the first process that enters the context, and False to the others after the first has left it."""
     with (folder / "site.lock").open("a+") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         yield not (folder / "site.done").exists()
@@ -41,42 +51,43 @@ def once(folder: Path) -> Iterator[bool]:
 
 
 def built(folder: Path) -> Path:
-    """The site, built in ``folder`` by the first that asks.  Raises AssertionError where it does not build."""
+    """Return the site in ``folder``; the first worker of the test session that calls this function builds it."""
+    if "HULL1620_SITE" in os.environ:
+        return Path(os.environ["HULL1620_SITE"])
     site = folder / "site"
-    with once(folder) as first:
-        if first:
-            done = build(site)
-            assert done.returncode == 0, done.stdout + done.stderr
+    with first_caller(folder) as is_first:
+        if is_first:
+            build(site)
     return site
 
 
 @dataclass(frozen=True)
 class Page:
-    """A page: where it lies, its element, its ids in order."""
+    """A page of the site: its path, its HTML, and the ids in it in order."""
 
     name: str
     root: _Element
     ids: tuple[str, ...]
 
     def addresses(self) -> Iterator[str]:
-        """Everything the page leads to or loads, as it is written."""
+        """Yield every address that the page links to or loads, as it is written."""
         for attribute in ("href", "src", "data-src"):
-            yield from (str(found) for found in self.root.xpath(f"//@{attribute}"))
+            yield from (str(address) for address in self.root.xpath(f"//@{attribute}"))
 
 
 @cache
 def pages(site: Path) -> dict[str, Page]:
-    """All pages of a site by their path in it."""
-    found = {}
+    """Return all pages of a site by their path in it."""
+    by_name = {}
     for file in sorted(site.rglob("*.html")):
         root = lxml.html.fromstring(file.read_bytes())
         name = file.relative_to(site).as_posix()
-        found[name] = Page(name, root, tuple(str(id) for id in root.xpath("//@id")))
-    return found
+        by_name[name] = Page(name, root, tuple(str(id) for id in root.xpath("//@id")))
+    return by_name
 
 
 def dead(site: Path) -> Iterator[str]:
-    """Every address of a page that leads nowhere, with the page."""
+    """Yield a message for every address on a page whose file or id does not exist."""
     known = pages(site)
     ids = {name: frozenset(page.ids) for name, page in known.items()}
     for page in known.values():
@@ -94,5 +105,5 @@ def dead(site: Path) -> Iterator[str]:
 
 
 def words(element: _Element) -> str:
-    """The text of an element."""
+    """Return the text of an element."""
     return str(element.text_content())

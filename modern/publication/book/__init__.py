@@ -1,1 +1,5 @@
-"""The edition as a book: the documents and the data that the site shows, set by Typst as PDF/A."""
+"""The edition as a book: Typst typesets the documents and the data of the site as PDF/A.
+
+``build`` has the list of chapters, ``parts`` the chapters generated from data, ``markup`` the translation of Markdown
+to Typst.  A new chapter is a row of ``CHAPTERS`` in ``build``.
+"""

@@ -1,8 +1,8 @@
-"""Set the book: ``python -m modern.publication.book.build dist/hull1620.pdf``.
+"""Typeset the book: ``python -m modern.publication.book.build dist/hull1620.pdf``.
 
-Everything is written into a folder of its own, and Typst makes PDF/A of it (the ``typst`` package, whose wheel holds
-the compiler).  No font of the machine is used; the date is that of the edition, so that the same sources give the same
-bytes.
+The text is written as Typst markup into a temporary folder, and the package ``typst``, whose wheel contains the
+compiler, makes PDF/A from it.  System fonts are ignored and the date is that of the release, so that the same sources
+always give the same bytes.
 """
 
 from __future__ import annotations
@@ -16,16 +16,16 @@ from pathlib import Path
 from typing import Final
 
 from emulator.files import writing_bytes
-from modern.edition.sources import sources as table
+from modern.edition.sources import sources
 from modern.publication.book import parts
 from modern.publication.book.markup import Markdown, label, places, say, string
+from modern.publication.building import DIST, ROOT, BuildError, citation, run
 from modern.publication.figures import figures, filled
 from modern.publication.numbered import numbered
 
-ROOT = Path(__file__).parents[3]
 DOCS = ROOT / "docs"
 STANDARD: Final = "a-2a"
-NEEDS = "the book is set by Typst: pip install 'hull1620[edition]'"
+MISSING_TYPST = "Typst typesets the book: pip install 'hull1620[edition]'"
 CHAPTERS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("Introduction", ("article.md",)),
     ("The algorithm", ("explanation/method.md", "explanation/eight-digits.md", "reference/concordance.md")),
@@ -49,66 +49,64 @@ CHAPTERS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("Studies", ("explanation/studies.md", "@studies", "weight/report.md")),
     ("Glossary", ("reference/glossary.md",)),
 )
-"""The chapters: documents below ``docs``, and what is made (``@``)."""
+"""The chapters: documents below ``docs``; a name with ``@`` is a part that is generated from data."""
 
 
-class BookError(Exception):
-    """Why there is no book, in one line."""
-
-
-def sources() -> dict[str, str]:
-    """The Markdown of every document in the book, by its path below ``docs``, figures put in."""
+def documents() -> dict[str, str]:
+    """Return the Markdown of every document in the book by its path below ``docs``, with the figures filled in."""
     values = figures(DOCS)
     names = [name for _, chapter in CHAPTERS for name in chapter if not name.startswith("@")]
     names += [f"studies/{folder.name}/report.md" for folder in sorted((DOCS / "studies").iterdir())]
-    found = {name: filled((DOCS / name).read_text(encoding="utf-8"), values) for name in names}
+    texts = {name: filled((DOCS / name).read_text(encoding="utf-8"), values) for name in names}
     for name, file in (("text.md", "fortran_src/README.md"), ("transcripts.md", "transcripts/README.md")):
-        found[name] = (ROOT / file).read_text(encoding="utf-8")
-    return found
+        texts[name] = (ROOT / file).read_text(encoding="utf-8")
+    return texts
 
 
 def typst(folder: Path) -> str:
-    """The whole book as Typst; its pictures are laid into ``folder``."""
-    documents = sources()
-    made = {kind: "".join(part) for kind, part in _made(folder)}
-    known = {place for name, text in documents.items() for place in places(name, text)}
-    known |= {place for text in made.values() for place in re.findall(r" <([\w.-]+)>", text)}
-    words = [(Path(__file__).parent / "preamble.typ").read_text(encoding="utf-8"), *_front()]
+    """Return the whole book as Typst markup; its pictures are written into ``folder``."""
+    texts = documents()
+    generated = {kind: "".join(part) for kind, part in _generated(folder)}
+    # A reference is a link only if the book has its label.
+    labels = {place for name, text in texts.items() for place in places(name, text)}
+    labels |= {place for text in generated.values() for place in re.findall(r" <([\w.-]+)>", text)}
+    book = [(Path(__file__).parent / "preamble.typ").read_text(encoding="utf-8"), *_front()]
     for title, chapter in CHAPTERS:
-        words.append(f"= {say(title)} <{label('chapter', title)}>\n\n")
+        book.append(f"= {say(title)} <{label('chapter', title)}>\n\n")
         for name in chapter:
-            for each in _named(name, documents):
-                if each.startswith("@"):
-                    words.append(made[each[1:]])
+            for part in _parts(name, texts):
+                if part.startswith("@"):
+                    book.append(generated[part[1:]])
                 else:
-                    words.append(Markdown(each, known, 2, lambda file: _picture(file, folder)).typst(documents[each]))
-    return "".join(words)
+                    book.append(Markdown(part, labels, 2, lambda file: _picture(file, folder)).typst(texts[part]))
+    return "".join(book)
 
 
-def _named(name: str, documents: dict[str, str]) -> Sequence[str]:
+def _parts(name: str, texts: dict[str, str]) -> Sequence[str]:
+    """Return the documents that a name in :data:`CHAPTERS` stands for."""
     if name == "@studies":
-        return [each for each in documents if each.startswith("studies/")]
+        return [document for document in texts if document.startswith("studies/")]
     if name in ("@text", "@transcripts"):
         return [f"{name[1:]}.md"]
     return [name]
 
 
 def _front() -> Iterator[str]:
-    """Title page and contents."""
-    fields = dict(re.findall(r'^(\S[\w-]*): "?([^"\n]+)"?$', (ROOT / "CITATION.cff").read_text("utf-8"), re.MULTILINE))
-    thesis = next(each for each in table().documents if each.id == "butler-1963")
-    year, month, day = fields["date-released"].split("-")
+    """Write the title page and the table of contents."""
+    fields = citation()
+    thesis = next(document for document in sources().documents if document.id == "butler-1963")
+    released = fields["date-released"]
     yield f'#set document(title: {string(fields["title"])}, author: "The hull1620 developers", '
-    yield f"date: datetime(year: {int(year)}, month: {int(month)}, day: {int(day)}))\n"
+    yield f"date: datetime(year: {released.year}, month: {released.month}, day: {released.day}))\n"
     yield '#v(24%)\n#align(center)[#text(size: 27pt, weight: "semibold")[#par(justify: false)['
     yield f"{say('The convex hull programs of 1963')}]]\n\n#v(1em)\n"
     yield f"#text(size: 13pt)[{say(f'{thesis.author}: {thesis.title}')}]\n\n"
     yield f"#v(2em)\n{say('Restored, run and judged by the hull1620 developers')}\n\n"
-    yield f"{say('Edition ' + fields['version'] + ', ' + fields['date-released'])}]\n#pagebreak()\n"
+    yield f"{say('Edition {version}, {date-released}'.format_map(fields))}]\n#pagebreak()\n"
     yield "#outline(title: [Contents], depth: 2)\n"
 
 
-def _made(folder: Path) -> Iterator[tuple[str, Iterator[str]]]:
+def _generated(folder: Path) -> Iterator[tuple[str, Iterator[str]]]:
     def keep(name: str, svg: str) -> str:
         (folder / f"{name}.svg").write_text(parts.fitted(svg), encoding="utf-8")
         return f"{name}.svg"
@@ -122,13 +120,13 @@ def _made(folder: Path) -> Iterator[tuple[str, Iterator[str]]]:
 
 
 def _numbered(file: str, title: str, name: str) -> Iterator[str]:
-    """A file of numbered items, each with a heading."""
+    """Write a file of numbered items, each with a heading."""
     opening, items, closing = numbered(file)
-    text, under = f"# {title}\n\n{opening}\n\n", ""
+    text, section = f"# {title}\n\n{opening}\n\n", ""
     for item in items:
-        if item.under != under:
-            under = item.under
-            text += f"## {under}\n\n{item.before}\n\n"
+        if item.section != section:
+            section = item.section
+            text += f"## {section}\n\n{item.preamble}\n\n"
         text += f"### {item.number}. {item.title}\n\n{item.text}\n\n"
     if closing[0]:
         text += f"## {closing[0]}\n\n{closing[1]}\n"
@@ -136,7 +134,7 @@ def _numbered(file: str, title: str, name: str) -> Iterator[str]:
 
 
 def _picture(file: str, folder: Path) -> str:
-    """A picture of the documents laid beside the book, by the name it has there."""
+    """Copy an SVG file of the documents into the folder of the book and return its name there, or an empty string."""
     source = DOCS / file
     if source.suffix != ".svg" or not source.is_file():
         return ""
@@ -146,40 +144,34 @@ def _picture(file: str, folder: Path) -> str:
 
 
 def build(out: Path) -> int:
-    """Set the book and write it; returns the number of its bytes.  Raises BookError."""
+    """Typeset the book, write it, and return its size in bytes.  Raise BuildError if Typst is missing or fails."""
     try:
         import typst as compiler
     except ImportError:
-        raise BookError(NEEDS) from None
-    with tempfile.TemporaryDirectory(prefix="book-") as room:
-        folder = Path(room)
-        (folder / "book.typ").write_text(typst(folder), encoding="utf-8")
+        raise BuildError(MISSING_TYPST) from None
+    with tempfile.TemporaryDirectory(prefix="book-") as folder:
+        main_file = Path(folder) / "book.typ"
+        main_file.write_text(typst(Path(folder)), encoding="utf-8")
         try:
-            made = compiler.compile(
-                str(folder / "book.typ"),
-                root=room,
+            pdf = compiler.compile(
+                str(main_file),
+                root=folder,
                 ignore_system_fonts=True,
                 pdf_standards=[STANDARD],
                 timestamp=datetime(2026, 1, 1, tzinfo=UTC),
             )
         except (RuntimeError, ValueError) as error:
-            raise BookError(f"no book: {' '.join(str(error).split())[:600]}") from None
-        out.parent.mkdir(parents=True, exist_ok=True)
-        with writing_bytes(str(out)) as file:
-            file.write(made)
-    return len(made)
+            raise BuildError(f"the book was not built: {' '.join(str(error).split())[:600]}") from None
+    out.parent.mkdir(parents=True, exist_ok=True)
+    with writing_bytes(str(out)) as file:
+        file.write(pdf)
+    return len(pdf)
 
 
-def main(words: Sequence[str]) -> int:
-    """Set the book into the file named, or dist/hull1620.pdf.  0, or 2 with one line on standard error."""
-    out = Path(words[0]) if words else ROOT / "dist" / "hull1620.pdf"
-    try:
-        size = build(out)
-    except BookError as error:
-        print(f"book: {error}", file=sys.stderr)
-        return 2
-    print(f"{out}: {size / 1e6:.1f} MB, PDF/A ({STANDARD.upper()})")
-    return 0
+def main(arguments: Sequence[str]) -> int:
+    """Build the named file, by default dist/hull1620.pdf.  Return 0, or 2 after one line on standard error."""
+    out = Path(arguments[0]) if arguments else DIST / "hull1620.pdf"
+    return run("book", lambda: f"{out}: {build(out) / 1e6:.1f} MB, PDF/A ({STANDARD.upper()})")
 
 
 if __name__ == "__main__":

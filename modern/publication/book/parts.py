@@ -64,7 +64,7 @@ def listings() -> Iterator[str]:
 
 
 def _touched(row: Row, cards: tuple[Card, ...]) -> bool:
-    return any(row.id in card.rows or any(row.id in other.rows for other in card.otherwise) for card in cards)
+    return any(row.id in card.rows or any(row.id in variant.rows for variant in card.variants) for card in cards)
 
 
 def _card(name: str, card: Card) -> str:

@@ -1,24 +1,32 @@
-"""The edition as a site: how a page comes about, and how another is added.
+"""The edition as a website, built by Sphinx from ``docs/`` (``make edition``).
 
-``make edition`` runs Sphinx over ``docs/``.  Prose is MyST, a file a page.  What is made from data stands in it as
+A page of prose is a MyST file in ``docs/``.  Content that is generated from data stands in such a file as the directive
 
     :::{made} NAME ARGUMENT
     :::
 
-which is replaced by what ``make(ARGUMENT)`` of the module ``modern/publication/site/pages/NAME.py`` returns: a
-:class:`~modern.publication.site.made.Made`, that is headings with HTML or MyST below them, the addresses among it that
-others may point at, and what the general index says of them.  So to add a page of data:
+Sphinx replaces the directive with the result of ``make(ARGUMENT)`` in ``modern/publication/site/pages/NAME.py``.  The
+result is a :class:`~modern.publication.site.made.Made`: sections of HTML or MyST, and the addresses in them.
 
-1. Facts: frozen dataclasses in ``modern/publication/``, without HTML; the book takes the same.
-2. ``pages/NAME.py`` with ``make``; it is named nowhere else, a file there is a maker.  Escape with
-   :mod:`~modern.publication.site.markup`, link with ``markup.address("program3", "147+2")``.
-3. ``docs/PAGE.md``: its title, a paragraph that says what the page is for, the directive; ``PAGE`` in a toctree of
-   ``docs/index.md``.  A page of wide tables has ``hide-toc: true`` in its head.
+To add a page of prose:
 
-Prose points at data by roles, which fail the build where nothing stands: ``{card}`program3 147+2```, ``{row}`P1-039```,
-``{name}`program3 KELEQ```, ``{error}`5```; any other address by its label, ``{at}`words <label>```.  A link to a file
-of the project that is no page, as ``[README](../fortran_src/README.md)``, becomes the page that holds it, or words.
-A figure of a committed result is written between double braces (:mod:`modern.publication.figures`).
+1. Write ``docs/PAGE.md`` and add ``PAGE`` to a toctree, for example that of ``docs/index.md``.
+2. For wide tables, put ``hide-toc: true`` into the head of the file.
 
-Addresses are promises: an id is made from what the thesis or the data call a thing, never from a count of ours.
+To add a page made from data:
+
+1. Put the facts into frozen dataclasses in ``modern/publication/``, without HTML, so that the book can use them too.
+2. Write ``pages/NAME.py`` with a function ``make``.  Every file there is available to the directive; there is no list.
+   Escape text with :mod:`~modern.publication.site.markup` and link with ``markup.address("program3", "147+2")``.
+3. Write ``docs/PAGE.md`` with a title, a paragraph that says what the page is for, and the directive.  Add ``PAGE`` to
+   a toctree.
+4. Add tests to ``tests/modern/publication/``.  The tests of links, HTML and accessibility cover the page already.
+
+Prose refers to data with roles: ``{card}`program3 147+2```, ``{row}`P1-039```, ``{name}`program3 KELEQ```,
+``{error}`5``` and, for any other label, ``{at}`text <label>```.  The build fails if the target does not exist.  A link
+to a file that is no page, such as ``[README](../fortran_src/README.md)``, becomes a link to the page that contains the
+file, or plain text.  ``:::{whole} FILE`` includes a file.  A result is quoted by its name between double braces
+(:mod:`modern.publication.figures`).
+
+Addresses are permanent: derive an id from what the thesis or the data call a thing, never from a running number.
 """

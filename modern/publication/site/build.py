@@ -1,7 +1,8 @@
 """Build the site: ``python -m modern.publication.site.build dist/edition``.
 
-Sphinx reads ``docs/`` and writes beside the folder asked for; only a whole site without a warning takes its place.
-Built twice it is the same bytes: nothing in it tells when, where or by whose hands it was made.
+Sphinx reads ``docs/`` and writes into a temporary folder next to the output folder.  The output folder is replaced only
+by a complete site that was built without a warning.  The same sources always give the same bytes: no page contains the
+time, the machine or the user of the build.
 """
 
 from __future__ import annotations
@@ -13,87 +14,81 @@ import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 
-from modern.publication.console import lay
+from modern.publication.building import DIST, ROOT, BuildError, check_replaceable, newest_wheel, run
+from modern.publication.console import install_machine
 
-ROOT = Path(__file__).parents[3]
-NEEDS = "the site is built by Sphinx: pip install 'hull1620[edition]'"
-_OURS = ".hull1620-edition"
-"""A file in every site built, so that a folder of something else is never replaced."""
-_LEFT_OUT = (".buildinfo", ".doctrees", "objects.inv", "_sources")
-
-
-class BuildError(Exception):
-    """Why no site was built, in one line."""
+MISSING_SPHINX = "Sphinx builds the site: pip install 'hull1620[edition]'"
+_MARKER = ".hull1620-edition"
+"""A file in every site.  A folder without it is not replaced."""
+_NOT_PUBLISHED = (".buildinfo", ".doctrees", "objects.inv", "_sources")
 
 
 def build(out: Path, docs: Path = ROOT / "docs", quiet: bool = False, wheel: Path | None = None) -> None:
-    """Build the site into a folder, which it replaces; with ``wheel`` the machine in the page too.
+    """Build the site into a folder, which it replaces.  With ``wheel``, the emulator in the browser is included.
 
-    Raises BuildError.
+    Raise BuildError if the folder holds something else, if Sphinx is missing, or if Sphinx reports a warning.
     """
-    if out.exists() and not (out / _OURS).exists() and (not out.is_dir() or any(out.iterdir())):
-        raise BuildError(f"{out}: is there and is no site of ours; nothing is replaced")
+    check_replaceable(out, _MARKER, "a site built by hull1620")
+    out.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix=".edition-", dir=out.parent) as folder:
+        new_site = Path(folder) / "site"
+        _run_sphinx(docs, new_site, Path(folder) / "trees", quiet)
+        for name in _NOT_PUBLISHED:
+            path = new_site / name
+            if path.is_dir():
+                shutil.rmtree(path)
+            else:
+                path.unlink(missing_ok=True)
+        install_machine(new_site / "console", wheel)
+        (new_site / _MARKER).write_text("built by hull1620; `make edition` replaces this folder\n", encoding="utf-8")
+        if out.exists():
+            out.rename(Path(folder) / "before")
+        new_site.rename(out)
+
+
+def _run_sphinx(docs: Path, out: Path, trees: Path, quiet: bool) -> None:
     try:
         from sphinx.application import Sphinx
         from sphinx.errors import SphinxError
         from sphinx.util.console import nocolor
         from sphinx.util.docutils import docutils_namespace, patch_docutils
     except ImportError:
-        raise BuildError(NEEDS) from None
+        raise BuildError(MISSING_SPHINX) from None
     if quiet:
         nocolor()
-    out.parent.mkdir(parents=True, exist_ok=True)
     os.environ.setdefault("SOURCE_DATE_EPOCH", "0")
-    with tempfile.TemporaryDirectory(prefix=".edition-", dir=out.parent) as folder:
-        made, trees = Path(folder) / "site", Path(folder) / "trees"
-        try:
-            with patch_docutils(str(docs)), docutils_namespace():
-                app = Sphinx(
-                    str(docs),
-                    str(docs),
-                    str(made),
-                    str(trees),
-                    "html",
-                    status=None if quiet else sys.stdout,
-                    warning=sys.stderr,
-                    warningiserror=True,
-                )
-                app.build(force_all=True)
-        except SphinxError as error:
-            raise BuildError(f"no site: {error}") from None
-        if app.statuscode:
-            raise BuildError("no site: Sphinx warned, as told above")
-        for name in _LEFT_OUT:
-            found = made / name
-            if found.is_dir():
-                shutil.rmtree(found)
-            else:
-                found.unlink(missing_ok=True)
-        lay(made / "console", wheel)
-        (made / _OURS).write_text("built by hull1620; `make edition` replaces this folder\n", encoding="utf-8")
-        if out.exists():
-            out.rename(Path(folder) / "before")
-        made.rename(out)
-
-
-def _newest(folder: Path) -> Path | None:
-    """The wheel built last, if there is one."""
-    return max(folder.glob("hull1620-*.whl"), key=lambda path: path.stat().st_mtime, default=None)
-
-
-def main(words: Sequence[str]) -> int:
-    """Build into the folder named, or dist/edition.  0, or 2 with one line on standard error."""
-    out = Path(words[0]) if words else ROOT / "dist" / "edition"
     try:
-        build(out, quiet=not sys.stdout.isatty(), wheel=_newest(ROOT / "dist"))
-    except BuildError as error:
-        print(f"edition: {error}", file=sys.stderr)
-        return 2
-    size = sum(file.stat().st_size for file in out.rglob("*") if file.is_file())
-    if not (out / "console" / "worker.mjs").exists():
-        print("edition: without the machine in the page: it needs make wheel, and npm ci --prefix docs/console")
-    print(f"{out / 'index.html'}: {len(list(out.rglob('*.html')))} pages, {size / 1e6:.1f} MB")
-    return 0
+        with patch_docutils(str(docs)), docutils_namespace():
+            app = Sphinx(
+                str(docs),
+                str(docs),
+                str(out),
+                str(trees),
+                "html",
+                status=None if quiet else sys.stdout,
+                warning=sys.stderr,
+                warningiserror=True,
+            )
+            app.build(force_all=True)
+    except SphinxError as error:
+        raise BuildError(f"the site was not built: {error}") from None
+    if app.statuscode:
+        raise BuildError("the site was not built because of the warnings above")
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Build into the named folder, by default dist/edition.  Return 0, or 2 after one line on standard error."""
+    out = Path(arguments[0]) if arguments else DIST / "edition"
+
+    def summary() -> str:
+        build(out, quiet=not sys.stdout.isatty(), wheel=newest_wheel())
+        size = sum(file.stat().st_size for file in out.rglob("*") if file.is_file())
+        summary = f"{out / 'index.html'}: {len(list(out.rglob('*.html')))} pages, {size / 1e6:.1f} MB"
+        if not (out / "console" / "worker.mjs").exists():
+            summary += "\nwithout the emulator in the browser, which needs make wheel and npm ci --prefix docs/console"
+        return summary
+
+    return run("edition", summary)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
-"""The colours of the edition by the part they play, light and dark; the rest of the style is docs/_static/edition.css.
+"""The colours of the site by role, for the light and the dark theme; docs/_static/edition.css has the other styles.
 
-Every pair that carries text has a contrast of 4.5 to 1 at least (tests/modern/publication/test_site_pages.py), and
-nothing is told by colour alone: what is coloured is also underlined, signed or named.
+Text has a contrast of at least 4.5 to 1 with its background, which axe checks in both themes.  Colour is never the only
+sign: coloured text is also underlined, marked with a sign or labelled.
 """
 
 from __future__ import annotations
@@ -27,16 +27,7 @@ ROLES = {
     "shade-4": ("#d9cba8", "#544b37"),
     "alarm": ("#a3321a", "#ff9d80"),
 }
-"""A part, and its colour on light and on dark ground."""
-
-TEXT_ON = (
-    *(("ink", ground) for ground in ("paper", "desk", "card", "lost", "given", "ours")),
-    *(("quiet", ground) for ground in ("paper", "desk", "card")),
-    *(("link", ground) for ground in ("paper", "desk", "card")),
-    *(("visited", ground) for ground in ("paper", "desk")),
-    ("alarm", "paper"),
-)
-"""What is written on what."""
+"""Each role with its colour in the light and in the dark theme."""
 
 _FURO = {
     "color-background-primary": "paper",
@@ -63,26 +54,14 @@ _FURO = {
     "color-admonition-background": "desk",
     "color-announcement-background": "desk",
 }
-"""The theme's own names, and the part each plays."""
+"""The names of the theme's CSS variables, each with the role of its colour."""
 
 
-def _variables(place: int) -> Mapping[str, str]:
-    own = {f"e-{role}": colours[place] for role, colours in ROLES.items()}
-    own["e-turned"] = str(place)
-    return own | {name: ROLES[role][place] for name, role in _FURO.items()}
+def _variables(theme: int) -> Mapping[str, str]:
+    variables = {f"e-{role}": colours[theme] for role, colours in ROLES.items()}
+    variables["e-turned"] = str(theme)
+    return variables | {name: ROLES[role][theme] for name, role in _FURO.items()}
 
 
 LIGHT, DARK = dict(_variables(0)), dict(_variables(1))
-"""CSS variables as the theme takes them, without the two dashes."""
-
-
-def contrast(one: str, other: str) -> float:
-    """The contrast of two colours as ``#rrggbb``, from 1 to 21 (WCAG 2.2, relative luminance)."""
-    light, dark = sorted((_luminance(one), _luminance(other)), reverse=True)
-    return (light + 0.05) / (dark + 0.05)
-
-
-def _luminance(colour: str) -> float:
-    parts = [int(colour[at : at + 2], 16) / 255 for at in (1, 3, 5)]
-    linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
-    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+"""The CSS variables of the light and of the dark theme, named without the two dashes."""

@@ -1,6 +1,6 @@
-"""A row of the apparatus as an entry: reading, rejected readings, reason, ground, evidence, certainty.
+"""A row of the apparatus in HTML: reading, rejected readings, reason, ground, evidence and certainty.
 
-The one place where a row becomes HTML; the words of each field stand here.
+This module also has the short descriptions of layers, grounds and causes.
 """
 
 from __future__ import annotations
@@ -15,28 +15,28 @@ from modern.edition.sources import place
 from modern.publication.site.markup import definitions, element, escape, link, text
 
 LAYERS = {
-    "ocr": "what the OCR misread",
-    "print": "what the printed output proves",
-    "lacuna": "what is missing and needed to run",
-    "examples": "program 1 as the examples were run",
-    "epsilon": "chapter 7: values within e count as zero",
-    "translation": "chapter 7: the origin moved to C",
-    "corrected": "our corrections of faults",
-    "typist": "slips of the retyping, on the page",
-    "author": "slips of the author, or not to be told from them",
+    "ocr": "misreadings of the OCR",
+    "print": "readings proved by the printed output",
+    "lacuna": "missing text that the programs need to run",
+    "examples": "program 1 in the state that ran the examples",
+    "epsilon": "proposal of chapter 7: values from -e to +e count as zero",
+    "translation": "proposal of chapter 7: the origin is moved to C",
+    "corrected": "our corrections of known faults",
+    "typist": "typing errors on the page",
+    "author": "errors of the author, or indistinguishable from them",
 }
-"""Every layer in few words."""
+"""A short description of every layer."""
 GROUNDS = {
-    "parse": "without it the deck does not compile",
-    "print": "without it a printed result comes out no more",
-    "deck": "without it a named deck gives other cards",
-    "forced": "with it the card is a sibling card with names exchanged",
-    "cosmetic": "the object code is the same with and without it",
-    "width": "without it a field has not its 14 characters, or is no number",
-    "arithmetic": "with it the printed plane vanishes at its printed vertices",
-    "sibling": "another place prints the same words",
-    "order": "the column in the witness, a numbering, or the page's number",
-    "result": "with it a published result comes out that is computed",
+    "parse": "without the row, the deck does not compile",
+    "print": "without the row, a printed result is no longer reproduced",
+    "deck": "without the row, a named deck punches different cards",
+    "forced": "with the row, the card equals a sibling card with names exchanged",
+    "cosmetic": "the object code is the same with and without the row",
+    "width": "without the row, a field does not have 14 characters or is not a number",
+    "arithmetic": "with the row, the printed plane equation vanishes at its printed vertices",
+    "sibling": "the same words are printed in another place",
+    "order": "a column in the witness, a numbering, or the page number",
+    "result": "with the row, a computation reproduces a published result",
 }
 CAUSES = {
     "ocr": "the OCR",
@@ -45,25 +45,26 @@ CAUSES = {
     "editor": "the editor",
     "undecidable": "cannot be decided",
 }
+"""Who or what caused the difference between the witness and our reading."""
 
 
 def entry(row: Row, cards: Iterable[tuple[str, str]], page: str) -> str:
-    """A row; ``cards`` are pairs of address and place on ``page``."""
-    touched = ", ".join(link(page, id, place_) for id, place_ in cards)
+    """Return a row as an HTML article.  ``cards`` are the ids and names of the cards it changes on ``page``."""
+    card_links = ", ".join(link(page, id, card_name) for id, card_name in cards)
     head = element("h3", text("a", row.id, href=f"#{row.id}", cls="rowid"), cls="row-head")
     head += text("p", f"{row.layer}, {row.kind}; ", cls="row-kind").replace(
         "</p>", f"{text('strong', row.certainty)}</p>"
     )
     fields = definitions(
         (
-            ("witness reads", _reading(row.witness)),
-            ("read instead", _reading(row.lemma)),
+            ("witness", _reading(row.witness)),
+            ("our reading", _reading(row.lemma)),
             *(("rejected", f"{_reading(r.reading)} {escape(r.reason)}") for r in row.rejected),
             ("reason", escape(row.reason)),
             ("evidence", escape(row.evidence)),
             ("ground", _ground(row)),
             ("cause", escape(CAUSES[row.cause])),
-            ("cards", touched),
+            ("cards", card_links),
             ("source", escape(_source(row))),
             ("editor", escape(f"{row.editor}, {row.date}")),
         )
@@ -71,35 +72,32 @@ def entry(row: Row, cards: Iterable[tuple[str, str]], page: str) -> str:
     return element("article", head + fields, cls=f"row of-{row.layer}", id=row.id, aria_label=f"row {row.id}")
 
 
-def _reading(words: str) -> str:
-    return " / ".join(text("code", part) for part in words.split(" | "))
+def _reading(reading: str) -> str:
+    return " / ".join(text("code", line) for line in reading.split(" | "))
 
 
 def _ground(row: Row) -> str:
     kind = str(row.ground.get("kind", ""))
     if not kind:
         return "none: a conjecture"
-    named = ", ".join(_named(row))
-    told = GROUNDS[kind] if row.text in programs.TEXTS or kind != "deck" else "the number stands in a deck too"
-    words = f"{escape(kind)}: {escape(told)}" + (f" ({escape(named)})" if named else "") + "."
-    return words + (f" {text('span', 'Seen: ' + _seen(row), cls='seen')}" if row.text in programs.TEXTS else "")
+    parameters = ", ".join(_parameters(row))
+    in_program = row.text in programs.TEXTS
+    meaning = GROUNDS[kind] if in_program or kind != "deck" else "the number also occurs in a deck"
+    sentence = f"{escape(kind)}: {escape(meaning)}" + (f" ({escape(parameters)})" if parameters else "") + "."
+    return sentence + (f" {text('span', 'Checked: ' + _observed(row.text, row.id), cls='seen')}" if in_program else "")
 
 
-def _named(row: Row) -> Iterator[str]:
+def _parameters(row: Row) -> Iterator[str]:
     for key, value in row.ground.items():
         if key != "kind":
             yield f"{key} {', '.join(map(str, value)) if isinstance(value, list) else value}"
 
 
 @cache
-def _checked(name: str, row_id: str) -> str:
-    proof = check_row(programs.text(name).row(row_id))
+def _observed(program: str, row_id: str) -> str:
+    """Check the ground of a row and return what the check observed."""
+    proof = check_row(programs.text(program).row(row_id))
     return proof.message.partition(": ")[2] or proof.message
-
-
-def _seen(row: Row) -> str:
-    """What the check of the ground gave when the page was made."""
-    return _checked(row.text, row.id)
 
 
 def _source(row: Row) -> str:

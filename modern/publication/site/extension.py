@@ -1,4 +1,4 @@
-"""The Sphinx extension: the directive ``made``, the roles that point at data, and links to files that are no pages."""
+"""The Sphinx extension: the directive ``made``, the roles that refer to data, and links to files that are no pages."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from sphinx.environment import BuildEnvironment
 from sphinx.util.docutils import SphinxDirective
 
 from modern.publication.site.made import Made, Part, make
-from modern.publication.site.markup import shifted
-from modern.publication.site.mend import mend
+from modern.publication.site.markup import relative
+from modern.publication.site.translator import AccessibleTranslator
 
 ROLES = {"card": "{}", "row": "{}", "name": "name {}", "error": "error {}"}
-"""A role, and the label of what it points at; ``{name}`program3 KELEQ``` is the label ``name program3 keleq``."""
-HOLDERS = {
+"""Each role with the pattern of its labels: ``{name}`program3 KELEQ``` refers to ``name program3 keleq``."""
+PAGES_OF_FILES = {
     "fortran_src/README.md": "text",
     "fortran_src/KNOWN-FAULTS.md": "known-faults",
     "fortran_src/OPEN-QUESTIONS.md": "open-questions",
@@ -29,27 +29,27 @@ HOLDERS = {
     "README.md": "index",
     "CHANGELOG.md": "changes",
 }
-"""Files of the project that are no pages themselves, and the pages that hold or replace them."""
+"""Files of the project that are no pages, with the pages that contain or replace them."""
 
 
 class MadeDirective(SphinxDirective):
-    """``:::{made} NAME ARGUMENT``: what a maker makes, as sections of the page."""
+    """The directive ``:::{made} NAME ARGUMENT``, which inserts sections generated from data."""
 
     required_arguments = 1
     optional_arguments = 1
     final_argument_whitespace = True
 
     def run(self) -> list[nodes.Node]:
-        """The nodes; an error of the build where the maker refuses."""
+        """Return the nodes.  The build fails if the name or the argument is unknown."""
         name, argument = self.arguments[0], "".join(self.arguments[1:])
         try:
-            found = make(name, argument)
+            content = make(name, argument)
         except ValueError as error:
             raise self.error(f"made: {error}") from None
-        _note(self.env, found)
+        _register(self.env, content)
         top: list[nodes.Node] = []
-        stack: list[tuple[int, nodes.Element]] = []
-        for part in found.parts:
+        stack: list[tuple[int, nodes.Element]] = []  # the open sections with their levels, the innermost last
+        for part in content.parts:
             while part.heading and stack and stack[-1][0] >= part.level:
                 stack.pop()
             inner = self._inner(part)
@@ -63,13 +63,13 @@ class MadeDirective(SphinxDirective):
         return top
 
     def _inner(self, part: Part) -> list[nodes.Node]:
-        found: list[nodes.Node] = []
+        content: list[nodes.Node] = []
         if part.text:
-            found += self.parse_text_to_nodes(part.text, allow_section_headings=False)
+            content += self.parse_text_to_nodes(part.text, allow_section_headings=False)
         if part.html:
-            html = shifted(part.html, self.env.docname.count("/"))
-            found.append(nodes.raw("", html, format="html"))
-        return found
+            html = relative(part.html, self.env.docname.count("/"))
+            content.append(nodes.raw("", html, format="html"))
+        return content
 
 
 def _add(stack: Sequence[tuple[int, nodes.Element]], top: list[nodes.Node], node: nodes.Node) -> None:
@@ -79,12 +79,12 @@ def _add(stack: Sequence[tuple[int, nodes.Element]], top: list[nodes.Node], node
         top.append(node)
 
 
-def _note(env: BuildEnvironment, found: Made) -> None:
-    """Make the addresses known to references and to the general index."""
+def _register(env: BuildEnvironment, content: Made) -> None:
+    """Register the addresses for references and for the general index."""
     standard = env.get_domain("std")
     assert isinstance(standard, StandardDomain)
     entries = env.get_domain("index").data["entries"].setdefault(env.docname, [])
-    for target in found.targets:
+    for target in content.targets:
         label = target.label.lower()
         standard.anonlabels[label] = (env.docname, target.id)
         standard.labels[label] = (env.docname, target.id, target.title)
@@ -93,14 +93,18 @@ def _note(env: BuildEnvironment, found: Made) -> None:
 
 
 def _role(kind: str) -> Any:
-    """A role that points at a label made from its words; ``words <label>`` says other words."""
+    """Return a role that refers to the label made from its text; ``text <label>`` shows a different text."""
 
     def role(
         name: str, rawtext: str, text: str, lineno: int, inliner: Any, options: Any = None, content: Any = ()
     ) -> tuple[list[nodes.Node], list[nodes.system_message]]:
-        words, _, rest = text.partition(" <")
-        label = ROLES.get(kind, "{}").format(rest.rstrip(">") if rest else text).lower()
-        shown = words if rest else text.rpartition(" ")[2] if kind in ("card", "name") else text
+        title, _, target = text.partition(" <")
+        label = ROLES.get(kind, "{}").format(target.rstrip(">") if target else text).lower()
+        if target:
+            shown = title
+        else:
+            # Of "program3 147+2" the reader sees "147+2".
+            shown = text.rpartition(" ")[2] if kind in ("card", "name") else text
         reference = addnodes.pending_xref(
             rawtext,
             refdomain="std",
@@ -119,16 +123,11 @@ def _role(kind: str) -> Any:
 
 
 _LINK = re.compile(r"\[([^\]\[]*)\]\(([\w./-]+)(#[\w-]*)?\)")
-
-
 _WHOLE = re.compile(r"^:::\{whole\} (\S+)\n:::$", re.MULTILINE)
 
 
 def _project_files(app: Sphinx, docname: str, source: list[str]) -> None:
-    """Put in files that a page holds whole (``:::{whole} fortran_src/README.md``), and make links to files.
-
-    A link to a file that is no page goes to the page that holds it, or becomes its words.
-    """
+    """Include whole files (``:::{whole} fortran_src/README.md``) and translate links to files of the project."""
     root = Path(app.srcdir).parent
 
     def whole(match: re.Match[str]) -> str:
@@ -139,41 +138,39 @@ def _project_files(app: Sphinx, docname: str, source: list[str]) -> None:
     source[0] = _WHOLE.sub(whole, source[0])
 
 
-def linked(app: Sphinx, words: str, docname: str, origin: str) -> str:
-    """Text of a file of the folder ``origin`` with its links made those of the page ``docname``."""
+def linked(app: Sphinx, text: str, docname: str, origin: str) -> str:
+    """Translate the links in a text from the folder ``origin`` into links from the page ``docname``.
+
+    A link to a file that is no page becomes a link to the page that contains the file, or plain text.
+    """
     root, folder = Path(app.srcdir).parent, posixpath.dirname(docname)
 
     def page(match: re.Match[str]) -> str:
-        words, target, part = match.groups()
+        title, target, anchor = match.groups()
         file = posixpath.normpath(posixpath.join(origin, target))
-        holder = HOLDERS.get(file, "")
+        holder = PAGES_OF_FILES.get(file, "")
         if holder in app.env.found_docs:
-            return f"[{words}]({posixpath.relpath(holder, folder or '.')}.md{part or ''})"
+            return f"[{title}]({posixpath.relpath(holder, folder or '.')}.md{anchor or ''})"
         inside = posixpath.relpath(file, "docs")
         if inside.removesuffix(".md") in app.env.found_docs:
-            return f"[{words}]({posixpath.relpath(inside, folder or '.')}{part or ''})"
+            return f"[{title}]({posixpath.relpath(inside, folder or '.')}{anchor or ''})"
         if (root / file).exists():
-            return match[0] if _copied(file) and origin.startswith("docs") else words
+            return match[0] if _copied(file) and origin.startswith("docs") else title
         return match[0]
 
-    return _LINK.sub(page, words)
+    return _LINK.sub(page, text)
 
 
 def _copied(file: str) -> bool:
-    """Whether a link to a file makes Sphinx lay it beside the pages: a picture or a table within docs."""
+    """Return True if Sphinx copies a linked file to the site: a picture or a table within docs."""
     return file.startswith("docs/") and not file.endswith((".md", "/")) and "." in posixpath.basename(file)
 
 
-def _finished(app: Sphinx, exception: Exception | None) -> None:
-    if exception is None and app.builder.name == "html":
-        mend(Path(app.outdir))
-
-
 def setup(app: Sphinx) -> dict[str, Any]:
-    """Sphinx calls this."""
+    """Register the directive, the roles and the HTML writer; Sphinx calls this function."""
     app.add_directive("made", MadeDirective)
     for kind in (*ROLES, "at"):
         app.add_role(kind, _role(kind))
     app.connect("source-read", _project_files)
-    app.connect("build-finished", _finished)
+    app.set_translator("html", AccessibleTranslator)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

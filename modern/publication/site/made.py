@@ -1,4 +1,4 @@
-"""What a page of data is made of, and the makers by name."""
+"""The content of a page that is generated from data, and the functions that generate it, by name."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from modern.publication.site import pages
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """An address within a page that others may point at.
+    """An address within a page.
 
-    ``id`` is the element's; ``label`` names it in the whole site, in small letters (``program3 147+2``); ``title`` is
-    what a reference to it says; ``index`` how the general index calls it, nothing where it does not.
+    ``id`` is the id of the HTML element.  ``label`` names it in the whole site, in lower case (``program3 147+2``).
+    ``title`` is the text of a reference to it.  ``index`` is its entry in the general index, or empty.
     """
 
     id: str
@@ -27,10 +27,10 @@ class Target:
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A heading with what stands below it, HTML or MyST; without a heading it belongs to what goes before.
+    """A section: a heading with content in HTML or MyST.  Without a heading, the content continues the section before.
 
-    ``level`` is 1 for a section of the page, 2 for one within it; ``id`` the heading's.  In HTML an address of the site
-    is written as :func:`modern.publication.site.markup.address` gives it.
+    ``level`` is 1 for a section of the page and 2 for a subsection; ``id`` is the id of the heading.  Addresses of the
+    site in HTML are those of :func:`modern.publication.site.markup.address`.
     """
 
     heading: str = ""
@@ -42,34 +42,34 @@ class Part:
 
 @dataclass(frozen=True, slots=True)
 class Made:
-    """What a maker returns: the parts in order, and the addresses in them."""
+    """The generated content of a page: its sections in order, and the addresses in them."""
 
     parts: tuple[Part, ...]
     targets: tuple[Target, ...] = ()
 
 
 class Maker(Protocol):
-    """What a module of :mod:`modern.publication.site.pages` has: ``make``, which raises ValueError for its argument."""
+    """A module of :mod:`modern.publication.site.pages`; its ``make`` raises ValueError for an unknown argument."""
 
     def make(self, argument: str) -> Made: ...
 
 
 def names() -> tuple[str, ...]:
-    """The names of all makers."""
+    """Return the names that the directive ``made`` accepts."""
     return tuple(sorted(module.name.replace("_", "-") for module in iter_modules(pages.__path__)))
 
 
 def make(name: str, argument: str) -> Made:
-    """What the maker of that name makes of an argument.  Raises ValueError for another name or argument."""
+    """Generate the content of that name for an argument.  Raise ValueError if either is unknown."""
     if name not in names():
-        raise ValueError(f"nothing is made by the name of {name!r}; there are {', '.join(names())}")
+        raise ValueError(f"unknown page {name!r}; expected one of {', '.join(names())}")
     maker: Maker = import_module(f"{pages.__name__}.{name.replace('-', '_')}")
     return maker.make(argument)
 
 
 def one_of(argument: str, known: Iterable[str]) -> str:
-    """An argument that is one of several words.  Raises ValueError, naming them."""
-    words = tuple(known)
-    if argument not in words:
-        raise ValueError(f"{argument!r} is not one of {', '.join(words)}")
+    """Return the argument if it is one of the known ones.  Raise ValueError otherwise."""
+    choices = tuple(known)
+    if argument not in choices:
+        raise ValueError(f"{argument!r} is not one of {', '.join(choices)}")
     return argument

@@ -1,7 +1,6 @@
-"""HTML as text: elements with escaped words and attributes, addresses within the site.
+"""Functions that write HTML as strings: elements with escaped text and attributes, and addresses within the site.
 
-Nothing here knows a page.  An element is a string; what goes in as ``words`` is escaped, what goes in as ``inner`` is
-HTML already.
+A parameter called ``words`` is plain text and is escaped.  A parameter called ``inner`` is HTML already.
 """
 
 from __future__ import annotations
@@ -11,23 +10,24 @@ from collections.abc import Iterable
 from html import escape as _escape
 
 HERE = "@/"
-"""How an address within the site begins until it is known on what page, and so how deep, it stands."""
+"""The prefix of addresses within the site; :func:`relative` replaces it when the depth of the page is known."""
 _OPERATOR = re.compile(r"(?<=[\w)])[-+*/=,](?=\S)")
 _NO_END = frozenset({"input", "br", "img", "hr", "col"})
 
 
 def escape(words: str) -> str:
-    """Words between tags or in an attribute."""
+    """Escape text for use between tags or in an attribute."""
     return _escape(words, quote=True)
 
 
 def element(name: str, inner: str = "", /, **attributes: str | bool) -> str:
-    """An element; an attribute is named as in HTML, with ``_`` for ``-`` and ``cls`` for ``class``.
+    """Return an element.
 
-    An attribute that is False or empty is left out, but ``alt`` and ``value``.
+    Attributes have their HTML names, with ``_`` for ``-`` and ``cls`` for ``class``.  An attribute that is False or
+    empty is omitted, except ``alt`` and ``value``.
     """
-    words = "".join(_attribute(key, value) for key, value in attributes.items())
-    return f"<{name}{words}>" if name in _NO_END else f"<{name}{words}>{inner}</{name}>"
+    start = f"<{name}{''.join(_attribute(key, value) for key, value in attributes.items())}>"
+    return start if name in _NO_END else f"{start}{inner}</{name}>"
 
 
 def _attribute(key: str, value: str | bool) -> str:
@@ -40,28 +40,31 @@ def _attribute(key: str, value: str | bool) -> str:
 
 
 def text(name: str, words: str, /, **attributes: str | bool) -> str:
-    """An element that holds words."""
+    """Return an element that contains plain text."""
     return element(name, escape(words), **attributes)
 
 
 def address(page: str, id: str = "") -> str:
-    """The address of a page, or of an element of it, as it is written in HTML that is put into a page."""
+    """Return the address of a page or of an element of it, to be used in the HTML of any page."""
     return f"{HERE}{page}.html{'#' + id if id else ''}"
 
 
 def link(page: str, id: str, words: str, **attributes: str | bool) -> str:
-    """A link to an element of a page."""
+    """Return a link to a page, or to an element of it if ``id`` is not empty."""
     return element("a", escape(words), href=address(page, id), **attributes)
 
 
 def definitions(pairs: Iterable[tuple[str, str]], **attributes: str | bool) -> str:
-    """A list of names and what they stand for: pairs of words and HTML; a pair without HTML is left out."""
+    """Return a description list from pairs of plain text and HTML.  Pairs with empty HTML are omitted."""
     inner = "".join(f"<div><dt>{escape(name)}</dt><dd>{value}</dd></div>" for name, value in pairs if value)
     return element("dl", inner, **attributes) if inner else ""
 
 
 def table(head: Iterable[str], rows: Iterable[Iterable[str]], name: str, caption: str = "") -> str:
-    """A table: words of the head, HTML of the cells; the first cell of a row names the row, ``name`` the whole."""
+    """Return a table from the plain text of its head and the HTML of its cells.
+
+    The first cell of a row is the row's heading.  ``name`` is the label of the table for screen readers.
+    """
     top = "".join(f'<th scope="col">{escape(words)}</th>' for words in head)
     body = []
     for row in rows:
@@ -73,22 +76,23 @@ def table(head: Iterable[str], rows: Iterable[Iterable[str]], name: str, caption
 
 
 def marked(words: str, spans: Iterable[tuple[int, int]], name: str) -> str:
-    """Words with some of their characters in an element of their own."""
-    found, at = [], 0
+    """Return plain text with the given spans of characters wrapped in an element."""
+    pieces, end = [], 0
     for first, last in spans:
-        found += [escape(words[at:first]), text(name, words[first:last])]
-        at = last
-    return "".join([*found, escape(words[at:])])
+        pieces += [escape(words[end:first]), text(name, words[first:last])]
+        end = last
+    return "".join([*pieces, escape(words[end:])])
 
 
 def code(words: str, spans: Iterable[tuple[int, int]] = (), name: str = "mark") -> str:
-    """A card or a line as code that may be broken: never behind its first blanks, else after an operator or a comma."""
+    """Return a card as code in which lines may break after an operator or a comma, but not after the leading blanks."""
     inner = marked(words, spans, name)
     pieces = re.split(r"(<[^>]*>|&[a-z0-9#]+;)", inner)
-    broken = "".join(piece if at % 2 else _OPERATOR.sub(r"\g<0><wbr>", piece) for at, piece in enumerate(pieces))
+    # The odd pieces are tags and character references, in which nothing may be inserted.
+    broken = "".join(piece if n % 2 else _OPERATOR.sub(r"\g<0><wbr>", piece) for n, piece in enumerate(pieces))
     return element("code", re.sub(r"^( +)([^<&\s])", r'<span class="lead">\1\2</span>', broken))
 
 
-def shifted(html: str, depth: int) -> str:
-    """HTML with the addresses of the site made relative to a page ``depth`` folders below its top."""
+def relative(html: str, depth: int) -> str:
+    """Make the addresses of the site relative to a page that is ``depth`` folders below the top."""
     return html.replace(f'"{HERE}', f'"{"../" * depth}')

@@ -1,7 +1,7 @@
-"""Pictures as they stand in a page: SVG inline, its ids its own, its paper the page's, its greys those of the theme.
+"""SVG pictures inside pages, with ids that are unique in the page and with the background of the page.
 
-The pictures of :mod:`modern.drawing` are told apart by shape and by grey, so that the dark theme may turn their greys
-round (``drawing`` of docs/_static/edition.css) without changing what they say.
+The pictures of :mod:`modern.drawing` distinguish things by shape and shades of grey.  The dark theme can therefore
+invert the shades (class ``drawing`` in docs/_static/edition.css).
 """
 
 from __future__ import annotations
@@ -12,15 +12,13 @@ from modern.publication.site.markup import element, escape
 
 _GROUND = re.compile(r'<rect (?:x="[^"]*" )?width="[^"]*" height="[^"]*" fill="#fff"/>\n?')
 _REFERENCE = re.compile(r'\b(id|href|xlink:href|aria-labelledby|aria-describedby)="(#?)([^"]*)"|url\(#([\w-]+)\)')
-
-
 _SIZE = re.compile(r'(<svg [^>]*?)width="(\d+)" height="(\d+)"')
 
 
 def inline(svg: str, key: str, cls: str = "drawing", percent: int = 100) -> str:
-    """An SVG file's text as an element of a page, so many percent of its size.
+    """Return the text of an SVG file as an element of a page, scaled to ``percent``.
 
-    ``key`` is told to every id within, so that two pictures of a page share none.
+    ``key`` is appended to every id in the picture, so that two pictures of a page have no id in common.
     """
     svg = svg[svg.index("<svg") :]
     svg = re.sub(r"<style>.*?</style>\n?", "", svg, flags=re.DOTALL)
@@ -30,30 +28,30 @@ def inline(svg: str, key: str, cls: str = "drawing", percent: int = 100) -> str:
     )
     known = set(re.findall(r'\bid="([^"]+)"', svg))
 
-    def own(match: re.Match[str]) -> str:
-        attribute, mark, words, url = match.groups()
+    def unique(match: re.Match[str]) -> str:
+        attribute, hash_sign, names, url = match.groups()
         if url:
             return f"url(#{url}-{key})" if url in known else match[0]
-        if attribute == "id" or mark:
-            return f'{attribute}="{mark}{words}-{key}"' if words in known else match[0]
+        if attribute == "id" or hash_sign:
+            return f'{attribute}="{hash_sign}{names}-{key}"' if names in known else match[0]
         if attribute.startswith("aria"):
-            return f'{attribute}="{" ".join(f"{word}-{key}" for word in words.split())}"'
+            return f'{attribute}="{" ".join(f"{name}-{key}" for name in names.split())}"'
         return match[0]
 
-    return _REFERENCE.sub(own, svg).replace("<svg ", f'<svg class="{cls}" ', 1).strip()
+    return _REFERENCE.sub(unique, svg).replace("<svg ", f'<svg class="{cls}" ', 1).strip()
 
 
-def described(svg: str, words: str) -> str:
-    """A picture with a description in words below its title; a picture that has one is left as it is."""
+def described(svg: str, description: str) -> str:
+    """Add a description after the title of a picture, unless it has one."""
     if "<desc" in svg:
         return svg
-    named = svg.replace("<title>", '<title id="title">', 1).replace(
-        "</title>", f'</title>\n<desc id="desc">{escape(words)}</desc>', 1
+    titled = svg.replace("<title>", '<title id="title">', 1).replace(
+        "</title>", f'</title>\n<desc id="desc">{escape(description)}</desc>', 1
     )
-    return named.replace("<svg ", '<svg aria-labelledby="title" aria-describedby="desc" ', 1)
+    return titled.replace("<svg ", '<svg aria-labelledby="title" aria-describedby="desc" ', 1)
 
 
-def figure(svg: str, key: str, caption: str, cls: str = "drawing", words: str = "") -> str:
-    """A picture with a caption in HTML, and with ``words`` for who does not see it."""
-    svg = described(svg, words) if words else svg
+def figure(svg: str, key: str, caption: str, cls: str = "drawing", description: str = "") -> str:
+    """Return a picture with a caption in HTML and, optionally, a description for screen readers."""
+    svg = described(svg, description) if description else svg
     return element("figure", inline(svg, key, cls) + element("figcaption", caption), cls=f"of-{cls}")

@@ -173,7 +173,7 @@ def test_without_typst_it_says_what_to_install(
 
     monkeypatch.setitem(sys.modules, "typst", None)
     assert book.main([str(tmp_path / "x.pdf")]) == 2
-    assert capsys.readouterr().err == f"book: {book.NEEDS}\n"
+    assert capsys.readouterr().err == f"book: {book.MISSING_TYPST}\n"
     assert not (tmp_path / "x.pdf").exists()
 
 

@@ -19,7 +19,7 @@ import pytest
 
 from modern.edition.chapter6 import prints
 from modern.formats.deck import data_deck
-from modern.publication.console import SOURCE, lay
+from modern.publication.console import SOURCE, install_machine
 from modern.publication.desk import Desk
 from tests.support.desks import PAIRS, Pair, Played, played
 from tests.support.paths import ROOT
@@ -62,7 +62,9 @@ def served(site: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str
     for entry in site.iterdir():
         if entry.name != "console":
             (folder / entry.name).symlink_to(entry)
-    assert 7_000_000 < lay(folder / "console", packed(room)) < 10_000_000, "bytes to load, the largest file compressed"
+    assert 7_000_000 < install_machine(folder / "console", packed(room)) < 10_000_000, (
+        "bytes to load, the largest file compressed"
+    )
     server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Quiet, directory=str(folder)))
     threading.Thread(target=server.serve_forever, daemon=True).start()
     yield f"http://127.0.0.1:{server.server_port}"

@@ -12,7 +12,8 @@ from pathlib import Path
 import pytest
 
 from modern.publication import deposit
-from modern.publication.deposit import DepositError, Parts, described, gather, source_files, swhid, write
+from modern.publication.building import BuildError, citation
+from modern.publication.deposit import Parts, described, gather, source_files, swhid, write
 from modern.publication.metadata import codemeta, data_package, work
 from tests.support.paths import ROOT
 
@@ -96,23 +97,19 @@ def test_all_descriptions_say_the_same(made: tuple[Path, Path]) -> None:
     code = json.loads((data / "codemeta.json").read_text(encoding="utf-8"))
     crate = json.loads((data / "ro-crate-metadata.json").read_text(encoding="utf-8"))
     root = next(entity for entity in crate["@graph"] if entity["@id"] == "./")
-    citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
-    for version in (project["version"], code["version"], root["version"]):
-        assert f"\nversion: {version}\n" in citation
-    for date in (code["dateModified"], root["datePublished"]):
-        assert f"\ndate-released: {date}\n" in citation
-    assert code["name"] == root["name"]
-    assert f'title: "{code["name"]}"' in citation
+    fields = citation()
+    assert {project["version"], code["version"], root["version"]} == {fields["version"]}
+    assert {code["dateModified"], root["datePublished"]} == {str(fields["date-released"])}
+    assert {code["name"], root["name"]} == {fields["title"]}
     assert code["license"] == root["license"] == f"https://spdx.org/licenses/{project['license']}"
     assert code["softwareRequirements"] == project["dependencies"]
     assert len(root["citation"]) == 5
 
 
 def test_a_citation_of_another_version_is_refused() -> None:
-    citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     with pytest.raises(ValueError, match=r"CITATION\.cff has version 0\.1\.0, pyproject\.toml 9"):
-        work(citation, project | {"version": "9"}, ())
+        work(citation(), project | {"version": "9"}, ())
 
 
 def test_codemeta_uses_terms_of_its_context() -> None:
@@ -178,12 +175,14 @@ def test_the_readme_names_what_is_needed(made: tuple[Path, Path]) -> None:
 def test_what_is_missing_or_in_the_way_is_said_in_a_line(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    with pytest.raises(DepositError, match=r"hull1620\.whl: is not there; make wheel makes it"):
+    with pytest.raises(BuildError, match=r"hull1620\.whl: no such file; make wheel builds it"):
         gather(tmp_path / "hull1620.whl", tmp_path, tmp_path / "x.pdf")
     about = described()
-    (tmp_path / f"{about.name}-{about.version}-deposit").mkdir()
-    with pytest.raises(DepositError, match="is there and is no bag; nothing is replaced"):
+    in_the_way = tmp_path / f"{about.name}-{about.version}-deposit"
+    in_the_way.mkdir()
+    (in_the_way / "notes.txt").write_text("x")
+    with pytest.raises(BuildError, match="exists and is not a BagIt bag; it is not replaced"):
         write(tmp_path, parts())
-    monkeypatch.setattr(deposit, "ROOT", tmp_path)
+    monkeypatch.setattr(deposit, "DIST", tmp_path / "dist")
     assert deposit.main([str(tmp_path)]) == 2
     assert capsys.readouterr().err.count("\n") == 1

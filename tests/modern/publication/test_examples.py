@@ -113,7 +113,7 @@ def test_items_are_counted_and_whole(file: str) -> None:
         assert item.title
         assert "\n" not in item.title
     words = re.sub(
-        r"\W+", " ", " ".join([f"{i.title} {i.text} {i.before} {i.under}" for i in items]) + " ".join(closing)
+        r"\W+", " ", " ".join([f"{i.title} {i.text} {i.preamble} {i.section}" for i in items]) + " ".join(closing)
     )
     for word in re.findall(r"\w{7,}", source.split("\n1. ", 1)[1]):
         assert word in words or word in opening, word
@@ -137,7 +137,7 @@ def test_items_out_of_order_are_refused(tmp_path: object, monkeypatch: pytest.Mo
     place = Path(str(tmp_path))
     (place / "x.md").write_text("# T\n\nWords.\n\n1. **One.** a\n3. **Three.** b\n")
     monkeypatch.setattr(module, "ROOT", place)
-    with pytest.raises(ValueError, match=r"x\.md: the items are not numbered one by one"):
+    with pytest.raises(ValueError, match=r"x\.md: the items are not numbered 1, 2, 3 and so on"):
         numbered("x.md")
 
 
@@ -146,7 +146,7 @@ def test_the_set_that_goes_wrong_names_its_card() -> None:
     html = "".join(part.html for part in made.parts)
     parsed(html)
     assert "missed: point 1, point 2, point 3" in html
-    assert re.search(r'href="@/program3\.html#\S+">in program 3 at', html)
+    assert re.search(r'href="@/program3\.html#\S+">program 3, ', html)
 
 
 def test_every_document_and_witness_is_a_source() -> None:

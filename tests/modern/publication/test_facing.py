@@ -142,10 +142,10 @@ def test_a_card_of_ours_has_no_witness() -> None:
 def test_what_stands_otherwise_with_a_layer_gives_the_deck_of_that_layer(name: str) -> None:
     found = facing(name)
     base = programs.built_in(name).layers
-    for layer in {other.layer for each in found.cards for other in each.otherwise}:
+    for layer in {other.layer for each in found.cards for other in each.variants}:
         lines = []
         for each in found.cards:
-            here = [other for other in each.otherwise if other.layer == layer]
+            here = [other for other in each.variants if other.layer == layer]
             lines += here[0].cards if here else (each.text,)
             assert all(other.rows for other in here), each
         assert lines == [line.text for line in build(found.text, (*base, layer))]
@@ -180,4 +180,4 @@ def test_executions_add_up_to_the_statements_of_a_run(name: str) -> None:
 def test_weights_are_those_of_the_table() -> None:
     rows = TABLE.read_text(encoding="utf-8").splitlines()[1:]
     assert sum(len(weights(name)) for name in programs.TEXTS) == len(rows)
-    assert weights("program1")[4].noticed == (9, 2, 0, 0, 0, 0)
+    assert weights("program1")[4].detected == (9, 2, 0, 0, 0, 0)

@@ -1,1 +1,1 @@
-"""The makers: a file here makes what ``:::{made} NAME ARGUMENT`` stands for (:mod:`modern.publication.site`)."""
+"""Generators of pages: the module NAME provides ``:::{made} NAME``, as :mod:`modern.publication.site` explains."""

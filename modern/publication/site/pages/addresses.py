@@ -1,7 +1,7 @@
-"""Everything that has an address: names, rows, error numbers, statements and cards, in lists that a field filters.
+"""The index of all addresses: error numbers, rows of the apparatus, names and cards.
 
-The lists are the page's own text, so that they are read, printed and searched without JavaScript; ``edition.js`` hides
-what does not fit the words typed.
+The lists are plain HTML and can be read, printed and searched without JavaScript.  With it, ``edition.js`` filters them
+by the text in the input field.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ from modern.publication.uses import uses
 
 
 def make(argument: str) -> Made:
-    """All addresses."""
-    field = text("label", "Name, statement, row or error number: ", for_="find")
+    """Return the search field and the lists."""
+    field = text("label", "Name, statement number, row or error number: ", for_="find")
     field += element("input", type="search", id="find", autocomplete="off", spellcheck="false", disabled=True)
-    field += text("button", "Go to the first", type="submit")
+    field += text("button", "Go to the first match", type="submit")
     field += text("output", "", for_="find", id="found")
     parts = [Part(html=element("form", field, cls="finder", role="search", aria_label="Find in the index"))]
     parts.append(Part("Error numbers", "error-numbers", html=_list(_errors())))
@@ -33,13 +33,13 @@ def make(argument: str) -> Made:
 
 
 def _list(items: Iterable[tuple[str, str]]) -> str:
-    inner = "".join(element("li", f"{where} {text('span', words)}") for where, words in items)
+    inner = "".join(element("li", f"{address} {text('span', description)}") for address, description in items)
     return element("ul", inner, cls="addresses")
 
 
 def _errors() -> Iterable[tuple[str, str]]:
-    for number, found in explanations().items():
-        yield link("errors", f"error-{number}", f"error {number}"), found.title
+    for number, explanation in explanations().items():
+        yield link("errors", f"error-{number}", f"error {number}"), explanation.title
 
 
 def _rows() -> Iterable[tuple[str, str]]:
@@ -52,15 +52,15 @@ def _rows() -> Iterable[tuple[str, str]]:
 
 
 def page_of(row: Row) -> str:
-    """The page a row stands on: its listing's, or that of the state of the examples."""
-    shown = {each.id for each in facing(row.text).rows()}
-    return row.text if row.id in shown else f"{row.text}_examples"
+    """Return the page that shows a row: that of its listing, or that of the state of the examples."""
+    listed = {other.id for other in facing(row.text).rows()}
+    return row.text if row.id in listed else f"{row.text}_examples"
 
 
 def _names() -> Iterable[tuple[str, str]]:
-    found = [(each.name, name) for name in programs.NAMES for each in uses(name).names]
-    for each, name in sorted(found):
-        yield link(name, f"name-{each}", each), name
+    names = [(entry.name, program) for program in programs.NAMES for entry in uses(program).names]
+    for name, program in sorted(names):
+        yield link(program, f"name-{name}", name), program
 
 
 def _cards(name: str) -> Iterable[tuple[str, str]]:

@@ -1,4 +1,4 @@
-"""The machine in the page, and the page where its numbers and exact ones part (``modern/publication/console.py``)."""
+"""The page with the emulator, and the page that compares the programs with exact arithmetic."""
 
 from __future__ import annotations
 
@@ -7,6 +7,6 @@ from modern.publication.site.made import Made, Part, one_of
 
 
 def make(argument: str) -> Made:
-    """``machine`` or ``parting``."""
+    """Return the controls of a page: ``machine`` or ``parting``."""
     page = console_page if one_of(argument, ("machine", "parting")) == "machine" else parting_page
     return Made((Part(html=page()),))

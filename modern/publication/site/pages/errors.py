@@ -1,4 +1,4 @@
-"""Every error number of the compiler and every code of the machine, with an example that gives it."""
+"""The error numbers of the compiler and the error codes of the machine, each with an example that causes it."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from modern.publication.site.markup import definitions, element, escape, text
 
 
 def make(argument: str) -> Made:
-    """All of them, a section each."""
+    """Return a section for each number and code."""
     parts, targets = [], []
-    for number, found in explanations().items():
+    for number, explanation in explanations().items():
         example = element(
-            "pre", escape("\n".join(found.example)), tabindex="0", aria_label=f"example of error {number}"
+            "pre", escape("\n".join(explanation.example)), tabindex="0", aria_label=f"example of error {number}"
         )
-        rest = definitions((("to mend it", escape(found.mend)), ("source", escape(found.source))), cls="facts")
-        html = text("p", found.meaning) + example + rest
-        parts.append(Part(f"Error {number}: {found.title}", f"error-{number}", html=html))
+        rest = definitions((("remedy", escape(explanation.mend)), ("source", escape(explanation.source))), cls="facts")
+        html = text("p", explanation.meaning) + example + rest
+        parts.append(Part(f"Error {number}: {explanation.title}", f"error-{number}", html=html))
         targets.append(Target(f"error-{number}", f"error {number}", f"error {number}", f"error {number}"))
     return Made(tuple(parts), tuple(targets))

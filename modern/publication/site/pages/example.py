@@ -1,4 +1,4 @@
-"""A printed example: input, construction, hull, time, and the print beside the witness and the run."""
+"""A printed example: verdicts, hull, construction and time, and each print next to its witness and today's run."""
 
 from __future__ import annotations
 
@@ -23,27 +23,29 @@ from modern.publication.site.made import Part as Section
 from modern.publication.site.markup import definitions, element, escape, link, marked, table, text
 from modern.publication.site.pictures import figure
 
-VERDICTS = {EXACT: "to the character", ORDER: "the same hull, in another order"}
-STATES = {"examples": "program 1 in the state of the examples", "listing": "program 1 as listed"}
+VERDICTS = {EXACT: "identical", ORDER: "the same hull in another order"}
+STATES = {"examples": "program 1 in the state that ran the examples", "listing": "program 1 as listed"}
 
 
 def make(argument: str) -> Made:
-    """The example of that number; ``rest``: the rows of the chapter that are of no example."""
+    """Return the example of that number; for ``rest``, the rows of chapter 6 that belong to no example."""
     if one_of(argument, ("rest", *map(str, EXAMPLES))) == "rest":
         html = "".join(entry(row, (), "examples") for row in rest())
-        return Made((Section("Rows of no card", "rest", html=html),), tuple(_target(row.id) for row in rest()))
+        return Made(
+            (Section("Rows that concern no card", "rest", html=html),), tuple(_target(row.id) for row in rest())
+        )
     number = int(argument)
     parts = example(number)
-    made = [Section("Verdict", "verdict", html=_verdicts(parts)), *_pictures(number)]
+    sections = [Section("Verdict", "verdict", html=_verdicts(parts)), *_pictures(number)]
     targets: list[Target] = []
     for part in parts:
         title = f"Program {part.program}: {TITLES[part.device]}"
-        made.append(Section(title, part.id, html=_part(part)))
+        sections.append(Section(title, part.id, html=_part(part)))
         targets.append(Target(part.id, f"example {number} {part.id}", f"example {number}, {title.lower()}"))
-        mine = (row.id for row in part.rows if homes()[row.id] == (number, part.id))
-        targets += [_target(row) for row in mine]
-    made.append(Section("What the 1620 took", "time", html=_time(number)))
-    return Made(tuple(made), tuple(targets))
+        first_shown = (row.id for row in part.rows if homes()[row.id] == (number, part.id))
+        targets += [_target(row) for row in first_shown]
+    sections.append(Section("Time on the 1620", "time", html=_time(number)))
+    return Made(tuple(sections), tuple(targets))
 
 
 def _target(row: str) -> Target:
@@ -59,40 +61,41 @@ def _verdicts(parts: tuple[Part, ...]) -> str:
         for part in parts
         if part.reports
     ]
-    head = ("what is printed or stated", *(STATES[state] for state in sorted(STATES)))
-    words = "hull1620 reproduce N --show".replace("N", str(parts[0].example))
-    again = element("p", f"To do it again: {text('code', words)}.")
-    return table(head, rows, name="Verdicts") + again
+    head = ("printed or stated result", *(STATES[state] for state in sorted(STATES)))
+    command = text("code", f"hull1620 reproduce {parts[0].example} --show")
+    return table(head, rows, name="Verdicts") + element("p", f"To reproduce this comparison: {command}.")
 
 
 def link_to(part: Part, words: str) -> str:
-    """A link to a device of the same page."""
+    """Return a link to a device on the same page."""
     return text("a", words, href=f"#{part.id}")
 
 
 def _verdict(report: Report) -> str:
     verdict = report.verdict
-    words = VERDICTS.get(verdict.kind, verdict.kind)
+    result = VERDICTS.get(verdict.kind, verdict.kind)
     counts = f"{verdict.cards} cards, {verdict.numbers} numbers" if report.device == "punch" else "stated, not printed"
     ending = report.ending
-    trouble = "" if isinstance(ending, Ending) and ending.normal else "; the run did not end"
-    return f"{text('strong', words + trouble)} {text('span', f'({counts})', cls='quiet')}"
+    failure = "" if isinstance(ending, Ending) and ending.normal else "; the run did not end normally"
+    return f"{text('strong', result + failure)} {text('span', f'({counts})', cls='quiet')}"
 
 
 def _pictures(number: int) -> Iterator[Section]:
     deck = input_deck(number)
     points = parse_input(deck.text(), f"example{number}").points
     hull = convex_hull(points, "exact", history=True, on_refusal="return")
-    drawn = figure(draw_svg(hull, width=520), f"hull{number}", "The hull by exact numbers: what the programs punch.")
+    drawn = figure(
+        draw_svg(hull, width=520), f"hull{number}", "The hull in exact arithmetic. The programs punch the same hull."
+    )
     punched = element(
         "details",
-        text("summary", f"The {len(deck.cards)} cards of the input deck, as punched")
+        text("summary", f"The {len(deck.cards)} cards of the input deck as punched cards")
         + figure(cards_svg(deck, title=f"the input deck of example {number}"), f"deck{number}", "", "punched"),
     )
     yield Section("The hull", "hull", html=drawn + punched)
-    built = _construction(hull, number)
-    if built:
-        yield Section("The construction", "construction", html=built)
+    construction = _construction(hull, number)
+    if construction:
+        yield Section("The construction", "construction", html=construction)
 
 
 def _construction(hull: Hull, number: int) -> str:
@@ -100,41 +103,45 @@ def _construction(hull: Hull, number: int) -> str:
         stages = frames(hull)
     except ExportError:
         return ""
-    steps = "".join(text("li", "; ".join(words for words in stage.caption if words)) for stage in stages)
-    caption = "H1 to Hf, each with the vertex that was added. The same direction of view throughout."
+    steps = "".join(text("li", "; ".join(filter(None, stage.caption))) for stage in stages)
+    caption = "The hulls H1 to Hf, each with the vertex that was added, all from the same direction."
     return figure(strip(stages), f"stages{number}", caption) + element("ol", steps, cls="steps")
 
 
 def _part(part: Part) -> str:
-    head = ("line of the witness", "corrected print", *(("run",) if part.reports else ()))
-    words = "The thesis states these lines and prints none." if part.stated else ""
+    head = ("witness", "corrected print", *(("run",) if part.reports else ()))
+    note = "The thesis describes these lines but does not print them." if part.stated else ""
     cards = "".join(_card(card, part) for card in part.cards)
     top = element("div", "".join(text("span", name) for name in head), cls="print-head", aria_hidden="true")
-    html = (text("p", words) if words else "") + element(
+    html = (text("p", note) if note else "") + element(
         "div", top + element("ol", cards, cls="print-cards"), cls=f"print columns-{len(head)}"
     )
     if part.rows:
-        here = [row for row in part.rows if homes()[row.id] == (part.example, part.id)]
-        rows = "".join(entry(row, (), f"example{part.example}") for row in here)
-        others = [link(f"example{homes()[r.id][0]}", r.id, r.id) for r in part.rows if r not in here]
-        if others:
-            rows += element("p", f"And {', '.join(others)}, which touch other cards too.")
-        opened = text("summary", f"{len(part.rows)} rows of the apparatus made this print of the witness")
-        html += element("details", opened + rows, cls="rows-of-print")
+        shown_here = [row for row in part.rows if homes()[row.id] == (part.example, part.id)]
+        rows = "".join(entry(row, (), f"example{part.example}") for row in shown_here)
+        shown_elsewhere = [link(f"example{homes()[r.id][0]}", r.id, r.id) for r in part.rows if r not in shown_here]
+        if shown_elsewhere:
+            rows += element("p", f"And {', '.join(shown_elsewhere)}, which also concern other cards.")
+        summary = text("summary", f"{len(part.rows)} rows of the apparatus correct the witness of this print")
+        html += element("details", summary + rows, cls="rows-of-print")
     return html
 
 
 def _card(card: Shown, part: Part) -> str:
-    again = (
-        text("span", f"line {', '.join(card.again)} goes on", cls="quiet") if card.again and not card.sources else ""
+    continued = (
+        text("span", f"line {', '.join(card.continued)} continued", cls="quiet")
+        if card.continued and not card.sources
+        else ""
     )
-    left = "".join(map(_source, card.sources)) or again or text("span", "blank" if not card.print else "", cls="quiet")
+    left = (
+        "".join(map(_source, card.sources)) or continued or text("span", "blank" if not card.print else "", cls="quiet")
+    )
     cells = [element("div", text("span", "Witness ", cls="sr") + left, cls="witness")]
     cells.append(element("div", text("span", "Print ", cls="sr") + text("code", card.print or " "), cls="corrected"))
     if card.run is not None:
         sign = "=" if not card.differs else "\u2260"
-        said = "the same" if not card.differs else "differs"
-        mark = element("span", sign, cls="sign", title=said, role="img", aria_label=said)
+        comparison = "the same" if not card.differs else "differs"
+        mark = element("span", sign, cls="sign", title=comparison, role="img", aria_label=comparison)
         code = element("code", marked(card.run or " ", card.differs, "ins"))
         cells.append(element("div", text("span", "Run ", cls="sr") + mark + code, cls="run"))
     return element("li", "".join(cells), id=f"{part.id}-{card.number}")
@@ -143,9 +150,9 @@ def _card(card: Shown, part: Part) -> str:
 def _source(source: Source) -> str:
     where = f"p. {source.page}, line {source.line} of the witness, {source.at} of the thesis's OCR text"
     number = text("span", source.line, cls="line", title=where)
-    words = source.text.replace("\t", "  ")
+    line_text = source.text.replace("\t", "  ")
     spans = source.changed if "\t" not in source.text else ()
-    return element("span", number + element("code", marked(words, spans, "del")), cls="piece")
+    return element("span", number + element("code", marked(line_text, spans, "del")), cls="piece")
 
 
 def _time(number: int) -> str:
@@ -161,7 +168,7 @@ def _time(number: int) -> str:
                         _seconds(run.total),
                     )
                 )
-    head = ("program", "statements", "processor", "with reader, punch and typewriter, one after the other")
+    head = ("program", "statements", "processor", "with reader, punch and typewriter, without overlap")
     note = definitions(
         (("how sure", "within ten per cent where IBM gives times; the rest are estimates"),), cls="facts"
     )

@@ -1,4 +1,4 @@
-"""The pictures of the four papers' pages: what each method does, drawn from its own results."""
+"""The pictures of the four papers, drawn from the intermediate results of each method."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from modern.publication.site.pictures import figure
 from modern.publication.steps import EDGE_OF_CONTOUR, EYE, HIDDEN, REMOVED, SEEN, Level, Plate, Stroke
 
 WIDTH = 328
-"""Of a picture of a strip, in pixels."""
+"""The width of a picture in pixels."""
 _MARGIN = 12
 _STYLES = {
     SEEN: 'stroke="#000" stroke-width="1.1" stroke-linecap="round"',
@@ -42,11 +42,11 @@ _USES = (
     'stroke="#000" stroke-width="1.4"',
     'stroke="#000" stroke-width="3"',
 )
-"""An edge by how many loops have used it."""
+"""The style of an edge that no loop, one loop or two loops have used."""
 
 
 def make(argument: str) -> Made:
-    """The pictures of a paper: ``appel-will``, ``kovalevsky-schulz``, ``yau-srihari`` or ``nakamae-nishita``."""
+    """Return the pictures of a paper: ``appel-will``, ``kovalevsky-schulz``, ``yau-srihari`` or ``nakamae-nishita``."""
     makers = {
         "appel-will": _appel_will,
         "kovalevsky-schulz": _cells,
@@ -57,7 +57,7 @@ def make(argument: str) -> Made:
 
 
 def _strip(figures: Iterable[str]) -> str:
-    """Pictures side by side, as many as there is room for."""
+    """Return pictures side by side, as many as the window has room for."""
     return element("ol", "".join(element("li", each) for each in figures), cls="strip")
 
 
@@ -70,13 +70,13 @@ def _appel_will() -> Iterator[str]:
     yield _strip((_star(fig4, fig4.edges[0]), _star(fig4, within(fig4))))
     count = len(fig14.table.loops)
     loops = (_loop(fig14, number, loop) for number, loop in enumerate(fig14.table.loops, 1))
-    yield text("p", f"The {count} loops of Fig. 22, one after another; beside an edge, how often it was used so far.")
+    yield text("p", f"The {count} loops of Fig. 22 in order. The number at an edge counts its uses so far.")
     yield _strip(loops)
-    words = (
-        f"The topological map of the object of Fig. 23 in the plane: {len(fig23.vertices)} points, "
-        f"{len(fig23.edges)} edges, {len(fig23.surfaces)} surfaces; no two edges cross."
+    caption = (
+        f"The topological map of the object in Fig. 23, drawn in the plane: {len(fig23.vertices)} points, "
+        f"{len(fig23.edges)} edges and {len(fig23.surfaces)} surfaces. No two edges cross."
     )
-    yield figure(map_svg(fig23.surfaces, fig23.edges, width=340), "map23", escape(words), words=words)
+    yield figure(map_svg(fig23.surfaces, fig23.edges, width=340), "map23", escape(caption), description=caption)
 
 
 def _solid(solid: Solid, number: str) -> str:
@@ -84,13 +84,17 @@ def _solid(solid: Solid, number: str) -> str:
     lines = {tuple(sorted(line)) for surface in solid.surfaces for line in sides(surface)}
     gone = len(lines.difference(hull.edges))
     made = len(set(hull.edges) - lines)
-    told = f"Fig. {number}: {len(lines)} lines; {gone} of them are no convex edges, and {made} convex edges are new."
+    caption = (
+        f"Fig. {number}: {len(lines)} lines. {gone} of them are not convex edges, and {made} convex edges are new."
+    )
     points = [(str(x), str(y), str(z)) for x, y, z in solid.points]
-    return figure(solid_svg(hull, points, solid.surfaces, width=320), f"solid{number}", escape(told), words=told)
+    return figure(
+        solid_svg(hull, points, solid.surfaces, width=320), f"solid{number}", escape(caption), description=caption
+    )
 
 
 def within(hull: Assembled) -> tuple[int, int]:
-    """The first pair of vertices whose image lies within its star polygon, off all its sides."""
+    """Return the first pair of vertices whose image lies strictly inside its star polygon."""
     for pair in combinations(hull.vertices, 2):
         images = star(hull, pair).images
         if all(vorticity(a, b) > 0 for a, b in zip(images, (*images[1:], images[0]), strict=True)):
@@ -100,22 +104,23 @@ def within(hull: Assembled) -> tuple[int, int]:
 
 def _star(hull: Assembled, pair: tuple[int, int]) -> str:
     a, b = pair
-    found = "outside: the line is a convex edge" if pair in hull.edges else "within: it is none"
-    told = f"Fig. 4, line {a + 1}-{b + 1} seen along itself: C is {found}."
-    return figure(star_svg(hull, pair, width=320), f"star{a + 1}-{b + 1}", escape(told), words=told)
+    position = "outside, so the line is a convex edge" if pair in hull.edges else "inside, so it is not a convex edge"
+    caption = f"Fig. 4, line {a + 1}-{b + 1} in the direction of the line: C is {position}."
+    return figure(star_svg(hull, pair, width=320), f"star{a + 1}-{b + 1}", escape(caption), description=caption)
 
 
 def _loop(hull: Assembled, number: int, loop: Loop) -> str:
     points = ", ".join(str(index + 1) for index in hull.surfaces[number - 1])
     entries = " ".join(map(str, loop.entries))
-    told = f"Loop {number}: lines {entries}, surface {points}."
-    return figure(loop_svg(hull, number), f"loop{number}", escape(told), words=told)
+    caption = f"Loop {number}: lines {entries}, surface {points}."
+    return figure(loop_svg(hull, number), f"loop{number}", escape(caption), description=caption)
 
 
 def loop_svg(hull: Assembled, number: int) -> str:
-    """The map in the plane when a loop was closed: its surface grey, each edge drawn by its uses, which stand beside.
+    """Draw the topological map at the moment when a loop was closed.
 
-    The loop that is drawn as the outside has its surface around the picture.
+    The loop's surface is grey.  The line style and the number at each edge show its uses so far.  The largest surface
+    is the outside of the map, so its grey area surrounds the map.
     """
     loop, surfaces = hull.table.loops[number - 1], hull.surfaces
     outer = max(range(len(surfaces)), key=lambda k: (len(surfaces[k]), -k))
@@ -136,7 +141,7 @@ def loop_svg(hull: Assembled, number: int) -> str:
             if count == uses:
                 yield svg.line(at[a], at[b], f'data-uses="{uses}"')
 
-    def words(labels: Sequence[Label], where: Sequence[tuple[float, float]]) -> Iterator[str]:
+    def label_texts(labels: Sequence[Label], where: Sequence[tuple[float, float]]) -> Iterator[str]:
         for label, (x, y) in zip(labels, where, strict=True):
             yield svg.text(Pixel(round(100 * x), round(100 * (y + label.size * 0.35))), label.text)
 
@@ -152,14 +157,14 @@ def loop_svg(hull: Assembled, number: int) -> str:
         *ground,
         *(item for uses, style in enumerate(_USES) for item in svg.group(f"uses-{uses}", style, edges(uses))),
         *svg.group("points", svg.VERTEX.attributes, (svg.circle(at[index], svg.RADIUS) for index in sorted(at))),
-        *svg.group("numbers", f'{_FONT} font-weight="bold"', words(names, put[: len(names)])),
-        *svg.group("counts", _FONT.replace('"13"', '"11"'), words(middles, put[len(names) :])),
+        *svg.group("numbers", f'{_FONT} font-weight="bold"', label_texts(names, put[: len(names)])),
+        *svg.group("counts", _FONT.replace('"13"', '"11"'), label_texts(middles, put[len(names) :])),
     ]
     return svg.page(WIDTH, height, f"Loop {number}", items)
 
 
 def plates_svg(plates: Sequence[Plate], eye: Eye, titles: Sequence[str]) -> tuple[str, ...]:
-    """Pictures of plates from one direction and on one scale, as the text of SVG files."""
+    """Draw plates as SVG, all from the same direction and at the same scale."""
     sight = view(eye)
 
     def ends(plate: Plate) -> Iterator[Vector]:
@@ -206,36 +211,36 @@ def _hidden_lines() -> Iterator[str]:
     everything, facing, nearer, result = plates
     captions = (
         f"1. All {len(everything.strokes)} lines.",
-        f"2. Dashed: the {facing.count(REMOVED)} edges go that have no face turned to the eye. Bold: contours.",
-        f"3. Dashed: {nearer.count(REMOVED)} pieces behind a nearer contour go.",
-        f"4. Dashed: {result.count(REMOVED)} pieces go that only divide one object (ghost lines). "
-        f"What is left is the drawing, {result.count(SEEN)} pieces.",
+        f"2. Dashed: {facing.count(REMOVED)} edges without a face towards the eye are removed. Bold: contours.",
+        f"3. Dashed: {nearer.count(REMOVED)} pieces behind a nearer contour are removed.",
+        f"4. Dashed: {result.count(REMOVED)} pieces that only divide one object (ghost lines) are removed. "
+        f"The remaining {result.count(SEEN)} pieces are the drawing.",
     )
     yield _strip(_figures(plates, eye, captions, "hidden"))
 
 
 def _figures(plates: Sequence[Plate], eye: Eye, captions: Sequence[str], key: str) -> Iterator[str]:
     for plate, picture, caption in zip(plates, plates_svg(plates, eye, captions), captions, strict=True):
-        yield figure(picture, f"{key}-{plate.name.replace(' ', '-')}", escape(caption), words=caption)
+        yield figure(picture, f"{key}-{plate.name.replace(' ', '-')}", escape(caption), description=caption)
 
 
 def _cells() -> Iterator[str]:
-    found = steps.cells()
-    (_, (_, _, _, voxels)), *_ = found.counts
-    hull = found.hull
-    back = sum(hidden for _, hidden in found.plates[1].points)
+    complexes = steps.cells()
+    (_, (_, _, _, voxels)), *_ = complexes.counts
+    hull = complexes.hull
+    hidden_vertices = sum(hidden for _, hidden in complexes.plates[1].points)
     captions = (
-        f"The {voxels} voxels of a ball of diameter {found.diameter}: 3-cells.",
-        f"The hull's {len(hull.vertices)} vertices, 0-cells; the {back} hidden ones are hollow.",
-        f"Its {len(hull.edges)} edges, 1-cells; hidden ones are dashed.",
-        f"Its {len(hull.faces)} faces, 2-cells; {len(found.plates[3].panes)} are seen.",
+        f"The {voxels} voxels of a ball of diameter {complexes.diameter}: 3-cells.",
+        f"The hull's {len(hull.vertices)} vertices, 0-cells. The {hidden_vertices} hidden ones are hollow.",
+        f"Its {len(hull.edges)} edges, 1-cells. Hidden edges are dashed.",
+        f"Its {len(hull.faces)} faces, 2-cells. {len(complexes.plates[3].panes)} are visible.",
     )
-    yield _strip(_figures(found.plates, EYE, captions, "cells"))
+    yield _strip(_figures(complexes.plates, EYE, captions, "cells"))
     head = ("complex", "0-cells", "1-cells", "2-cells", "3-cells")
-    rows = [(escape(name), *map(str, numbers)) for name, numbers in found.counts]
+    rows = [(escape(name), *map(str, numbers)) for name, numbers in complexes.counts]
     yield table(head, rows, "Numbers of cells", "Cells by dimension")
     listed = element("pre", escape("\n".join(all_rows(hull))), tabindex="0", aria_label="the cell list")
-    yield element("details", text("summary", "Its cell list, as Tables 1 to 3 have it") + listed)
+    yield element("details", text("summary", "The cell list in the form of Tables 1 to 3") + listed)
 
 
 def _octree() -> Iterator[str]:
@@ -253,39 +258,39 @@ def _octree() -> Iterator[str]:
         ("level", "side of a cube", "full", "divided", "empty"), rows, "The octree", "Cubes of the hull's octree"
     )
     shown = [level for level in levels if level.plate.strokes]
-    told = [f"The cubes that are full down to level {level.number}." for level in shown]
-    yield _strip(_figures([level.plate for level in shown], steps.ABOVE, told, "octree"))
+    captions = [f"The full cubes down to level {level.number}." for level in shown]
+    yield _strip(_figures([level.plate for level in shown], steps.ABOVE, captions, "octree"))
     yield text(
         "p",
-        "And the ceiling above, a quadtree: in every square the greatest height; dotted, no column. x is to the right, "
-        "y upward.",
+        "The upper ceiling, a quadtree with the greatest height in every square. A dotted square has no column. "
+        "x increases to the right, y upward.",
     )
     yield _strip(_square(level, hull.side) for level in levels)
 
 
 def _square(level: Level, side: int) -> str:
     columns = sum(quadrant.height is not None for quadrant in level.quadrants)
-    told = (
+    caption = (
         f"Level {level.number}: columns in {columns} of {len(level.quadrants)} squares."
         if level.number
-        else "Level 0: the whole."
+        else "Level 0: the whole square."
     )
-    return figure(quadrants_svg(level, side), f"quadrants{level.number}", escape(told), words=told)
+    return figure(quadrants_svg(level, side), f"quadrants{level.number}", escape(caption), description=caption)
 
 
 def quadrants_svg(level: Level, side: int) -> str:
-    """The quadrants of a level as squares, x to the right and y upward, the higher the lighter."""
+    """Draw the quadrants of a level as squares; a lighter grey means a greater height."""
     room = WIDTH - 2 * _MARGIN
     unit = 100 * room // side
 
-    def squares(there: bool) -> Iterator[str]:
+    def squares(occupied: bool) -> Iterator[str]:
         for quadrant in level.quadrants:
-            if (quadrant.height is not None) == there:
+            if (quadrant.height is not None) == occupied:
                 x = 100 * _MARGIN + quadrant.x * unit
                 y = 100 * _MARGIN + (side - quadrant.y - quadrant.side) * unit
                 wide = svg.number(quadrant.side * unit)
                 grey = f"{190 + 60 * (quadrant.height or 0) // side:02x}" * 3
-                fill = f"#{grey}" if there else "none"
+                fill = f"#{grey}" if occupied else "none"
                 yield (
                     f'<rect x="{svg.number(x)}" y="{svg.number(y)}" width="{wide}" height="{wide}" fill="{fill}" '
                     f'data-side="{quadrant.side}"/>'

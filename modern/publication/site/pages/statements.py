@@ -1,15 +1,13 @@
-"""The statements of a document with their verdicts: each a row with its place, its words, its verdict and its evidence.
+"""The statements of a document: for each statement its page, its words, the verdict and the evidence.
 
-All of them stand in the page; controls hide those of other verdicts and kinds, by CSS and some lines of script.
+The page contains all statements.  The script ``data.js`` hides those that the reader's choice excludes.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
 
-from modern.claims.register import DOCUMENTS, THESIS, VERDICTS, Statement, Verdict, counterexample, statements_of
-from modern.edition.sources import Document, sources
+from modern.claims.register import DOCUMENTS, VERDICTS, Statement, Verdict, counterexample, statements_of
 from modern.publication.site.made import Made, Part, Target, one_of
 from modern.publication.site.markup import definitions, element, escape, text
 
@@ -27,28 +25,24 @@ _CLASSES: dict[Verdict, str] = {
 }
 
 
-def document_of(name: str) -> Document:
-    """What is held of a document, by its name on the command line."""
-    return next(d for d in sources().documents if d.id.startswith(name) or (name == THESIS and "thesis" in d.kind))
-
-
 def make(argument: str) -> Made:
-    """The statements of a document."""
+    """Return the statements of a document, page by page."""
     name = one_of(argument, DOCUMENTS)
     rows = statements_of(name)
     parts = [Part(html=_controls(rows))]
-    for page, some in _by_page(rows):
-        parts.append(Part(f"Page {page}" if page[:1].isdigit() else page.capitalize(), _slug(page), html=_list(some)))
+    for page, rows_of_page in _by_page(rows).items():
+        title = f"Page {page}" if page[:1].isdigit() else page.capitalize()
+        parts.append(Part(title, _slug(page), html=_list(rows_of_page)))
     targets = [Target(row.id, row.id, f"statement {row.id}") for row in rows]
     return Made(tuple(parts), tuple(targets))
 
 
-def _by_page(rows: tuple[Statement, ...]) -> Iterator[tuple[str, list[Statement]]]:
-    """Statements page by page, in the order in which pages are first met."""
-    found: dict[str, list[Statement]] = {}
+def _by_page(rows: tuple[Statement, ...]) -> dict[str, list[Statement]]:
+    """Group statements by page, in the order of the first statement of each page."""
+    pages: dict[str, list[Statement]] = {}
     for row in rows:
-        found.setdefault(row.page, []).append(row)
-    yield from found.items()
+        pages.setdefault(row.page, []).append(row)
+    return pages
 
 
 def _slug(page: str) -> str:
@@ -56,18 +50,17 @@ def _slug(page: str) -> str:
 
 
 def _controls(rows: tuple[Statement, ...]) -> str:
-    """How many there are of each verdict, and a choice of those shown."""
+    """Return the form that chooses the statements shown, with the number of statements for each verdict."""
     counts = Counter(row.verdict for row in rows)
     boxes = ""
     for verdict in VERDICTS:
         box = element("input", type="checkbox", value=_CLASSES[verdict], name="verdict", checked=True)
-        words = f" {SIGNS[verdict]} {verdict}: {counts[verdict]}"
-        boxes += element("label", box + escape(words))
-    field = element("label", "Words: " + element("input", type="search", name="words", autocomplete="off"))
+        boxes += element("label", box + escape(f" {SIGNS[verdict]} {verdict}: {counts[verdict]}"))
+    field = element("label", "Text: " + element("input", type="search", name="words", autocomplete="off"))
     button = text("button", "Show", type="submit")
     shown = text("output", "", cls="shown")
     inner = element("fieldset", text("legend", "Verdicts shown") + boxes) + element("p", f"{field} {button} {shown}")
-    return element("form", inner, cls="controls filter", aria_label="Which statements are shown", hidden=True)
+    return element("form", inner, cls="controls filter", aria_label="Filter of the statements", hidden=True)
 
 
 def _list(rows: list[Statement]) -> str:
@@ -81,9 +74,9 @@ def _statement(row: Statement) -> str:
     head += text("span", row.kind, cls="quiet")
     facts = definitions(
         (
-            ("words of the document", text("q", row.words) if row.words else ""),
-            ("why", escape(row.why)),
-            ("computed by", text("code", row.claim) if row.claim else ""),
+            ("quotation", text("q", row.words) if row.words else ""),
+            ("reason", escape(row.why)),
+            ("check", text("code", row.claim) if row.claim else ""),
             ("results", escape(", ".join(row.results))),
             ("tests", "<br>".join(text("code", name) for name in row.tests)),
             ("counterexample", _counterexample(row)),
@@ -98,9 +91,9 @@ def _statement(row: Statement) -> str:
 def _counterexample(row: Statement) -> str:
     if not row.file:
         return ""
-    shown = counterexample(row.file)
-    lines = shown.splitlines()
-    cut = "\n".join([*lines[:12], f"... {len(lines) - 12} lines more"]) if len(lines) > 14 else shown.rstrip("\n")
+    content = counterexample(row.file)
+    lines = content.splitlines()
+    excerpt = "\n".join([*lines[:12], f"... {len(lines) - 12} more lines"]) if len(lines) > 14 else content.rstrip("\n")
     name = text("code", f"transcripts/counterexamples/{row.file}")
-    run = element("p", "run: " + text("code", row.run)) if row.run else ""
-    return name + element("pre", escape(cut), tabindex="0", aria_label=f"the counterexample {row.file}") + run
+    run = element("p", "Command: " + text("code", row.run)) if row.run else ""
+    return name + element("pre", escape(excerpt), tabindex="0", aria_label=f"the counterexample {row.file}") + run

@@ -1,4 +1,4 @@
-"""The names and FORMATs of a program: size, where declared, set and used."""
+"""The variables and FORMAT statements of a program: type, size, and the cards that declare, set and use them."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from modern.publication.uses import Name, uses
 
 
 def make(argument: str) -> Made:
-    """The names of a built-in program."""
+    """Return the names and FORMATs of a built-in program."""
     return symbols(one_of(argument, programs.NAMES))
 
 
 def symbols(program: str) -> Made:
-    """The table of names and the table of FORMATs, with the addresses of both."""
+    """Return the table of names and the table of FORMATs with their addresses."""
     known, cards = uses(program), {card.number: card for card in facing(program).cards}
 
     def places(numbers: tuple[int, ...]) -> str:
@@ -31,7 +31,7 @@ def symbols(program: str) -> Made:
         )
         for name in known.names
     ]
-    names = table(("name", "is", "declared", "set", "used"), rows, "Names")
+    names = table(("name", "type", "declared", "set", "used"), rows, "Names")
     formats = []
     for card in cards.values():
         if card.kind == "format":

@@ -1,4 +1,4 @@
-"""What the edition says of its texts: faults with the decks that show them, open questions, and the sources."""
+"""The known faults with the decks that demonstrate them, the open questions, and the sources of the texts."""
 
 from __future__ import annotations
 
@@ -11,24 +11,25 @@ from modern.publication.site.markup import definitions, element, escape, table, 
 
 _FILE = re.compile(r"\[([^\]]+)\]\((?!https?:)[^)]+\)")
 FILES = {"fortran_src/KNOWN-FAULTS.md": "fault", "fortran_src/OPEN-QUESTIONS.md": "question"}
+"""The files of numbered items, with the prefix of their ids."""
 
 
 def make(argument: str) -> Made:
-    """The items of one of the two files, a section each, or ``sources``: every document and its witnesses."""
+    """Return a section for each item of a file, or for ``sources`` a section for each document."""
     if one_of(argument, ("sources", *FILES)) == "sources":
         documents = sources().documents
         parts = [Part(document.title, document.id, html=_document(document)) for document in documents]
         return Made(tuple(parts), tuple(Target(document.id, document.id, document.title) for document in documents))
     kind = FILES[argument]
     opening, items, closing = numbered(argument)
-    parts, under = [Part(text=opening)], ""
+    parts, section = [Part(text=opening)], ""
     targets: list[Target] = []
     for item in items:
-        if item.under != under:
-            under = item.under
-            slug = "of-" + "".join(c if c.isalnum() else "-" for c in under.lower())
-            parts.append(Part(under, slug, text=_FILE.sub(r"\1", item.before)))
-        level = 2 if under else 1
+        if item.section != section:
+            section = item.section
+            slug = "of-" + "".join(c if c.isalnum() else "-" for c in section.lower())
+            parts.append(Part(section, slug, text=_FILE.sub(r"\1", item.preamble)))
+        level = 2 if section else 1
         parts.append(Part(f"{item.number}. {item.title}", f"{kind}-{item.number}", level, text=_linked(item)))
         for deck in item.decks:
             parts.append(Part(html=_deck(deck)))
@@ -39,19 +40,19 @@ def make(argument: str) -> Made:
 
 
 def _linked(item: Item) -> str:
-    """The text with the rows of the listings made references; links to files have been resolved for no page here."""
-    words = item.text
+    """Return the text of an item with references to rows of the listings and without links to files."""
+    text = item.text
     for name in item.rows:
         if name.startswith("P"):
-            words = words.replace(name, f"{{row}}`{name}`", 1)
-    return _FILE.sub(r"\1", words)
+            text = text.replace(name, f"{{row}}`{name}`", 1)
+    return _FILE.sub(r"\1", text)
 
 
 def _deck(name: str) -> str:
     cards = read(f"fortran_src/grounds/{name}.deck").rstrip("\n")
     count = cards.count("\n") + 1
     shown = element("pre", escape(cards), tabindex="0", aria_label=f"the deck {name}")
-    run = element("p", "run: " + text("code", f"hull1620 hull fortran_src/grounds/{name}.deck"))
+    run = element("p", "Command: " + text("code", f"hull1620 hull fortran_src/grounds/{name}.deck"))
     return element(
         "details", text("summary", f"the deck grounds/{name}: {count} cards") + shown + run, cls="deck-shown"
     )
@@ -66,9 +67,9 @@ def _document(document: Document) -> str:
             ("institution", escape(document.institution)),
             ("volume, pages", escape(", ".join(filter(None, (document.volume, document.extent))))),
             ("DOI", escape(document.doi)),
-            ("what is held", escape(document.held)),
-            ("its length", f"{document.bytes:,} bytes, {document.characters:,} characters, {document.lines:,} lines"),
-            ("its SHA-256", text("code", document.sha256)),
+            ("text available", escape(document.held)),
+            ("length", f"{document.bytes:,} bytes, {document.characters:,} characters, {document.lines:,} lines"),
+            ("SHA-256", text("code", document.sha256)),
             ("rights", escape(document.rights)),
         ),
         cls="facts",
@@ -76,14 +77,14 @@ def _document(document: Document) -> str:
     rows = [
         (
             text("code", excerpt.file),
-            "; ".join(f"{s.first}-{s.last} from {s.at}{' (in part)' if s.part else ''}" for s in excerpt.stretches[:6])
-            + (f"; {len(excerpt.stretches) - 6} more" if len(excerpt.stretches) > 6 else ""),
+            "; ".join(f"{s.first}-{s.last} from {s.at}{' (partly)' if s.part else ''}" for s in excerpt.stretches[:6])
+            + (f"; and {len(excerpt.stretches) - 6} more" if len(excerpt.stretches) > 6 else ""),
             text("code", excerpt.sha256[:16]),
         )
         for excerpt in sources().excerpts
         if excerpt.document == document.id
     ]
-    head = ("witness", "its lines, and where they begin in the text", "SHA-256, its beginning")
+    head = ("witness", "lines, and the line of the source where each range begins", "start of the SHA-256")
     excerpts = table(head, rows, name=f"Witnesses taken from {document.id}") if rows else ""
     pages = "".join(text("li", f"{page}: lines {first} to {last}") for page, first, last in document.pages)
     where = element("details", text("summary", "pages and lines") + element("ul", pages))

@@ -1,4 +1,4 @@
-"""A set of which the programs give a wrong hull, beside the true one."""
+"""A set of points for which the programs punch a wrong hull, compared with the true hull."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ FILE = "transcripts/counterexamples/silent.deck"
 
 
 def make(argument: str) -> Made:
-    """The page's parts."""
+    """Return the comparison: picture, differences, cards punched and exact calculation."""
     one_of(argument, ("",))
     source = read(FILE)
     points = parse_input(source, "silent.deck").points
@@ -37,42 +37,46 @@ def make(argument: str) -> Made:
     drawn = figure(
         draw_against(hull, claim, width=520, show=Show("input")),
         "wrong",
-        "The true hull, a tetrahedron. In red what the programs missed, in blue what they put in.",
+        "The true hull, a tetrahedron. Red: missed by the programs. Blue: added by the programs.",
         "drawing coloured",
     )
     cards = element("pre", escape("\n".join(punched)), tabindex="0", aria_label="the cards punched")
-    said = "".join(text("li", words) for words in (*answer["says"], *answer["part"]))
-    place = _place(answer["part"][0])
-    again = element("p", "To do it again: " + text("code", f"hull1620 hull {FILE}"))
+    differences = "".join(text("li", line) for line in (*answer["says"], *answer["part"]))
+    statement = _statement_link(answer["part"][0])
+    command = element("p", "To reproduce this result: " + text("code", f"hull1620 hull {FILE}"))
     return Made(
         (
             Part("The picture", "picture", html=drawn),
-            Part("What was found", "found", html=element("ul", said) + place + again),
+            Part("Differences", "found", html=element("ul", differences) + statement + command),
             Part("The cards punched", "cards", html=cards),
-            Part("How exact numbers go", "exact", html=_worked(points)),
+            Part("The exact calculation", "exact", html=_worked(points)),
         )
     )
 
 
-def _place(words: str) -> str:
-    """A link to the card that the first words of a parting name: ``program 3, card 185: ...``."""
-    found = re.match(r"program (\d), card (\d+):", words)
-    assert found, "a parting names its program and card"
-    name = f"program{found[1]}"
-    card = next(card for card in facing(name).cards if card.number == int(found[2]))
-    return element("p", f"The statement stands {link(name, card.place, f'in program {found[1]} at {card.place}')}.")
+def _statement_link(divergence: str) -> str:
+    """Return a link to the card that a divergence names: ``program 3, card 185: ...``."""
+    match = re.match(r"program (\d), card (\d+):", divergence)
+    assert match, "a divergence names its program and card"
+    name = f"program{match[1]}"
+    card = next(card for card in facing(name).cards if card.number == int(match[2]))
+    return element("p", f"The statement: {link(name, card.place, f'program {match[1]}, {card.place}')}.")
 
 
 def _worked(points: tuple[tuple[str, ...], ...]) -> str:
-    """The four planes: each one's value at the point it leaves out, exactly."""
-    whole = [tuple(Fraction(x) for x in point) for point in points]
+    """Return the exact value of each plane through three of the points at the fourth point.
+
+    The value is the determinant of the three difference vectors.
+    """
+    exact = [tuple(Fraction(x) for x in point) for point in points]
     rows = []
     for out in range(4):
-        a, b, c = (whole[k] for k in range(4) if k != out)
-        u, v, w = ([p[k] - a[k] for k in range(3)] for p in (b, c, whole[out]))
+        a, b, c = (exact[k] for k in range(4) if k != out)
+        u, v, w = ([p[k] - a[k] for k in range(3)] for p in (b, c, exact[out]))
         value = (
             u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) + u[2] * (v[0] * w[1] - v[1] * w[0])
         )
-        rows.append(f"<li>Plane through all but point {out + 1}: its value at point {out + 1} is {int(value):,}.</li>")
-    words = "No value is zero: every point is a vertex, and each plane leaves one point on its inner side."
-    return element("ul", "".join(rows)) + text("p", words)
+        number = out + 1
+        rows.append(f"<li>The plane through all points except {number} has the value {int(value):,} at {number}.</li>")
+    conclusion = "No value is zero, so every point is a vertex and each plane has one point on its inner side."
+    return element("ul", "".join(rows)) + text("p", conclusion)

@@ -1,0 +1,62 @@
+"""What the three builds share: the site, the book and the deposit.
+
+Each build is a function that raises :class:`BuildError` with one line for the user; :func:`run` calls it and turns the
+error into an exit code.  :func:`citation` and :func:`newest_wheel` read files of the checkout.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any, Final
+
+ROOT: Final = Path(__file__).parents[2]
+"""The root of the checkout; the builds run there only, never from an installed wheel."""
+DIST: Final = ROOT / "dist"
+"""The folder in which ``make wheel``, ``make edition``, ``make book`` and ``make archive`` put their results."""
+
+
+class BuildError(Exception):
+    """The reason why a build failed, in one line."""
+
+
+def run(name: str, build: Callable[[], str]) -> int:
+    """Run a build and print the summary that it returns.
+
+    Return 0, or 2 after one line on standard error if the build raises BuildError, ValueError or OSError.
+    """
+    try:
+        print(build())
+    except (BuildError, ValueError, OSError) as error:
+        print(f"{name}: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+def check_replaceable(folder: Path, marker: str, kind: str) -> None:
+    """Raise BuildError if a folder is neither empty nor an earlier result, which holds the file ``marker``."""
+    if folder.exists() and not (folder / marker).exists() and (not folder.is_dir() or any(folder.iterdir())):
+        raise BuildError(f"{folder}: exists and is not {kind}; it is not replaced")
+
+
+@cache
+def citation() -> Mapping[str, Any]:
+    """Return the fields of CITATION.cff.  A date is a ``datetime.date``."""
+    return read_citation((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+
+
+def read_citation(text: str) -> Mapping[str, Any]:
+    """Parse the text of a CITATION.cff file (YAML).  Raise BuildError if PyYAML is not installed."""
+    try:
+        import yaml
+    except ImportError:
+        raise BuildError("PyYAML reads CITATION.cff: pip install 'hull1620[edition]'") from None
+    fields: dict[str, Any] = yaml.safe_load(text)
+    return fields
+
+
+def newest_wheel() -> Path | None:
+    """Return the wheel that was built last, or None if ``make wheel`` has not run."""
+    return max(DIST.glob("hull1620-*.whl"), key=lambda path: path.stat().st_mtime, default=None)
