@@ -14,13 +14,14 @@ from tests.support.editions import pages, words
 
 def plain(text: str) -> str:
     """Return a text without line breaks and with straight quotation marks."""
-    return " ".join(text.translate(dict(zip(map(ord, "‘’“”"), "\'\'\"\"", strict=True))).split())
+    return " ".join(text.translate(dict(zip(map(ord, "‘’“”"), "''\"\"", strict=True))).split())
 
 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_the_section_of_a_command_has_all_options_with_their_help(site: Path, command: str) -> None:
     (parser,) = [a.choices[command] for a in build_parser([command])._actions if isinstance(a.choices, dict)]
-    (section,) = pages(site)["reference/commands.html"].root.xpath(f'//section[span[@id="{command}"] or @id="{command}"]')
+    page = pages(site)["reference/commands.html"]
+    (section,) = page.root.xpath(f'//section[span[@id="{command}"] or @id="{command}"]')
     text = plain(words(section))
     assert plain(parser.description) in text
     for action in (action for action in parser._actions if action.dest != "help"):
