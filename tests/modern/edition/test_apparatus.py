@@ -42,7 +42,7 @@ def test_splitting_the_fused_page_changes_only_spacing() -> None:
 
 
 def test_the_counts_in_the_readme_are_those_of_the_rows() -> None:
-    text = SOURCES.joinpath("README.md").read_text(encoding="utf-8")
+    text = " ".join(SOURCES.joinpath("README.md").read_text(encoding="utf-8").split())
     misread = [row for row in ROWS if row.kind == "misread" and row.layer == "ocr"]
     parse = sum(row.ground["kind"] == "parse" for row in misread)
     assert f"in {len(misread)} places" in text

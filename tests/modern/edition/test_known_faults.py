@@ -32,13 +32,13 @@ from tests.support.judged import Point, distinct, faults
 from tests.support.paths import MACHINE_RUNS
 
 TEXT = programs.sources().joinpath("KNOWN-FAULTS.md").read_text(encoding="utf-8")
-ENTRIES = {int(n): words for n, words in re.findall(r"^(\d+)\. (.+(?:\n +.+)*)", TEXT, re.M)}
+ENTRIES = {int(n): entry for n, entry in re.findall(r"^(\d+)\. (.+(?:\n +.+)*)", TEXT, re.M)}
 CORRECTIONS = [row.id for name in programs.TEXTS for row in programs.text(name).rows if row.layer == "corrected"]
 Triple = tuple[int, int, int]
 
 
 def sheet(name: str) -> Deck:
-    """A ground, or one of the fourteen machine runs."""
+    """Return the deck of a ground, or of one of the fourteen machine runs."""
     return ground_deck(name) or read_deck(str(MACHINE_RUNS / name / "deck.cards"))
 
 
@@ -49,15 +49,15 @@ def sample(name: str) -> Sample:
 
 @cache
 def answer(name: str, *rows: str) -> Answer:
-    """What the listing, with these rows of the layer ``corrected`` and no others, makes of a deck."""
-    (found,) = carry_out(Programs("route", rows=rows, core=60_000, limit=1_000_000), [sample(name)], Runs())
-    return found
+    """Run a deck through the listing with only these rows of the layer ``corrected``."""
+    (result,) = carry_out(Programs("route", rows=rows, core=60_000, limit=1_000_000), [sample(name)], Runs())
+    return result
 
 
 def exactly(name: str) -> str:
-    """What the same procedure makes of it in exact arithmetic, without cards that cut the numbers."""
-    (found,) = carry_out(Port("exact", "exact"), [sample(name)], Runs())
-    return found.outcome
+    """Return the outcome of the procedure in exact arithmetic, in which no card truncates a number."""
+    (result,) = carry_out(Port("exact", "exact"), [sample(name)], Runs())
+    return result.outcome
 
 
 # Entry, deck, outcome, where, and the row that corrects it.
@@ -78,8 +78,8 @@ CORRECTED = [
 def test_its_deck_shows_the_fault_and_its_row_alone_corrects_it(
     entry: int, name: str, outcome: str, where: str, row: str
 ) -> None:
-    found = answer(name)
-    assert (found.outcome, found.detail) == (outcome, where)
+    result = answer(name)
+    assert (result.outcome, result.detail) == (outcome, where)
     assert answer(name, row).outcome == "right"
     assert row in ENTRIES[entry]
     assert name in ENTRIES[entry]
@@ -87,25 +87,25 @@ def test_its_deck_shows_the_fault_and_its_row_alone_corrects_it(
 
 @pytest.mark.parametrize(("name", "row"), [(name, row) for _, name, _, _, row in CORRECTED])
 def test_no_other_row_corrects_it(name: str, row: str) -> None:
-    """Rows of another program than the fault's cannot; P3-029 stands on P3-027."""
-    for other in CORRECTIONS:
-        if other != row and other[:2] == row[:2]:
-            rows = ("P3-027", other) if other == "P3-029" else (other,)
+    """Only rows of the same program are tried; P3-029 changes a card of P3-027 and needs it."""
+    for wrong_row in CORRECTIONS:
+        if wrong_row != row and wrong_row[:2] == row[:2]:
+            rows = ("P3-027", wrong_row) if wrong_row == "P3-029" else (wrong_row,)
             if row not in rows:
-                assert answer(name, *rows).outcome != "right", other
+                assert answer(name, *rows).outcome != "right", wrong_row
 
 
-def test_the_corrections_named_are_all_there_are() -> None:
-    """P3-029 keeps a message, and is tested with entry 4."""
+def test_every_correction_is_tested() -> None:
+    """P3-029 only keeps a message; the test of entry 4 covers it."""
     assert sorted({row for *_, row in CORRECTED} | {"P3-029"}) == sorted(CORRECTIONS)
 
 
-# What has no row of its own.
+# Faults without a row that corrects them.
 
 
 def run(name: str | Deck, *layers: str, options: Options | None = None) -> HullRun:
     deck = sheet(name) if isinstance(name, str) else name
-    return run_hull(deck, lambda wanted: programs.with_layers(wanted, layers), options or Options(core=60_000))
+    return run_hull(deck, lambda name: programs.with_layers(name, layers), options or Options(core=60_000))
 
 
 def deck(points: Sequence[Sequence[int]]) -> Deck:
@@ -113,18 +113,18 @@ def deck(points: Sequence[Sequence[int]]) -> Deck:
 
 
 def ran(name: str | Deck, last: str, label: int, see: Callable[[Machine], object]) -> list[object]:
-    """What is seen of the machine each time the statement of that number of program ``last`` begins."""
-    seen: list[object] = []
+    """Collect ``see(machine)`` each time the statement with this number of program ``last`` begins."""
+    observations: list[object] = []
 
     def watch(program: Program, machine: Machine) -> None:
         def begins(line: Line, machine: Machine) -> None:
             if program.source == last and line.label == label:
-                seen.append(see(machine))
+                observations.append(see(machine))
 
         machine.tracer = begins
 
     run_hull(sheet(name) if isinstance(name, str) else name, programs.program, watch=watch)
-    return seen
+    return observations
 
 
 def value(machine: Machine, name: str) -> object:
@@ -132,40 +132,40 @@ def value(machine: Machine, name: str) -> object:
     return machine.state.values[entry.first]
 
 
-def test_1_the_other_way_of_ending_it_has_none() -> None:
-    """Without end the plane table is emptied far below zero."""
-    found = run(
+def test_1_another_set_runs_forever() -> None:
+    """The run never ends, and NE falls far below zero."""
+    job = run(
         deck([(4, 5, 2), (1, 0, 7), (2, 8, 5), (2, 9, 1), (0, 8, 6), (8, 9, 3), (6, 9, 5), (3, 8, 7)]),
         options=Options(limit=20_000),
     )
-    assert found.final.result.ending.kind == "limit"
-    assert {142, 157} <= {line.label for line in found.final.result.ending.loop}
+    assert job.final.result.ending.kind == "limit"
+    assert {142, 157} <= {line.label for line in job.final.result.ending.loop}
 
 
-def test_3_of_sixty_orders_of_the_cubes_corners_twelve_end_so_and_the_others_by_2() -> None:
+def test_3_twelve_of_sixty_orders_of_the_cube_show_it_and_the_others_show_fault_2() -> None:
     corners = list(product((0, 1), repeat=3))
     through_c = 0
     for seed in range(60):
         Random(seed).shuffle(corners)
-        found = run(deck(corners), options=Options(limit=20_000)).final.result
-        typed = [event.decision for event in found.events if event.text == "ERROR IN PROGRAM"]
+        job = run(deck(corners), options=Options(limit=20_000)).final.result
+        typed = [event.decision for event in job.events if event.text == "ERROR IN PROGRAM"]
         if typed and typed[0] is not None and typed[0].text == "IF(E(I))135,133,134":
             through_c += 1
         else:
-            assert found.ending.kind == "limit" or (typed[0] is not None and typed[0].label == 170)
+            assert job.ending.kind == "limit" or (typed[0] is not None and typed[0].label == 170)
     assert through_c == 12
     assert "twelve" in ENTRIES[3]
 
 
 def test_4_a_plane_of_zeros_keeps_its_message() -> None:
-    """P3-027 alone would lose it; P3-029 beside it does not."""
+    """P3-027 alone would remove the message; with P3-029 it stays."""
     assert answer("zeroplane").outcome == "ERROR IN PROGRAM"
     assert answer("zeroplane", "P3-027").outcome == "table full"
     assert answer("zeroplane", "P3-027", "P3-029").outcome == "ERROR IN PROGRAM"
     assert exactly("zeroplane") == "right"
 
 
-def test_6_more_digits_correct_it_and_no_row() -> None:
+def test_6_more_digits_correct_it_but_no_row_does() -> None:
     assert answer("18_dec3_n6").outcome == "DATA NOT ACCEPTABLE"
     for row in CORRECTIONS:
         rows = ("P3-027", row) if row == "P3-029" else (row,)
@@ -175,11 +175,11 @@ def test_6_more_digits_correct_it_and_no_row() -> None:
 
 def circle_and(point: Triple) -> list[Sequence[int]]:
     """Fifty points of a circle and one last."""
-    points = [[int(float(x)) for x in one] for one in sample("polygon51").drawn.points]
+    points = [[int(float(x)) for x in point] for point in sample("polygon51").drawn.points]
     return [*points[:50], point]
 
 
-def test_7_what_stands_past_the_end_is_copied_and_never_computed_with() -> None:
+def test_7_the_element_past_the_end_is_copied_and_never_used() -> None:
     """N = 51, the last point inside: element 52 is copied to 51."""
     points = circle_and((0, 10, 0))
     (seen,) = ran(deck(points), "program2.f", 119, lambda machine: (value(machine, "J"), value(machine, "N")))
@@ -188,8 +188,8 @@ def test_7_what_stands_past_the_end_is_copied_and_never_computed_with() -> None:
     assert not faults([(x, y, z) for x, y, z in points])
 
 
-def test_8_the_jump_into_a_do_that_is_not_running_comes_to_nothing() -> None:
-    """K is NE or more there: the end of the DO steps it past the limit and goes on to 191."""
+def test_8_the_jump_into_a_do_that_is_not_running_has_no_effect() -> None:
+    """K is at least NE there, so the end of the DO increments it past the limit and continues at 191."""
     before = ran("example4", "program2.f", 191, lambda machine: (value(machine, "K"), value(machine, "NE")))
     assert before
     assert all(isinstance(pair, tuple) and pair[0] >= pair[1] for pair in before)
@@ -203,8 +203,8 @@ LATE = [(0, 2, 0), (1, 2, 0), (2, 2, 0), (1, 1, 0), (2, 0, 0), (2, 1, 0), (0, 1,
 LATE_3 = [(0, 3, 0), (2, 0, 2), (0, 1, 0), (1, 0, 1), (3, 3, 0), (3, 1, 0), (0, 2, 0), (3, 2, 0)]
 
 
-def test_9_the_jump_into_the_range_of_143_leaves_it_before_its_end() -> None:
-    """158 goes to 138, and 142 with NPNCH = 2 leaves for 160: 143 is not reached from there."""
+def test_9_the_jump_into_the_range_of_143_leaves_it_before_the_end() -> None:
+    """158 branches to 138, and 142 with NPNCH = 2 branches to 160, so 143 is not reached."""
     came = ran(deck(LATE), "program2.f", 138, lambda machine: value(machine, "NPNCH"))
     assert 2 in came
     assert len(ran(deck(LATE), "program2.f", 143, lambda machine: 0)) == came.count(0)
@@ -212,7 +212,7 @@ def test_9_the_jump_into_the_range_of_143_leaves_it_before_its_end() -> None:
     assert not faults([(x, y, z) for x, y, z in LATE])
 
 
-def test_10_with_switch_1_on_a_refused_set_goes_on() -> None:
+def test_10_with_switch_1_on_a_rejected_set_continues() -> None:
     off, on = (run("18_dec3_n6", options=Options(switches=frozenset(s), limit=50_000)) for s in ((), (1,)))
     assert off.refusal == "DATA NOT ACCEPTABLE"
     assert "DATA NOT ACCEPTABLE" in on.final.result.typed
@@ -220,17 +220,17 @@ def test_10_with_switch_1_on_a_refused_set_goes_on() -> None:
     assert on.final.result.typed.count("DATA NOT ACCEPTABLE") > 1
 
 
-def test_11_format_21_takes_fourteen_columns_for_z() -> None:
+def test_11_format_21_reads_fourteen_columns_for_z() -> None:
     """The data sheet of chapter 5 (p. 59) gives it 29 to 52."""
     widths = [part.width for part in dict(programs.program("program1").formats)[21].specs if isinstance(part, Field)]
     assert (sum(widths[:2]) + 1, sum(widths[:3])) == (29, 42)
-    assert "29 to 52; FORMAT 21 takes 29 to 42" in ENTRIES[11]
+    assert "29 to 52. FORMAT 21 reads columns 29 to 42" in ENTRIES[11]
 
 
 def ends(first: str, points: list[Triple]) -> set[tuple[Fraction, ...]]:
-    """The endpoints (or vertices) the last program punches."""
-    found = run_hull(deck(points), programs.program, first=first)
-    return set(read_hull(found.final.result.punched).vertices)
+    """Return the endpoints or vertices that the last program punches."""
+    job = run_hull(deck(points), programs.program, first=first)
+    return set(read_hull(job.final.result.punched).vertices)
 
 
 @pytest.mark.parametrize(
@@ -240,7 +240,7 @@ def ends(first: str, points: list[Triple]) -> set[tuple[Fraction, ...]]:
         ([(0, 0, 0), (0, 5, 5), (0, 1, 1), (0, 2, 2)], [1, 3], [0, 1]),
     ],
 )
-def test_12_the_state_of_the_examples_takes_wrong_ends(
+def test_12_the_state_of_the_examples_chooses_wrong_endpoints(
     points: list[Triple], wrong: list[int], right: list[int]
 ) -> None:
     assert ends("program1_examples", points) == {tuple(map(Fraction, points[i])) for i in wrong}
@@ -256,9 +256,7 @@ def test_12_the_state_of_the_examples_takes_wrong_ends(
         ("E-50", "POINTS ARE COLLINEAR"),
     ],
 )
-def test_13_small_points_in_no_plane_pass_for_coplanar_and_smaller_ones_for_collinear(
-    exponent: str, words: str
-) -> None:
+def test_13_small_points_in_space_pass_for_coplanar_and_smaller_ones_for_collinear(exponent: str, words: str) -> None:
     points = [(1, 2, 3), (2, 1, 5), (4, 4, 1), (3, 9, 2), (7, 1, 1)]
     cards = ["".join(f"+.{x}0000000{exponent}" for x in point) for point in points]
     first = run(deck_from_lines("small", [" 5", *cards])).steps[0].result
@@ -266,25 +264,25 @@ def test_13_small_points_in_no_plane_pass_for_coplanar_and_smaller_ones_for_coll
 
 
 @pytest.mark.parametrize(("points", "program"), [(LATE, "program2"), (LATE_3, "program3")])
-def test_17_the_heading_of_boundary_points_comes_twice(points: list[Triple], program: str) -> None:
-    """The points are right: the heading has no part in the hull."""
-    found = run(deck(points))
-    assert found.final.name == program
-    assert sum("BOUNDARY POINTS" in line for line in found.final.result.punched) == 2
+def test_17_the_heading_of_boundary_points_is_punched_twice(points: list[Triple], program: str) -> None:
+    """The points are right; only the heading is wrong."""
+    job = run(deck(points))
+    assert job.final.name == program
+    assert sum("BOUNDARY POINTS" in line for line in job.final.result.punched) == 2
     assert not faults(points)
 
 
 def thirds(flat: bool) -> list[list[Point]]:
-    """Sixty sets of 5 to 20 points with integers from -9 to 9."""
-    found = []
+    """Return sixty sets of 5 to 20 points with integers from -9 to 9."""
+    sets = []
     for seed in range(60):
         random = Random(seed)
 
         def draw(random: Random = random) -> Point:
             return random.randint(-9, 9), random.randint(-9, 9), 1 if flat else random.randint(-9, 9)
 
-        found.append(distinct(draw, random.choice((5, 8, 12, 20))))
-    return found
+        sets.append(distinct(draw, random.choice((5, 8, 12, 20))))
+    return sets
 
 
 @pytest.mark.parametrize(("flat", "refused", "errors"), [(True, 54, 0), (False, 1, 6)])
@@ -292,22 +290,25 @@ def test_18_translation_costs_digits(flat: bool, refused: int, errors: int) -> N
     refusals = [run(deck(points), "translation", "corrected").refusal for points in thirds(flat)]
     assert refusals.count("DATA NOT ACCEPTABLE") == refused
     assert refusals.count("ERROR IN PROGRAM") == errors
-    words = " ".join(ENTRIES[18].split())
-    assert (f"refuse {refused} (" if flat else f"in space {refused}, with {errors} ending") in words
+    entry = " ".join(ENTRIES[18].split())
+    expected = (
+        f"reject {refused} of 60 coplanar sets" if flat else f"{refused} of 60 sets in space, and {errors} more end"
+    )
+    assert expected in entry
     assert not any(faults(points, "corrected") for points in thirds(flat))
 
 
-def test_19_points_nearly_in_a_plane_of_constant_z_are_projected_into_a_line() -> None:
+def test_19_points_nearly_in_a_plane_of_constant_z_are_projected_onto_a_line() -> None:
     points = [["0", "0", "1"], ["10", "0", "1"], ["0", "10", "1"], ["10", "10", "1.01"]]
-    found = run(with_epsilon(data_deck(points, "points"), "1"), "epsilon", "corrected")
-    hull = read_hull(found.final.result.punched)
-    assert found.final.name == "program2"
+    job = run(with_epsilon(data_deck(points, "points"), "1"), "epsilon", "corrected")
+    hull = read_hull(job.final.result.punched)
+    assert job.final.name == "program2"
     assert (len(hull.vertices), len(hull.equations)) == (2, 1)
 
 
 def test_every_entry_has_a_test() -> None:
     named = {entry for entry, *_ in CORRECTED}
-    named |= {int(found[1]) for name in globals() if (found := re.match(r"test_(\d+)_", name))}
+    named |= {int(match[1]) for name in globals() if (match := re.match(r"test_(\d+)_", name))}
     assert named == set(ENTRIES) == set(range(1, len(ENTRIES) + 1))
 
 
@@ -315,5 +316,5 @@ def test_the_rows_name_the_entries_they_correct() -> None:
     for name in programs.TEXTS:
         for row in programs.text(name).rows:
             if row.layer == "corrected":
-                found = re.findall(r"KNOWN-FAULTS (\d+)", row.reason)
-                assert row.id in ENTRIES[int(found[0])], row.id
+                entry, *_ = re.findall(r"KNOWN-FAULTS (\d+)", row.reason)
+                assert row.id in ENTRIES[int(entry)], row.id
