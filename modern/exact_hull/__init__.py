@@ -1,7 +1,14 @@
-"""The exact convex hull of points in 3-space, with a certificate: the judge of every other hull here.
+"""The exact convex hull of points in 3-space, with a proof; every other hull of the project is compared with it.
 
-``exact_hull(points)`` works over integers and shares no code with the procedures it judges.  ``certify`` proves a
-result from the points alone, by means other than those that built it; ``exact_hull`` never returns an unproved one.
+``exact_hull(points)`` uses integers and shares no code with the procedures that it judges.  ``certify`` proves a result
+from the points alone, with code that did not construct it.  ``exact_hull`` never returns an unproved result.
+
+coordinates                 input to integers with a common scale
+facets, surface             construction by random incremental insertion
+proposal, kernels           faster construction in rounded numbers, for many points
+certificate, incidences     proof by evaluating every plane at every point
+convexity, polygons         proof by local convexity, for many points and facets
+build                       ``exact_hull``: construct, classify, prove
 """
 
 from modern.exact_hull.build import exact_hull

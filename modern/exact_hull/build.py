@@ -1,4 +1,4 @@
-"""The exact hull of points of any dimension: read, build, classify, prove."""
+"""Construct the exact hull of points of any dimension, classify the points, and prove the result."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ from modern.exact_hull.surface import BOUND, convex_surface, frame, plane_image
 
 SEED = 1963
 MANY = 500
-"""Points from which on a hull is proposed before one is built."""
+"""The number of points from which a hull is first proposed in rounded numbers."""
 _BLOCK = 1 << 16
 
 
 def insertion_order(count: int, simplex: Sequence[int]) -> list[int]:
-    """A shuffle of the points other than the first four, the same for the same count."""
+    """Return a shuffled order of the points that are not in the simplex, always the same for the same count."""
     used = set(simplex)
     order = [index for index in range(count) if index not in used]
     random.Random(SEED).shuffle(order)
@@ -41,31 +41,37 @@ def insertion_order(count: int, simplex: Sequence[int]) -> list[int]:
 
 
 def _on_facets(points: Sequence[IntPoint], facets: Sequence[Facet], others: Sequence[int] | None = None) -> list[int]:
-    """Which of the points, those that are no vertices or ``others``, lie in a facet's plane; all are of the hull."""
+    """Return the points that lie in the plane of a facet, among ``others`` or else all that are not vertices.
+
+    The points all belong to the hull, so a point in such a plane is on the facet.
+    """
     if others is None:
         vertices = {index for facet in facets for index in facet.polygon}
         others = [index for index in range(len(points)) if index not in vertices]
     if not others:
         return []
-    holders = [facet.polygon[0] for facet in facets]
-    space = frame([points[index] for index in (*holders, *others)])
-    planes = [plane_at(facet.plane[:3], held) for facet, held in zip(facets, space.integers, strict=False)]
+    # The planes are moved with the points into the frame, in which one vertex of each facet fixes the constant term.
+    bases = [facet.polygon[0] for facet in facets]
+    space = frame([points[index] for index in (*bases, *others)])
+    planes = [plane_at(facet.plane[:3], base) for facet, base in zip(facets, space.integers, strict=False)]
     images = np.array([plane_image(plane, space.shifts) for plane in planes]).T
     height = max(1, _BLOCK // len(planes))
-    found = []
-    for start in range(len(holders), len(space.integers), height):
+    boundary = []
+    for start in range(len(bases), len(space.integers), height):
+        # No point is outside a plane, so a value below the bound cannot be zero; the others are evaluated exactly.
         near = space.images[start : start + height] @ images >= -BOUND
         for row in np.flatnonzero(near.any(axis=1)).tolist():
             point = space.integers[start + row]
             if any(value(planes[column], point) == 0 for column in np.flatnonzero(near[row]).tolist()):
-                found.append(others[start + row - len(holders)])
-    return found
+                boundary.append(others[start + row - len(bases)])
+    return boundary
 
 
 def _polyhedron(points: Sequence[IntPoint], simplex: Sequence[int], first: Sequence[int] = ()) -> list[Facet]:
-    """The faces of distinct points in space, ``simplex`` naming four that are independent.
+    """Return the faces of distinct points, of which the four in ``simplex`` are affinely independent.
 
-    ``first``: points to insert before all others, which are quickly done with where these are the vertices.
+    The points in ``first`` are inserted before all others.  If they include the vertices, every other point is
+    discarded at once.
     """
     space = frame(points)
     order = insertion_order(len(points), simplex)
@@ -73,6 +79,7 @@ def _polyhedron(points: Sequence[IntPoint], simplex: Sequence[int], first: Seque
         likely = set(first)
         order.sort(key=lambda index: index not in likely)
     triangles = convex_surface(space, simplex, order)
+    # The frame has moved the points, so the constant terms are computed again.
     return [
         Facet(lowest_terms(plane_at(facet.plane[:3], points[facet.polygon[0]])), facet.polygon)
         for facet in faces(triangles, space.integers)
@@ -80,10 +87,11 @@ def _polyhedron(points: Sequence[IntPoint], simplex: Sequence[int], first: Seque
 
 
 def _proposed(points: Sequence[IntPoint], fast: bool | None) -> tuple[list[Facet], list[int]] | None:
-    """The facets and boundary points of distinct points in space as they are proposed, or None."""
+    """Return the facets and boundary points of the hull proposed in rounded numbers, or None."""
     proposal = propose(points, fast)
     if proposal is None:
         return None
+    # Rotate each triangle so that its smallest corner is first, as the result requires.
     corners = proposal.triangles
     turn = corners.argmin(axis=1)
     corners = corners[np.arange(len(corners))[:, None], (turn[:, None] + np.arange(3)) % 3]
@@ -92,23 +100,26 @@ def _proposed(points: Sequence[IntPoint], fast: bool | None) -> tuple[list[Facet
         vertices = [index for facet in facets for index in facet.polygon]
         near = np.setdiff1d(np.concatenate([proposal.near, proposal.triangles.ravel()]), vertices)
         return facets, _on_facets(points, facets, near.tolist())
-    except (RuntimeError, ValueError, KeyError):  # no closed surface, now that the points are taken exactly
+    except (RuntimeError, ValueError, KeyError):  # with the exact points the triangles are not a closed surface
         return None
 
 
 @dataclass(frozen=True, slots=True)
 class _Distinct:
-    """The points read: as integers by a common scale, and those that are not equal to an earlier one."""
+    """The points as integers with a common scale.
+
+    distinct: the points that do not repeat an earlier one.  indices: their indices in the input.
+    """
 
     scale: int
     scaled: list[IntPoint]
-    places: list[IntPoint]
-    names: Sequence[int]
+    distinct: list[IntPoint]
+    indices: Sequence[int]
     duplicates: list[tuple[int, int]]
 
 
-def _distinct(read: Sequence[ExactPoint]) -> _Distinct:
-    scale, scaled = scaled_points(read)
+def _distinct(exact: Sequence[ExactPoint]) -> _Distinct:
+    scale, scaled = scaled_points(exact)
     if len(set(scaled)) == len(scaled):
         return _Distinct(scale, scaled, scaled, range(len(scaled)), [])
     first: dict[IntPoint, int] = {}
@@ -121,61 +132,66 @@ def _distinct(read: Sequence[ExactPoint]) -> _Distinct:
 
 
 def exact_hull(points: Points, fast: bool | None = None) -> ExactHull:
-    """The convex hull of at least one point, exactly, with every point classified and the result proved.
+    """Return the exact convex hull of at least one point, with every point classified and the result proved.
 
-    points: (x, y, z) each; a coordinate is an int, a Fraction, a Decimal, a decimal string (``"-.25E-3"``), a fraction
-    ``"p/q"`` or a float, also one of numpy's, which is taken as the binary number it is; or an array of shape (n, 3).
-    Of many points in space a hull is proposed in rounded numbers; where the proof refuses that, it is built anew.
-    fast: propose by a compiled kernel (numba, the extra ``fast``); None: where it is loaded, or points are very many.
-    The result is the same.
-    Raises PointsError for anything else, ValueError where numba is asked for and missing, and CertificateError if the
-    proof of the result fails.
+    points: three coordinates for each point, or an array of shape (n, 3).  A coordinate is an int, a Fraction, a
+    Decimal, a decimal string such as ``"-.25E-3"``, a fraction ``"p/q"``, or a float, also of numpy, which has the
+    binary value that it stores.
+    fast: propose a hull with a compiled kernel (numba, the extra ``fast``).  None uses the kernel if it is already
+    loaded or there are very many points.  The result is the same.
+
+    For many points in space a hull is first proposed in rounded numbers.  If its proof fails, the hull is constructed
+    exactly.
+
+    Raise PointsError for invalid points, ValueError if ``fast`` is true and numba is missing, and CertificateError if
+    the proof of the constructed hull fails.
     """
-    read = read_points(points)
-    given = _distinct(read)
-    places = given.places
-    basis = independent(places)
+    exact = read_points(points)
+    prepared = _distinct(exact)
+    distinct = prepared.distinct
+    basis = independent(distinct)
     plane: Plane | None = None
     cycle: tuple[int, ...] = ()
     facets: list[Facet] = []
     if len(basis) == 2:
-        facets = segment(places)
+        facets = segment(distinct)
     elif len(basis) == 3:
-        plane, cycle, facets = polygon(places, basis)
+        plane, cycle, facets = polygon(distinct, basis)
     elif len(basis) == 4:
         likely: set[int] = set()
-        proposed = _proposed(places, fast) if len(places) >= MANY else None
+        proposed = _proposed(distinct, fast) if len(distinct) >= MANY else None
         if proposed:
-            hull = _classified(given, 3, *proposed)
+            hull = _classified(prepared, 3, *proposed)
             try:
-                return replace(hull, certificate=certify(read, hull))
+                return replace(hull, certificate=certify(exact, hull))
             except CertificateError:
+                # The vertices of the refused hull are probably vertices of the true one.
                 likely = {index for facet in proposed[0] for index in facet.polygon}
-        facets = _polyhedron(places, basis, sorted(likely))
-    boundary = _on_facets(places, facets) if len(basis) > 2 else []
-    hull = replace(_classified(given, len(basis) - 1, facets, boundary), plane=plane)
-    hull = replace(hull, polygon=tuple(given.names[index] for index in cycle))
-    return replace(hull, certificate=certify(read, hull))
+        facets = _polyhedron(distinct, basis, sorted(likely))
+    boundary = _on_facets(distinct, facets) if len(basis) > 2 else []
+    hull = replace(_classified(prepared, len(basis) - 1, facets, boundary), plane=plane)
+    hull = replace(hull, polygon=tuple(prepared.indices[index] for index in cycle))
+    return replace(hull, certificate=certify(exact, hull))
 
 
-def _classified(given: _Distinct, dimension: int, facets: Sequence[Facet], boundary: Sequence[int]) -> ExactHull:
-    """The result without plane and polygon; ``facets`` and ``boundary`` are of the distinct points."""
-    count, names = len(given.places), np.array(given.names)
+def _classified(prepared: _Distinct, dimension: int, facets: Sequence[Facet], boundary: Sequence[int]) -> ExactHull:
+    """Return the result without plane and polygon; ``facets`` and ``boundary`` refer to the distinct points."""
+    count, indices = len(prepared.distinct), np.array(prepared.indices)
     vertices = sorted({index for facet in facets for index in facet.polygon} or {0})
     inside = np.ones(count, np.bool_)
     inside[vertices] = False
     inside[boundary] = False
-    if given.duplicates:
-        renamed = names.tolist()
+    if prepared.duplicates:
+        renamed = indices.tolist()
         facets = [Facet(facet.plane, tuple([renamed[index] for index in facet.polygon])) for facet in facets]
     return ExactHull(
         dimension=dimension,
-        scale=given.scale,
-        scaled=tuple(given.scaled),
-        vertices=tuple(names[vertices].tolist()),
-        boundary=tuple(names[sorted(boundary)].tolist()),
-        inside=tuple(names[inside].tolist()),
-        duplicates=tuple(given.duplicates),
+        scale=prepared.scale,
+        scaled=tuple(prepared.scaled),
+        vertices=tuple(indices[vertices].tolist()),
+        boundary=tuple(indices[sorted(boundary)].tolist()),
+        inside=tuple(indices[inside].tolist()),
+        duplicates=tuple(prepared.duplicates),
         plane=None,
         facets=tuple(sorted(facets, key=attrgetter("plane"))),
     )

@@ -1,4 +1,4 @@
-"""Points as given, to exact numbers, to integers by one common scale."""
+"""Convert points to exact numbers, and these to integers with one common scale."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Points = Iterable[Iterable[Coordinate]] | NDArray[Any]
 
 
 def _plain(points: Sequence[Any]) -> TypeGuard[list[IntPoint]]:
-    """Whether a list has tuples or lists of three Python integers only: found out in passes, not point by point."""
+    """Return True for a list of tuples or lists of three Python integers.  Whole passes are faster than a loop."""
     return (
         isinstance(points, list)
         and set(map(type, points)) <= {tuple, list}
@@ -31,7 +31,7 @@ def _plain(points: Sequence[Any]) -> TypeGuard[list[IntPoint]]:
 
 
 def _whole(points: NDArray[Any]) -> bool:
-    """Whether an array has floats that are all integers of some 18 digits."""
+    """Return True for an array of floats that are all integers below 2**60."""
     if points.dtype.kind != "f" or points.dtype.itemsize not in (4, 8):
         return False
     with np.errstate(invalid="ignore"):
@@ -39,56 +39,55 @@ def _whole(points: NDArray[Any]) -> bool:
 
 
 def read_points(points: Points) -> list[ExactPoint]:
-    """The exact coordinates of every point, in the order given.  Raises PointsError."""
+    """Return the exact coordinates of every point, in input order.  Raise PointsError for an invalid point."""
     if isinstance(points, np.ndarray):
         if points.dtype.kind not in "iufOU":
-            raise PointsError(f"an array of {points.dtype} holds no real numbers")
+            raise PointsError(f"an array of {points.dtype} does not hold real numbers")
         if not points.size:
             raise PointsError("there are no points")
         if points.ndim != 2:
-            raise PointsError(f"an array of points has the shape (n, 3), not {points.shape}")
+            raise PointsError(f"an array of points must have the shape (n, 3), not {points.shape}")
+        # Arrays of integers, or of floats that are integers, are converted as a whole.
         if points.shape[1] == 3 and (points.dtype.kind in "iu" or _whole(points)):
             whole = points if points.dtype.kind in "iu" else points.astype(np.int64)
             return list(zip(*whole.T.tolist(), strict=True))
         points = points.tolist()
     if isinstance(points, list) and points and _plain(points):
         return list(map(tuple, points))  # type: ignore[arg-type]
-    found: list[ExactPoint] = []
+    exact: list[ExactPoint] = []
     for index, point in enumerate(points):
-        if type(point) in (tuple, list) and len(point) == 3:  # the usual point, quickly
+        if type(point) in (tuple, list) and len(point) == 3:  # a fast path for the usual point
             x, y, z = point
             if type(x) is int and type(y) is int and type(z) is int:
-                found.append((x, y, z))
+                exact.append((x, y, z))
                 continue
         if isinstance(point, str):
-            raise PointsError(f"point {index}: one text is no point; a point has three coordinates")
+            raise PointsError(f"point {index}: expected three coordinates, found a str")
         try:
             row = tuple(point)
         except TypeError:
-            raise PointsError(
-                f"point {index}: a {type(point).__name__} is no point; a point has three coordinates"
-            ) from None
+            raise PointsError(f"point {index}: expected three coordinates, found a {type(point).__name__}") from None
         if len(row) != 3:
-            raise PointsError(f"point {index}: {len(row)} coordinates; a point has three")
+            raise PointsError(f"point {index}: expected three coordinates, found {len(row)}")
         numbers: list[Exact] = []
         for axis, value in zip("xyz", row, strict=True):
             try:
                 numbers.append(real(value))
             except ValueError as error:
                 raise PointsError(f"point {index}, coordinate {axis}: {error}") from None
-        found.append((numbers[0], numbers[1], numbers[2]))
-    if not found:
+        exact.append((numbers[0], numbers[1], numbers[2]))
+    if not exact:
         raise PointsError("there are no points")
-    return found
+    return exact
 
 
 def common_scale(points: Sequence[ExactPoint]) -> int:
-    """The least positive integer that makes every coordinate an integer: the lcm of the denominators."""
+    """Return the least positive integer by which every coordinate becomes an integer: the lcm of the denominators."""
     return math.lcm(*{value.denominator for point in points for value in point})
 
 
 def to_integers(points: Sequence[ExactPoint], scale: int) -> list[IntPoint]:
-    """Every coordinate times ``scale``, a multiple of every denominator."""
+    """Return every coordinate times ``scale``, a multiple of every denominator."""
     if scale == 1:
         return [(x.numerator, y.numerator, z.numerator) for x, y, z in points]
     return [
@@ -102,7 +101,7 @@ def to_integers(points: Sequence[ExactPoint], scale: int) -> list[IntPoint]:
 
 
 def scaled_points(points: Sequence[ExactPoint]) -> tuple[int, list[IntPoint]]:
-    """The common scale and the integers."""
+    """Return the common scale and the integers."""
     if _plain(points):
         return 1, points
     scale = common_scale(points)
@@ -110,7 +109,7 @@ def scaled_points(points: Sequence[ExactPoint]) -> tuple[int, list[IntPoint]]:
 
 
 def columns_of(points: Sequence[IntPoint]) -> list[NDArray[Any]]:
-    """The coordinates axis by axis: int64 where all are within 2**62, else Python integers."""
+    """Return the coordinates axis by axis, as int64 if all are below 2**62 and else as Python integers."""
     try:
         table = np.fromiter(chain.from_iterable(points), np.int64, 3 * len(points))
         if max(int(table.max()), -int(table.min())) < 2**62:

@@ -1,7 +1,7 @@
-"""Planes of integers and the facets in them, for the construction only; the certificate has its own.
+"""Integer planes and the facets in them, for the construction only; the certificate has its own functions.
 
-Of a polyhedron the facets are faces: the triangles of one plane become one polygon.  Points in one line or one plane
-need no surface: their facets, the ends of a segment or the edges of a polygon, are found by sorting.
+The triangles of a polyhedron that share a plane become one polygon.  Points in one line or one plane need no surface:
+their facets, the ends of a segment or the edges of a polygon, are found by sorting.
 """
 
 from __future__ import annotations
@@ -20,45 +20,46 @@ Triangle = tuple[int, int, int]
 
 
 def minus(p: IntPoint, q: IntPoint) -> IntPoint:
-    """p - q."""
+    """Return p - q."""
     return p[0] - q[0], p[1] - q[1], p[2] - q[2]
 
 
 def cross(u: IntPoint, v: IntPoint) -> IntPoint:
-    """The vector product."""
+    """Return the vector product of u and v."""
     return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
 
 
 def value(plane: Plane, p: IntPoint) -> int:
-    """A x + B y + C z + D."""
+    """Return A x + B y + C z + D at the point p."""
     return plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2] + plane[3]
 
 
 def plane_at(normal: IntPoint, p: IntPoint) -> Plane:
-    """The plane through ``p`` with the given normal, not reduced."""
+    """Return the plane through ``p`` with the given normal, not reduced to lowest terms."""
     return (*normal, -(normal[0] * p[0] + normal[1] * p[1] + normal[2] * p[2]))
 
 
 def plane_through(p: IntPoint, q: IntPoint, r: IntPoint) -> Plane:
-    """The plane of three points, positive on the side from which they run counterclockwise; not reduced."""
+    """Return the plane of three points, not reduced; they are counterclockwise seen from its positive side."""
     return plane_at(cross(minus(q, p), minus(r, p)), p)
 
 
 def lowest_terms(plane: Plane) -> Plane:
-    """The plane without common divisor, its sense kept.  The normal is not zero."""
+    """Return the plane divided by the greatest common divisor of its numbers.  The normal must not be zero."""
     divisor = math.gcd(*plane)
     a, b, c, d = plane
     return a // divisor, b // divisor, c // divisor, d // divisor
 
 
 def independent(points: Sequence[IntPoint]) -> tuple[int, ...]:
-    """The first affinely independent points, at most four: their number less one is the dimension.
+    """Return the first affinely independent points, at most four; their number minus one is the dimension.
 
-    The points are distinct.
+    The points must be distinct.
     """
     if len(points) == 1:
         return (0,)
     origin = points[0]
+    # The first two points span a line; look for a point off the line, then for one off the plane.
     along = minus(points[1], origin)
     for third in range(2, len(points)):
         normal = cross(along, minus(points[third], origin))
@@ -74,24 +75,26 @@ def independent(points: Sequence[IntPoint]) -> tuple[int, ...]:
 
 
 def rotated(polygon: Sequence[int]) -> tuple[int, ...]:
-    """The same cycle, from its smallest member on."""
+    """Return the same cycle, beginning with its smallest member."""
     start = polygon.index(min(polygon))
     return (*polygon[start:], *polygon[:start])
 
 
 def corners_only(cycle: Sequence[int], points: Sequence[IntPoint]) -> list[int]:
-    """A convex cycle of points without those that lie straight between their neighbours."""
-    kept = []
+    """Return a convex cycle of points without those that lie on the line between their neighbours."""
+    corners = []
     for before, here, after in zip((cycle[-1], *cycle[:-1]), cycle, (*cycle[1:], cycle[0]), strict=True):
         if any(cross(minus(points[here], points[before]), minus(points[after], points[here]))):
-            kept.append(here)
-    return kept
+            corners.append(here)
+    return corners
 
 
 def _outline(triangles: Iterable[tuple[int, ...]]) -> list[int]:
-    """The border of triangles that fill a polygon, in their own sense."""
+    """Return the border of triangles that fill a polygon, in the direction of the triangles."""
     edges = {edge for a, b, c in triangles for edge in ((a, b), (b, c), (c, a))}
+    # An edge inside the polygon occurs in both directions.
     following = {a: b for a, b in edges if (b, a) not in edges}
+    # Follow the border from its smallest point; it must return there after all border edges.
     start = here = min(following)
     cycle = []
     while True:
@@ -105,15 +108,16 @@ def _outline(triangles: Iterable[tuple[int, ...]]) -> list[int]:
 
 
 def faces(triangles: Iterable[tuple[Triangle, Plane]], points: Sequence[IntPoint]) -> list[Facet]:
-    """The faces of a convex surface of triangles, by plane in lowest terms; polygons index ``points``."""
-    given = [(rotated(corners), lowest_terms(plane)) for corners, plane in triangles]
-    return merged([corners for corners, _ in given], [plane for _, plane in given], points)
+    """Return the faces of a convex surface of triangles, with planes in lowest terms."""
+    reduced = [(rotated(corners), lowest_terms(plane)) for corners, plane in triangles]
+    return merged([corners for corners, _ in reduced], [plane for _, plane in reduced], points)
 
 
 def merged(triangles: Sequence[tuple[int, ...]], planes: Sequence[Plane], points: Sequence[IntPoint]) -> list[Facet]:
-    """The same of triangles from their smallest corners on and planes in lowest terms."""
+    """Return the faces of triangles that begin with their smallest corner, with planes already in lowest terms."""
     if len(set(planes)) == len(planes):
         return list(map(Facet, planes, triangles))
+    # Triangles with the same plane in lowest terms belong to one face.
     groups: dict[Plane, list[tuple[int, ...]]] = {}
     for corners, plane in zip(triangles, planes, strict=True):
         groups.setdefault(plane, []).append(corners)
@@ -124,29 +128,31 @@ def merged(triangles: Sequence[tuple[int, ...]], planes: Sequence[Plane], points
 
 
 def planes_of(triangles: NDArray[np.int64], points: Sequence[IntPoint]) -> list[Plane]:
-    """The planes through triangles (m, 3), in lowest terms.  Raises ValueError where one has no area."""
-    names, places = np.unique(triangles, return_inverse=True)
-    known: NDArray[Any] = np.array([points[name] for name in names.tolist()], object)
-    if max(np.ptp(known, axis=0).tolist()) < 2**30:  # then a normal is below 2**62
-        near = (known - known[0]).astype(np.int64)
+    """Return the planes through triangles (m, 3), in lowest terms.  Raise ValueError if a triangle has no area."""
+    distinct, positions = np.unique(triangles, return_inverse=True)
+    coordinates: NDArray[Any] = np.array([points[index] for index in distinct.tolist()], object)
+    if max(np.ptp(coordinates, axis=0).tolist()) < 2**30:  # a normal is below 2**62 and fits int64
+        moved = (coordinates - coordinates[0]).astype(np.int64)
     else:
-        near = known
-    p, q, r = (near[places.reshape(-1, 3)[:, k]].T for k in range(3))
+        moved = coordinates
+    p, q, r = (moved[positions.reshape(-1, 3)[:, k]].T for k in range(3))
     (u1, u2, u3), (v1, v2, v3) = q - p, r - p
     normals = [u2 * v3 - u3 * v2, u3 * v1 - u1 * v3, u1 * v2 - u2 * v1]
     divisor = np.gcd.reduce(normals)
     if not divisor.all():
         raise ValueError("a triangle has no area")
     a, b, c = (axis // divisor for axis in normals)
-    x, y, z = known[places.reshape(-1, 3)[:, 0]].T
+    # D has three factors and needs Python integers.
+    x, y, z = coordinates[positions.reshape(-1, 3)[:, 0]].T
     d = -(a.astype(object) * x + b.astype(object) * y + c.astype(object) * z)
     return list(zip(a.tolist(), b.tolist(), c.tolist(), d.tolist(), strict=True))
 
 
 def segment(points: Sequence[IntPoint]) -> list[Facet]:
-    """The two ends of distinct points in a line: on a line the order of coordinates is the order of points."""
-    places = range(len(points))
-    low, high = min(places, key=points.__getitem__), max(places, key=points.__getitem__)
+    """Return the two ends of distinct points in a line."""
+    # The lexicographic order of coordinates is the order of the points along the line.
+    indices = range(len(points))
+    low, high = min(indices, key=points.__getitem__), max(indices, key=points.__getitem__)
     along = minus(points[high], points[low])
     return [
         Facet(lowest_terms(plane_at(along, points[high])), (high,)),
@@ -155,19 +161,20 @@ def segment(points: Sequence[IntPoint]) -> list[Facet]:
 
 
 def positive(plane: Plane) -> Plane:
-    """The plane in lowest terms with the first nonzero of A, B, C positive."""
+    """Return the plane in lowest terms with the first nonzero number of A, B, C positive."""
     a, b, c, d = lowest_terms(plane)
     return (a, b, c, d) if (a, b, c) > (0, 0, 0) else (-a, -b, -c, -d)
 
 
 def polygon(points: Sequence[IntPoint], three: Sequence[int]) -> tuple[Plane, tuple[int, ...], list[Facet]]:
-    """The plane, the vertices in cyclic order and the edges of distinct points in a plane.
+    """Return the plane, the vertices in cyclic order and the edges of distinct points in a plane.
 
-    ``three`` names three points not in a line.  Monotone chains (Andrew, Information Processing Letters 9 (1979))
-    over two of the coordinates, chosen so that the normal does not vanish between them.
+    ``three`` are points that do not lie in a line.  The method is that of monotone chains (Andrew, Information
+    Processing Letters 9 (1979), 216-219), applied to two coordinates.
     """
     plane = positive(plane_through(points[three[0]], points[three[1]], points[three[2]]))
     normal = plane[:3]
+    # Dropping the coordinate with the largest component of the normal keeps distinct points distinct.
     dropped = max(range(3), key=lambda axis: abs(normal[axis]))
     u, v = (dropped + 1) % 3, (dropped + 2) % 3
     if normal[dropped] < 0:
@@ -178,12 +185,12 @@ def polygon(points: Sequence[IntPoint], three: Sequence[int]) -> tuple[Plane, tu
         return (q[u] - p[u]) * (r[v] - p[v]) > (q[v] - p[v]) * (r[u] - p[u])
 
     def chain(order: Sequence[int]) -> list[int]:
-        kept: list[int] = []
+        half: list[int] = []
         for index in order:
-            while len(kept) >= 2 and not left_turn(kept[-2], kept[-1], index):
-                kept.pop()
-            kept.append(index)
-        return kept[:-1]
+            while len(half) >= 2 and not left_turn(half[-2], half[-1], index):
+                half.pop()
+            half.append(index)
+        return half[:-1]
 
     order = sorted(range(len(points)), key=lambda index: (points[index][u], points[index][v]))
     cycle = rotated(chain(order) + chain(order[::-1]))

@@ -1,4 +1,4 @@
-"""Every point against every plane, exactly: for the certificate only, which has its own images and its own bound."""
+"""Evaluate every plane at every point exactly, for the certificate only, with a separate error bound."""
 
 from __future__ import annotations
 
@@ -11,15 +11,18 @@ from numpy.typing import NDArray
 from modern.exact_hull.coordinates import IntPoint
 from modern.exact_hull.result import Plane
 
-# Values at a time: they stay in the cache, and the product of matrices is too small for numpy's library to split
-# among threads, which costs more than it gains when other programs run.
+# The number of values computed at a time.  They stay in the cache, and the matrix product is too small for numpy's
+# library to split it among threads, which costs more than it gains while other programs are running.
 _BLOCK = 1 << 16
 BOUND = 2.0**-47
 
 
 @dataclass(frozen=True, slots=True)
 class Incidences:
-    """The pairs (plane, point) with the value 0, and the pair of a point outside a plane, if there is one."""
+    """The pairs (plane, point) with the value 0, and one pair with a point outside the plane, if there is one.
+
+    evaluations: the number of values computed.  in_integers: how many of them float64 could not decide.
+    """
 
     touching: list[tuple[int, int]]
     outside: tuple[int, int] | None
@@ -29,6 +32,7 @@ class Incidences:
 
 
 def _in_int64(planes: Sequence[Plane], points: Sequence[IntPoint]) -> Incidences:
+    # A block of planes at a time, all points at once; stop at the first positive value.
     normals = np.array(planes, dtype=np.int64)
     columns = np.array(points, dtype=np.int64).T
     step = max(1, _BLOCK // len(points))
@@ -45,37 +49,38 @@ def _in_int64(planes: Sequence[Plane], points: Sequence[IntPoint]) -> Incidences
 
 
 def _images(planes: Sequence[Plane], points: Sequence[IntPoint]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Planes (m, 4) and points (4, n) as float64, of size at most 1 except D.
+    """Return planes (m, 4) and points (4, n) as float64 images, of absolute value at most 1 except for D.
 
-    With the corner c of the points' box and the box's side s: u = (x - c) / s, normal / w, D / (s w), where w is the
-    largest of |A|, |B|, |C|, and D is the value at c.
+    With the corner c and the side s of the bounding box of the points, the images are (x - c) / s for a point, and
+    normal / w and D / (s w) for a plane, where w is the largest of |A|, |B|, |C| and D is the value at c.
     """
     corner = [min(column) for column in zip(*points, strict=True)]
     side = max(max(column) - low for column, low in zip(zip(*points, strict=True), corner, strict=True))
-    place = np.ones((4, len(points)))
+    point_images = np.ones((4, len(points)))
     for axis in range(3):
-        place[axis] = [(point[axis] - corner[axis]) / side for point in points]
-    image = np.empty((len(planes), 4))
+        point_images[axis] = [(point[axis] - corner[axis]) / side for point in points]
+    plane_images = np.empty((len(planes), 4))
     for row, (a, b, c, d) in enumerate(planes):
         width = max(abs(a), abs(b), abs(c))
         at_corner = a * corner[0] + b * corner[1] + c * corner[2] + d
-        image[row] = (a / width, b / width, c / width, at_corner / (side * width))
-    return image, place
+        plane_images[row] = (a / width, b / width, c / width, at_corner / (side * width))
+    return plane_images, point_images
 
 
 def _in_floats(planes: Sequence[Plane], points: Sequence[IntPoint]) -> Incidences:
-    """float64 first, integers where it cannot say.
+    """Evaluate in float64, and in integers if float64 cannot decide the sign.
 
-    Every plane holds a point of the box, so |D| / (s w) <= 3.  With e = 2**-54 the quotients are off by at most e,
-    D's by 4e; a product by 3e once rounded, three by 9e; three additions of partial sums below 8 by 24e.  Together
-    37e, less than a quarter of the bound 2**-47 = 128e.
+    Every plane contains a point of the box, so |D| / (s w) <= 3.  With e = 2**-54 the errors are: e in each quotient
+    and 4e in that of D; 3e in a rounded product and 9e in three; 24e in three additions of partial sums below 8.  The
+    sum is 37e, less than a third of the bound 2**-47 = 128e.
     """
-    image, place = _images(planes, points)
+    plane_images, point_images = _images(planes, points)
     step = max(1, _BLOCK // len(points))
     touching: list[tuple[int, int]] = []
     in_integers = 0
     for start in range(0, len(planes), step):
-        values = image[start : start + step] @ place
+        # Only values that may be zero or positive need integers.
+        values = plane_images[start : start + step] @ point_images
         rows, columns = np.nonzero(values > -BOUND)
         in_integers += len(rows)
         for row, column in zip((rows + start).tolist(), columns.tolist(), strict=True):
@@ -90,11 +95,12 @@ def _in_floats(planes: Sequence[Plane], points: Sequence[IntPoint]) -> Incidence
 
 
 def incidences(planes: Sequence[Plane], points: Sequence[IntPoint]) -> Incidences:
-    """Every point against every plane, exactly; stops at the first point outside.
+    """Evaluate every plane at every point exactly, until the first point outside a plane.
 
-    Every plane has a normal other than 0 and holds one of the points (for the bound on D), and there are at least
-    two distinct points.
+    Every plane has a nonzero normal and contains one of the points (for the bound on D), and there are at least two
+    distinct points.
     """
+    # int64 suffices if no value can reach 2**62.
     reach = [max(1, *(abs(number) for number in column)) for column in zip(*points, strict=True)]
     sizes = [max(1, *(abs(number) for number in column)) for column in zip(*planes, strict=True)]
     if sum(size * most for size, most in zip(sizes, [*reach, 1], strict=True)) < 2**62:

@@ -1,8 +1,9 @@
-"""The hull of points on the grid, one point at a time, in the part of Python that numba compiles.
+"""The hull of points on the integer grid, one point at a time, in the subset of Python that numba compiles.
 
-What :mod:`modern.exact_hull.proposal` does in rounds, with the same signs: Quickhull (Barber, Dobkin and Huhdanpaa, ACM
-Transactions on Mathematical Software 22 (1996), 469-483).  Points wait in lists, each at a triangle it sees; the
-farthest of a list is inserted next.  A point whose triangle is gone is tried against the new triangles.
+This is Quickhull (Barber, Dobkin and Huhdanpaa, ACM Transactions on Mathematical Software 22 (1996), 469-483), with the
+same exact signs as :mod:`modern.exact_hull.proposal`, which inserts points in rounds.  Waiting points are in linked
+lists, each at a triangle that it sees, and the farthest point of a list is inserted next.  When a triangle is removed,
+its points are compared with the new triangles.
 """
 
 from __future__ import annotations
@@ -15,18 +16,20 @@ from numpy.typing import NDArray
 LOW = (1 << 31) - 1
 DOUBT = 2.0**-18
 SEEN = 1e-300
-"""The value of a point that plainly sees a triangle only in integers."""
+"""The value of a point that sees a triangle, if only integers could decide it."""
 NEAR = -4.0
-"""Values of points that may lie on a surface of rounded points begin here."""
+"""The smallest value of a point that may lie on the surface before points were rounded."""
 
 
 class Surface(NamedTuple):
-    """Triangles in slots, a removed one's slot used again, and lists of points.
+    """Triangles in slots, which are reused after removal, and linked lists of waiting points.
 
-    grid (n, 3); corners, neighbours, normals (slots, 3) and images (slots, 4): as in the proposal's rounds.
-    first, farthest, height: of each slot the first of its points, the farthest, and its value.  mark: at which step
-    the triangle was looked at.  following: of each point the next in its list, -1 at the end.  leaving: of each point
-    the new triangle whose first corner it is.
+    grid (n, 3): the points.
+    corners, neighbours, normals (slots, 3), images (slots, 4): as in ``proposal``.
+    first, farthest, height: for each slot the first point of its list, the farthest one, and its value.
+    mark: twice the number of the step that last looked at the triangle, plus 1 if the point did not see it.
+    following: for each point the next one in its list, or -1.
+    leaving: for each point the new triangle whose first corner it is.
     """
 
     grid: NDArray[np.int64]
@@ -43,7 +46,7 @@ class Surface(NamedTuple):
 
 
 def surface(grid: NDArray[np.int64]) -> Surface:
-    """Room for the hull of these points: a closed surface of v corners has 2 v - 4 triangles."""
+    """Allocate the arrays for the hull of these points: a closed surface of v corners has 2 v - 4 triangles."""
     count = len(grid)
     slots = 2 * count
     return Surface(
@@ -62,14 +65,17 @@ def surface(grid: NDArray[np.int64]) -> Surface:
 
 
 class Room(NamedTuple):
-    """Room for what a step works out, so that the kernel makes no array: numba compiles those that do far longer.
+    """Work arrays of a step.  The kernel itself allocates none, because numba then compiles much faster.
 
-    near: of each point whether it may lie on a triangle.  seen, fresh, heads: slots, and lists of points, of a step.
-    edges (n, 2), outer (n, 3): those of a horizon.  todo, queued: slots with points.  free: empty slots.
+    near: for each point whether it may lie on the surface.
+    visible, fresh, heads: the visible triangles of a step, the new ones, and the first points of the lists of the former.
+    edges (n, 2), outer (n, 3): the horizon as (slot, edge), and as (start, end, triangle beyond).
+    todo, queued: a stack of slots with waiting points, and whether each slot is on it.
+    free: empty slots.
     """
 
     near: NDArray[np.bool_]
-    seen: NDArray[np.int64]
+    visible: NDArray[np.int64]
     fresh: NDArray[np.int64]
     heads: NDArray[np.int64]
     edges: NDArray[np.int64]
@@ -80,11 +86,11 @@ class Room(NamedTuple):
 
 
 def room(count: int) -> Room:
-    """Room for so many points."""
-    seen, fresh, heads, todo = (np.empty(2 * count, np.int64) for _ in range(4))
+    """Allocate work arrays for the given number of points."""
+    visible, fresh, heads, todo = (np.empty(2 * count, np.int64) for _ in range(4))
     return Room(
         near=np.zeros(count, np.bool_),
-        seen=seen,
+        visible=visible,
         fresh=fresh,
         heads=heads,
         edges=np.empty((6 * count, 2), np.int64),
@@ -96,7 +102,7 @@ def room(count: int) -> Room:
 
 
 def place_triangle(known: Any, slot: int, a: int, b: int, c: int) -> None:
-    """Put a triangle into a slot, with its plane and no points."""
+    """Write a triangle with its plane and no waiting points into a slot."""
     grid, corners, normals, images = known.grid, known.corners, known.normals, known.images
     corners[slot, 0], corners[slot, 1], corners[slot, 2] = a, b, c
     u1, u2, u3 = grid[b, 0] - grid[a, 0], grid[b, 1] - grid[a, 1], grid[b, 2] - grid[a, 2]
@@ -112,12 +118,13 @@ def place_triangle(known: Any, slot: int, a: int, b: int, c: int) -> None:
 
 
 def value(known: Any, slot: int, p: int) -> float:
-    """A point's value at a triangle's plane, its sign exact."""
+    """Return the value of a triangle's plane at a point; the sign is exact."""
     grid, images = known.grid, known.images
     x, y, z = grid[p, 0], grid[p, 1], grid[p, 2]
-    found = images[slot, 0] * x + images[slot, 1] * y + images[slot, 2] * z + images[slot, 3]
-    if abs(found) > DOUBT:
-        return found  # type: ignore[no-any-return]
+    approximate = images[slot, 0] * x + images[slot, 1] * y + images[slot, 2] * z + images[slot, 3]
+    if abs(approximate) > DOUBT:
+        return approximate  # type: ignore[no-any-return]
+    # Exactly, in two int64: each number of the normal is 2**31 high + low.
     a = known.corners[slot, 0]
     high, low = np.int64(0), np.int64(0)
     for axis in range(3):
@@ -131,42 +138,48 @@ def value(known: Any, slot: int, p: int) -> float:
     return -SEEN if high < 0 else 0.0
 
 
-def wait(known: Any, slot: int, p: int, found: float) -> None:
-    """Put a point into a triangle's list."""
+def wait(known: Any, slot: int, p: int, height: float) -> None:
+    """Add a point with value ``height`` to the list of a triangle."""
     known.following[p] = known.first[slot]
     known.first[slot] = p
-    if found > known.height[slot]:
-        known.height[slot] = found
+    if height > known.height[slot]:
+        known.height[slot] = height
         known.farthest[slot] = p
 
 
 def distribute(known: Any, p: int, slots: Any, count: int, exact: bool) -> bool:
-    """Let a point wait at the first of the triangles that it sees; if at none, whether it may be on the surface."""
+    """Add a point to the list of the first triangle that it sees.
+
+    Return True if it sees none and may lie on the surface.
+    """
     largest = -np.inf
     for k in range(count):
-        found = value(known, slots[k], p)
-        if found > 0:
-            wait(known, slots[k], p, found)
+        height = value(known, slots[k], p)
+        if height > 0:
+            wait(known, slots[k], p, height)
             return False
-        largest = max(largest, found)
+        largest = max(largest, height)
     return largest == 0.0 if exact else largest >= NEAR
 
 
-def region(known: Any, p: int, start: int, step: int, seen: Any, edges: Any) -> Any:
-    """The triangles a point sees, with ``start``, and the edges (slot, edge) of their region; how many of each."""
+def region(known: Any, p: int, start: int, step: int, visible: Any, edges: Any) -> Any:
+    """Find the triangles that a point sees, from ``start`` on, and the edges (slot, edge) of their border.
+
+    Write them to ``visible`` and ``edges``, and return the number of each.
+    """
     mark, neighbours = known.mark, known.neighbours
-    seen[0] = start
+    visible[0] = start
     mark[start] = 2 * step
     count, border, done = 1, 0, 0
     while done < count:
-        slot = seen[done]
+        slot = visible[done]
         done += 1
         for k in range(3):
             beyond = neighbours[slot, k]
             if mark[beyond] != 2 * step and mark[beyond] != 2 * step + 1:
                 if value(known, beyond, p) > 0:
                     mark[beyond] = 2 * step
-                    seen[count] = beyond
+                    visible[count] = beyond
                     count += 1
                 else:
                     mark[beyond] = 2 * step + 1
@@ -177,15 +190,16 @@ def region(known: Any, p: int, start: int, step: int, seen: Any, edges: Any) -> 
 
 
 def grow(known: Any, work: Any, start: NDArray[np.int64], exact: bool) -> int:
-    """How many slots of triangles the hull has, those with a first corner below 0 empty; 0: the surface does not close.
+    """Grow the hull from four points, and return the number of slots used, or 0 if the surface does not close.
 
-    ``work.near`` is which points may lie on it.
+    A slot with a first corner below 0 is empty.  ``work.near`` tells which points may lie on the surface.
     """
     corners, neighbours = known.corners, known.neighbours
     points = len(known.grid)
-    near, seen, fresh, heads = work.near, work.seen, work.fresh, work.heads
+    near, visible, fresh, heads = work.near, work.visible, work.fresh, work.heads
     edges, outer, todo, queued, free = work.edges, work.outer, work.todo, work.queued, work.free
     a, b, c, d = start[0], start[1], start[2], start[3]
+    # The tetrahedron: slot 0 is its base; the others share an edge with the base and with each other.
     place_triangle(known, 0, a, b, c)
     place_triangle(known, 1, b, a, d)
     place_triangle(known, 2, c, b, d)
@@ -198,6 +212,7 @@ def grow(known: Any, work: Any, start: NDArray[np.int64], exact: bool) -> int:
     neighbours[1, 1], neighbours[1, 2] = 3, 2
     neighbours[2, 1], neighbours[2, 2] = 1, 3
     neighbours[3, 1], neighbours[3, 2] = 2, 1
+    # Every other point waits at a triangle that it sees, or is inside.
     for p in range(points):
         if p != a and p != b and p != c and p != d:
             near[p] = distribute(known, p, fresh, 4, exact)
@@ -208,21 +223,26 @@ def grow(known: Any, work: Any, start: NDArray[np.int64], exact: bool) -> int:
         queued[slot] = False
         if known.first[slot] < 0:
             continue
+        # Insert the farthest point of the list.
         step += 1
         p = known.farthest[slot]
-        count, border = region(known, p, slot, step, seen, edges)
+        count, border = region(known, p, slot, step, visible, edges)
+        # The border of a disc of triangles has at least three edges, and the slots suffice for a closed surface.
         if border < 3 or made + max(0, border - count - spare) > 2 * points:
             return 0
+        # Copy the horizon before its triangles are overwritten.
         for k in range(border):
             inner, edge = edges[k, 0], edges[k, 1]
             u, v = corners[inner, edge], corners[inner, (edge + 1) % 3]
             outer[k, 0], outer[k, 1], outer[k, 2] = u, v, neighbours[inner, edge]
+        # Remove the visible triangles, and remember their lists of points.
         for k in range(count):
-            heads[k] = known.first[seen[k]]
-            known.first[seen[k]] = -1
-            corners[seen[k], 0] = -1
-            free[spare] = seen[k]
+            heads[k] = known.first[visible[k]]
+            known.first[visible[k]] = -1
+            corners[visible[k], 0] = -1
+            free[spare] = visible[k]
             spare += 1
+        # Choose a slot for each new triangle.
         for k in range(border):
             if spare:
                 spare -= 1
@@ -230,14 +250,16 @@ def grow(known: Any, work: Any, start: NDArray[np.int64], exact: bool) -> int:
             else:
                 fresh[k] = made
                 made += 1
+        # Join each edge of the horizon to p, and link the new triangle with the one beyond.
         for k in range(border):
             new, u, v, beyond = fresh[k], outer[k, 0], outer[k, 1], outer[k, 2]
             place_triangle(known, new, u, v, p)
             known.leaving[u] = new
             neighbours[new, 0] = beyond
-            for other in range(3):
-                if corners[beyond, other] == v:
-                    neighbours[beyond, other] = new
+            for edge in range(3):
+                if corners[beyond, edge] == v:
+                    neighbours[beyond, edge] = new
+        # Link the new triangles with each other.  If the horizon is not one cycle, the surface was not convex.
         for k in range(border):
             new = fresh[k]
             after = known.leaving[outer[k, 1]]
@@ -245,6 +267,7 @@ def grow(known: Any, work: Any, start: NDArray[np.int64], exact: bool) -> int:
                 return 0
             neighbours[new, 1] = after
             neighbours[after, 2] = new
+        # Compare the points of the removed triangles with the new ones.
         for k in range(count):
             q = heads[k]
             while q >= 0:

@@ -1,6 +1,6 @@
-"""The polygons of a surface side by side, their planes as integers, and float64 images, for the proof of its convexity.
+"""The polygons of a surface as arrays, their planes as integers, and float64 images, for the proof of convexity.
 
-What the images are, and how far off: :mod:`modern.exact_hull.convexity`.
+:mod:`modern.exact_hull.convexity` defines the images and their error bounds.
 """
 
 from __future__ import annotations
@@ -20,29 +20,28 @@ Ints = NDArray[np.int64]
 Objects = NDArray[np.object_]
 
 _WIDE, _APART = 1 << 900, 100
-"""Integers below 2**900, and these times 2**100, are rounded to float64 without overflow."""
+"""Integers below 2**900, also multiplied by 2**100, are rounded to float64 without overflow."""
 
 
 def difference(p: Sequence[int], q: Sequence[int]) -> IntPoint:
-    """p - q."""
+    """Return p - q."""
     return p[0] - q[0], p[1] - q[1], p[2] - q[2]
 
 
 def product(u: Sequence[int], v: Sequence[int]) -> IntPoint:
-    """The vector product."""
+    """Return the vector product of u and v."""
     return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
 
 
 def dot(u: Sequence[int], v: Sequence[int]) -> int:
-    """The scalar product."""
+    """Return the scalar product of u and v."""
     return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 
 
 def check_convex(polygon: Sequence[int], normal: IntPoint, scaled: Sequence[IntPoint], name: str) -> None:
-    """A polygon turns left everywhere, seen from where ``normal`` points to, and goes around once.
+    """Check that a polygon, seen from the side to which ``normal`` points, turns left everywhere and goes around once.
 
-    It goes around as often as the side's direction comes to have a positive coordinate, on an axis that is not the
-    normal's: a turn of less than 180 degrees passes over no half of the directions.
+    Raise CertificateError with ``name`` in the message if it does not.
     """
     require(len(polygon) >= 3, f"{name}: fewer than three vertices")
     sides = [
@@ -50,6 +49,8 @@ def check_convex(polygon: Sequence[int], normal: IntPoint, scaled: Sequence[IntP
     ]
     for before, after, index in zip(sides, sides[1:] + sides[:1], (*polygon[1:], polygon[0]), strict=True):
         require(dot(product(before, after), normal) > 0, f"{name}: no left turn at vertex {index}")
+    # Each turn is less than 180 degrees, so it cannot skip a half of the directions.  The polygon therefore goes around
+    # as often as the direction of its sides enters the half with a positive coordinate on an axis not along the normal.
     axis = 2 if any(normal[:2]) else 1
     upper = [side[axis] > 0 for side in sides]
     entries = sum(after and not before for before, after in zip(upper, upper[1:] + upper[:1], strict=True))
@@ -58,10 +59,11 @@ def check_convex(polygon: Sequence[int], normal: IntPoint, scaled: Sequence[IntP
 
 @dataclass(frozen=True, slots=True)
 class Polygons:
-    """The polygons' corners in a row, one *side* each: from the corner to the next.
+    """The directed sides of all polygons in arrays of length k, facet after facet.
 
-    corner: the points (k).  facet: whose side it is.  next: the side after it.  twin: the side that is its reverse.
-    first, count: of every facet its first side, and how many it has.
+    corner: the point at which each side begins.  facet: its facet.  next: the index of the next side of the facet.
+    twin: the index of the same side in the opposite direction, which belongs to the neighbouring facet.
+    first, count: for every facet the index of its first side, and the number of its sides.
     """
 
     corner: Ints
@@ -73,44 +75,47 @@ class Polygons:
 
 
 def polygons(hull: ExactHull) -> Polygons:
-    """The polygons with what lies beyond their sides.  Raises CertificateError where they do not close."""
+    """Return the sides of all polygons.  Raise CertificateError if the polygons do not close to a surface."""
     require(bool(hull.facets), "there are no facets")
-    given = [facet.polygon for facet in hull.facets]
-    count = np.array(list(map(len, given)), np.int64)
+    cycles = [facet.polygon for facet in hull.facets]
+    count = np.array(list(map(len, cycles)), np.int64)
     if count.min() < 3:
         raise CertificateError(f"facet {int(count.argmin())}: fewer than three vertices")
-    members = list(chain.from_iterable(given))
-    require(set(map(type, members)) == {int}, "a polygon is not of indices")
-    require(set(hull.vertices).issuperset(members), "a point of a polygon is no vertex")
+    members = list(chain.from_iterable(cycles))
+    require(set(map(type, members)) == {int}, "a polygon contains something that is not an index")
+    require(set(hull.vertices).issuperset(members), "a point of a polygon is not a vertex")
     corner = np.array(members, np.int64)
-    facet = np.repeat(np.arange(len(given)), count)
+    # Sides of all facets in a row: the side after the last one of a facet is its first one.
+    facet = np.repeat(np.arange(len(cycles)), count)
     first = np.cumsum(count) - count
     after = np.arange(1, len(corner) + 1)
     after[first + count - 1] = first
     lone = np.setdiff1d(hull.vertices, corner)
     if lone.size:
-        raise CertificateError(f"point {lone[0]} is called a vertex; no facet has it")
+        raise CertificateError(f"point {lone[0]} is called a vertex, but no facet has it")
     for number in np.flatnonzero(np.minimum.reduceat(corner, first) != corner[first]):
         raise CertificateError(f"facet {number}: the smallest vertex is not first")
     size = len(hull.scaled)
+    # Pairs of indices become single integers, so that sorting shows repetitions.
     pairs = np.sort(facet * size + corner)
     require(not (pairs[1:] == pairs[:-1]).any(), "a facet has a vertex twice")
     keys, reverse = corner * size + corner[after], corner[after] * size + corner
     order = np.argsort(keys)
     keys = keys[order]
-    require(not (keys[1:] == keys[:-1]).any(), "an edge occurs twice in the same sense")
-    found = np.searchsorted(keys, reverse).clip(max=len(keys) - 1)
-    for side in np.flatnonzero(keys[found] != reverse):
-        raise CertificateError(f"the edge {corner[side]}-{corner[after[side]]} has a facet on one side only")
-    shape = f"{len(hull.vertices)} vertices, {len(corner) // 2} edges, {len(given)} facets"
-    require(len(hull.vertices) - len(corner) // 2 + len(given) == 2, f"not Euler's relation: {shape}")
-    return Polygons(corner, facet, after, order[found], first, count)
+    require(not (keys[1:] == keys[:-1]).any(), "an edge occurs twice in the same direction")
+    # The twin of a side is the side whose key is reversed.
+    positions = np.searchsorted(keys, reverse).clip(max=len(keys) - 1)
+    for side in np.flatnonzero(keys[positions] != reverse):
+        raise CertificateError(f"the edge {corner[side]}-{corner[after[side]]} has only one facet")
+    shape = f"{len(hull.vertices)} vertices, {len(corner) // 2} edges, {len(cycles)} facets"
+    require(len(hull.vertices) - len(corner) // 2 + len(cycles) == 2, f"Euler's relation does not hold: {shape}")
+    return Polygons(corner, facet, after, order[positions], first, count)
 
 
 def check_planes(hull: ExactHull, sides: Polygons) -> Objects:
-    """The planes (m, 4) as integers: each by itself, and that it holds its polygon's corners.
+    """Check each plane and that it contains the corners of its polygon; return the planes (m, 4) as integers.
 
-    Polygons of more than three corners turn left everywhere; of triangles that is left to be seen.
+    Also check that polygons of more than three corners turn left.  ``convexity`` checks the orientation of triangles.
     """
     planes = [facet.plane for facet in hull.facets]
     require(
@@ -132,23 +137,26 @@ def check_planes(hull: ExactHull, sides: Polygons) -> Objects:
 
 
 def values(planes: Objects, scaled: Sequence[IntPoint], facets: Ints, points: Ints) -> Objects:
-    """Planes' values at points, pair by pair, as Python integers."""
-    names, places = np.unique(points, return_inverse=True)
-    known: Objects = np.array([scaled[name] for name in names.tolist()], object).reshape(-1, 3)
-    found, at = planes[facets], known[places]
-    return np.asarray(found[:, 0] * at[:, 0] + found[:, 1] * at[:, 1] + found[:, 2] * at[:, 2] + found[:, 3])
+    """Return the value of each plane at the point of the same position, as Python integers."""
+    distinct, positions = np.unique(points, return_inverse=True)
+    coordinates: Objects = np.array([scaled[index] for index in distinct.tolist()], object).reshape(-1, 3)
+    plane, at = planes[facets], coordinates[positions]
+    return np.asarray(plane[:, 0] * at[:, 0] + plane[:, 1] * at[:, 1] + plane[:, 2] * at[:, 2] + plane[:, 3])
 
 
 @dataclass(frozen=True, slots=True)
 class Images:
-    """The images of points (n, 3), with c and the exponents of s: x = c + s u."""
+    """The images u of points x = c + s u.
+
+    low: c.  shifts: the exponents of s, a power of two for each axis.  places: the images (n, 3).
+    """
 
     low: tuple[int, ...]
     shifts: tuple[int, ...]
     places: Floats
 
     def exactly(self, place: Floats) -> tuple[IntPoint, int]:
-        """The point that has this image, as integers and what to divide them by."""
+        """Return the point with this image exactly, as integers and their common divisor."""
         pairs = [number.as_integer_ratio() for number in place.tolist()]
         weight = max(under for _, under in pairs)  # powers of two
         x, y, z = (
@@ -159,12 +167,13 @@ class Images:
 
 
 def images_of(scaled: Sequence[IntPoint]) -> Images:
-    """The images of points that have more than one value on every axis."""
+    """Return the images of points that do not all have the same coordinate on any axis."""
     places = np.empty((len(scaled), 3))
     lows, shifts = [], []
     for axis, column in enumerate(columns_of(scaled)):
         low, high = int(column.min()), int(column.max())
         shift = (high - low).bit_length()
+        # Division by a power of two is exact, so only the difference is rounded.
         if column.dtype == np.int64:
             places[:, axis] = np.ldexp((column - low).astype(np.float64), -shift)
         else:
@@ -175,12 +184,14 @@ def images_of(scaled: Sequence[IntPoint]) -> Images:
 
 
 def normal_images(planes: Objects, shifts: Sequence[int]) -> Floats:
-    """The images of the planes' normals (m, 3)."""
+    """Return the images of the planes' normals (m, 3)."""
     normals = planes[:, :3]
+    # A fast path for moderate numbers, which differs from the loop below only in speed.
     if abs(normals).max() < _WIDE and max(shifts) - min(shifts) < _APART:
         floats = np.ldexp(normals.astype(np.float64), np.array(shifts) - min(shifts))
         exponents = np.frexp(abs(floats).max(axis=1))[1]
         return np.asarray(np.ldexp(floats, -exponents[:, None]))
+    # The exact quotients, for integers too large for float64.
     rows = []
     for normal in normals.tolist():
         power = max(number.bit_length() + shift for number, shift in zip(normal, shifts, strict=True) if number)

@@ -1,21 +1,21 @@
-"""A hull proposed quickly: triangles, to be proved by the certificate or else refused.
+"""Propose a hull quickly: triangles that the certificate then proves or refuses.
 
-The points are rounded to a grid of 2**30 steps an axis (coordinates that fit it are taken as they are), and the hull
-of the rounded points is built in rounds: every triangle names the farthest of the points that wait outside of it
-(Barber, Dobkin and Huhdanpaa, ACM Transactions on Mathematical Software 22 (1996), 469-483), and of the points named
-those are inserted together whose seen triangles neither overlap nor touch along an edge.  So every edge of the new
-surface has two triangles that stand side by side in the hull with one of these points alone, and the surface is
-convex again.  For the same reason a point that waited at a triangle now gone is tried against the triangles of the
-point that removed it, and against no others.  "Sees" is strict, as in :mod:`modern.exact_hull.surface`.
+The points are rounded to a grid of 2**30 steps for each axis (coordinates that fit are unchanged), and the hull of the
+rounded points grows in rounds.  In each round every triangle nominates the farthest of the points that wait outside it
+(Barber, Dobkin and Huhdanpaa, ACM Transactions on Mathematical Software 22 (1996), 469-483).  Among the nominated points,
+those are inserted together whose visible regions neither overlap nor share an edge.  Every edge of the new surface then
+has two triangles that would also be adjacent if only one of these points had been inserted, so the surface is convex
+again.  For the same reason a point that waits at a removed triangle is compared only with the triangles of the point
+that removed it.  "Sees" is strict, as in :mod:`modern.exact_hull.surface`.
 
-Signs on the grid are exact: in float64 where a value is plainly not 0, otherwise in two int64.  A normal is a vector
-product of differences below 2**30, so below 2**61; with N = 2**31 H + L its value at a difference d is
-2**31 (H.d) + L.d, and both scalar products are below 2**63.  A computed value, divided by |A| + |B| + |C|, is off by
-at most 16 * 2**30 * 2**-53 = 2**-19.
+Signs on the grid are exact: in float64 if a value is clearly not 0, otherwise in two int64.  A normal is a vector
+product of differences below 2**30, so below 2**61.  With N = 2**31 H + L its value at a difference d is 2**31 (H.d) +
+L.d, and both scalar products are below 2**63.  A computed value, divided by |A| + |B| + |C|, has an error of at most 16
+* 2**30 * 2**-53 = 2**-19.
 
-With numba (extra ``fast``) the same hull is found one point at a time (:mod:`modern.exact_hull.kernels`).
+With numba (extra ``fast``) the same hull grows one point at a time (:mod:`modern.exact_hull.kernels`).
 
-Nothing here need be right: what is proposed is proved afterwards.
+Errors in this module cannot cause a wrong result, because every proposal is proved afterwards.
 """
 
 from __future__ import annotations
@@ -34,28 +34,28 @@ from modern.exact_hull.kernels import DOUBT, LOW, NEAR
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
-Flags = NDArray[np.bool_]
 
 GRID_BITS = 30
 _VERY_MANY = 500_000
-"""Points from which on loading the kernel costs less than it saves."""
+"""The number of points from which loading the kernel costs less time than it saves."""
 _DENSE = 24
-"""Up to so many new triangles all points that lost theirs are tried against all of them, by a product of matrices."""
+"""The largest number of new triangles for which one matrix product compares all points with all of them."""
 
 
 @dataclass(frozen=True, slots=True)
 class Proposal:
-    """Triangles (m, 3), counterclockwise from outside, and the points besides their corners that may lie on them."""
+    """Triangles (m, 3), counterclockwise seen from outside, and the other points that may lie on them."""
 
     triangles: Ints
     near: Ints
 
 
 def on_grid(points: Sequence[IntPoint]) -> tuple[Ints, bool]:
-    """The points from 0 to 2**30 - 1 an axis (n, 3), and whether they are the points themselves, moved."""
+    """Return the points rounded to integers from 0 to 2**30 - 1 (n, 3), and whether rounding changed none of them."""
     grid, exact = np.empty((len(points), 3), np.int64), True
     for axis, column in enumerate(columns_of(points)):
         low, high = int(column.min()), int(column.max())
+        # Dividing by a power of two rounds down, and changes nothing if the shift is 0.
         shift = max(0, (high - low).bit_length() - GRID_BITS)
         grid[:, axis] = (column - low) >> shift
         exact = exact and shift == 0
@@ -63,10 +63,10 @@ def on_grid(points: Sequence[IntPoint]) -> tuple[Ints, bool]:
 
 
 def propose(points: Sequence[IntPoint], fast: bool | None = None) -> Proposal | None:
-    """The hull of points, or None where none is found.
+    """Return a proposed hull, or None.
 
-    ``fast``: by the compiled kernel; None: if it is loaded, or points are very many and numba is there.
-    Raises NotInstalled.
+    fast: use the compiled kernel.  None uses it if it is loaded, or if there are very many points and numba is
+    installed.  Raise NotInstalled if ``fast`` is true and numba is missing.
     """
     grid, exact = on_grid(points)
     start = _simplex(grid)
@@ -77,6 +77,7 @@ def propose(points: Sequence[IntPoint], fast: bool | None = None) -> Proposal | 
         known, work = kernels.surface(grid), kernels.room(len(grid))
         corners = known.corners[: kernel(known, work, np.array(start), exact)]
         return Proposal(corners[corners[:, 0] >= 0], np.flatnonzero(work.near)) if len(corners) else None
+    # Without numba: in rounds of numpy operations.
     growing = _Growing(grid, exact, start)
     while growing.waiting.size:
         if not growing.round():
@@ -88,10 +89,10 @@ def propose(points: Sequence[IntPoint], fast: bool | None = None) -> Proposal | 
 
 @cache
 def load() -> Function:
-    """The kernel, compiled (seconds, once) or loaded.  Raises NotInstalled."""
-    some = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], np.int64)
-    # No array is made: numba need not count the users of each it is given.
-    return Compiled(kernels.grow, _nrt=False).ready(kernels.surface(some), kernels.room(4), np.arange(4), True)
+    """Return the kernel, which is compiled once (in seconds) and then loaded.  Raise NotInstalled."""
+    tetrahedron = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], np.int64)
+    # The kernel allocates no array, so numba need not count references.
+    return Compiled(kernels.grow, _nrt=False).ready(kernels.surface(tetrahedron), kernels.room(4), np.arange(4), True)
 
 
 def _chosen(fast: bool | None, count: int) -> Function | None:
@@ -105,7 +106,8 @@ def _chosen(fast: bool | None, count: int) -> Function | None:
 
 
 def _simplex(grid: Ints) -> list[int] | None:
-    """Four points not in one plane, far from each other; the fourth inside of the others' plane."""
+    """Return four points that are far from each other, the fourth inside the plane of the others; None if coplanar."""
+    # a and b are extreme on the longest axis, c is farthest from their line, d from the plane of the three.
     axis = int(np.ptp(grid, axis=0).argmax())
     a, b = int(grid[:, axis].argmin()), int(grid[:, axis].argmax())
     places = grid - grid[a]
@@ -123,7 +125,8 @@ def _simplex(grid: Ints) -> list[int] | None:
 
 
 def exact_signs(normals: Ints, differences: Ints) -> Ints:
-    """Signs of the scalar products of rows: normals below 2**61, differences below 2**30."""
+    """Return the exact signs of the scalar products of rows, of normals below 2**61 and differences below 2**30."""
+    # Split each number of the normal into 2**31 high + low, and carry the high part of the low sum.
     high = ((normals >> 31) * differences).sum(axis=1)
     low = ((normals & LOW) * differences).sum(axis=1)
     high += low >> 31
@@ -132,11 +135,13 @@ def exact_signs(normals: Ints, differences: Ints) -> Ints:
 
 
 class _Growing:
-    """The surface so far, in arrays over triangle numbers (removed ones keep theirs), and the points that wait.
+    """The current surface, in arrays indexed by triangle (a removed triangle keeps its index), and the waiting points.
 
-    corners, neighbours (T, 3): the triangle beyond the edge from corner k to the next; normals; images (T, 4): the
-    plane over its |A| + |B| + |C|.  waiting: points, each with a triangle it sees (``home``) and its value there.
-    near: points set aside as not outside that may lie on the surface.
+    corners (T, 3): three points, counterclockwise seen from outside.
+    neighbours (T, 3): the triangle beyond the edge from corner k to the next corner.
+    normals (T, 3); images (T, 4): the plane divided by |A| + |B| + |C|.
+    waiting, home, height: the waiting points, a triangle that each one sees, and its value there.
+    near: points that are not outside but may lie on the surface.
     """
 
     def __init__(self, grid: Ints, exact: bool, start: list[int]) -> None:
@@ -160,7 +165,7 @@ class _Growing:
         self.waiting, self.home, self.height = self._tried_against_all(np.flatnonzero(rest), 0)
 
     def _add(self, corners: Ints, neighbours: Ints) -> None:
-        """Triangles with the next numbers."""
+        """Append triangles, and double the arrays if necessary."""
         end = self.made + len(corners)
         while end > len(self.alive):
             for name in ("corners", "neighbours", "normals", "images", "alive"):
@@ -178,20 +183,23 @@ class _Growing:
         self.made = end
 
     def _signed(self, values: Floats, points: Ints, triangles: Ints) -> Floats:
-        """The values, those in doubt replaced by their sign times the smallest there is."""
+        """Return the values, with those in doubt replaced by their exact sign times 1e-300."""
         doubtful = np.flatnonzero(abs(values) <= DOUBT)
         if doubtful.size:
-            who, where = points[doubtful], triangles[doubtful]
-            differences = self.grid[who] - self.grid[self.corners[where, 0]]
-            values[doubtful] = exact_signs(self.normals[where], differences) * 1e-300
+            point, triangle = points[doubtful], triangles[doubtful]
+            differences = self.grid[point] - self.grid[self.corners[triangle, 0]]
+            values[doubtful] = exact_signs(self.normals[triangle], differences) * 1e-300
         return values
 
     def _set_aside(self, points: Ints, largest: Floats) -> None:
-        """Note those of the points, which are not outside, that may be on the surface."""
+        """Record those of the given points, none of which is outside, that may lie on the surface."""
         self.near.append(points[largest == 0] if self.exact else points[largest >= NEAR])
 
     def _tried_against_all(self, points: Ints, first: int) -> tuple[Ints, Ints, Floats]:
-        """Which of the points see triangles from ``first`` on, the one each sees best, and its value there."""
+        """Compare points with all triangles from ``first`` on.
+
+        Return the points that see one, the triangle with the largest value for each, and that value.
+        """
         triangles = np.arange(first, self.made)
         chosen, largest = np.empty(len(points), np.int64), np.empty(len(points))
         step = max(1, (1 << 16) // len(triangles))
@@ -208,107 +216,123 @@ class _Growing:
         return points[outside], chosen[outside], largest[outside]
 
     def _tried_against_own(self, points: Ints, remover: Ints, starts: Ints, counts: Ints) -> tuple[Ints, Ints, Floats]:
-        """The same, each point against the triangles of the point that removed its own: ``counts`` from ``starts``."""
-        many = counts[remover]
-        ends = np.cumsum(many)
-        who = np.repeat(np.arange(len(points)), many)
-        triangles = np.arange(len(who)) + np.repeat(starts[remover] - (ends - many), many)
-        places, images = self.places[points][who], self.images[triangles]
-        values = self._signed(np.einsum("ij,ij->i", places, images), points[who], triangles)
-        largest = np.maximum.reduceat(values, ends - many)
+        """Compare each point with the new triangles of its remover only: ``counts`` triangles from ``starts`` on.
+
+        Return the same as ``_tried_against_all``.
+        """
+        # One row for each pair of a point and a triangle of its remover.
+        pairs = counts[remover]
+        ends = np.cumsum(pairs)
+        row_point = np.repeat(np.arange(len(points)), pairs)
+        triangles = np.arange(len(row_point)) + np.repeat(starts[remover] - (ends - pairs), pairs)
+        places, images = self.places[points][row_point], self.images[triangles]
+        values = self._signed(np.einsum("ij,ij->i", places, images), points[row_point], triangles)
+        largest = np.maximum.reduceat(values, ends - pairs)
         chosen = np.empty(len(points), np.int64)
-        best = values == largest[who]
-        chosen[who[best]] = triangles[best]
+        best = values == largest[row_point]
+        chosen[row_point[best]] = triangles[best]
         outside = largest > 0
         self._set_aside(points[~outside], largest[~outside])
         return points[outside], chosen[outside], largest[outside]
 
     def round(self) -> bool:
-        """Insert some of the points that wait; False where the surface is found not to be one."""
-        named, at = self._named()
-        place, seen, edge_place, edge_from, edge = self._regions(named, at)
+        """Insert some of the waiting points; return False if the surface turns out not to be closed."""
+        nominated, at = self._nominated()
+        rank, visible, edge_rank, edge_from, edge = self._regions(nominated, at)
         beyond = self.neighbours[edge_from, edge]
-        # Of points in each other's way the later named goes first: it keeps what it sees and what is next to that.
+        # If two points conflict, the one nominated later (the higher one) is inserted: it owns what it sees.  A point
+        # is dropped if it does not own all that it sees, or if a later point owns a triangle next to its region.
         owner = np.full(self.made, -1)
-        np.maximum.at(owner, seen, place)
-        good = np.ones(len(named), np.bool_)
-        good[place[owner[seen] != place]] = False
-        good[edge_place[owner[beyond] > edge_place]] = False
-        chosen = good[edge_place]
-        edge_place, edge_from, edge, beyond = edge_place[chosen], edge_from[chosen], edge[chosen], beyond[chosen]
-        removed = seen[good[place]]
+        np.maximum.at(owner, visible, rank)
+        accepted = np.ones(len(nominated), np.bool_)
+        accepted[rank[owner[visible] != rank]] = False
+        accepted[edge_rank[owner[beyond] > edge_rank]] = False
+        chosen = accepted[edge_rank]
+        edge_rank, edge_from, edge, beyond = edge_rank[chosen], edge_from[chosen], edge[chosen], beyond[chosen]
+        removed = visible[accepted[rank]]
         self.alive[removed] = False
+        # Each horizon must be one cycle: sort its edges by start, and find for each end the edge that starts there.
         start, end = self.corners[edge_from, edge], self.corners[edge_from, (edge + 1) % 3]
-        order = np.argsort(edge_place * len(self.grid) + start)
-        edge_place, start, end, beyond = edge_place[order], start[order], end[order], beyond[order]
-        leaving, arriving = edge_place * len(self.grid) + start, edge_place * len(self.grid) + end
+        order = np.argsort(edge_rank * len(self.grid) + start)
+        edge_rank, start, end, beyond = edge_rank[order], start[order], end[order], beyond[order]
+        leaving, arriving = edge_rank * len(self.grid) + start, edge_rank * len(self.grid) + end
         following = np.searchsorted(leaving, arriving)
         if (leaving[1:] == leaving[:-1]).any() or (leaving[following.clip(max=len(leaving) - 1)] != arriving).any():
             return False
+        # One new triangle for each edge, linked with the triangle beyond and with its neighbours in the cycle.
         first = self.made
         before = np.empty_like(following)
         before[following] = np.arange(len(following))
         slot = (self.corners[beyond] == end[:, None]).argmax(axis=1)
         self.neighbours[beyond, slot] = first + np.arange(len(beyond))
         self._add(
-            np.stack([start, end, named[edge_place]], axis=1),
+            np.stack([start, end, nominated[edge_rank]], axis=1),
             np.stack([beyond, first + following, first + before], axis=1),
         )
-        self._wait_anew(owner, named[good], edge_place, first)
+        self._reassign(owner, nominated[accepted], edge_rank, first)
         return True
 
-    def _named(self) -> tuple[Ints, Ints]:
-        """Points to insert and the triangles that name them, no two of which are neighbours; highest last."""
+    def _nominated(self) -> tuple[Ints, Ints]:
+        """Return points to insert and the triangles that nominate them, the highest last.
+
+        A triangle nominates its highest point if no neighbouring triangle has a higher one.
+        """
         highest = np.full(self.made, -1.0)
         np.maximum.at(highest, self.home, self.height)
         top = self.height == highest[self.home]
-        name = np.full(self.made, -1)
-        name[self.home[top]] = self.waiting[top]
-        at = np.flatnonzero(name >= 0)
+        nominee = np.full(self.made, -1)
+        nominee[self.home[top]] = self.waiting[top]
+        at = np.flatnonzero(nominee >= 0)
         at = at[(highest[self.neighbours[at]] <= highest[at, None]).all(axis=1)]
         at = at[np.argsort(highest[at], kind="stable")]
-        # A point waits at one triangle, so none is named twice.
-        return name[at], at
+        # A point waits at one triangle, so it is nominated only once.
+        return nominee[at], at
 
-    def _regions(self, named: Ints, at: Ints) -> tuple[Ints, Ints, Ints, Ints, Ints]:
-        """All that the points see: pairs (point, triangle), and the edges of these regions (point, triangle, edge)."""
+    def _regions(self, nominated: Ints, at: Ints) -> tuple[Ints, Ints, Ints, Ints, Ints]:
+        """Return all pairs (rank, triangle) of a nominated point and a triangle that it sees, and the horizons.
+
+        A rank is an index into ``nominated``.  The horizons are triples (rank, triangle, edge).
+        """
+        # A pair is encoded as the integer rank * size + triangle, so that sets of pairs are sorted arrays.
         size = self.made
-        place, triangle = np.arange(len(named)), at
-        keys = place * size + triangle
-        known = keys
-        seen_keys = [keys]
+        rank, triangle = np.arange(len(nominated)), at
+        keys = rank * size + triangle
+        examined = keys
+        visible_keys = [keys]
+        # All regions grow at once, by one ring of triangles in each pass.
         while keys.size:
             beyond = (keys // size * size)[:, None] + self.neighbours[keys % size]
             fresh = np.unique(beyond)
-            fresh = fresh[known[np.searchsorted(known, fresh).clip(max=len(known) - 1)] != fresh]
-            points, triangles = named[fresh // size], fresh % size
+            fresh = fresh[examined[np.searchsorted(examined, fresh).clip(max=len(examined) - 1)] != fresh]
+            points, triangles = nominated[fresh // size], fresh % size
             values = np.einsum("ij,ij->i", self.places[points], self.images[triangles])
             keys = fresh[self._signed(values, points, triangles) > 0]
-            seen_keys.append(keys)
-            known = np.union1d(known, fresh)
-        found = np.sort(np.concatenate(seen_keys))
-        place, triangle = found // size, found % size
-        beyond = (place * size)[:, None] + self.neighbours[triangle]
-        border = found[np.searchsorted(found, beyond).clip(max=len(found) - 1)] != beyond
+            visible_keys.append(keys)
+            examined = np.union1d(examined, fresh)
+        visible = np.sort(np.concatenate(visible_keys))
+        rank, triangle = visible // size, visible % size
+        # An edge belongs to the horizon if the triangle beyond it is not visible from the same point.
+        beyond = (rank * size)[:, None] + self.neighbours[triangle]
+        border = visible[np.searchsorted(visible, beyond).clip(max=len(visible) - 1)] != beyond
         row, edge = np.nonzero(border)
-        return place, triangle, place[row], triangle[row], edge
+        return rank, triangle, rank[row], triangle[row], edge
 
-    def _wait_anew(self, owner: Ints, inserted: Ints, edge_place: Ints, first: int) -> None:
-        """The points whose triangles are gone are tried against new ones."""
+    def _reassign(self, owner: Ints, inserted: Ints, edge_rank: Ints, first: int) -> None:
+        """Compare the points whose triangles were removed with the new triangles, from ``first`` on."""
         lost = ~self.alive[self.home]
         orphans, remover = self.waiting[lost], owner[self.home[lost]]
         done = np.zeros(len(self.grid), np.bool_)
         done[inserted] = True
-        still = ~done[orphans]
-        orphans, remover = orphans[still], remover[still]
+        still_waiting = ~done[orphans]
+        orphans, remover = orphans[still_waiting], remover[still_waiting]
         if self.made - first <= _DENSE:
-            news = self._tried_against_all(orphans, first)
+            reassigned = self._tried_against_all(orphans, first)
         elif orphans.size:
-            counts = np.bincount(edge_place)
+            counts = np.bincount(edge_rank)
             starts = first + np.cumsum(counts) - counts
-            news = self._tried_against_own(orphans, remover, starts, counts)
+            reassigned = self._tried_against_own(orphans, remover, starts, counts)
         else:
-            news = orphans, orphans, np.empty(0)
-        self.waiting = np.concatenate([self.waiting[~lost], news[0]])
-        self.home = np.concatenate([self.home[~lost], news[1]])
-        self.height = np.concatenate([self.height[~lost], news[2]])
+            reassigned = orphans, orphans, np.empty(0)
+        self.waiting = np.concatenate([self.waiting[~lost], reassigned[0]])
+        self.home = np.concatenate([self.home[~lost], reassigned[1]])
+        self.height = np.concatenate([self.height[~lost], reassigned[2]])

@@ -1,4 +1,4 @@
-"""The result types of the exact hull."""
+"""The result of the exact hull."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ Plane = tuple[int, int, int, int]
 
 
 class CertificateError(Exception):
-    """The result is not proved to be the hull of the points; the message says which check failed, and where."""
+    """The result is not proved to be the hull of the points; the message names the failed check and its place."""
 
 
 def require(condition: bool, message: str) -> None:
@@ -22,16 +22,13 @@ def require(condition: bool, message: str) -> None:
 
 @dataclass(frozen=True, slots=True)
 class Facet:
-    """One facet of the hull within its affine hull: a face of a polyhedron, an edge of a polygon, an end of a segment.
+    """A facet of the hull: a face of a polyhedron, an edge of a polygon, or an end of a segment.
 
-    ``plane`` is (A, B, C, D) without common divisor: A x + B y + C z + D is 0 on the facet and < 0 at every other
-    point of the hull, (x, y, z) being the *scaled* integer coordinates.  For a polyhedron that fixes it.  An edge of
-    a polygon carries the plane through the edge at right angles to the polygon's own plane; an end of a segment the
-    plane at right angles to the segment.
-
-    ``polygon`` holds indices of vertices, from the smallest on: for a face in cyclic order, counterclockwise seen
-    from outside; for an edge its two ends, in the polygon's sense of rotation but the smaller index first; for an
-    end of a segment that one vertex.
+    plane: (A, B, C, D) without a common divisor.  A x + B y + C z + D is 0 on the facet and < 0 at every other point of
+        the hull, for *scaled* integer coordinates (x, y, z).  For an edge of a polygon it is the plane through the edge
+        at right angles to the plane of the polygon; for an end of a segment the plane at right angles to the segment.
+    polygon: indices of vertices, beginning with the smallest one.  A face lists them counterclockwise seen from
+        outside, an edge has its two ends, and an end of a segment one vertex.
     """
 
     plane: Plane
@@ -40,10 +37,12 @@ class Facet:
 
 @dataclass(frozen=True, slots=True)
 class Certificate:
-    """What ``certify`` counted while it proved a hull.  It has no field for failure: failure is an exception.
+    """The counts of a successful proof by ``certify``; a failure raises CertificateError instead.
 
-    ``evaluations`` are the signs of plane against point that were needed, ``in_integers`` those of them for which
-    the floating-point filter could not answer (all are exact; with ``arithmetic`` "int64" no filter is used).
+    dimension, points, vertices, edges, facets: those of the hull.
+    arithmetic: "int64", or "float64 and integers" if a floating-point filter was used, or "none" for a point.
+    evaluations: the number of exact signs of a plane at a point.
+    in_integers: how many of these signs the floating-point filter could not determine.
     """
 
     dimension: int
@@ -58,18 +57,20 @@ class Certificate:
 
 @dataclass(frozen=True, slots=True)
 class ExactHull:
-    """The convex hull of points, exactly.  All indices are into the points as given, from 0.
+    """An exact convex hull.  All indices refer to the points of the input, from 0.
 
-    dimension: 0 point, 1 segment, 2 polygon, 3 polyhedron.
-    scale: the least positive integer by which every coordinate becomes an integer; ``scaled`` are these integers.
-    vertices, boundary, inside: every point belongs to exactly one of these, or is a duplicate.  Duplicates are
-        represented by their first occurrence.  ``boundary`` holds points on the relative boundary that are no
-        vertices, ``inside`` those in the relative interior (of a polygon: within its plane).  All are sorted.
-    duplicates: (index, index of the first point with the same coordinates), sorted.
-    plane: of a polygon only: its plane without common divisor, the first nonzero of A, B, C positive.
-    facets: see Facet, sorted by plane.  A point has none.
-    polygon: of a polygon only: its vertices, counterclockwise seen from the side (A, B, C) points to, smallest first.
-    certificate: the proof's counts.
+    dimension: 0 for a point, 1 for a segment, 2 for a polygon, 3 for a polyhedron.
+    scale: the least positive integer by which every coordinate becomes an integer.
+    scaled: the coordinates times ``scale``.
+    vertices, boundary, inside: every point belongs to exactly one of these or is a duplicate, which is represented by
+        its first occurrence.  ``boundary`` has the points on the relative boundary that are not vertices, ``inside``
+        those in the relative interior (for a polygon within its plane).  All are sorted.
+    duplicates: pairs of a point and the first point with the same coordinates, sorted.
+    plane: for a polygon only, its plane without a common divisor, with the first nonzero number of A, B, C positive.
+    facets: the facets sorted by plane.  A point has none.
+    polygon: for a polygon only, its vertices from the smallest on, counterclockwise seen from the side to which
+        (A, B, C) points.
+    certificate: the counts of the proof.
     """
 
     dimension: int
@@ -85,14 +86,14 @@ class ExactHull:
     certificate: Certificate | None = field(default=None, compare=False)
 
     def plane_of(self, facet: Facet | Plane) -> Plane:
-        """The plane of a facet (or ``plane``) for the coordinates as given, without common divisor."""
+        """Return a plane (for instance that of a facet) for unscaled coordinates, without a common divisor."""
         a, b, c, d = facet.plane if isinstance(facet, Facet) else facet
         a, b, c = a * self.scale, b * self.scale, c * self.scale
         divisor = math.gcd(a, b, c, d)
         return a // divisor, b // divisor, c // divisor, d // divisor
 
     def edges(self) -> tuple[tuple[int, int], ...]:
-        """The edges as pairs of vertices, the smaller index first, sorted."""
+        """Return the edges as pairs of vertices, smaller index first, sorted."""
         if self.dimension < 2:
             return ((self.vertices[0], self.vertices[1]),) if self.dimension else ()
         pairs = {

@@ -1,33 +1,34 @@
-"""A polyhedron by inserting its points one at a time: a closed surface of triangles that is always convex.
+"""Construct a polyhedron by inserting its points one at a time into a closed convex surface of triangles.
 
-Randomised insertion after Clarkson and Shor (Discrete & Computational Geometry 4 (1989), section 3), in the form in
-which every point that waits outside keeps *one* triangle it sees.  All signs are exact.
+The algorithm is the randomised insertion of Clarkson and Shor (Discrete & Computational Geometry 4 (1989), section 3),
+in the variant in which every point that waits outside remembers *one* triangle that it sees.  All signs are exact.
 
-"Sees" means strictly: a triangle whose plane holds the point is not seen and stays.  So triangles of one face are
-seen together or not at all, the seen ones are those that a point moved slightly towards the inside would see, they
-form a disc, and their border (the horizon) is one simple cycle.  No horizon edge is in line with the new point, or
-the seen triangle at that edge would hold the point in its plane; so no triangle without area ever arises.  Triangles
-may share a plane, and a former corner may end up within a face or an edge; ``faces`` sorts that out at the end.
+A point "sees" a triangle if it is strictly outside its plane.  A triangle whose plane contains the point stays.
+Therefore the triangles of one face are seen together or not at all, the seen triangles are those that a point moved
+slightly towards the inside would see, they form a disc, and its border (the horizon) is one simple cycle.  No edge of
+the horizon is in line with the new point, since otherwise the seen triangle at that edge would contain the point in its
+plane, so no triangle without area arises.  Triangles may share a plane, and a former corner may end up inside a face or
+an edge; ``facets.faces`` merges such triangles at the end.
 
-Why one triangle a waiting point is enough: let q see the seen triangle f that point p removes, and let m be a point
-within f.  The segment q m lies outside the old hull until m, and m is interior to the new hull.  It therefore enters
-the new hull through a new triangle, and q sees that one.  So a waiting point needs to be tried against the new
-triangles only, and if it sees none of them it is in the hull.
+Why one triangle for each waiting point is enough: let q see the triangle f, which point p sees and removes, and let m
+be a point inside f.  The segment q m is outside the old hull up to m, and m is interior to the new hull.  The segment
+therefore enters the new hull through a new triangle, which q sees.  So a waiting point needs to be compared only with
+the new triangles, and if it sees none of them it belongs to the hull.
 
-Signs are first computed in floating point, from images of points and planes, with a bound on what they may be off.
+Signs are first computed in floating point, from images of points and planes, with a bound on their errors.
 
-Points are moved by an integer vector so that they lie about the origin, then every axis is divided by its own power
-of two, so that every image |x| <= 1.  A plane A x + B y + C z + D through one of the points is divided by the power
-of two that brings the largest of |A| 2^k, |B| 2^l, |C| 2^m (2^k, 2^l, 2^m: the divisors of the axes) to at most 1;
+Points are moved by an integer vector so that the origin is their middle.  Each axis is then divided by a power of two
+such that every image has |x| <= 1.  A plane A x + B y + C z + D through one of the points is divided by the power of
+two that brings the largest of |A| 2^k, |B| 2^l, |C| 2^m (2^k, 2^l, 2^m being the divisors of the axes) to at most 1;
 then |D| <= 3.  All images are the nearest float64 (Python's int / int rounds correctly at any length).
 
-The bound.  With e = 2**-54 the images of x and A are off by at most e each, that of D by 4e.  A product of images
-is off by 2e, and by e more once rounded; three of them by 9e.  The three additions, in any order and with or without
-fused products, meet partial sums below 8 and round by at most 8e each, 24e together.  The sum is off by at most
-9e + 4e + 24e = 37e < 64e = 2**-48.  Underflow adds at most some 2**-1070.  So a computed value beyond 2**-48 has the
-true sign, and anything nearer to zero is decided in integers.
+The bound: with e = 2**-54 the images of x and A have errors of at most e each, that of D 4e.  A product of images has
+an error of 2e, and e more once it is rounded; three of them have 9e.  The three additions, in any order and with or
+without fused products, have partial sums below 8 and round by at most 8e each, together 24e.  The sum has an error of
+at most 9e + 4e + 24e = 37e < 64e = 2**-48.  Underflow adds at most about 2**-1070.  So a computed value beyond 2**-48
+has the true sign, and any value closer to zero is computed in integers.
 
-When the points are small enough all of this arithmetic is exact and the bound is 0; see ``Frame.bound``.
+If the points are small enough, all of this arithmetic is exact and the bound is 0; see ``Frame.bound``.
 """
 
 from __future__ import annotations
@@ -47,13 +48,15 @@ BOUND = 2.0**-48
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """The points a hull is built in: integers about the origin, and their images.
+    """Points as integers around the origin, and their images.
 
-    integers: the points less ``centre``.  images: (n, 4) float64, the fourth column 1.
-    shifts: the powers of two that divide the axes.
-    bound: 2**-48, or 0 if a plane's value is an integer below 2**53 in all its steps, when float64 is exact: for
-    |x| <= X, |y| <= Y, |z| <= Z the normal of a plane through three points is at most 8YZ, 8ZX, 8XY, its D at most
-    24XYZ, and every partial sum at most 48XYZ.
+    centre: the point that is moved to the origin.
+    shifts: the exponents of the powers of two that divide the axes.
+    integers: the points minus ``centre``.
+    images: (n, 4) float64, with 1 in the fourth column.
+    bound: 2**-48, or 0 if float64 is exact because every step of evaluating a plane is an integer below 2**53.  For
+        |x| <= X, |y| <= Y, |z| <= Z the normal of a plane through three points is at most 8YZ, 8ZX, 8XY, its D at most
+        24XYZ, and every partial sum at most 48XYZ.
     """
 
     centre: IntPoint
@@ -64,7 +67,7 @@ class Frame:
 
 
 def frame(points: Sequence[IntPoint]) -> Frame:
-    """The frame of points that do not lie in one plane."""
+    """Return the frame of points that do not lie in one plane."""
     columns = list(zip(*points, strict=True))
     centre = tuple((min(column) + max(column)) // 2 for column in columns)
     moved = [[number - middle for number in column] for column, middle in zip(columns, centre, strict=True)]
@@ -74,6 +77,7 @@ def frame(points: Sequence[IntPoint]) -> Frame:
     for axis in range(3):
         divisor = 1 << shifts[axis]
         images[:, axis] = [number / divisor for number in moved[axis]]
+    # See ``Frame.bound``.
     exact = 48 * largest[0] * largest[1] * largest[2] < 2**53
     return Frame(
         (centre[0], centre[1], centre[2]),
@@ -85,7 +89,7 @@ def frame(points: Sequence[IntPoint]) -> Frame:
 
 
 def plane_image(plane: Plane, shifts: IntPoint) -> tuple[float, float, float, float]:
-    """The image of a plane through a point of the frame (its integers, not the points as given)."""
+    """Return the image of a plane through a point of the frame (its moved integers)."""
     a, b, c, d = plane
     k, l, m = shifts  # noqa: E741
     power = max(
@@ -105,16 +109,20 @@ _Horizon = list[tuple[int, int, int]]
 
 
 class Surface:
-    """The triangles so far, as parallel lists over triangle numbers (removed ones keep their number).
+    """The current surface, as parallel lists indexed by triangle; a removed triangle keeps its index.
 
-    corners: counterclockwise seen from outside; neighbours[t][k] is the triangle beyond the edge from corner k to
-    the next one.  planes, images: of the triangle.  waiting: the points that keep this triangle.
-    home: for every point the triangle it keeps, or -1.
+    corners: three points, counterclockwise seen from outside.
+    neighbours: neighbours[t][k] is the triangle beyond the edge from corner k of t to the next corner.
+    planes, images: the plane of each triangle, and its image.
+    waiting: the points that remember this triangle.
+    alive: False for a removed triangle.
+    mark: the last point for which visibility was determined, and the result (see ``_visible``).
+    home: for every point the triangle that it remembers, or -1.
     """
 
     def __init__(self, frame: Frame, simplex: Sequence[int]) -> None:
         self.frame = frame
-        self.places: list[list[float]] = frame.images[:, :3].tolist()
+        self.point_images: list[list[float]] = frame.images[:, :3].tolist()
         self.corners: list[Triangle] = []
         self.neighbours: list[list[int]] = []
         self.planes: list[Plane] = []
@@ -123,6 +131,7 @@ class Surface:
         self.alive: list[bool] = []
         self.mark: list[int] = []
         self.home: list[int] = [-1] * len(frame.integers)
+        # The tetrahedron, with its fourth point inside the plane of the first triangle.
         a, b, c, d = simplex
         points = frame.integers
         if value(plane_through(points[a], points[b], points[c]), points[d]) > 0:
@@ -149,21 +158,22 @@ class Surface:
         self.mark.append(-1)
 
     def sees(self, p: int, triangle: int) -> bool:
-        """Whether point ``p`` is strictly outside the triangle's plane."""
+        """Return True if point ``p`` is strictly outside the plane of the triangle."""
         a, b, c, d = self.images[triangle]
-        x, y, z = self.places[p]
-        guess = a * x + b * y + c * z + d
-        if guess > self.frame.bound:
+        x, y, z = self.point_images[p]
+        approximate = a * x + b * y + c * z + d
+        if approximate > self.frame.bound:
             return True
-        if guess < -self.frame.bound:
+        if approximate < -self.frame.bound:
             return False
         return value(self.planes[triangle], self.frame.integers[p]) > 0
 
     def _distribute(self, points: list[int], triangles: range) -> None:
-        """Let every point keep a triangle it sees among those given, or none."""
+        """Assign to every point one of the triangles that it sees, or none.  ``triangles`` ends with the newest one."""
         if not points:
             return
         bound = self.frame.bound
+        # One matrix product gives all approximate values; each point takes the triangle with the largest one.
         values: NDArray[np.float64] = self.frame.images[points] @ np.array(self.images[triangles.start :]).T
         chosen: list[int] = values.argmax(axis=1).tolist()
         largest: list[float] = values.max(axis=1).tolist()
@@ -179,48 +189,54 @@ class Surface:
                 self.waiting[triangle].append(p)
 
     def _exactly_seen(self, p: int, doubtful: NDArray[np.intp]) -> int:
-        """The first of the doubtful triangles that ``p`` sees, or -1."""
+        """Return the first of the doubtful triangles that ``p`` sees, or -1."""
         for triangle in doubtful.tolist():
             if value(self.planes[triangle], self.frame.integers[p]) > 0:
                 return int(triangle)
         return -1
 
-    def _seen(self, p: int) -> tuple[list[int], _Horizon]:
-        """The triangles ``p`` sees, and the horizon: edges (from, to) in the sense of the seen triangle, and the
-        triangle beyond."""
-        seen = [self.home[p]]
+    def _visible(self, p: int) -> tuple[list[int], _Horizon]:
+        """Return the triangles that ``p`` sees, and the horizon.
+
+        The horizon is a list of (start, end, beyond): the edge in the direction of the visible triangle, and the
+        invisible triangle beyond it.
+        """
+        # The search begins at the remembered triangle and spreads across edges; visible triangles are connected.
+        visible = [self.home[p]]
         horizon: _Horizon = []
-        yes, no = 2 * p, 2 * p + 1
+        yes, no = 2 * p, 2 * p + 1  # marks of this point, so that no mark needs to be reset
         mark = self.mark
-        mark[seen[0]] = yes
-        for triangle in seen:
+        mark[visible[0]] = yes
+        for triangle in visible:
             corners = self.corners[triangle]
             for k, beyond in enumerate(self.neighbours[triangle]):
                 if mark[beyond] != yes and mark[beyond] != no:
                     if self.sees(p, beyond):
                         mark[beyond] = yes
-                        seen.append(beyond)
+                        visible.append(beyond)
                     else:
                         mark[beyond] = no
                 if mark[beyond] == no:
                     horizon.append((corners[k], corners[k - 2], beyond))
-        return seen, horizon
+        return visible, horizon
 
     def insert(self, p: int) -> None:
-        """Make ``p`` part of the hull; nothing happens if it is in the hull already."""
+        """Insert ``p`` into the hull, unless the hull already contains it."""
         if self.home[p] < 0:
             return
-        seen, horizon = self._seen(p)
+        visible, horizon = self._visible(p)
         first = len(self.corners)
         leaving = {edge[0]: first + number for number, edge in enumerate(horizon)}
         arriving = {edge[1]: first + number for number, edge in enumerate(horizon)}
         if len(leaving) != len(horizon) or leaving.keys() != arriving.keys():
             raise RuntimeError("the horizon is not a simple cycle: the surface was not convex")
+        # A new triangle joins each edge of the horizon to p; its other neighbours share the ends of the edge.
         for number, (u, v, beyond) in enumerate(horizon):
             self._add((u, v, p), [beyond, leaving[v], arriving[u]])
             self.neighbours[beyond][self.corners[beyond].index(v)] = first + number
+        # Points that remember a removed triangle are compared with the new triangles.
         orphans = []
-        for triangle in seen:
+        for triangle in visible:
             orphans += self.waiting[triangle]
             self.waiting[triangle] = []
             self.alive[triangle] = False
@@ -229,7 +245,7 @@ class Surface:
         self._distribute(orphans, range(first, len(self.corners)))
 
     def triangles(self) -> list[tuple[Triangle, Plane]]:
-        """The triangles of the surface with their planes in the frame, not reduced."""
+        """Return the triangles of the surface with their planes in the frame, not reduced to lowest terms."""
         return [
             (corners, plane)
             for corners, plane, alive in zip(self.corners, self.planes, self.alive, strict=True)
@@ -238,9 +254,9 @@ class Surface:
 
 
 def convex_surface(frame: Frame, simplex: Sequence[int], order: Sequence[int]) -> list[tuple[Triangle, Plane]]:
-    """The hull of the frame's points as triangles, starting from four independent ones.
+    """Return the hull of the frame's points as triangles, starting from four affinely independent points.
 
-    ``order`` names every other point; the result's faces do not depend on it, the time does.
+    ``order`` lists all other points.  It affects the time but not the faces of the result.
     """
     surface = Surface(frame, simplex)
     for p in order:

@@ -75,15 +75,15 @@ TOP = (0, 0, 1, -2)
 
 
 def test_a_face_left_out_of_the_octahedron() -> None:
-    refused(OCTAHEDRON, exchanged(exact_hull(OCTAHEDRON), 3), "facet on one side only")
+    refused(OCTAHEDRON, exchanged(exact_hull(OCTAHEDRON), 3), "has only one facet")
 
 
 def test_a_face_left_out_of_the_cube() -> None:
     """Two planes do not hold a corner; and the points within the face would touch none."""
     hull = exact_hull(GRID)
-    refused(GRID, exchanged(hull, facet_with(hull, TOP)), "its class says otherwise")
+    refused(GRID, exchanged(hull, facet_with(hull, TOP)), "which contradicts its class")
     cube = [point for point in GRID[:27] if 1 not in point]
-    refused(cube, exchanged(exact_hull(cube), 0), "do not hold it fast")
+    refused(cube, exchanged(exact_hull(cube), 0), "its planes do not determine it")
 
 
 def test_no_facets() -> None:
@@ -139,16 +139,16 @@ def test_a_face_left_in_two_triangles() -> None:
     number = facet_with(hull, TOP)
     a, b, c, d = hull.facets[number].polygon
     refused(GRID, exchanged(hull, number, Facet(TOP, (a, b, c)), Facet(TOP, (a, c, d))), "a plane occurs twice")
-    refused(GRID, exchanged(hull, number, Facet(TOP, (a, b, c))), "holds other vertices than it names")
+    refused(GRID, exchanged(hull, number, Facet(TOP, (a, b, c))), "its plane contains other vertices than its polygon")
 
 
 def test_a_point_of_a_face_called_a_vertex() -> None:
     hull = exact_hull(GRID)
-    refused(GRID, promoted(hull, GRID.index((1, 1, 2))), "holds other vertices than it names")
+    refused(GRID, promoted(hull, GRID.index((1, 1, 2))), "its plane contains other vertices than its polygon")
 
 
 def test_a_point_of_an_edge_made_a_vertex_of_both_faces() -> None:
-    """Consistent with the surface and with Euler; refused because two planes do not hold it fast."""
+    """Consistent with the surface and with Euler; refused because two planes its planes do not determine it."""
     middle = GRID.index((1, 0, 0))
     hull = promoted(exact_hull(GRID), middle)
     ends = {GRID.index((0, 0, 0)), GRID.index((2, 0, 0))}
@@ -182,25 +182,25 @@ def test_boundary_and_inside_confused(index: int, taken_from: str, given_to: str
             given_to: tuple(sorted((*getattr(hull, given_to), index))),
         },
     )
-    refused(GRID, corrupt, f"point {index} is .* a facet, its class says otherwise")
+    refused(GRID, corrupt, f"point {index} is .* a facet, which contradicts its class")
 
 
 def test_a_vertex_called_boundary() -> None:
     hull = exact_hull(GRID)
     corrupt = replace(hull, vertices=hull.vertices[1:], boundary=(hull.vertices[0], *hull.boundary))
-    refused(GRID, corrupt, "a point of the polygon is no vertex")
+    refused(GRID, corrupt, "a point of the polygon is not a vertex")
 
 
 def test_a_duplicate_called_a_vertex() -> None:
     hull = exact_hull(GRID)
     corrupt = replace(hull, vertices=(*hull.vertices, 28), duplicates=hull.duplicates[:1])
-    refused(GRID, corrupt, "point 28 is stated to be point 28, its first occurrence is 0")
+    refused(GRID, corrupt, "point 28 is stated to equal point 28, but first occurs as point 0")
 
 
 def test_the_second_of_two_equal_points_named_first() -> None:
     hull = exact_hull(OCTAHEDRON + OCTAHEDRON[5:])
     corrupt = replace(hull, vertices=(0, 1, 2, 3, 4, 6), duplicates=((5, 6),))
-    refused(OCTAHEDRON + OCTAHEDRON[5:], corrupt, "point 5 is stated to be point 6")
+    refused(OCTAHEDRON + OCTAHEDRON[5:], corrupt, "point 5 is stated to equal point 6")
 
 
 def test_a_scale_that_is_not_the_least() -> None:
@@ -230,13 +230,13 @@ def test_two_closed_surfaces_fail_eulers_relation() -> None:
     shift = len(hull.scaled)
     other = [Facet(facet.plane, tuple(index + shift for index in facet.polygon)) for facet in hull.facets]
     both = SimpleNamespace(vertices=range(2 * shift), scaled=hull.scaled * 2, facets=(*hull.facets, *other))
-    with pytest.raises(CertificateError, match="not Euler's relation: 12 vertices, 24 edges, 16 facets"):
+    with pytest.raises(CertificateError, match="Euler's relation does not hold: 12 vertices, 24 edges, 16 facets"):
         checks._check_polyhedron(both)
 
 
 def test_a_facet_twice_closes_nothing() -> None:
     hull = exact_hull(OCTAHEDRON)
-    with pytest.raises(CertificateError, match="twice in the same sense"):
+    with pytest.raises(CertificateError, match="twice in the same direction"):
         checks._check_polyhedron(replace(hull, facets=(*hull.facets, hull.facets[0])))
 
 
@@ -249,7 +249,7 @@ def test_a_polygon_in_the_wrong_order() -> None:
 
 def test_an_edge_left_out_of_a_polygon() -> None:
     hull = exact_hull([(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0)])
-    refused(hull.scaled, exchanged(hull, 0), "do not hold it fast")
+    refused(hull.scaled, exchanged(hull, 0), "its planes do not determine it")
 
 
 def test_an_edge_with_a_slanted_plane() -> None:
@@ -261,14 +261,14 @@ def test_an_edge_with_a_slanted_plane() -> None:
 
 def test_a_polygon_whose_plane_has_the_other_sense() -> None:
     hull = exact_hull(SKEW_SQUARE)
-    refused(SKEW_SQUARE, replace(hull, plane=tuple(-number for number in hull.plane)), "has not the stated sense")
+    refused(SKEW_SQUARE, replace(hull, plane=tuple(-number for number in hull.plane)), "plane is not positive")
 
 
 def test_a_polygon_with_a_point_beside_its_plane() -> None:
     """Within every edge's plane, but not in the polygon's: the rank says so first."""
     square = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0)]
     hull = exact_hull([*square, (1, 1, 0)])
-    refused([*square, (1, 1, 1)], replace(hull, scaled=(*hull.scaled[:4], (1, 1, 1))), "the points have rank 3")
+    refused([*square, (1, 1, 1)], replace(hull, scaled=(*hull.scaled[:4], (1, 1, 1))), "but the points have rank 3")
     with pytest.raises(CertificateError, match="point 4 is not in the polygon's plane"):
         checks._check_polygon(replace(hull, scaled=(*hull.scaled[:4], (1, 1, 1))))
 
@@ -283,7 +283,7 @@ def test_a_segment_with_one_end() -> None:
     points = [(0, 0, 0), (4, 0, 0)]
     hull = exact_hull(points)
     one = replace(hull, facets=hull.facets[:1], vertices=(0,), inside=(1,))
-    refused(points, one, "a segment with 1 ends")
+    refused(points, one, "the segment has 1 ends")
 
 
 def test_a_point_with_a_facet_or_without_a_vertex() -> None:
@@ -372,18 +372,18 @@ def test_a_construction_that_sees_too_little_is_caught(monkeypatch: pytest.Monke
 @pytest.mark.parametrize("times", [0, 2])
 def test_a_horizon_that_is_no_simple_cycle_is_caught(monkeypatch: pytest.MonkeyPatch, times: int) -> None:
     """Its first edge left out, or named twice."""
-    seen = surface_module.Surface._seen
+    seen = surface_module.Surface._visible
 
     def broken(surface, p):
         triangles, horizon = seen(surface, p)
         return triangles, horizon[:1] * times + horizon[1:]
 
-    monkeypatch.setattr(surface_module.Surface, "_seen", broken)
+    monkeypatch.setattr(surface_module.Surface, "_visible", broken)
     with pytest.raises(RuntimeError, match="the horizon is not a simple cycle"):
         exact_hull([(0, 0, 0), (9, 0, 0), (0, 9, 0), (0, 0, 9), (5, 5, 5)])
 
 
 def test_a_construction_that_calls_boundary_inside_is_caught(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(build_module, "_on_facets", lambda points, facets: [])
-    with pytest.raises(CertificateError, match="its class says otherwise"):
+    with pytest.raises(CertificateError, match="which contradicts its class"):
         exact_hull(GRID)

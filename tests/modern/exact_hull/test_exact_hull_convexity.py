@@ -130,7 +130,7 @@ def test_a_surface_inside_out(monkeypatch: pytest.MonkeyPatch) -> None:
     facets = [Facet(tuple(-n for n in facet.plane), rotated(facet.polygon[::-1])) for facet in hull.facets]
     facets.sort(key=lambda facet: facet.plane)
     corrupt = replace(hull, facets=tuple(facets))
-    with pytest.raises(convexity.Undecided, match="has the middle of the vertices outside"):
+    with pytest.raises(convexity.Undecided, match="does not have the middle of the vertices inside"):
         convexity.prove(corrupt)
     monkeypatch.undo()
     refused(OCTAHEDRON, corrupt, "is outside of facet")
@@ -146,8 +146,8 @@ def test_a_facet_seen_from_inside() -> None:
 
 def test_a_face_left_out_and_a_face_twice() -> None:
     hull = exact_hull(GRID)
-    refused(GRID, exchanged(hull, 0), "one side only")
-    refused(GRID, replace(hull, facets=(*hull.facets, hull.facets[-1])), "same sense")
+    refused(GRID, exchanged(hull, 0), "has only one facet")
+    refused(GRID, replace(hull, facets=(*hull.facets, hull.facets[-1])), "same direction")
     refused(GRID, replace(hull, facets=()), "there are no facets")
 
 
@@ -165,7 +165,7 @@ def test_a_pentagram() -> None:
     hull = exact_hull(PRISM)
     number = next(k for k, facet in enumerate(hull.facets) if facet.plane == (0, 0, 1, -3))
     a, b, c, d, e = hull.facets[number].polygon
-    refused(PRISM, exchanged(hull, number, Facet((0, 0, 1, -3), (a, c, e, b, d))), "one side only")
+    refused(PRISM, exchanged(hull, number, Facet((0, 0, 1, -3), (a, c, e, b, d))), "has only one facet")
 
 
 def test_polygons_of_no_points() -> None:
@@ -173,12 +173,14 @@ def test_polygons_of_no_points() -> None:
     polygon = hull.facets[0].polygon
     for wrong in ((*polygon[:2], 17), (*polygon[:2], -1), (*polygon[:2], 1.0 * polygon[2]), polygon[:2], ()):
         refused(
-            OCTAHEDRON, exchanged(hull, 0, Facet(hull.facets[0].plane, wrong)), "indices|no vertex|fewer than three"
+            OCTAHEDRON,
+            exchanged(hull, 0, Facet(hull.facets[0].plane, wrong)),
+            "not an index|not a vertex|fewer than three",
         )
 
 
 def test_a_point_inside_called_a_vertex() -> None:
-    refused(GRID, promoted(exact_hull(GRID), 13), "point 13 is called a vertex; no facet has it")
+    refused(GRID, promoted(exact_hull(GRID), 13), "point 13 is called a vertex, but no facet has it")
 
 
 def test_the_hull_of_all_points_but_one_vertex() -> None:
