@@ -1,1 +1,1 @@
-"""Hulls of one point set by different routes, compared with the exact judge's."""
+"""Compare the hulls that different routes determine for the same points with the exact hull."""

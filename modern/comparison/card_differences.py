@@ -1,4 +1,4 @@
-"""What a punched result says of a hull that is not so, by point and by face: what a picture of both shows."""
+"""How punched cards differ from the exact hull, by point and by face, for a drawing of both."""
 
 from __future__ import annotations
 
@@ -13,15 +13,18 @@ from modern.thesis.cards import CardHull
 
 
 class UnrelatedCards(EmulatorError):
-    """Cards that are of no hull, or of the hull of other points; one line."""
+    """Cards that do not hold a hull, or that hold the hull of other points; the message is one line."""
 
 
 @dataclass(frozen=True, slots=True)
 class CardDifferences:
-    """What differs; points by place in the input, faces that were not found by place in ``Hull.faces``.
+    """The differences between punched cards and the exact hull.
 
-    ``polygons`` are the vertices said to be on each face that the hull does not have, of two and more; ``others``
-    counts the faces with fewer.
+    missed, added: vertices that the cards lack, and points that they wrongly call vertices, by index in the input.
+    not_found: faces that the cards lack, by index into ``Hull.faces``.
+    polygons: for each face on the cards that the hull does not have, the vertices that the cards list on it, if there
+        are at least two.
+    others: the number of such faces with fewer vertices.
     """
 
     missed: tuple[int, ...] = ()
@@ -31,36 +34,41 @@ class CardDifferences:
     others: int = 0
 
 
-def card_differences(seen: CardHull, hull: Hull, source: str) -> CardDifferences:
-    """What the cards of ``source`` say differently from the exact hull of the points.
+def card_differences(cards: CardHull, hull: Hull, source: str) -> CardDifferences:
+    """Return how the cards of the file ``source`` differ from the exact hull of the points.
 
-    Raises UnrelatedCards where they hold no result, or points that are not among those of the hull.
+    Raise UnrelatedCards if the cards hold no result, or points that are not among those of the hull.
     """
-    if not seen.vertices:
-        raise UnrelatedCards(f"{source}: there are no vertices on these cards; hull1620 hull punches them")
+    if not cards.vertices:
+        raise UnrelatedCards(f"{source}: these cards have no vertices; 'hull1620 hull' punches cards that have them")
     points = [tuple(Fraction(number) for number in point) for point in hull.points]
-    said = from_card_hull("cards", _program(seen), seen, points)
-    if said.strange:
+    outcome = from_card_hull("cards", _program(cards), cards, points)
+    if outcome.strange:
         raise UnrelatedCards(
-            f"{source}: {said.strange} of the points on these cards are not among the points of the file"
+            f"{source}: {outcome.strange} of the points on these cards are not among the points of the file"
         )
-    found = disagreement(said, from_hull("exact", hull), points)
-    where = {point: index for index, point in reversed(list(enumerate(points)))}
-    satisfied = {equation: numbers for numbers, equation in seen.satisfied}
+    differences = disagreement(outcome, from_hull("exact", hull), points)
+    # Reversed, so that the first of several equal points remains.
+    indices = {point: index for index, point in reversed(list(enumerate(points)))}
+    satisfied = {equation: numbers for numbers, equation in cards.satisfied}
     polygons = []
-    for k, place in enumerate(found.places, 1):
-        if place < 0:
-            numbers = [number for number in satisfied.get(k, ()) if 1 <= number <= len(seen.vertices)]
-            polygons.append(tuple(where[seen.vertices[number - 1]] for number in numbers))
-    known = tuple(polygon for polygon in polygons if len(polygon) > 1)
-    not_found = tuple(sorted(set(range(len(hull.faces))) - set(found.places))) if found.planes_missing else ()
+    for equation_number, match in enumerate(differences.places, 1):
+        if match < 0:
+            numbers = [n for n in satisfied.get(equation_number, ()) if 1 <= n <= len(cards.vertices)]
+            polygons.append(tuple(indices[cards.vertices[n - 1]] for n in numbers))
+    drawable = tuple(polygon for polygon in polygons if len(polygon) > 1)
+    unmatched = set(range(len(hull.faces))) - set(differences.places)
     return CardDifferences(
-        tuple(sorted(found.missed)), tuple(sorted(found.added)), not_found, known, len(polygons) - len(known)
+        missed=tuple(sorted(differences.missed)),
+        added=tuple(sorted(differences.added)),
+        not_found=tuple(sorted(unmatched)) if differences.planes_missing else (),
+        polygons=drawable,
+        others=len(polygons) - len(drawable),
     )
 
 
-def _program(seen: CardHull) -> str:
-    """The program that punched these cards: 2 gives a plane and lines, 3 planes, 1 what needs neither."""
-    if not seen.satisfied or not seen.equations:
+def _program(cards: CardHull) -> str:
+    """Return the program that punched the cards: 2 punches a plane and lines, 3 planes, and 1 neither."""
+    if not cards.satisfied or not cards.equations:
         return "program1"
-    return "program2" if seen.plane else "program3"
+    return "program2" if cards.plane else "program3"

@@ -1,4 +1,4 @@
-"""An outcome compared with the judge's: what is missing, what is too much, and by how much it is off."""
+"""Compare an outcome with that of the exact hull: what is missing, what is extra, and how large the errors are."""
 
 from __future__ import annotations
 
@@ -12,17 +12,21 @@ from typing import NamedTuple
 from modern.comparison.outcome import Equation, Outcome, Vector
 
 NEAR = Fraction(1, 1000)
-"""Two equations are the same face, one of them inexact, when no coefficient is off by more than this."""
+"""The largest difference of a coefficient at which two equations count as the same face with a numerical error."""
 
 
 @dataclass(frozen=True, slots=True)
 class Disagreement:
-    """How an outcome differs from the judge's; all sets hold places in the input.
+    """How an outcome differs from that of the exact hull.  Points are indices into the input.
 
-    ``error`` is the largest relative error of a coefficient among the equations found, relative to the
-    equation's largest coefficient of x, y and z (of D: to the largest of all); ``excluded`` the greatest
-    distance, to six digits, of a point outside an equation of the outcome, and which point.  ``places``: for each
-    equation of the outcome the judge's it was taken for, -1 where it is like none of them.
+    missed, added: vertices that the outcome lacks, and points that it wrongly calls vertices.
+    misfiled: points with a wrong class, boundary or inside.
+    planes_missing, planes_extra, planes_doubled: numbers of equations.
+    error: the largest relative error of a coefficient among the matched equations, relative to the largest coefficient
+        of x, y and z (for D: to the largest of all).
+    excluded, excluded_point: the largest distance of a point outside an equation, to about twelve digits, and the
+    point.
+    places: for each equation of the outcome the index of the exact equation that it matches, or -1.
     """
 
     missed: frozenset[int]
@@ -38,38 +42,41 @@ class Disagreement:
 
     @property
     def agrees(self) -> bool:
-        """Whether the outcome says what the judge says; small errors of coefficients do not count."""
-        sets = self.missed or self.added or self.misfiled
-        return not (sets or self.planes_missing or self.planes_extra or self.planes_doubled)
+        """True if the outcome is that of the exact hull, apart from small errors of coefficients."""
+        wrong_points = self.missed or self.added or self.misfiled
+        return not (wrong_points or self.planes_missing or self.planes_extra or self.planes_doubled)
 
     @property
     def points(self) -> tuple[int, ...]:
-        """The points concerned."""
-        found = self.missed | self.added | self.misfiled
-        return tuple(sorted(found if self.excluded_point is None else found | {self.excluded_point}))
+        """The points that are affected, sorted."""
+        points = self.missed | self.added | self.misfiled
+        return tuple(sorted(points if self.excluded_point is None else points | {self.excluded_point}))
 
 
 def disagreement(outcome: Outcome, judge: Outcome, points: Sequence[Vector]) -> Disagreement:
-    """Compare a determined outcome with the judge's."""
+    """Compare a determined outcome with that of the exact hull."""
     missed, added = judge.vertices - outcome.vertices, outcome.vertices - judge.vertices
-    filed = dict.fromkeys(outcome.boundary, "boundary") | dict.fromkeys(outcome.inside, "inside")
-    right = dict.fromkeys(judge.boundary, "boundary") | dict.fromkeys(judge.inside, "inside")
-    # Of lines and of fewer than four points the programs list the vertices only.
-    lists = outcome.dimension >= 2 and (filed or outcome.equations)
+    classes = dict.fromkeys(outcome.boundary, "boundary") | dict.fromkeys(outcome.inside, "inside")
+    exact_classes = dict.fromkeys(judge.boundary, "boundary") | dict.fromkeys(judge.inside, "inside")
+    # For lines and for fewer than four points the programs punch only the vertices.
+    classified = outcome.dimension >= 2 and (classes or outcome.equations)
     misfiled = (
-        {i for i, kind in right.items() if filed.get(i) != kind and i not in outcome.vertices} if lists else set()
+        {i for i, kind in exact_classes.items() if classes.get(i) != kind and i not in outcome.vertices}
+        if classified
+        else set()
     )
-    misfiled |= {i for i in filed if i not in right and i not in missed}
+    misfiled |= {i for i in classes if i not in exact_classes and i not in missed}
+    # Match the equations, and count those that match none or the same one as another.
     matches = _match(outcome.equations, judge.equations)
     places = tuple(match.place for match in matches)
     hits = Counter(places)
     extra = hits.pop(-1, 0)
-    missing = len(judge.equations) - len(hits) if outcome.equations or lists else 0
+    missing = len(judge.equations) - len(hits) if outcome.equations or classified else 0
     doubled = sum(hits.values()) - len(hits)
     error = max((match.error for match in matches if match.place >= 0), default=Fraction(0))
-    # What is exactly an equation of the judge's excludes no point.
-    others = [e for e, match in zip(outcome.equations, matches, strict=True) if match.place < 0 or match.error]
-    distance, farthest = _excluded(others, points)
+    # An equation that is exactly one of the hull excludes no point.
+    inexact = [e for e, match in zip(outcome.equations, matches, strict=True) if match.place < 0 or match.error]
+    distance, farthest = _excluded(inexact, points)
     return Disagreement(
         frozenset(missed),
         frozenset(added),
@@ -85,76 +92,78 @@ def disagreement(outcome: Outcome, judge: Outcome, points: Sequence[Vector]) -> 
 
 
 class _Match(NamedTuple):
-    """The judge's equation nearest to one found, -1 where none is near, and how far it is."""
+    """The index of the nearest exact equation, or -1 if none is near, and the error."""
 
     place: int
     error: Fraction
 
 
-def _match(found: Sequence[Equation], right: Sequence[Equation]) -> list[_Match]:
-    """Each equation found goes to the nearest right one, the first of equals."""
-    exactly: dict[tuple[int, ...], int] = {}
-    for place, equation in enumerate(right):
-        exactly.setdefault(_whole(equation), place)
-    scaled: list[Equation] = []
+def _match(equations: Sequence[Equation], exact: Sequence[Equation]) -> list[_Match]:
+    """Match each equation with the nearest exact one, the first of equally near ones."""
+    by_integers: dict[tuple[int, ...], int] = {}
+    for place, equation in enumerate(exact):
+        by_integers.setdefault(_integers(equation), place)
+    scaled_exact: list[Equation] = []
     matches = []
-    for equation in found:
-        place = exactly.get(_whole(equation), -1)
+    for equation in equations:
+        place = by_integers.get(_integers(equation), -1)
         if place >= 0 and any(equation[:3]):
             matches.append(_Match(place, Fraction(0)))
             continue
-        scaled = scaled or [_scaled(other) for other in right]
-        own = _scaled(equation)
-        errors = [_distance(own, other) for other in scaled]
+        # Only an equation that is not exact needs the distances to all others.
+        scaled_exact = scaled_exact or [_scaled(candidate) for candidate in exact]
+        scaled = _scaled(equation)
+        errors = [_distance(scaled, candidate) for candidate in scaled_exact]
         best = min(range(len(errors)), key=errors.__getitem__, default=-1)
         near = best >= 0 and errors[best] <= NEAR
         matches.append(_Match(best if near else -1, errors[best] if near else Fraction(0)))
     return matches
 
 
-def _whole(numbers: Sequence[Fraction]) -> tuple[int, ...]:
-    """The numbers times a positive factor, as integers without common divisor: equal for equal scaled equations."""
+def _integers(numbers: Sequence[Fraction]) -> tuple[int, ...]:
+    """Return a positive multiple of the numbers as integers without a common divisor."""
     scale = lcm(*(c.denominator for c in numbers))
-    whole = [c.numerator * (scale // c.denominator) for c in numbers]
-    divisor = gcd(*whole) or 1
-    return tuple(c // divisor for c in whole)
+    integers = [c.numerator * (scale // c.denominator) for c in numbers]
+    divisor = gcd(*integers) or 1
+    return tuple(c // divisor for c in integers)
 
 
 def _scaled(equation: Equation) -> Equation:
-    """Divided by the size of its largest coefficient of x, y, z; a plane of zeros stays as it is."""
+    """Divide an equation by its largest coefficient of x, y, z; an equation with a zero normal is unchanged."""
     size = max(abs(c) for c in equation[:3])
     return equation if not size else tuple(c / size for c in equation)  # type: ignore[return-value]
 
 
-def _distance(one: Equation, other: Equation) -> Fraction:
-    normal = max(abs(a - b) for a, b in zip(one[:3], other[:3], strict=True))
-    return max(normal, abs(one[3] - other[3]) / max(Fraction(1), abs(other[3])))
+def _distance(equation: Equation, exact: Equation) -> Fraction:
+    normal = max(abs(a - b) for a, b in zip(equation[:3], exact[:3], strict=True))
+    return max(normal, abs(equation[3] - exact[3]) / max(Fraction(1), abs(exact[3])))
 
 
 def _excluded(equations: Sequence[Equation], points: Sequence[Vector]) -> tuple[Fraction, int | None]:
-    """The greatest distance of a point beyond an equation, and the point."""
-    worst, which = Fraction(0), None
+    """Return the largest distance of a point outside an equation, and the point."""
+    worst, worst_point = Fraction(0), None
     if not equations:
-        return worst, which
+        return worst, worst_point
     scale = lcm(*(c.denominator for point in points for c in point))
-    places = [tuple(c.numerator * (scale // c.denominator) for c in point) for point in points]
+    scaled_points = [tuple(c.numerator * (scale // c.denominator) for c in point) for point in points]
     for equation in equations:
         # The distance is the same for any positive multiple of the equation.
-        a, b, c, d = _whole(equation)
+        a, b, c, d = _integers(equation)
         square = a * a + b * b + c * c
         if not square:
             continue
         d *= scale
-        for index, (x, y, z) in enumerate(places):
+        for index, (x, y, z) in enumerate(scaled_points):
             number = a * x + b * y + c * z + d
             if number > 0:
+                # Squares are compared, so that only a new maximum needs a root.
                 value = Fraction(number, scale)
                 if value * value > worst * worst * square:
-                    worst, which = _root(value * value / square), index
-    return worst, which
+                    worst, worst_point = _root(value * value / square), index
+    return worst, worst_point
 
 
 def _root(square: Fraction) -> Fraction:
-    """A square root cut after some twelve significant digits."""
+    """Return a square root truncated after about twelve significant digits."""
     digits = 10 ** max(12, 12 + len(str(square.denominator)) // 2)
     return Fraction(isqrt(square.numerator * digits * digits // square.denominator), digits)

@@ -1,8 +1,8 @@
-"""One form for every hull, so that any two can be compared: points by place in the input, equations by scale.
+"""One form for the hulls of all routes, so that any two can be compared exactly.
 
-An outcome's equations are for the coordinates as given: supporting planes of a polyhedron, or of a polygon its
-supporting lines projected as the thesis projects them (p. 16-17: the coordinate dropped is the first with a
-nonzero coefficient in the polygon's plane, its own coefficient in the line 0).  Everything is exact.
+Points are indices into the input.  Equations are for the coordinates of the input: the supporting planes of a
+polyhedron, or the supporting lines of a polygon projected as in the thesis (p. 16-17).  The projection drops the first
+coordinate whose coefficient in the polygon's plane is not zero, so its coefficient in the line is 0.
 """
 
 from __future__ import annotations
@@ -25,16 +25,20 @@ Vector = tuple[Fraction, ...]
 Equation = tuple[Fraction, Fraction, Fraction, Fraction]
 
 _STATUS = {"limit": "endless", "bounds": "out of bounds", "outside": "out of bounds", "undefined": "undefined value"}
-"""The status a run's ending is; any other kind is its own name."""
+"""The status for the ending of a run; every other kind of ending is the status itself."""
 
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What one route made of a point set.
+    """The result of one route for a point set.
 
-    ``status`` is ``determined`` or why there is no hull; ``dimension`` -1 where the route does not say.
-    ``strange`` counts points it names that are not in the input; ``faulty`` are equations of program 1, by number,
-    that do not vanish at the points they are said to contain.  ``ending`` is that of a run which ended badly.
+    status: ``determined``, or the reason why there is no hull.
+    dimension: -1 if the route does not determine it.
+    vertices, boundary, inside: indices of points.
+    equations: supporting planes or lines.
+    strange: the number of points in the result that are not in the input.
+    faulty: numbers of equations of program 1 that do not vanish at the points that they should contain.
+    ending: the ending of a run that failed.
     """
 
     name: str
@@ -54,43 +58,42 @@ class Outcome:
 
 
 def places(points: Sequence[Vector]) -> dict[Vector, int]:
-    """Coordinates to the first point that has them."""
-    found: dict[Vector, int] = {}
+    """Return the index of the first point for each position."""
+    first: dict[Vector, int] = {}
     for index, point in enumerate(points):
-        found.setdefault(tuple(point), index)
-    return found
+        first.setdefault(tuple(point), index)
+    return first
 
 
 def from_cards(name: str, run: HullRun, points: Sequence[Vector]) -> Outcome:
-    """The outcome of an emulated run, read from the cards its last program punched."""
+    """Return the outcome of an emulated run from the cards that its last program punched."""
     if run.refusal:
         return Outcome(name, run.refusal, -1)
-    broken = next((step for step in run.steps if not step.result.ending.normal), None)
-    if broken is not None:
-        ending = broken.result.ending
+    failed = next((step for step in run.steps if not step.result.ending.normal), None)
+    if failed is not None:
+        ending = failed.result.ending
         return Outcome(name, _STATUS.get(ending.kind, ending.kind), -1, ending=ending)
     return from_card_hull(name, run.final.name, read_hull(run.final.result.punched), points)
 
 
 def from_card_hull(name: str, program: str, hull: CardHull, points: Sequence[Vector]) -> Outcome:
-    """The outcome a hull on cards is, punched by ``program`` (a built-in's name) as the last of a complete run."""
-    where = places(points)
+    """Return the outcome for a hull on cards, punched by the built-in ``program`` at the end of a complete run."""
+    indices = places(points)
     sets, strange = [], 0
     for group in (hull.vertices, hull.boundary, hull.inside):
-        known = [where[point] for point in group if point in where]
+        known = [indices[point] for point in group if point in indices]
         strange += len(group) - len(known)
         sets.append(frozenset(known))
+    # Program 1 alone finds a hull of at most three points: a point, a segment or a triangle.
     dimension = {"program2": 2, "program3": 3}.get(program, min(len(hull.vertices), 3) - 1)
-    first = program not in ("program2", "program3")
-    equations: list[Equation] = []
-    if not first:
-        equations = [_four(equation) for equation in hull.equations]
-    faulty = _faulty(hull) if first else ()
+    is_program1 = program not in ("program2", "program3")
+    equations = [] if is_program1 else [_four(equation) for equation in hull.equations]
+    faulty = _faulty(hull) if is_program1 else ()
     return Outcome(name, DETERMINED, dimension, sets[0], sets[1], sets[2], tuple(equations), strange, faulty)
 
 
 def from_hull(name: str, hull: Hull) -> Outcome:
-    """The outcome of the port."""
+    """Return the outcome for a hull of the port."""
     equations = tuple(_four([Fraction(c) for c in face.coefficients]) for face in hull.faces)
     return Outcome(
         name,
@@ -104,7 +107,7 @@ def from_hull(name: str, hull: Hull) -> Outcome:
 
 
 def from_judge(hull: ExactHull, points: Sequence[Vector]) -> Outcome:
-    """The judge's outcome; of a polygon its edges as the lines the thesis would print, exactly."""
+    """Return the outcome for an exact hull; the edges of a polygon are projected lines, as in the thesis."""
     if hull.dimension == 3:
         equations = [_four([Fraction(c) for c in hull.plane_of(facet)]) for facet in hull.facets]
     elif hull.dimension == 2:
@@ -123,21 +126,21 @@ def from_judge(hull: ExactHull, points: Sequence[Vector]) -> Outcome:
 
 
 def as_hull(judged: ExactHull) -> Hull:
-    """The judge's result in the form of the port's: equations as in ``from_judge``, everything as exact text.
+    """Return an exact hull in the form of the port's results, with all numbers as exact text.
 
-    Points are in the order of the input, where the port has that of the programs; there are no labels, no C, no stages.
+    Points are in the order of the input, whereas the port has them in the order of the programs.  There are no labels
+    of statements, no point C and no history.
     """
-    unit = judged.scale
-    points = [tuple(Fraction(number, unit) for number in point) for point in judged.scaled]
+    points = [tuple(Fraction(number, judged.scale) for number in point) for point in judged.scaled]
     if judged.dimension == 3:
         polygons = [facet.polygon for facet in judged.facets]
     else:
         polygons = [*zip(judged.polygon, judged.polygon[1:] + judged.polygon[:1], strict=True)]
     equations = from_judge(judged, points).equations
-    whole = [_whole(equation) for equation in equations]
+    reduced = [_integers(equation) for equation in equations]
     faces = tuple(
         Face(_texts(equation), integers, polygon[:3], polygon, on)
-        for equation, integers, polygon, on in zip(equations, whole, polygons, _on(judged, whole), strict=True)
+        for equation, integers, polygon, on in zip(equations, reduced, polygons, _on(judged, reduced), strict=True)
     )
     return Hull(
         arithmetic="exact",
@@ -154,20 +157,19 @@ def as_hull(judged: ExactHull) -> Hull:
 
 
 def _on(judged: ExactHull, planes: Sequence[Sequence[int]]) -> list[tuple[int, ...]]:
-    """The boundary points on each plane or line (of the coordinates as given)."""
+    """Return the boundary points on each plane or line (for unscaled coordinates)."""
     if not judged.boundary:
         return [()] * len(planes)
-    unit = judged.scale
-    there = np.array([(*judged.scaled[index], unit) for index in judged.boundary], dtype=object)
-    found = []
+    points = np.array([(*judged.scaled[index], judged.scale) for index in judged.boundary], dtype=object)
+    on_planes = []
     for plane in planes:
-        zero = np.flatnonzero(there @ np.array(plane, dtype=object) == 0)
-        found.append(tuple(judged.boundary[place] for place in zero.tolist()))
-    return found
+        zeros = np.flatnonzero(points @ np.array(plane, dtype=object) == 0)
+        on_planes.append(tuple(judged.boundary[row] for row in zeros.tolist()))
+    return on_planes
 
 
-def _whole(equation: Equation) -> tuple[int, int, int, int]:
-    """The equation in integers without common divisor."""
+def _integers(equation: Equation) -> tuple[int, int, int, int]:
+    """Return the equation as integers without a common divisor."""
     common = lcm(*(number.denominator for number in equation))
     a, b, c, d = (number.numerator * (common // number.denominator) for number in equation)
     divisor = gcd(a, b, c, d) or 1
@@ -185,7 +187,7 @@ def _four(equation: Sequence[Fraction]) -> Equation:
 
 
 def _lines(hull: ExactHull, points: Sequence[Vector]) -> list[Equation]:
-    """The edges of a polygon as projected lines, negative at the polygon's other vertices."""
+    """Return the edges of a polygon as projected lines that are negative at its other vertices."""
     assert hull.plane is not None
     drop = next(k for k in range(3) if hull.plane[k])
     u, v = (k for k in range(3) if k != drop)
@@ -202,7 +204,7 @@ def _lines(hull: ExactHull, points: Sequence[Vector]) -> list[Equation]:
 
 
 def _faulty(hull: CardHull) -> tuple[int, ...]:
-    """The equations of program 1 that do not vanish at the points they are said to contain."""
+    """Return the numbers of equations of program 1 that do not vanish at the points that they should contain."""
     equations = hull.equations
     pairs = hull.satisfied or [((1, 2), number) for number in range(1, len(equations) + 1)]
     return tuple(
@@ -213,5 +215,5 @@ def _faulty(hull: CardHull) -> tuple[int, ...]:
 
 
 def _value(equation: Sequence[Fraction], point: Vector) -> Fraction:
-    """The left member of an equation at a point."""
+    """Return the value of an equation at a point."""
     return sum((c * x for c, x in zip(equation, point, strict=False)), equation[3])

@@ -68,7 +68,7 @@ class Room(NamedTuple):
     """Work arrays of a step.  The kernel itself allocates none, because numba then compiles much faster.
 
     near: for each point whether it may lie on the surface.
-    visible, fresh, heads: the visible triangles of a step, the new ones, and the first points of the lists of the former.
+    visible, fresh, heads: the visible and the new triangles of a step, and the first points of the lists of the former.
     edges (n, 2), outer (n, 3): the horizon as (slot, edge), and as (start, end, triangle beyond).
     todo, queued: a stack of slots with waiting points, and whether each slot is on it.
     free: empty slots.

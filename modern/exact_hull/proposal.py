@@ -2,8 +2,8 @@
 
 The points are rounded to a grid of 2**30 steps for each axis (coordinates that fit are unchanged), and the hull of the
 rounded points grows in rounds.  In each round every triangle nominates the farthest of the points that wait outside it
-(Barber, Dobkin and Huhdanpaa, ACM Transactions on Mathematical Software 22 (1996), 469-483).  Among the nominated points,
-those are inserted together whose visible regions neither overlap nor share an edge.  Every edge of the new surface then
+(Barber, Dobkin and Huhdanpaa, ACM Transactions on Mathematical Software 22 (1996), 469-483).  Those nominated points
+are inserted together whose visible regions neither overlap nor share an edge.  Every edge of the new surface then
 has two triangles that would also be adjacent if only one of these points had been inserted, so the surface is convex
 again.  For the same reason a point that waits at a removed triangle is compared only with the triangles of the point
 that removed it.  "Sees" is strict, as in :mod:`modern.exact_hull.surface`.
