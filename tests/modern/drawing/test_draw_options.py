@@ -126,7 +126,7 @@ def test_differences_of_points_are_drawn_and_explained() -> None:
 
 def test_cards_of_other_points_are_refused() -> None:
     hull = convex_hull(BOX)
-    with pytest.raises(UnrelatedCards, match=r"x.punch: there are no vertices on these cards"):
+    with pytest.raises(UnrelatedCards, match=r"x.punch: these cards have no vertices"):
         card_differences(read_hull(["", "N=  3"]), hull, "x.punch")
     with pytest.raises(UnrelatedCards, match=r"x.punch: \d of the points on these cards are not among the points"):
         card_differences(read_hull(punched(SOLID)), hull, "x.punch")
@@ -198,7 +198,7 @@ def test_draw_command_accepts_every_option(
     [
         (["s.csv", "--stages", "--width", "400"], "--stages and --animate have one form"),
         (["-", "--against", "-"], "points and cards cannot both come from standard input"),
-        (["s.csv", "--against", "s.csv"], "there are no vertices on these cards"),
+        (["s.csv", "--against", "s.csv"], "these cards have no vertices"),
         (["s.csv", "--width", "10"], "a picture cannot be 10 pixels wide"),
     ],
 )
