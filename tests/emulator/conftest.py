@@ -9,5 +9,5 @@ from tests.support.deckwork import ENGINES, MakeMachine
 
 @pytest.fixture(params=sorted(ENGINES))
 def engines(request: pytest.FixtureRequest) -> MakeMachine:
-    """One engine after the other: what makes a machine that runs on it."""
+    """Return a function that makes a machine, once for each engine."""
     return ENGINES[request.param]

@@ -1,8 +1,8 @@
-"""What IBM's FORTRAN II-D punched for 23 programs (tests/data/compiler_runs), field by field beside the emulator.
+"""The output of IBM's FORTRAN II-D for 23 programs (tests/data/compiler_runs), compared field by field.
 
-Fields differ only in the classes below, each with its source.  Of a class both sides are stated: what is printed here
-is computed from the manual, what II-D prints by the rule it is seen to follow, so that no other difference passes as
-one of the class.  How many fields are of a class is stated for each program.
+Fields differ only in the classes below, each with its source.  For each class both outputs are computed: that of the
+emulator from the manual, that of II-D from the rule it follows, so that no other difference is accepted.  The number of
+fields in each class is stated for each program.
 """
 
 from __future__ import annotations
@@ -48,15 +48,15 @@ FOUND = {
     "z1": {"sign of zero": 1},
 }
 FIELDS = 1158
-"""Numbers on II-D's cards, those too large for their fields among them; 9999 beside 9999 is one."""
+"""The numbers on II-D's cards, including those too large for their fields.  9999 next to 9999 counts as one."""
 SERIES = {*(("l1", k) for k in (1, 2, 3)), ("pow", 3), ("pow", 4), ("pow2", 2), ("pow2", 3)}
-"""Programs and fields, from 0, with library functions and powers to a floating exponent."""
+"""Programs and fields, counted from 0, with library functions and powers with a floating exponent."""
 PLACES, LEAST = 7, Decimal("1E-8")
-"""How far II-D's series are off: places of the eighth digit, or absolutely where the value is small."""
+"""The largest errors of II-D's series: in units of the eighth digit, or absolute for small values."""
 
 
 def differences(program: str, number: int, mine: str, other: Punched) -> Counter[str]:
-    """How many fields of a card, counted from 0, differ, by class.  AssertionError where one differs otherwise."""
+    """Return the number of fields of a card that differ, by class.  Fail if one differs in another way."""
     if program == "f":
         return of_an_f_field(number, mine, other)
     if other.refused:
@@ -73,7 +73,7 @@ def differences(program: str, number: int, mine: str, other: Punched) -> Counter
 
 
 def difference(program: str, card: int, field: int, mine: str, other: str) -> str:
-    """The class of a difference between two numbers."""
+    """Return the class of a difference between two numbers."""
     if mine == "-.00000000E-99" and other == ".00000000E-99":
         return "sign of zero"
     if program == "e":
@@ -95,7 +95,7 @@ def difference(program: str, card: int, field: int, mine: str, other: str) -> st
 
 
 def low_digits(value: str, width: int) -> str:
-    """A number too large for its field: by E14.8, a whole one by its low-order digits."""
+    """Return a number too large for its field: as E14.8, or the low-order digits of an integer."""
     if "E" in value:
         return value.rjust(14)
     sign, digits = ("-", value[1:]) if value[0] == "-" else ("", value)
@@ -103,7 +103,7 @@ def low_digits(value: str, width: int) -> str:
 
 
 def of_five_digits(number: int, mine: str, other: str) -> Counter[str]:
-    """12345 and -12345, of which four digits stay here and are cut by fields in their turn."""
+    """Return the differences for 12345 and -12345, of which four digits remain here and fields lose more."""
     value = data(RUNS / "i.f")[number // 7].strip()
     assert value in ("12345", "-12345")
     width = (len(other) - 2) // len(other[1:-1].split())
@@ -115,11 +115,11 @@ def of_five_digits(number: int, mine: str, other: str) -> Counter[str]:
 
 
 F_FIELDS = ((7, 3), (10, 4), (5, 2), (8, 0), (4, 1), (20, 10), (6, 5))
-"""Those of f.f, in order."""
+"""The fields of f.f, in order."""
 
 
 def of_an_f_field(number: int, mine: str, other: Punched) -> Counter[str]:
-    """A card of f, both as it is here and as it is under II-D computed from the number on the data card."""
+    """Compare a card of f.f with the texts computed for the emulator and for II-D from the data card."""
     columns = data(RUNS / "f.f")[number // len(F_FIELDS)]
     value = Decimal(columns)
     width, decimals = F_FIELDS[number % len(F_FIELDS)]
@@ -138,7 +138,7 @@ def of_an_f_field(number: int, mine: str, other: Punched) -> Counter[str]:
 
 
 def f_field(value: Decimal, decimals: int) -> str:
-    """A number with that many decimals, cut, without a zero before the point."""
+    """Return a number truncated to the given decimals, without a zero before the point."""
     size = (
         str(int(abs(value) * 10**decimals)).rjust(decimals, "0") if abs(value) * 10**decimals >= 1 else "0" * decimals
     )
@@ -146,7 +146,7 @@ def f_field(value: Decimal, decimals: int) -> str:
 
 
 def with_blanks_as_zeros(columns: str) -> Decimal:
-    """An E10.4 field as II-D reads it: the blanks after an exponent are zeros, the last two digits of which stay."""
+    """Return an E10.4 field as II-D reads it: blanks after an exponent are zeros, and two digits remain."""
     found = re.fullmatch(r" *([+-]?[\d.]+)E?([+-]?)([\d ]+)", columns)
     assert found, columns
     mantissa = Decimal(found[1]) if "." in found[1] else Decimal(found[1]).scaleb(-4)
@@ -155,7 +155,7 @@ def with_blanks_as_zeros(columns: str) -> Decimal:
 
 @cache
 def computed(program: str, card: int, field: int) -> Decimal:
-    """The exact value of a field of l1, pow or pow2 to thirty digits."""
+    """Return the exact value of a field of l1, pow or pow2 to thirty digits."""
     context = MPContext()
     context.dps = 40
     cards = data(RUNS / f"{program}.f")
@@ -170,22 +170,22 @@ def computed(program: str, card: int, field: int) -> Decimal:
 
 
 def place(exact: Decimal) -> Decimal:
-    """The unit of the eighth digit of a number."""
+    """Return the unit of the eighth digit of a number."""
     return Decimal(1).scaleb(exact.adjusted() - 7)
 
 
 def found_in(program: Path, ours: tuple[str, ...]) -> Counter[str]:
-    """How many fields of a program's cards differ, by class."""
+    """Return the number of fields of a program's cards that differ, by class."""
     theirs = of_the_compiler(program)
     assert len(ours) == len(theirs)
-    found = Counter[str]()
+    classes = Counter[str]()
     for number, (mine, other) in enumerate(zip(ours, theirs, strict=True)):
-        found += differences(program.stem, number, mine, other)
-    return found
+        classes += differences(program.stem, number, mine, other)
+    return classes
 
 
 def fields(program: Path) -> int:
-    """How many numbers II-D printed, or could not print."""
+    """Return the number of values that II-D printed or could not print."""
     return sum(len(NUMBER.findall(card.text)) + len(card.refused) for card in of_the_compiler(program))
 
 
@@ -202,7 +202,7 @@ def test_every_class_of_difference_occurs() -> None:
 
 @pytest.mark.parametrize("program", PROGRAMS, ids=lambda program: program.stem)
 def test_any_changed_digit_is_detected(program: Path) -> None:
-    """Each digit of each card, made one larger, and each sign dropped: no class takes it for one of its own."""
+    """Each digit of each card is increased and each sign removed.  No class of differences accepts the change."""
     theirs, tried = of_the_compiler(program), 0
     for number, (mine, other) in enumerate(zip(punched(program), theirs, strict=True)):
         before = differences(program.stem, number, mine, other)

@@ -1,4 +1,4 @@
-"""Signs of zero: II-D's by its own rule, PDQ's and the thesis's by the emulator's (OPEN-QUESTIONS 16)."""
+"""Signs of zero: II-D follows its own rule, PDQ and the thesis that of the emulator (OPEN-QUESTIONS 16)."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tests.support.deckwork import run
 
 
 class Signed:
-    """An exact number with the sign of its zero: what II-D does with signs, each operation where it stands."""
+    """An exact number with a signed zero, under II-D's rule: every operation sets the sign at once."""
 
     def __init__(self, value: Fraction, minus: bool = False) -> None:
         self.value, self.minus = value, minus and value == 0
@@ -38,7 +38,7 @@ class Signed:
 
 
 def zeros_of(program: Path) -> list[tuple[str, str, str]]:
-    """Each expression of which II-D prints a zero: its text, the sign by II-D's rule, and the sign printed."""
+    """Return the expressions for which II-D prints zero: text, sign by II-D's rule, and sign printed."""
     data = program.with_suffix(".deck").read_text(encoding="ascii").splitlines()
     names: dict[str, Signed] = {}
     found = []
@@ -61,7 +61,7 @@ def zeros_of(program: Path) -> list[tuple[str, str, str]]:
 
 
 def test_fortran_ii_d_applies_each_unary_minus_in_place() -> None:
-    """All zeros of z1 and of the 450 random expressions by one rule: only a unary minus that comes last leaves one."""
+    """One rule explains the zeros of z1 and of 450 random expressions: only a final unary minus gives -0."""
     found = {program.stem: zeros_of(program) for program in PROGRAMS if program.stem.startswith(("z1", "expr"))}
     assert all(rule == printed for zeros in found.values() for _, rule, printed in zeros)
     assert [len(found[name]) for name in ("z1", "expr_101_07")] == [15, 1]
@@ -69,7 +69,7 @@ def test_fortran_ii_d_applies_each_unary_minus_in_place() -> None:
 
 
 def test_pdq_has_the_zero_signs_of_the_emulator() -> None:
-    """z1 whole: a unary minus of a factor comes last.  PDQ alone loses the minus of -(C)**2."""
+    """In all of z1 a unary minus of a factor is applied last.  Only -(C)**2 loses its minus in PDQ."""
     program = RUNS / "z1.f"
     theirs = of_pdq(program)
     lines = [line.strip() for line in program.read_text(encoding="ascii").splitlines() if "=" in line]
@@ -84,7 +84,7 @@ def test_pdq_has_the_zero_signs_of_the_emulator() -> None:
     [("(Y)*(B)*(-Y)", " ", "-"), ("((-C))-((-C))", " ", "-"), ("A-B*C", " ", "-"), ("-D", "-", "-")],
 )
 def test_no_single_rule_gives_the_zeros_of_both(expression: str, rule: str, thesis: str) -> None:
-    """The thesis prints -.00000000E-99 where its programs end a sum in minus a product; so does the emulator."""
+    """The thesis prints -.00000000E-99 for a sum that ends in minus a product, and so does the emulator."""
     names = {
         name: Signed(Fraction(n)) for name, n in zip("ABCDY", (2, 0 if "Y" in expression else 1, 2, 0, 1), strict=True)
     }

@@ -1,4 +1,4 @@
-"""Files read and written: one line for whatever is wrong, and nothing half written."""
+"""Reading and writing of files: one-line errors, and no partly written file."""
 
 from __future__ import annotations
 
@@ -96,14 +96,14 @@ def test_failed_write_leaves_the_old_file(tmp_path: Path) -> None:
     path = tmp_path / "a"
     path.write_bytes(b"old")
     with pytest.raises(KeyError):
-        _breaking_off(writing(str(path)), "new")
+        _interrupt(writing(str(path)), "new")
     with pytest.raises(KeyError):
-        _breaking_off(writing_bytes(str(path)), b"new")
+        _interrupt(writing_bytes(str(path)), b"new")
     assert path.read_bytes() == b"old"
     assert os.listdir(tmp_path) == ["a"]
 
 
-def _breaking_off(beside: AbstractContextManager[IO[Any]], part: str | bytes) -> None:
-    with beside as file:
+def _interrupt(writer: AbstractContextManager[IO[Any]], part: str | bytes) -> None:
+    with writer as file:
         file.write(part)
         raise KeyError

@@ -1,4 +1,4 @@
-"""Programs in the period's manner (tests/data/period), beside what tests/support/reckoned.py reckons by hand."""
+"""Programs in the style of the time (tests/data/period), compared with tests/support/reckoned.py."""
 
 from __future__ import annotations
 
@@ -33,12 +33,12 @@ RUNS = [
 
 
 def deck_of(program: str) -> Deck:
-    """The source deck, a program in small letters as capitals."""
+    """Return the source deck, converted to capitals."""
     return read_deck(str(PERIOD / f"{program}.f"), capitals)
 
 
 def ran(program: str, switches: set[int]) -> Result:
-    """The run of a program with its deck and operator; by both executors where nobody types, the kernel by itself."""
+    """Run a program with its deck and operator, on both engines and on the kernel alone if nobody types."""
     data, operator = PERIOD / f"{program}.deck", PERIOD / f"{program}.operator"
     deck = read_deck(str(data)) if data.exists() else EMPTY
     options = Options(switches=frozenset(switches), hopper="any")
@@ -62,7 +62,7 @@ def test_output_agrees_with_the_independent_computation(
 
 
 def test_independent_e_fields_agree_with_fortran_ii_d() -> None:
-    """Every number of compiler_runs/e in every E field, as II-D punched it, but for E-00 and what is too small."""
+    """Every number of compiler_runs/e in every E field, except E-00 and numbers too large for the field."""
     widths = dict(zip("ABCDEFGHIJK", ("14.8 16.8 16.5 20.2 10.3 9.2 12.5 13.7 10.4 14.0 14.4").split(), strict=True))
     runs = DATA / "compiler_runs"
     numbers = iter((runs / "e.deck").read_text(encoding="ascii").split())
@@ -78,7 +78,7 @@ def test_independent_e_fields_agree_with_fortran_ii_d() -> None:
 
 
 def test_independent_arithmetic_agrees_with_known_values() -> None:
-    """Two roots and a difference II-D gave, a field of the manual's page 39, and two numbers everybody knows."""
+    """Two roots and a difference from II-D, a field of the manual's page 39, pi, and a known root."""
     assert [str(Eight(n).root().x * 10**7) for n in (2, 10)] == ["14142135", "31622776"]
     assert (Eight(1) - Eight(".99999999")).x == Fraction(1, 10**7)
     assert (Eight("10000000") - Eight(".5")).x == 10**7
@@ -99,7 +99,7 @@ def test_all_programs_compile_without_a_message() -> None:
 
 
 def test_only_pi_is_in_lower_case() -> None:
-    """pi.f stands in small letters, to be read with --upcase; the others are capitals."""
+    """pi.f is read with --upcase.  The others are in capitals."""
     small = [path.stem for path in PROGRAMS if any(map(str.islower, path.read_text(encoding="ascii")))]
     assert small == ["pi"]
     text = (PERIOD / "pi.f").read_text(encoding="ascii")

@@ -1,4 +1,4 @@
-"""The programs of tests/data/compiler_runs: what two compilers of the time punched, and what the emulator punches."""
+"""The programs of tests/data/compiler_runs: the cards of two compilers of the time, and those of the emulator."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ TOO_SMALL = re.compile(r"ER F8 *(?P<value>[-.0-9E+]+)\| *\|")
 
 @dataclass(frozen=True)
 class Punched:
-    """A card of FORTRAN II-D, and the numbers that were too large for their fields on it."""
+    """A card of FORTRAN II-D, and the numbers that were too large for its fields."""
 
     text: str
     refused: tuple[str, ...] = ()
@@ -28,7 +28,7 @@ class Punched:
 
 @cache
 def punched(program: Path) -> tuple[str, ...]:
-    """The cards the emulator punches."""
+    """Return the cards that the emulator punches."""
     deck = deck_from_lines("data", data(program))
     result = Machine(compile_deck(read_deck(str(program))), deck, Options(hopper="any")).run()
     assert result.ending.normal
@@ -36,19 +36,19 @@ def punched(program: Path) -> tuple[str, ...]:
 
 
 def data(program: Path) -> list[str]:
-    """The data cards of a program, none where it reads none."""
+    """Return the data cards of a program, or an empty list."""
     path = program.with_suffix(".deck")
     return path.read_text(encoding="ascii").splitlines() if path.exists() else []
 
 
 def of_the_compiler(program: Path) -> list[Punched]:
-    """What FORTRAN II-D punched."""
+    """Return the cards that FORTRAN II-D punched."""
     cards: list[Punched] = []
     refused: list[str] = []
     for line in program.with_suffix(".iid").read_text(encoding="ascii").splitlines():
-        found = TOO_SMALL.fullmatch(line)
-        if found:
-            refused.append(found["value"])
+        too_small = TOO_SMALL.fullmatch(line)
+        if too_small:
+            refused.append(too_small["value"])
             continue
         cards.append(Punched(line, tuple(refused)))
         refused = []
@@ -56,6 +56,6 @@ def of_the_compiler(program: Path) -> list[Punched]:
 
 
 def of_pdq(program: Path) -> list[str]:
-    """What PDQ FORTRAN punched, its exponents written as II-D's."""
+    """Return the cards that PDQ FORTRAN punched, with exponents in the notation of II-D."""
     text = program.with_suffix(".pdq").read_text(encoding="ascii")
     return re.sub(r"E (?=\d\d)", "E+", text).replace("E-50", "E-99").splitlines()

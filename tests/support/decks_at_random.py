@@ -1,4 +1,4 @@
-"""Strategies for random source decks: mostly valid programs, and the same with a few columns spoilt."""
+"""Hypothesis strategies for source decks: mostly valid programs, and programs with a few columns changed."""
 
 from __future__ import annotations
 
@@ -46,14 +46,14 @@ ITEMS = st.lists(_FLOATING_ITEM | _FIXED_ITEM, max_size=4)
 
 
 _COLUMNS = 66
-"""Of a statement on one card."""
+"""The columns of a statement on a single card."""
 START = ["I=1", "J=2", "N=2", "K=3", "A=1.5", "B=-2.", "Z=0.", "DO 5 I=1,3", "M(I)=I", "5 X(I)=A", "M(4)=0"]
 START += ["DO 6 I=1,2", "Y(I,1)=B", "6 Y(I,2)=-Z", "I=2"]
 
 
 @st.composite
 def programs(draw: st.DrawFn, functions: tuple[str, ...] = SHORT_FUNCTIONS, powers: bool = False) -> list[str]:
-    """A deck of up to twenty statements, numbered 10, 20, ..., with FORMATs 901 to 906 and an END."""
+    """Draw a deck of up to twenty statements, numbered 10, 20, and so on, with FORMATs 901 to 906 and an END."""
     count = draw(st.integers(2, 20))
     labels = st.integers(1, count).map(lambda n: str(10 * n))
     expressions = floating(functions)
@@ -108,7 +108,7 @@ CARD = st.one_of(CARD_TEXT, CARD_OF_WORDS, CARD_OF_WORDS.map(lambda t: ("     1"
 
 @st.composite
 def spoilt_programs(draw: st.DrawFn) -> list[str]:
-    """A valid program with some columns changed, put in or taken out, and some cards lost or doubled."""
+    """Draw a valid program in which some columns and cards are changed, inserted, removed or repeated."""
     cards = draw(programs())
     for _ in range(draw(st.integers(1, 4))):
         n = draw(st.integers(0, len(cards) - 1))

@@ -1,4 +1,4 @@
-"""What the tests of the emulator share: decks from lines, compiling and running them, reading a field of core."""
+"""Helpers for the tests of the emulator: make, compile and run decks from lines, and read fields of core."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ MakeMachine = Callable[[Program, Deck, Options], Machine]
 
 
 class ComparedMachine(Machine):
-    """A machine whose run must be that of the compiled engine too: result, and every field of core afterwards."""
+    """A machine whose run is compared with the compiled engine: the result, and every field of core afterwards."""
 
     def run(self) -> Result:
         pytest.importorskip("numba")
@@ -37,23 +37,23 @@ class ComparedMachine(Machine):
         if runner is not None:
             (run,) = runner.runs([packed(self.deck)])
             if run is not None:
-                held = list(zip(runner.core.mantissas.tolist(), runner.core.exponents.tolist(), strict=True))  # type: ignore[attr-defined]
-                assert held == [pair(self, address) for address in range(self.program.storage.fields)]
+                core = list(zip(runner.core.mantissas.tolist(), runner.core.exponents.tolist(), strict=True))  # type: ignore[attr-defined]
+                assert core == [pair(self, address) for address in range(self.program.storage.fields)]
         assert run_batch(self.program, [self.deck], self.options) == (result,)
         return result
 
 
 ENGINES: dict[str, MakeMachine] = {"plain": Machine, "compiled": ComparedMachine}
-"""The engines every vector runs on: a name, and what makes a machine with that engine."""
+"""The engines that every vector runs on: a name, and a function that makes a machine."""
 
 
 def compiled_in_core(program: Program, options: Options) -> Runner | None:
-    """The compiled engine with a program in core; None where the plain one is to run it."""
+    """Return the compiled engine with a program in core, or None if the interpreter must run it."""
     return None if why_plain(options) else Runner(program, options)
 
 
 def agreed(program: Program, decks: Sequence[Deck], options: Options) -> int:
-    """Run decks on both engines, which must agree in everything; how many the compiled one ran by itself.
+    """Run decks on both engines, which must agree.  Return the number of decks that the compiled engine ran alone.
 
     A deck that raises an error must raise the same from both.
     """
@@ -63,19 +63,19 @@ def agreed(program: Program, decks: Sequence[Deck], options: Options) -> int:
         block = decks[start : start + BLOCK]
         runs = runner.runs([packed(deck) for deck in block]) if runner else iter([None] * len(block))
         alone += sum(run is not None for run in runs)
-    good = []
+    results = []
     for deck in decks:
         try:
-            good.append((deck, Machine(program, deck, options).run()))
+            results.append((deck, Machine(program, deck, options).run()))
         except EmulatorError as error:
-            kind, words = type(error), str(error)
+            kind, message = type(error), str(error)
         else:
             continue
         with pytest.raises(kind) as caught:
             run_batch(program, [deck], options)
-        assert str(caught.value) == words
-    found = run_batch(program, [deck for deck, _ in good], options)
-    for (deck, expected), result in zip(good, found, strict=True):
+        assert str(caught.value) == message
+    batch = run_batch(program, [deck for deck, _ in results], options)
+    for (deck, expected), result in zip(results, batch, strict=True):
         assert result == expected, deck.text()
     return alone
 
@@ -89,12 +89,12 @@ def program(*lines: str) -> Program:
 
 
 def diagnostics(*lines: str) -> tuple[Diagnostic, ...]:
-    """All messages of the compiler, warnings too."""
+    """Return all messages of the compiler, with warnings."""
     return translate(source(*lines))[1]
 
 
 def errors(*lines: str) -> tuple[Diagnostic, ...]:
-    """The messages of the compiler that are not warnings."""
+    """Return the messages of the compiler that are not warnings."""
     return tuple(d for d in diagnostics(*lines) if not d.warning)
 
 
@@ -108,62 +108,62 @@ def machine(
     switches: Iterable[int] = (),
     core: int = 40_000,
 ) -> Machine:
-    """A machine with the program of ``lines`` in core and ``data`` in its hopper, not yet started."""
+    """Return a machine with the program of ``lines`` in core and ``data`` in its hopper, not yet started."""
     options = Options(numbers=numbers(arithmetic), limit=limit, bounds=bounds, switches=frozenset(switches), core=core)
     return Machine(program(*lines), deck_from_lines("data.cards", data), options, tuple(keyboard))
 
 
 def run(*lines: str, **setting: object) -> Result:
-    """Compile ``lines``, run them, and give back the result; settings as for :func:`machine`."""
+    """Compile ``lines``, run them, and return the result.  The settings are those of :func:`machine`."""
     return machine(*lines, **setting).run()  # type: ignore[arg-type]
 
 
 def until(session: Session, statements: int, operator: Operator | None = None) -> Ending | None:
-    """Run on until so many plain statements are done, whatever costs more; the ending of a run that ended before.
+    """Run until the given number of plain statements is done.  Return the ending if the run ended before, or None.
 
-    What is done is counted as the limit counts it, but for what costly operations add: the same in every arithmetic.
+    Statements count as for the limit, but without the surcharge of costly operations: the same in every arithmetic.
     """
-    while (left := statements - plain(session)) > 0:
-        ending = operated(session, operator or Operator(), session.state.work + left)
+    while (remaining := statements - plain(session)) > 0:
+        ending = operated(session, operator or Operator(), session.state.work + remaining)
         if ending is not None:
             return ending
     return None
 
 
 def plain(session: Session) -> int:
-    """How much a session has done, every statement counted as one."""
+    """Return the work of a session with every statement counted as one."""
     return session.state.work - session.state.costly
 
 
 def punched(*lines: str, **setting: object) -> tuple[str, ...]:
-    """The cards a program punched; fails where the run did not end normally."""
+    """Run a program and return the cards it punched.  Fail if the run did not end normally."""
     result = run(*lines, **setting)
     assert result.ending.normal, result.ending.message
     return result.punched
 
 
 def code(*lines: str) -> list[str]:
-    """The object code of a deck of one statement as ``TOFAC A``, ``RSGN``, without COUNT."""
+    """Return the object code of a deck as ``TOFAC A``, ``RSGN`` and so on, without COUNT."""
     made = program(*lines)
-    words = []
+    listing = []
     for instruction in made.code:
         if instruction.operation == op.COUNT:
             continue
-        word = op.NAMES[instruction.operation]
+        operation = op.NAMES[instruction.operation]
         if instruction.operation < op.COUNT or instruction.operation in (op.POWER, op.POWERX):
-            word += " " + made.storage.name_of(instruction.address)
-        words.append(word)
-    return words
+            operation += " " + made.storage.name_of(instruction.address)
+        listing.append(operation)
+    return listing
 
 
 def pair(of: Machine, address: int) -> tuple[int, int]:
-    """A field of core as mantissa and exponent (emulator/numbers/arithmetic.py)."""
+    """Return a field of core as mantissa and exponent (emulator/numbers/arithmetic.py)."""
     value, kind = of.state.values[address], of.state.kinds[address]
     return value if kind == FLOATING else (value, kind)
 
 
 def number(of: Machine, name: str) -> str:
-    """A field of core by its name: all digits of a floating number, ``-0``, ``undefined``, or a whole number."""
+    """Return a field of core by its name: all digits of a floating number, ``-0``, ``undefined``, or an integer."""
     entry = next(e for e in of.program.storage.entries if e.kind == "variable" and e.name == name)
     mantissa, exponent = pair(of, entry.first)
     if exponent == UNDEFINED:
@@ -178,12 +178,12 @@ def number(of: Machine, name: str) -> str:
 
 
 class Hung(Exception):
-    """A call did not come back in time."""
+    """A call that did not return in time."""
 
 
 @contextmanager
 def within(seconds: float) -> Iterator[None]:
-    """Raise Hung inside the block when it takes longer than ``seconds``."""
+    """Raise Hung inside the block if it takes longer than ``seconds``."""
 
     def ring(*_: object) -> None:
         raise Hung(f"not done after {seconds} s")

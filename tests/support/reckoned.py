@@ -1,8 +1,8 @@
-"""The programs of tests/data/period reckoned by hand: what each must put out, in fractions cut to eight digits.
+"""An independent computation of the output of the programs in tests/data/period, in fractions of eight digits.
 
-It is computed from the rules of the manual, with nothing of ``emulator``: eight digits, each result cut, the smaller
-operand of a sum cut before it is added; fields as C26-5619 p. 35 to 43 has them and IBM's FORTRAN II-D prints them
-(tests/data/compiler_runs).
+It follows the rules of the manual and uses nothing of ``emulator``.  Numbers have eight digits, every result is
+truncated, and the smaller operand of a sum is truncated before the addition.  Fields are those of C26-5619 p. 35 to 43,
+as IBM's FORTRAN II-D prints them (tests/data/compiler_runs).
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ PERIOD = DATA / "period"
 
 
 def cut(x: Fraction) -> Fraction:
-    """A number's first eight digits."""
+    """Return a number truncated to eight digits."""
     unit = Fraction(10) ** (exponent(x) - 8)
     return int(x / unit) * unit
 
 
 def exponent(x: Fraction) -> int:
-    """The exponent e of .dddddddd times ten to e."""
+    """Return the exponent e of .dddddddd times ten to e."""
     e = 0
     while x and abs(x) >= Fraction(10) ** e:
         e += 1
@@ -67,7 +67,7 @@ class Eight:
 
 
 def number(value: Eight | float) -> Eight:
-    """A constant as the program writes it."""
+    """Return a constant of the program as a number."""
     return value if isinstance(value, Eight) else Eight(repr(value) if isinstance(value, float) else value)
 
 
@@ -76,7 +76,7 @@ def i_field(n: int, width: int) -> str:
 
 
 def e_field(value: Eight, width: int = 14, decimals: int = 8) -> str:
-    """Digits before the point as many as there are and as fit (compiler_runs/e); no number here is zero."""
+    """Return a nonzero number in an E field, with the digits before the point that fit (compiler_runs/e)."""
     before = min(8 - decimals, width - 6 - decimals)
     e = exponent(value.x)
     digits = str(abs(value.x) / Fraction(10) ** (e - 8)).ljust(8, "0")[: before + decimals]
@@ -85,14 +85,14 @@ def e_field(value: Eight, width: int = 14, decimals: int = 8) -> str:
 
 
 def f_field(value: Eight, width: int, decimals: int) -> str:
-    """No zero before the point; one column is the sign's; by E14.8 what does not fit (C26-5619 p. 39)."""
+    """Return an F field: no zero before the point, a column for the sign, and E14.8 if it does not fit (p. 39)."""
     digits = str(int(abs(value.x) * 10**decimals)).rjust(decimals, "0")
     text = f"{digits[: len(digits) - decimals]}.{digits[len(digits) - decimals :]}"
     return (("-" if value.x < 0 else "") + text).rjust(width) if len(text) < width else e_field(value)
 
 
 Lines = tuple[list[str], list[str]]
-"""What is punched and what is typed."""
+"""The cards punched and the lines typed."""
 
 
 def table(switches: frozenset[int]) -> Lines:
@@ -158,8 +158,7 @@ CASES = (
     (27, 100, [("1.2", "-.5"), ("1.5", "-.3"), ("1.1", ".2"), ("1.9", ".8"), ("1.6", ".7"), ("1.4", ".1")]),
     (3, 10, [("1", "3"), ("2", "2"), ("3", "1")]),
 )
-"""Number, by what x is divided as read, and the pairs; in the second case y is divided by as much, and by F6.2 the
-numbers of the cards are hundredths."""
+"""Case number, divisor of x, and pairs.  In the second case F6.2 reads the numbers as hundredths, y too."""
 
 
 def stats(switches: frozenset[int]) -> Lines:
@@ -189,7 +188,7 @@ def stats(switches: frozenset[int]) -> Lines:
 
 
 def job(switches: frozenset[int]) -> Lines:
-    """The four problems of job.operator: Newton, regula falsi step by step, no change of sign, no slope."""
+    """Compute the four problems of job.operator: Newton, regula falsi step by step, no change of sign, no slope."""
     cards: list[str] = []
     typed = ["STUDENT  417", "TYPE P,Q,R THEN A,B"]
     p, q, r = Eight(0), Eight(-2), Eight(-5)
@@ -197,7 +196,7 @@ def job(switches: frozenset[int]) -> Lines:
     def cubic(x: Eight) -> Eight:
         return ((x + p) * x + q) * x + r
 
-    def found(x: Eight, steps: int) -> None:
+    def report(x: Eight, steps: int) -> None:
         coefficients = f_field(p, 9, 3) + f_field(q, 9, 3) + f_field(r, 9, 3)
         cards.append(i_field(417, 4) + coefficients + f_field(x, 13, 7) + i_field(steps, 4))
         typed.append(f"ROOT {f_field(x, 12, 7)}   {i_field(steps, 3)} STEPS")
@@ -209,7 +208,7 @@ def job(switches: frozenset[int]) -> Lines:
         x = x - h
         if steps >= 20 or (h * h - Eight("1E-14")).x <= 0:
             break
-    found(x, steps)
+    report(x, steps)
     a, b = Eight(2), Eight(3)
     fa, fb = cubic(a), cubic(b)
     steps = 0
@@ -224,12 +223,12 @@ def job(switches: frozenset[int]) -> Lines:
             b, fb = x, f
         else:
             a, fa = x, f
-    found(x, steps)
+    report(x, steps)
     return cards, [*typed, "NO SIGN CHANGE", "SLOPE IS ZERO"]
 
 
 class Game:
-    """A game of tic-tac-toe on squares 1 to 9: who has which, and what the console says of it."""
+    """A game of tic-tac-toe on squares 1 to 9: the squares of both players, and the lines typed."""
 
     def __init__(self, lines: list[set[int]]) -> None:
         self.lines, self.player, self.machine = lines, set[int](), set[int]()
@@ -246,22 +245,22 @@ class Game:
         return "" if self.free(range(1, 10)) else "DRAW"
 
     def picture(self) -> list[str]:
-        held = [1 if k in self.player else 4 if k in self.machine else 0 for k in range(1, 10)]
-        return ["".join(i_field(n, 2) for n in held[k : k + 3]) for k in (0, 3, 6)]
+        marks = [1 if k in self.player else 4 if k in self.machine else 0 for k in range(1, 10)]
+        return ["".join(i_field(n, 2) for n in marks[k : k + 3]) for k in (0, 3, 6)]
 
     def move(self) -> None:
-        """Win, else stop the player, else center, corner, side; the first that is free in the order of the lines."""
+        """Win, else block the player, else take the first free square: center, corners, sides."""
         for own, other in ((self.machine, self.player), (self.player, self.machine)):
-            wanted = [line - own for line in self.lines if len(line & own) == 2 and not line & other]
-            if wanted:
+            completions = [line - own for line in self.lines if len(line & own) == 2 and not line & other]
+            if completions:
                 break
-        (taken,) = wanted[0] if wanted else self.free((5, 1, 3, 7, 9, 2, 4, 6, 8))[:1]
+        (taken,) = completions[0] if completions else self.free((5, 1, 3, 7, 9, 2, 4, 6, 8))[:1]
         self.machine.add(taken)
         self.typed += [f"I TAKE{i_field(taken, 2)}", *self.picture()]
 
 
 def tictac(switches: frozenset[int]) -> Lines:
-    """The three games of tictac.operator."""
+    """Compute the three games of tictac.operator."""
     text = (PERIOD / "tictac.deck").read_text(encoding="ascii").rstrip()
     lines = [{int(text[k + 2 * j : k + 2 * j + 2]) for j in range(3)} for k in range(0, 48, 6)]
     cards: list[str] = []

@@ -43,7 +43,7 @@ def test_digits_and_signs_of_the_reference_card() -> None:
 
 
 def test_only_the_quote_shares_its_punches_with_another_character() -> None:
-    """The 026's H keyboard prints the holes 4-8 as a quote, the reference card as @."""
+    """The 026's H keyboard prints the punches 4-8 as a quote, and the reference card prints them as @."""
     shared = {c for c in PUNCHES if list(PUNCHES.values()).count(PUNCHES[c]) > 1}
     assert shared == {"@", "'"}
     assert len(PUNCHES) == 49

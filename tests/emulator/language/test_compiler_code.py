@@ -1,4 +1,4 @@
-"""Object code: the patterns disassembled from a compiler of the time (evidence part two 2.3) and IBM's DO."""
+"""Object code: the patterns disassembled from a compiler of the time, and the DO of IBM's compiler."""
 
 from __future__ import annotations
 
@@ -91,13 +91,13 @@ def test_instruction_without_subscript_holds_minus_one() -> None:
 
 @pytest.mark.parametrize(("statement", "more"), [("A=X(2)", 0), ("A=X(I)", 30), ("A=Y(I,J)", 60), ("A=Y(I,1)", 60)])
 def test_a_variable_subscript_takes_thirty_positions(statement: str, more: int) -> None:
-    """Fitted to the lengths of the hull programs as PDQ FORTRAN compiles them; two for an array of two dimensions."""
+    """Fitted to the lengths of the hull programs under PDQ FORTRAN.  An array of two dimensions takes twice as many."""
     plain, longer = (program("DIMENSION X(5),Y(2,2)", line, "END") for line in ("A=B", statement))
     assert op.code_positions(longer) - op.code_positions(plain) == more
 
 
 def test_do_tests_at_the_bottom() -> None:
-    """IBM's object code 10504-10912: set, body, then step and compare (part one 1)."""
+    """IBM's object code 10504-10912: set, body, then step and compare."""
     made = program("DO 5 I=2,N,3", "5 A=B", "END")
     names = [op.NAMES[i.operation] for i in made.code if i.operation != op.COUNT]
     assert names == ["TOFIX", "FMFIX", "SEND", "TRANSMIT", "DOTEST", "STOP"]

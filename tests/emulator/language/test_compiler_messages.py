@@ -110,7 +110,7 @@ def test_missing_end_is_a_warning() -> None:
 
 
 def test_long_record_is_error_12_as_a_warning() -> None:
-    """C26-5619 p. 56: 87 characters; what is beyond is lost at run time, so the deck still runs."""
+    """C26-5619 p. 56: 87 characters.  The rest is lost at run time, so the deck still runs."""
     (message,) = diagnostics("5 FORMAT(40X,40X,8X)", "END")
     assert (message.number, message.warning) == (12, True)
     assert (message.card, message.column) == (1, 9)
@@ -163,13 +163,13 @@ def test_do_cannot_end_with_a_statement_that_is_not_executed(last: str) -> None:
     ("size", "words"), [("9999,9999", "OVERLAP"), ("99999999999", "more than four digits"), ("9999", "OVERLAP")]
 )
 def test_huge_array_in_a_list_is_rejected_at_once(size: str, words: str) -> None:
-    """No object code is made for an array that no core can hold."""
+    """The compiler makes no object code for an array that no core can hold."""
     with within(2):
         assert words in errors(f"DIMENSION X({size})", "PUNCH 90,X", F, "END")[0].message
 
 
 def test_the_largest_core_holds_5988_fields() -> None:
-    """60,000 positions, 120 of them for names, ten a field (C26-5619 p. 66-67)."""
+    """60,000 positions, less 120 for names, with ten per field (C26-5619 p. 66-67)."""
     assert diagnostics("DIMENSION X(5988)", "END") == ()
     assert "OVERLAP" in errors("DIMENSION X(5989)", "END")[0].message
     assert diagnostics("DIMENSION X(5987)", "X(1)=Y", "END") == ()
@@ -181,5 +181,5 @@ def test_label_missing_twice_in_a_statement_gives_one_message() -> None:
 
 
 def test_functions_may_be_arrays_and_variables() -> None:
-    """A DIMENSION makes any name an array; without arguments a name is a variable."""
+    """A DIMENSION makes any name an array, and a name without arguments is a variable."""
     assert diagnostics("DIMENSION SIN(3)", "I=2", "SIN(I)=1.", "SQRT=SIN(2)", "END") == ()

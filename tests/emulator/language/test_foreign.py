@@ -1,4 +1,4 @@
-"""What other FORTRANs of the time have is named for what it is, once, and the rest of the deck is still checked."""
+"""Statements, functions and fields of other FORTRANs are reported once, and the rest of the deck is checked."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ def test_plain_syntax_error_is_not_taken_for_a_foreign_statement(line: str) -> N
     "line", ["COMMON=1.", "CALL=2.", "DATA=3.", "IF=4", "REAL=5.", "DATA(1)=2.", "FIND(I)=3.", "READ=1.", "RETUR=2."]
 )
 def test_foreign_keywords_may_be_names(line: str) -> None:
-    """Nothing is reserved: a word of another FORTRAN is that only where no statement of this one is meant."""
+    """No word is reserved: a foreign keyword counts only if the statement has no meaning in this FORTRAN."""
     lines = ("DIMENSION DATA(2),FIND(3)", "I=1", " " + line.replace("COMMON", "COMMN"), "END")
     assert errors(*lines) == () if "DATA=" not in line else len(errors(*lines)) == 1
 

@@ -83,7 +83,7 @@ def test_hollerith_ends_at_column_72() -> None:
     ],
 )
 def test_invalid_specification_is_error_11(text: str) -> None:
-    """C26-5619 p. 56: a wrong letter, a missing point or d."""
+    """C26-5619 p. 56: a wrong letter, or a missing point or number of decimals."""
     lines = [f"5 FORMAT{text}", "END"]
     if text == "I4":
         assert errors(*lines)[0].message == "no parenthesis follows FORMAT"

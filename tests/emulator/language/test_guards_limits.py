@@ -1,4 +1,4 @@
-"""The compiler at its limits: how deep lists, groups and parentheses may stand, and constant factors of subscripts."""
+"""The limits of the compiler: nesting of lists, groups and parentheses, and constant factors of subscripts."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ FILLED = ["DIMENSION A(9),B(2,4)", "DO 5 I=1,9", "5 A(I)=I"]
 
 
 def cards(statement: str) -> list[str]:
-    """A long statement on a card of 72 columns and continuation cards of 66 (OPEN-QUESTIONS 1)."""
+    """Return a long statement on a card of 72 columns and continuation cards of 66 (OPEN-QUESTIONS 1)."""
     return [statement[:72], *(f"     1{statement[k : k + 66]}" for k in range(72, len(statement), 66))]
 
 
 def nested(item: str, *variables: str) -> str:
-    """The item in a list for each variable, the first the innermost, each from 1 to 2."""
+    """Return the item in one list per variable, innermost first, each from 1 to 2."""
     for variable in variables:
         item = f"({item},{variable}=1,2)"
     return item
@@ -35,7 +35,7 @@ def nested(item: str, *variables: str) -> str:
     ids=["one", "two", "three"],
 )
 def test_lists_may_be_nested_three_deep(item: str, card: str) -> None:
-    """Three are taken, one more than an array has subscripts; the innermost variable goes fastest, as in DO's."""
+    """One more level than an array has subscripts.  The innermost variable varies fastest, as in nested DOs."""
     assert punched(f"PUNCH 1,{item}", "1 FORMAT(24I2)", "END") == (card,)
 
 
@@ -45,7 +45,7 @@ def test_lists_may_be_nested_three_deep(item: str, card: str) -> None:
     ids=["alone", "with another item", "not the first item"],
 )
 def test_fourth_level_of_lists_is_rejected(item: str) -> None:
-    """One message, on the statement's card; a list beside another is not inside it."""
+    """There is one message, on the statement's card.  A list next to another one is not nested in it."""
     (message,) = errors("I=1", *cards(f"PUNCH 1,{item}"), "1 FORMAT(24I2)", "END")
     assert (message.card, "nested too deep" in message.message) == (2, True)
     beside = ",".join([nested("J", "J", "K", "L")] * 3)
@@ -53,14 +53,14 @@ def test_fourth_level_of_lists_is_rejected(item: str) -> None:
 
 
 def test_format_groups_may_be_nested_two_deep() -> None:
-    """A FORMAT's own parentheses are none of them: 2(1X,2(I1)) is four fields."""
+    """The parentheses of the FORMAT itself do not count: 2(1X,2(I1)) is four fields."""
     assert punched("PUNCH 1,(J,J=1,4)", "1 FORMAT(2(1X,2(I1)))", "END") == (" 12 34",)
     (message,) = errors("1 FORMAT(2(1X,2(2(I1))))", "END")
     assert (message.card, message.number) == (1, 11)
 
 
 def test_parentheses_may_be_nested_sixty_deep() -> None:
-    """The limit keeps the parser within Python's own; it is the parentheses open at once that count."""
+    """The limit protects Python's own stack.  It counts the parentheses that are open at the same time."""
     sixty = f"{'(' * 60}1.{')' * 60}"
     assert diagnostics(*cards(f"X={sixty}"), "END") == ()
     assert diagnostics(*cards(f"X={sixty}+{sixty}"), "END") == ()
@@ -70,17 +70,17 @@ def test_parentheses_may_be_nested_sixty_deep() -> None:
 @pytest.mark.parametrize(
     ("what", "much"),
     [
-        ("parentheses in parentheses", f"{MAX_NESTING} deep"),
-        ("loops in a list", "three, one in the other"),
-        ("groups in a FORMAT", "two, one in the other, within its own parentheses"),
-        ("fields of a FORMAT, repetitions written out", "2,000"),
-        ("width of X and H", f"{MAX_LITERAL} (p. 37, 41); more is a warning"),
-        ("a record", f"{MAX_RECORD} characters (p. 43, 56); more is a warning"),
+        ("nested parentheses", f"{MAX_NESTING} deep"),
+        ("nested loops in a list", "three"),
+        ("nested groups in a FORMAT", "two, within its own parentheses"),
+        ("fields of a FORMAT, with repetitions expanded", "2,000"),
+        ("width of X and H", f"{MAX_LITERAL} (p. 37, 41); a larger width is a warning"),
+        ("a record", f"{MAX_RECORD} characters (p. 43, 56); a longer one is a warning"),
         ("data", "5,988 numbers in 60,000 positions"),
     ],
 )
 def test_manual_states_every_limit(what: str, much: str) -> None:
-    """Those that are no numbers of the code are tried by the tests of this file and of the compiler's messages."""
+    """Limits that are not constants of the code are tested here and with the compiler's messages."""
     assert f"| {what} | {much} |" in (ROOT / "docs" / "reference" / "fortran.md").read_text(encoding="utf-8")
 
 
@@ -89,7 +89,7 @@ def test_manual_states_every_limit(what: str, much: str) -> None:
     [("2*3", 6), ("2*3+1", 7), ("2*3-1", 5), ("3*1", 3), ("2+3", 5), ("7-3", 4), ("9*1-8", 1), ("3*3", 9)],
 )
 def test_constant_subscript_gives_the_address(subscript: str, element: int) -> None:
-    """Factor times constant, then the addend, as c*v+k is (C26-5619 p. 18): an address, without code for it."""
+    """The subscript c*v+k of constants (C26-5619 p. 18) is an address and needs no code."""
     lines = [*FILLED, f"J=A({subscript})", "PUNCH 1,J", "1 FORMAT(I2)", "END"]
     assert punched(*lines) == (f"{element:2}",)
     assert code("DIMENSION A(9)", f"X=A({subscript})", "END")[0] == f"SEND A({element})"
@@ -103,21 +103,21 @@ def test_constant_factors_in_both_subscripts() -> None:
 
 @pytest.mark.parametrize(("subscript", "element"), [("2*3", 6), ("2*4-1", 7), ("2*3-6", 0), ("3-4", -1)])
 def test_constant_subscript_out_of_bounds_stops_the_run(subscript: str, element: int) -> None:
-    """The subscript named is the one reckoned."""
+    """The message names the computed subscript."""
     result = run("DIMENSION A(5)", f"A({subscript})=1.", "END")
     assert result.ending.kind == "bounds"
     assert str(element) in result.ending.message
 
 
 def test_subscript_factor_does_not_change_the_loop() -> None:
-    """2*J+1 is 7 for J = 3, and the limit of the loop is not touched by it."""
+    """2*J+1 is 7 for J = 3, and the limit of the loop stays as it was."""
     lines = [*FILLED, "J=3", "K=A(2*J+1)", "L=A(3*J-2)", "PUNCH 1,K,L,J", "1 FORMAT(3I2)", "END"]
     assert punched(*lines) == (" 7 7 3",)
 
 
 @pytest.mark.parametrize("subscript", ["4/2", "2*3*1", "1+2+3", "-2", "-2*J", "-J+5", "+2*J+1-1", "J*2", "1+J"])
 def test_other_forms_of_subscript_are_rejected(subscript: str) -> None:
-    """C26-5619 p. 18 has v, c, v+c, v-c, c*v, c*v+c and c*v-c only."""
+    """C26-5619 p. 18 allows only v, c, v+c, v-c, c*v, c*v+c and c*v-c."""
     (message,) = errors("DIMENSION A(9)", f"X=A({subscript})", "END")
     assert (message.card, message.number) == (2, 0)
     assert "subscript" in message.message

@@ -1,4 +1,4 @@
-"""docs/reference/fortran.md, the manual of the dialect, has what the compiler has: errors, foreign words, functions."""
+"""docs/reference/fortran.md, the manual of the dialect, lists the errors and foreign statements of the compiler."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ WORDS = " ".join(TEXT.split())
 
 @pytest.mark.parametrize("number", explanations())
 def test_manual_explains_every_error(number: str) -> None:
-    found = explanations()[number]
+    explanation = explanations()[number]
     (section,) = re.findall(rf"^### Error {number}: (.*?)(?=^### |\Z)", TEXT, re.DOTALL | re.MULTILINE)
-    example = "\n".join(found.example)
+    example = "\n".join(explanation.example)
     assert f"```text\n{example}\n```" in section
-    assert " ".join(section.split()) == " ".join(
-        f"{found.title} {found.meaning} ```text {example} ``` *Mend:* {found.mend}. *Source:* {found.source}.".split()
-    )
+    remedy = f"*Mend:* {explanation.mend}. *Source:* {explanation.source}."
+    expected = f"{explanation.title} {explanation.meaning} ```text {example} ``` {remedy}"
+    assert " ".join(section.split()) == " ".join(expected.split())
 
 
 def test_manual_explains_only_existing_errors() -> None:

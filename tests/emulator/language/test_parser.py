@@ -1,4 +1,4 @@
-"""Each form of statement, and each refused form with its card and column."""
+"""Every valid form of statement, and every rejected form with its card and column."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def test_assignment_keeps_columns() -> None:
 
 
 def expression(text: str) -> str:
-    """An expression with every parenthesis written."""
+    """Return an expression with all its parentheses."""
     found = body(f"X={text}")
     assert isinstance(found, tree.Assignment)
     return shown(found.value)
@@ -177,7 +177,7 @@ REFUSED = [
 
 @pytest.mark.parametrize(("line", "column", "number", "words"), REFUSED, ids=[line[:30] for line, *_ in REFUSED])
 def test_invalid_statement_is_rejected_with_column_and_type(line: str, column: int, number: int, words: str) -> None:
-    """Error types by C26-5619 p. 56: 6 name, 7 sense switch, 8 DO, 9 DIMENSION, 13 input and output."""
+    """Error types of C26-5619 p. 56: 6 name, 7 sense switch, 8 DO, 9 DIMENSION, 13 input and output."""
     found = parsed("C  FIRST CARD", line)
     (message,) = found.diagnostics
     assert (message.card, message.column, message.number) == (2, column, number)

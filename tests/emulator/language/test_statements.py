@@ -1,4 +1,4 @@
-"""From cards to statements: columns, comments, continuation (C26-5619 p. 12; OPEN-QUESTIONS 1 and 2)."""
+"""Cards become statements: columns, comments and continuation (C26-5619 p. 12; OPEN-QUESTIONS 1 and 2)."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def only(*lines: str) -> Source:
     ],
 )
 def test_a_statement_may_start_in_any_column(card: str, label: str, text: str) -> None:
-    """C26-5619 p. 12; the thesis squeezes ``28FORMAT(`` onto its cards."""
+    """C26-5619 p. 12.  The thesis punches ``28FORMAT(`` without a blank."""
     found = only(card)
     assert (found.label, found.text) == (label, text)
 
@@ -45,7 +45,7 @@ def test_a_format_keeps_its_columns() -> None:
 
 
 def test_statement_that_reaches_column_73_gives_one_warning() -> None:
-    """It would lose its end without a word: a sum that ends in 12 at column 73 ends in 1."""
+    """Without it a statement could lose its end unnoticed: a sum that ends in 12 at column 73 ends in 1."""
     long = "JK=1" + "+2" * 33 + "+12"
     (message,) = diagnostics(long[:70].ljust(72) + "NAME", long, "  " + long, "END")
     assert (message.card, message.column, message.warning) == (2, 73, True)
@@ -68,7 +68,7 @@ def test_columns_73_to_80_are_identification() -> None:
 
 @pytest.mark.parametrize("card", ["C  A COMMENT", "C", "C  ", "", "     ", "C     X=1."])
 def test_comments(card: str) -> None:
-    """C26-5619 p. 12: C and two blanks; a blank card is passed over (OPEN-QUESTIONS 2)."""
+    """C26-5619 p. 12: C and two blanks.  A blank card is ignored (OPEN-QUESTIONS 2)."""
     (found,) = source(card, "X=1.").cards[:1]
     assert is_comment(found)
     assert only(card, "X=1.").text == "X=1."
@@ -99,7 +99,7 @@ def test_not_comments(card: str) -> None:
 
 
 def test_card_with_identification_alone_is_ignored() -> None:
-    """Nothing in columns 1 to 72: there is no statement to read, whatever is punched behind."""
+    """Columns 73 to 80 alone do not make a statement."""
     assert [s.text for s in sources(source(" " * 72 + "BUTL0010", "X=1."))] == ["X=1."]
 
 
@@ -131,12 +131,12 @@ def test_a_comment_does_not_end_a_continued_statement() -> None:
     ],
 )
 def test_cards_that_are_not_continuations(card: str, texts: list[str]) -> None:
-    """A zero in column 6, something in columns 1 to 5, or a statement of its own (OPEN-QUESTIONS 1)."""
+    """A zero in column 6, a character in columns 1 to 5, or a complete statement (OPEN-QUESTIONS 1)."""
     assert [s.text for s in sources(source("      X = A +", card))] == texts
 
 
 def test_a_format_numbered_in_column_6() -> None:
-    """A statement may start in any column; the parentheses of a Hollerith field need not match."""
+    """A statement may start in any column, and the parentheses in a Hollerith field need not match."""
     cards = source("1 FORMAT(I4)", "     5 FORMAT(4H(A)))", "END")
     assert [(s.label, s.kind) for s in sources(cards)] == [("1", "format"), ("5", "format"), ("", "end")]
 
@@ -187,7 +187,7 @@ Continue
 
 
 def test_lower_case_becomes_capitals_except_in_comments() -> None:
-    """A card has no small letters, in Hollerith fields either; after the C of a comment anything may stand."""
+    """Cards have no lower-case letters, not even in Hollerith fields.  A comment may contain anything after its C."""
     deck = deck_from_text("small.f", capitals(SMALL))
     assert deck.text() == SMALL.upper().replace("C  A COMMENT, AS IT WAS TYPED", "C  a comment, as it was typed")
     assert [found.kind for found in sources(deck)] == ["do", "assignment", "continue", "input_output", "format", "end"]

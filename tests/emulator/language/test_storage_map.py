@@ -1,4 +1,4 @@
-"""Storage: addresses, arrays one behind the other, and subscripts with and without a check (part one 4)."""
+"""Storage: addresses, contiguous arrays, and subscripts with and without a check."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ NEIGHBOURS = ["DIMENSION X(3),Y(3),M(2,2)", "I=4", "J=0"]
 
 
 def test_first_element_of_the_first_array() -> None:
-    """C26-5619 p. 66: 19879 in 20K; one name table further up in the larger machines."""
+    """C26-5619 p. 66: 19879 in 20K.  In larger machines the address is higher by the additional core."""
     made = program("DIMENSION X(5)", "END")
     first = made.storage.entries[0]
     assert (first.name, first.first, first.size) == ("X", 0, 5)
@@ -97,7 +97,7 @@ def test_strict_bounds_in_lists() -> None:
 
 
 def test_core_mode_overwrites_the_neighbour() -> None:
-    """Executed: X(n+1) is the first element of the next array, X(0) the last of the one before (part one 4)."""
+    """Executed: X(n+1) is the first element of the next array, and X(0) the last of the one before."""
     lines = ["DIMENSION X(3),Y(3)", "Y(1)=1.", "X(3)=3.", "I=4", "J=0", "X(I)=7.", "Y(J)=8."]
     assert punched(*lines, "PUNCH 1,Y(1),X(3)", "1 FORMAT(2F5.1)", "END", bounds="core") == ("  7.0  8.0",)
 
@@ -114,7 +114,7 @@ def test_core_mode_stops_outside_the_data() -> None:
 
 
 def test_element_one_past_the_end_may_be_copied() -> None:
-    """DO 119 J=I,N / R(J)=R(J+1) copies element N+1 of an array of N (part two 5; OPEN-QUESTIONS 22)."""
+    """DO 119 J=I,N / R(J)=R(J+1) copies element N+1 of an array of N (OPEN-QUESTIONS 22)."""
     lines = ["DIMENSION X(3),Y(3)", "Y(1)=5.", "DO 1 I=1,3", "1 X(I)=2.", "I=3", "X(I)=X(I+1)"]
     made = machine(*lines, "A=X(I)", "END")
     assert made.run().ending.kind == "end"
@@ -142,7 +142,7 @@ def test_overlap_message_names_the_core_size() -> None:
     [("A=X(I)*1.", "M(1) holds a number in fixed"), ("K=M(J)+1", "X(2) holds a number in floating")],
 )
 def test_core_mode_stops_at_a_number_of_the_other_mode(statement: str, held: str) -> None:
-    """The machine would have read its digits as they stood in core; here the run stops and says so."""
+    """The machine would have used its digits unchanged.  The emulator stops with a message."""
     lines = ["DIMENSION X(2),M(2)", "X(2)=5.", "M(1)=1234", "I=3", "J=0", statement, "END"]
     result = run(*lines, bounds="core")
     assert result.ending.kind == "mode"
@@ -150,7 +150,7 @@ def test_core_mode_stops_at_a_number_of_the_other_mode(statement: str, held: str
 
 
 def test_core_mode_copies_a_number_of_the_other_mode() -> None:
-    """A copy is a transmit field: it does not look at what it moves."""
+    """A copy transmits the field without looking at it."""
     lines = [
         "DIMENSION X(2),M(2)",
         "M(1)=1234",

@@ -1,4 +1,4 @@
-"""Laws of the arithmetic for any digit count, against exact fractions and against :mod:`decimal`."""
+"""Laws of the decimal arithmetic for any number of digits, tested with exact fractions and :mod:`decimal`."""
 
 from __future__ import annotations
 
@@ -37,15 +37,15 @@ def profiles(draw: st.DrawFn, family: str) -> Profile:
 
 @st.composite
 def operands(draw: st.DrawFn, family: str, spread: int = 40) -> tuple[Profile, Number, Number]:
-    """A profile and two numbers of its digits, exponents ``spread`` apart at most, close ones often."""
-    found = draw(profiles(family))
-    p = found.digits
+    """Draw a profile and two numbers with its digits, often close, with exponents at most ``spread`` apart."""
+    drawn = draw(profiles(family))
+    p = drawn.digits
     mantissas = st.integers(10 ** (p - 1), 10**p - 1)
     edges = st.sampled_from([10 ** (p - 1), 10**p - 1, 5 * 10 ** (p - 1), 10 ** (p - 1) + 1])
     signed = st.tuples(mantissas | edges, st.booleans()).map(lambda t: -t[0] if t[1] else t[0])
     near = draw(st.integers(-20, 20))
     apart = draw(st.integers(-3, 3) | st.integers(-p - 3, p + 3) | st.integers(-spread, spread))
-    return found, (draw(signed), near), (draw(signed), near + apart)
+    return drawn, (draw(signed), near), (draw(signed), near + apart)
 
 
 def value(number: Number, p: int) -> Fraction:
@@ -57,7 +57,7 @@ def normalised(number: Number, p: int) -> bool:
 
 
 def nearest(exact: Fraction, p: int, half: bool) -> Number:
-    """The exact value cut to p digits, or rounded half up in magnitude: an independent way to the same end."""
+    """Return the exact value truncated to p digits or rounded half up, computed independently."""
     if exact == 0:
         return 0, ZERO
     size, exponent = abs(exact), 0
@@ -71,58 +71,58 @@ def nearest(exact: Fraction, p: int, half: bool) -> Number:
     return (whole if exact > 0 else -whole), exponent + p
 
 
-def plus(a: Number, b: Number, found: Profile) -> Number:
-    return add(*a, *b, found.rules)
+def plus(a: Number, b: Number, drawn: Profile) -> Number:
+    return add(*a, *b, drawn.rules)
 
 
 @given(operands("truncating"))
 def test_products_and_quotients_are_the_exact_ones_truncated(case: tuple[Profile, Number, Number]) -> None:
-    found, a, b = case
-    p = found.digits
-    assert multiply(*a, *b, found.rules) == nearest(value(a, p) * value(b, p), p, half=False)
-    assert divide(*a, *b, found.rules) == nearest(value(a, p) / value(b, p), p, half=False)
+    drawn, a, b = case
+    p = drawn.digits
+    assert multiply(*a, *b, drawn.rules) == nearest(value(a, p) * value(b, p), p, half=False)
+    assert divide(*a, *b, drawn.rules) == nearest(value(a, p) / value(b, p), p, half=False)
 
 
 @given(operands("truncating"))
 def test_sum_truncates_the_smaller_operand_first(case: tuple[Profile, Number, Number]) -> None:
-    """Part two 2.1: the operand of smaller exponent loses its digits before the addition, the sum is then cut."""
-    found, a, b = case
-    p = found.digits
+    """The operand with the smaller exponent loses its digits before the addition, then the sum is truncated."""
+    drawn, a, b = case
+    p = drawn.digits
     if a[1] < b[1]:
         a, b = b, a
     shift = a[1] - b[1]
     kept = abs(b[0]) // 10**shift * (1 if b[0] > 0 else -1)
     exact = (Fraction(a[0]) + kept) * Fraction(10) ** (a[1] - p)
-    assert plus(a, b, found) == nearest(exact, p, half=False)
+    assert plus(a, b, drawn) == nearest(exact, p, half=False)
 
 
 @given(operands("guarded"))
 def test_guard_digit_keeps_the_first_digit_shifted_out(case: tuple[Profile, Number, Number]) -> None:
-    found, a, b = case
-    p = found.digits
+    drawn, a, b = case
+    p = drawn.digits
     if a[1] < b[1]:
         a, b = b, a
     kept = Fraction(abs(b[0]) * 10 // 10 ** (a[1] - b[1]), 10) * (1 if b[0] > 0 else -1)
     exact = (Fraction(a[0]) + kept) * Fraction(10) ** (a[1] - p)
-    assert plus(a, b, found) == nearest(exact, p, half=False)
-    assert multiply(*a, *b, found.rules) == nearest(value(a, p) * value(b, p), p, half=False)
-    assert divide(*a, *b, found.rules) == nearest(value(a, p) / value(b, p), p, half=False)
+    assert plus(a, b, drawn) == nearest(exact, p, half=False)
+    assert multiply(*a, *b, drawn.rules) == nearest(value(a, p) * value(b, p), p, half=False)
+    assert divide(*a, *b, drawn.rules) == nearest(value(a, p) / value(b, p), p, half=False)
 
 
 @given(operands("rounding"))
 def test_rounding_gives_the_exact_result_rounded(case: tuple[Profile, Number, Number]) -> None:
-    found, a, b = case
-    p = found.digits
-    assert plus(a, b, found) == nearest(value(a, p) + value(b, p), p, half=True)
-    assert multiply(*a, *b, found.rules) == nearest(value(a, p) * value(b, p), p, half=True)
-    assert divide(*a, *b, found.rules) == nearest(value(a, p) / value(b, p), p, half=True)
+    drawn, a, b = case
+    p = drawn.digits
+    assert plus(a, b, drawn) == nearest(value(a, p) + value(b, p), p, half=True)
+    assert multiply(*a, *b, drawn.rules) == nearest(value(a, p) * value(b, p), p, half=True)
+    assert divide(*a, *b, drawn.rules) == nearest(value(a, p) / value(b, p), p, half=True)
 
 
 @given(operands("truncating", 12))
 def test_ibm1962_rounds_products_only(case: tuple[Profile, Number, Number]) -> None:
-    found, a, b = case
-    p = found.digits
-    rules = found.rules._replace(round_products=1)
+    drawn, a, b = case
+    p = drawn.digits
+    rules = drawn.rules._replace(round_products=1)
     zeros = {"keeps_left_zero": 1, "signed_underflow": 1, "signed_sums": 0, "signed_by_zero": 0}
     assert IBM1962.rules == TRUNCATING.rules._replace(round_products=1, powers_multiply=1, **zeros)
     assert multiply(*a, *b, rules) == nearest(value(a, p) * value(b, p), p, half=True)
@@ -133,51 +133,51 @@ families = st.sampled_from([family.partition(":")[0] for family in FAMILIES])
 
 @given(families.flatmap(operands))
 def test_commutative(case: tuple[Profile, Number, Number]) -> None:
-    found, a, b = case
-    assert plus(a, b, found) == plus(b, a, found)
-    assert multiply(*a, *b, found.rules) == multiply(*b, *a, found.rules)
+    drawn, a, b = case
+    assert plus(a, b, drawn) == plus(b, a, drawn)
+    assert multiply(*a, *b, drawn.rules) == multiply(*b, *a, drawn.rules)
 
 
 @given(families.flatmap(operands))
 def test_symmetric_in_sign(case: tuple[Profile, Number, Number]) -> None:
-    """Truncation is of the magnitude: toward zero for both signs."""
-    found, a, b = case
+    """Truncation applies to the magnitude: toward zero for both signs."""
+    drawn, a, b = case
     minus_a, minus_b = (-a[0], a[1]), (-b[0], b[1])
-    size, exponent = plus(a, b, found)
-    assert plus(minus_a, minus_b, found) == (-size, exponent)
-    size, exponent = multiply(*a, *b, found.rules)
-    assert multiply(*minus_a, *b, found.rules) == multiply(*a, *minus_b, found.rules) == (-size, exponent)
-    size, exponent = divide(*a, *b, found.rules)
-    assert divide(*minus_a, *b, found.rules) == divide(*a, *minus_b, found.rules) == (-size, exponent)
+    size, exponent = plus(a, b, drawn)
+    assert plus(minus_a, minus_b, drawn) == (-size, exponent)
+    size, exponent = multiply(*a, *b, drawn.rules)
+    assert multiply(*minus_a, *b, drawn.rules) == multiply(*a, *minus_b, drawn.rules) == (-size, exponent)
+    size, exponent = divide(*a, *b, drawn.rules)
+    assert divide(*minus_a, *b, drawn.rules) == divide(*a, *minus_b, drawn.rules) == (-size, exponent)
 
 
 @given(families.flatmap(operands))
 def test_results_are_normalised(case: tuple[Profile, Number, Number]) -> None:
-    found, a, b = case
-    for result in (plus(a, b, found), multiply(*a, *b, found.rules), divide(*a, *b, found.rules)):
-        assert normalised(result, found.digits)
+    drawn, a, b = case
+    for result in (plus(a, b, drawn), multiply(*a, *b, drawn.rules), divide(*a, *b, drawn.rules)):
+        assert normalised(result, drawn.digits)
 
 
 @given(families.flatmap(operands))
 def test_difference_of_equal_numbers_is_zero_and_one_is_neutral(case: tuple[Profile, Number, Number]) -> None:
-    found, a, _ = case
-    one = from_integer(1, found.rules)
-    assert plus(a, (-a[0], a[1]), found) == (0, ZERO)
-    assert multiply(*a, *one, found.rules) == divide(*a, *one, found.rules) == a
-    assert divide(*a, *a, found.rules) == one
+    drawn, a, _ = case
+    one = from_integer(1, drawn.rules)
+    assert plus(a, (-a[0], a[1]), drawn) == (0, ZERO)
+    assert multiply(*a, *one, drawn.rules) == divide(*a, *one, drawn.rules) == a
+    assert divide(*a, *a, drawn.rules) == one
 
 
 @given(families.flatmap(operands))
 def test_adding_or_subtracting_zero_changes_nothing(case: tuple[Profile, Number, Number]) -> None:
-    found, a, _ = case
-    assert accumulator.add(*a, 0, ZERO, found.rules) == (*a, 0)
-    assert accumulator.add(0, ZERO, *a, found.rules) == (*a, 0)
-    assert accumulator.subtract(*a, 0, ZERO, found.rules) == (*a, 0)
+    drawn, a, _ = case
+    assert accumulator.add(*a, 0, ZERO, drawn.rules) == (*a, 0)
+    assert accumulator.add(0, ZERO, *a, drawn.rules) == (*a, 0)
+    assert accumulator.subtract(*a, 0, ZERO, drawn.rules) == (*a, 0)
 
 
 @pytest.mark.parametrize("p", range(3, MAX_DIGITS + 1))
 def test_product_below_a_power_of_ten_rounds_up_to_it(p: int) -> None:
-    """(10**(p-1) + 1) * (10**p - 10) = 10**(2p-1) - 10, whole numbers of p digits."""
+    """(10**(p-1) + 1) * (10**p - 10) = 10**(2p-1) - 10, integers of p digits."""
     product = multiply(10 ** (p - 1) + 1, p, 10**p - 10, p, profile(f"rounding:{p}").rules)
     assert product == (10 ** (p - 1), 2 * p)
 
@@ -203,7 +203,7 @@ def test_multiply_and_divide_agree_with_decimal_rounding_down(a: Number, b: Numb
 
 
 def test_addition_differs_from_the_decimal_module() -> None:
-    """1.0-.99999999 is .1E-06 on the machine: .99999999 becomes .9999999 before the subtraction."""
+    """1.0-.99999999 is .1E-06 on the machine, because .99999999 becomes .9999999 before the subtraction."""
     one, nines = (10**7, 1), (99999999, 0)
     assert DOWN.subtract(decimal(one), decimal(nines)) == Decimal("1E-8")
     assert plus(one, (-nines[0], nines[1]), TRUNCATING) == (10**7, -6)
@@ -214,21 +214,21 @@ def test_addition_differs_from_the_decimal_module() -> None:
 
 
 @given(st.integers(-9999, 9999), families.flatmap(profiles))
-def test_integers_convert_to_floating_point_and_back(whole: int, found: Profile) -> None:
-    mantissa, exponent = from_integer(whole, found.rules)
-    assert normalised((mantissa, exponent), found.digits)
-    back = to_integer(mantissa, exponent, found.rules)
-    unit = 10 ** max(0, len(str(abs(whole))) - found.digits)
+def test_integers_convert_to_floating_point_and_back(whole: int, drawn: Profile) -> None:
+    mantissa, exponent = from_integer(whole, drawn.rules)
+    assert normalised((mantissa, exponent), drawn.digits)
+    back = to_integer(mantissa, exponent, drawn.rules)
+    unit = 10 ** max(0, len(str(abs(whole))) - drawn.digits)
     assert back == (abs(whole) // unit * unit) * (1 if whole > 0 else -1)
 
 
 @given(families.flatmap(operands))
 def test_to_integer_keeps_four_digits_left_of_the_point(case: tuple[Profile, Number, Number]) -> None:
     """C26-5619 p. 21."""
-    found, a, _ = case
-    exact = value(a, found.digits)
+    drawn, a, _ = case
+    exact = value(a, drawn.digits)
     expected = int(abs(exact)) % 10_000 * (1 if exact > 0 else -1)
-    assert to_integer(*a, found.rules) == expected
+    assert to_integer(*a, drawn.rules) == expected
 
 
 @given(st.integers(-(10**9), 10**9))

@@ -39,7 +39,7 @@ NUMBERS = st.builds(
 
 
 def dense(columns: str) -> tuple[str, bool]:
-    """The text of a field without its blanks, and whether a blank was read as anything."""
+    """Return the text of a field without its blanks, and whether a blank was interpreted."""
     text = columns.lstrip(" ")
     body = text.rstrip(" ")
     # A sign inside begins an exponent as an E does (p. 35, 38).

@@ -1,4 +1,4 @@
-"""Exact numbers: sums of square roots, their signs, quotients and whole parts."""
+"""Exact sums of square roots: signs, quotients and integer parts."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ def root(value: int | Fraction) -> object:
 
 
 def triples(count: int) -> list[tuple[int, int, int]]:
-    """Radicands of lengths: general, collinear points, and sums that nearly vanish."""
+    """Return radicands of lengths: general triples, collinear points, and sums that nearly vanish."""
     r = random.Random(1963)
-    found = []
+    radicands = []
     for k in range(count):
         a, b = r.randint(1, 10 ** r.randint(1, 18)), r.randint(1, 10 ** r.randint(1, 18))
         if k % 3 == 0:
@@ -42,12 +42,12 @@ def triples(count: int) -> list[tuple[int, int, int]]:
             c = a + b + isqrt(4 * a * b) + r.randint(0, 1)
         else:
             c = r.randint(1, 10 ** r.randint(1, 18))
-        found.append((a, b, c))
-    return found
+        radicands.append((a, b, c))
+    return radicands
 
 
 def test_sign_of_al_plus_bl_minus_cl_is_exact() -> None:
-    """Card 169 of program 2, on 6,000 triples, against (sqrt a + sqrt b)**2 - c compared in whole numbers."""
+    """Card 169 of program 2 with 6,000 triples, compared with (sqrt a + sqrt b)**2 - c in integers."""
     zero = 0
     for a, b, c in triples(6_000):
         rest = c - a - b
@@ -70,7 +70,7 @@ SUMS = st.lists(st.tuples(FRACTIONS, st.integers(0, 60)), min_size=1, max_size=5
 
 
 def summed(terms: list[tuple[Fraction, int]]) -> tuple[object, object]:
-    """The sum of c*sqrt(n), exactly and to 120 digits."""
+    """Return the sum of c*sqrt(n), exactly and to 120 digits."""
     exact: object = 0
     near = CONTEXT.mpf(0)
     for c, n in terms:
@@ -86,12 +86,12 @@ def close(exact: object, near: object) -> None:
         return
     value = CONTEXT.mpf(mantissa) * CONTEXT.mpf(10) ** (exponent - 40)
     unit = CONTEXT.mpf(10) ** (exponent - 40)
-    # The value to compare with is itself only good to some hundred digits.
+    # The value to compare with is itself accurate to about a hundred digits only.
     assert -unit / 10**40 < (near - value) * (1 if mantissa > 0 else -1) < unit * 1.0001
     assert EXACT.sign(exact) == (1 if near > 0 else -1)
 
 
-@settings(max_examples=150)
+@settings(max_examples=80)
 @given(SUMS, SUMS)
 def test_sums_and_products_of_roots(one: list[tuple[Fraction, int]], other: list[tuple[Fraction, int]]) -> None:
     (a, x), (b, y) = summed(one), summed(other)
@@ -102,7 +102,7 @@ def test_sums_and_products_of_roots(one: list[tuple[Fraction, int]], other: list
     close(EXACT.negate(a), -x)
 
 
-@settings(max_examples=100)
+@settings(max_examples=50)
 @given(SUMS, st.lists(st.tuples(FRACTIONS, st.integers(0, 60)), min_size=1, max_size=2))
 def test_quotients_by_a_sum_of_two_roots(one: list[tuple[Fraction, int]], two: list[tuple[Fraction, int]]) -> None:
     (a, x), (b, y) = summed(one), summed(two)
@@ -111,7 +111,7 @@ def test_quotients_by_a_sum_of_two_roots(one: list[tuple[Fraction, int]], two: l
         assert EXACT.sign(EXACT.subtract(EXACT.multiply(EXACT.divide(a, b), b), a)) == 0
 
 
-@settings(max_examples=100)
+@settings(max_examples=50)
 @given(SUMS)
 def test_integer_part_of_a_sum_is_exact(terms: list[tuple[Fraction, int]]) -> None:
     exact, near = summed(terms)
@@ -139,7 +139,7 @@ def test_sum_of_too_many_roots_ends_the_run() -> None:
 
 @pytest.mark.parametrize("whole", range(10**9, 10**9 + 30))
 def test_sign_of_a_sum_that_nearly_vanishes(whole: int) -> None:
-    """The root's third derivative is positive, so that is the sign of the third difference, some 1E-23 here."""
+    """The third derivative of the root is positive, and so is the third difference, about 1E-23 here."""
     terms = [((whole + k), (-1) ** (3 - k) * math.comb(3, k)) for k in range(4)]
     total = sum((square_root(n) * c for n, c in terms), start=RootSum(()))
     assert isinstance(total, RootSum)
@@ -148,7 +148,7 @@ def test_sign_of_a_sum_that_nearly_vanishes(whole: int) -> None:
 
 
 def test_roots_of_the_same_kind_are_combined() -> None:
-    """1 + 2 + ... + 200 times the root of 2, and nothing left of it."""
+    """1 + 2 + ... + 200 times the root of 2, which then cancels completely."""
     total: object = 0
     for k in range(1, 201):
         total = EXACT.add(total, root(2 * k * k))
@@ -158,7 +158,7 @@ def test_roots_of_the_same_kind_are_combined() -> None:
 
 
 def test_digits_of_an_irrational_number_are_truncated_exactly() -> None:
-    """The digits of an irrational number are cut where they stand, however long its zeros or nines are."""
+    """However many zeros or nines follow, the digits are truncated at the right place."""
     tiny = EXACT.subtract(root(10**60 + 1), 10**30)
     assert EXACT.write(FALLBACK, tiny)[0] == " .49999999E-30"
     assert EXACT.cut(EXACT.multiply(tiny, -1), 40)[0] < 0

@@ -1,4 +1,4 @@
-"""One field at a time: numbers to columns and back (C26-5619 p. 14, 35-40; blanks: OPEN-QUESTIONS 6)."""
+"""Conversion of numbers to the columns of a field and back (C26-5619 p. 14, 35-40; blanks: OPEN-QUESTIONS 6)."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ numbers = st.tuples(mantissas, exponents) | st.sampled_from(((0, ZERO), (0, MINU
 
 
 def words(read: FieldNumber) -> str:
-    """What there is to remark of a number that was read."""
+    """Return the warning about a number that was read, or an empty string."""
     assert read.remark is not None
     return read.remark.message
 
@@ -45,7 +45,7 @@ def test_e14_8_round_trip_of_eight_digits(number: tuple[int, int]) -> None:
 
 @given(numbers, st.integers(14, 30), st.integers(0, 8))
 def test_wide_e_fields_round_trip(number: tuple[int, int], width: int, decimals: int) -> None:
-    """Eight digits whatever d; where the adjusted exponent has no room, E14.8 is used (p. 39-40)."""
+    """Eight digits for every d.  If the adjusted exponent does not fit, E14.8 is used (p. 39-40)."""
     field = Field("E", width, decimals)
     columns, overflowed = write_floating(field, *number, RULES)
     read = read_floating(field, columns, RULES)
@@ -57,7 +57,7 @@ def test_wide_e_fields_round_trip(number: tuple[int, int], width: int, decimals:
 
 @given(mantissas, st.integers(-9, 12), st.integers(2, 20), st.integers(0, 8))
 def test_f_fields_truncate(mantissa: int, exponent: int, width: int, decimals: int) -> None:
-    """p. 39: the value cut behind d decimals; too big a number goes by E14.8."""
+    """p. 39: the value is truncated after d decimals.  A number that is too large is written as E14.8."""
     columns, overflowed = write_floating(Field("F", width, decimals), mantissa, exponent, RULES)
     value = Decimal(mantissa).scaleb(exponent - 8)
     cut = Decimal(int(value.scaleb(decimals)))
@@ -81,7 +81,7 @@ def test_i_fields_round_trip(value: int, width: int) -> None:
 
 @given(st.integers(-9999, 9999), st.integers(1, 4))
 def test_small_i_fields_lose_high_digits(value: int, width: int) -> None:
-    """p. 38: lost without notice; a minus sign keeps its position (OPEN-QUESTIONS 7)."""
+    """p. 38: they are lost without notice.  A minus sign keeps its column (OPEN-QUESTIONS 7)."""
     columns = write_fixed(Field("I", width), value)
     assert len(columns) == width
     room = width - (value < 0)
@@ -129,7 +129,7 @@ def test_the_largest_and_smallest() -> None:
     ],
 )
 def test_blanks_in_an_i_field(columns: str, value: int) -> None:
-    """OPEN-QUESTIONS 6: leading blanks nothing, others zeros, with a warning; a blank field warns too."""
+    """OPEN-QUESTIONS 6: leading blanks are ignored, others are zeros with a warning.  A blank field warns too."""
     found = read_fixed(columns)
     assert found.mantissa == value
     assert bool(found.remark) == (not columns.strip() or " " in columns.lstrip())

@@ -1,4 +1,4 @@
-"""Library functions and powers against exact integers and a second computation of many digits."""
+"""Library functions and powers compared with exact integers and with a second, precise computation."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ mantissas = st.integers(10**7, 10**8 - 1)
 
 @given(mantissas, st.integers(-99, 99))
 def test_sqrt_is_the_exact_root_truncated(mantissa: int, exponent: int) -> None:
-    """Executed on FORTRAN II-D: the exactly truncated square root (part two 2.1)."""
+    """Executed on FORTRAN II-D: the exact square root, truncated."""
     found = function("SQRT", mantissa, exponent, RULES)
     assert 10**7 <= found.mantissa < 10**8
     # root = found.mantissa * 10**(found.exponent - 8); compare squares as integers of a common scale.
@@ -44,7 +44,7 @@ def cut(value: Decimal) -> tuple[int, int]:
 
 @given(mantissas, st.integers(-7, 2))
 def test_exp_is_the_exact_value_truncated(mantissa: int, exponent: int) -> None:
-    """:mod:`decimal` computes exp and ln correctly rounded, by other means than mpmath."""
+    """:mod:`decimal` computes exp and ln correctly rounded, with another method than mpmath."""
     exact = Context(prec=60).exp(Decimal(mantissa).scaleb(exponent - 8))
     assert function("EXP", mantissa, exponent, RULES) == Value(*cut(exact))
 
@@ -76,7 +76,7 @@ def test_log_is_the_exact_value_truncated(mantissa: int, exponent: int) -> None:
     ],
 )
 def test_known_values_are_truncated_to_eight_digits(statement: str, expected: str) -> None:
-    """Tables of mathematical constants; 4 * .78539816 = 3.14159264, cut."""
+    """Tables of mathematical constants.  4 * .78539816 = 3.14159264, truncated."""
     made = machine(f"D={statement}", "END")
     assert made.run().errors == ()
     assert number(made, "D") == expected
@@ -104,7 +104,7 @@ def test_invalid_arguments_give_the_error_codes(
 
 @given(mantissas, st.integers(-3, 3), st.integers(1, 9), st.booleans(), st.sampled_from(["truncating", "rounding:8"]))
 def test_integer_powers_are_the_exact_power_truncated(m: int, e: int, count: int, over: bool, name: str) -> None:
-    """IBM FORTRAN II-D, executed (pow, pow2 of tests/data/compiler_runs); rounded half up where products are."""
+    """IBM FORTRAN II-D, executed (pow, pow2 of tests/data/compiler_runs).  Rounded half up if products are."""
     exact = (Fraction(m) * Fraction(10) ** (e - 8)) ** (-count if over else count)
     found = integer_power(m, e, -count if over else count, profile(name).rules)
     unit = Fraction(10) ** (found.exponent - 8)
@@ -118,7 +118,7 @@ def test_integer_powers_are_the_exact_power_truncated(m: int, e: int, count: int
 
 @given(mantissas, st.integers(-3, 3), st.integers(1, 6))
 def test_ibm1962_computes_integer_powers_by_multiplication(mantissa: int, exponent: int, count: int) -> None:
-    """OPEN-QUESTIONS 8: how the set of 1962 takes powers is not known; PDQ FORTRAN multiplies."""
+    """OPEN-QUESTIONS 8: the method of the set of 1962 is unknown.  PDQ FORTRAN multiplies."""
     rules = IBM1962.rules
     m, e = mantissa, exponent
     for _ in range(count - 1):
@@ -156,13 +156,13 @@ def test_integer_powers_at_the_limits_of_the_range(base: tuple[int, int], count:
     ],
 )
 def test_floating_powers(base: tuple[int, int], exponent: tuple[int, int], expected: Value) -> None:
-    """The exact power, cut; F6 takes |A| (C26-5594 p. 28)."""
+    """The exact power, truncated.  F6 uses |A| (C26-5594 p. 28)."""
     assert power(base, exponent, RULES) == expected
 
 
 @pytest.mark.parametrize("base", range(2, 22))
 def test_exact_power_is_not_truncated_to_the_number_below(base: int) -> None:
-    """With floating exponents the logarithm may give 2.9999..., however many digits it has."""
+    """With a floating exponent the logarithm may give 2.9999..., with any number of digits."""
     for count in range(2, 7):
         whole, exact = from_integer(base, RULES), from_integer(base**count, RULES)
         assert power(whole, from_integer(count, RULES), RULES) == Value(*exact)
@@ -171,7 +171,7 @@ def test_exact_power_is_not_truncated_to_the_number_below(base: int) -> None:
 
 
 def test_sqrt_is_rounded_if_products_are() -> None:
-    """Module text: cut to the profile's digits, rounded where products are rounded."""
+    """A root is truncated to the profile's digits, or rounded if products are rounded."""
     made = machine("A=SQRT(10.)", "B=EXP(1.)", "END", arithmetic="rounding:8")
     made.run()
     assert number(made, "B") == ".27182818E+01"

@@ -15,16 +15,16 @@ from tests.support.deckwork import punched
 RULES = TRUNCATING.rules
 E14 = Field("E", 14, 8)
 BLANKS, AS_ZEROS = "blanks inside", "read as zeros"
-"""Words of the two warnings of blanks; neither stands in the other."""
+"""Texts of the two warnings about blanks.  Neither contains the other."""
 
 
 def floating(columns: str, words: str) -> tuple[int, int]:
-    """Mantissa and exponent of an E field, which warns in these words, or not at all where there are none."""
-    found = read_floating(E14, columns, RULES)
-    said = found.remark.message if found.remark else ""
-    assert words in said
-    assert bool(words) == bool(said)
-    return found.mantissa, found.exponent
+    """Return mantissa and exponent of an E field, and check its warning (none if ``words`` is empty)."""
+    result = read_floating(E14, columns, RULES)
+    warning = result.remark.message if result.remark else ""
+    assert words in warning
+    assert bool(words) == bool(warning)
+    return result.mantissa, result.exponent
 
 
 @pytest.mark.parametrize(
@@ -38,13 +38,13 @@ def floating(columns: str, words: str) -> tuple[int, int]:
     ],
 )
 def test_blanks_between_point_and_exponent_are_ignored(columns: str, mantissa: int, exponent: int) -> None:
-    """Digits there may be those of an exponent, as after the E: a zero for the blank of .2 3E1 would make it 2.03."""
+    """Digits there may belong to an exponent: with a zero for its blank, .2 3E1 would become 2.03."""
     assert floating(columns, BLANKS) == (mantissa, exponent)
 
 
 @pytest.mark.parametrize(("columns", "exponent"), [(".5E1 0", 10), (".5E 1", 1), ("5E1 2", 5), (".5E1  ", 1)])
 def test_blanks_in_and_after_an_exponent_are_ignored(columns: str, exponent: int) -> None:
-    """A zero for each would multiply the number by powers of ten; 5 without a point is .00000005."""
+    """Zeros would multiply the number by powers of ten.  5 without a point is .00000005."""
     found = read_floating(E14, columns, RULES)
     assert (found.mantissa, found.exponent) == (50000000, exponent)
 
@@ -54,12 +54,12 @@ def test_blanks_in_and_after_an_exponent_are_ignored(columns: str, exponent: int
     [("1. 5", 10500000, 1), (".2 3", 20300000, 0), ("-1. 5", -10500000, 1), ("1.5 +1", 15000000, 2)],
 )
 def test_blanks_after_the_point_are_zeros_without_an_exponent(columns: str, mantissa: int, exponent: int) -> None:
-    """A blank among the digits is a zero; no E says that an exponent may be meant (so 1. 5 is 1.05)."""
+    """A blank among the digits is a zero, because no exponent follows: 1. 5 is 1.05."""
     assert floating(columns, BLANKS) == (mantissa, exponent)
 
 
 def test_blanks_before_an_exponent_without_a_point_are_zeros() -> None:
-    """1 2E5 is 102 with five more places, and the FORMAT's point eight digits from the right: .102."""
+    """1 2E5 is 102 * 10**5, and the FORMAT puts the point eight digits from the right: .102."""
     assert floating("1 2E5", BLANKS) == (10200000, 0)
 
 
@@ -68,19 +68,19 @@ def test_blanks_before_an_exponent_without_a_point_are_zeros() -> None:
     [("1 2.34567891", BLANKS), ("1.23456789 E1", BLANKS), ("123456789  ", AS_ZEROS), (".123456789", "9 digits")],
 )
 def test_blanks_are_reported_rather_than_lost_digits(columns: str, words: str) -> None:
-    """A field gives one warning.  A blank may change the value tenfold, a ninth digit only by one in 10**8."""
+    """A field gives one warning.  A blank may change the value tenfold, a ninth digit only by 1 in 10**8."""
     floating(columns, words)
 
 
 def test_trailing_zeros_do_not_count_as_lost_digits() -> None:
-    """Zeros at the end are cut without a loss, so they are not counted among the digits there are."""
+    """Trailing zeros are dropped without loss, so they are not counted."""
     floating(".12345678900", "9 digits")
     floating("00123456700000", "")
 
 
 @pytest.mark.parametrize(("columns", "value"), [("1234 ", 2340), ("1 234", 234), ("-1234 ", -2340)])
 def test_integer_with_five_digits_after_filling_blanks_gives_a_warning(columns: str, value: int) -> None:
-    """The digits named are those read, zeros for blanks among them, so that one line says both."""
+    """The warning shows the digits as read, with zeros for blanks."""
     found = read_fixed(columns)
     assert found.mantissa == value
     assert found.remark is not None
@@ -88,7 +88,7 @@ def test_integer_with_five_digits_after_filling_blanks_gives_a_warning(columns: 
 
 
 def test_blanks_in_an_integer_are_reported_as_zeros() -> None:
-    """Without point and exponent even blanks after the number count, which the warning says; those before do not."""
+    """Without point and exponent, blanks after the number count as zeros.  Those before it do not."""
     for columns in ("12 ", "1 2"):
         found = read_fixed(columns)
         assert found.remark is not None
@@ -99,7 +99,7 @@ def test_blanks_in_an_integer_are_reported_as_zeros() -> None:
 
 
 def test_i_field_changes_only_its_own_columns() -> None:
-    """At every width and sign: right-justified digits, the sign before them, and nothing beside the field touched."""
+    """For every width and sign: right-justified digits with the sign before them."""
     for width in range(1, 6):
         for value in (0, 1, -1, 7, -7, 10, -10, 99, -99, 100, -100, -305, 1234, -1234, 9999, -9999):
             room = width - (value < 0)
@@ -112,6 +112,6 @@ def test_i_field_changes_only_its_own_columns() -> None:
 
 
 def test_negative_number_in_a_single_column_is_a_minus_sign() -> None:
-    """The sign takes the only column and every digit is lost; the field before keeps its last one (p. 38)."""
+    """The sign takes the only column, and every digit is lost (p. 38).  The field before is unchanged."""
     lines = ["I=12", "J=-7", "K=3", "PUNCH 1,I,J,K", "1 FORMAT(I2,I1,I1)", "END"]
     assert punched(*lines) == ("12-3",)

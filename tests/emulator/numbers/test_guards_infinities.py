@@ -49,7 +49,7 @@ OPERATIONS: dict[str, Callable[[Numbers, float, float], float]] = {
 def test_infinite_operand_does_not_overflow(
     name: str, operation: str, first: float, second: float, result: float
 ) -> None:
-    """A Trap would be an error code typed a second time for the one operation that overflowed."""
+    """A Trap would type the error code a second time for a single overflow."""
     assert OPERATIONS[operation](numbers(name), first, second) == result
 
 
@@ -74,7 +74,7 @@ def test_invalid_operation_gives_nan_without_overflow(name: str, operation: str,
     ("operation", "sign", "other"), [("+", 1, 1.0), ("-", 1, -1.0), ("*", 1, 2.0), ("*", -1, 2.0), ("/", 1, 0.5)]
 )
 def test_finite_operands_overflow(name: str, largest: float, operation: str, sign: int, other: float) -> None:
-    """The largest power of two doubled, by each operation, either sign."""
+    """The largest power of two is doubled by each operation, with either sign."""
     second = other * largest if operation in "+-" else other
     with pytest.raises(Trap) as caught:
         OPERATIONS[operation](numbers(name), sign * largest, second)

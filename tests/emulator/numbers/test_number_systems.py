@@ -1,4 +1,4 @@
-"""The number systems one by one: single precision, exact sums of roots, and where each says that it cannot."""
+"""The number systems: single precision, exact sums of roots, and the operations that each one rejects."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ SINGLES = st.floats(width=32, allow_nan=False, allow_infinity=False)
 @settings(max_examples=150)
 @given(SINGLES, SINGLES)
 def test_single_precision_agrees_with_numpy(x: float, y: float) -> None:
-    """Double precision rounded after each operation is the correctly rounded single result."""
+    """Double precision rounded after each operation gives the correctly rounded single result."""
     a, b = np.float32(x), np.float32(y)
     with np.errstate(all="ignore"):
         expected = {"add": a + b, "subtract": a - b, "multiply": a * b, "divide": a / b if y else None}
@@ -67,7 +67,7 @@ def test_single_precision_agrees_with_numpy(x: float, y: float) -> None:
 @settings(max_examples=100)
 @given(SINGLES)
 def test_shortest_decimal_of_a_single_agrees_with_numpy(x: float) -> None:
-    """As numpy prints it, read back as the same number."""
+    """It has the digits that numpy prints and reads back as the same number."""
     assert float(np.float32(SINGLE.text(x))) == x
     if x and abs(x) > 1e-90:
         digits = str(np.format_float_scientific(np.float32(abs(x)), unique=True, trim="-")).partition("e")[0]
@@ -89,7 +89,7 @@ def test_multiprecision_number_reads_back_as_written(x: float, bits: int) -> Non
 @pytest.mark.parametrize("name", SYSTEMS)
 @pytest.mark.parametrize(("base", "count"), [(2, 1), (2, 5), (3, 4), (-2, 3), (-2, 4), (-3, 5), (2, -2), (-2, -3)])
 def test_integer_power_is_exact_in_every_system(name: str, base: int, count: int) -> None:
-    """Small enough for every system to hold the exact one."""
+    """The power is small enough for every system to hold it exactly."""
     system = numbers(name)
     found, code = system.integer_power(system.decimal(base, 0), count)
     assert (system.exact(found, 30), code) == (Fraction(base) ** count, "")
@@ -109,7 +109,7 @@ def test_exact_value_of_zero_is_zero(name: str) -> None:
 
 @pytest.mark.parametrize("name", [name for name in SYSTEMS if name not in BINARY])
 def test_power_of_ten_is_shown_without_a_point(name: str) -> None:
-    """Digits as they are up to twenty, beyond them an exponent."""
+    """All digits are shown up to twenty, and an exponent beyond."""
     system = numbers(name)
     assert system.text(system.decimal(1, 19)) == "1" + "0" * 19
     assert system.text(system.decimal(-1, 30)) == "-1E+30"
@@ -197,7 +197,7 @@ def test_digits_of_a_fraction_are_truncated(value: Fraction, digits: int) -> Non
     assert not mantissa or len(str(abs(mantissa))) == digits
 
 
-# What exact numbers cannot say, each with the statement.
+# Operations without an exact result, each with its statement.
 
 UNDECIDED = [
     ("A=1./(B-B)", "exact arithmetic cannot divide by zero"),

@@ -1,4 +1,4 @@
-"""How far rounding may have taken a number: against exact fractions, and against mpmath where they have no answer."""
+"""The error bounds of shadowed numbers, compared with exact fractions, or with mpmath for functions."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ DECIMALS = st.tuples(st.integers(-9999, 9999), st.integers(-4, 2))
 def test_exact_number_lies_within_the_bound(
     name: str, decimals: list[tuple[int, int]], steps: list[tuple[str, int, int]]
 ) -> None:
-    """Any formula of sums, products and quotients; a bound of none is right to the last digit."""
+    """For any formula of sums, products and quotients.  A bound of zero means an exact number."""
     system = shadowed(name)
     held: list[Shadowed] = [system.decimal(*decimal) for decimal in decimals]
     truth = [Fraction(whole) * Fraction(10) ** power for whole, power in decimals]
@@ -61,18 +61,18 @@ def test_exact_number_lies_within_the_bound(
 
 @pytest.mark.parametrize("name", ROUNDING)
 def test_unrounded_number_has_the_bound_zero(name: str) -> None:
-    """3 * 5 - 15, 7/8 and the root of 9 are exact in every arithmetic of three digits and more; a third is not."""
+    """3 * 5 - 15, 7/8 and the root of 9 are exact with three or more digits.  A third is not."""
     system = shadowed(name)
     three, five, fifteen, seven, eight, nine = (system.from_integer(n) for n in (3, 5, 15, 7, 8, 9))
     zero = system.subtract(system.multiply(three, five), fifteen)
     exact = [zero, system.divide(seven, eight), system.function("SQRT", nine)[0], system.integer_power(three, 2)[0]]
-    if name != "ibm1962":  # whose root is half the logarithm's power
+    if name != "ibm1962":  # its root is rounded
         assert [system.error(number) for number in exact] == [0, 0, 0, 0]
     third = system.divide(system.from_integer(1), three)
     bound = system.error(third)
     assert bound is not None
     assert 0 < bound < Fraction(1, 100)
-    # Whatever it is, it is the same twice.
+    # The result is the same when it is computed again.
     assert system.error(system.subtract(third, third)) == 0
 
 
@@ -105,7 +105,7 @@ def test_functions_of_thirds(name: str, function: str, third: int) -> None:
 
 
 def test_bound_stays_small_in_a_contracting_loop() -> None:
-    """X = X/2 + 1/3 a thousand times: an error is halved each time, though it enters two products of a bound."""
+    """X = X/2 + 1/3 a thousand times: each step halves the error."""
     system = shadowed("float64")
     x, half, third = system.constant(".7"), system.constant(".5"), system.divide(*map(system.from_integer, (1, 3)))
     for _ in range(1000):

@@ -1,4 +1,4 @@
-"""SQRT in every number of digits, odd and even, beside :mod:`decimal`: the exact root cut, or rounded half up."""
+"""SQRT with every number of digits, compared with :mod:`decimal`: the exact root, truncated or rounded half up."""
 
 from __future__ import annotations
 

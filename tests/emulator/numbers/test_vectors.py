@@ -1,4 +1,4 @@
-"""Every published or measured number, as FORTRAN compiled and run: ``vectors/*.tsv``, one a line with its source."""
+"""Published and measured results as FORTRAN programs: the lines of ``vectors/*.tsv``, each with its source."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def started(engines: MakeMachine, vector: Vector, lines: list[str], data: tuple[
 
 
 def check_value(engines: MakeMachine, vector: Vector, field: str) -> None:
-    """``D=operation`` or ``M=operation`` behind the operands: what is punched, and which error code is typed."""
+    """Run ``D=operation`` or ``M=operation`` after the operands, and compare the card and the error code."""
     expected, _, code = vector.result.partition(" ")
     target = "D" if "." in expected else "M"
     lines = [*vector.setup, f"{target}={vector.operation}", f"PUNCH 1,{target}", f"1 FORMAT({field})", "END"]
@@ -89,7 +89,7 @@ def test_input(engines: MakeMachine, vector: Vector) -> None:
 
 
 def floating(text: str) -> str:
-    """A decimal of at most eight digits as :func:`deckwork.number` writes it, by way of :mod:`decimal`."""
+    """Return a decimal of at most eight digits as :func:`deckwork.number` writes it, by :mod:`decimal`."""
     sign, digits, power = Decimal(text).as_tuple()
     assert isinstance(power, int)
     lead = "".join(map(str, digits)).lstrip("0")
