@@ -1,4 +1,4 @@
-"""How far a study is: a bar on a terminal, a line now and then elsewhere, or nothing."""
+"""The progress of a study, as a bar on a terminal, or as one line a minute in a file."""
 
 from __future__ import annotations
 
@@ -11,12 +11,15 @@ from typing import TextIO
 
 _REDRAW = 0.2
 _LINES = 60.0
-"""Seconds between two drawings of the bar, and between two lines where there is no terminal."""
+"""Seconds between two updates of the bar, and between two lines if there is no terminal."""
 
 
 @dataclass
 class Progress:
-    """Counts samples (or ``what``) and shows the count on ``file``; ``before`` of them were there already."""
+    """A counter of samples, or of ``what``, which shows the count on ``file``.
+
+    ``before`` samples of the ``total`` were complete before this run.
+    """
 
     total: int
     before: int = 0
@@ -34,7 +37,7 @@ class Progress:
         self._bar = not self.quiet and self.file.isatty()
 
     def add(self, samples: int) -> None:
-        """So many samples more are done."""
+        """Count samples that are complete, and update the display if it is time."""
         self.done += samples
         now = self.clock()
         if not self.quiet and now - self._shown >= (_REDRAW if self._bar else _LINES):
@@ -42,7 +45,7 @@ class Progress:
             self._show(now)
 
     def close(self) -> None:
-        """The last state, with an end of line."""
+        """Show the final count and end the line."""
         if self._bar:
             self._show(self.clock())
             self._say("\n")
@@ -51,28 +54,28 @@ class Progress:
         at = self.before + self.done
         seconds = now - self._began
         rate = self.done / seconds if seconds > 0 else 0.0
-        left = f", {_span((self.total - at) / rate)} left" if rate and at < self.total else ""
-        words = f"{at:,} of {self.total:,} {self.what}, {rate:,.0f} a second{left}"
+        remaining = f", {_duration((self.total - at) / rate)} left" if rate and at < self.total else ""
+        text = f"{at:,} of {self.total:,} {self.what}, {rate:,.0f} a second{remaining}"
         if not self._bar:
-            self._say(words + "\n")
+            self._say(text + "\n")
             return
         columns = shutil.get_terminal_size().columns - 1
-        room = columns - len(words) - 3
+        room = columns - len(text) - 3
         if room >= 10:
             full = room * at // max(self.total, 1)
-            words = f"[{'#' * full}{'.' * (room - full)}] {words}"
-        self._say("\r" + words[:columns].ljust(columns))
+            text = f"[{'#' * full}{'.' * (room - full)}] {text}"
+        self._say("\r" + text[:columns].ljust(columns))
 
     def _say(self, text: str) -> None:
         try:
             self.file.write(text)
             self.file.flush()
         except (OSError, ValueError):
-            # Whoever read the progress has gone; the study goes on.
+            # The reader of the progress has gone away; the study continues without it.
             self.quiet, self._bar = True, False
 
 
-def _span(seconds: float) -> str:
+def _duration(seconds: float) -> str:
     minutes, rest = divmod(round(seconds), 60)
     hours, minutes = divmod(minutes, 60)
     return f"{hours} h {minutes:02d} min" if hours else f"{minutes} min {rest:02d} s" if minutes else f"{rest} s"

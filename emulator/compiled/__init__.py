@@ -1,1 +1,5 @@
-"""The same object code over many decks: a kernel in integers, compiled by numba."""
+"""The compiled engine, which runs one program over many decks: the interpreter's loop on integers, compiled by numba.
+
+``batch.py`` is the interface.  ``runner.py`` converts programs and decks to arrays.  numba compiles ``deck.py``,
+``devices.py`` and ``kernel.py``.  What these do not support runs on :class:`emulator.machine.machine.Machine` instead.
+"""

@@ -1,7 +1,7 @@
-"""Many decks through one program: by the compiled engine where it can, deck by deck in the plain one where not.
+"""One program over many decks, by the compiled engine if possible and otherwise by the interpreter.
 
-The results are those of :class:`emulator.machine.machine.Machine`, deck for deck.  Decks are taken in blocks, so that
-memory does not grow with their number.
+The results are those of :class:`emulator.machine.machine.Machine` for each deck.  The decks are processed in blocks, so
+that memory does not grow with their number.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from emulator.language.objectcode import Program
 from emulator.machine.endings import Ending, Notice, decided, looped, out_of_bounds, stopped, too_costly, unfit
 from emulator.machine.interpreter import AT_BOUNDS, AT_COSTLY, AT_LIMIT, AT_OUTSIDE, AT_STOP, AT_UNDEFINED
 from emulator.machine.machine import Machine
-from emulator.machine.result import Event, Options, Result, begun, machine_errors
+from emulator.machine.result import Event, Options, Result, machine_errors, statements_begun
 
 T = TypeVar("T")
 Note = Callable[[str], None]
-"""Takes one line for the user."""
+"""A function that receives one line for the user."""
 
 
 def run_batch(
@@ -31,9 +31,17 @@ def run_batch(
     options: Options | None = None,
     note: Note | None = None,
 ) -> tuple[Result, ...]:
-    """The result of each deck, as :meth:`emulator.machine.machine.Machine.run` gives it.  Raises what that raises.
+    """Run a program over many decks and return the result of each deck.
 
-    If the compiled engine cannot be used, ``note`` receives one line with the reason.
+    Parameters
+    ----------
+    note
+        A function that receives one line with the reason if the compiled engine cannot be used.
+
+    Raises
+    ------
+    CardError, DeckError
+        As :meth:`emulator.machine.machine.Machine.run` does, for the first deck with an error.
     """
     return tuple(results(program, decks, options, note))
 
@@ -44,7 +52,7 @@ def results(
     options: Options | None = None,
     note: Note | None = None,
 ) -> Iterator[Result]:
-    """As :func:`run_batch`, one result after the other as they are asked for."""
+    """Yield the results of :func:`run_batch` as they are computed."""
     options = options or Options()
     runner = _runner(program, options, note)
     for block in _blocks(decks):
@@ -56,9 +64,9 @@ def results(
 def punched(
     program: Program, texts: Iterable[str], options: Options | None = None, note: Note | None = None
 ) -> Iterator[str]:
-    """The cards each deck has punched: text in and text out, one card a line.
+    """Yield the cards punched for each deck.  Decks and cards are texts with one card on each line.
 
-    Raises what :func:`emulator.language.cards.deck_from_text` and :meth:`emulator.machine.machine.Machine.run` raise.
+    Raise what :func:`emulator.language.cards.deck_from_text` and :meth:`emulator.machine.machine.Machine.run` raise.
     """
     options = options or Options()
     runner = _runner(program, options, note)
@@ -79,21 +87,24 @@ def _blocks(items: Iterable[T]) -> Iterator[list[T]]:
 
 
 def _runner(program: Program, options: Options, note: Note | None) -> Runner | None:
-    why = why_plain(options)
-    if not why:
+    """Return a runner, or None after reporting the reason to ``note``."""
+    reason = why_plain(options)
+    if not reason:
         try:
             return Runner(program, options)
         except NotInstalled as error:
-            why = f"{error}: {INSTEAD}"
+            reason = f"{error}: {INSTEAD}"
     if note is not None:
-        note(why)
+        note(reason)
     return None
 
 
 def _result(program: Program, deck: Deck, options: Options, run: Run) -> Result:
+    """Return the result of a deck, built from the log and counts of its run."""
     lines: dict[str, list[str]] = {"P": [], "T": []}
     events: list[Event] = []
     cards = iter(deck.cards)
+    # Each line of the log is a letter (BEGUN, TAKEN, PUNCHED, TYPED of emulator/compiled/devices.py) and a text.
     for line in run.lines():
         letter, text = line[0], line[1:]
         if letter == "B":
@@ -104,10 +115,12 @@ def _result(program: Program, deck: Deck, options: Options, run: Run) -> Result:
             lines["P"].append(text)
             events.append(Event("punch", text))
         else:
+            # The text of a typed line follows the numbers of its statement and of the last decision.
             statement, decision = int(text[: devices.STAMP]), int(text[devices.STAMP : 2 * devices.STAMP])
             text = text[2 * devices.STAMP :]
             lines["T"].append(text)
             events.append(Event("type", text, program.statements[statement], decided(program, decision)))
+    # The kernel counts error codes by statement; the result has them by card.
     errors: dict[tuple[str, int], int] = {}
     for at, times in run.errors:
         statement, number = divmod(at, devices.CODES)
@@ -119,7 +132,7 @@ def _result(program: Program, deck: Deck, options: Options, run: Run) -> Result:
         ending=_ending(program, options, run),
         events=tuple(events),
         notices=tuple(Notice("pause", program.source, program.statements[statement]) for statement in run.pauses),
-        statements=begun(program, run.counts),
+        statements=statements_begun(program, run.counts),
         counts=tuple(run.counts),
         cards_read=run.cards_read,
         cards_punched=len(lines["P"]),
@@ -130,6 +143,7 @@ def _result(program: Program, deck: Deck, options: Options, run: Run) -> Result:
 
 
 def _ending(program: Program, options: Options, run: Run) -> Ending:
+    """Return the ending that ``Session._stopped`` would return for the same reason."""
     registers = run.registers
     at, decision, address = registers[kernel.AT], registers[kernel.DECISION], registers[kernel.ADDRESS]
     subscripts = registers[kernel.INDEX], registers[kernel.INDEX2]

@@ -1,11 +1,11 @@
-"""A deck run from its first card to its ending in integers alone: the engine with the devices it needs.
+"""The run of a deck from its first card to its end, on integers only: the kernel together with the devices.
 
-Most runs need READ, PUNCH, PRINT and TYPE by any FORMAT, SQRT, whole powers, error codes, PAUSE and the endings.  A
-deck that needs anything else (another function, ACCEPT, a field that holds no number or calls for a remark, a
-record too long, a list its FORMAT does not fit, a hopper empty too early) ends with NOT_HERE, and whoever asked
-runs it on a :class:`emulator.machine.machine.Machine` from the start.
+Supported are READ, PUNCH, PRINT and TYPE with any FORMAT, SQRT, integer powers, error codes, PAUSE and the normal
+endings.  A deck that needs anything else ends with NOT_HERE, and the caller runs it again on a
+:class:`emulator.machine.machine.Machine`: other functions, ACCEPT, a field without a number or with a remark, a record
+that is too long, a list that does not fit its FORMAT, an empty hopper within a data set.
 
-The functions use only what a compiler of integer loops accepts.
+The functions use only the part of Python that numba compiles.
 """
 
 from __future__ import annotations
@@ -63,14 +63,14 @@ from emulator.numbers.work import multiplied
 
 
 class Start(NamedTuple):
-    """Core storage as it is loaded."""
+    """Core storage before a run."""
 
     mantissas: Row
     exponents: Row
 
 
 Setting = tuple[int, int, int, int]
-"""(limit, strict bounds, errors typed, an empty hopper ends the run at any READ)."""
+"""(limit, strict bounds, type error codes, end the run at any READ if the hopper is empty)."""
 
 
 def run_decks(
@@ -84,9 +84,9 @@ def run_decks(
     rules: Rules,
     setting: Setting,
 ) -> int:
-    """Run one deck after the other; how many were run.
+    """Run the decks in order, and return the number of decks run.
 
-    It is fewer than there are where the log is full: the next deck is then to be run again, with an empty log.
+    It is smaller than the number of decks if the log is full.  The next deck must then be run again with an empty log.
     """
     used = 0
     for d in range(len(cards.first) - 1):
@@ -109,13 +109,14 @@ def run_decks(
         ends[LOG_FROM] = used
         used = devices[USED]
         ends[LOG_TO] = used
+        # A message about an undefined field needs the kind of the field, which the next deck overwrites.
         address = registers[ADDRESS]
         ends[HELD] = core.exponents[address] if 0 <= address < len(core.exponents) else 0
     return len(cards.first) - 1
 
 
 def load(forms: Forms, start: Start, core: Core, desk: Desk) -> None:
-    """Core and desk as they are before a run."""
+    """Set core storage and desk to their state before a run."""
     for k in range(len(start.mantissas)):
         core.mantissas[k] = start.mantissas[k]
         core.exponents[k] = start.exponents[k]
@@ -147,14 +148,15 @@ def run_deck(
     rules: Rules,
     setting: Setting,
 ) -> int:
-    """Run the deck the devices are set to; how it ended."""
+    """Run one deck, whose cards the registers of the devices name, and return the reason for its end."""
     limit, strict, types_errors, any_read = setting
     marks, devices, registers = code.marks, desk.devices, desk.registers
     devices[ANY_READ] = any_read
-    now = limit - min(LOOP_WINDOW, limit // 2)
-    last = False
+    # As in Session.advance, the counts are saved shortly before the limit, for the message about a loop.
+    goal = limit - min(LOOP_WINDOW, limit // 2)
+    saved = False
     while True:
-        reason = run(code.flat, core, counts, registers, rules, now, limit, strict)
+        reason = run(code.flat, core, counts, registers, rules, goal, limit, strict)
         pc = registers[AT]
         address = registers[ADDRESS]
         status = GO_ON
@@ -168,6 +170,8 @@ def run_deck(
                 status = end_record(marks, cards, desk)
         elif reason == AT_EVENT:
             status = error(registers[EVENT], marks, desk, types_errors)
+        # Without ``powers_multiply`` the exact power is truncated once.  Repeated multiplication gives the same for
+        # exponents from -1 to 2; others would need more than 64 bits.
         elif reason == AT_POWERX and (rules.powers_multiply or -1 <= core.mantissas[address] <= 2):
             if registers[FAC] != 0 and not -1 <= core.mantissas[address] <= 2:
                 owe(registers, multiplied(core.mantissas[address]))
@@ -179,6 +183,7 @@ def run_deck(
             if event:
                 status = error(event, marks, desk, types_errors)
         elif reason == AT_FUNCTION:
+            # SQRT is the only library function that integers can compute.
             if code.roots[address] == 0:
                 return NOT_HERE
             m, e = registers[FAC], ZERO
@@ -187,14 +192,15 @@ def run_deck(
             registers[FAC] = m
             registers[CHARACTERISTIC] = e
         elif reason == AT_PAUSE:
+            # START is pressed at once.  A notice needs each PAUSE once, in the order of their first occurrence.
             if pauses[marks.statements[pc]] == 0:
                 devices[PAUSES] += 1
                 pauses[marks.statements[pc]] = devices[PAUSES]
-        elif reason == AT_LIMIT and not last:
+        elif reason == AT_LIMIT and not saved:
             for k in range(len(counts)):
                 before[k] = counts[k]
-            now = limit
-            last = True
+            goal = limit
+            saved = True
         elif reason == AT_POWER or reason == AT_POWERX:
             return NOT_HERE
         else:

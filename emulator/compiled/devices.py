@@ -1,11 +1,9 @@
-"""Reader, punch and typewriter in integers alone: FORMAT at work on character codes.
+"""Card reader, card punch and typewriter on integers only: input and output by FORMAT with character codes.
 
-What emulator/machine/forms.py and :class:`emulator.machine.machine.Machine` do in texts and objects, for runs that
-nobody watches
-(emulator/compiled/deck.py).  The functions use only what a compiler of integer loops accepts; every sequence in the
-tuples is flat, of whole numbers or of ASCII codes.  What a device did is written to a log: a letter (BEGUN, TAKEN,
-PUNCHED, TYPED), the text of the line without trailing blanks, an end of line.  A function answers GO_ON, or how the
-run ends.
+These functions do the same as emulator/machine/devices.py and emulator/machine/forms.py, for runs without an operator.
+They use only the part of Python that numba compiles.  Every sequence in the tuples is a flat array of integers or ASCII
+codes.  The devices write a log: for each operation a letter (BEGUN, TAKEN, PUNCHED, TYPED), the text without trailing
+blanks, and an end of line.  A function returns GO_ON, or the reason why the run ends.
 """
 
 from __future__ import annotations
@@ -21,26 +19,26 @@ from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, Rules
 from emulator.numbers.columns import BLANK, DIGIT, FINE, read_fixed, read_floating, write_fixed, write_floating
 from emulator.numbers.work import ERROR
 
-# Endings besides the kernel's reasons to return; GO_ON says that the run goes on.
+# GO_ON means that the run continues.  The others are reasons for its end, in addition to those of the kernel.
 GO_ON, AT_HOPPER, NOT_HERE, LOG_FULL = -1, 100, 101, 102
 
-# What stands in a FORMAT.
+# The kinds of specifications of a FORMAT.
 E_FIELD, F_FIELD, I_FIELD, TEXT, SLASH = range(5)
 
 # Verbs.
 READ, PUNCH, TYPE, ACCEPT = range(4)
 
-# Registers of the devices: the FORMAT, place in it and its bounds, verb, column on the card or of the line, card read,
-# next card, bounds of the deck, the READ a data set begins with, length of the log, number of PAUSEs met, 1 where the
-# run may end at any READ.
+# The registers of the devices: FORMAT, current specification and end, verb, column of the card or line, current card,
+# next card, bounds of the deck, the READ that begins a data set, length of the log, number of different PAUSEs, and 1
+# if an empty hopper ends the run at any READ.
 FORMAT, SPEC, LAST_SPEC, VERB, COLUMN, CARD, NEXT, FIRST_CARD, LAST_CARD, FIRST_READ, USED, PAUSES, ANY_READ = range(13)
 DEVICES = 13
 
-# What a row of Report.ends holds: how the run ended, cards read, bounds in the log, and what the engine's ADDRESS held.
+# The entries of a row of Report.ends: reason for the end, cards read, bounds in the log, kind of the field at ADDRESS.
 REASON, CARDS_READ, LOG_FROM, LOG_TO, HELD = range(5)
 ENDS = 5
 
-# Numbers of a FORMAT and of a specification.
+# The numbers that describe a FORMAT, and those that describe a specification.
 FIRST, LAST, AGAIN, FIELDS, CHARGE = range(5)
 FORM = 5
 KIND, WIDTH, DECIMALS, PLACE = range(4)
@@ -48,18 +46,18 @@ PART = 4
 
 BEGUN, TAKEN, PUNCHED, TYPED, LINE_END = b"BRPT\n"
 F8 = 9
-"""The error code F8 among the others, E1 to E8."""
+"""The number of the error code F8; those of E1 to E8 are 1 to 8."""
 CODES = 10
 LINE_ROOM = 4096
-"""Columns of the longest line that is kept; of none so long does a device have a record."""
+"""The columns of the line buffer, more than a record of any device has."""
 ERROR_WORDS = b"ERROR E0"
 STAMP = 6
-"""Digits of a number in the log."""
+"""The digits of a number in the log."""
 
 
-# The functions below are given few sequences: numba hands each over as seven numbers and more, in every call.
+# numba passes an array as seven or more numbers in every call, so that each function receives few tuples of arrays.
 class Marks(NamedTuple):
-    """What devices need of object code: the second number and the statement of each instruction, and the verbs."""
+    """The parts of the object code that devices use: second operand and statement of each instruction, and verbs."""
 
     seconds: Row
     statements: Row
@@ -67,7 +65,7 @@ class Marks(NamedTuple):
 
 
 class Code(NamedTuple):
-    """Object code, what devices need of it, and 1 for each function that is SQRT."""
+    """The object code, the parts that devices use, and for each library function 1 if it is SQRT, else 0."""
 
     flat: Flat
     marks: Marks
@@ -75,10 +73,11 @@ class Code(NamedTuple):
 
 
 class Forms(NamedTuple):
-    """All FORMATs, one after the other, FORM numbers each: its bounds, where a longer list goes on, whether it has
-    fields, and what going through it once counts as; of each specification PART numbers: what it is.
+    """All FORMATs.
 
-    PLACE is where the text of an H or X begins in ``texts``, WIDTH its length.
+    A FORMAT has FORM numbers: the bounds of its specifications, the one where a longer list continues, whether it has
+    fields, and the work of processing it once.  A specification has PART numbers.  For an H or X field, PLACE is the
+    position of its text in ``texts`` and WIDTH its length.
     """
 
     formats: Row
@@ -87,14 +86,14 @@ class Forms(NamedTuple):
 
 
 class Cards(NamedTuple):
-    """Decks one after the other: 80 codes a card, and the first card of each deck."""
+    """The decks in sequence: 80 codes for each card, and the first card of each deck."""
 
     columns: Row
     first: Row
 
 
 class Tools(NamedTuple):
-    """What the devices use, deck after deck: texts of the FORMATs, which reading changes, registers, line, a field."""
+    """Working storage for all decks: texts of the FORMATs (reading changes them), registers, a line and a field."""
 
     texts: Row
     devices: Row
@@ -103,7 +102,7 @@ class Tools(NamedTuple):
 
 
 class Desk(NamedTuple):
-    """What the devices of one deck work on: the tools, and of the report its rows and the log."""
+    """Working storage for one deck: the tools, its rows of the report, and the log."""
 
     texts: Row
     devices: Row
@@ -116,7 +115,7 @@ class Desk(NamedTuple):
 
 
 class Report(NamedTuple):
-    """What is found out, a row a deck, and the log."""
+    """The results: a row for each deck, and the log."""
 
     ends: Sequence[Row]
     registers: Sequence[Row]
@@ -129,7 +128,7 @@ class Report(NamedTuple):
 
 
 def begin(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
-    """An input or output statement begins."""
+    """Begin an input or output statement."""
     devices, pc = desk.devices, desk.registers[AT]
     verb = marks.verbs[desk.registers[ADDRESS]]
     number = marks.seconds[pc]
@@ -143,6 +142,8 @@ def begin(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
         return NOT_HERE
     if verb != READ:
         return GO_ON
+    # An empty hopper is a normal end at the first READ of the program (with ANY_READ at every one), but only after at
+    # least one card has been read.
     empty = devices[NEXT] == devices[LAST_CARD] and devices[NEXT] > devices[FIRST_CARD]
     if devices[FIRST_READ] < 0 or devices[FIRST_READ] == pc:
         devices[FIRST_READ] = pc
@@ -156,14 +157,14 @@ def begin(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
     return end_record(marks, cards, desk)
 
 
-def to_field(marks: Marks, forms: Forms, cards: Cards, desk: Desk, wanted: bool) -> int:
-    """Go on to the next field of the FORMAT; if one is wanted, beyond its end to its start and a new record."""
+def to_field(marks: Marks, forms: Forms, cards: Cards, desk: Desk, repeat: bool) -> int:
+    """Advance to the next field of the FORMAT.  With ``repeat`` repeat a FORMAT that has ended, on a new record."""
     devices = desk.devices
     while True:
         spec = devices[SPEC]
         status = GO_ON
         if spec == devices[LAST_SPEC]:
-            if not wanted:
+            if not repeat:
                 return GO_ON
             if forms.formats[FORM * devices[FORMAT] + FIELDS] == 0:
                 return NOT_HERE
@@ -183,7 +184,7 @@ def to_field(marks: Marks, forms: Forms, cards: Cards, desk: Desk, wanted: bool)
 
 
 def text(place: int, width: int, cards: Cards, desk: Desk) -> int:
-    """An H or X field: put out, or changed to what the card has."""
+    """Write the text of an H or X field, or on input replace it with the columns of the card (C26-5619 p. 37)."""
     devices = desk.devices
     column = devices[COLUMN]
     devices[COLUMN] += width
@@ -199,12 +200,12 @@ def text(place: int, width: int, cards: Cards, desk: Desk) -> int:
 
 
 def column_of(cards: Cards, card: int, column: int) -> int:
-    """A column of a card, from 0; blank beyond its end."""
+    """Return a column of a card, counted from 0, or a blank beyond its end."""
     return cards.columns[card * COLUMNS + column] if column < COLUMNS else BLANK
 
 
 def end_record(marks: Marks, cards: Cards, desk: Desk) -> int:
-    """The next card is taken, or the line goes out."""
+    """Take the next card, or write the line without trailing blanks."""
     devices = desk.devices
     length = devices[COLUMN]
     devices[COLUMN] = 0
@@ -226,7 +227,7 @@ def end_record(marks: Marks, cards: Cards, desk: Desk) -> int:
 
 
 def put(letter: int, line: Row, length: int, desk: Desk) -> int:
-    """Write to the log."""
+    """Write a letter and a line to the log."""
     log, used = desk.log, desk.devices[USED]
     if used + length + 2 > len(log):
         return LOG_FULL
@@ -239,10 +240,11 @@ def put(letter: int, line: Row, length: int, desk: Desk) -> int:
 
 
 def put_typed(line: Row, length: int, marks: Marks, desk: Desk) -> int:
-    """Write a line typed to the log: before its text the statement that types it, and the last decision."""
+    """Write a typed line to the log: its statement, the last decision, and its text."""
     registers, log, used = desk.registers, desk.log, desk.devices[USED]
     if used + length + 2 + 2 * STAMP > len(log):
         return LOG_FULL
+    # ``put`` writes the letter and an end of line, which the numbers then overwrite.
     status = put(TYPED, line, 0, desk)
     desk.devices[USED] = used + 1
     stamp(marks.statements[registers[AT]], desk)
@@ -256,7 +258,7 @@ def put_typed(line: Row, length: int, marks: Marks, desk: Desk) -> int:
 
 
 def stamp(number: int, desk: Desk) -> None:
-    """Write a number of STAMP digits to the log."""
+    """Write a number with STAMP digits to the log."""
     used = desk.devices[USED]
     for k in range(STAMP):
         desk.log[used + STAMP - 1 - k] = DIGIT + number % 10
@@ -265,7 +267,7 @@ def stamp(number: int, desk: Desk) -> None:
 
 
 def error(number: int, marks: Marks, desk: Desk, types_errors: int) -> int:
-    """Count an error code and, if the profile does, type it."""
+    """Count an error code and, if the arithmetic does so, type it."""
     registers = desk.registers
     desk.errors[CODES * marks.statements[registers[AT]] + number] += 1
     owe(registers, ERROR)
@@ -285,7 +287,7 @@ def error(number: int, marks: Marks, desk: Desk, types_errors: int) -> int:
 
 
 def item(marks: Marks, forms: Forms, cards: Cards, core: Core, desk: Desk, rules: Rules, types_errors: int) -> int:
-    """One number of a list, read or put out."""
+    """Read or write one number of a list."""
     devices, field, registers = desk.devices, desk.field, desk.registers
     registers[WORK] += 1
     status = to_field(marks, forms, cards, desk, True)
@@ -297,6 +299,7 @@ def item(marks: Marks, forms: Forms, cards: Cards, core: Core, desk: Desk, rules
     kind, width, decimals = forms.specs[part + KIND], forms.specs[part + WIDTH], forms.specs[part + DECIMALS]
     fixed = marks.seconds[registers[AT]] < 0
     column = devices[COLUMN]
+    # Every case with a message is left to the interpreter: a field of the other mode, a bad number, a remark.
     if (kind == I_FIELD) != fixed:
         return NOT_HERE
     if devices[VERB] == READ:
@@ -315,6 +318,7 @@ def item(marks: Marks, forms: Forms, cards: Cards, core: Core, desk: Desk, rules
         core.exponents[address] = e
         return GO_ON
     desk.numbers[2 * kind + 1] += 1
+    # A field that is too narrow is replaced by E14.8: the line needs 14 columns more.
     m, e = core.mantissas[address], core.exponents[address]
     if e == UNDEFINED or (e == FIXED_POINT) != fixed or column + width + 14 > LINE_ROOM:
         return NOT_HERE

@@ -1,9 +1,9 @@
 """The kernel: one loop over object code and storage, on integers only, for runs without an operator or a trace.
 
-Storage is two sequences, mantissas and exponents (emulator/numbers/arithmetic.py); a fixed-point number is its value
-with the exponent FIXED_POINT.  The loop runs until something outside the arithmetic is needed (input, output, a
-library function, a message, the end) and returns a reason, as the interpreter does; emulator/compiled/deck.py sees to
-that and calls it again.  The subset of the language used here is that of a compiler of integer loops.
+Storage is two sequences, mantissas and exponents (emulator/numbers/arithmetic.py).  A fixed-point number is stored as
+its value with the exponent FIXED_POINT.  Like the interpreter, the loop returns a reason whenever it needs something
+outside the arithmetic: input, output, a library function, a message or the end of the run.  emulator/compiled/deck.py
+performs that service and calls the loop again.  The code uses only the part of Python that numba compiles.
 """
 
 from __future__ import annotations
@@ -11,45 +11,8 @@ from __future__ import annotations
 from collections.abc import MutableSequence
 from typing import NamedTuple
 
-from emulator.language.objectcode import (
-    BEGIN,
-    BRANCH,
-    COUNT,
-    DOTEST,
-    FAD,
-    FDV,
-    FDVR,
-    FINISH,
-    FIX,
-    FLOAT,
-    FMFAC,
-    FMFIX,
-    FMP,
-    FSB,
-    FSBR,
-    FUNCTION,
-    IF,
-    IFX,
-    ITEM,
-    PAUSE,
-    POWER,
-    POWERX,
-    RSGN,
-    RSGX,
-    SELECT,
-    SEND,
-    SWITCH,
-    TOFAC,
-    TOFIX,
-    TRANSMIT,
-    XAD,
-    XDVR,
-    XMP,
-    XSB,
-    XSBR,
-    Flat,
-    element_after,
-)
+from emulator.language import objectcode as op
+from emulator.language.objectcode import Flat, element_after
 from emulator.machine.interpreter import (
     AT_BEGIN,
     AT_BOUNDS,
@@ -72,9 +35,8 @@ from emulator.numbers.accumulator import add, divide, divide_fixed, multiply, ne
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, Rules, from_integer, to_integer, wrap_integer
 from emulator.numbers.work import STEPS
 
-# Registers kept between calls.  DECISION is the last IF or computed GO TO, its instruction counted from 1; ELEMENT is
-# how many elements of an array have gone through the ITEM that comes next; COSTLY and OWED are as of
-# emulator.machine.state.State.
+# The registers that are kept between calls; their meaning is that of the fields of emulator.machine.state.State.
+# FAC and CHARACTERISTIC are mantissa and exponent of the accumulator, SENT and SENT_EXPONENT a field being copied.
 PC, FAC, CHARACTERISTIC, FIXED, WORK, SENT, SENT_EXPONENT, EVENT, ADDRESS, INDEX, INDEX2 = range(11)
 AT, DECISION, ELEMENT, COSTLY, OWED = range(11, 16)
 REGISTERS = 16
@@ -83,7 +45,7 @@ Row = MutableSequence[int]
 
 
 class Core(NamedTuple):
-    """What a run works on: storage and the sense switches."""
+    """Core storage and the sense switches."""
 
     mantissas: Row
     exponents: Row
@@ -91,7 +53,7 @@ class Core(NamedTuple):
 
 
 def owe(registers: Row, steps: int) -> None:
-    """Count steps that an operation takes beyond a plain one's, as units of work when they make one."""
+    """Count the extra steps of a costly operation; every STEPS of them are a unit of work."""
     steps += registers[OWED]
     registers[OWED] = steps % STEPS
     registers[COSTLY] += steps // STEPS
@@ -99,233 +61,246 @@ def owe(registers: Row, steps: int) -> None:
 
 
 def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit: int, most: int, strict: int) -> int:
-    """Run until a reason to return; registers and storage are changed in place.
+    """Run until there is a reason to return, and return it.  Registers and storage are changed in place.
 
-    ``limit``, ``most`` and ``strict`` are those of :func:`emulator.machine.interpreter.run`.
+    ``limit``, ``most`` and ``strict`` are those of :func:`emulator.machine.interpreter.run`, and so are the operations,
+    whose sources are cited there.
     """
     operations, addresses, subscripts, seconds, table, targets, loops, _, charges = code
     mantissas, exponents = core.mantissas, core.exponents
     size = len(mantissas)
+    # Local variables, not array elements, so that the compiler can keep them in processor registers.
     pc = registers[PC]
-    fm, fe, fixed = registers[FAC], registers[CHARACTERISTIC], registers[FIXED]
+    fac, fac_exponent, fixed = registers[FAC], registers[CHARACTERISTIC], registers[FIXED]
     work, decision = registers[WORK], registers[DECISION]
-    sm, se = registers[SENT], registers[SENT_EXPONENT]
+    sent, sent_exponent = registers[SENT], registers[SENT_EXPONENT]
     element = registers[ELEMENT]
     event = 0
-    a = 0
+    address = 0
     while True:
-        o = operations[pc]
-        a = addresses[pc]
-        s = subscripts[pc]
-        if s >= 0:
-            v = table[s]
-            i = table[s + 2]
-            rows = table[s + 3]
-            columns = table[s + 7]
-            if v >= 0:
-                if exponents[v] != FIXED_POINT:
-                    a = v
+        operation = operations[pc]
+        address = addresses[pc]
+        subscript = subscripts[pc]
+        if subscript >= 0:
+            # The eight numbers of a subscript: variable, factor and constant of the row, rows; the same for the column.
+            variable = table[subscript]
+            row = table[subscript + 2]
+            rows = table[subscript + 3]
+            columns = table[subscript + 7]
+            if variable >= 0:
+                if exponents[variable] != FIXED_POINT:
+                    address = variable
                     reason = AT_UNDEFINED
                     break
-                i += table[s + 1] * mantissas[v]
+                row += table[subscript + 1] * mantissas[variable]
             if columns == 0:
-                if strict and (i < 1 or i > rows):
-                    if o == SEND and i == rows + 1:
-                        sm = 0
-                        se = UNDEFINED
+                if strict and (row < 1 or row > rows):
+                    # A copy of element N+1 is undefined, and harmless unless it is computed with.
+                    if operation == op.SEND and row == rows + 1:
+                        sent = 0
+                        sent_exponent = UNDEFINED
                         pc += 1
                         continue
-                    registers[INDEX] = i
+                    registers[INDEX] = row
                     registers[INDEX2] = 0
                     reason = AT_BOUNDS
                     break
-                a += i - 1
+                address += row - 1
             else:
-                j = table[s + 6]
-                v = table[s + 4]
-                if v >= 0:
-                    if exponents[v] != FIXED_POINT:
-                        a = v
+                variable = table[subscript + 4]
+                column = table[subscript + 6]
+                if variable >= 0:
+                    if exponents[variable] != FIXED_POINT:
+                        address = variable
                         reason = AT_UNDEFINED
                         break
-                    j += table[s + 5] * mantissas[v]
-                if strict and (i < 1 or i > rows or j < 1 or j > columns):
-                    registers[INDEX] = i
-                    registers[INDEX2] = j
+                    column += table[subscript + 5] * mantissas[variable]
+                if strict and (row < 1 or row > rows or column < 1 or column > columns):
+                    registers[INDEX] = row
+                    registers[INDEX2] = column
                     reason = AT_BOUNDS
                     break
-                a += i - 1 + rows * (j - 1)
-            if a < 0 or a >= size:
+                # Arrays are stored column by column.
+                address += row - 1 + rows * (column - 1)
+            if address < 0 or address >= size:
                 reason = AT_OUTSIDE
                 break
-        if o <= FDVR:
-            if o == FMFAC:
-                mantissas[a] = fm
-                exponents[a] = fe
+        # As in the interpreter, frequent operations are tried first.
+        if operation <= op.FDVR:
+            if operation == op.FMFAC:
+                mantissas[address] = fac
+                exponents[address] = fac_exponent
                 pc += 1
                 continue
-            m = mantissas[a]
-            e = exponents[a]
-            if e >= FIXED_POINT:
+            mantissa = mantissas[address]
+            exponent = exponents[address]
+            if exponent >= FIXED_POINT:
                 reason = AT_UNDEFINED
                 break
             pc += 1
-            if o == TOFAC:
-                fm = m
-                fe = e
+            if operation == op.TOFAC:
+                fac = mantissa
+                fac_exponent = exponent
                 continue
-            if o == FMP:
-                fm, fe, event = multiply(fm, fe, m, e, rules)
-            elif o == FAD:
-                fm, fe, event = add(fm, fe, m, e, rules)
-            elif o == FSB:
-                fm, fe, event = subtract(fm, fe, m, e, rules)
-            elif o == FSBR:
-                fm, fe, event = subtract_reversed(fm, fe, m, e, rules)
-            elif o == FDV:
-                fm, fe, event = divide(fm, fe, m, e, rules)
+            if operation == op.FMP:
+                fac, fac_exponent, event = multiply(fac, fac_exponent, mantissa, exponent, rules)
+            elif operation == op.FAD:
+                fac, fac_exponent, event = add(fac, fac_exponent, mantissa, exponent, rules)
+            elif operation == op.FSB:
+                fac, fac_exponent, event = subtract(fac, fac_exponent, mantissa, exponent, rules)
+            elif operation == op.FSBR:
+                fac, fac_exponent, event = subtract_reversed(fac, fac_exponent, mantissa, exponent, rules)
+            elif operation == op.FDV:
+                fac, fac_exponent, event = divide(fac, fac_exponent, mantissa, exponent, rules)
             else:
-                fm, fe, event = divide(m, e, fm, fe, rules)
+                fac, fac_exponent, event = divide(mantissa, exponent, fac, fac_exponent, rules)
+            # ``event`` is the number of an error code, E1 to E8; the caller types it, and the run continues.
             if event:
                 reason = AT_EVENT
                 break
-        elif o == COUNT:
-            if charges[a] > 0:
+        elif operation == op.COUNT:
+            # A statement begins: the only place where the limit stops a run.
+            if charges[address] > 0:
                 if work >= limit:
                     reason = AT_LIMIT
                     break
-                work += charges[a]
-            counts[a] += 1
+                work += charges[address]
+            counts[address] += 1
             pc += 1
-        elif o == IF:
+        elif operation == op.IF:
             decision = pc + 1
-            pc = targets[a] if fm < 0 else targets[a + 1] if fm == 0 else targets[a + 2]
-        elif o == DOTEST:
-            v = loops[a]
-            for k in range(a, a + 3):
+            pc = targets[address] if fac < 0 else targets[address + 1] if fac == 0 else targets[address + 2]
+        elif operation == op.DOTEST:
+            # The end of a DO.  ``loops`` holds its variable, step, limit and first instruction.
+            variable = loops[address]
+            for k in range(address, address + 3):
                 if exponents[loops[k]] != FIXED_POINT:
-                    v = -1
-                    a = loops[k]
+                    variable = -1
+                    address = loops[k]
                     break
-            if v < 0:
+            if variable < 0:
                 reason = AT_UNDEFINED
                 break
-            m = wrap_integer(mantissas[v] + mantissas[loops[a + 1]])
-            mantissas[v] = m
-            pc = loops[a + 3] if m <= mantissas[loops[a + 2]] else pc + 1
-        elif o == SEND:
-            sm = mantissas[a]
-            se = exponents[a]
+            mantissa = wrap_integer(mantissas[variable] + mantissas[loops[address + 1]])
+            mantissas[variable] = mantissa
+            pc = loops[address + 3] if mantissa <= mantissas[loops[address + 2]] else pc + 1
+        elif operation == op.SEND:
+            sent = mantissas[address]
+            sent_exponent = exponents[address]
             pc += 1
-        elif o == TRANSMIT:
-            mantissas[a] = sm
-            exponents[a] = se
+        elif operation == op.TRANSMIT:
+            mantissas[address] = sent
+            exponents[address] = sent_exponent
             pc += 1
-        elif o == BRANCH:
-            pc = targets[a]
-        elif o <= XDVR:
-            if o == FMFIX:
-                mantissas[a] = fixed
-                exponents[a] = FIXED_POINT
+        elif operation == op.BRANCH:
+            pc = targets[address]
+        elif operation <= op.XDVR:
+            # The fixed-point accumulator, four digits and a sign.
+            if operation == op.FMFIX:
+                mantissas[address] = fixed
+                exponents[address] = FIXED_POINT
                 pc += 1
                 continue
-            if exponents[a] != FIXED_POINT:
+            if exponents[address] != FIXED_POINT:
                 reason = AT_UNDEFINED
                 break
-            m = mantissas[a]
+            mantissa = mantissas[address]
             pc += 1
-            if o == TOFIX:
-                fixed = m
-            elif o == XAD:
-                fixed = wrap_integer(fixed + m)
-            elif o == XSB:
-                fixed = wrap_integer(fixed - m)
-            elif o == XSBR:
-                fixed = wrap_integer(m - fixed)
-            elif o == XMP:
-                fixed = wrap_integer(fixed * m)
+            if operation == op.TOFIX:
+                fixed = mantissa
+            elif operation == op.XAD:
+                fixed = wrap_integer(fixed + mantissa)
+            elif operation == op.XSB:
+                fixed = wrap_integer(fixed - mantissa)
+            elif operation == op.XSBR:
+                fixed = wrap_integer(mantissa - fixed)
+            elif operation == op.XMP:
+                fixed = wrap_integer(fixed * mantissa)
             else:
-                if o == XDVR:
-                    fixed, m = m, fixed
-                fixed, event = divide_fixed(fixed, m)
+                if operation == op.XDVR:
+                    fixed, mantissa = mantissa, fixed
+                fixed, event = divide_fixed(fixed, mantissa)
                 if event:
                     reason = AT_EVENT
                     break
-        elif o == IFX:
+        elif operation == op.IFX:
             decision = pc + 1
-            pc = targets[a] if fixed < 0 else targets[a + 1] if fixed == 0 else targets[a + 2]
-        elif o == RSGN:
-            fm, fe = negate(fm, fe)
+            pc = targets[address] if fixed < 0 else targets[address + 1] if fixed == 0 else targets[address + 2]
+        elif operation == op.RSGN:
+            fac, fac_exponent = negate(fac, fac_exponent)
             pc += 1
-        elif o == RSGX:
+        elif operation == op.RSGX:
             fixed = -fixed
             pc += 1
-        elif o == FLOAT:
-            fm, fe = from_integer(fixed, rules)
+        elif operation == op.FLOAT:
+            fac, fac_exponent = from_integer(fixed, rules)
             pc += 1
-        elif o == FIX:
-            fixed = to_integer(fm, fe, rules)
+        elif operation == op.FIX:
+            fixed = to_integer(fac, fac_exponent, rules)
             pc += 1
-        elif o == SELECT:
-            if exponents[a] != FIXED_POINT:
+        elif operation == op.SELECT:
+            if exponents[address] != FIXED_POINT:
                 reason = AT_UNDEFINED
                 break
-            v = mantissas[a]
-            s = seconds[pc]
-            if v < 1 or v > targets[s - 1]:
-                registers[INDEX] = v
+            # A computed GO TO.  The number before the first target is their count.
+            choice = mantissas[address]
+            first = seconds[pc]
+            if choice < 1 or choice > targets[first - 1]:
+                registers[INDEX] = choice
                 reason = AT_SELECT
                 break
             decision = pc + 1
-            pc = targets[s + v - 1]
-        elif o == SWITCH:
-            pc = targets[a] if core.switches[seconds[pc] - 1] else targets[a + 1]
-        elif o == ITEM:
+            pc = targets[first + choice - 1]
+        elif operation == op.SWITCH:
+            pc = targets[address] if core.switches[seconds[pc] - 1] else targets[address + 1]
+        elif operation == op.ITEM:
+            # One number of a list.  The instruction comes again for each element of a whole array.
             if work > most + SLACK:
                 reason = AT_COSTLY
                 break
-            a += element
+            address += element
             element = element_after(element, seconds[pc])
             pc += element == 0
             reason = AT_ITEM
             break
-        elif o == BEGIN:
+        elif operation == op.BEGIN:
             pc += 1
             reason = AT_BEGIN
             break
-        elif o == FINISH:
+        elif operation == op.FINISH:
             pc += 1
             reason = AT_FINISH
             break
-        elif o == FUNCTION:
+        elif operation == op.FUNCTION:
             pc += 1
             reason = AT_FUNCTION
             break
-        elif o == POWER or o == POWERX:
-            if exponents[a] == UNDEFINED or (exponents[a] == FIXED_POINT) != (o == POWERX):
+        elif operation == op.POWER or operation == op.POWERX:
+            if exponents[address] == UNDEFINED or (exponents[address] == FIXED_POINT) != (operation == op.POWERX):
                 reason = AT_UNDEFINED
                 break
             pc += 1
-            reason = AT_POWER if o == POWER else AT_POWERX
+            reason = AT_POWER if operation == op.POWER else AT_POWERX
             break
-        elif o == PAUSE:
+        elif operation == op.PAUSE:
             pc += 1
             reason = AT_PAUSE
             break
         else:
             reason = AT_STOP
             break
+    # AT is the instruction the reason is about: the next one (PC) after an error, the one before it after a service.
     stays = reason in (AT_UNDEFINED, AT_BOUNDS, AT_OUTSIDE, AT_SELECT, AT_LIMIT, AT_STOP, AT_COSTLY)
     registers[AT] = pc if stays or element > 0 else pc - 1
     registers[ELEMENT] = element
     registers[PC] = pc
-    registers[FAC] = fm
-    registers[CHARACTERISTIC] = fe
+    registers[FAC] = fac
+    registers[CHARACTERISTIC] = fac_exponent
     registers[FIXED] = fixed
     registers[WORK] = work
     registers[DECISION] = decision
-    registers[SENT] = sm
-    registers[SENT_EXPONENT] = se
+    registers[SENT] = sent
+    registers[SENT_EXPONENT] = sent_exponent
     registers[EVENT] = event
-    registers[ADDRESS] = a
+    registers[ADDRESS] = address
     return reason

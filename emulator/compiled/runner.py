@@ -1,7 +1,7 @@
-"""The compiled engine with one program in core: blocks of packed decks in, one row of numbers and a log a deck out.
+"""The compiled engine with a program: packed decks in, one row of numbers and a log for each deck out.
 
-numba compiles :func:`emulator.compiled.deck.run_decks` and what it calls as they stand.  Numbers must fit into 64 bits:
-nine digits are the most, whose products have eighteen.
+numba compiles :func:`emulator.compiled.deck.run_decks` and the functions it calls without changes.  Products must fit
+into 64 bits, so that numbers have at most nine digits.
 """
 
 from __future__ import annotations
@@ -29,16 +29,16 @@ from emulator.numbers.decimal import DecimalNumbers
 from emulator.numbers.fields import Field
 
 MAX_DIGITS = 9
-INSTEAD = "the plain engine runs instead"
+INSTEAD = "using the interpreter instead"
 
 BLOCK = 128
-"""The most decks at a time."""
+"""The largest number of decks in one call of the compiled code."""
 LOG_ROOM = 1 << 20
 MOST_LOG_ROOM = 1 << 26
-"""Room for the log of a block; a deck that needs more than the most is left to the plain kernel."""
+"""Initial and largest size of a block's log; a deck that needs more runs in the interpreter."""
 
 WAYS = ("E<", "E>", "F<", "F>", "I<", "I>")
-"""What Result.numbers counts, in order of Report.numbers."""
+"""The keys of Result.numbers, in the order of Report.numbers."""
 
 _VERBS = {"READ": devices.READ, "PUNCH": devices.PUNCH, "ACCEPT": devices.ACCEPT}
 _KINDS = {"E": devices.E_FIELD, "F": devices.F_FIELD, "I": devices.I_FIELD}
@@ -51,12 +51,12 @@ def why_plain(options: Options) -> str:
     Only :class:`Runner` finds out whether the machine code can be compiled or loaded.
     """
     if not isinstance(options.numbers, DecimalNumbers):
-        return f"the compiled engine has no {options.numbers.name} numbers: {INSTEAD}"
+        return f"the compiled engine does not support {options.numbers.name} arithmetic: {INSTEAD}"
     if options.uncut:
-        return f"the compiled engine keeps no numbers beside the cards: {INSTEAD}"
+        return f"the compiled engine does not support --uncut: {INSTEAD}"
     profile = options.numbers.profile
     if profile.digits > MAX_DIGITS:
-        return f"{profile.name} has {profile.digits} digits, the compiled engine has at most {MAX_DIGITS}: {INSTEAD}"
+        return f"{profile.name} has {profile.digits} digits; the compiled engine supports {MAX_DIGITS}: {INSTEAD}"
     try:
         run_decks()
     except NotInstalled as error:
@@ -66,10 +66,11 @@ def why_plain(options: Options) -> str:
 
 @cache
 def run_decks() -> Compiled:
-    """:func:`emulator.compiled.deck.run_decks` for numba to compile.  Raises emulator.jit.functions.NotInstalled."""
-    # Nothing is divided by zero and no array is made, so that numba need not look for the one nor count the other's
-    # users.  The second option is named in the docstring of numba.extending.register_jitable only; without it a run
-    # takes a sixth longer, as every call counts each array it is given.
+    """Return :func:`emulator.compiled.deck.run_decks` for numba.  Raise emulator.jit.functions.NotInstalled."""
+    # The code never divides by zero, so numba need not check divisors (error_model).  It creates no arrays, so numba
+    # need not count references to them (_nrt).  The second option is documented only in
+    # numba.extending.register_jitable; without it a run takes a sixth longer, because every call counts each of its
+    # arrays.
     return Compiled(decks.run_decks, error_model="numpy", _nrt=False)
 
 
@@ -83,12 +84,12 @@ def compile_engine() -> None:
 
 
 def packed(deck: Deck) -> bytes | None:
-    """80 codes a card; None for what only a deck not made by emulator/language/cards.py can hold."""
+    """Return 80 codes for each card, or None if a card holds other characters than emulator/language/cards.py reads."""
     return _columns([card.text for card in deck.cards])
 
 
 def packed_text(text: str) -> bytes | None:
-    """The same of a deck's text; None for what is not a deck: reading it card by card says why."""
+    """Return the same for the text of a deck, or None if it is not a deck; reading it by cards then raises an error."""
     lines = text.replace("\r\n", "\n").split("\n")
     if lines[-1] == "":
         lines.pop()
@@ -106,7 +107,7 @@ def _columns(lines: list[str]) -> bytes | None:
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """A deck's row of the report, as numbers of Python."""
+    """The row of the report for a deck, as Python integers."""
 
     reason: int
     cards_read: int
@@ -117,19 +118,19 @@ class Run:
     before: list[int]
     numbers: list[int]
     errors: list[tuple[int, int]]
-    """(CODES * statement + number of the code, how often)"""
+    """Pairs of CODES * statement + error code, and the number of occurrences."""
     pauses: list[int]
-    """Statements, in order of their first pause."""
+    """The PAUSE statements that were executed, in order of their first execution."""
 
     def lines(self) -> list[str]:
-        """The log: a letter and a text each."""
+        """Return the lines of the log, each a letter and a text."""
         return self.log.decode("ascii").split("\n")[:-1]
 
 
 class Runner:
-    """One program in core, ready to be run over blocks of decks.
+    """A program in core storage, ready to run over blocks of decks.
 
-    Raises what Machine does, and emulator.jit.functions.NotInstalled.
+    Raise what Machine raises, and emulator.jit.functions.NotInstalled.
     """
 
     def __init__(self, program: Program, options: Options) -> None:
@@ -166,20 +167,20 @@ class Runner:
         self.rules = profile.rules
         flags = options.bounds == "strict", profile.types_errors, options.hopper == "any"
         self.setting = (options.limit, *map(int, flags))
-        # Kept code that is damaged, or a numba of another kind, is found out here, before a deck is begun.
+        # Load or compile the machine code now, so that a failure is noticed before the first deck.
         self.kernel = run_decks().ready(*self._arguments([]))
 
     def runs(self, packed: Sequence[bytes | None]) -> Iterator[Run | None]:
-        """One after the other; None for a deck that needs a Machine.  At most BLOCK decks."""
+        """Yield the run of each deck, or None for a deck that needs a Machine.  At most BLOCK decks."""
         at = 0
         while at < len(packed):
-            # What cannot be packed goes in as an empty hopper.
-            found = self._some([deck or b"" for deck in packed[at:]])
-            for run in found:
+            # A deck that could not be packed is passed as an empty deck, to keep the order.
+            runs = self._some([deck or b"" for deck in packed[at:]])
+            for run in runs:
                 yield None if packed[at] is None else run
                 at += 1
-            if not found:
-                # Not even one deck's log had room.
+            if not runs:
+                # The log is too small for a single deck: enlarge it.
                 log = self.report.log
                 if len(log) < MOST_LOG_ROOM:
                     self.report = self.report._replace(log=_codes(bytes(4 * len(log))))
@@ -188,11 +189,11 @@ class Runner:
                     at += 1
 
     def _some(self, packed: list[bytes]) -> list[Run | None]:
-        """As many decks as the log has room for."""
+        """Run as many decks as fit into the log."""
         return [self._run(d) for d in range(self.kernel(*self._arguments(packed)))]
 
     def _arguments(self, packed: list[bytes]) -> tuple[Any, ...]:
-        """What the kernel is called with for these decks."""
+        """Return the arguments of the compiled function for these decks."""
         first = _row(accumulate((len(deck) // COLUMNS for deck in packed), initial=0))
         cards = devices.Cards(_codes(b"".join(packed)), first)
         return self.code, self.forms, self.start, cards, self.core, self.tools, self.report, self.rules, self.setting

@@ -1,1 +1,1 @@
-"""Functions compiled by numba, which both packages use."""
+"""Compilation of Python functions by numba, for the compiled engine and for hulls in floating point."""

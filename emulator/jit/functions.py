@@ -1,7 +1,7 @@
-"""Functions compiled by numba (the extra ``fast``): compiled when first needed, and kept where numba keeps code.
+"""Functions that numba (the extra ``fast``) compiles when they are first needed, and keeps in its cache.
 
-That is the folder ``NUMBA_CACHE_DIR``; where none is given, ``__pycache__`` beside the source, or the user's cache
-folder if that cannot be written.
+The cache is the folder ``NUMBA_CACHE_DIR``.  Without this variable it is ``__pycache__`` next to the source, or the
+user's cache folder if that cannot be written.
 """
 
 from __future__ import annotations
@@ -21,17 +21,17 @@ Function = Callable[..., Any]
 
 
 class NotInstalled(ValueError):
-    """Compiled code was asked for, and numba is missing, turned off, or cannot make it; one line."""
+    """Raised with a one-line message if numba is missing, turned off, or cannot compile a function."""
 
 
 class Compiled:
-    """A function, with all it calls, that numba compiles for the types it is to be called with."""
+    """A function that numba compiles, with all functions it calls, for the types of given arguments."""
 
     def __init__(self, entry: Function, **options: Any) -> None:
-        """``entry`` and what it calls are written in the part of Python that numba compiles; ``options`` are numba's.
+        """Prepare ``entry`` for compilation with the given options of numba.
 
-        Raises NotInstalled without numba, and where NUMBA_DISABLE_JIT keeps it from compiling: as Python over numpy's
-        arrays the functions compute something else (codes of eight bits overflow).
+        Raise NotInstalled without numba, or if NUMBA_DISABLE_JIT is set: run by Python on NumPy arrays, the functions
+        would compute something else, because arrays of eight-bit codes overflow.
         """
         try:
             import numba
@@ -42,38 +42,38 @@ class Compiled:
             raise NotInstalled("compiled code is turned off by NUMBA_DISABLE_JIT")
         for helper in called(entry)[1:]:
             _make_callable(helper)
-        # numba looks for changes only in the file of the entry: the name stands for the source of all that it calls.
+        # numba's cache notices changes only in the file of the entry.  The digest in the name covers the other files.
         self._entry = FunctionType(entry.__code__, entry.__globals__, entry.__name__, entry.__defaults__)
         self._entry.__qualname__ += "_" + digest(entry, repr(options))
         self._jit = numba.njit(**options)
         self.function: Any = self._jit(self._entry)
-        with suppress(RuntimeError):  # no folder can be written: the code is for this process only
+        with suppress(RuntimeError):  # if no folder can be written, the code is for this process only
             self.function = numba.njit(cache=True, **options)(self._entry)
 
     @property
     def keeps(self) -> bool:
-        """Whether there is a folder to keep the code in."""
+        """True if numba has a folder for the code."""
         return bool(self.function.stats.cache_path)
 
     @property
     def kept(self) -> bool:
-        """Whether code of this function is kept already, for whatever types."""
+        """True if the cache holds code of this function, for any types."""
         return any(self._indexes())
 
     def ready(self, *arguments: Any) -> Function:
-        """The function compiled for the types of these arguments, or loaded: seconds, once, told on a terminal.
+        """Return the function compiled for the types of these arguments.
 
-        Kept code that cannot be read is thrown away; what is compiled instead is for this process only.  Raises
-        NotInstalled where numba cannot compile the function.
+        Compiling takes some seconds, once, and is reported on a terminal.  Damaged code in the cache is deleted, and
+        the function is compiled for this process only.  Raise NotInstalled if numba cannot compile the function.
         """
         import numba
 
         types = tuple(map(numba.typeof, arguments))
         fresh = types not in self.function.overloads and self.keeps and not self.kept
-        with _said(f"compiling {self._entry.__name__}, once: some seconds" if fresh else ""), _without_collecting():
+        with _shown(f"compiling {self._entry.__name__}, once: some seconds" if fresh else ""), _without_collecting():
             try:
                 self.function.compile(types)
-            except Exception:  # of no common kind: whatever a damaged file leads to
+            except Exception:  # a damaged file in the cache can lead to any exception
                 self._forget()
                 self.function = self._jit(self._entry)
                 try:
@@ -93,8 +93,8 @@ class Compiled:
 
 
 @contextmanager
-def _said(line: str) -> Iterator[None]:
-    """A line on the terminal, if there is one, wiped out at the end."""
+def _shown(line: str) -> Iterator[None]:
+    """Show a line on the terminal, if there is one, and erase it at the end."""
     file = sys.stderr if line and sys.stderr is not None and sys.stderr.isatty() else None
     with suppress(OSError):
         print(line, end="", file=file, flush=True) if file else None
@@ -107,10 +107,7 @@ def _said(line: str) -> Iterator[None]:
 
 @contextmanager
 def _without_collecting() -> Iterator[None]:
-    """Python's search for cycles is put off: a compiler makes millions of objects and drops few.
-
-    With it compiling takes a sixth longer.
-    """
+    """Turn off the garbage collector, which makes compiling a sixth slower: a compiler creates millions of objects."""
     on = gc.isenabled()
     gc.disable()
     try:
@@ -121,23 +118,24 @@ def _without_collecting() -> Iterator[None]:
 
 
 def _refused(error: Exception) -> NotInstalled:
-    """What numba raised, as one line."""
-    said = next(iter(str(error).strip().splitlines()), "")
-    return NotInstalled(f"numba cannot make the compiled code: {type(error).__name__}{': ' if said else ''}{said}")
+    """Return an exception of numba as one line."""
+    message = next(iter(str(error).strip().splitlines()), "")
+    return NotInstalled(f"numba cannot compile the code: {type(error).__name__}{': ' if message else ''}{message}")
 
 
 def called(entry: Function) -> list[Function]:
-    """The function, those it calls by their names, and those that these call."""
-    found = [entry]
-    for function in found:
-        used = inspect.getclosurevars(function).globals.values()
-        found += [value for value in used if isinstance(value, FunctionType) and value not in found]
-    return found
+    """Return the function and all functions that it calls by name, directly or indirectly."""
+    functions = [entry]
+    # The list grows during the loop: a breadth-first search of the call graph.
+    for function in functions:
+        names = inspect.getclosurevars(function).globals.values()
+        functions += [value for value in names if isinstance(value, FunctionType) and value not in functions]
+    return functions
 
 
 @cache
 def _make_callable(helper: Function) -> None:
-    """Let compiled code call the function; called as Python it stays what it is."""
+    """Let compiled code call the function.  Python still calls it uncompiled."""
     from numba.extending import register_jitable
 
     from emulator.jit import inlining
@@ -147,7 +145,7 @@ def _make_callable(helper: Function) -> None:
 
 
 def digest(entry: Function, options: str) -> str:
-    """What the compiled code depends on, in 16 letters: modules of the functions, constants they use, options."""
+    """Return 16 letters that change with the compiled code: a hash of modules, constants and options."""
     functions = called(entry)
     text = [options]
     for module in dict.fromkeys(function.__module__ for function in functions):

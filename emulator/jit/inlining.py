@@ -1,12 +1,12 @@
-"""Functions that compiled code calls, made once: as part of what calls them, and not on their own besides.
+"""A compiler pass that avoids compiling the helper functions of an entry separately.
 
-numba optimises every function with all it calls, and makes machine code of it, before it does the same with the
-function that calls it: in a tree of fifty functions the leaves are compiled five times over.  Here the functions below
-an entry are only translated to LLVM's language; the entry is optimised and made machine code with all of them in it, as
-it is anyway.  The machine code computes the same, as nothing here lets LLVM change a number.
+numba optimises every function together with all functions it calls and generates machine code for it, before it does
+the same with the caller.  In a tree of fifty functions, the leaves are compiled five times.  Here the functions below
+an entry are only translated to LLVM's intermediate language; the entry is then compiled with all of them, once.  The
+results are the same, because no option here lets LLVM change an arithmetic result.
 
-This rests on the inside of numba's code generator.  Where a numba has another inside, :data:`AVAILABLE` is False and
-functions are compiled numba's own way: slower, and nothing else changes.
+This relies on internals of numba's code generator.  If a version of numba lacks them, :data:`AVAILABLE` is False, and
+numba compiles the functions in its usual way, which is slower and otherwise the same.
 """
 
 from __future__ import annotations
@@ -28,20 +28,20 @@ AVAILABLE = all(hasattr(JITCodeLibrary, name) for name in _INSIDE) and hasattr(t
 
 
 class _NotInMemory:
-    """A code generator to whom a function is not known by an address."""
+    """A code generator that registers no address for a function."""
 
     def __init__(self, generator: Any) -> None:
         self._generator = generator
 
     def set_env(self, name: str, environment: Any) -> None:
-        """What numba puts beside the machine code of a function, which there is none of."""
+        """Do nothing: the environment belongs to machine code that does not exist."""
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._generator, name)
 
 
 class _Part(JITCodeLibrary):
-    """A function in LLVM's language, to be linked into another."""
+    """A function in LLVM's intermediate language, to be linked into its callers."""
 
     @property
     def codegen(self) -> Any:
@@ -51,7 +51,7 @@ class _Part(JITCodeLibrary):
         module.data_layout = self._codegen._data_layout
 
     def _optimize_final_module(self) -> None:
-        """Left to the entry."""
+        """Do nothing: the entry is optimised together with this function."""
 
     def _finalize_final_module(self) -> None:
         self._finalize_dynamic_globals()  # type: ignore[no-untyped-call]
@@ -63,7 +63,7 @@ class _Part(JITCodeLibrary):
 
 
 class _MakesPart(compiler_machinery.AnalysisPass):
-    """Chooses where the code of a function goes, before it is made."""
+    """The pass that selects the library for the code of a function."""
 
     _name = "hull1620_makes_part"
 
@@ -80,7 +80,7 @@ compiler_machinery.register_pass(mutates_CFG=False, analysis_only=True)(_MakesPa
 
 
 class PartCompiler(compiler.CompilerBase):
-    """numba's compiler, for functions that only compiled code calls."""
+    """The compiler for functions that only compiled code calls."""
 
     def define_pipelines(self) -> list[Any]:
         passes = compiler.DefaultPassBuilder.define_nopython_pipeline(self.state)  # type: ignore[no-untyped-call]

@@ -1,1 +1,14 @@
-"""A run that is watched: interpreter, devices, result, trace, time, and two runs compared."""
+"""The machine that runs compiled programs: interpreter, devices, operator, traces, machine time, and divergence.
+
+``machine.py`` runs a program with an operator (``operator.py``).  Below it ``session.py`` runs a program in slices and
+drives ``interpreter.py`` and ``devices.py``.  ``divergence.py`` compares two runs.
+
+To add a kind of ending: add its name to ``Kind`` and its message to ``_trouble_in`` in ``endings.py``, raise ``Ended``
+in ``session.py`` or ``devices.py``, and add the case to ``_ending`` in ``emulator/compiled/batch.py``.
+
+To add an action of the operator: add it to ``Action`` and ``Session.act`` in ``session.py``, its syntax to
+``words.py``, and its line to ``docs/reference/operator.md``.  A command that only shows something belongs in
+``console.py``.
+
+To add an operation of the object code, see ``interpreter.py``.
+"""

@@ -1,6 +1,6 @@
-"""The console of a machine that stands: what a person types there, and what he is shown.
+"""The console of a halted machine: the commands that a person types, and their output.
 
-Everything is plain lines of text no wider than asked, for whatever shows them.
+The output is plain lines of text, wrapped to a given width.
 """
 
 from __future__ import annotations
@@ -19,29 +19,29 @@ from emulator.machine.words import WORDS, action, place_of
 from emulator.numbers.arithmetic import UNDEFINED
 
 COMMANDS = {
-    "START": "START (or Enter): the machine goes on",
-    "STEP": "STEP [N]: it does one statement, or N",
-    "STOP": "STOP: the run ends; what was done is kept",
-    "SWITCH": "SWITCH [N [ON or OFF]]: shows, flips, sets sense switches",
-    "BREAK": "BREAK [N or CARD N]: shows, sets breakpoints",
-    "CLEAR": "CLEAR [N or CARD N]: takes breakpoints away",
-    "VARIABLES": "VARIABLES [NAME]: all variables, or one with its elements",
-    "CORE": "CORE NAME or ADDRESS: the storage around it",
-    "CARDS": "CARDS: the card read last and the card punched last",
-    "HELP": "HELP or ?: these words; the first letters will do",
+    "START": "START (or Enter): continue the run",
+    "STEP": "STEP [N]: run one statement, or N",
+    "STOP": "STOP: end the run and keep its output",
+    "SWITCH": "SWITCH [N [ON or OFF]]: show, flip or set sense switches",
+    "BREAK": "BREAK [N or CARD N]: show or set breakpoints",
+    "CLEAR": "CLEAR [N or CARD N]: remove breakpoints",
+    "VARIABLES": "VARIABLES [NAME]: show all variables, or one",
+    "CORE": "CORE NAME or ADDRESS: show the storage around it",
+    "CARDS": "CARDS: show the last card read and the last punched",
+    "HELP": "HELP or ?: show the commands; all can be abbreviated",
 }
 _AROUND = 4
 
 
 @dataclass
 class Cards:
-    """The card read last and the card punched last, as events tell."""
+    """The last card read and the last card punched, taken from the events of a session."""
 
     read: str = ""
     punched: str = ""
 
     def see(self, events: Sequence[Event]) -> None:
-        """Take further events, in order."""
+        """Update the cards from further events."""
         for event in events:
             if event.what == "read":
                 self.read = event.text
@@ -50,16 +50,16 @@ class Cards:
 
 
 def command(session: Session, text: str, cards: Cards, width: int) -> Action | list[str]:
-    """What a line typed at the console does: an action, or lines to be shown, wrong words among them."""
-    word, *rest = text.upper().replace("?", " HELP ").split() or ["START"]
-    found = [name for name in COMMANDS if name.startswith(word)]
-    if len(found) != 1:
-        words = ", ".join(found or COMMANDS)
-        return wrapped(f"{word} {'may be' if found else 'is none of'} {words}", width)
-    (word,) = found
-    match word, rest:
+    """Return the action of a line typed at the console, or the lines to show, which may be an error message."""
+    word, *operands = text.upper().replace("?", " HELP ").split() or ["START"]
+    matches = [name for name in COMMANDS if name.startswith(word)]
+    if len(matches) != 1:
+        names = ", ".join(matches or COMMANDS)
+        return wrapped(f"{word} {'is ambiguous' if matches else 'is not a command'}: {names}", width)
+    (word,) = matches
+    match word, operands:
         case "HELP", _:
-            return [line for words in COMMANDS.values() for line in wrapped(words, width)]
+            return [line for help_text in COMMANDS.values() for line in wrapped(help_text, width)]
         case "CARDS", []:
             return list(_cards(session, cards, width))
         case "VARIABLES", []:
@@ -77,27 +77,27 @@ def command(session: Session, text: str, cards: Cards, width: int) -> Action | l
     if word not in WORDS:
         return wrapped(COMMANDS[word], width)
     try:
-        done = action(word, rest)
+        request = action(word, operands)
     except ValueError as error:
         return wrapped(str(error), width)
-    if done.word in ("BREAK", "CLEAR") and done.number and not session.places(done):
-        return wrapped(f"{session.program.source} has nothing to run there", width)
-    return done
+    if request.word in ("BREAK", "CLEAR") and request.number and not session.places(request):
+        return wrapped(f"{session.program.source} has no statement there", width)
+    return request
 
 
 def flipped(session: Session, number: int) -> Action:
-    """The action that flips a sense switch."""
+    """Return the action that flips a sense switch."""
     return Action("SWITCH", number, on=not session.switches[number - 1])
 
 
 def done(session: Session, line: Line, width: int) -> list[str]:
-    """What the statement just done did; nothing for one that has nothing to show."""
+    """Return the lines that show the effect of the last statement, if it has one."""
     text = effect(session, line)
     return wrapped(text, width) if text else []
 
 
 def wrapped(text: str, width: int) -> list[str]:
-    """Text as lines of at most ``width`` columns."""
+    """Return text as lines of at most ``width`` columns."""
     return textwrap.wrap(text, width, subsequent_indent="  ", break_on_hyphens=False)
 
 
@@ -112,7 +112,7 @@ def _cards(session: Session, cards: Cards, width: int) -> Iterator[str]:
 
 
 def _chunks(text: str, width: int) -> Iterator[str]:
-    """A card cut to the width, blanks and all."""
+    """Yield the columns of a card, blanks included, as lines of at most ``width`` columns."""
     for start in range(0, max(len(text), 1), width - 2):
         yield "  " + text[start : start + width - 2]
 
@@ -122,7 +122,7 @@ def _entries(session: Session) -> list[Entry]:
 
 
 def _variables(session: Session, width: int) -> Iterator[str]:
-    """Every variable with its value; of an array how many elements are defined."""
+    """Yield every variable with its value, and for arrays the number of defined elements."""
     for entry in _entries(session):
         if entry.shape:
             kinds = session.state.kinds[entry.first : entry.first + entry.size]
@@ -137,22 +137,23 @@ def _named(session: Session, name: str, width: int) -> list[str]:
     for entry in _entries(session):
         if entry.name == name:
             fields = range(entry.size)
-            held = [n for n in fields if session.state.kinds[entry.first + n] != UNDEFINED] if entry.shape else fields
-            lines = [f"{entry.element(n):<9} {contents(session, entry.first + n)}"[:width] for n in held]
-            return lines or [f"{name}: nothing is defined"]
+            shown = [n for n in fields if session.state.kinds[entry.first + n] != UNDEFINED] if entry.shape else fields
+            lines = [f"{entry.element(n):<9} {contents(session, entry.first + n)}"[:width] for n in shown]
+            return lines or [f"{name}: no element is defined"]
     return wrapped(f"{session.program.source} has no variable {name}", width)
 
 
 def _core(session: Session, place: str, width: int) -> list[str]:
-    """The fields around one, in order of addresses, which is the other way round than that of elements."""
+    """Return the fields around one, in order of addresses, which decrease as the numbers of elements increase."""
     core = session.options.core
+    # An address may be that of any digit of a field; fields are numbered downward from the top of core storage.
     if place.isascii() and place.isdigit() and len(place) < 6:
         field = (core - 1 - FUNCTION_NAMES - int(place)) // FIELD
     else:
         field = _field(session, place)
     if not 0 <= field < session.program.storage.fields:
         first, last = core_address(session.program.storage.fields - 1, core), core_address(0, core)
-        return wrapped(f"{place} is no variable, and no address of data: {first} to {last}", width)
+        return wrapped(f"{place} is neither a variable nor an address of data ({first} to {last})", width)
     name = session.program.storage.name_of
     return [
         f"{'>' if n == field else ' '} {core_address(n, core):05d} {name(n):<15} {contents(session, n)}"[:width]
@@ -162,7 +163,7 @@ def _core(session: Session, place: str, width: int) -> list[str]:
 
 
 def _field(session: Session, place: str) -> int:
-    """The field of ``NAME``, ``NAME(2)`` or ``NAME(2,1)``; -1 where there is none."""
+    """Return the field of ``NAME``, ``NAME(2)`` or ``NAME(2,1)``, or -1 if it does not exist."""
     parts = re.fullmatch(r"([A-Z][A-Z0-9]*)(?:\((\d{1,4})(?:,(\d{1,4}))?\))?", place)
     for entry in _entries(session) if parts else ():
         if parts and entry.name == parts[1]:
@@ -170,6 +171,7 @@ def _field(session: Session, place: str) -> int:
             rows = entry.shape[0] if entry.shape else 0
             if not subscripts:
                 return entry.first
+            # Arrays are stored column by column.
             if len(subscripts) == len(entry.shape) and all(
                 1 <= n <= most for n, most in zip(subscripts, entry.shape, strict=True)
             ):

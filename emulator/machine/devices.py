@@ -1,7 +1,7 @@
-"""Reader, punch and typewriter of a watched run: lists of numbers go through them by FORMAT.
+"""The card reader, card punch and typewriter, which read and write lists of numbers by FORMAT.
 
-What they did is a list of events; a line that has to be typed is asked for by raising :class:`Wanted`, after which the
-same call can be made again.  :class:`emulator.machine.session.Session` drives them.
+:class:`emulator.machine.session.Session` drives the devices.  Everything they do is recorded as events.  If a line has
+to be typed, they raise :class:`LineNeeded`; the same call can then be made again.
 """
 
 from __future__ import annotations
@@ -23,24 +23,25 @@ from emulator.numbers.work import ERROR
 
 
 class Ended(Exception):
-    """The run ends here."""
+    """Raised to end the run."""
 
     def __init__(self, ending: Ending) -> None:
         super().__init__(ending.kind)
         self.ending = ending
 
 
-class Wanted(Exception):
-    """A line is to be typed before the statement can go on."""
+class LineNeeded(Exception):
+    """Raised if a line must be typed before the statement can continue."""
 
 
 @dataclass
 class Devices:
-    """The devices of one machine: what lies in them, and what they did.
+    """The devices of one machine.
 
-    ``state`` is the run they serve, changed in place.  ``typed_line`` is the line the operator has typed and no
-    statement has taken.  ``listed``: the fields of the last input or output statement, where ``lists`` asks for them.
-    ``punched`` counts cards, ``characters`` what the typewriter typed, the end of a line being one.
+    state: the run they serve, changed in place.  typed_line: a line that the operator has typed and no statement has
+    read.  listed: the fields of the last input or output statement, if ``lists`` is set.  punched: cards punched.
+    characters: characters typed, counting the end of a line as one.  fields: numbers read ("E<") and written ("E>") by
+    kind of field.  cut: the numbers on each punched card before its fields truncated them.
     """
 
     program: Program
@@ -78,11 +79,11 @@ class Devices:
         self._format = 0
 
     def line_at(self, pc: int) -> Line:
-        """The statement of an instruction."""
+        """Return the statement of an instruction."""
         return self.program.statements[self._statement_of[pc]]
 
     def begin(self, address: int) -> None:
-        """An input or output statement begins, with the verb at ``address``.  Raises Ended, Wanted, DeckError."""
+        """Begin an input or output statement, with the verb at ``address``.  Raise Ended, LineNeeded or DeckError."""
         here = self.line_at(self.state.at)
         verb = self.program.verbs[address]
         number = self.program.code[self.state.at].second
@@ -91,6 +92,8 @@ class Devices:
         self._charge = self._charges[number]
         self.listed = []
         if verb == "READ":
+            # A data set begins with the READ that was executed first.  An empty hopper is a normal end there, and
+            # with ``--hopper any`` at every READ.
             begins = self._first_read in (-1, self.state.at)
             if begins:
                 self._first_read = self.state.at
@@ -104,28 +107,28 @@ class Devices:
         self.state.work += self._charge
 
     def item(self, address: int) -> None:
-        """One number of a list, read or put out.  Raises Ended, Wanted, CardError for what is no number, DeckError."""
+        """Read or write one number of a list.  Raise Ended, LineNeeded, DeckError, or CardError for a bad number."""
         fixed = self.program.code[self.state.at].second < 0
         transfer = self.transfer
         assert transfer is not None
         try:
             if isinstance(transfer, Output):
                 spec = transfer.next_field()
-                self._listed(address)
+                self._count_item(address)
                 self._write(transfer, spec, address, fixed)
             else:
                 place = transfer.next_field()
-                self._listed(address)
+                self._count_item(address)
                 self._read(*place, address, fixed)
         except NoField:
             raise Ended(self.ending("mode", format=self._format)) from None
 
     def finish(self) -> None:
-        """The list has ended.  Raises Wanted, DeckError."""
+        """End the list.  Raise LineNeeded or DeckError if the rest of the FORMAT needs another record."""
         assert self.transfer is not None
         self.transfer.finish()
 
-    def _listed(self, address: int) -> None:
+    def _count_item(self, address: int) -> None:
         transfer, numbers = self.transfer, self.options.numbers
         assert transfer is not None
         self.state.work += 1 + self._charge * transfer.again
@@ -150,7 +153,7 @@ class Devices:
             )
         card = self.deck.cards[self.position]
         if card.text.startswith("C"):
-            # What a comment of a source deck may hold is no data.
+            # A comment card of a program may hold any character, but no card of data may.
             check_characters(self.deck.source, card.number, card.text)
         self.position += 1
         self.events.append(Event("read", card.text))
@@ -159,7 +162,7 @@ class Devices:
     def _take_line(self) -> Card:
         line, self.typed_line = self.typed_line, None
         if line is None:
-            raise Wanted
+            raise LineNeeded
         self.events.append(Event("accept", line))
         self._lines += 1
         return read_line("typewriter", self._lines, line.rstrip("\r\n")[:COLUMNS], "line")
@@ -179,8 +182,10 @@ class Devices:
             name = self.program.storage.name_of(address)
             raise Ended(self.ending("undefined" if kind == UNDEFINED else "mode", name=name, put_out=True))
         if fixed:
+            # An I field that is too narrow prints the low-order digits, without a message.
             transfer.write(write_fixed(spec, value))
             return
+        # An E or F field that is too narrow is replaced by E14.8 (C26-5619 p. 39-40): error code F8.
         columns, overflowed = self.options.numbers.write(spec, value)
         self._beside.append((transfer.width + 1, len(columns), value))
         transfer.write(columns)
@@ -215,7 +220,7 @@ class Devices:
         self.punched += 1
 
     def type(self, line: str) -> None:
-        """A line for the typewriter."""
+        """Type a line."""
         text = self._record(line, TYPEWRITER_COLUMNS)
         self.characters += len(text) + 1
         decision = self.state.decision
@@ -223,15 +228,15 @@ class Devices:
         self.events.append(Event("type", text, self.line_at(self.state.at), last))
 
     def _record(self, line: str, room: int) -> str:
-        """A record as its device has it; it counts as work."""
+        """Return a record truncated to the columns of its device.  Each record is a unit of work."""
         if len(line.rstrip()) > room:
-            self.note(Notice("record", self.program.source, format=self._format, width=len(line), kept=room))
+            self.note(Notice("record", self.program.source, format=self._format, width=len(line), columns=room))
         self._beside.clear()
         self.state.work += 1
         return line[:room].rstrip()
 
     def error(self, code: str) -> None:
-        """An error code of the arithmetic, at the present statement; typed where the arithmetic types_errors it."""
+        """Count an error code of the arithmetic at the current statement, and type it if the arithmetic does so."""
         card = self.line_at(self.state.at).place.card
         self.errors[code, card] = self.errors.get((code, card), 0) + 1
         self.state.work += self.state.owe(ERROR)
@@ -239,7 +244,7 @@ class Devices:
             self.type(f"ERROR {code}")
 
     def note(self, notice: Notice) -> None:
-        """Something to be noted, once."""
+        """Add a notice, once."""
         self.notices[notice] = None
 
     def ending(
@@ -253,7 +258,7 @@ class Devices:
         put_out: bool = False,
         trouble: str = "",
     ) -> Ending:
-        """An ending at the present statement."""
+        """Return an ending at the current statement."""
         return Ending(
             kind,
             self.program.source,

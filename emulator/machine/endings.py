@@ -1,4 +1,4 @@
-"""Why a run ended and what is to be noted of it: data, and the one place where they are put into words."""
+"""The endings and notices of a run, as data, with the functions that build them and their messages."""
 
 from __future__ import annotations
 
@@ -31,22 +31,24 @@ Mode = Literal["fixed", "floating"]
 
 @dataclass(frozen=True, slots=True)
 class Ending:
-    """Why a run ended: the kind, and what there is to know of it.
+    """The reason why a run ended.
 
-    ``source`` names the program, ``line`` is the statement the run ended at, ``decision`` the last IF or computed GO TO
-    before it, where there was one.  What the other fields hold depends on the kind:
+    ``source`` names the program.  ``line`` is the statement at which the run ended, and ``decision`` is the last IF or
+    computed GO TO before it.  The other fields depend on the kind:
 
-    - hopper, stop, end: nothing; the end is normal.
-    - limit: ``count`` is the limit, ``costly`` the work counted for operations that take longer than plain ones; with
-      ``line``, the limit does not allow an operation there; ``loop`` the statements begun last, in order, ``repeats``
-      says that each was begun more than once.
-    - bounds: the array in ``name``, its ``shape``, and the ``subscripts`` asked for.  outside: nothing.
-    - undefined: the field's ``name``; ``put_out`` where a list asked for it.
-    - select: the value of a computed GO TO in ``subscripts``.
-    - mode: the field's ``name`` and the ``mode`` of what it holds; with ``format``, the number of a FORMAT, ``field``
-      is the specification it does not fit, None where the FORMAT has no field at all.
-    - undecided: what the numbers cannot say, in ``trouble``.  input: in ``trouble``, what is wrong with the deck.
-      operator: the operator stopped the run, as ``trouble`` says.
+    - hopper, stop, end: normal ends, without other fields.
+    - limit: ``count`` is the limit, and ``costly`` the work for operations that take longer than plain ones.  ``line``
+      is set if the limit forbids a single operation.  ``loop`` holds the last statements in order of cards;
+      ``repeats`` means that each of them was executed more than once.
+    - bounds: the array ``name``, its ``shape`` and the ``subscripts``.
+    - outside: a subscript that leaves the data, without other fields.
+    - undefined: the ``name`` of the field; ``put_out`` if an output list contains it.
+    - select: the value of a computed GO TO, in ``subscripts``.
+    - mode: the ``name`` of the field and the ``mode`` of its number.  With the number of a FORMAT in ``format``,
+      ``field`` is the specification that does not fit, or None if the FORMAT has no fields.
+    - undecided: ``trouble`` says what the numbers cannot decide.
+    - input: ``trouble`` says what is wrong with the deck.
+    - operator: the operator stopped the run; ``trouble`` says so.
     """
 
     kind: Kind
@@ -72,13 +74,13 @@ class Ending:
 
     @property
     def span(self) -> tuple[int, int] | None:
-        """The first and the last card of the loop, None where there is none."""
+        """The first and last card of the loop, or None without a loop."""
         cards = [line.place.card for line in self.loop]
         return (min(cards), max(cards)) if cards else None
 
     @property
     def message(self) -> str:
-        """One line for a user, empty for a normal end."""
+        """One line for the user, or "" for a normal end."""
         if self.normal:
             return ""
         if self.kind == "input":
@@ -86,40 +88,38 @@ class Ending:
         source = f"{self.source}: " if self.source else ""
         if self.line is None:
             if self.costly:
-                done = f"work as of {self.count} statements, {self.costly} of it for costly operations"
-                return f"{source}stopped after {done}{_loop(self)}"
+                work = f"the work of {self.count} statements, {self.costly} of it for costly operations"
+                return f"{source}stopped after {work}{_loop(self)}"
             return f"{source}stopped after {self.count} statements{_loop(self)}"
-        return f"{source}card {self.line.place.card}: {_what(self, self.line)}"
+        return f"{source}card {self.line.place.card}: {_trouble_in(self, self.line)}"
 
 
-def _what(ending: Ending, line: Line) -> str:
-    """What is wrong in a statement."""
+def _trouble_in(ending: Ending, line: Line) -> str:
+    """Return the message about a statement."""
     there = f"in {line.label} {line.text}" if line.label else f"in {line.text}"
     match ending.kind:
         case "limit":
-            more = "a larger --limit or numbers of fewer digits would let it go on"
-            return (
-                f"the limit of work, {ending.count} statements or what takes their time, ends the run {there}; {more}"
-            )
+            work = f"the limit, the work of {ending.count} statements, ends the run {there}"
+            return f"{work}; use a larger --limit or numbers of fewer digits"
         case "bounds":
-            asked, shape = (",".join(map(str, numbers)) for numbers in (ending.subscripts, ending.shape))
-            return f"{ending.name}({asked}) is outside {ending.name}({shape}), {there}"
+            subscripts, shape = (",".join(map(str, numbers)) for numbers in (ending.subscripts, ending.shape))
+            return f"{ending.name}({subscripts}) is outside {ending.name}({shape}), {there}"
         case "outside":
             return f"a subscript reaches outside the data into the program, {there}"
         case "select":
             return f"a computed GO TO with value {ending.subscripts[0]}, {there}"
         case "undefined" if ending.put_out:
-            return f"{ending.name} is undefined where it is put out, in {line.text}"
+            return f"{ending.name} is undefined but is written, in {line.text}"
         case "undefined":
-            return f"{ending.name} is undefined where it is computed with, {there}"
+            return f"{ending.name} is undefined but is computed with, {there}"
         case "mode" if ending.field is not None:
-            return f"{ending.name} is {ending.mode} point, its field in FORMAT {ending.format} is {ending.field}"
+            return f"{ending.name} is {ending.mode} point, but its field in FORMAT {ending.format} is {ending.field}"
         case "mode" if ending.format:
             return f"FORMAT {ending.format} has no field for the list"
         case "mode" if ending.put_out:
             return f"{ending.name} holds a number of the other mode"
         case "mode":
-            # Only with --bounds core: a neighbour's number.
+            # Only with --bounds core: the number of a neighbouring field.
             return f"{ending.name} holds a number in {ending.mode} point, {there}"
     return f"{ending.trouble}, {there}"
 
@@ -129,6 +129,7 @@ def _loop(ending: Ending) -> str:
         return ""
     first, last = ending.span
     labels = [str(line.label) for line in ending.loop if line.label]
+    # At most twelve statement numbers, so that the message stays one line.
     span = f"card {first}" if first == last else f"cards {first} to {last}"
     word = "statement" if len(labels) == 1 else "statements"
     among = f", {word} {', '.join(labels[:12])}{' ...' if len(labels) > 12 else ''}" if labels else ""
@@ -136,7 +137,7 @@ def _loop(ending: Ending) -> str:
 
 
 def too_costly(program: Program, limit: int, at: int, decision: int, costly: int) -> Ending:
-    """The ending at an operation that takes more work than the limit leaves."""
+    """Return the ending at an operation that needs more work than the limit allows."""
     line, last = program.line_at(at), decided(program, decision)
     return Ending("limit", program.source, line, last, count=limit, costly=costly)
 
@@ -144,7 +145,7 @@ def too_costly(program: Program, limit: int, at: int, decision: int, costly: int
 def looped(
     program: Program, limit: int, before: Sequence[int], counts: Sequence[int], decision: int, costly: int = 0
 ) -> Ending:
-    """The ending at the limit: which statements were begun last, from the counts before and after them."""
+    """Return the ending at the limit.  The last statements are those whose counts grew since ``before``."""
     ran = [
         (program.statements[counter.statement], new - old)
         for counter, old, new in zip(program.counters, before, counts, strict=True)
@@ -162,7 +163,7 @@ def looped(
 
 
 def out_of_bounds(program: Program, at: int, decision: int, address: int, subscripts: tuple[int, ...]) -> Ending:
-    """The ending at a subscript outside the array that begins at ``address``."""
+    """Return the ending at a subscript outside the array that begins at ``address``."""
     entry = program.storage.entry_of(address)
     return Ending(
         "bounds",
@@ -176,12 +177,12 @@ def out_of_bounds(program: Program, at: int, decision: int, address: int, subscr
 
 
 def stopped(program: Program, kind: Kind, at: int, decision: int, subscripts: tuple[int, ...] = ()) -> Ending:
-    """An ending at an instruction of which only subscripts are to be known."""
+    """Return an ending at an instruction, without other details than subscripts."""
     return Ending(kind, program.source, program.line_at(at), decided(program, decision), subscripts=subscripts)
 
 
 def unfit(program: Program, at: int, decision: int, address: int, kind: int) -> Ending:
-    """The ending at a field that is computed with and holds nothing (``kind``), or a number of the other mode."""
+    """Return the ending at a field that cannot be computed with: undefined or, by ``kind``, of the other mode."""
     name, line, last = program.storage.name_of(address), program.line_at(at), decided(program, decision)
     if kind == UNDEFINED:
         return Ending("undefined", program.source, line, last, name=name)
@@ -190,17 +191,17 @@ def unfit(program: Program, at: int, decision: int, address: int, kind: int) -> 
 
 
 def decided(program: Program, decision: int) -> Line | None:
-    """The statement of the decision an executor did last; it counts instructions from 1, 0 being none."""
+    """Return the statement of the last decision.  ``decision`` counts instructions from 1; 0 means none."""
     return program.line_at(decision - 1) if decision else None
 
 
 @dataclass(frozen=True, slots=True)
 class Notice:
-    """What is to be noted of a run that goes on.
+    """A warning about a run that continues.
 
-    - pause: the machine halted at the statement ``line`` and START was pressed.
-    - field: a number in a field of a card (of a line typed, with ``typed``) gives cause for a remark.
-    - record: a record of FORMAT ``format`` had ``width`` characters, of which the device has room for ``kept``.
+    - pause: the machine halted at the statement ``line``, and START was pressed automatically.
+    - field: a remark about a number in a field of a card or, with ``typed``, of a typed line.
+    - record: a record of FORMAT ``format`` had ``width`` characters; the device truncated it to ``columns``.
     """
 
     kind: Literal["pause", "field", "record"]
@@ -212,16 +213,17 @@ class Notice:
     remark: Remark | None = None
     format: int = 0
     width: int = 0
-    kept: int = 0
+    columns: int = 0
 
     @property
     def message(self) -> str:
-        """One line for a user."""
+        """One line for the user."""
         if self.kind == "pause":
             assert self.line is not None
             return f"{self.source}: PAUSE at {self.line.name}: the operator presses START"
         if self.kind == "record":
-            return f"{self.source}: FORMAT {self.format}: a record of {self.width} characters, cut at {self.kept}"
+            record = f"a record of {self.width} characters, truncated to {self.columns}"
+            return f"{self.source}: FORMAT {self.format}: {record}"
         assert self.remark is not None
         unit = "line" if self.typed else "card"
         return f"{self.source}: {unit} {self.card}, column {self.column}: {self.remark.message}"

@@ -1,10 +1,9 @@
-"""FORMAT at work: a list of numbers laid out on cards, or read from them.
+"""Input and output by FORMAT: the layout of a list of numbers on records.
 
-Sources: C26-5619 p. 35-43.  n slashes at either end of a FORMAT give n blank records, n+1 between two fields
-give n.  A list longer than the FORMAT takes it again from the start on a new record; a shorter one stops at
-the first field it does not use, and what is written before that field stands.  On input H takes the card's
-columns in place of its text, and X remembers the columns it skips, for the next use of the same FORMAT (p. 37,
-41).
+The rules are those of C26-5619 p. 35-43.  n slashes at the beginning or end of a FORMAT produce n blank records, n+1
+slashes between two fields n.  A list longer than the FORMAT repeats it on a new record.  A shorter list stops at the
+first unused field, after writing the literals before it.  On input an H field stores the card's columns as its new
+text, and an X field stores the columns it skips, until the same FORMAT is used again (p. 37, 41).
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ class NoField(Exception):
 
 @dataclass
 class Layout:
-    """A FORMAT as the object program holds it: its literals can be changed by reading."""
+    """A FORMAT as the object program stores it.  Reading can change its literals."""
 
     spec: FormatSpec
     literals: list[str] = field(default_factory=list)
@@ -35,31 +34,33 @@ class Layout:
 
 @dataclass
 class _Walk(ABC):
-    """A FORMAT walked from field to field; what happens between fields is input's or output's own affair."""
+    """A statement's progress through its FORMAT, for input and output alike."""
 
     layout: Layout
     at: int = field(default=0, init=False)
     again: int = field(default=0, init=False)
-    """How often the FORMAT was taken again, since somebody counted."""
+    """Repetitions of the FORMAT that :class:`emulator.machine.devices.Devices` has not counted yet."""
 
     def _to_field(self) -> Field:
-        """Go on to the next field and past it, taking the FORMAT again where it ends.  Raises NoField."""
-        found = self._advance()
-        while found is None:
+        """Advance to the next field and return it, repeating the FORMAT if it has ended.  Raise NoField."""
+        spec = self._advance()
+        while spec is None:
             if not self.layout.spec.has_fields:
                 raise NoField
+            # The repetition starts a new record, at the last group in parentheses if there is one.
             self._end_record()
             self.at = self.layout.spec.again
             self.again += 1
-            found = self._advance()
+            spec = self._advance()
         self.at += 1
-        return found
+        return spec
 
     def finish(self) -> None:
-        """The list has ended: go on to the first field it does not use."""
+        """End the list: process literals and slashes up to the first unused field."""
         self._advance()
 
     def _advance(self) -> Field | None:
+        """Process literals and slashes, and return the next field, or None at the end of the FORMAT."""
         specs = self.layout.spec.specs
         while self.at < len(specs):
             spec = specs[self.at]
@@ -81,14 +82,14 @@ class _Walk(ABC):
 
 @dataclass
 class Output(_Walk):
-    """One output statement in progress; ``emit`` takes each finished record."""
+    """An output statement in progress.  ``emit`` receives each finished record."""
 
     emit: Callable[[str], None]
     width: int = 0
     _parts: list[str] = field(default_factory=list)
 
     def next_field(self) -> Field:
-        """Write literals and end records up to the next field, and return it.  Raises NoField."""
+        """Write literals and records up to the next field, and return the field.  Raise NoField."""
         return self._to_field()
 
     def write(self, columns: str) -> None:
@@ -111,18 +112,18 @@ class Output(_Walk):
 
 @dataclass
 class Input(_Walk):
-    """One input statement in progress; ``fetch`` delivers the next card."""
+    """An input statement in progress.  ``fetch`` returns the next card."""
 
     fetch: Callable[[], Card]
     card: Card
     column: int = 1
 
     def next_field(self) -> tuple[Field, Card, int]:
-        """The next field, with its card and first column.  Raises NoField."""
-        found = self._to_field()
+        """Return the next field, its card and its first column.  Raise NoField."""
+        spec = self._to_field()
         column = self.column
-        self.column += found.width
-        return found, self.card, column
+        self.column += spec.width
+        return spec, self.card, column
 
     def _literal(self, width: int) -> None:
         self.layout.literals[self.at] = self.card.columns(self.column, self.column + width - 1).ljust(width)

@@ -1,8 +1,16 @@
-"""The interpreter: one loop over object code and storage, with the numbers of any arithmetic.
+"""The interpreter: one loop over object code and storage, for numbers of any arithmetic.
 
-The loop runs over a :class:`emulator.machine.state.State` until something outside the arithmetic is needed (input,
-output, a library function, a message, the end) and returns a reason; the session (emulator/machine/session.py) sees to
-that and calls it again.
+The loop works on a :class:`emulator.machine.state.State`.  It returns a reason whenever it needs something outside the
+arithmetic: input, output, a library function, a message or the end of the run.  The session
+(emulator/machine/session.py) performs that service and calls the loop again.
+
+To add an operation of the object code:
+
+1. Name it in emulator/language/objectcode.py and let emulator/language generate it.
+2. Add a branch here, and the same branch to emulator/compiled/kernel.py (integers only).
+3. If it needs a service, add a reason ``AT_...`` here and serve it in ``Session._serve`` and in
+   emulator/compiled/deck.py.
+4. Give it a time in ``COSTS`` of emulator/machine/timing.py.
 """
 
 from __future__ import annotations
@@ -53,7 +61,7 @@ from emulator.numbers.accumulator import divide_fixed
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, wrap_integer
 from emulator.numbers.base import Numbers, Trap
 
-# Reasons to return.
+# The reasons to return to the session.
 (
     AT_LIMIT,
     AT_STATEMENT,
@@ -74,19 +82,15 @@ from emulator.numbers.base import Numbers, Trap
 ) = range(16)
 
 SLACK = 6_000
-"""How much work a statement may do beyond the limit, which is looked at where one begins; the list of any array may."""
+"""Units of work a statement may do beyond the limit.
 
-_WORDS = {
-    FAD: "add",
-    FSB: "subtract",
-    FSBR: "subtract",
-    FMP: "multiply",
-    FDV: "divide",
-    FDVR: "divide",
-}
-"""Operations of two numbers, as :meth:`emulator.numbers.base.Numbers.work` calls them."""
+The limit is checked only when a statement begins, so that the list of the largest possible array is still finished.
+"""
 
-_SERVED = {
+_WORK_NAMES = {FAD: "add", FSB: "subtract", FSBR: "subtract", FMP: "multiply", FDV: "divide", FDVR: "divide"}
+"""The names of the two-operand operations in :meth:`emulator.numbers.base.Numbers.work`."""
+
+_REASONS = {
     BEGIN: AT_BEGIN,
     FINISH: AT_FINISH,
     FUNCTION: AT_FUNCTION,
@@ -94,7 +98,7 @@ _SERVED = {
     POWERX: AT_POWERX,
     PAUSE: AT_PAUSE,
 }
-"""What the machine sees to, not this loop: operation and reason to return."""
+"""Operations that the session performs, with the reason to return for each."""
 
 
 def run(
@@ -110,250 +114,286 @@ def run(
     journal: Journal | None = None,
     enters: Sequence[bool] = (),
 ) -> int:
-    """Run until a reason to return; the state is changed in place.
+    """Run until there is a reason to return, and return it.  ``state`` is changed in place.
 
-    ``table`` is that of :func:`emulator.machine.state.subscript_table`.  A statement is not begun once the work has
-    come to ``limit``; an operation that would take it SLACK beyond ``most``, the run's limit, is not done.  ``strict``
-    stops at a subscript outside its array, ``traced`` at each statement.  ``enters`` says which instructions a journal
-    enters.  Raises Undecided where the numbers cannot say; the state then tells where.
+    Parameters
+    ----------
+    table
+        The subscripts, from :func:`emulator.machine.state.subscript_table`.
+    limit
+        Return AT_LIMIT before the first statement at which this amount of work is done.
+    most
+        The limit of the whole run.  An operation that would exceed it by more than SLACK is not done (AT_COSTLY).
+    strict
+        Return AT_BOUNDS for a subscript outside its array.
+    traced
+        Return AT_STATEMENT at the beginning of each statement.
+    enters
+        For each instruction, whether the journal records it.
+
+    Raises
+    ------
+    Undecided
+        If the numbers cannot decide a test.  The state then tells at which instruction.
     """
     operations, addresses, subscripts, seconds, _, targets, loops, begins, charges = code
+    # While the loop runs the registers are local variables, which are faster than attributes of the state.
     values, kinds, counts = state.values, state.kinds, state.counts
     size = len(values)
     pc, fac, fixed, work, stored, decision = state.pc, state.fac, state.fixed, state.work, state.stored, state.decision
     sent, sent_kind = state.sent, state.sent_kind
     element = state.element
     event = 0
-    a = 0
+    address = 0
     reason = AT_EVENT
-    add, subtract, multiply, sign, checked = (
-        numbers.add,
-        numbers.subtract,
-        numbers.multiply,
-        numbers.sign,
-        numbers.checked,
-    )
+    add, subtract, multiply = numbers.add, numbers.subtract, numbers.multiply
+    sign, checked = numbers.sign, numbers.checked
     weigh = numbers.work if numbers.is_costly else None
+    # ``decide`` records the decisions of a run that is compared with another, ``enter`` its stores too.
     decide = journal.entries.append if journal else None
     enter = journal.entries.append if journal and journal.stores else None
     if enter and state.listed:
+        # The session has read or written this number since the last call.
         if enters[state.at]:
             enter((state.at, state.address, values[state.address]))
         state.listed = False
     try:
         while True:
-            o = operations[pc]
-            a = addresses[pc]
-            s = subscripts[pc]
-            if s >= 0:
-                v, c, i, rows, w, d, j, columns = table[s]
-                if v >= 0:
-                    if kinds[v] != FIXED_POINT:
-                        a = v
+            operation = operations[pc]
+            address = addresses[pc]
+            subscript = subscripts[pc]
+            if subscript >= 0:
+                # A subscript is factor * variable + constant (C26-5619 p. 18).  ``row`` and ``column`` begin with the
+                # constants; a negative address means that there is no variable.
+                variable, factor, row, rows, variable_2, factor_2, column, columns = table[subscript]
+                if variable >= 0:
+                    if kinds[variable] != FIXED_POINT:
+                        address = variable
                         reason = AT_UNDEFINED
                         break
-                    i += c * values[v]
+                    row += factor * values[variable]
                 if columns == 0:
-                    if strict and not 1 <= i <= rows:
-                        if o == SEND and i == rows + 1:
+                    if strict and not 1 <= row <= rows:
+                        # The hull programs copy element N+1 when they delete the last entry of a full table
+                        # (KNOWN-FAULTS).  The copy is never computed with, so it is only marked as undefined.
+                        if operation == SEND and row == rows + 1:
                             sent, sent_kind = 0, UNDEFINED
                             pc += 1
                             continue
-                        state.index = (i,)
+                        state.index = (row,)
                         reason = AT_BOUNDS
                         break
-                    a += i - 1
+                    address += row - 1
                 else:
-                    if w >= 0:
-                        if kinds[w] != FIXED_POINT:
-                            a = w
+                    if variable_2 >= 0:
+                        if kinds[variable_2] != FIXED_POINT:
+                            address = variable_2
                             reason = AT_UNDEFINED
                             break
-                        j += d * values[w]
-                    if strict and not (1 <= i <= rows and 1 <= j <= columns):
-                        state.index = (i, j)
+                        column += factor_2 * values[variable_2]
+                    if strict and not (1 <= row <= rows and 1 <= column <= columns):
+                        state.index = (row, column)
                         reason = AT_BOUNDS
                         break
-                    a += i - 1 + rows * (j - 1)
-                if a < 0 or a >= size:
+                    # Arrays are stored column by column.
+                    address += row - 1 + rows * (column - 1)
+                if address < 0 or address >= size:
                     reason = AT_OUTSIDE
                     break
-            if o <= FDVR:
-                if o == FMFAC:
-                    values[a] = checked(fac)
-                    kinds[a] = FLOATING
-                    stored = a
+            # Frequent operations are tried first.
+            if operation <= FDVR:
+                # The floating accumulator FAC (C26-5619 p. 60-69).
+                if operation == FMFAC:
+                    values[address] = checked(fac)
+                    kinds[address] = FLOATING
+                    stored = address
                     if enter and enters[pc]:
-                        enter((pc, a, fac))
+                        enter((pc, address, fac))
                     pc += 1
                     continue
-                if kinds[a] >= FIXED_POINT:
+                # A field that is undefined or holds a fixed-point number cannot be computed with.
+                if kinds[address] >= FIXED_POINT:
                     reason = AT_UNDEFINED
                     break
-                value = values[a]
-                if o == TOFAC:
+                value = values[address]
+                if operation == TOFAC:
                     fac = value
                     pc += 1
                     continue
+                # Work is counted before the operation, so that an operation that is far too long is never begun.
                 if weigh:
-                    work += state.owe(weigh(_WORDS[o], fac, value))
+                    work += state.owe(weigh(_WORK_NAMES[operation], fac, value))
                     if work > most + SLACK:
                         reason = AT_COSTLY
                         break
+                # The operation is finished even if it ends in an error code (Trap): the run continues after it.
                 pc += 1
-                if o == FMP:
+                if operation == FMP:
                     fac = multiply(fac, value)
-                elif o == FAD:
+                elif operation == FAD:
                     fac = add(fac, value)
-                elif o == FSB:
+                elif operation == FSB:
                     fac = subtract(fac, value)
-                elif o == FSBR:
+                elif operation == FSBR:
                     fac = numbers.subtract_reversed(fac, value)
-                elif o == FDV:
+                elif operation == FDV:
                     fac = numbers.divide(fac, value)
                 else:
                     fac = numbers.divide(value, fac)
-            elif o == COUNT:
-                charge = charges[a]
+            elif operation == COUNT:
+                # A statement begins, or a part of one that is counted separately.  Only here may the limit stop a run.
+                charge = charges[address]
                 if charge:
                     if work >= limit:
                         reason = AT_LIMIT
                         break
                     work += charge
-                counts[a] += 1
+                counts[address] += 1
                 if enter:
                     enter((pc, 0, None))
                 pc += 1
-                if traced and begins[a] == 1:
+                if traced and begins[address] == 1:
                     reason = AT_STATEMENT
                     break
-            elif o == IF:
+            elif operation == IF:
                 if weigh and (work := work + state.owe(weigh("sign", fac))) > most + SLACK:
                     reason = AT_COSTLY
                     break
-                target = targets[a + 1 + sign(fac)]
+                # The three targets of an IF are those for negative, zero and positive, in this order.
+                target = targets[address + 1 + sign(fac)]
                 decision = pc + 1
                 if decide:
                     decide((pc, target, fac))
                 pc = target
-            elif o == DOTEST:
-                v = loops[a]
-                step, last = loops[a + 1], loops[a + 2]
-                if not kinds[v] == kinds[step] == kinds[last] == FIXED_POINT:
-                    a = next(f for f in (v, step, last) if kinds[f] != FIXED_POINT)
+            elif operation == DOTEST:
+                # The end of a DO: add the step to the variable, and repeat the range unless it exceeds the limit.
+                variable = loops[address]
+                step, last = loops[address + 1], loops[address + 2]
+                if not kinds[variable] == kinds[step] == kinds[last] == FIXED_POINT:
+                    address = next(f for f in (variable, step, last) if kinds[f] != FIXED_POINT)
                     reason = AT_UNDEFINED
                     break
-                value = wrap_integer(values[v] + values[step])
-                values[v] = value
-                target = loops[a + 3] if value <= values[last] else pc + 1
+                value = wrap_integer(values[variable] + values[step])
+                values[variable] = value
+                target = loops[address + 3] if value <= values[last] else pc + 1
                 if decide:
                     decide((pc, target, value))
                 pc = target
-            elif o == SEND:
-                sent, sent_kind = values[a], kinds[a]
+            elif operation == SEND:
+                # SEND and TRANSMIT copy a field, whatever it holds: an undefined one, too.
+                sent, sent_kind = values[address], kinds[address]
                 pc += 1
-            elif o == TRANSMIT:
-                values[a], kinds[a] = sent, sent_kind
-                stored = a
+            elif operation == TRANSMIT:
+                values[address], kinds[address] = sent, sent_kind
+                stored = address
                 if enter and enters[pc]:
-                    enter((pc, a, None if sent_kind == UNDEFINED else sent))
+                    enter((pc, address, None if sent_kind == UNDEFINED else sent))
                 pc += 1
-            elif o == BRANCH:
-                pc = targets[a]
-            elif o <= XDVR:
-                if o == FMFIX:
-                    values[a], kinds[a] = fixed, FIXED_POINT
-                    stored = a
+            elif operation == BRANCH:
+                pc = targets[address]
+            elif operation <= XDVR:
+                # The fixed-point accumulator: four digits and a sign (C26-5619 p. 14).
+                if operation == FMFIX:
+                    values[address], kinds[address] = fixed, FIXED_POINT
+                    stored = address
                     if enter and enters[pc]:
-                        enter((pc, a, fixed))
+                        enter((pc, address, fixed))
                     pc += 1
                     continue
-                if kinds[a] != FIXED_POINT:
+                if kinds[address] != FIXED_POINT:
                     reason = AT_UNDEFINED
                     break
-                value = values[a]
+                value = values[address]
                 pc += 1
-                if o == TOFIX:
+                if operation == TOFIX:
                     fixed = value
-                elif o == XAD:
+                elif operation == XAD:
                     fixed = wrap_integer(fixed + value)
-                elif o == XSB:
+                elif operation == XSB:
                     fixed = wrap_integer(fixed - value)
-                elif o == XSBR:
+                elif operation == XSBR:
                     fixed = wrap_integer(value - fixed)
-                elif o == XMP:
+                elif operation == XMP:
                     fixed = wrap_integer(fixed * value)
                 else:
-                    if o == XDVR:
+                    if operation == XDVR:
                         fixed, value = value, fixed
                     fixed, event = divide_fixed(fixed, value)
                     if event:
                         reason = AT_EVENT
                         break
-            elif o == IFX:
-                target = targets[a + 1 + (fixed > 0) - (fixed < 0)]
+            elif operation == IFX:
+                target = targets[address + 1 + (fixed > 0) - (fixed < 0)]
                 decision = pc + 1
                 if decide:
                     decide((pc, target, fixed))
                 pc = target
-            elif o == RSGN:
+            elif operation == RSGN:
                 fac = numbers.negate(fac)
                 pc += 1
-            elif o == RSGX:
+            elif operation == RSGX:
                 fixed = -fixed
                 pc += 1
-            elif o == FLOAT:
+            elif operation == FLOAT:
                 fac = numbers.from_integer(fixed)
                 pc += 1
-            elif o == FIX:
+            elif operation == FIX:
                 if weigh and (work := work + state.owe(weigh("to_integer", fac))) > most + SLACK:
                     reason = AT_COSTLY
                     break
                 fixed = numbers.to_integer(fac)
                 pc += 1
-            elif o == SELECT:
-                if kinds[a] != FIXED_POINT:
+            elif operation == SELECT:
+                # A computed GO TO.  The number before the targets in the table is their count.
+                if kinds[address] != FIXED_POINT:
                     reason = AT_UNDEFINED
                     break
-                value = values[a]
-                s = seconds[pc]
-                if value < 1 or value > targets[s - 1]:
+                value = values[address]
+                first = seconds[pc]
+                if value < 1 or value > targets[first - 1]:
                     state.index = (value,)
                     reason = AT_SELECT
                     break
-                target = targets[s + value - 1]
+                target = targets[first + value - 1]
                 decision = pc + 1
                 if decide:
                     decide((pc, target, value))
                 pc = target
-            elif o == SWITCH:
-                pc = targets[a] if switches[seconds[pc] - 1] else targets[a + 1]
-            elif o == ITEM:
+            elif operation == SWITCH:
+                pc = targets[address] if switches[seconds[pc] - 1] else targets[address + 1]
+            elif operation == ITEM:
+                # One number of a list.  For a whole array the same instruction comes again until its last element.
                 if work > most + SLACK:
                     reason = AT_COSTLY
                     break
-                a += element
+                address += element
                 element = element_after(element, seconds[pc])
                 pc += element == 0
                 state.listed = True
                 reason = AT_ITEM
                 break
-            elif o in _SERVED:
-                if o in (POWER, POWERX) and (kinds[a] == UNDEFINED or (kinds[a] == FIXED_POINT) != (o == POWERX)):
+            elif operation in _REASONS:
+                # POWER needs a floating-point field, POWERX a fixed-point one.
+                if operation in (POWER, POWERX) and (
+                    kinds[address] == UNDEFINED or (kinds[address] == FIXED_POINT) != (operation == POWERX)
+                ):
                     reason = AT_UNDEFINED
                     break
                 pc += 1
-                reason = _SERVED[o]
+                reason = _REASONS[operation]
                 break
             else:
                 reason = AT_STOP
                 break
     except Trap as trap:
+        # An error code of the arithmetic, E1 to E8: FAC holds the value that the machine continues with.
         fac, event, reason = trap.value, trap.event, AT_EVENT
     finally:
+        # ``at`` is the instruction the reason is about.  After a service ``pc`` is already beyond it.  After an error
+        # that ends the run, and between two elements of an array, ``pc`` still points to it.
         stays = reason in (AT_UNDEFINED, AT_BOUNDS, AT_OUTSIDE, AT_SELECT, AT_LIMIT, AT_STOP, AT_COSTLY)
         state.at = pc if stays or element else pc - 1
         state.pc, state.fac, state.fixed, state.work, state.stored = pc, fac, fixed, work, stored
-        state.sent, state.sent_kind, state.event, state.address, state.decision = sent, sent_kind, event, a, decision
-        state.element = element
+        state.sent, state.sent_kind, state.event, state.address = sent, sent_kind, event, address
+        state.element, state.decision = element, decision
     return reason

@@ -1,6 +1,6 @@
-"""A 1620 with its operator: a session run to its end.
+"""A 1620 with its operator, which runs a program from its first statement to its end.
 
-Any number of machines exist side by side; each holds everything its run needs.
+Machines share no state, so that any number of them can exist at the same time.
 """
 
 from __future__ import annotations
@@ -16,49 +16,64 @@ from emulator.machine.session import Halt, Session
 
 @dataclass
 class Machine(Session):
-    """One machine with one program in core, one deck in the hopper, and somebody at its console.
+    """A machine with a program in core storage, a deck in the card reader's hopper, and an operator.
 
-    ``keyboard`` are the lines typed when the program asks by ACCEPT, by the operator who does nothing else than press
-    START.  Raises DeckError when the program does not fit the machine's core.
+    ``keyboard`` supplies the lines for ACCEPT if nobody sits at the console; the only other action is then START.
+    Raise DeckError if the program does not fit the machine's core storage.
     """
 
     keyboard: Iterable[str] = ()
 
     def run(self, operator: Operator | None = None, output: Output | None = None, keep: bool = False) -> Result:
-        """Run to an ending, with the operator of ``keyboard`` or another.
+        """Run the program to its end.
 
-        With ``output`` events are handed there as they come, and the result does not hold them but with ``keep``: a
-        run then takes no more memory the more it puts out.  Raises CardError for a card whose field is not a number,
-        DeckError for a hopper empty in the middle of a data set or from the start, and what the operator raises.
+        Parameters
+        ----------
+        operator
+            The operator; by default one who types the lines of ``keyboard``.
+        output
+            A function that receives the events as they occur.  The result then holds none of them, unless ``keep`` is
+            set, so that memory does not grow with the output.
+
+        Raises
+        ------
+        CardError
+            If a field of a card does not hold a number.
+        DeckError
+            If the hopper is empty at the first READ or in the middle of a data set.
+        OperatorError
+            If an action of the operator does not fit the state of the machine.
         """
         self.keep = keep or output is None
-        ending = operated(self, operator or Operator(self.keyboard), output=output)
-        assert ending is not None, "a run has an end"
+        ending = run_with_operator(self, operator or Operator(self.keyboard), output=output)
+        assert ending is not None, "a run without a goal ends"
         return self.result(ending)
 
 
-def operated(
+def run_with_operator(
     session: Session, operator: Operator, goal: int | None = None, output: Output | None = None
 ) -> Ending | None:
-    """Run a session on until ``goal`` (None: to its end) with an operator; how it ended, None where it has not.
+    """Run a session with an operator until ``goal`` units of work are done, or to its end if ``goal`` is None.
 
-    ``output`` is handed every event before the operator sees it.  Raises what
-    :meth:`emulator.machine.session.Session.advance` and the operator raise; what was done until then is handed out.
+    Return the ending, or None if the run has not ended.  ``output`` receives every event before the operator does.
+    Raise what :meth:`emulator.machine.session.Session.advance` and the operator raise; ``output`` has then received
+    all events up to that moment.
     """
     last = session.options.limit if goal is None else goal
     session.retypes = session.by_lines = operator.present
     while True:
+        # The operator may act on a running machine between two slices; a halted machine waits for an answer.
         if session.halt is None:
             for action in operator.attend(session):
                 session.act(action)
         try:
-            found = session.advance(min(last, operator.goal(session)))
+            outcome = session.advance(min(last, operator.goal(session)))
         finally:
             events = session.take()
             if output is not None:
                 output(events)
             operator.happened(events)
-        if isinstance(found, Halt):
-            session.act(operator.answer(session, found))
-        elif found is not None or (goal is not None and session.state.work >= goal):
-            return found
+        if isinstance(outcome, Halt):
+            session.act(operator.answer(session, outcome))
+        elif outcome is not None or (goal is not None and session.state.work >= goal):
+            return outcome

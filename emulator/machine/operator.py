@@ -1,9 +1,8 @@
-"""The operator of a run: one object with the same questions for everybody.
+"""The operator of a run, who sees the events of the devices and answers every halt.
 
-Whoever it is sees what the devices do and answers every halt: :class:`Operator` is nobody, who presses START and types
-the lines that lie ready; :class:`FromFile` takes his answers from a file; a person sits at a terminal
-(modern/cli/shared/terminal.py).  :class:`Logged` writes down what any of them does, as a file that can be read again.
-The words of such a file are in emulator/machine/words.py.
+:class:`Operator` only presses START and types prepared lines.  :class:`FromFile` reads the actions from a file.  A
+person sits at a terminal (modern/cli/shared/terminal.py).  :class:`Logged` records the actions of any operator in a
+file that :class:`FromFile` can read.  emulator/machine/words.py defines the lines of such a file.
 """
 
 from __future__ import annotations
@@ -16,20 +15,20 @@ from typing import TextIO
 from emulator.errors import DeckError, FileError, OperatorError
 from emulator.machine.result import Event
 from emulator.machine.session import Action, Halt, Session
-from emulator.machine.words import read_action, standing, words_of
+from emulator.machine.words import action_line, halt_line, read_action
 
 _SETTING = ("SWITCH", "BREAK", "CLEAR", "STEP")
 
 SLICE = 20_000
-"""How much work is done before the operator sees what happened: some hundredths of a second."""
+"""The work after which the operator is called again, a few hundredths of a second."""
 
 Output = Callable[[Sequence[Event]], None]
-"""Takes what the devices did, in order."""
+"""A function that receives events in order."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Line:
-    """A line of an operator's file: its number, the work before it, and the action."""
+    """A line of an operator's file: its number, the work of its AT clause, and the action."""
 
     number: int
     at: int | None
@@ -37,9 +36,9 @@ class _Line:
 
 
 class Operator:
-    """Presses START and types the lines of ``keyboard``; a line that is missing is an error.
+    """An operator who presses START and types the lines of ``keyboard``.
 
-    ``present``: somebody sits there, who can type a bad line again and sees each line as it is typed
+    A subclass sets ``present`` if somebody can type a bad line again and wants to see each typed line at once
     (:class:`emulator.machine.session.Session`).
     """
 
@@ -49,18 +48,18 @@ class Operator:
         self._keyboard = iter(keyboard)
 
     def happened(self, events: Sequence[Event]) -> None:
-        """See what the devices did, in order."""
+        """Receive the events of the devices, in order."""
 
     def attend(self, session: Session) -> Iterator[Action]:
-        """What is done to a machine that runs, before its first slice and after each."""
+        """Yield the actions on a running machine, before its first slice and after each slice."""
         return iter(())
 
     def goal(self, session: Session) -> int:
-        """How much work may be done before the operator is asked again."""
+        """Return the total work at which :meth:`attend` is to be called again."""
         return session.state.work + SLICE
 
     def answer(self, session: Session, halt: Halt) -> Action:
-        """What is done about a halt; asked again while the machine stands.  Raises DeckError for a missing line."""
+        """Return the answer to a halt; called until the machine runs.  Raise DeckError if no line is left."""
         if halt.what == "accept":
             line = next(self._keyboard, None)
             if line is None:
@@ -70,10 +69,12 @@ class Operator:
 
 
 class FromFile(Operator):
-    """Answers from the lines of a file; after its last line he is nobody, and at a PAUSE for which it has no START.
+    """An operator whose actions are the lines of a file.
 
-    ``LOAD`` begins the lines for the next machine, where several run one after the other.  Raises FileError for wrong
-    words, and during the run OperatorError for an action that does not fit; both name file and line.
+    After the last line, and at a PAUSE for which the file has no START, START is pressed automatically.  ``LOAD``
+    begins the lines for the next machine, if several run in sequence.  Raise FileError for a line that is not an action
+    and, during the run, OperatorError for an action that does not fit the state of the machine.  Both name file and
+    line.
     """
 
     present = True
@@ -97,13 +98,14 @@ class FromFile(Operator):
         self._passed = 0
 
     @property
-    def left(self) -> int:
-        """The number of the first line that was not used, 0 where all were."""
+    def first_unused(self) -> int:
+        """The number of the first unused line, or 0."""
         return self._passed or next((part[0].number for part in (self._lines, *self._parts) if part), 0)
 
     def attend(self, session: Session) -> Iterator[Action]:
-        """What the file says to do now; lines at its head that set the machine are done before the run."""
+        """Yield the actions that are due now.  Settings at the head of the file are made before the run."""
         if session is not self._session:
+            # The next machine: continue with the lines after the next LOAD.
             if self._session is not None and self._parts:
                 self._passed = self._passed or (self._lines[0].number if self._lines else 0)
                 self._lines, self._heading = self._parts.pop(0), True
@@ -113,7 +115,7 @@ class FromFile(Operator):
             self._heading = self._heading and at is None and action.word in _SETTING
             if not self._heading and (at is None or at > session.state.work):
                 return
-            yield self._took(session)
+            yield self._next_action(session)
 
     def goal(self, session: Session) -> int:
         at = self._lines[0].at if self._lines else None
@@ -125,25 +127,26 @@ class FromFile(Operator):
                 raise DeckError(halt.trouble)
             return super().answer(session, halt)
         line = self._lines[0]
+        # A line for a later moment, or for ACCEPT, is no answer to a PAUSE: START is pressed automatically.
         if halt.what == "pause" and (line.at is not None or line.action.word == "ENTER"):
             return super().answer(session, halt)
         wrong = ("START", "ATTN") if halt.what == "accept" else ("ENTER", "ATTN")
         if line.at is not None or line.action.word in wrong:
-            said = words_of(line.action, line.at)
-            raise OperatorError(f"{self.name}: line {line.number}: {said}, but {standing(halt)}")
-        return self._took(session)
+            action_text = action_line(line.action, line.at)
+            raise OperatorError(f"{self.name}: line {line.number}: {action_text}, but {halt_line(halt)}")
+        return self._next_action(session)
 
-    def _took(self, session: Session) -> Action:
+    def _next_action(self, session: Session) -> Action:
         line = self._lines.popleft()
         if line.action.word in ("BREAK", "CLEAR") and line.action.number and not session.places(line.action):
-            raise OperatorError(f"{self.name}: line {line.number}: {session.program.source} has nothing to run there")
+            raise OperatorError(f"{self.name}: line {line.number}: {session.program.source} has no statement there")
         return line.action
 
 
 class Logged(Operator):
-    """Another operator, and a file that gets a line for everything he does; what the machine does are comments.
+    """An operator whose actions are logged to a file, with the events of the machine as comments.
 
-    Read again by :class:`FromFile` with the same program and deck, the log gives the same run and the same log.
+    With the same program and deck, :class:`FromFile` repeats the run from the log and produces the same log.
     """
 
     def __init__(self, operator: Operator, file: TextIO) -> None:
@@ -164,7 +167,7 @@ class Logged(Operator):
             self._session = session
             self._write(f"LOAD {session.program.source}")
         for action in self._operator.attend(session):
-            self._write(words_of(action, session.state.work))
+            self._write(action_line(action, session.state.work))
             yield action
 
     def goal(self, session: Session) -> int:
@@ -173,9 +176,9 @@ class Logged(Operator):
     def answer(self, session: Session, halt: Halt) -> Action:
         if halt is not self._halt:
             self._halt = halt
-            self._write(f"* {standing(halt)}")
+            self._write(f"* {halt_line(halt)}")
         action = self._operator.answer(session, halt)
-        self._write(words_of(action))
+        self._write(action_line(action))
         return action
 
     def _write(self, line: str) -> None:

@@ -1,8 +1,9 @@
-"""Where two ways through a program meet again: the first statement that every path from either must come to.
+"""Post-dominators: the first instruction that every path from either of two instructions passes.
 
-That is the nearest common ancestor of two instructions in the tree of post-dominators, which is built by the
-iteration of K. Cooper, T. Harvey and K. Kennedy (A Simple, Fast Dominance Algorithm, Rice University 2001) on the
-program read backwards.
+An instruction is post-dominated by those that lie on all its paths to the end of the program; the nearest of them is
+its parent in the tree of post-dominators.  Two branches of a program join at the nearest common ancestor of their first
+instructions.  The tree is computed by the iteration of K. Cooper, T. Harvey and K. Kennedy (A Simple, Fast Dominance
+Algorithm, Rice University 2001), applied to the reversed flow graph.
 """
 
 from __future__ import annotations
@@ -14,36 +15,38 @@ from emulator.language.objectcode import Program
 
 
 def successors(program: Program) -> list[tuple[int, ...]]:
-    """For each instruction those that may follow it; the number after the last stands for the end of the run.
+    """Return the possible successors of each instruction.  The number after the last stands for the end of the run.
 
-    A READ may find the hopper empty, which ends the run.
+    A READ may end the run, because the hopper may be empty.
     """
     end = len(program.code)
-    found: list[tuple[int, ...]] = []
+    following: list[tuple[int, ...]] = []
     for pc, instruction in enumerate(program.code):
         operation, address = instruction.operation, instruction.address
         if operation in (op.BRANCH, op.IF, op.IFX, op.SWITCH):
-            found.append(program.branches[address])
+            following.append(program.branches[address])
         elif operation == op.SELECT:
-            found.append(program.branches[instruction.second])
+            following.append(program.branches[instruction.second])
         elif operation == op.DOTEST:
-            found.append((program.loops[address][3], pc + 1))
+            following.append((program.loops[address][3], pc + 1))
         elif operation == op.STOP:
-            found.append((end,))
+            following.append((end,))
         elif operation == op.BEGIN and program.verbs[address] == "READ":
-            found.append((pc + 1, end))
+            following.append((pc + 1, end))
         else:
-            found.append((pc + 1,))
-    return found
+            following.append((pc + 1,))
+    return following
 
 
 def post_dominators(follow: Sequence[Sequence[int]]) -> list[int]:
-    """For each instruction the next one that no path from it to the end avoids; -1 where no path ends."""
+    """Return the nearest post-dominator of each instruction, or -1 if no path from it leads to the end."""
     end = len(follow)
     before: list[list[int]] = [[] for _ in range(end + 1)]
     for pc, nexts in enumerate(follow):
         for after in nexts:
             before[after].append(pc)
+    # ``parent`` is the tree found so far.  The nodes are visited in reverse postorder of the reversed graph, so that a
+    # successor usually has its parent before its predecessors; a few rounds reach the fixed point.
     order = _order(before, end)
     place = {pc: k for k, pc in enumerate(order)}
     parent = [-1] * (end + 1)
@@ -52,6 +55,7 @@ def post_dominators(follow: Sequence[Sequence[int]]) -> list[int]:
     while changed:
         changed = False
         for pc in order[1:]:
+            # The parent of a node is the nearest common ancestor of all its successors that are already in the tree.
             joint = -1
             for after in follow[pc]:
                 if after in place and parent[after] >= 0:
@@ -62,23 +66,27 @@ def post_dominators(follow: Sequence[Sequence[int]]) -> list[int]:
 
 
 def _order(before: Sequence[Sequence[int]], end: int) -> list[int]:
-    """Instructions from which the end can be reached, each after one that follows it, the end first."""
-    seen = {end}
+    """Return the instructions from which the end can be reached, in reverse postorder of the reversed graph.
+
+    The depth-first search keeps its own stack: a program can be longer than Python's recursion limit.
+    """
+    visited = {end}
     finished: list[int] = []
     stack = [(end, iter(before[end]))]
     while stack:
-        pc, rest = stack[-1]
-        step = next((p for p in rest if p not in seen), None)
+        pc, remaining = stack[-1]
+        step = next((p for p in remaining if p not in visited), None)
         if step is None:
             finished.append(pc)
             stack.pop()
         else:
-            seen.add(step)
+            visited.add(step)
             stack.append((step, iter(before[step])))
     return finished[::-1]
 
 
 def _joined(parent: Sequence[int], place: dict[int, int], first: int, second: int) -> int:
+    """Return the nearest common ancestor: climb from the node that is later in the order until both are the same."""
     while first != second:
         while place[first] > place[second]:
             first = parent[first]
@@ -88,7 +96,7 @@ def _joined(parent: Sequence[int], place: dict[int, int], first: int, second: in
 
 
 def meeting(parents: Sequence[int], first: int, second: int) -> int:
-    """The first instruction that every path from either of two comes to; -1 where there is none in the program."""
+    """Return the first instruction on every path from either of two, or -1 if only the end of the run is."""
     end = len(parents) - 1
     path = set()
     while first >= 0 and first not in path:

@@ -1,4 +1,4 @@
-"""How a run is set up, and what comes out of it: plain data."""
+"""The options and the result of a run, as plain data."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ DEFAULT_LIMIT = 5_000_000
 DEFAULT_CORE = 40_000
 
 LOOP_WINDOW = 2_000
-"""How many statements before the limit a message about a loop looks at."""
+"""The units of work before the limit that are examined for a loop."""
 PUNCH_COLUMNS = 72
 TYPEWRITER_COLUMNS = 87
 
@@ -23,15 +23,26 @@ TRUNCATING = numbers("truncating")
 
 @dataclass(frozen=True, slots=True)
 class Options:
-    """How a run is set up.  ``switches`` are the sense switches that are on.
+    """The options of a run.
 
-    ``hopper``: where an empty hopper is the normal end of a run: at the first card of any READ, or only of the READ
-    that a data set begins with, the first of the run.
-
-    ``bounds``: strict stops at a subscript outside its array, core does as the machine did.  ``limit``: how much work a
-    run may do: statements begun, passes of indexed lists, numbers read or put out, lines, and for costly operations as
-    many as would take their time (:mod:`emulator.numbers.work`).  ``uncut``: the numbers
-    punched are kept as they were before the card's field cut them (:attr:`Result.uncut`).
+    Parameters
+    ----------
+    numbers
+        The arithmetic.
+    switches
+        The sense switches (1 to 4) that are on.
+    core
+        Positions of core storage.
+    bounds
+        With ``strict`` a subscript outside its array ends the run.  With ``core`` it reaches the neighbouring field, as
+        on the machine.
+    limit
+        The work after which a run ends: one unit for each statement, pass of an indexed list, number read or written,
+        and record.  An operation that takes longer than a statement counts as several (:mod:`emulator.numbers.work`).
+    uncut
+        Keep the numbers on the punched cards as they were before the fields truncated them (:attr:`Result.uncut`).
+    hopper
+        An empty hopper is a normal end at the ``first`` READ of the program, which begins a data set, or at ``any``.
     """
 
     numbers: Numbers = TRUNCATING
@@ -44,14 +55,14 @@ class Options:
 
 
 Uncut = tuple[int, int, Number]
-"""A number punched: its first column, how many columns it takes, and the number."""
+"""A punched number: its first column, its number of columns, and its value."""
 
 
 @dataclass(frozen=True, slots=True)
 class MachineError:
-    """An error code of the arithmetic, the card of the statement it arose in, and how often.
+    """An error code of the arithmetic, the card of the statement, and the number of occurrences.
 
-    What a code means: :func:`emulator.errors.explanations`.
+    :func:`emulator.errors.explanations` explains the codes.
     """
 
     code: str
@@ -61,9 +72,10 @@ class MachineError:
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """What a device did, in order: ``begin`` (of a data set by READ), ``read``, ``accept``, ``punch``, ``type``.
+    """An operation of a device.
 
-    Of a line typed, ``line`` is the statement that typed it and ``decision`` the last IF or computed GO TO before it.
+    ``begin`` marks a READ that begins a data set.  For a typed line, ``line`` is the statement that typed it and
+    ``decision`` is the last IF or computed GO TO before it.
     """
 
     what: Literal["begin", "read", "accept", "punch", "type"]
@@ -74,13 +86,23 @@ class Event:
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """A finished run: what the devices got, how it ended, and what was counted.
+    """The result of a run.
 
-    ``uncut``, where it was asked for, holds for each punched card its floating-point numbers.  ``punched`` and
-    ``typed`` are lines without trailing blanks; they and ``events`` hold nothing where events were handed out and not
-    kept.  ``characters_typed`` counts the end of a line as one; ``statements`` how many statements began; ``counts``
-    how often each counter of the program ran; ``numbers`` how many numbers each kind of field read (``E<``) and put
-    out (``E>``).
+    Attributes
+    ----------
+    punched, typed, events
+        Cards and lines without trailing blanks, and the events in order.  They are empty if the events went to an
+        output function and were not kept.
+    statements
+        The number of statements executed.
+    counts
+        The executions of each counter of the program.
+    characters_typed
+        The characters typed, counting the end of a line as one.
+    numbers
+        Pairs of a kind of field and the count of numbers it read (``E<``) or wrote (``E>``).
+    uncut
+        With the option of this name, the floating-point numbers of each punched card.
     """
 
     punched: tuple[str, ...]
@@ -98,11 +120,11 @@ class Result:
     uncut: tuple[tuple[Uncut, ...], ...] = ()
 
 
-def begun(program: Program, counts: Sequence[int]) -> int:
-    """How many statements began, from the counts."""
+def statements_begun(program: Program, counts: Sequence[int]) -> int:
+    """Return the number of statements that began, from the counts."""
     return sum(n for counter, n in zip(program.counters, counts, strict=True) if counter.begins)
 
 
-def machine_errors(found: Mapping[tuple[str, int], int]) -> tuple[MachineError, ...]:
-    """Error codes from how often each arose on each card."""
-    return tuple(MachineError(code, card, times) for (code, card), times in sorted(found.items()))
+def machine_errors(occurrences: Mapping[tuple[str, int], int]) -> tuple[MachineError, ...]:
+    """Return the error codes, from the number of occurrences of each code on each card."""
+    return tuple(MachineError(code, card, times) for (code, card), times in sorted(occurrences.items()))

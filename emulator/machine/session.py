@@ -1,8 +1,8 @@
-"""A run in slices: it goes on as far as it is told, and says as plain data why it stands.
+"""A run in slices, which can be halted and continued by any program.
 
-A :class:`Session` holds everything a run needs and drives the interpreter and the devices.  Nothing here waits, or
-touches a terminal, a file or a thread: whoever drives a session calls :meth:`Session.advance`, takes the events, and
-answers a :class:`Halt` with an :class:`Action`, when it likes and from where it likes.
+A :class:`Session` holds everything a run needs and drives the interpreter and the devices.  It never waits and uses no
+terminal, file or thread.  The caller repeats three steps: call :meth:`Session.advance`, take the events with
+:meth:`Session.take`, and answer a :class:`Halt` with an :class:`Action`.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ from emulator.language.cards import Deck
 from emulator.language.objectcode import Line, Program, code_positions, flatten
 from emulator.language.storage import CORES, FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 from emulator.machine import interpreter
-from emulator.machine.devices import Devices, Ended, Wanted
+from emulator.machine.devices import Devices, Ended, LineNeeded
 from emulator.machine.endings import Ending, Notice, looped, out_of_bounds, stopped, too_costly, unfit
-from emulator.machine.result import LOOP_WINDOW, Event, Options, Result, Uncut, begun, machine_errors
-from emulator.machine.state import FLOATING, Journal, State, entered, subscript_table
+from emulator.machine.result import LOOP_WINDOW, Event, Options, Result, Uncut, machine_errors, statements_begun
+from emulator.machine.state import FLOATING, Journal, State, recorded_instructions, subscript_table
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED
 from emulator.numbers.base import Number, Numbers, Undecided
 
@@ -29,11 +29,11 @@ BAD_INPUT = Ending("input", trouble="bad input")
 
 @dataclass(frozen=True, slots=True)
 class Halt:
-    """The machine stands and waits for its operator.
+    """A machine that has stopped and waits for its operator.
 
-    - accept: ``line`` wants a line typed; ``trouble`` is what was wrong with the one before, which has no effect.
-    - pause: ``line`` is a PAUSE, with ``number``.
-    - stop: ``line`` has not been done; ``why`` it stands there.
+    - accept: the ACCEPT statement ``line`` needs a typed line.  ``trouble`` says why the previous one was rejected.
+    - pause: ``line`` is a PAUSE with the given ``number``.
+    - stop: the machine has stopped before ``line``, for the reason ``why``.
     """
 
     what: Literal["accept", "pause", "stop"]
@@ -45,15 +45,16 @@ class Halt:
 
 @dataclass(frozen=True, slots=True)
 class Action:
-    """What an operator does.
+    """An action of the operator.
 
-    - ENTER: types ``text`` for ACCEPT.
-    - START: lets the machine go on; ``unasked`` where it is pressed because nobody is there, which a PAUSE has noted.
-    - STEP: lets it do ``number`` statements.
-    - STOP: ends the run; what was done is kept.
-    - ATTN: has a running machine stand before the next statement; a second time, where it is, in a list.
-    - SWITCH: sets sense switch ``number`` as ``on`` says.
-    - BREAK, CLEAR: sets or takes away a breakpoint at statement ``number``, or at what begins on that ``card``.
+    - ENTER: type ``text`` for ACCEPT.
+    - START: continue.  With ``unasked`` it was pressed because nobody is at the console; a PAUSE then adds a notice.
+    - STEP: execute ``number`` statements.
+    - STOP: end the run and keep its results.
+    - ATTN: stop a running machine before its next statement; a second time, stop it at once, in the middle of a list.
+    - SWITCH: set sense switch ``number`` to ``on``.
+    - BREAK, CLEAR: set or remove a breakpoint at statement ``number``, or with ``card`` at the statements on that card.
+      CLEAR without a number removes all breakpoints.
     """
 
     word: Literal["ENTER", "START", "STEP", "STOP", "ATTN", "SWITCH", "BREAK", "CLEAR"]
@@ -69,14 +70,29 @@ Tracer = Callable[[Line, "Session"], None]
 
 @dataclass
 class Session:
-    """One machine with one program in core and one deck in the hopper.
+    """A machine with a program in core storage and a deck in the card reader's hopper.
 
-    ``uncut`` holds numbers that go with the deck's cards, in their order
-    (:attr:`emulator.machine.result.Result.uncut`), and are read in place of the columns.  ``journal`` is where a run
-    over ``options.numbers`` is written down.  ``keep``: events stay for the result after they were taken.
-    ``last`` is the statement done last, where one after the other was watched.  ``retypes``: a bad line typed is asked
-    for again; else it is an error.  ``by_lines``: the session comes back after every line it types.  Raises DeckError
-    when the program does not fit the machine's core.
+    Raise DeckError if the program does not fit the machine's core storage.
+
+    Parameters
+    ----------
+    tracer
+        A function that is called when a statement begins.
+    journal
+        The record of the run's decisions and stores.
+    uncut
+        For each card of the deck, the numbers that are read instead of its columns
+        (:attr:`emulator.machine.result.Result.uncut`).
+    keep
+        Keep the events for the result after :meth:`take` has returned them.
+    retypes
+        Ask again for a typed line that cannot be read; otherwise such a line is an error.
+    by_lines
+        Return from :meth:`advance` after every typed line.
+
+    Notes
+    -----
+    ``last`` is the statement executed last, if statements were traced or stepped.
     """
 
     program: Program
@@ -102,46 +118,47 @@ class Session:
         self._begun: Line | None = None
         self._code = flatten(program)
         self._table = subscript_table(self._code)
-        self._enters = entered(program) if self.journal else []
+        self._enters = recorded_instructions(program) if self.journal else []
         self._ending: Ending | None = None
         self._before: list[int] | None = None
         self._taken = 0
         self._steps = 0
-        self._called = self._came_back = False
-        self._again = interpreter.AT_LIMIT
+        self._attention = self._line_was_typed = False
+        self._pending = interpreter.AT_LIMIT
         self._checkpoint: _Checkpoint | None = None
 
     @property
     def listed(self) -> list[int]:
-        """The fields of the last input or output statement, where a tracer watches."""
+        """The fields of the last input or output statement, if statements are traced or stepped."""
         return self.devices.listed
 
     @property
     def here(self) -> Line:
-        """The statement the machine stands at or before."""
+        """The statement that the machine has stopped at or before."""
         return self.halt.line if self.halt else self.devices.line_at(min(self.state.pc, len(self.program.code) - 1))
 
     def advance(self, goal: int) -> Halt | Ending | None:
-        """Run on until ``goal`` is done in all, or the limit (:class:`emulator.machine.result.Options`).
+        """Run until the total work reaches ``goal`` or the limit (:class:`emulator.machine.result.Options`).
 
-        Returns why the machine stands, how the run ended, or None where it can go on.  Raises CardError for a card
-        whose field is not a number, DeckError for a hopper empty in the middle of a data set or from the start.
+        Return the halt or the ending, or None if the run can continue.  Raise CardError if a field of a card does not
+        hold a number, and DeckError if the hopper is empty at the first READ or in the middle of a data set.
         """
         limit = self.options.limit
+        # The counts are saved shortly before the limit.  What has grown at the limit is the loop the program is in.
         window = limit - min(LOOP_WINDOW, limit // 2)
         if self._before is None:
-            found = self._advance(min(goal, window))
-            if found is not None or goal < window or self._came_back:
-                return found
+            outcome = self._advance(min(goal, window))
+            if outcome is not None or goal < window or self._line_was_typed:
+                return outcome
             self._before = list(self.state.counts)
-        found = self._advance(min(goal, limit))
-        if found is None and goal >= limit and not self._came_back:
+        outcome = self._advance(min(goal, limit))
+        if outcome is None and goal >= limit and not self._line_was_typed:
             state = self.state
             self._ending = looped(self.program, limit, self._before, state.counts, state.decision, state.costly)
-        return found or self._ending
+        return outcome or self._ending
 
     def take(self) -> list[Event]:
-        """What the devices did since events were last taken, in order."""
+        """Return the events since the last call, in order."""
         events = self.devices.events
         if self.keep:
             first, self._taken = self._taken, len(events)
@@ -150,22 +167,22 @@ class Session:
         return events
 
     def act(self, action: Action) -> None:
-        """Do what the operator does; what does not fit the moment has no effect."""
+        """Perform an action of the operator.  An action that does not fit the state of the machine has no effect."""
         match action.word:
             case "ENTER":
                 if self.halt and self.halt.what == "accept":
                     self.devices.typed_line, self.halt = action.text, None
             case "STEP" | "START":
-                self._steps, self._called = action.number, False
+                self._steps, self._attention = action.number, False
                 if action.unasked and self.halt and self.halt.what == "pause":
                     self.devices.note(Notice("pause", self.program.source, self.halt.line))
                 if self.halt and self.halt.what != "accept":
                     self.halt = None
-            case "ATTN" if self._called and self._steps and not self.halt:
-                # No statement has begun since: an endless list.
+            case "ATTN" if self._attention and self._steps and not self.halt:
+                # No statement has begun since the first ATTN: the machine is in an endless list.
                 self.halt = Halt("stop", self.here, why="attention")
             case "ATTN":
-                self._steps, self._called = 1, True
+                self._steps, self._attention = 1, True
             case "SWITCH":
                 self.switches[action.number - 1] = int(action.on)
             case "BREAK":
@@ -177,7 +194,7 @@ class Session:
                 self._ending = Ending("operator", self.program.source, self.here, trouble="stopped by the operator")
 
     def places(self, action: Action) -> list[int]:
-        """Where a BREAK or CLEAR is: indices into :attr:`emulator.language.objectcode.Program.statements`."""
+        """Return the statements that a BREAK or CLEAR refers to, as indices into ``Program.statements``."""
         return [
             line.index
             for line in self.program.statements
@@ -185,7 +202,7 @@ class Session:
         ]
 
     def result(self, ending: Ending = BAD_INPUT) -> Result:
-        """What the devices have so far; of use after :meth:`advance` raised an error for a bad card."""
+        """Return the result so far.  It can also be used after :meth:`advance` raised an error for a bad card."""
         devices, counts = self.devices, self.state.counts
         events = tuple(devices.events)
         return Result(
@@ -194,7 +211,7 @@ class Session:
             ending=ending,
             events=events,
             notices=tuple(devices.notices),
-            statements=begun(self.program, counts),
+            statements=statements_begun(self.program, counts),
             counts=tuple(counts),
             cards_read=devices.position,
             cards_punched=devices.punched,
@@ -205,43 +222,45 @@ class Session:
         )
 
     def _advance(self, goal: int) -> Halt | Ending | None:
-        """As :meth:`advance`, at a goal that is not beyond the limit."""
+        """Run until ``goal``, which does not exceed the limit."""
         if self._ending or self.halt:
             return self._ending or self.halt
-        reason, self._came_back = self._again, False
+        reason, self._line_was_typed = self._pending, False
         watched = self.tracer is not None or self._steps > 0
         self.devices.lists = watched
         if not watched:
             self.last = self._begun = None
         try:
             while True:
+                # First the service that the interpreter, or a halt in the middle of a service, has left to be done.
                 if reason != interpreter.AT_LIMIT:
-                    self._again, typed = reason, self.devices.characters
+                    self._pending, typed = reason, self.devices.characters
                     self._serve(reason)
-                    self._again = interpreter.AT_LIMIT
+                    self._pending = interpreter.AT_LIMIT
                     if self.halt:
                         return self.halt
-                    self._came_back = self.by_lines and self.devices.characters != typed
-                    if self._came_back:
+                    self._line_was_typed = self.by_lines and self.devices.characters != typed
+                    if self._line_was_typed:
                         return None
                 reason = self._interpret(goal)
                 if reason == interpreter.AT_LIMIT:
                     return None
-        except Wanted:
-            self._want("")
+        except LineNeeded:
+            self._wait_for_line("")
         except CardError as error:
+            # A person may type a bad line again: what the statement did with it is undone.
             if self._checkpoint is None or self.devices.verb != "ACCEPT":
                 raise
             self._checkpoint.restore(self)
-            self._want(str(error))
+            self._wait_for_line(str(error))
         except Ended as ended:
             self._ending = ended.ending
         except Undecided as error:
             self._ending = self.devices.ending("undecided", trouble=str(error))
         return self._ending or self.halt
 
-    def _want(self, trouble: str) -> None:
-        """A line is to be typed; the statement goes on from here once more, whatever comes of the line."""
+    def _wait_for_line(self, trouble: str) -> None:
+        """Halt until a line is typed.  The statement continues from here, again if the line turns out to be bad."""
         self._checkpoint = _Checkpoint(self) if self.retypes else None
         self.halt = Halt("accept", self.devices.line_at(self.state.at), trouble=trouble)
 
@@ -261,6 +280,7 @@ class Session:
         )
 
     def _serve(self, reason: int) -> None:
+        """Perform the service that the interpreter returned for.  Raise Ended if the reason ends the run."""
         state, numbers = self.state, self.options.numbers
         address = state.address
         if reason == interpreter.AT_ITEM:
@@ -289,19 +309,19 @@ class Session:
             raise Ended(self._stopped(reason, address))
 
     def _watch(self, line: Line) -> None:
-        """A statement begins that a tracer, single steps or breakpoints wait for."""
+        """Call the tracer for a statement that begins, and halt if a step ends or a breakpoint is set there."""
         self.last, self._begun = self._begun, line
         if self.tracer is not None:
             self.tracer(line, self)
         stepped = self._steps == 1
         self._steps -= self._steps > 0
         if stepped:
-            self.halt = Halt("stop", line, why="attention" if self._called else "step")
+            self.halt = Halt("stop", line, why="attention" if self._attention else "step")
         elif line.index in self.breakpoints:
             self.halt = Halt("stop", line, why="breakpoint")
 
     def _stopped(self, reason: int, address: int) -> Ending:
-        """The ending for a reason the run does not go on from."""
+        """Return the ending for a reason that ends the run."""
         state = self.state
         if reason == interpreter.AT_STOP:
             return Ending("stop" if self.program.code[state.pc].second == 0 else "end")
@@ -316,7 +336,7 @@ class Session:
         return stopped(self.program, "select", state.at, state.decision, state.index)
 
     def _pay(self, operation: str, first: Number, second: Number = 0) -> None:
-        """Count what an operation costs, before it is done.  Raises Ended where that is far beyond the limit."""
+        """Count the work of an operation before it is done.  Raise Ended if it would exceed the limit by far."""
         state = self.state
         state.work += state.owe(self.options.numbers.work(operation, first, second))
         if state.work > self.options.limit + interpreter.SLACK:
@@ -329,21 +349,21 @@ class Session:
 
 
 class _Checkpoint:
-    """A session as it was when a line was wanted, so that a bad line can be forgotten."""
+    """A copy of a session before a line is typed, which is restored if the line is bad."""
 
     def __init__(self, session: Session) -> None:
         devices = session.devices
         state, transfer = session.state, devices.transfer
-        self._again = session._again
+        self._pending = session._pending
         self._state = replace(state, values=list(state.values), kinds=list(state.kinds), counts=list(state.counts))
         self._transfer = copy(transfer)
         self._literals = [list(layout.literals) for layout in devices.layouts]
         self._listed, self._fields, self._notices = list(devices.listed), dict(devices.fields), dict(devices.notices)
 
     def restore(self, session: Session) -> None:
-        """Bring the session back; what the devices did stays done."""
+        """Restore the session.  Output that the devices have already made stays."""
         devices = session.devices
-        session._again = self._again
+        session._pending = self._pending
         for part in fields(State):
             value = getattr(self._state, part.name)
             if isinstance(value, list):
@@ -357,29 +377,25 @@ class _Checkpoint:
 
 
 def refuse_overlap(program: Program, core: int) -> None:
-    """Raise DeckError when a program and its data do not fit a machine of ``core`` positions."""
-    words = overlap(program, core)
-    if words:
-        raise DeckError(f"{program.source}: {words}")
+    """Raise DeckError if a program and its data do not fit a machine with ``core`` positions of storage."""
+    message = overlap(program, core)
+    if message:
+        raise DeckError(f"{program.source}: {message}")
 
 
 def overlap(program: Program, core: int) -> str:
-    """What a program and its data lack of a machine of ``core`` positions, and what has it; empty where they fit."""
+    """Return a message if a program and its data do not fit ``core`` positions of storage, else ""."""
     need = program.storage.fields * FIELD + code_positions(program)
     room = core - OBJECT_PROGRAM - FUNCTION_NAMES
     if need <= room:
         return ""
-    words = f"OVERLAP: program and data need about {need} positions; a machine of {core} has {room} for them"
-    return words + _larger(need)
-
-
-def _larger(need: int) -> str:
-    core = next((core for core in CORES if core - OBJECT_PROGRAM - FUNCTION_NAMES >= need), 0)
-    return f"; --core {core} has room" if core else ""
+    message = f"OVERLAP: program and data need about {need} positions; a machine of {core} has {room} for them"
+    large_enough = next((size for size in CORES if size - OBJECT_PROGRAM - FUNCTION_NAMES >= need), 0)
+    return message + (f"; --core {large_enough} is large enough" if large_enough else "")
 
 
 def loaded(program: Program, numbers: Numbers) -> tuple[list[Number], list[int]]:
-    """Core as a program finds it: values and kinds of the fields, all but the constants undefined."""
+    """Return core storage before a run, as values and kinds of fields.  All fields but the constants are undefined."""
     values: list[Number] = [0] * program.storage.fields
     kinds = [UNDEFINED] * program.storage.fields
     for address, text in program.storage.constants:

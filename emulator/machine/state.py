@@ -1,8 +1,8 @@
-"""A run as plain data: storage and registers between two calls of the interpreter, and the journal of what was done.
+"""The state of a run as plain data, and the journal that two runs are compared by.
 
-A field's number is in ``values`` and what it is in ``kinds``: FIXED_POINT, UNDEFINED, or FLOATING for a number of
-the system.  What two runs are compared by goes into a :class:`Journal`: every decision, and with ``stores`` every
-statement begun and every field changed, so that a run need not be stopped for it.
+For each field of core storage ``values`` holds a number, and ``kinds`` its kind: FIXED_POINT, UNDEFINED, or FLOATING
+for a number of the arithmetic.  A :class:`Journal` records the decisions of a run and, if required, its stores, so that
+the run need not be stopped for each of them.
 """
 
 from __future__ import annotations
@@ -16,27 +16,27 @@ from emulator.numbers.base import Number
 from emulator.numbers.work import STEPS
 
 FLOATING = ZERO
-"""The kind of a field that holds a number of the system."""
+"""The kind of a field that holds a floating-point number, in any arithmetic."""
 
 Entry = tuple[int, int, Number]
-"""(instruction, field changed or instruction gone to, value stored or tested); at a COUNT (instruction, 0, None)."""
+"""(instruction, field changed or next instruction, value stored or tested); for a COUNT (instruction, 0, None)."""
 
 
 @dataclass
 class Journal:
-    """What a run did, in order.
+    """The decisions of a run, in order.
 
-    ``stores``: fields changed and statements begun are entered too, not only decisions; a field that is only
-    copied while undefined is entered with the value None.
+    With ``stores`` the journal also records every statement that begins and every field that changes.  The copy of an
+    undefined field is recorded with the value None.
     """
 
     stores: bool
     entries: list[Entry] = field(default_factory=list)
 
 
-def entered(program: Program) -> list[bool]:
-    """For each instruction whether a journal enters it: stores into fields with a name, and numbers read."""
-    found = []
+def recorded_instructions(program: Program) -> list[bool]:
+    """Return for each instruction whether a journal records it: stores into named fields, and numbers read."""
+    recorded = []
     reading = False
     variables = [e for e in program.storage.entries if e.kind in ("variable", "array")]
     named = {address for e in variables for address in range(e.first, e.first + e.size)}
@@ -45,24 +45,30 @@ def entered(program: Program) -> list[bool]:
         if operation == BEGIN:
             reading = program.verbs[instruction.address] in ("READ", "ACCEPT")
         if operation == ITEM:
-            found.append(reading)
+            recorded.append(reading)
         else:
+            # Only arrays have subscripts; the other fields without a name hold intermediate results.
             stores = operation in (FMFAC, FMFIX, TRANSMIT)
-            found.append(stores and (instruction.subscript >= 0 or instruction.address in named))
-    return found
+            recorded.append(stores and (instruction.subscript >= 0 or instruction.address in named))
+    return recorded
 
 
 @dataclass
 class State:
-    """A run between two calls of :func:`emulator.machine.interpreter.run`: storage, counts, and the registers.
+    """A run between two calls of :func:`emulator.machine.interpreter.run`: storage, counts and registers.
 
-    ``pc`` is the next instruction, ``at`` the one a reason to return arose in, ``address`` the field it is about and
-    ``index`` its subscripts; ``fac`` and ``fixed`` are the accumulators, ``sent`` and ``sent_kind`` a field on its way,
-    ``stored`` the field last stored into.  ``element`` is how many elements of an array have gone through its ITEM,
-    which is then the next instruction again; ``listed`` says that a number has of which the journal does not know yet.
-    ``work`` is what counts against the limit, ``costly`` how much of it is for operations that take longer than plain
-    ones, ``owed`` the steps of these that do not make a unit yet (emulator/numbers/work.py).  ``event`` is the number
-    of an error code, and ``decision`` the last IF or computed GO TO, its instruction counted from 1.
+    values, kinds: core storage.  counts: the executions of each counter.  fac, fixed: the accumulators.
+
+    pc: the next instruction.  at: the instruction that returned.  address, index: the field it concerns, and its
+    subscripts.  sent, sent_kind: a field being copied.  stored: the field last stored into.
+
+    element: the number of elements of an array that its ITEM has transferred; ITEM is then the next instruction again.
+    listed: an element has been transferred that the journal does not record yet.
+
+    work: the work counted against the limit.  costly: its part for operations that take longer than plain ones.  owed:
+    steps of these that do not make a unit yet (emulator/numbers/work.py).
+
+    event: the number of an error code.  decision: the instruction of the last IF or computed GO TO, counted from 1.
     """
 
     values: list[Number]
@@ -86,15 +92,15 @@ class State:
     owed: int = 0
 
     def owe(self, steps: int) -> int:
-        """The units of work that fall due with so many steps more."""
-        due, self.owed = divmod(self.owed + steps, STEPS)
-        self.costly += due
-        return due
+        """Add the steps of a costly operation, and return the units of work that they complete."""
+        units, self.owed = divmod(self.owed + steps, STEPS)
+        self.costly += units
+        return units
 
 
 Table = dict[int, Sequence[int]]
 
 
 def subscript_table(code: Flat) -> Table:
-    """The subscripts of a program by their place in :attr:`Flat.table`."""
+    """Return the subscripts of a program by their index in :attr:`Flat.table`."""
     return {k: code.table[k : k + SUBSCRIPT] for k in range(0, len(code.table), SUBSCRIPT)}

@@ -1,9 +1,10 @@
-"""Machine time on a 1620 Model 1: what the object code did, times what it took.
+"""The time a run would take on a 1620 Model 1: the count of each operation multiplied by its time.
 
-Floating-point times are those of IBM's own subroutines, computed from executed instruction traces and the
-formulas of the reference card X26-5743-2 (plus or minus 10 %); instruction times are the card's; what no
-source gives (subscripts, number conversion, library functions) is an estimate and marked as one.  Reader 250
-and punch 125 cards a minute, typewriter 10 characters a second (X26-5743-2 p. 1 and 3).
+The times of floating-point operations are those of IBM's subroutines, computed from traces of their instructions with
+the formulas of the reference card X26-5743-2 (plus or minus 10 %).  The times of single instructions are those of the
+card.  No source gives the times of subscripts, number conversion and library functions, which are marked as estimates.
+The reader reads 250 cards a minute, the punch punches 125, and the typewriter types 10 characters a second (X26-5743-2
+p. 1 and 3).
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ TYPEWRITER_SECONDS = 1 / 10
 
 @dataclass(frozen=True, slots=True)
 class Cost:
-    """Milliseconds of an operation, the cause it is booked under, and whether the figure is an estimate."""
+    """The milliseconds of an operation, the row of the table it belongs to, and whether they are an estimate."""
 
     milliseconds: float
     cause: str
@@ -76,7 +77,7 @@ COSTS: dict[str, Cost] = {
     "PAUSE": Cost(0.16, CONTROL),
     "STOP": Cost(0.16, CONTROL),
 }
-"""Cost of each operation of the object code."""
+"""The cost of each operation of the object code."""
 
 SUBSCRIPT = Cost(2.0, SUBSCRIPTS, True)
 SUBSCRIPT_2 = Cost(7.0, SUBSCRIPTS, True)
@@ -88,12 +89,12 @@ FIELD_COSTS = {
     "F>": Cost(180.0, CONVERSION, True),
     "I>": Cost(30.0, CONVERSION, True),
 }
-"""Cost of a number read (<) or written (>), fitted to runs of examples 1 and 2 compiled by PDQ FORTRAN."""
+"""The cost of a number read (<) or written (>), fitted to runs of examples 1 and 2 as PDQ FORTRAN compiles them."""
 
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One row of the time table: a cause, how often, seconds, and whether an estimate went into it."""
+    """A row of the time table: cause, count, seconds, and whether they include an estimate."""
 
     cause: str
     count: int
@@ -103,7 +104,7 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class Timing:
-    """A run's time table: processor rows, device rows, and counts of operations and of statements."""
+    """The time table of a run: rows of the processor and of the devices, counts of operations and of statements."""
 
     processor: tuple[Row, ...]
     devices: tuple[Row, ...]
@@ -116,15 +117,17 @@ class Timing:
 
     @property
     def seconds(self) -> float:
-        """All rows added: reader and punch are buffered and may in part run beside the processor, so at most this."""
+        """The sum of all rows, an upper bound: the buffered reader and punch can overlap with the processor."""
         return self.processor_seconds + sum(row.seconds for row in self.devices)
 
 
 def measure(program: Program, result: Result) -> Timing:
-    """The time table of a run.  ``statements`` pairs an index into ``program.statements`` with its count."""
+    """Return the time table of a run.  ``statements`` pairs an index into ``program.statements`` with its count."""
     operations: Tally[str] = Tally()
     subscripts: Tally[int] = Tally()
     times = 0
+    # All instructions up to the next COUNT run equally often.  After a run that ends within a statement, the table
+    # includes the rest of that statement.
     for instruction in program.code:
         if instruction.operation == op.COUNT:
             times = result.counts[instruction.address]
@@ -160,34 +163,35 @@ def measure(program: Program, result: Result) -> Timing:
 
 
 def shares(program: Program, result: Result) -> tuple[float, ...]:
-    """Processor seconds of each statement of ``program.statements``; together those of :func:`measure`.
+    """Return the processor seconds of each statement of ``program.statements``; their sum is that of :func:`measure`.
 
-    A number of a list is booked where the list stands.  A statement the run ended in may have done less than its count
-    says: the time of all numbers of a kind is shared out by how often their lists began.
+    The conversion of numbers is not counted for each statement.  The total time for each kind of field is divided among
+    the statements in proportion to the numbers in their lists.
     """
     seconds = [0.0] * len(program.statements)
     lists: dict[str, Tally[int]] = {}
-    times, way = 0, ""
+    times, direction = 0, ""
     for instruction, statement in zip(program.code, program.statement_numbers, strict=True):
         milliseconds = COSTS[op.NAMES[instruction.operation]].milliseconds
         if instruction.operation == op.COUNT:
             times = result.counts[instruction.address]
         elif instruction.operation == op.BEGIN:
-            way = "<" if program.verbs[instruction.address] in ("READ", "ACCEPT") else ">"
+            direction = "<" if program.verbs[instruction.address] in ("READ", "ACCEPT") else ">"
         elif instruction.operation == op.ITEM:
             mode = "I" if instruction.second < 0 else "E"
-            lists.setdefault(mode + way, Tally())[statement] += times * op.repeats(instruction)
+            lists.setdefault(mode + direction, Tally())[statement] += times * op.repeats(instruction)
         if instruction.subscript >= 0:
             two = program.subscripts[instruction.subscript].columns
             milliseconds += (SUBSCRIPT_2 if two else SUBSCRIPT).milliseconds
         seconds[statement] += times * milliseconds / 1000
-    took: dict[str, float] = {}
+    # An instruction tells only fixed from floating point, so that F fields count as E fields, which cost the same.
+    conversion: dict[str, float] = {}
     for kind, count in result.numbers:
         mode = kind.replace("F", "E")
-        took[mode] = took.get(mode, 0.0) + count * FIELD_COSTS[kind].milliseconds / 1000
-    for kind, begun in lists.items():
-        for statement, count in begun.items():
-            seconds[statement] += took.get(kind, 0.0) * count / (begun.total() or 1)
+        conversion[mode] = conversion.get(mode, 0.0) + count * FIELD_COSTS[kind].milliseconds / 1000
+    for kind, listed in lists.items():
+        for statement, count in listed.items():
+            seconds[statement] += conversion.get(kind, 0.0) * count / (listed.total() or 1)
     return tuple(seconds)
 
 

@@ -1,4 +1,4 @@
-"""A trace of a run: every statement with its card, its number and the value it stored or tested."""
+"""The trace of a run: each statement with its card, its number, and the value that it stored or tested."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED
 
 
 class Tracer:
-    """Writes one line a statement to ``file``.
+    """A tracer that writes one line for each statement to ``file``.
 
-    The engine stops when a statement *begins*, so a line is completed when the next begins, or by ``close``.
+    The session calls it when a statement *begins*, so that a line is written when the next one begins, or by ``close``.
     """
 
     def __init__(self, file: TextIO) -> None:
@@ -21,7 +21,7 @@ class Tracer:
         self._machine: Session | None = None
 
     def watch(self, program: Program, machine: Session) -> None:
-        """Trace a machine from its start; a heading names its program."""
+        """Trace a machine from its start, after a heading with the name of its program."""
         self.close()
         self._machine = machine
         machine.tracer = self
@@ -32,7 +32,7 @@ class Tracer:
         self._line = line
 
     def close(self) -> None:
-        """Complete the line of the statement last begun."""
+        """Write the line of the last statement."""
         if self._line is None or self._machine is None:
             return
         line, self._line = self._line, None
@@ -42,7 +42,7 @@ class Tracer:
 
 
 def effect(machine: Session, line: Line) -> str:
-    """What the statement just run did: ``X(3) = .20000000E+01``, or the value it tested."""
+    """Return what the last statement stored, as ``X(3) = .20000000E+01``, or the value that it tested."""
     state, name = machine.state, machine.program.storage.name_of
     if line.effect == "store":
         return f"{name(state.stored)} = {contents(machine, state.stored)}"
@@ -56,7 +56,7 @@ def effect(machine: Session, line: Line) -> str:
 
 
 def contents(machine: Session, address: int) -> str:
-    """A field's contents as text."""
+    """Return the contents of a field as text."""
     value, kind = machine.state.values[address], machine.state.kinds[address]
     if kind == UNDEFINED:
         return "undefined"

@@ -1,10 +1,9 @@
-"""What an operator does, as lines of a file, and where a machine stands, as one line: the words of the console.
+"""The language of the console: the operator's actions, halts, and warnings about a run, as lines of text.
 
-And what is to be noted of a run when it is over.
-
-One action a line, in capitals: ``ENTER 5``, ``START``, ``STEP 3``, ``STOP``, ``ATTN``, ``SWITCH 1 ON``, ``BREAK 40``,
-``BREAK CARD 12``, ``CLEAR``.  ``AT n`` before one of them, but for ENTER and START, says that it is done to a running
-machine, when n of work has been done (what ``--limit`` counts).  Of ENTER the line typed is all that follows one blank.
+A file of actions has one action in capitals on each line: ``ENTER 5``, ``START``, ``STEP 3``, ``STOP``, ``ATTN``,
+``SWITCH 1 ON``, ``BREAK 40``, ``BREAK CARD 12``, ``CLEAR``.  ``AT n`` before an action other than ENTER and START
+performs it on the running machine when n units of work are done, as ``--limit`` counts them.  The text that ENTER types
+begins following one blank.
 """
 
 from __future__ import annotations
@@ -25,55 +24,55 @@ _FORMS = {
     "STOP": "STOP",
     "ATTN": "AT, a number and ATTN",
     "SWITCH": "SWITCH, 1 to 4, ON or OFF",
-    "BREAK": "BREAK and a statement's number, or BREAK CARD and a card's",
-    "CLEAR": "CLEAR, CLEAR and a statement's number, or CLEAR CARD and a card's",
+    "BREAK": "BREAK and a statement number, or BREAK CARD and a card number",
+    "CLEAR": "CLEAR alone, with a statement number, or CLEAR CARD and a card number",
     "AT": f"AT, a number and one of {', '.join(_RUNNING)}",
 }
 
 
 def read_action(line: str) -> tuple[int | None, Action]:
-    """An action, and the work before it where the line says ``AT``.  Raises ValueError with what is wrong."""
-    word, *rest = line.split() or [""]
+    """Return an action and the work of its ``AT`` clause, if any.  Raise ValueError with a message for a bad line."""
+    word, *operands = line.split() or [""]
     if word == "ENTER":
         return None, Action("ENTER", text=line.partition("ENTER")[2][1:].rstrip())
     if word == "AT":
-        at = _number(rest[0]) if len(rest) > 1 else None
-        if at is None or rest[1] not in _RUNNING:
-            raise ValueError(f"the form is {_FORMS['AT']}")
-        return at, action(rest[1], rest[2:])
+        at = _number(operands[0]) if len(operands) > 1 else None
+        if at is None or operands[1] not in _RUNNING:
+            raise ValueError(f"expected {_FORMS['AT']}")
+        return at, action(operands[1], operands[2:])
     if word == "ATTN":
-        raise ValueError(f"the form is {_FORMS['ATTN']}")
-    return None, action(word, rest)
+        raise ValueError(f"expected {_FORMS['ATTN']}")
+    return None, action(word, operands)
 
 
-def action(word: str, rest: list[str]) -> Action:
-    """An action other than ENTER from its word and what follows.  Raises ValueError with what is wrong."""
-    card = word in ("BREAK", "CLEAR") and rest[:1] == ["CARD"]
-    numbers = [_number(text) for text in rest[card : card + 1]]
+def action(word: str, operands: list[str]) -> Action:
+    """Return the action of a word other than ENTER and its operands.  Raise ValueError with a message."""
+    card = word in ("BREAK", "CLEAR") and operands[:1] == ["CARD"]
+    numbers = [_number(text) for text in operands[card : card + 1]]
     number = numbers[0] if numbers else None
-    after = rest[card + len(numbers) :]
+    following = operands[card + len(numbers) :]
     match word:
-        case "START" | "STOP" | "ATTN" if not rest:
+        case "START" | "STOP" | "ATTN" if not operands:
             return Action(word)
-        case "STEP" if not rest or (number and not after):
+        case "STEP" if not operands or (number and not following):
             return Action("STEP", number or 1)
-        case "SWITCH" if number in (1, 2, 3, 4) and after in (["ON"], ["OFF"]):
-            return Action("SWITCH", number, on=after == ["ON"])
-        case "BREAK" | "CLEAR" if number and not after:
+        case "SWITCH" if number in (1, 2, 3, 4) and following in (["ON"], ["OFF"]):
+            return Action("SWITCH", number, on=following == ["ON"])
+        case "BREAK" | "CLEAR" if number and not following:
             return Action(word, number, card=card)
-        case "CLEAR" if not rest:
+        case "CLEAR" if not operands:
             return Action("CLEAR")
     if word in _FORMS:
-        raise ValueError(f"the form is {_FORMS[word]}")
-    raise ValueError(f"{word!r} is no word of an operator; they are {', '.join(WORDS)}, AT, LOAD")
+        raise ValueError(f"expected {_FORMS[word]}")
+    raise ValueError(f"{word!r} is not an action; the actions are {', '.join(WORDS)}, AT, LOAD")
 
 
 def _number(text: str) -> int | None:
     return int(text) if text.isascii() and text.isdigit() and len(text) < 16 else None
 
 
-def words_of(action: Action, at: int | None = None) -> str:
-    """An action as :func:`read_action` reads it; START that nobody asked for is a comment."""
+def action_line(action: Action, at: int | None = None) -> str:
+    """Return an action as a line that :func:`read_action` reads.  An automatic START becomes a comment."""
     if action.unasked:
         return "* nobody answers: START"
     text: str = action.word
@@ -89,8 +88,8 @@ def words_of(action: Action, at: int | None = None) -> str:
     return text.rstrip() if at is None else f"AT {at} {text}"
 
 
-def standing(halt: Halt) -> str:
-    """Where a machine stands and why, in one line."""
+def halt_line(halt: Halt) -> str:
+    """Return one line that says where and why a machine has halted."""
     where = place_of(halt.line)
     match halt.what:
         case "accept":
@@ -102,15 +101,18 @@ def standing(halt: Halt) -> str:
 
 
 def place_of(line: Line) -> str:
-    """A statement by its number, if it has one, and its card."""
+    """Return the number, if any, and the card of a statement."""
     card = f"card {line.place.card}"
     return f"statement {line.label} ({card})" if line.label else card
 
 
-def notes(program: Program, result: Result, said: Collection[tuple[int, int]] = ()) -> Iterator[str]:
-    """What is to be noted of a run, but for fields (card and column) said before, and its arithmetic's error codes."""
+def notes(program: Program, result: Result, reported: Collection[tuple[int, int]] = ()) -> Iterator[str]:
+    """Yield the warnings of a run and its error codes.
+
+    reported: fields, as pairs of card and column, that another part of the program has already warned about.
+    """
     for notice in result.notices:
-        if notice.kind != "field" or (notice.card, notice.column) not in said:
+        if notice.kind != "field" or (notice.card, notice.column) not in reported:
             yield f"warning: {notice.message}"
     for error in result.errors:
         times = f", {error.times} times" if error.times > 1 else ""

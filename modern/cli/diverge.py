@@ -11,7 +11,8 @@ from dataclasses import replace
 
 from emulator.files import check_writable, write_text
 from emulator.language.objectcode import Line
-from emulator.machine.divergence import Divergence, Loss, diverge
+from emulator.machine.comparison import Loss
+from emulator.machine.divergence import Divergence, diverge
 from modern.cli.shared.console import DIFFERS, OK, UsageError
 from modern.cli.shared.inputs import deck_for
 from modern.cli.shared.machine import (

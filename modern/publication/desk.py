@@ -21,12 +21,12 @@ from emulator.language.cards import Deck, deck_from_text
 from emulator.language.compiler import compile_deck
 from emulator.language.statements import capitals
 from emulator.machine.console import Cards, command, done
-from emulator.machine.machine import operated
+from emulator.machine.machine import run_with_operator
 from emulator.machine.operator import Logged, Operator
 from emulator.machine.result import DEFAULT_CORE, DEFAULT_LIMIT, Event, Options
 from emulator.machine.session import Action, Halt, Session
 from emulator.machine.timing import measure
-from emulator.machine.words import notes, standing, words_of
+from emulator.machine.words import action_line, halt_line, notes
 from emulator.numbers import numbers
 from modern.edition import programs
 from modern.edition.chapter6 import EXAMPLES, input_deck
@@ -140,7 +140,7 @@ class Desk:
         while True:
             goal = session.state.work + (self.small if not pace else max(1, self.small // 200))
             try:
-                ending = operated(session, self._operator(), goal, self._see)
+                ending = run_with_operator(session, self._operator(), goal, self._see)
             except _Unanswered:
                 break
             except EmulatorError as error:
@@ -182,9 +182,9 @@ class Desk:
         if session.halt is None and action.word == "START":
             return {"lines": []}
         if session.halt and session.halt.what == "accept" and action.word in ("START", "STEP"):
-            return {"lines": [standing(session.halt)]}
+            return {"lines": [halt_line(session.halt)]}
         self._visitor.asked.append(action)
-        return {"lines": [words_of(action)] if action.word in ("SWITCH", "BREAK", "CLEAR", "STEP") else []}
+        return {"lines": [action_line(action)] if action.word in ("SWITCH", "BREAK", "CLEAR", "STEP") else []}
 
     def show(self, words: str) -> Answer:
         """``VARIABLES``, ``CORE`` and the like, while it runs too: ``lines``."""
@@ -238,7 +238,7 @@ class Desk:
             "seconds": round(self._seconds(session), 1),
             "switches": [bool(on) for on in session.switches],
             "did": did,
-            "stands": standing(halt) if halt else "",
+            "stands": halt_line(halt) if halt else "",
             "waits": "" if halt is None else "typed" if halt.what == "accept" else "answer",
             "ended": self._ending,
             "messages": list(messages),

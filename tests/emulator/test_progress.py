@@ -88,8 +88,11 @@ def test_arithmetics_that_cannot_be_compiled_are_named_once_each() -> None:
     wide = (Programs("a", arithmetic="truncating:20"), Programs("b", arithmetic="truncating:20", layers=("corrected",)))
     other = (Programs("c"), Programs("d", arithmetic="exact"), Port("e", "truncating:20"))
     lines = plain_lines(replace(PLAN, cells=tuple(replace(cell, routes=wide + other) for cell in PLAN.cells)))
-    assert [line.split(":")[0] for line in lines] == ["truncating", "the compiled engine has no exact numbers"]
-    assert "at most 9" in lines[0]
+    assert [line.split(":")[0] for line in lines] == [
+        "truncating",
+        "the compiled engine does not support exact arithmetic",
+    ]
+    assert "supports 9" in lines[0]
 
 
 def test_a_study_without_the_compiled_engine_says_so(

@@ -16,7 +16,7 @@ from emulator.language.cards import Deck, deck_from_lines
 from emulator.language.compiler import compile_deck, translate
 from emulator.language.objectcode import Program
 from emulator.machine.endings import Ending
-from emulator.machine.machine import Machine, operated
+from emulator.machine.machine import Machine, run_with_operator
 from emulator.machine.operator import Operator
 from emulator.machine.result import Options, Result
 from emulator.machine.session import Session
@@ -124,7 +124,7 @@ def until(session: Session, statements: int, operator: Operator | None = None) -
     Statements count as for the limit, but without the surcharge of costly operations: the same in every arithmetic.
     """
     while (remaining := statements - plain(session)) > 0:
-        ending = operated(session, operator or Operator(), session.state.work + remaining)
+        ending = run_with_operator(session, operator or Operator(), session.state.work + remaining)
         if ending is not None:
             return ending
     return None

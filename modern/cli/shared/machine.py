@@ -170,8 +170,8 @@ class Attended:
 
     def say_left(self) -> None:
         """Say it where lines of an operator's file were not used."""
-        if self.file is not None and self.file.left:
-            say([f"note: {self.file.name}: line {self.file.left} and what follows it was not used"])
+        if self.file is not None and self.file.first_unused:
+            say([f"note: {self.file.name}: line {self.file.first_unused} and what follows it was not used"])
 
 
 @contextmanager

@@ -22,7 +22,7 @@ from emulator.machine.operator import Operator
 from emulator.machine.result import Event
 from emulator.machine.session import Action, Halt, Session
 from emulator.machine.timing import TYPEWRITER_SECONDS
-from emulator.machine.words import standing, words_of
+from emulator.machine.words import action_line, halt_line
 from modern.cli.shared.console import UsageError
 
 NARROWEST, WIDEST = 20, 100
@@ -168,9 +168,9 @@ class Terminal(Operator):
                     continue
                 if found.word in ("START", "STEP") and halt.what == "accept":
                     self._commands = False
-                    self._say(standing(halt))
+                    self._say(halt_line(halt))
                 if found.word == "SWITCH":
-                    self._say(words_of(found))
+                    self._say(action_line(found))
                 if found.word != "START" or halt.what != "accept":
                     return found
 
@@ -180,10 +180,10 @@ class Terminal(Operator):
             self._keys.write("".join(text + "\n" for text in done(session, session.last, self._keys.width)))
         self._halt = halt
         self._commands = halt.what != "accept"
-        self._say(standing(halt))
+        self._say(halt_line(halt))
 
     def _switched(self, action: Action) -> Action:
-        self._say(words_of(action))
+        self._say(action_line(action))
         return action
 
     def _say(self, text: str) -> None:

@@ -39,7 +39,7 @@ def test_ten_digits_are_too_many() -> None:
     options = Options(numbers=numbers("truncating:10"))
     (result,) = run_batch(program(*LINES), [DECK], options, notes.append)
     assert result.punched == ("  42",)
-    assert notes == ["truncating:10 has 10 digits, the compiled engine has at most 9: the plain engine runs instead"]
+    assert notes == ["truncating:10 has 10 digits; the compiled engine supports 9: using the interpreter instead"]
 
 
 def test_without_numba(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -50,7 +50,7 @@ def test_without_numba(monkeypatch: pytest.MonkeyPatch) -> None:
     assert result == Machine(program(*LINES), DECK).run()
     (note,) = notes
     assert note.startswith("compiled code needs numba: pip install 'hull1620[fast]' (")
-    assert note.endswith(": the plain engine runs instead")
+    assert note.endswith(": using the interpreter instead")
 
 
 def said_instead(monkeypatch: pytest.MonkeyPatch) -> str:
@@ -60,7 +60,7 @@ def said_instead(monkeypatch: pytest.MonkeyPatch) -> str:
     (result,) = run_batch(program(*LINES), [DECK], None, notes.append)
     assert result == Machine(program(*LINES), DECK).run()
     (note,) = notes
-    assert note.endswith(": the plain engine runs instead")
+    assert note.endswith(": using the interpreter instead")
     assert "\n" not in note
     return note
 
@@ -75,21 +75,21 @@ def test_a_numba_that_does_not_compile(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_numba_that_does_not_know_an_option(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("numba")
     monkeypatch.setattr(runner, "Compiled", partial(Compiled, unheard_of=1))
-    assert "numba cannot make the compiled code: KeyError: " in said_instead(monkeypatch)
+    assert "numba cannot compile the code: KeyError: " in said_instead(monkeypatch)
 
 
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (Options(numbers=numbers("float64")), "has no float64 numbers"),
-        (Options(uncut=True), "keeps no numbers beside the cards"),
+        (Options(numbers=numbers("float64")), "does not support float64 arithmetic"),
+        (Options(uncut=True), "does not support --uncut"),
     ],
 )
 def test_numbers_of_python_are_not_for_it(options: Options, words: str) -> None:
     notes: list[str] = []
     (result,) = run_batch(program(*LINES), [DECK], options, notes.append)
     assert result == Machine(program(*LINES), DECK, options).run()
-    assert notes == [f"the compiled engine {words}: the plain engine runs instead"]
+    assert notes == [f"the compiled engine {words}: using the interpreter instead"]
 
 
 def test_with_numba_nothing_is_said() -> None:
@@ -194,7 +194,7 @@ def test_where_no_folder_can_be_written_code_is_for_this_process(
 
 def test_what_numba_cannot_compile_is_one_line(tmp_path: Path, kept: Path) -> None:
     code = made(tmp_path, "def entry(x):\n    return open(x)\n")
-    with pytest.raises(NotInstalled, match=r"^numba cannot make the compiled code: TypingError: [^\n]*$"):
+    with pytest.raises(NotInstalled, match=r"^numba cannot compile the code: TypingError: [^\n]*$"):
         code.ready(5)
 
 

@@ -90,12 +90,12 @@ def test_worst_and_median() -> None:
 def test_ways_that_do_not_meet_again() -> None:
     found = compared("A=1./3.", "IF(A*3.-1.)10,20,10", "10 STOP", "20 K=2", "END")
     assert found.decisions == 1
-    assert found.apart == "the ways do not meet again"
+    assert found.apart == "the branches do not join again"
 
 
 def test_runs_in_an_endless_loop_do_not_meet() -> None:
     found = compared("A=1./3.", "IF(A*3.-1.)10,20,10", "10 GO TO 10", "20 GO TO 20")
-    assert found.apart == "the ways do not meet again"
+    assert found.apart == "the branches do not join again"
 
 
 def test_decisions_after_the_runs_have_met() -> None:

@@ -69,8 +69,8 @@ def test_a_decision_that_the_reference_cannot_tell_ends_the_comparison(values: b
     found = compared(*DECISION, names=("exact", "float64"), values=values)
     assert (found.tested, found.decisions, found.first_decision) == (1, 0, None)
     assert found.apart == (
-        "at card 4 float64 has -2.7755575615628914e-17, which its own rounding may have moved by 1E-16; a reference of "
-        "more digits, or exact, tells which way is right"
+        "at card 4 float64 has -2.7755575615628914e-17, which its own rounding may have changed by 1E-16; "
+        "use exact, or a reference of more digits"
     )
     raw = compared(*DECISION, names=("exact", "float64"), rounding=False, values=values)
     assert raw.decisions == 1

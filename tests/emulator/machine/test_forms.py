@@ -96,8 +96,8 @@ def test_punch_is_cut_at_72_and_typewriter_at_87() -> None:
     assert result.punched == ("A" * 40 + "B" * 32,)
     assert result.typed == ("A" * 40 + "B" * 40 + "C" * 7,)
     assert [w.split(": ")[2] for w in (n.message for n in result.notices)] == [
-        "a record of 89 characters, cut at 72",
-        "a record of 89 characters, cut at 87",
+        "a record of 89 characters, truncated to 72",
+        "a record of 89 characters, truncated to 87",
     ]
 
 
@@ -143,8 +143,8 @@ def test_minus_zero_goes_in_and_out() -> None:
 @pytest.mark.parametrize(
     ("lines", "data", "words"),
     [
-        (["READ 1,N", "1 FORMAT(E14.8)"], ["1."], "N is fixed point, its field in FORMAT 1 is E14.8"),
-        (["A=1.", "PUNCH 1,A", "1 FORMAT(I4)"], [], "A is floating point, its field in FORMAT 1 is I4"),
+        (["READ 1,N", "1 FORMAT(E14.8)"], ["1."], "N is fixed point, but its field in FORMAT 1 is E14.8"),
+        (["A=1.", "PUNCH 1,A", "1 FORMAT(I4)"], [], "A is floating point, but its field in FORMAT 1 is I4"),
         (["DIMENSION X(2)", "X(2)=1.", "PUNCH 1,X(2)", "1 FORMAT(I4)"], [], "X(2) is floating point"),
     ],
 )

@@ -278,7 +278,7 @@ def test_an_undefined_operand_stops_the_run(statement: str) -> None:
     result = run("X=1.", statement, "END")
     assert result.ending.kind == "undefined"
     name = re.search("[BL]", statement)[0]  # type: ignore[index]
-    assert result.ending.message == (f"deck.f: card 2: {name} is undefined where it is computed with, in {statement}")
+    assert result.ending.message == (f"deck.f: card 2: {name} is undefined but is computed with, in {statement}")
 
 
 @pytest.mark.parametrize(
@@ -293,7 +293,7 @@ def test_an_undefined_operand_stops_the_run(statement: str) -> None:
         (["DIMENSION X(2)", "X(L)=1."], "L is undefined"),
         (["DIMENSION X(2,2)", "X(1,L)=1."], "L is undefined"),
         (["DIMENSION X(2)", "A=X(2)+1."], "X(2) is undefined"),
-        (["PUNCH 9,B", "9 FORMAT(E14.8)"], "B is undefined where it is put out"),
+        (["PUNCH 9,B", "9 FORMAT(E14.8)"], "B is undefined but is written"),
     ],
 )
 def test_undefined_elsewhere(lines: list[str], words: str) -> None:

@@ -10,7 +10,7 @@ from emulator.errors import DeckError, FileError, OperatorError
 from emulator.machine.operator import FromFile, Logged, Operator
 from emulator.machine.result import Result
 from emulator.machine.session import Action
-from emulator.machine.words import read_action, words_of
+from emulator.machine.words import action_line, read_action
 from tests.support.deckwork import machine
 
 ASKING = ["5 ACCEPT 90,K", "IF(K)7,6,7", "6 PAUSE 3", "STOP", "7 TYPE 90,K", "GO TO 5", "90 FORMAT(I4)", "END"]
@@ -100,22 +100,22 @@ def test_a_log_of_nobody_has_what_was_typed() -> None:
 @pytest.mark.parametrize(
     ("line", "words"),
     [
-        ("STRAT", "'STRAT' is no word of an operator; they are ENTER, START,"),
-        ("start", "'start' is no word of an operator"),
-        ("START 5", "the form is START"),
-        ("SWITCH 5 ON", "the form is SWITCH, 1 to 4, ON or OFF"),
-        ("SWITCH 1", "the form is SWITCH, 1 to 4, ON or OFF"),
-        ("SWITCH 1 ON 2", "the form is SWITCH, 1 to 4, ON or OFF"),
-        ("STEP 0", "the form is STEP, or STEP and a number"),
-        ("STEP X", "the form is STEP, or STEP and a number"),
-        ("BREAK", "the form is BREAK and a statement's number"),
-        ("BREAK CARD", "the form is BREAK and a statement's number"),
-        ("BREAK 4 CARD", "the form is BREAK and a statement's number"),
-        ("ATTN", "the form is AT, a number and ATTN"),
-        ("AT 7", "the form is AT, a number and one of STEP, STOP, ATTN,"),
-        ("AT X ATTN", "the form is AT, a number and one of"),
-        ("AT 7 ENTER 5", "the form is AT, a number and one of"),
-        ("AT 7 SWITCH ON", "the form is SWITCH, 1 to 4, ON or OFF"),
+        ("STRAT", "'STRAT' is not an action; the actions are ENTER, START,"),
+        ("start", "'start' is not an action"),
+        ("START 5", "expected START"),
+        ("SWITCH 5 ON", "expected SWITCH, 1 to 4, ON or OFF"),
+        ("SWITCH 1", "expected SWITCH, 1 to 4, ON or OFF"),
+        ("SWITCH 1 ON 2", "expected SWITCH, 1 to 4, ON or OFF"),
+        ("STEP 0", "expected STEP, or STEP and a number"),
+        ("STEP X", "expected STEP, or STEP and a number"),
+        ("BREAK", "expected BREAK and a statement number"),
+        ("BREAK CARD", "expected BREAK and a statement number"),
+        ("BREAK 4 CARD", "expected BREAK and a statement number"),
+        ("ATTN", "expected AT, a number and ATTN"),
+        ("AT 7", "expected AT, a number and one of STEP, STOP, ATTN,"),
+        ("AT X ATTN", "expected AT, a number and one of"),
+        ("AT 7 ENTER 5", "expected AT, a number and one of"),
+        ("AT 7 SWITCH ON", "expected SWITCH, 1 to 4, ON or OFF"),
     ],
 )
 def test_wrong_words_name_file_and_line(line: str, words: str) -> None:
@@ -134,8 +134,8 @@ def test_wrong_words_name_file_and_line(line: str, words: str) -> None:
             "line 2: ENTER 5, but stopped (step) before statement 3 (card 1): PAUSE",
         ),
         (ASKING, "AT 90 ATTN\n", "line 1: AT 90 ATTN, but ACCEPT waits for a line, statement 5 (card 1)"),
-        (ASKING, "BREAK 8\n", "line 1: deck.f has nothing to run there"),
-        (ASKING, "BREAK CARD 7\n", "line 1: deck.f has nothing to run there"),
+        (ASKING, "BREAK 8\n", "line 1: deck.f has no statement there"),
+        (ASKING, "BREAK CARD 7\n", "line 1: deck.f has no statement there"),
     ],
 )
 def test_an_action_that_does_not_fit_names_file_and_line(lines: list[str], text: str, words: str) -> None:
@@ -147,7 +147,7 @@ def test_an_action_that_does_not_fit_names_file_and_line(lines: list[str], text:
 def test_lines_that_were_not_used_are_known() -> None:
     operator = FromFile("o.txt", "ENTER    0\n* not this\nSTART\nSTART\n")
     machine(*ASKING).run(operator)
-    assert operator.left == 4
+    assert operator.first_unused == 4
 
 
 @pytest.mark.parametrize(
@@ -166,9 +166,9 @@ def test_lines_that_were_not_used_are_known() -> None:
     ],
 )
 def test_words_are_read_as_they_are_written(action: Action) -> None:
-    assert read_action(words_of(action)) == (None, action)
+    assert read_action(action_line(action)) == (None, action)
     if action.word != "ENTER":
-        assert read_action(words_of(action, 500)) == (500, action)
+        assert read_action(action_line(action, 500)) == (500, action)
 
 
 def test_lines_for_several_machines() -> None:
@@ -180,11 +180,11 @@ def test_lines_for_several_machines() -> None:
         operator = FromFile("o.txt", text)
         first, second = machine(*ASKING).run(operator), machine(*ASKING).run(operator)
         assert (first.ending.kind, second.ending.kind) == ("stop", "operator" if "STOP" in text else "stop")
-        assert operator.left == 0
+        assert operator.first_unused == 0
     operator = FromFile("o.txt", "LOAD a\nENTER    0\nSTART\nSTART\nLOAD b\nENTER    0\n")
     machine(*ASKING).run(operator)
     machine(*ASKING).run(operator)
-    assert operator.left == 4
+    assert operator.first_unused == 4
 
 
 @pytest.mark.parametrize("work", range(1, 30))

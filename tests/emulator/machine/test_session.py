@@ -10,7 +10,7 @@ import pytest
 from emulator.errors import CardError
 from emulator.language.cards import deck_from_lines
 from emulator.machine.endings import Ending
-from emulator.machine.machine import Machine, operated
+from emulator.machine.machine import Machine, run_with_operator
 from emulator.machine.operator import FromFile, Operator
 from emulator.machine.result import Event, Options
 from emulator.machine.session import Action, Halt, Session
@@ -140,7 +140,7 @@ def test_slices_do_not_change_a_run(stride: int) -> None:
     whole = run(*lines, data=data)
     assert (whole.ending.kind, whole.cards_read) == ("hopper", 30)
     made = session(*lines, data=data)
-    while (ending := operated(made, Operator(), made.state.work + stride)) is None:
+    while (ending := run_with_operator(made, Operator(), made.state.work + stride)) is None:
         pass
     assert made.result(ending) == whole
 
@@ -156,7 +156,7 @@ def test_coming_back_after_every_line_does_not_change_a_run(limit: int) -> None:
 def test_the_limit_is_that_of_a_whole_run() -> None:
     whole = run(*ENDLESS, limit=9_000)
     made = machine(*ENDLESS, limit=9_000)
-    while (ending := operated(made, Operator(), made.state.work + 123)) is None:
+    while (ending := run_with_operator(made, Operator(), made.state.work + 123)) is None:
         pass
     assert made.result(ending) == whole
 

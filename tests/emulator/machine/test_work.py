@@ -85,15 +85,15 @@ def test_an_operation_far_beyond_the_limit_is_not_done(statement: str, monkeypat
     ending = found.run().ending
     assert (ending.kind, ending.line and ending.line.label, ending.normal) == ("limit", 7, False)
     assert ending.message == (
-        f"deck.f: card 2: the limit of work, 50 statements or what takes their time, ends the run in 7 {statement}; "
-        "a larger --limit or numbers of fewer digits would let it go on"
+        f"deck.f: card 2: the limit, the work of 50 statements, ends the run in 7 {statement}; "
+        "use a larger --limit or numbers of fewer digits"
     )
 
 
 def test_a_loop_of_costly_operations_says_what_was_counted() -> None:
     ending = machine("A=.5", "1 B=EXP(A)", "GO TO 1", "END", limit=1_000).run().ending
     assert ending.message == (
-        "deck.f: stopped after work as of 1000 statements, 469 of it for costly operations; the last ones repeat "
+        "deck.f: stopped after the work of 1000 statements, 469 of it for costly operations; the last ones repeat "
         "cards 2 to 3, statement 1"
     )
 

@@ -106,7 +106,7 @@ def test_an_overlap_names_the_core_that_has_room(folder: Path, capsys: pytest.Ca
     code, _, err = call(capsys, "hull", "example5", "--layers", "corrected")
     assert code == 2
     assert "OVERLAP" in err
-    assert err.endswith("; --core 60000 has room\n")
+    assert err.endswith("; --core 60000 is large enough\n")
 
 
 def test_a_raw_volume_without_a_shape_asks_for_it(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

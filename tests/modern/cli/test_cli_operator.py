@@ -344,7 +344,7 @@ def test_a_file_of_wrong_words_is_one_line(
     (folder / "bad").write_text("ENTER  1\n\nSWITCH ONE ON\n")
     arguments = ("run", "tictac.f", "tictac.deck")
     code, out, err = call(capsys, *arguments, "--operator=bad", "--punch", "cards", "--log", "log")
-    assert (code, out, err) == (2, "", "hull1620: bad: line 3: the form is SWITCH, 1 to 4, ON or OFF\n")
+    assert (code, out, err) == (2, "", "hull1620: bad: line 3: expected SWITCH, 1 to 4, ON or OFF\n")
     assert not (folder / "cards").exists()
     assert not (folder / "log").exists()
     (folder / "bad").write_text("START\n")

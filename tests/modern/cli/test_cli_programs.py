@@ -160,7 +160,7 @@ def test_check_and_map_say_that_a_program_does_not_fit_and_what_it_fits(capsys: 
     assert (code, err) == (2, "")
     words = (
         r"OVERLAP: program and data need about 390\d\d positions; a machine of 40000 has 31580 for them; "
-        r"--core 60000 has room\n"
+        r"--core 60000 is large enough\n"
     )
     assert re.fullmatch(f"wide.f: {words}", out)
     code, out, err = call(capsys, "map", "wide.f")

@@ -1,0 +1,232 @@
+"""The comparison of two runs entry by entry: values and decisions that differ, and the digits lost.
+
+emulator/machine/divergence.py states the rules and runs the programs.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from emulator.language import objectcode as op
+from emulator.language.objectcode import Line, Program
+from emulator.machine.state import Entry
+from emulator.numbers import Numbers
+from emulator.numbers.base import Number
+from emulator.numbers.exact import ExactNumbers
+from emulator.numbers.shadowed import Shadowed, ShadowedNumbers
+
+_DECISIONS = (op.IF, op.IFX, op.SELECT, op.DOTEST)
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """A value that differs.
+
+    ``time`` counts the executions of the statement ``line``.  ``names`` and ``values`` are the variable and its value
+    in each run.  ``relative`` is the difference divided by the reference's value, or None if that is zero or not a
+    number. ``bound`` is the largest possible error of the reference's value, 0 if nothing was rounded.
+    """
+
+    line: Line
+    time: int
+    names: tuple[str, str]
+    values: tuple[str, str]
+    relative: float | None
+    bound: Fraction = Fraction(0)
+
+
+@dataclass(frozen=True, slots=True)
+class Decision:
+    """A decision that differs: the statement, the count of its executions, and both values and targets."""
+
+    line: Line
+    time: int
+    values: tuple[str, str]
+    targets: tuple[Line | None, Line | None]
+
+
+@dataclass(frozen=True, slots=True)
+class Loss:
+    """The digits that the values of one statement lost before the first decision that differs.
+
+    ``times`` values were compared, and ``differing`` of them differ.  ``worst`` and ``median`` are decimal digits lost.
+    """
+
+    line: Line
+    times: int
+    differing: int
+    worst: float
+    median: float
+
+
+@dataclass
+class _Tally:
+    """The values compared for one statement: their number, and a count for each number of tenths of a digit lost."""
+
+    times: int = 0
+    differing: int = 0
+    tenths: Counter[int] = field(default_factory=Counter)
+
+
+class Comparison:
+    """The state of a comparison."""
+
+    def __init__(self, program: Program, studied: Numbers, reference: Numbers) -> None:
+        self._program, self._studied, self._reference = program, studied, reference
+        self._statement_of = program.statement_numbers
+        self._decides = [i.operation in _DECISIONS for i in program.code]
+        self._counts = [i.operation == op.COUNT for i in program.code]
+        self._times: Counter[tuple[int, int]] = Counter()
+        self._whole = [op.repeats(i) > 1 for i in program.code]
+        self._tallies: dict[int, _Tally] = {}
+        poorer = min(studied.digits, reference.digits)
+        self.digits = poorer if math.isfinite(poorer) else 0.0
+        self._exactly = 2 * int(self.digits) + 20
+        self.first_value: Difference | None = None
+        self.first_decision: Decision | None = None
+        self.compared = self.tested = self.values = self.values_in_step = self.within = self.decisions = 0
+        self.uncertain = ""
+
+    def differs(self, entry: Entry, reference_entry: Entry) -> bool:
+        """Compare an entry of each run, and return True if they are a decision that differs."""
+        pc = entry[0]
+        if self._counts[pc]:
+            return False
+        # The elements of an array that is read as a whole are counted separately.
+        place = pc, entry[1] if self._whole[pc] else 0
+        self._times[place] += 1
+        if not self._decides[pc]:
+            self._store(entry, reference_entry, self._times[place])
+            return False
+        self.tested += 1
+        if entry[1] == reference_entry[1]:
+            return False
+        # An IF compares with zero.  If zero lies within the error bound, the reference itself may have gone wrong.
+        bound, value = self._bound(reference_entry[2]), self._value(self._reference, reference_entry[2])
+        if bound is None or (bound and (value is None or abs(Fraction(value)) <= bound)):
+            self.uncertain = self._uncertainty(pc, reference_entry[2], bound)
+            return True
+        self.decisions += 1
+        if self.first_decision is None:
+            self.first_decision = Decision(
+                self._line(pc),
+                self._times[place],
+                self._texts(entry[2], reference_entry[2], tested=True),
+                (self._target(entry[1]), self._target(reference_entry[1])),
+            )
+        return True
+
+    def _store(self, entry: Entry, reference_entry: Entry, time: int) -> None:
+        pc = entry[0]
+        self.compared += 1
+        lost, relative, within = self._lost(entry, reference_entry)
+        self.within += within
+        if lost is not None:
+            self.values += 1
+            if self.first_value is None:
+                name = self._program.storage.name_of
+                self.first_value = Difference(
+                    self._line(pc),
+                    time,
+                    (name(entry[1]), name(reference_entry[1])),
+                    self._texts(entry[2], reference_entry[2]),
+                    relative,
+                    self._bound(reference_entry[2]) or Fraction(0),
+                )
+        # After a decision that differs, a difference does not mean lost digits.
+        if self.decisions:
+            return
+        tally = self._tallies.setdefault(self._statement_of[pc], _Tally())
+        tally.times += 1
+        if lost is not None:
+            self.values_in_step += 1
+            tally.differing += 1
+        tally.tenths[round(10 * (lost or 0.0))] += 1
+
+    def _bound(self, value: Number) -> Fraction | None:
+        """Return the largest possible error of a value of the reference: 0 if it is exact, None if it is unknown."""
+        if not isinstance(value, Shadowed) or not isinstance(self._reference, ShadowedNumbers):
+            return Fraction(0)
+        return self._reference.error(value)
+
+    def _uncertainty(self, pc: int, value: Number, bound: Fraction | None) -> str:
+        """Return the message for a decision that the reference cannot make."""
+        card, name, text = self._line(pc).place.card, self._reference.name, self._reference.text(value)
+        size = "any amount" if bound is None else f"1E{math.ceil(_logarithm(bound)):+03d}"
+        remedy = "use exact, or a reference of more digits"
+        return f"at card {card} {name} has {text}, which its own rounding may have changed by {size}; {remedy}"
+
+    def _lost(self, entry: Entry, reference_entry: Entry) -> tuple[float | None, float | None, bool]:
+        """Return digits lost and relative difference, None for equal values, and whether rounding explains them."""
+        # Entries for different fields, as with subscripts that differ, have lost all digits.
+        if entry[1] == reference_entry[1]:
+            x = self._value(self._studied, entry[2])
+            y = self._value(self._reference, reference_entry[2])
+            if x is None and y is None:
+                # Undefined fields, infinities and NaNs are compared by their names.
+                if _text(self._studied, entry[2], None) == _text(self._reference, reference_entry[2], None):
+                    return None, None, False
+            elif x == y:
+                return None, None, False
+            elif x is not None and y is not None:
+                bound = self._bound(reference_entry[2])
+                if bound is None or abs(Fraction(x) - y) <= bound:
+                    return None, None, True
+            if x is not None and y:
+                # log10 |(x - y) / y|: the value agrees in minus that many digits.
+                logarithm = _logarithm(abs(Fraction(x) - y)) - _logarithm(abs(Fraction(y)))
+                relative = 10**logarithm if abs(logarithm) < 300 else None
+                return min(max(self.digits + logarithm, 0.0), self.digits), relative, False
+        return self.digits, None, False
+
+    def _value(self, numbers: Numbers, value: Number) -> Fraction | int | None:
+        return value if value is None or type(value) is int else numbers.exact(value, self._exactly)
+
+    def _texts(self, studied: Number, reference: Number, tested: bool = False) -> tuple[str, str]:
+        """Return both values as text, exactly if they look the same otherwise.  A test ignores the sign of zero."""
+        texts = []
+        for wide in (False, True):
+            texts = [
+                _text(numbers, value, self._value(numbers, value) if wide else None)
+                for numbers, value in ((self._studied, studied), (self._reference, reference))
+            ]
+            if texts[0] != texts[1]:
+                break
+        first, second = ("0" if tested and text == "-0" else text for text in texts)
+        return first, second
+
+    def _line(self, pc: int) -> Line:
+        return self._program.statements[self._statement_of[pc]]
+
+    def _target(self, pc: int) -> Line | None:
+        """Return the statement at an instruction, or None for the end of the program."""
+        return self._line(pc) if pc < len(self._statement_of) else None
+
+    def losses(self) -> tuple[Loss, ...]:
+        """Return the losses of all statements, the largest first, then in order of cards."""
+        lines = self._program.statements
+        losses = [_loss(lines[statement], tally) for statement, tally in self._tallies.items()]
+        return tuple(sorted(losses, key=lambda loss: (-loss.worst, -loss.median, loss.line.place.card)))
+
+
+def _loss(line: Line, tally: _Tally) -> Loss:
+    lost = sorted(tally.tenths.elements())
+    middle = (lost[(len(lost) - 1) // 2] + lost[len(lost) // 2]) / 2
+    return Loss(line, tally.times, tally.differing, lost[-1] / 10, middle / 10)
+
+
+def _logarithm(value: Fraction) -> float:
+    """Return the decimal logarithm of a number that may be too large or too small for a float."""
+    return math.log10(value.numerator) - math.log10(value.denominator)
+
+
+def _text(numbers: Numbers, value: Number, exact: Fraction | int | None) -> str:
+    """Return a value as its arithmetic prints it, or exactly.  Fixed-point values are integers in all of them."""
+    if value is None:
+        return "undefined"
+    if type(value) is int:
+        return str(value)
+    return numbers.text(value) if exact is None else ExactNumbers().text(exact)
