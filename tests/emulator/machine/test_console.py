@@ -57,7 +57,7 @@ def test_words_that_do_something(standing: tuple[Session, Cards], text: str, act
     ("text", "first"),
     [
         ("s", "S is ambiguous: START, STEP, STOP, SWITCH"),
-        ("jump", "JUMP is not a command: START, STEP, STOP, SWITCH, BREAK, CLEAR,"),
+        ("jump", "JUMP is not a command: START, STEP, STOP, SWITCH, BREAK,"),
         ("break 8", "deck.f has no statement there"),
         ("clear card 8", "deck.f has no statement there"),
         ("step 0", "expected STEP, or STEP and a number"),
