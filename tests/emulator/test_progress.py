@@ -1,4 +1,4 @@
-"""What a study says while it works, and how its work is given out."""
+"""The display of progress, and the distribution of a study's work."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def ticking(step: float) -> Iterator[float]:
         now += step
 
 
-def test_progress_on_a_terminal_elsewhere_and_quiet(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_progress_is_a_bar_on_a_terminal_and_lines_in_a_file(monkeypatch: pytest.MonkeyPatch) -> None:
     for columns in (100, 40, 20):
         monkeypatch.setenv("COLUMNS", str(columns))
         clock, file = ticking(1.0), Terminal()
@@ -55,7 +55,7 @@ def test_progress_on_a_terminal_elsewhere_and_quiet(monkeypatch: pytest.MonkeyPa
     assert silent.getvalue() == ""
 
 
-def test_progress_survives_its_reader() -> None:
+def test_progress_ignores_a_closed_pipe() -> None:
     class Broken(io.StringIO):
         def write(self, _: str) -> int:
             raise BrokenPipeError
@@ -67,8 +67,8 @@ def test_progress_survives_its_reader() -> None:
     progress.close()
 
 
-def test_the_work_is_given_out_as_it_is_wanted() -> None:
-    """Memory stays flat: of a plan of many chunks only those asked for are made."""
+def test_chunks_are_computed_only_when_requested() -> None:
+    """So memory does not grow with the number of chunks."""
     plan = replace(PLAN, cells=(replace(PLAN.cells[0], samples=5_000_000),))
     chunks = [chunk for chunk, _ in zip(plan.chunks(), range(1000), strict=False)]
     made = in_processes(plan, chunks, 1)
@@ -76,18 +76,17 @@ def test_the_work_is_given_out_as_it_is_wanted() -> None:
     made.close()
 
 
-def test_threads_are_none_of_a_study() -> None:
-    """A study with one worker starts nothing beside itself."""
+def test_a_study_with_one_worker_starts_no_thread() -> None:
     before = threading.active_count()
     list(in_processes(PLAN, list(PLAN.chunks())[:1], 1))
     assert threading.active_count() == before
 
 
-def test_arithmetics_that_cannot_be_compiled_are_named_once_each() -> None:
+def test_each_arithmetic_that_cannot_be_compiled_is_reported_once() -> None:
     pytest.importorskip("numba")
     wide = (Programs("a", arithmetic="truncating:20"), Programs("b", arithmetic="truncating:20", layers=("corrected",)))
-    other = (Programs("c"), Programs("d", arithmetic="exact"), Port("e", "truncating:20"))
-    lines = plain_lines(replace(PLAN, cells=tuple(replace(cell, routes=wide + other) for cell in PLAN.cells)))
+    mixed = (Programs("c"), Programs("d", arithmetic="exact"), Port("e", "truncating:20"))
+    lines = plain_lines(replace(PLAN, cells=tuple(replace(cell, routes=wide + mixed) for cell in PLAN.cells)))
     assert [line.split(":")[0] for line in lines] == [
         "truncating",
         "the compiled engine does not support exact arithmetic",
@@ -95,7 +94,7 @@ def test_arithmetics_that_cannot_be_compiled_are_named_once_each() -> None:
     assert "supports 9" in lines[0]
 
 
-def test_a_study_without_the_compiled_engine_says_so(
+def test_a_study_reports_that_the_interpreter_runs(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr("modern.study.run.why_plain", lambda options: "no compiled engine here")

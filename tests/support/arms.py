@@ -1,4 +1,4 @@
-"""Which ways out of IF, SENSE SWITCH and computed GO TO runs take: counters put on every way."""
+"""The branches of IF, SENSE SWITCH and computed GO TO that runs take, counted by an added COUNT on every branch."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ LARGE = Options(limit=200_000, core=60_000)
 
 
 def with_arms(program: Program) -> tuple[Program, dict[int, tuple[str, str]]]:
-    """The program with a COUNT on every way out, and what each counter counts: a statement, and where it goes."""
+    """Return the program with a COUNT on every branch, and for each counter its statement and target."""
     code, branches, counters = list(program.code), list(program.branches), list(program.counters)
     statements, places, counted = program.statement_numbers, _places(program), {}
     for at, instruction in enumerate(program.code):
@@ -45,7 +45,7 @@ def with_arms(program: Program) -> tuple[Program, dict[int, tuple[str, str]]]:
 
 
 def _places(program: Program) -> list[str]:
-    """Each statement's number and text, or the number before it and how many statements it comes after."""
+    """Return each statement's text after its number, or after the last number and the distance from it."""
     found, label, steps = [], 0, 0
     for line in program.statements:
         label, steps = (line.label, 0) if line.label else (label, steps + 1)
@@ -54,12 +54,12 @@ def _places(program: Program) -> list[str]:
 
 
 def arms(names: Iterable[str], load: Load) -> set[Arm]:
-    """Every arm of programs."""
+    """Return all branches of the programs."""
     return {(int(name[7]), *arm) for name in names for arm in with_arms(load(name))[1].values()}
 
 
 def taken(decks: Iterable[Deck], load: Load, first: str) -> set[Arm]:
-    """The arms that decks take, program 1 played by ``first``."""
+    """Return the branches that decks take, with ``first`` as program 1."""
     made = {name: with_arms(load(name)) for name in (first, "program2", "program3")}
     found: set[Arm] = set()
     for deck in decks:

@@ -1,4 +1,4 @@
-"""Caches of modules, emptied around what a test changes."""
+"""Cached functions of modules, cleared before and after a test."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from types import ModuleType
 
 @contextmanager
 def cleared(*modules: ModuleType) -> Iterator[None]:
-    """Empty what the functions of the modules keep, before and after."""
+    """Clear the caches of all functions of the modules, before and after."""
     kept = [
         found
         for module in modules

@@ -1,4 +1,4 @@
-"""Programs and decks for the console: what its page, its desk and the command are each given, and what they gave."""
+"""Programs and decks for tests of the console: inputs for its page, its desk and the command, and their output."""
 
 from __future__ import annotations
 
@@ -18,7 +18,10 @@ BAD = "      GO TO 9\n      I=\n      END\n"
 
 @dataclass(frozen=True)
 class Pair:
-    """A program and a deck, each a name the page offers or a text; what the operator does; and what it shows."""
+    """A program and a deck, the operator's actions, and the expected output.
+
+    Both are texts, or names that the page offers.
+    """
 
     name: str
     program: str
@@ -32,13 +35,13 @@ class Pair:
 
     @property
     def request(self) -> dict[str, Any]:
-        """What the desk is asked to load."""
+        """Return the input of the desk."""
         program = [self.program, self.source] if self.source else self.program
         deck = [self.deck, self.cards] if self.cards else self.deck
         return {"program": program, "deck": deck, "limit": self.limit, "upcase": self.upcase}
 
     def command(self, room: Path) -> list[str]:
-        """The command's words for the same, with files written into ``room``, where it runs."""
+        """Return the command line for the same run, writing its files into ``room``, the working folder."""
         program, deck = self.program, self.deck
         if self.source:
             (room / program).write_text(self.source)
@@ -52,7 +55,7 @@ class Pair:
 
 @dataclass
 class Played:
-    """What a run gave: cards, lines typed, messages; ``loaded`` unless the desk refused."""
+    """The output of a run: cards, typed lines and messages. ``loaded`` is False if the desk rejected the input."""
 
     loaded: bool = True
     punched: list[str] = field(default_factory=list)
@@ -60,14 +63,14 @@ class Played:
     messages: list[str] = field(default_factory=list)
 
     def see(self, answer: Answer) -> None:
-        """Take a slice's answer."""
+        """Collect the answer of a slice."""
         self.punched += [text for what, text in answer["events"] if what == "punch"]
         self.typed += [text for what, text in answer["events"] if what == "type"]
         self.messages += answer.get("messages", [])
 
 
 def played(desk: Desk, pair: Pair) -> Played:
-    """A pair at a desk: loaded, started, everything its operator does done when the machine stands."""
+    """Load and run a pair at a desk, performing an action of its operator at each halt."""
     found = Played()
     answer = desk.load(pair.request)
     if "refused" in answer:
@@ -87,7 +90,7 @@ def played(desk: Desk, pair: Pair) -> Played:
 
 
 def operator_lines(log: str) -> list[str]:
-    """What the operator did, of a log."""
+    """Return the operator's actions in a log."""
     return [line for line in log.splitlines() if line and not line.startswith("*")]
 
 

@@ -1,6 +1,6 @@
-"""A hull of the port beside the cards the emulated programs punched for the same points.
+"""A hull of the port compared with the cards that the emulated programs punched for the same points.
 
-Numbers are compared as they stand on cards, E14.8, so that a zero's sign counts; points and equations in
+Numbers are compared as they appear on cards, in E14.8, including the sign of zero. Points and equations are compared in
 order.
 """
 
@@ -24,7 +24,7 @@ _NO_NUMBER = 0
 
 @dataclass(frozen=True, slots=True)
 class Punched:
-    """What the last program punched: rows of numbers as on the cards, and which vertices satisfy which equation."""
+    """The cards of the last program: rows of numbers, and the vertices that satisfy each equation."""
 
     status: str
     inside: tuple[Row, ...]
@@ -36,17 +36,17 @@ class Punched:
 
 
 def from_cards(cards: Sequence[str], status: str = DETERMINED) -> Punched:
-    """The cards the last program punched, and the message it stopped with if it did."""
+    """Read the cards of the last program."""
     read = sections(cards)
     inside, boundary, vertices, equations, plane = (read.points[name] for name in SECTIONS)
     return Punched(status, inside, boundary, vertices, equations, read.satisfied, plane)
 
 
 def from_run(run: HullRun) -> Punched:
-    """What a run of the emulated programs punched last.
+    """Read the cards that a run of the emulated programs punched last.
 
-    A run that filled the table of planes (``--bounds strict``) has that as its status; any other ending that is
-    not normal is its own message.
+    The status of a run that filled the table of planes (``--bounds strict``) says so; for any other abnormal ending it
+    is the message.
     """
     ending = run.final.result.ending
     status = run.refusal or DETERMINED
@@ -56,7 +56,7 @@ def from_run(run: HullRun) -> Punched:
 
 
 def from_hull(hull: Hull) -> Punched:
-    """What the programs would have punched for this hull."""
+    """Return the cards that the programs would punch for this hull."""
 
     def points(names: Sequence[int]) -> tuple[Row, ...]:
         return tuple(tuple(map(e_field, hull.points[k])) for k in names)
@@ -88,7 +88,7 @@ def from_hull(hull: Hull) -> Punched:
 
 
 def differences(hull: Hull, punched: Punched) -> list[str]:
-    """Where the two part, a line each; none if they agree to the last sign of a zero."""
+    """Return one line for each difference, including the sign of zero."""
     mine = from_hull(hull)
     found = []
     for field in fields(Punched):
@@ -101,14 +101,14 @@ def differences(hull: Hull, punched: Punched) -> list[str]:
 
 
 def _unnumbered(mine: tuple[int, ...], card: tuple[int, ...]) -> tuple[int, ...]:
-    """A card's row with no number where the hull has none."""
+    """Return the row of a card without numbers that the hull lacks."""
     if len(mine) != len(card):
         return card
     return tuple(_NO_NUMBER if own == _NO_NUMBER else number for own, number in zip(mine, card, strict=True))
 
 
 def e_field(text: str) -> str:
-    """Exact text as E14.8 punches it: cut to eight digits."""
+    """Return exact text as E14.8 punches it, truncated to eight digits."""
     value = Fraction(text)
     if value == 0:
         return write_floating(FALLBACK, 0, MINUS_ZERO if text.startswith("-") else ZERO, TRUNCATING.rules)[0].strip()
@@ -120,7 +120,7 @@ def e_field(text: str) -> str:
 
 
 def _on_cards(numbers: list[int], dimension: int) -> list[list[int]]:
-    """Program 3 names the vertices that satisfy a plane three a card, program 2 both ends of a line."""
+    """Return vertices as cards list them: three on a card for program 3, both ends of a line for program 2."""
     if dimension == 2:
         return [numbers]
     ordered = sorted(numbers)

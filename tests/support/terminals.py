@@ -1,4 +1,4 @@
-"""A command driven through a pseudo-terminal, as a person at a keyboard drives it."""
+"""A pseudo-terminal that runs a command as a person at a keyboard would."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ _STARTED = (
 
 
 class Person:
-    """Somebody at a terminal of ``columns``, at which one command of hull1620 runs in ``folder``.
+    """A person at a terminal of ``columns``, on which one command of hull1620 runs in ``folder``.
 
-    The streams in ``elsewhere`` (``stdin``, ``stdout``, ``stderr``) are open files instead of the terminal.  ``seen``
-    is all that has been shown, with plain line ends.
+    The streams in ``elsewhere`` (``stdin``, ``stdout``, ``stderr``) are open files instead of the terminal. ``seen`` is
+    all output so far, with plain line ends.
     """
 
     def __init__(
@@ -65,7 +65,7 @@ class Person:
                 os.close(handle)
 
     def sees(self, text: str, seconds: float = 30.0) -> str:
-        """Wait until ``text`` is shown after what was waited for before; what was shown up to its end."""
+        """Wait for ``text`` in the output after the last match, and return the output up to its end."""
         until = time.monotonic() + seconds
         while text not in self.seen[self._from :]:
             assert time.monotonic() < until, f"{text!r} is not shown:\n{self.seen}"
@@ -76,7 +76,7 @@ class Person:
         return self.seen[first : self._from]
 
     def types(self, text: str) -> None:
-        """Press keys; a line ends with ``\\n``."""
+        r"""Press keys. A line ends with ``\n``."""
         os.write(self._master, text.replace("\n", "\r").encode())
 
     def leaves(self) -> None:
@@ -86,11 +86,11 @@ class Person:
         self._slave = self._master = -1
 
     def interrupts(self) -> None:
-        """Send the process what ``kill -INT`` sends."""
+        """Send the signal of ``kill -INT`` to the process."""
         self._process.send_signal(signal.SIGINT)
 
     def ended(self, seconds: float = 60.0) -> int:
-        """The exit code, once all has been shown."""
+        """Return the exit code, after all output has been shown."""
         until = time.monotonic() + seconds
         while self._process.poll() is None:
             assert time.monotonic() < until, f"does not end:\n{self.seen}"
@@ -103,7 +103,7 @@ class Person:
         return self._process.returncode
 
     def settings(self) -> list[object]:
-        """The terminal's settings."""
+        """The settings of the terminal."""
         return termios.tcgetattr(self._slave)
 
     def _look(self, seconds: float) -> bool:

@@ -1,4 +1,4 @@
-"""The compiled engine: when it is used, what is said when it is not, and that its code is kept."""
+"""The compiled engine: conditions for its use, messages, and the cache of machine code."""
 
 from __future__ import annotations
 
@@ -33,8 +33,8 @@ LINES = ["READ 1,I", "I=I+1", "PUNCH 1,I", "1 FORMAT(I4)", "END"]
 DECK = deck_from_lines("deck", ["  41"])
 
 
-def test_ten_digits_are_too_many() -> None:
-    """Eighteen digits of a product fit into 64 bits, twenty do not; the plain engine runs, and one line says so."""
+def test_ten_digits_run_in_the_interpreter() -> None:
+    """A product of eighteen digits fits into 64 bits, one of twenty does not."""
     notes: list[str] = []
     options = Options(numbers=numbers("truncating:10"))
     (result,) = run_batch(program(*LINES), [DECK], options, notes.append)
@@ -42,7 +42,7 @@ def test_ten_digits_are_too_many() -> None:
     assert notes == ["truncating:10 has 10 digits; the compiled engine supports 9: using the interpreter instead"]
 
 
-def test_without_numba(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_numba_the_interpreter_runs(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "numba", None)
     monkeypatch.setattr(runner, "run_decks", runner.run_decks.__wrapped__)
     notes: list[str] = []
@@ -53,8 +53,8 @@ def test_without_numba(monkeypatch: pytest.MonkeyPatch) -> None:
     assert note.endswith(": using the interpreter instead")
 
 
-def said_instead(monkeypatch: pytest.MonkeyPatch) -> str:
-    """What is said where numba does not do; the result is the plain engine's."""
+def note_without_engine(monkeypatch: pytest.MonkeyPatch) -> str:
+    """Return the note if numba cannot be used, after checking the result."""
     monkeypatch.setattr(runner, "run_decks", runner.run_decks.__wrapped__)
     notes: list[str] = []
     (result,) = run_batch(program(*LINES), [DECK], None, notes.append)
@@ -65,42 +65,42 @@ def said_instead(monkeypatch: pytest.MonkeyPatch) -> str:
     return note
 
 
-def test_a_numba_that_does_not_compile(monkeypatch: pytest.MonkeyPatch) -> None:
-    """NUMBA_DISABLE_JIT leaves Python over numpy's eight-bit codes, whose sums overflow: wrong numbers."""
+def test_a_disabled_numba_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With NUMBA_DISABLE_JIT, Python would compute with NumPy's eight-bit codes, whose sums overflow."""
     numba = pytest.importorskip("numba")
     monkeypatch.setattr(numba.config, "DISABLE_JIT", 1)
-    assert "turned off by NUMBA_DISABLE_JIT" in said_instead(monkeypatch)
+    assert "turned off by NUMBA_DISABLE_JIT" in note_without_engine(monkeypatch)
 
 
-def test_a_numba_that_does_not_know_an_option(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_numba_without_an_option_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("numba")
     monkeypatch.setattr(runner, "Compiled", partial(Compiled, unheard_of=1))
-    assert "numba cannot compile the code: KeyError: " in said_instead(monkeypatch)
+    assert "numba cannot compile the code: KeyError: " in note_without_engine(monkeypatch)
 
 
 @pytest.mark.parametrize(
-    ("options", "words"),
+    ("options", "reason"),
     [
         (Options(numbers=numbers("float64")), "does not support float64 arithmetic"),
         (Options(uncut=True), "does not support --uncut"),
     ],
 )
-def test_numbers_of_python_are_not_for_it(options: Options, words: str) -> None:
+def test_unsupported_options_are_reported(options: Options, reason: str) -> None:
     notes: list[str] = []
     (result,) = run_batch(program(*LINES), [DECK], options, notes.append)
     assert result == Machine(program(*LINES), DECK, options).run()
-    assert notes == [f"the compiled engine {words}: using the interpreter instead"]
+    assert notes == [f"the compiled engine {reason}: using the interpreter instead"]
 
 
-def test_with_numba_nothing_is_said() -> None:
+def test_with_numba_there_is_no_note() -> None:
     pytest.importorskip("numba")
     notes: list[str] = []
     assert run_batch(program(*LINES), [DECK], None, notes.append)[0].punched == ("  42",)
     assert notes == []
 
 
-def test_nothing_of_it_is_imported_for_a_plain_run() -> None:
-    """numba costs a third of a second: who runs one deck does not wait for it."""
+def test_a_single_run_does_not_import_numba() -> None:
+    """Importing numba takes a third of a second."""
     code = (
         "import sys\nfrom emulator import Machine, compile_deck, deck_from_lines\n"
         f"lines = {LINES!r}\n"
@@ -114,15 +114,15 @@ SUM = "def twice(x):\n    return 2 * x\n\n\ndef entry(x):\n    return twice(x) +
 
 
 @pytest.fixture
-def kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The folder where numba is to keep code."""
+def cache_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder of numba's cache."""
     pytest.importorskip("numba")
-    monkeypatch.setattr("numba.core.config.CACHE_DIR", str(tmp_path / "kept"))
-    return tmp_path / "kept"
+    monkeypatch.setattr("numba.core.config.CACHE_DIR", str(tmp_path / "cache_folder"))
+    return tmp_path / "cache_folder"
 
 
-def made(folder: Path, source: str = SUM) -> Compiled:
-    """``entry`` of a module with that source, imported anew."""
+def imported(folder: Path, source: str = SUM) -> Compiled:
+    """Import ``entry`` of a new module with the given source."""
     path = folder / "entered.py"
     path.write_text(source)
     linecache.clearcache()
@@ -140,60 +140,59 @@ def from_cache(code: Compiled) -> int:
     return sum(code.function.stats.cache_hits.values())
 
 
-def test_code_is_kept_until_a_source_changes(tmp_path: Path, kept: Path) -> None:
-    """Of a helper too, at which numba itself does not look; so does a constant or an option."""
+def test_code_is_kept_until_its_source_changes(tmp_path: Path, cache_folder: Path) -> None:
+    """The source of a called function, a constant or an option counts too, which numba itself does not check."""
     for source, expected in ((SUM, 11), (SUM.replace("2 * x", "3 * x"), 16)):
-        first = made(tmp_path, source)
+        first = imported(tmp_path, source)
         assert first.ready(5)(5) == expected
         assert from_cache(first) == 0
-        second = made(tmp_path, source)
+        second = imported(tmp_path, source)
         assert second.ready(5)(5) == expected
         assert from_cache(second) == 1
-    assert [path.parent.parent for path in kept.rglob("*.nbi")] == [kept, kept]
+    assert [path.parent.parent for path in cache_folder.rglob("*.nbi")] == [cache_folder, cache_folder]
     entry = sys.modules["entered"].entry
     assert digest(entry, "") != digest(entry, "other")
     assert called(entry) == [entry, sys.modules["entered"].twice]
 
 
-def test_constants_of_other_modules_count(tmp_path: Path, kept: Path) -> None:
-    """The source of the functions is the same, the number they use another."""
+def test_code_depends_on_constants_of_other_modules(tmp_path: Path, cache_folder: Path) -> None:
     for number in (2, 3):
         sys.modules["factors"] = ModuleType("factors")
         vars(sys.modules["factors"])["FACTOR"] = number
-        code = made(tmp_path, "from factors import FACTOR\n\n\ndef entry(x):\n    return FACTOR * x\n")
+        code = imported(tmp_path, "from factors import FACTOR\n\n\ndef entry(x):\n    return FACTOR * x\n")
         assert code.ready(5)(5) == 5 * number
         assert from_cache(code) == 0
     del sys.modules["factors"]
 
 
 @pytest.mark.parametrize("pattern", ["*.nbi", "*.nbc"])
-def test_kept_code_that_is_damaged_is_made_anew(tmp_path: Path, kept: Path, pattern: str) -> None:
-    made(tmp_path).ready(5)
-    (file,) = kept.rglob(pattern)
+def test_damaged_code_is_compiled_again(tmp_path: Path, cache_folder: Path, pattern: str) -> None:
+    imported(tmp_path).ready(5)
+    (file,) = cache_folder.rglob(pattern)
     file.write_bytes(b"")
-    damaged = made(tmp_path)
+    damaged = imported(tmp_path)
     assert damaged.ready(5)(5) == 11
     assert damaged.function.stats.cache_path is None
-    assert made(tmp_path).ready(5)(5) == 11
-    after = made(tmp_path)
+    assert imported(tmp_path).ready(5)(5) == 11
+    after = imported(tmp_path)
     assert after.ready(5)(5) == 11
     assert from_cache(after) == 1
 
 
-def test_where_no_folder_can_be_written_code_is_for_this_process(
-    tmp_path: Path, kept: Path, monkeypatch: pytest.MonkeyPatch
+def test_without_a_cache_folder_code_is_compiled_for_this_process(
+    tmp_path: Path, cache_folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def refuse(*given: object, **named: object) -> None:
         raise PermissionError("no place here")
 
     monkeypatch.setattr("tempfile.TemporaryFile", refuse)
-    code = made(tmp_path)
+    code = imported(tmp_path)
     assert code.ready(5)(5) == 11
     assert code.function.stats.cache_path is None
 
 
-def test_what_numba_cannot_compile_is_one_line(tmp_path: Path, kept: Path) -> None:
-    code = made(tmp_path, "def entry(x):\n    return open(x)\n")
+def test_an_error_of_numba_is_reported_in_one_line(tmp_path: Path, cache_folder: Path) -> None:
+    code = imported(tmp_path, "def entry(x):\n    return open(x)\n")
     with pytest.raises(NotInstalled, match=r"^numba cannot compile the code: TypingError: [^\n]*$"):
         code.ready(5)
 
@@ -203,28 +202,29 @@ class Terminal(io.StringIO):
         return True
 
 
-def test_compiling_is_told_on_a_terminal_and_loading_is_not(
-    tmp_path: Path, kept: Path, monkeypatch: pytest.MonkeyPatch
+def test_compiling_is_reported_on_a_terminal_but_loading_is_not(
+    tmp_path: Path, cache_folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for file, written in ((Terminal(), True), (Terminal(), False), (io.StringIO(), False)):
         monkeypatch.setattr(sys, "stderr", file)
-        made(tmp_path).ready(5)
+        imported(tmp_path).ready(5)
         line, _, wiped = file.getvalue().partition("\r")
         assert bool(line) == written
         assert (line, wiped) in (("", ""), ("compiling entry, once: some seconds", " " * len(line) + "\r"))
 
 
-def test_the_functions_stay_as_they_are(tmp_path: Path, kept: Path) -> None:
-    """Called as Python they call Python, also after they were compiled."""
-    code = made(tmp_path)
+def test_compiled_functions_still_run_as_python(tmp_path: Path, cache_folder: Path) -> None:
+    code = imported(tmp_path)
     code.ready(5)
     module = sys.modules["entered"]
     assert module.entry(5.5) == 12.0
-    assert type(module.twice) is type(made)
+    assert type(module.twice) is type(imported)
 
 
-def test_what_an_entry_calls_is_compiled_with_it(tmp_path: Path, kept: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Machine code is made for the entry alone; numba's own way makes it for each function, and computes the same."""
+def test_functions_below_an_entry_are_compiled_only_with_it(
+    tmp_path: Path, cache_folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Without the compiler pass numba compiles each function separately, with the same results."""
     pytest.importorskip("numba")
     from numba.core.codegen import JitEngine
 
@@ -234,11 +234,11 @@ def test_what_an_entry_calls_is_compiled_with_it(tmp_path: Path, kept: Path, mon
         put: list[str] = []
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(JitEngine, "add_module", lambda engine, module: put.append(module) or add(engine, module))
-            assert made(tmp_path, source).ready(5)(5) == 11
+            assert imported(tmp_path, source).ready(5)(5) == 11
         return len(put)
 
     add = JitEngine.add_module
-    made(tmp_path, SUM + "# numba's own functions are made first\n").ready(5)
+    imported(tmp_path, SUM + "# numba's own functions are made first\n").ready(5)
     assert lean.AVAILABLE
     few = modules(SUM)
     monkeypatch.setattr(lean, "AVAILABLE", False)
@@ -258,8 +258,7 @@ print(json.dumps([sum(stats.cache_hits.values()), sum(stats.cache_misses.values(
 """
 
 
-def test_another_process_need_not_compile() -> None:
-    """The suite's own cache: what this process compiled, or found there, the next one finds."""
+def test_another_process_uses_the_cache() -> None:
     pytest.importorskip("numba")
     run_batch(program(*LINES), [DECK])
     done = subprocess.run(
@@ -271,14 +270,14 @@ def test_another_process_need_not_compile() -> None:
 
 
 def lists(of: Any) -> Any:
-    """The arrays of a tuple as lists of Python's own integers."""
+    """Return a tuple of arrays as lists of Python integers."""
     return type(of)(*(lists(value) if isinstance(value, tuple) else value.tolist() for value in of))
 
 
 @settings(max_examples=10)
 @given(st.integers(-9999, 9998), st.sampled_from(["truncating", "ibm1962", "rounding:9"]))
-def test_the_same_functions_run_as_python(number: int, name: str) -> None:
-    """What numba compiles is no other source: it runs as it stands over lists."""
+def test_the_engine_runs_as_python_on_lists(number: int, name: str) -> None:
+    """The compiled source is ordinary Python."""
     pytest.importorskip("numba")
     from emulator.compiled.runner import Runner, packed
 

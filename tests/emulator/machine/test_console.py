@@ -1,4 +1,4 @@
-"""What is typed and shown at the console of a machine that stands."""
+"""The commands of the console of a halted machine, and their output."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ CARD = " .12500000E+01   -7"
 
 
 @pytest.fixture
-def standing() -> tuple[Session, Cards]:
-    """A machine that stands at PAUSE, and the cards it has seen."""
+def halted() -> tuple[Session, Cards]:
+    """A machine that has halted at PAUSE, and the cards it has read and punched."""
     made = Session(program(*LINES, *ENDS), deck_from_lines("d", [CARD, "2"]), Options(switches=frozenset({3})))
     cards = Cards()
     made.advance(1_000)
@@ -25,11 +25,11 @@ def standing() -> tuple[Session, Cards]:
     return made, cards
 
 
-def shown(standing: tuple[Session, Cards], text: str, width: int = 60) -> list[str]:
-    found = command(*standing[:1], text, standing[1], width)
-    assert isinstance(found, list), found
-    assert all(len(line) <= width for line in found)
-    return found
+def shown(halted: tuple[Session, Cards], text: str, width: int = 60) -> list[str]:
+    output = command(*halted[:1], text, halted[1], width)
+    assert isinstance(output, list), output
+    assert all(len(line) <= width for line in output)
+    return output
 
 
 @pytest.mark.parametrize(
@@ -49,8 +49,8 @@ def shown(standing: tuple[Session, Cards], text: str, width: int = 60) -> list[s
         ("cl card 3", Action("CLEAR", 3, card=True)),
     ],
 )
-def test_words_that_do_something(standing: tuple[Session, Cards], text: str, action: Action) -> None:
-    assert command(standing[0], text, standing[1], 60) == action
+def test_a_command_can_be_an_action(halted: tuple[Session, Cards], text: str, action: Action) -> None:
+    assert command(halted[0], text, halted[1], 60) == action
 
 
 @pytest.mark.parametrize(
@@ -72,25 +72,25 @@ def test_words_that_do_something(standing: tuple[Session, Cards], text: str, act
         ("core", "CORE NAME or ADDRESS: show the storage around it"),
     ],
 )
-def test_wrong_words_are_told_what_is_right(standing: tuple[Session, Cards], text: str, first: str) -> None:
-    assert shown(standing, text)[0].startswith(first.rstrip())
+def test_a_wrong_command_is_answered_with_a_message(halted: tuple[Session, Cards], text: str, first: str) -> None:
+    assert shown(halted, text)[0].startswith(first.rstrip())
 
 
-def test_variables(standing: tuple[Session, Cards]) -> None:
-    assert shown(standing, "v") == [
+def test_variables_shows_values_and_defined_elements(halted: tuple[Session, Cards]) -> None:
+    assert shown(halted, "v") == [
         "M(2,3): 1 of 6 defined",
         "X(4): 1 of 4 defined",
         "A      .12500000E+01",
         "K      -7",
         "B      undefined",
     ]
-    assert shown(standing, "v m") == ["M(2,1)    -7"]
-    assert shown(standing, "v b") == ["B         undefined"]
+    assert shown(halted, "v m") == ["M(2,1)    -7"]
+    assert shown(halted, "v b") == ["B         undefined"]
 
 
-def test_storage_lies_downward_from_the_top_of_core(standing: tuple[Session, Cards]) -> None:
+def test_core_shows_fields_in_order_of_addresses(halted: tuple[Session, Cards]) -> None:
     """Element 1 of the first array has the highest address (C26-5619 p. 66-69)."""
-    assert shown(standing, "core m(2,1)") == [
+    assert shown(halted, "core m(2,1)") == [
         "  39829 M(2,3)          undefined",
         "  39839 M(1,3)          undefined",
         "  39849 M(2,2)          undefined",
@@ -98,12 +98,12 @@ def test_storage_lies_downward_from_the_top_of_core(standing: tuple[Session, Car
         "> 39869 M(2,1)          -7",
         "  39879 M(1,1)          undefined",
     ]
-    assert shown(standing, "core 39869") == shown(standing, "core m(2,1)")
-    assert shown(standing, "core 39865") == shown(standing, "core m(2,1)")
+    assert shown(halted, "core 39869") == shown(halted, "core m(2,1)")
+    assert shown(halted, "core 39865") == shown(halted, "core m(2,1)")
 
 
-def test_cards_switches_breakpoints_and_help(standing: tuple[Session, Cards]) -> None:
-    assert shown(standing, "cards", 15) == [
+def test_cards_switches_breakpoints_and_help_are_shown(halted: tuple[Session, Cards]) -> None:
+    assert shown(halted, "cards", 15) == [
         "read: 1 of 2",
         "  cards",
         "   .12500000E+0",
@@ -112,10 +112,10 @@ def test_cards_switches_breakpoints_and_help(standing: tuple[Session, Cards]) ->
         "   .12500000E+0",
         "  1   -7",
     ]
-    assert shown(standing, "switch") == ["1 OFF, 2 OFF, 3 ON, 4 OFF"]
-    assert shown(standing, "break") == ["no breakpoints"]
+    assert shown(halted, "switch") == ["1 OFF, 2 OFF, 3 ON, 4 OFF"]
+    assert shown(halted, "break") == ["no breakpoints"]
     for action in (Action("BREAK", 7), Action("BREAK", 3, card=True)):
-        standing[0].act(action)
-    assert shown(standing, "break") == ["card 3, statement 7 (card 6)"]
+        halted[0].act(action)
+    assert shown(halted, "break") == ["card 3, statement 7 (card 6)"]
     for asked in ("?", "help", "h"):
-        assert [line.split()[0].rstrip(":") for line in shown(standing, asked, 80)] == list(COMMANDS)
+        assert [line.split()[0].rstrip(":") for line in shown(halted, asked, 80)] == list(COMMANDS)

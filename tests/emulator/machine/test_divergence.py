@@ -1,4 +1,4 @@
-"""Two arithmetics in step: first differing value and decision, where runs meet again, digits lost."""
+"""Two arithmetics compared: the first value and decision that differ, where runs join again, and digits lost."""
 
 from __future__ import annotations
 
@@ -34,51 +34,51 @@ def compared(*lines: str, data: Sequence[str] = (), names: tuple[str, str] = ("t
 THIRD = ["A=1./3.", "B=A*3.", "IF(B-1.)10,20,10", "10 K=1", "C=A+1.", "GO TO 30", "20 K=2", "30 D=A*2.", "END"]
 
 
-def test_a_third_three_times() -> None:
-    """.33333333 * 3 is .99999999, not 1: worked out by hand."""
-    found = compared(*THIRD)
-    first = found.first_value
+def test_a_third_times_three_differs_from_one() -> None:
+    """.33333333 * 3 is .99999999, not 1 (computed by hand)."""
+    divergence = compared(*THIRD)
+    first = divergence.first_value
     assert first is not None
     assert (first.line.place.card, first.names) == (1, ("A", "A"))
     assert first.values == ("0.33333333", "0.33333333333333333333...")
     assert first.relative == pytest.approx(1e-8)
-    decision = found.first_decision
+    decision = divergence.first_decision
     assert decision is not None
     assert (decision.line.place.card, decision.line.text) == (3, "IF(B-1.)10,20,10")
     # 1 is .10000000E+01: the last digit of .99999999 drops before the subtraction.
     assert decision.values == ("-1E-7", "0")
     assert [target and target.label for target in decision.targets] == [10, 20]
     # A and B before the decision; K and C are apart; D after the runs have met at 30.
-    assert (found.compared, found.values, found.values_in_step) == (3, 3, 2)
-    assert (found.tested, found.decisions) == (1, 1)
-    assert found.apart == ""
-    assert found.digits == 8
-    assert found.statements == (8, 6)
-    assert [(loss.line.place.card, loss.times, loss.differing) for loss in found.losses] == [(1, 1, 1), (2, 1, 1)]
-    assert [loss.worst for loss in found.losses] == [0.0, 0.0]
-    assert found.endings[0] == found.endings[1]
+    assert (divergence.compared, divergence.values, divergence.values_in_step) == (3, 3, 2)
+    assert (divergence.tested, divergence.decisions) == (1, 1)
+    assert divergence.apart == ""
+    assert divergence.digits == 8
+    assert divergence.statements == (8, 6)
+    assert [(loss.line.place.card, loss.times, loss.differing) for loss in divergence.losses] == [(1, 1, 1), (2, 1, 1)]
+    assert [loss.worst for loss in divergence.losses] == [0.0, 0.0]
+    assert divergence.endings[0] == divergence.endings[1]
 
 
-def test_digits_lost_in_a_difference() -> None:
-    """Ninth digits that are cut when read are all that a difference leaves: worked out by hand."""
+def test_a_difference_of_close_numbers_loses_digits() -> None:
+    """The difference consists only of ninth digits, which are truncated on input (computed by hand)."""
     lines = ["READ 1,A,B", "C=A-B", "D=C-C", "1 FORMAT(2F14.8)", "END"]
-    found = compared(*lines, data=["1234567.8599001234567.8399000"])
-    losses = {loss.line.place.card: loss for loss in found.losses}
+    divergence = compared(*lines, data=["1234567.8599001234567.8399000"])
+    losses = {loss.line.place.card: loss for loss in divergence.losses}
     # 1234567.8 on both: nothing is left of .02, and nothing is right of it.
     assert losses[2].worst == 8.0
     # .0599 and .0399 of 1234567.8 are relative differences of 4.9E-8 and 3.2E-8: .7 and .5 of a digit.
     assert (losses[1].worst, losses[1].median) == (0.7, 0.6)
     assert losses[3].differing == 0
-    first = found.first_value
+    first = divergence.first_value
     assert first is not None
     assert (first.line.place.card, first.names[0], first.values) == (1, "A", ("1234567.8", "1234567.8599"))
 
 
-def test_worst_and_median() -> None:
-    """Five quotients, of which three are cut."""
+def test_losses_have_a_worst_and_a_median() -> None:
+    """Three of five quotients are truncated."""
     lines = ["READ 1,N", "DO 5 I=1,5", "READ 2,X", "5 Y=1./X", "1 FORMAT(I2)", "2 FORMAT(F6.0)", "END"]
-    found = compared(*lines, data=[" 5", "1.", "2.", "9.", "11.", "3."], names=("truncating:2", "exact"))
-    loss = next(loss for loss in found.losses if loss.line.label == 5)
+    divergence = compared(*lines, data=[" 5", "1.", "2.", "9.", "11.", "3."], names=("truncating:2", "exact"))
+    loss = next(loss for loss in divergence.losses if loss.line.label == 5)
     assert (loss.line.label, loss.times, loss.differing) == (5, 5, 3)
     # .11 for 1/9 and .33 for 1/3: one in a hundred; .090 for 1/11: as much; nothing for 1 and .5.
     assert (loss.worst, loss.median) == (0.0, 0.0)
@@ -87,35 +87,35 @@ def test_worst_and_median() -> None:
     assert (zero.worst, zero.median) == (0.6, 0.1)
 
 
-def test_ways_that_do_not_meet_again() -> None:
-    found = compared("A=1./3.", "IF(A*3.-1.)10,20,10", "10 STOP", "20 K=2", "END")
-    assert found.decisions == 1
-    assert found.apart == "the branches do not join again"
+def test_branches_that_do_not_join_end_the_comparison() -> None:
+    divergence = compared("A=1./3.", "IF(A*3.-1.)10,20,10", "10 STOP", "20 K=2", "END")
+    assert divergence.decisions == 1
+    assert divergence.apart == "the branches do not join again"
 
 
-def test_runs_in_an_endless_loop_do_not_meet() -> None:
-    found = compared("A=1./3.", "IF(A*3.-1.)10,20,10", "10 GO TO 10", "20 GO TO 20")
-    assert found.apart == "the branches do not join again"
+def test_endless_loops_do_not_join() -> None:
+    divergence = compared("A=1./3.", "IF(A*3.-1.)10,20,10", "10 GO TO 10", "20 GO TO 20")
+    assert divergence.apart == "the branches do not join again"
 
 
-def test_decisions_after_the_runs_have_met() -> None:
-    """Nine thirds: each of them goes another way than the exact one, and all meet at 30."""
+def test_decisions_are_compared_after_the_runs_have_joined() -> None:
+    """Each of nine thirds takes another branch than the exact one, and all join at 30."""
     lines = ["A=1./3.", "DO 30 I=1,9", "IF(A*3.-1.)10,30,10", "10 K=1", "30 CONTINUE", "END"]
-    found = compared(*lines)
-    assert (found.decisions, found.apart) == (9, "")
-    assert found.first_decision is not None
-    assert found.first_decision.time == 1
+    divergence = compared(*lines)
+    assert (divergence.decisions, divergence.apart) == (9, "")
+    assert divergence.first_decision is not None
+    assert divergence.first_decision.time == 1
 
 
-def test_a_loop_that_ends_earlier_in_one_run() -> None:
-    """N is 3 in one run and 2 in the other: the DO decides differently, and the runs meet after it."""
+def test_a_loop_that_ends_earlier_in_one_run_is_a_decision() -> None:
+    """N is 3 in one run and 2 in the other. The DO decides differently, and the runs join after it."""
     lines = ["A=1./3.", "B=A*9.", "N=B", "DO 5 I=1,N", "5 K=I", "M=7", "END"]
-    found = compared(*lines)
-    decision = found.first_decision
+    divergence = compared(*lines)
+    decision = divergence.first_decision
     assert decision is not None
     assert (decision.line.place.card, decision.time, decision.values) == (4, 2, ("3", "3"))
     assert [target and target.place.card for target in decision.targets] == [6, 5]
-    assert (found.decisions, found.apart) == (1, "")
+    assert (divergence.decisions, divergence.apart) == (1, "")
 
 
 def test_a_computed_go_to_is_a_decision() -> None:
@@ -125,80 +125,82 @@ def test_a_computed_go_to_is_a_decision() -> None:
     assert (decision.line.place.card, decision.values) == (4, ("1", "2"))
 
 
-def test_an_end_that_exact_numbers_make() -> None:
-    found = compared("A=2.", "B=SIN(A)", "C=B", "END")
-    assert (found.decisions, found.values) == (0, 0)
-    assert found.apart == "exact ended: deck.f: card 2: exact arithmetic cannot hold SIN of 2, in B=SIN(A)"
+def test_an_ending_of_exact_numbers_is_reported() -> None:
+    divergence = compared("A=2.", "B=SIN(A)", "C=B", "END")
+    assert (divergence.decisions, divergence.values) == (0, 0)
+    assert divergence.apart == "exact ended: deck.f: card 2: exact arithmetic cannot hold SIN of 2, in B=SIN(A)"
 
 
-def test_runs_that_end_otherwise_at_the_same_place() -> None:
-    found = compared("A=2.", "B=SIN(A)", "END", names=("float64", "exact"))
-    assert found.apart.startswith("exact ended: ")
+def test_different_endings_at_the_same_statement_are_reported() -> None:
+    divergence = compared("A=2.", "B=SIN(A)", "END", names=("float64", "exact"))
+    assert divergence.apart.startswith("exact ended: ")
 
 
-def test_equal_texts_are_told_apart() -> None:
-    found = compared("A=.1", "B=A", "END", names=("float64", "exact"))
-    assert found.first_value is not None
-    assert found.first_value.values == ("0.10000000000000000555...", "0.1")
+def test_values_with_the_same_text_are_shown_exactly() -> None:
+    divergence = compared("A=.1", "B=A", "END", names=("float64", "exact"))
+    assert divergence.first_value is not None
+    assert divergence.first_value.values == ("0.10000000000000000555...", "0.1")
 
 
-def test_undefined_copies_are_the_same() -> None:
-    found = compared("DIMENSION X(3)", "X(1)=X(2)", "Y=1.", "END")
-    assert (found.compared, found.values) == (2, 0)
+def test_copies_of_undefined_fields_are_equal() -> None:
+    divergence = compared("DIMENSION X(3)", "X(1)=X(2)", "Y=1.", "END")
+    assert (divergence.compared, divergence.values) == (2, 0)
 
 
 @pytest.mark.parametrize("names", [("float64", "float64"), ("float32", "float64"), ("float64", "mp:80")])
-def test_infinities_and_what_is_no_number_are_the_same(names: tuple[str, str]) -> None:
-    """-2/0 is minus infinity in each of them, and that less itself no number; 2/0 is another value."""
+def test_infinities_and_nans_are_equal(names: tuple[str, str]) -> None:
+    """-2/0 is minus infinity in both arithmetics, and its difference with itself is not a number; 2/0 differs."""
     lines = ["Z=0.", "A=-2./Z", "B=A", "C=A-A", "D=C", "END"]
-    found = compared(*lines, names=names)
-    assert (found.compared, found.values, found.apart) == (5, 0, "")
+    divergence = compared(*lines, names=names)
+    assert (divergence.compared, divergence.values, divergence.apart) == (5, 0, "")
 
 
-def test_a_bad_card_is_a_bad_card() -> None:
+def test_a_bad_card_raises_its_error() -> None:
     with pytest.raises(CardError, match="d: card 1, column 1: 'X' is not a number"):
         compared("READ 1,A", "1 FORMAT(E14.8)", "END", data=["X"])
     with pytest.raises(DeckError, match="the hopper is empty"):
         compared("READ 1,A", "1 FORMAT(E14.8)", "END")
 
 
-def test_a_program_too_large_is_refused() -> None:
+def test_a_program_that_is_too_large_is_rejected() -> None:
     with pytest.raises(DeckError, match="OVERLAP"):
         compared("DIMENSION X(3900)", "X(1)=1.", "END")
 
 
-def test_a_card_only_one_run_reads() -> None:
-    """After the ways part one run wants a card that is not there: its ending, not an error of the command's."""
+def test_a_missing_card_in_one_run_is_its_ending() -> None:
+    """After the runs have diverged, a missing card is not an error of the command."""
     lines = ["READ 1,N", "A=1./3.", "IF(A*3.-1.)10,20,10", "10 READ 1,N", "20 K=1", "1 FORMAT(I2)", "END"]
-    found = compared(*lines, data=[" 1"])
-    assert found.decisions == 1
-    assert found.endings[0] is not None
-    assert found.endings[0].kind == "input"
+    divergence = compared(*lines, data=[" 1"])
+    assert divergence.decisions == 1
+    assert divergence.endings[0] is not None
+    assert divergence.endings[0].kind == "input"
 
 
-def test_the_limit_ends_both() -> None:
-    found = compared("K=0", "5 K=K+1", "GO TO 5", "END")
-    assert (found.apart, found.statements) == ("", (5_000, 5_000))
-    assert [ending and ending.kind for ending in found.endings] == ["limit", "limit"]
+def test_the_limit_ends_both_runs() -> None:
+    divergence = compared("K=0", "5 K=K+1", "GO TO 5", "END")
+    assert (divergence.apart, divergence.statements) == ("", (5_000, 5_000))
+    assert [ending and ending.kind for ending in divergence.endings] == ["limit", "limit"]
 
 
-def test_without_values_only_the_first_decision() -> None:
+def test_without_values_only_the_first_decision_is_compared() -> None:
     made, deck = program(*THIRD), deck_from_lines("d", [])
-    found = diverge(made, deck, numbers("truncating"), numbers("exact"), values=False)
-    assert found.first_decision == compared(*THIRD).first_decision
-    assert (found.first_value, found.compared, found.losses) == (None, 0, ())
+    divergence = diverge(made, deck, numbers("truncating"), numbers("exact"), values=False)
+    assert divergence.first_decision == compared(*THIRD).first_decision
+    assert (divergence.first_value, divergence.compared, divergence.losses) == (None, 0, ())
 
 
 # Laws, over random programs.
 
 
-def tried(cards: list[str], data: list[str], one: str, other: str, values: bool = True) -> Divergence | None:
+def divergence_or_none(
+    cards: list[str], data: list[str], studied: str, reference: str, values: bool = True
+) -> Divergence | None:
     with within(30):
         try:
             made, _ = translate(source(*cards))
             if made is None:
                 return None
-            systems, options = map(numbers, (one, other)), Options(limit=600)
+            systems, options = map(numbers, (studied, reference)), Options(limit=600)
             return diverge(made, deck_from_lines("d", data), *systems, options, values=values, rounding=False)
         except EmulatorError:
             return None
@@ -207,31 +209,50 @@ def tried(cards: list[str], data: list[str], one: str, other: str, values: bool 
 @settings(max_examples=30)
 @given(programs(), DATA, NAMES)
 def test_an_arithmetic_does_not_differ_from_itself(cards: list[str], data: list[str], name: str) -> None:
-    found = tried(cards, data, name, name)
-    if found is not None:
-        assert (found.first_value, found.first_decision, found.values, found.apart) == (None, None, 0, "")
-        assert not any(loss.differing or loss.worst for loss in found.losses)
+    divergence = divergence_or_none(cards, data, name, name)
+    if divergence is not None:
+        assert (divergence.first_value, divergence.first_decision, divergence.values, divergence.apart) == (
+            None,
+            None,
+            0,
+            "",
+        )
+        assert not any(loss.differing or loss.worst for loss in divergence.losses)
 
 
 @settings(max_examples=30)
 @given(programs(), DATA, NAMES, NAMES)
-def test_turned_about(cards: list[str], data: list[str], one: str, other: str) -> None:
-    """What differs does not depend on which of the two is the reference; without values the decision is the same."""
-    found, turned = tried(cards, data, one, other), tried(cards, data, other, one)
-    quick = tried(cards, data, one, other, values=False)
-    if found is None or turned is None or quick is None:
-        assert (found is None) == (turned is None)
+def test_differences_do_not_depend_on_the_choice_of_reference(
+    cards: list[str], data: list[str], studied: str, reference: str
+) -> None:
+    """Without values the first decision is the same."""
+    divergence, exchanged = (
+        divergence_or_none(cards, data, studied, reference),
+        divergence_or_none(cards, data, reference, studied),
+    )
+    quick = divergence_or_none(cards, data, studied, reference, values=False)
+    if divergence is None or exchanged is None or quick is None:
+        assert (divergence is None) == (exchanged is None)
         return
-    assert (found.compared, found.values, found.decisions) == (turned.compared, turned.values, turned.decisions)
-    assert (found.statements, found.endings) == (turned.statements[::-1], turned.endings[::-1])
-    for mine, yours in ((found.first_decision, turned.first_decision), (found.first_value, turned.first_value)):
-        assert (mine and (mine.line, mine.time)) == (yours and (yours.line, yours.time))
-        assert (mine and mine.values) == (yours and yours.values[::-1])
-    assert quick.first_decision == found.first_decision
+    assert (divergence.compared, divergence.values, divergence.decisions) == (
+        exchanged.compared,
+        exchanged.values,
+        exchanged.decisions,
+    )
+    assert (divergence.statements, divergence.endings) == (exchanged.statements[::-1], exchanged.endings[::-1])
+    for studied_first, reference_first in (
+        (divergence.first_decision, exchanged.first_decision),
+        (divergence.first_value, exchanged.first_value),
+    ):
+        assert (studied_first and (studied_first.line, studied_first.time)) == (
+            reference_first and (reference_first.line, reference_first.time)
+        )
+        assert (studied_first and studied_first.values) == (reference_first and reference_first.values[::-1])
+    assert quick.first_decision == divergence.first_decision
 
 
-def statements_of(made: Program, data: list[str], name: str) -> list[Line]:
-    """The statements a run begins, by a tracer: the way without a journal."""
+def traced_statements(made: Program, data: list[str], name: str) -> list[Line]:
+    """Return the statements that a run executes, from a tracer instead of the journal."""
     begun: list[Line] = []
     machine = Machine(made, deck_from_lines("d", data), Options(numbers=numbers(name), limit=600))
     machine.tracer = lambda line, _: begun.append(line)
@@ -244,19 +265,22 @@ def statements_of(made: Program, data: list[str], name: str) -> list[Line]:
 
 @settings(max_examples=40)
 @given(programs(), DATA, NAMES, NAMES)
-def test_the_first_decision_by_tracing_both(cards: list[str], data: list[str], one: str, other: str) -> None:
-    """The first decision that differs is where the statements two tracers see first differ."""
-    found = tried(cards, data, one, other)
-    if found is None:
+def test_the_first_decision_is_where_two_traces_first_differ(
+    cards: list[str], data: list[str], studied: str, reference: str
+) -> None:
+    divergence = divergence_or_none(cards, data, studied, reference)
+    if divergence is None:
         return
     made, _ = translate(source(*cards))
     assert made is not None
-    mine, yours = statements_of(made, data, one), statements_of(made, data, other)
-    part = next((k for k, (a, b) in enumerate(zip(mine, yours, strict=False)) if a is not b), -1)
-    if found.first_decision is None:
-        assert part < 0
-    elif part > 0:
-        assert (mine[part], yours[part]) == found.first_decision.targets or mine[part - 1] is found.first_decision.line
+    studied_first, reference_first = traced_statements(made, data, studied), traced_statements(made, data, reference)
+    split = next((k for k, (a, b) in enumerate(zip(studied_first, reference_first, strict=False)) if a is not b), -1)
+    if divergence.first_decision is None:
+        assert split < 0
+    elif split > 0:
+        assert (studied_first[split], reference_first[split]) == divergence.first_decision.targets or studied_first[
+            split - 1
+        ] is divergence.first_decision.line
 
 
 # Where ways meet.
@@ -264,8 +288,8 @@ def test_the_first_decision_by_tracing_both(cards: list[str], data: list[str], o
 
 @settings(max_examples=100)
 @given(st.integers(1, 12), st.integers(0, 10**9))
-def test_post_dominators_by_their_meaning(size: int, seed: int) -> None:
-    """d is on every path from n to the end just when the end cannot be reached from n without d."""
+def test_post_dominators_agree_with_their_definition(size: int, seed: int) -> None:
+    """d is on every path from n to the end if and only if the end cannot be reached from n without d."""
     r = random.Random(seed)
     follow = [tuple(r.randint(0, size) for _ in range(r.randint(1, 3))) for _ in range(size)]
 
@@ -297,7 +321,7 @@ def test_post_dominators_by_their_meaning(size: int, seed: int) -> None:
                 assert (meeting(parents, n, m) in both) == bool(both)
 
 
-def test_the_end_of_a_run_is_behind_every_read() -> None:
+def test_a_read_may_be_followed_by_the_end_of_the_run() -> None:
     made = program("1 READ 2,A", "GO TO 1", "2 FORMAT(E14.8)", "END")
     follow = successors(made)
     assert any(len(made.code) in after for after in follow)

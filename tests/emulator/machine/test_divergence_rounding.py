@@ -1,4 +1,4 @@
-"""A reference that rounds: what its own rounding may explain is called no difference, and told."""
+"""References that round: differences that their own rounding may explain are not counted."""
 
 from __future__ import annotations
 
@@ -30,30 +30,30 @@ TENTHS = ["A=.3", "B=A-.1", "C=B-.2"]
 
 @pytest.mark.parametrize("reference", ["float64", "float32", "mp:60", "mp:500"])
 def test_tenths_in_binary_do_not_differ_from_exact_ones(reference: str) -> None:
-    """.3, .2 and 0 exactly; in binary all three are off, the last by all it is."""
-    found = compared(*TENTHS, names=("exact", reference))
-    assert (found.compared, found.values, found.first_value, found.within) == (3, 0, None, 3)
-    assert not any(loss.worst or loss.differing for loss in found.losses)
+    """The exact values are .3, .2 and 0. In binary all three have errors, the last of 100 %."""
+    divergence = compared(*TENTHS, names=("exact", reference))
+    assert (divergence.compared, divergence.values, divergence.first_value, divergence.within) == (3, 0, None, 3)
+    assert not any(loss.worst or loss.differing for loss in divergence.losses)
     raw = compared(*TENTHS, names=("exact", reference), rounding=False)
     assert (raw.values, raw.within) == (3, 0)
     assert raw.losses[0].worst == pytest.approx(raw.digits, abs=0.05)
 
 
-def test_a_difference_beyond_the_references_rounding_is_one() -> None:
-    """.33333333 of a third: 3.3E-9 off, where doubles are by 1.85E-17."""
-    found = compared("A=1./3.", "B=A+1.", names=("truncating", "float64"))
-    assert (found.values, found.within) == (2, 0)
-    assert found.first_value is not None
-    assert found.first_value.relative == pytest.approx(1e-8)
-    assert float(found.first_value.bound) == pytest.approx(2 * float(Fraction(1, 3) - Fraction(1 / 3)))
+def test_a_difference_larger_than_the_rounding_error_is_counted() -> None:
+    """.33333333 is 3.3E-9 from a third; the double is 1.85E-17 from it."""
+    divergence = compared("A=1./3.", "B=A+1.", names=("truncating", "float64"))
+    assert (divergence.values, divergence.within) == (2, 0)
+    assert divergence.first_value is not None
+    assert divergence.first_value.relative == pytest.approx(1e-8)
+    assert float(divergence.first_value.bound) == pytest.approx(2 * float(Fraction(1, 3) - Fraction(1 / 3)))
     # Against exact numbers there is nothing to be off by.
     exact = compared("A=1./3.", "B=A+1.", names=("truncating", "exact"))
     assert exact.first_value is not None
     assert exact.first_value.bound == 0
 
 
-def test_a_poor_reference_cannot_blame_a_better_arithmetic() -> None:
-    """A third and what is made of it in three digits: off by no more than three digits are."""
+def test_a_less_precise_reference_finds_no_differences() -> None:
+    """A third in three digits, and the results computed from it, have errors within the bounds of three digits."""
     lines = ["A=1./3.", "B=A*A", "C=B-A"]
     assert compared(*lines, names=("exact", "truncating:3")).values == 0
     assert compared(*lines, names=("exact", "truncating:3")).within == 3
@@ -64,11 +64,11 @@ DECISION = [*TENTHS, "IF(C)10,20,10", "10 K=1", "GO TO 30", "20 K=2", "30 M=1"]
 
 
 @pytest.mark.parametrize("values", [True, False])
-def test_a_decision_that_the_reference_cannot_tell_ends_the_comparison(values: bool) -> None:
-    """Exactly C is 0; in doubles -2.8E-17, which is not called a decision of the exact numbers that differs."""
-    found = compared(*DECISION, names=("exact", "float64"), values=values)
-    assert (found.tested, found.decisions, found.first_decision) == (1, 0, None)
-    assert found.apart == (
+def test_a_decision_that_the_reference_cannot_make_ends_the_comparison(values: bool) -> None:
+    """C is 0 exactly and -2.8E-17 in doubles, which must not count as a decision of exact numbers that differs."""
+    divergence = compared(*DECISION, names=("exact", "float64"), values=values)
+    assert (divergence.tested, divergence.decisions, divergence.first_decision) == (1, 0, None)
+    assert divergence.apart == (
         "at card 4 float64 has -2.7755575615628914e-17, which its own rounding may have changed by 1E-16; "
         "use exact, or a reference of more digits"
     )
@@ -76,11 +76,14 @@ def test_a_decision_that_the_reference_cannot_tell_ends_the_comparison(values: b
     assert raw.decisions == 1
 
 
-def test_a_decision_that_the_reference_tells_differs() -> None:
-    """.99999999 - 1 in eight digits, 0 exactly; and the other way about only where the reference is sure."""
+def test_a_decision_that_the_reference_can_make_is_counted() -> None:
+    """.99999999 - 1 in eight digits is 0 exactly.
+
+    With the arithmetics exchanged, it counts only if the reference is certain.
+    """
     lines = ["A=3.", "B=A-3.0000001", "IF(B)10,20,10", "10 K=1", "20 M=1"]
-    found = compared(*lines, names=("truncating:3", "truncating:12"))
-    assert (found.decisions, found.apart) == (1, "")
+    divergence = compared(*lines, names=("truncating:3", "truncating:12"))
+    assert (divergence.decisions, divergence.apart) == (1, "")
     assert compared(*lines, names=("truncating:12", "truncating:3")).decisions == 0
     # 2 - 2 is 0 in three digits too, and nothing was rounded: that is told.
     sure = compared("A=2.", "B=A-2.", "IF(B)10,20,10", "10 K=1", "20 M=1", names=("truncating", "truncating:3"))
@@ -89,16 +92,16 @@ def test_a_decision_that_the_reference_tells_differs() -> None:
 
 @settings(max_examples=30)
 @given(programs(), DATA)
-def test_exact_numbers_never_differ_from_a_reference_by_more_than_its_rounding(
-    cards: list[str], data: list[str]
-) -> None:
-    """Of any program without FIX, whose whole numbers have no bound: exact numbers are right."""
+def test_exact_numbers_differ_from_a_reference_only_by_its_rounding(cards: list[str], data: list[str]) -> None:
+    """This holds for any program without FIX, whose integers have no error bound."""
     with within(60):
         try:
             made, _ = translate(source(*cards))
             if made is None or any(instruction.operation == FIX for instruction in made.code):
                 return
-            found = diverge(made, deck_from_lines("d", data), numbers("exact"), numbers("mp:200"), Options(limit=600))
+            divergence = diverge(
+                made, deck_from_lines("d", data), numbers("exact"), numbers("mp:200"), Options(limit=600)
+            )
         except EmulatorError:
             return
-    assert (found.first_decision, found.first_value) == (None, None)
+    assert (divergence.first_decision, divergence.first_value) == (None, None)

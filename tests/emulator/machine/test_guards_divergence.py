@@ -1,4 +1,4 @@
-"""Digits lost are those of the poorer of two arithmetics, whichever is the reference (docs/reference/machine.md)."""
+"""The digits lost are those of the less precise arithmetic, whichever is the reference (docs/reference/machine.md)."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def compared(studied: str, reference: str, lines: Sequence[str], data: Sequence[
 
 
 @pytest.mark.parametrize(
-    ("one", "other", "digits"),
+    ("first", "second", "digits"),
     [
         ("truncating:3", "exact", 3),
         ("truncating:12", "truncating:3", 3),
@@ -31,9 +31,9 @@ def compared(studied: str, reference: str, lines: Sequence[str], data: Sequence[
         ("exact", "exact", 0),
     ],
 )
-def test_the_digits_are_those_of_the_poorer_arithmetic(one: str, other: str, digits: float) -> None:
-    """Of b bits b log10 2 digits; exact numbers lose none among themselves, so there are none to count."""
-    for studied, reference in ((one, other), (other, one)):
+def test_the_digits_are_those_of_the_less_precise_arithmetic(first: str, second: str, digits: float) -> None:
+    """b bits are b log10 2 digits. Two exact runs have no digits to lose."""
+    for studied, reference in ((first, second), (second, first)):
         assert compared(studied, reference, ["A=1."]).digits == pytest.approx(digits)
 
 
@@ -50,35 +50,37 @@ READ = ["READ 1,A,B", "C=A-B", "1 FORMAT(2F8.5)"]
     ],
     ids=lambda value: "-".join(value) if isinstance(value, tuple) else "",
 )
-def test_three_digits_lose_the_same_from_either_side(names: tuple[str, str], losses: dict[int, float]) -> None:
-    """By hand: .33369 and .33302 are .333 in three digits.
+def test_the_loss_of_three_digits_does_not_depend_on_the_reference(
+    names: tuple[str, str], losses: dict[int, float]
+) -> None:
+    """.33369 and .33302 are .333 in three digits.
 
-    .00069/.33369 is 2.07E-3 and .00069/.333 is 2.07E-3, whose logarithm is -2.68: .3 of three digits are lost.  The
-    difference is 0 on one side and .00067 on the other: all three are lost, whichever the reference is.
+    .00069/.33369 and .00069/.333 are both 2.07E-3, whose logarithm is -2.68, so that .3 of three digits are lost. The
+    difference is 0 on one side and .00067 on the other, so that all three are lost.
     """
-    found = compared(*names, READ, [" 0.33369 0.33302"])
-    assert {loss.line.place.card: loss.worst for loss in found.losses} == losses
+    divergence = compared(*names, READ, [" 0.33369 0.33302"])
+    assert {loss.line.place.card: loss.worst for loss in divergence.losses} == losses
 
 
-def test_no_fewer_digits_than_none_are_lost() -> None:
-    """9.991 in three digits is 9.99: off by one in ten thousand, where three digits could not do better than .9."""
-    found = compared("truncating:3", "exact", ["A=9.991"])
-    assert [(loss.differing, loss.worst) for loss in found.losses] == [(1, 0.0)]
+def test_the_loss_is_never_negative() -> None:
+    """9.991 is 9.99 in three digits: a relative error of 1E-4, smaller than the last digit."""
+    divergence = compared("truncating:3", "exact", ["A=9.991"])
+    assert [(loss.differing, loss.worst) for loss in divergence.losses] == [(1, 0.0)]
 
 
-def test_no_more_digits_are_lost_than_there_are() -> None:
-    """10.4 - 10.3951 is .0049; in three digits 10.4 - 10.3 is .1, off by 19 times the value: three digits, not 4.3."""
-    found = compared("truncating:3", "exact", READ, ["10.4000010.39510"])
-    assert {loss.line.place.card: loss.worst for loss in found.losses}[2] == 3.0
+def test_the_loss_is_never_more_than_all_digits() -> None:
+    """10.4 - 10.3951 is .0049, but .1 in three digits, an error of 19 times the value: not 4.3 digits are lost."""
+    divergence = compared("truncating:3", "exact", READ, ["10.4000010.39510"])
+    assert {loss.line.place.card: loss.worst for loss in divergence.losses}[2] == 3.0
 
 
-def test_a_value_where_the_reference_is_zero_has_lost_every_digit() -> None:
-    """No difference is relative to zero (docs/reference/machine.md): all eight of 1 - .33333333 * 3."""
-    found = compared("truncating", "exact", ["A=1./3.", "B=1.-A*3."])
-    assert {loss.line.place.card: loss.worst for loss in found.losses} == {1: 0.0, 2: 8.0}
+def test_a_value_differing_from_zero_has_lost_all_digits() -> None:
+    """No difference is relative to zero (docs/reference/machine.md): 1 - .33333333 * 3 has lost all eight digits."""
+    divergence = compared("truncating", "exact", ["A=1./3.", "B=1.-A*3."])
+    assert {loss.line.place.card: loss.worst for loss in divergence.losses} == {1: 0.0, 2: 8.0}
 
 
-def test_a_root_of_the_reference_is_compared_to_more_digits_than_the_poorer_has() -> None:
-    """1.4142135 of 1.41421356237... is off by 4.41E-8, whose logarithm is -7.36: .6 of eight digits."""
-    found = compared("truncating", "exact", ["A=2.", "B=SQRT(A)"])
-    assert {loss.line.place.card: loss.worst for loss in found.losses} == {1: 0.0, 2: 0.6}
+def test_an_exact_root_is_compared_with_more_digits_than_the_studied_one() -> None:
+    """1.4142135 differs from 1.41421356237... by 4.41E-8, whose logarithm is -7.36: .6 of eight digits are lost."""
+    divergence = compared("truncating", "exact", ["A=2.", "B=SQRT(A)"])
+    assert {loss.line.place.card: loss.worst for loss in divergence.losses} == {1: 0.0, 2: 0.6}

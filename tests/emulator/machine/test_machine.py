@@ -1,4 +1,4 @@
-"""The machine: endings, limit, switches, loops and jumps, devices (part one 1 and 2, part two 5)."""
+"""The machine: endings, limit, switches, loops, jumps and devices (references "part ..." are to tests/data/vectors)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ OUT = "PUNCH 90,K"
 F = "90 FORMAT(I4)"
 
 
-def test_endings() -> None:
+def test_a_run_ends_by_an_empty_hopper_by_stop_or_by_end() -> None:
     assert run("X=1.", "END").ending.kind == "end"
     assert run("STOP", "END").ending.kind == "stop"
     assert run("X=1.").ending.kind == "end"
@@ -25,14 +25,14 @@ def test_endings() -> None:
     assert [Ending(kind).normal for kind in ("end", "stop", "hopper", "limit", "mode")] == [True] * 3 + [False] * 2
 
 
-def test_stop_stops_before_what_follows() -> None:
+def test_stop_ends_the_run_before_the_next_statement() -> None:
     result = run("K=1", OUT, "STOP", OUT, F, "END")
     assert result.punched == ("   1",)
     assert result.statements == 3
 
 
-def test_hopper_empty_at_the_start_of_a_data_set() -> None:
-    """The first READ executed begins a data set: a hopper empty there is the normal end of a job."""
+def test_an_empty_hopper_at_the_first_read_is_a_normal_end() -> None:
+    """The first READ executed begins a data set, so that an empty hopper there ends the job normally."""
     lines = ["1 READ 90,N", "DO 2 I=1,N", "2 READ 90,K", OUT, "GO TO 1", F, "END"]
     result = run(*lines, data=["   2", "   5", "   6", "   1", "   7"])
     assert result.ending.kind == "hopper"
@@ -41,7 +41,7 @@ def test_hopper_empty_at_the_start_of_a_data_set() -> None:
     assert result.cards_read == 5
 
 
-def test_hopper_empty_in_the_middle_of_a_data_set() -> None:
+def test_an_empty_hopper_within_a_data_set_is_an_error() -> None:
     lines = ["1 READ 90,N", "DO 2 I=1,N", "2 READ 90,K", OUT, "GO TO 1", F, "END"]
     with pytest.raises(DeckError) as caught:
         run(*lines, data=["   2", "   5"])
@@ -51,12 +51,12 @@ def test_hopper_empty_in_the_middle_of_a_data_set() -> None:
     )
 
 
-def test_hopper_empty_from_the_start() -> None:
+def test_a_hopper_without_any_card_is_an_error() -> None:
     with pytest.raises(DeckError, match="the hopper is empty at the first READ"):
         run("READ 90,K", F, "END")
 
 
-def test_limit_names_the_loop() -> None:
+def test_the_message_about_the_limit_names_the_loop() -> None:
     result = run("K=0", "10 K=K+1", "L=K", "GO TO 10", "END", limit=5_000)
     assert result.ending.kind == "limit"
     assert not result.ending.normal
@@ -67,18 +67,18 @@ def test_limit_names_the_loop() -> None:
     assert result.statements == 5_000
 
 
-def test_limit_names_only_the_loop_it_was_in_at_last() -> None:
+def test_the_message_about_the_limit_names_only_the_last_loop() -> None:
     lines = ["DO 5 I=1,900", "5 K=I", "6 GO TO 6", "END"]
     assert run(*lines, limit=10_000).ending.message.endswith("the last ones repeat card 3, statement 6")
 
 
-def test_a_loop_of_cards_without_numbers() -> None:
+def test_the_message_about_a_loop_without_statement_numbers_names_cards() -> None:
     message = run("DO 5 I=1,9999", "5 CONTINUE", "END", limit=30_000).ending.message
     assert message.endswith("the last ones repeat card 2, statement 5")
 
 
 @pytest.mark.parametrize("limit", [2, 3, 7, 60])
-def test_a_run_of_exactly_the_limit_ends(limit: int) -> None:
+def test_a_run_that_needs_exactly_the_limit_ends_normally(limit: int) -> None:
     cards = [f"{n} CONTINUE" for n in range(1, limit)]
     assert run(*cards, "END", limit=limit).ending.kind == "end"
     assert run(*cards, "X=1.", "END", limit=limit).ending.kind == "limit"
@@ -91,13 +91,13 @@ def test_the_limit_is_exact(limit: int) -> None:
 
 
 @pytest.mark.parametrize("limit", [0, 1])
-def test_the_smallest_limits(limit: int) -> None:
+def test_the_smallest_limits_are_exact(limit: int) -> None:
     assert run("1 GO TO 1", "END", limit=limit).ending.kind == "limit"
 
 
 @pytest.mark.parametrize(("first", "items"), [("N=9999", "(K,I=1,N)"), ("N=0", "(K,I=1,2,N)"), ("N=-1", "(K,I=1,2,N)")])
-def test_the_limit_holds_in_an_endless_list(first: str, items: str) -> None:
-    """The variable of a list wraps from 9999 to 0, or a step in core is zero: the machine would run for ever."""
+def test_the_limit_ends_an_endless_list(first: str, items: str) -> None:
+    """The variable of a list wraps from 9999 to 0, or its step is zero, so that the list never ends."""
     with within(0.7):
         assert run("K=1", first, f"PUNCH 90,{items}", F, "END", limit=1_000).ending.kind == "limit"
 
@@ -107,8 +107,8 @@ def test_the_limit_holds_in_an_endless_list(first: str, items: str) -> None:
     [["1 PUNCH 5", "GO TO 1", "5 FORMAT(200(/))"], ["DIMENSION M(200)", "1 PUNCH 5,M", "GO TO 1", "5 FORMAT(I4)"]],
     ids=["slashes", "whole array"],
 )
-def test_the_limit_bounds_what_is_punched(lines: list[str]) -> None:
-    """At the usual limit of five million these would fill the memory long before they end."""
+def test_the_limit_bounds_the_number_of_cards_punched(lines: list[str]) -> None:
+    """With the default limit of five million these programs would fill the memory first."""
     start = ["DO 9 I=1,200", "9 M(I)=I"] if "M(200)" in lines[0] else []
     result = run(*lines[: len(start) // 2], *start, *lines[len(start) // 2 :], "END", limit=1_000)
     assert result.ending.kind == "limit"
@@ -118,45 +118,45 @@ def test_the_limit_bounds_what_is_punched(lines: list[str]) -> None:
 # Loops and jumps.
 
 
-def test_live_limit() -> None:
+def test_a_loop_uses_the_current_value_of_its_limit() -> None:
     """Part two 5: changing N inside the loop shortens the loop at once."""
     assert punched("N=9", "K=0", "DO 5 I=1,N", "K=K+1", "5 N=4", "PUNCH 90,K,I", "90 FORMAT(2I4)", "END") == (
         "   4   5",
     )
 
 
-def test_a_jump_out_keeps_the_variable() -> None:
+def test_a_jump_out_of_a_do_keeps_its_variable() -> None:
     lines = ["DO 5 I=1,9", "IF(I-4)5,6,5", "5 CONTINUE", "6 K=I", OUT, F, "END"]
     assert punched(*lines) == ("   4",)
 
 
-def test_a_jump_into_a_range() -> None:
-    """Program 2 goes to 138 inside the DO of 143: the variable goes on from where it is (GOTRAN p. 16)."""
+def test_a_jump_into_the_range_of_a_do_continues_the_loop() -> None:
+    """Program 2 jumps to 138 within the DO of 143; the variable continues from its value (GOTRAN p. 16)."""
     lines = ["I=7", "K=0", "GO TO 4", "DO 5 I=1,9", "4 K=K+1", "5 CONTINUE", "PUNCH 90,K,I", "90 FORMAT(2I4)", "END"]
     assert punched(*lines) == ("   3  10",)
 
 
-def test_nested_dos_on_one_statement() -> None:
+def test_nested_dos_may_end_on_the_same_statement() -> None:
     lines = ["K=0", "DO 5 I=1,3", "DO 5 J=1,4", "5 K=K+1", "PUNCH 90,K,I,J", "90 FORMAT(3I4)", "END"]
     assert punched(*lines) == ("  12   4   5",)
 
 
 @pytest.mark.parametrize("last", ["5 READ 90,K", "5 PUNCH 90,K", "5 PAUSE"])
-def test_statements_a_do_may_end_with(last: str) -> None:
+def test_a_do_may_end_with_input_output_or_pause(last: str) -> None:
     """The thesis ends loops on READ and PUNCH."""
     result = run("K=8", "DO 5 I=1,3", last, "PUNCH 90,I", F, "END", data=["1", "2", "3"])
     assert result.punched[-1] == "   4"
 
 
-def test_computed_go_to() -> None:
+def test_a_computed_go_to_branches_by_its_value() -> None:
     lines = ["READ 90,K", "GO TO (11,12,13),K", "11 K=100", "GO TO 20", "12 K=200", "GO TO 20", "13 K=300", f"20 {OUT}"]
     for index in (1, 2, 3):
         assert punched(*lines, F, "END", data=[f"   {index}"]) == (f" {index}00",)
 
 
 @pytest.mark.parametrize("index", [0, 4, -1, 9999])
-def test_computed_go_to_out_of_range(index: int) -> None:
-    """The machine would have branched anywhere (OPEN-QUESTIONS 12)."""
+def test_a_computed_go_to_out_of_range_ends_the_run(index: int) -> None:
+    """The machine would have branched to an arbitrary address (OPEN-QUESTIONS 12)."""
     result = run("READ 90,K", "GO TO (1,1,1),K", "1 STOP", "90 FORMAT(I5)", "END", data=[f"{index:5d}"])
     assert (result.ending.kind, result.ending.message) == (
         "select",
@@ -165,7 +165,7 @@ def test_computed_go_to_out_of_range(index: int) -> None:
 
 
 @pytest.mark.parametrize("on", [set(), {1}, {2}, {3}, {4}, {1, 4}])
-def test_sense_switches(on: set[int]) -> None:
+def test_sense_switches_select_branches(on: set[int]) -> None:
     lines: list[str] = ["K=0"]
     for switch in (1, 2, 3, 4):
         lines += [f"IF(SENSE SWITCH {switch}){switch},1{switch}", f"{switch} K=K+{10 ** (4 - switch)}"]
@@ -174,15 +174,15 @@ def test_sense_switches(on: set[int]) -> None:
     assert result == (f"{sum(10 ** (4 - s) for s in on):4d}",)
 
 
-@pytest.mark.parametrize(("words", "number"), [("PAUSE", 0), ("PAUSE 25", 25)])
-def test_pause_stands_with_its_number(words: str, number: int) -> None:
-    session = Session(program(words, "END"), Deck("none", ()))
+@pytest.mark.parametrize(("statement", "number"), [("PAUSE", 0), ("PAUSE 25", 25)])
+def test_a_pause_halts_with_its_number(statement: str, number: int) -> None:
+    session = Session(program(statement, "END"), Deck("none", ()))
     halt = session.advance(100)
     assert isinstance(halt, Halt)
     assert (halt.what, halt.number) == ("pause", number)
 
 
-def test_pause_goes_on_with_a_warning() -> None:
+def test_a_pause_without_an_operator_continues_with_a_warning() -> None:
     """OPEN-QUESTIONS 11."""
     result = run("7 PAUSE", "K=5", OUT, F, "END")
     assert result.punched == ("   5",)
@@ -194,13 +194,13 @@ def test_pause_goes_on_with_a_warning() -> None:
 # Lists.
 
 
-def test_whole_arrays_go_down_the_columns() -> None:
-    """Elements one field after the other: A(1,1), A(2,1), A(1,2) ... (C26-5619 p. 66-69)."""
+def test_whole_arrays_are_transferred_column_by_column() -> None:
+    """The elements are in the order A(1,1), A(2,1), A(1,2) ... (C26-5619 p. 66-69)."""
     lines = ["DIMENSION M(2,3)", "READ 90,M", "PUNCH 90,M(1,1),M(1,2),M(1,3)", "PUNCH 90,M", "90 FORMAT(6I3)", "END"]
     assert punched(*lines, data=["  1  2  3  4  5  6"]) == ("  1  3  5", "  1  2  3  4  5  6")
 
 
-def test_indexed_lists() -> None:
+def test_indexed_lists_transfer_the_elements_in_order() -> None:
     lines = ["DIMENSION M(2,3)", "READ 90,((M(I,J),J=1,3),I=1,2)", "PUNCH 90,(M(I,2),I=1,2)", "PUNCH 90,M"]
     assert punched(*lines, "90 FORMAT(6I3)", "END", data=["  1  2  3  4  5  6"]) == (
         "  2  5",
@@ -208,7 +208,7 @@ def test_indexed_lists() -> None:
     )
 
 
-def test_an_indexed_list_runs_once_at_least_and_may_step() -> None:
+def test_an_indexed_list_has_at_least_one_pass_and_may_have_a_step() -> None:
     lines = ["N=0", "PUNCH 90,(I,I=1,N)", "PUNCH 90,(I,I=1,9,3)", "PUNCH 90,I", "90 FORMAT(9I3)", "END"]
     assert punched(*lines) == ("  1", "  1  4  7", " 10")
 
@@ -218,7 +218,7 @@ def test_a_list_may_read_its_own_limit_and_subscript() -> None:
     assert punched(*lines, data=["  2  8  9  3  7"]) == ("  8  9  7",)
 
 
-def test_a_list_nested_too_deep() -> None:
+def test_a_list_nested_too_deeply_is_an_error() -> None:
     items = "I"
     for _ in range(5):
         items = f"({items},I=1,2)"
@@ -229,19 +229,19 @@ def test_a_list_nested_too_deep() -> None:
 # Typewriter.
 
 
-def test_accept_and_type() -> None:
+def test_accept_reads_and_type_writes_lines() -> None:
     result = run("ACCEPT 90,K", "K=K+1", "TYPE 90,K", F, "END", keyboard=["  41"])
     assert result.typed == ("  42",)
     assert [(e.what, e.text) for e in result.events] == [("accept", "  41"), ("type", "  42")]
     assert result.cards_read == 0
 
 
-def test_accept_without_a_line() -> None:
+def test_accept_without_a_line_is_an_error() -> None:
     with pytest.raises(DeckError, match=r"nothing is typed for ACCEPT in the statement on card 1"):
         run("ACCEPT 90,K", F, "END")
 
 
-def test_a_typed_line_that_is_no_number() -> None:
+def test_a_typed_line_that_is_not_a_number_is_an_error() -> None:
     with pytest.raises(CardError, match=r"^typewriter: .*column 1: 'X' is not an integer"):
         run("ACCEPT 90,K", F, "END", keyboard=["X"])
 
@@ -255,13 +255,13 @@ def test_a_typed_line_that_is_no_number() -> None:
     ],
     ids=["arabic digit", "line end", "small letters"],
 )
-def test_a_typed_line_keeps_to_the_card_code(line: str, lines: list[str]) -> None:
-    """An Arabic digit is read as a number, a line end comes out in the middle of a typed record."""
+def test_a_typed_line_may_only_hold_characters_of_the_card_code(line: str, lines: list[str]) -> None:
+    """Otherwise an Arabic digit would be read as a number, and a line end would appear within a typed record."""
     with pytest.raises(CardError, match="not in the card code"):
         run(*lines, "END", keyboard=[line])
 
 
-def test_a_typed_line_is_not_card_0() -> None:
+def test_a_message_about_a_typed_line_does_not_name_a_card() -> None:
     with pytest.raises(CardError) as caught:
         run("ACCEPT 90,K", F, "END", keyboard=["X"])
     assert "card 0" not in str(caught.value)
@@ -274,7 +274,7 @@ def test_a_typed_line_is_not_card_0() -> None:
     "statement",
     ["A=B+1.", "A=1.*B", "A=-B", "J=B", "A=L", "A=SQRT(B)", "A=B**2", "A=2.**B", "A=2.**L", "J=L+1", "J=-L"],
 )
-def test_an_undefined_operand_stops_the_run(statement: str) -> None:
+def test_an_undefined_operand_ends_the_run(statement: str) -> None:
     result = run("X=1.", statement, "END")
     assert result.ending.kind == "undefined"
     name = re.search("[BL]", statement)[0]  # type: ignore[index]
@@ -282,7 +282,7 @@ def test_an_undefined_operand_stops_the_run(statement: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("lines", "words"),
+    ("lines", "message"),
     [
         (["IF(B)1,1,1", "1 STOP"], "B is undefined"),
         (["IF(L)1,1,1", "1 STOP"], "L is undefined"),
@@ -296,14 +296,14 @@ def test_an_undefined_operand_stops_the_run(statement: str) -> None:
         (["PUNCH 9,B", "9 FORMAT(E14.8)"], "B is undefined but is written"),
     ],
 )
-def test_undefined_elsewhere(lines: list[str], words: str) -> None:
+def test_an_undefined_value_in_any_statement_ends_the_run(lines: list[str], message: str) -> None:
     result = run(*lines, "END")
     assert result.ending.kind == "undefined"
-    assert words in result.ending.message
+    assert message in result.ending.message
 
 
 def test_an_undefined_field_may_be_copied() -> None:
-    """Part two 5: a copy is one transmit field; the thesis copies element N+1 so (OPEN-QUESTIONS 22)."""
+    """Part two 5: a copy is one transmit field. The thesis copies element N+1 in this way (OPEN-QUESTIONS 22)."""
     made = machine("DIMENSION X(3)", "X(1)=X(2)", "A=B", "I=J", "END")
     assert made.run().ending.kind == "end"
     assert (number(made, "A"), number(made, "I")) == ("undefined", "undefined")
@@ -312,21 +312,21 @@ def test_an_undefined_field_may_be_copied() -> None:
 # The machine as a whole.
 
 
-def test_machines_do_not_share_anything() -> None:
+def test_machines_do_not_share_state() -> None:
     made = program("READ 90,K", "1 K=K+1", "IF(K-9)1,2,2", f"2 {OUT}", F, "END")
-    one = Machine(made, deck_from_lines("a", ["   1"]), Options())
+    first = Machine(made, deck_from_lines("a", ["   1"]), Options())
     two = Machine(made, deck_from_lines("b", ["  50"]), Options())
     assert two.run().punched == ("  51",)
-    assert one.run().punched == ("   9",)
+    assert first.run().punched == ("   9",)
 
 
-def test_a_program_is_not_changed_by_its_run() -> None:
+def test_a_run_does_not_change_the_program() -> None:
     made = program("K=0", "1 K=K+1", "IF(K-9)1,2,2", f"2 {OUT}", F, "END")
     results = [Machine(made, source(), Options()).run() for _ in range(2)]
     assert results[0] == results[1]
 
 
-def test_error_codes_are_typed_by_ibm1962_only_and_counted_by_statement() -> None:
+def test_only_ibm1962_types_error_codes_and_all_count_them_by_statement() -> None:
     lines = ["DO 5 I=1,3", "5 A=1./0.", "B=1.E60*1.E60", "END"]
     loud, silent = run(*lines, arithmetic="ibm1962"), run(*lines)
     assert loud.typed == ("ERROR E7", "ERROR E7", "ERROR E7", "ERROR E3")
@@ -334,14 +334,14 @@ def test_error_codes_are_typed_by_ibm1962_only_and_counted_by_statement() -> Non
     assert loud.errors == silent.errors == (MachineError("E3", 3, 1), MachineError("E7", 2, 3))
 
 
-def test_a_field_too_small_types_f8_under_ibm1962() -> None:
-    """C26-5619 p. 39: printed by E14.8, and a message is typed (OPEN-QUESTIONS 14)."""
+def test_a_field_that_is_too_narrow_types_f8_under_ibm1962() -> None:
+    """The number is printed by E14.8, and a message is typed (C26-5619 p. 39, OPEN-QUESTIONS 14)."""
     lines = ["A=1234567.", "PUNCH 1,A", "1 FORMAT(F7.3)", "END"]
     assert run(*lines, arithmetic="ibm1962").typed == ("ERROR F8",)
     assert run(*lines).typed == ()
 
 
-def test_counts_of_statements() -> None:
+def test_the_result_counts_statements() -> None:
     result = run("DO 5 I=1,3", "5 K=I", "END")
     assert result.statements == 1 + 3 + 1
     assert result.numbers == ()
@@ -350,8 +350,8 @@ def test_counts_of_statements() -> None:
 HEADED = ["READ 1,N", "5 READ 1,I", "PUNCH 1,I", "GO TO 5", "1 FORMAT(I4)", "END"]
 
 
-def test_an_empty_hopper_at_a_later_read_ends_a_run_where_it_may() -> None:
-    """A header card and then a loop of cases, the usual shape: the next case finds no card."""
+def test_with_the_option_hopper_any_a_later_read_may_end_the_run() -> None:
+    """Such programs read a header card and then loop over cases."""
     made, data = program(*HEADED), deck_from_lines("data", ["   3", "   7", "   8"])
     result = Machine(made, data, Options(hopper="any")).run()
     assert (result.ending.kind, result.punched) == ("hopper", ("   7", "   8"))
@@ -359,7 +359,7 @@ def test_an_empty_hopper_at_a_later_read_ends_a_run_where_it_may() -> None:
         Machine(made, data, Options()).run()
 
 
-def test_a_hopper_empty_in_the_middle_of_a_list_is_an_error_either_way() -> None:
+def test_an_empty_hopper_within_a_list_is_always_an_error() -> None:
     made = program("READ 1,I,J", "1 FORMAT(I4)", "END")
     with pytest.raises(DeckError, match="the deck ends in the middle of a data set"):
         Machine(made, deck_from_lines("data", ["   3"]), Options(hopper="any")).run()

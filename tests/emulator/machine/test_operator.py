@@ -1,4 +1,4 @@
-"""An operator who answers from a file, and the log that is such a file."""
+"""The operator who reads a file of actions, and logs that are such files."""
 
 from __future__ import annotations
 
@@ -27,19 +27,19 @@ def logged(lines: list[str], text: str, **setting: object) -> tuple[Result, str]
     return result, log.getvalue()
 
 
-def test_a_file_types_presses_start_and_is_no_warning() -> None:
+def test_a_file_types_lines_and_presses_start_without_a_warning() -> None:
     result = answered(ASKING, "* a comment\nENTER    7\n\nENTER   -8\nENTER    0\nSTART\n")
     assert (result.typed, result.ending.kind, result.notices) == (("   7", "  -8"), "stop", ())
 
 
-def test_after_its_last_line_start_is_pressed_and_a_line_is_missing() -> None:
+def test_after_the_last_line_of_a_file_nobody_operates_the_machine() -> None:
     result = answered(ASKING, "ENTER    0\n")
     assert [notice.kind for notice in result.notices] == ["pause"]
     with pytest.raises(DeckError, match="nothing is typed for ACCEPT in statement 5"):
         answered(ASKING, "ENTER    1\n")
 
 
-def test_a_bad_line_is_retyped_or_is_the_error() -> None:
+def test_a_file_may_correct_a_bad_line() -> None:
     result, log = logged(ASKING, "ENTER    X\nENTER    9\nENTER    0\n")
     assert result.typed == ("   9",)
     assert "* typewriter: line 1, column 1: 'X' is not an integer; the line is typed again: ACCEPT" in log
@@ -47,7 +47,7 @@ def test_a_bad_line_is_retyped_or_is_the_error() -> None:
         answered(ASKING, "ENTER    X\n")
 
 
-def test_switches_at_the_head_are_set_before_the_run_others_at_the_halt() -> None:
+def test_switches_at_the_head_of_a_file_are_set_before_the_run() -> None:
     assert answered(WAITING, "SWITCH 2 ON\nSTART\n").typed == ("   1",)
     assert answered(WAITING, "SWITCH 2 ON\nSWITCH 2 OFF\n", limit=500).ending.kind == "limit"
     lines = ["1 PAUSE", "IF(SENSE SWITCH 1)2,1", "2 TYPE 90", "90 FORMAT(2HON)", "END"]
@@ -55,7 +55,7 @@ def test_switches_at_the_head_are_set_before_the_run_others_at_the_halt() -> Non
     assert (result.typed, result.statements) == (("ON",), 8)
 
 
-def test_at_a_count_of_work() -> None:
+def test_an_action_is_performed_when_its_work_is_done() -> None:
     result, log = logged(WAITING, "AT 100 SWITCH 2 ON\nSTART\n")
     assert result.typed == ("  50",)
     assert "AT 100 SWITCH 2 ON\n" in log
@@ -71,7 +71,7 @@ def test_at_a_count_of_work() -> None:
         "SWITCH 2 ON\n",
     ],
 )
-def test_a_log_replays_to_the_same_run_and_the_same_log(text: str) -> None:
+def test_a_log_repeats_the_run_and_its_log(text: str) -> None:
     first, log = logged(WAITING, text)
     second, again = logged(WAITING, log)
     assert (second, again) == (first, log)
@@ -79,7 +79,7 @@ def test_a_log_replays_to_the_same_run_and_the_same_log(text: str) -> None:
         assert (first.ending.kind, first.ending.normal) == ("operator", False)
 
 
-def test_what_a_log_says() -> None:
+def test_a_log_contains_actions_and_events() -> None:
     lines = ["READ 90,I", "3 ACCEPT 90,K", "PUNCH 90,K", "90 FORMAT(I4)", "END"]
     _, log = logged(lines, "ENTER    4\n", data=["  12"])
     assert log.splitlines() == [
@@ -91,14 +91,14 @@ def test_what_a_log_says() -> None:
     ]
 
 
-def test_a_log_of_nobody_has_what_was_typed() -> None:
+def test_a_log_without_an_operator_contains_the_lines_typed() -> None:
     log = io.StringIO()
     machine(*ASKING).run(Logged(Operator(["   5", "   0"]), log))
     assert [line for line in log.getvalue().splitlines() if line[0] not in "*L"] == ["ENTER    5", "ENTER    0"]
 
 
 @pytest.mark.parametrize(
-    ("line", "words"),
+    ("line", "message"),
     [
         ("STRAT", "'STRAT' is not an action; the actions are ENTER, START,"),
         ("start", "'start' is not an action"),
@@ -118,14 +118,14 @@ def test_a_log_of_nobody_has_what_was_typed() -> None:
         ("AT 7 SWITCH ON", "expected SWITCH, 1 to 4, ON or OFF"),
     ],
 )
-def test_wrong_words_name_file_and_line(line: str, words: str) -> None:
+def test_an_error_in_a_line_names_file_and_line(line: str, message: str) -> None:
     with pytest.raises(FileError) as caught:
         FromFile("o.txt", f"* head\nSTART\n{line}\n")
-    assert str(caught.value).startswith(f"o.txt: line 3: {words}")
+    assert str(caught.value).startswith(f"o.txt: line 3: {message}")
 
 
 @pytest.mark.parametrize(
-    ("lines", "text", "words"),
+    ("lines", "text", "message"),
     [
         (ASKING, "START\n", "line 1: START, but ACCEPT waits for a line, statement 5 (card 1)"),
         (
@@ -138,13 +138,13 @@ def test_wrong_words_name_file_and_line(line: str, words: str) -> None:
         (ASKING, "BREAK CARD 7\n", "line 1: deck.f has no statement there"),
     ],
 )
-def test_an_action_that_does_not_fit_names_file_and_line(lines: list[str], text: str, words: str) -> None:
+def test_an_action_that_does_not_fit_names_file_and_line(lines: list[str], text: str, message: str) -> None:
     with pytest.raises(OperatorError) as caught:
         answered(lines, text)
-    assert str(caught.value) == f"o.txt: {words}"
+    assert str(caught.value) == f"o.txt: {message}"
 
 
-def test_lines_that_were_not_used_are_known() -> None:
+def test_the_first_unused_line_is_known() -> None:
     operator = FromFile("o.txt", "ENTER    0\n* not this\nSTART\nSTART\n")
     machine(*ASKING).run(operator)
     assert operator.first_unused == 4
@@ -165,14 +165,14 @@ def test_lines_that_were_not_used_are_known() -> None:
         Action("STOP"),
     ],
 )
-def test_words_are_read_as_they_are_written(action: Action) -> None:
+def test_an_action_is_read_as_it_is_written(action: Action) -> None:
     assert read_action(action_line(action)) == (None, action)
     if action.word != "ENTER":
         assert read_action(action_line(action, 500)) == (500, action)
 
 
-def test_lines_for_several_machines() -> None:
-    """LOAD parts them; without it the next machine goes on with the lines that are left."""
+def test_load_begins_the_lines_for_the_next_machine() -> None:
+    """Without LOAD the next machine continues with the remaining lines."""
     for text in (
         "LOAD a\nENTER    0\nSTART\nLOAD b\nAT 0 ATTN\nSTEP\nENTER    0\nSTOP\n",
         "ENTER    0\nSTART\nENTER    0\n",
@@ -188,8 +188,8 @@ def test_lines_for_several_machines() -> None:
 
 
 @pytest.mark.parametrize("work", range(1, 30))
-def test_a_log_replays_what_was_done_between_two_lines_of_a_list(work: int) -> None:
-    """A session comes back after each line typed, in the middle of a statement too."""
+def test_a_log_repeats_actions_between_two_lines_of_a_list(work: int) -> None:
+    """A session returns after each typed line, also within a statement."""
     lines = ["1 TYPE 90,(K,K=1,5)", "IF(SENSE SWITCH 3)2,1", "2 TYPE 91", "90 FORMAT(2I4)", "91 FORMAT(1HA/1HB)", "END"]
     first, log = logged(lines, f"AT {work} SWITCH 3 ON\nAT {work + 3} ATTN\nSTEP 2\nSTART\n", limit=80)
     second, again = logged(lines, log, limit=80)

@@ -1,4 +1,4 @@
-"""Whole programs in the style of the time; what they punch is worked out here by other means, or by hand."""
+"""Whole programs in the style of the period. Their expected output is computed by other means, or by hand."""
 
 from __future__ import annotations
 
@@ -28,13 +28,16 @@ def job(
 
 
 def f_field(value: Decimal, width: int, decimals: int) -> str:
-    """A decimal cut behind ``decimals`` places, without a zero before the point, in ``width`` columns."""
+    """Return a decimal truncated to ``decimals`` places, without a zero before the point, in ``width`` columns."""
     text = f"{value.quantize(Decimal(1).scaleb(-decimals), rounding=ROUND_DOWN):f}"
     return text.replace("0.", ".", 1).rjust(width) if text.startswith(("0.", "-0.")) else text.rjust(width)
 
 
-def test_table_of_square_roots(engines: MakeMachine) -> None:
-    """Roots cut to eight digits by integers; Newton's rule is right to one unit of the last of them."""
+def test_a_program_tabulates_square_roots(engines: MakeMachine) -> None:
+    """Roots truncated to eight digits are computed with integers.
+
+    Newton's method is correct to one unit of the last digit.
+    """
     result = job(engines, "roots")
     heading, rows = result.punched[:5], result.punched[5:]
     assert heading == ("", "TABLE OF SQUARE ROOTS", "", "    N     ROOT      NEWTON", "")
@@ -50,14 +53,14 @@ def test_table_of_square_roots(engines: MakeMachine) -> None:
 MATRICES = ["  2  3  2", "   1.0   2.0   3.0", "   4.0   5.0   6.0", "   1.0   0.5   0.0  -1.0", "   2.0   2.0"]
 
 
-def test_product_of_matrices(engines: MakeMachine) -> None:
+def test_a_program_multiplies_matrices(engines: MakeMachine) -> None:
     """By hand: rows (1,2,3) and (4,5,6) times columns (1,0,2) and (.5,-1,2) give 7, 4.5 and 16, 9."""
     result = job(engines, "matrix", *MATRICES)
     assert result.ending.kind == "undefined"  # PUNCH 5 puts out all of C(3,2), and its third row is not set
     assert result.punched == ("", "PRODUCT  2 BY  2", "ROW 1      7.00      4.50", "ROW 2     16.00      9.00")
 
 
-def test_product_of_full_matrices(engines: MakeMachine) -> None:
+def test_a_program_multiplies_matrices_of_full_size(engines: MakeMachine) -> None:
     rows_a = [[1, -2, 3, 0], [4, 5, -6, 7], [0, 1, 0, -1]]
     rows_b = [[1, 2], [3, -4], [-5, 6], [7, 8]]
     data = ["  3  4  2"]
@@ -78,10 +81,11 @@ def test_product_of_full_matrices(engines: MakeMachine) -> None:
     assert result.ending.kind == "hopper"
 
 
-def test_area_under_a_curve(engines: MakeMachine) -> None:
-    """By hand: Y at 0, .5, 1, 1.5, 2 is 1, 1.25, 2, 3.25, 5; trapezoid 4.75, Simpson 14/3 cut to 4.6666666.
+def test_a_program_integrates_by_two_rules(engines: MakeMachine) -> None:
+    """By hand: Y at 0, .5, 1, 1.5, 2 is 1, 1.25, 2, 3.25, 5.
 
-    Simpson's sum is 1 + 5 + 4 + 13 + 5 = 28; 28 * .5 = 14, 14/3 = 4.6666666.
+    The trapezoidal rule gives 4.75. Simpson's sum is 1 + 5 + 4 + 13 + 5 = 28; 28 * .5 = 14, and 14/3 is truncated to
+    4.6666666.
     """
     result = job(engines, "simpson")
     assert result.punched == (
@@ -98,8 +102,8 @@ def test_area_under_a_curve(engines: MakeMachine) -> None:
 
 
 @pytest.mark.parametrize("on", [(), (1,)])
-def test_compound_interest(engines: MakeMachine, on: tuple[int, ...]) -> None:
-    """Each year's product is the exact one cut to eight digits; the interest keeps the digits of the amount."""
+def test_a_program_computes_compound_interest(engines: MakeMachine, on: tuple[int, ...]) -> None:
+    """Each year's product is truncated to eight digits. The interest has the digits of the amount."""
     result = job(engines, "interest", "   1000.00 5.000 10", "   2500.50 3.250  2", on=on)
     expected: list[str] = []
     finals = []
@@ -117,7 +121,7 @@ def test_compound_interest(engines: MakeMachine, on: tuple[int, ...]) -> None:
     assert result.ending.kind == "hopper"
 
 
-def test_prime_numbers(engines: MakeMachine) -> None:
+def test_a_program_finds_prime_numbers(engines: MakeMachine) -> None:
     primes = [n for n in range(2, 200) if all(n % d for d in range(2, n))]
     result = job(engines, "primes")
     assert result.punched[0] == " 46 PRIMES"
@@ -126,8 +130,8 @@ def test_prime_numbers(engines: MakeMachine) -> None:
     assert [int(n) for card in result.punched[1:] for n in card.split()] == primes
 
 
-def test_desk_calculator(engines: MakeMachine) -> None:
-    """By hand: (2+7-4)*3 = 15; 15/7 = 2.1428571; 2 cut to its root 1.4142135, squared 1.9999998 cut; 1-.99999999."""
+def test_a_program_works_as_a_desk_calculator(engines: MakeMachine) -> None:
+    """By hand: (2+7-4)*3 = 15; 15/7 = 2.1428571; the root of 2 is 1.4142135, and its square 1.9999998; 1-.99999999."""
     cards = ["1 2.0", "2 7.0", "3 4.0", "4 3.0", "6", "5 7.0", "6"]
     cards += ["1 2.0", "7", "6", "4 1.4142135", "6", "1 1.0", "3 .99999999", "6", "8"]
     result = job(engines, "desk", *cards)

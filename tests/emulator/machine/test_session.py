@@ -1,4 +1,4 @@
-"""A run in slices: what it asks, what it answers, and what it does not keep."""
+"""Runs in slices: halts, actions, and the memory they use."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def texts(events: Sequence[Event]) -> list[str]:
     return [f"{event.what} {event.text}" for event in events]
 
 
-def test_a_session_stands_until_it_is_answered() -> None:
+def test_a_session_halts_until_it_is_answered() -> None:
     made = session(*GAME)
     halt = made.advance(1_000)
     assert isinstance(halt, Halt)
@@ -46,7 +46,7 @@ def test_a_session_stands_until_it_is_answered() -> None:
 
 
 @pytest.mark.parametrize("bad", ["   1   X", "   1   x", "99991-2-", "   *"])
-def test_a_bad_line_is_asked_for_again_and_has_no_effect(bad: str) -> None:
+def test_a_bad_line_must_be_typed_again_and_has_no_effect(bad: str) -> None:
     made = session("K=7", *GAME, retypes=True)
     made.advance(1_000)
     made.act(Action("ENTER", text=bad))
@@ -62,7 +62,7 @@ def test_a_bad_line_is_asked_for_again_and_has_no_effect(bad: str) -> None:
     assert texts(made.take())[-2:] == ["accept    3   4", "type    3   4"]
 
 
-def test_a_bad_second_line_of_a_list_is_retyped_alone() -> None:
+def test_only_the_bad_line_of_a_list_is_typed_again() -> None:
     lines = ["DIMENSION M(4)", "ACCEPT 90,(M(I),I=1,4)", "TYPE 91,M,I", "90 FORMAT(2I2)", "91 FORMAT(5I2)", "END"]
     made = session(*lines, retypes=True)
     for line in (" 1 2", " 3 +", " 3 4"):
@@ -72,7 +72,7 @@ def test_a_bad_second_line_of_a_list_is_retyped_alone() -> None:
     assert texts(made.take())[-1] == "type  1 2 3 4 5"
 
 
-def test_where_nobody_retypes_a_bad_line_is_an_error() -> None:
+def test_a_bad_line_is_an_error_if_nobody_can_type_it_again() -> None:
     made = session(*GAME)
     made.advance(1_000)
     made.act(Action("ENTER", text="   X"))
@@ -80,9 +80,9 @@ def test_where_nobody_retypes_a_bad_line_is_an_error() -> None:
         made.advance(1_000)
 
 
-def test_single_steps_and_breakpoints() -> None:
+def test_single_steps_and_breakpoints_halt_the_run() -> None:
     made = session("I=1", "J=2", "7 K=3", "L=4", "GO TO 7", "END")
-    found = []
+    halts = []
     for actions in (
         [Action("ATTN")],
         [Action("STEP", 1)],
@@ -96,8 +96,8 @@ def test_single_steps_and_breakpoints() -> None:
             made.act(action)
         halt = made.advance(1_000)
         assert isinstance(halt, Halt)
-        found.append((halt.why, halt.line.place.card))
-    assert found == [
+        halts.append((halt.why, halt.line.place.card))
+    assert halts == [
         ("attention", 1),
         ("step", 2),
         ("step", 4),
@@ -111,7 +111,7 @@ def test_single_steps_and_breakpoints() -> None:
     assert made.advance(1_000) is None
 
 
-def test_a_switch_flipped_on_the_way() -> None:
+def test_a_switch_can_be_flipped_during_the_run() -> None:
     made = session("1 IF(SENSE SWITCH 3)2,1", "2 PUNCH 90", "90 FORMAT(2HON)", "END")
     assert made.advance(100) is None
     assert made.state.work == 100
@@ -120,7 +120,7 @@ def test_a_switch_flipped_on_the_way() -> None:
     assert texts(made.take()) == ["punch ON"]
 
 
-def test_stopped_by_the_operator_all_is_kept() -> None:
+def test_a_run_that_the_operator_stops_keeps_its_output() -> None:
     made = session(*ENDLESS)
     made.advance(100)
     made.act(Action("STOP"))
@@ -146,14 +146,14 @@ def test_slices_do_not_change_a_run(stride: int) -> None:
 
 
 @pytest.mark.parametrize("limit", [*range(1, 40), 2_500])
-def test_coming_back_after_every_line_does_not_change_a_run(limit: int) -> None:
+def test_returning_after_every_line_does_not_change_a_run(limit: int) -> None:
     lines = ["1 TYPE 90,(K,K=1,5)", "IF(SENSE SWITCH 3)2,1", "2 TYPE 91", "90 FORMAT(2I4)", "91 FORMAT(1HA/1HB)", "END"]
     for switches in ((), (3,)):
         made = machine(*lines, limit=limit, switches=switches)
         assert made.run(FromFile("o", "")) == run(*lines, limit=limit, switches=switches)
 
 
-def test_the_limit_is_that_of_a_whole_run() -> None:
+def test_the_limit_applies_to_the_whole_run() -> None:
     whole = run(*ENDLESS, limit=9_000)
     made = machine(*ENDLESS, limit=9_000)
     while (ending := run_with_operator(made, Operator(), made.state.work + 123)) is None:
@@ -161,33 +161,33 @@ def test_the_limit_is_that_of_a_whole_run() -> None:
     assert made.result(ending) == whole
 
 
-def test_output_handed_out_is_not_kept() -> None:
-    """Neither cards, typed lines nor events stay: what is alive at any time is what came of one slice."""
+def test_memory_does_not_grow_with_output_that_is_taken() -> None:
+    """Only the events of the last slice stay in memory."""
     made = Machine(program(*ENDLESS), deck_from_lines("d", ()), Options(limit=100_000))
-    found, alive = 0, []
+    events_taken, alive = 0, []
     gc.collect()
     others = {id(thing) for thing in gc.get_objects() if type(thing) is Event}
 
     def count(events: Sequence[Event]) -> None:
-        nonlocal found
-        found += len(events)
+        nonlocal events_taken
+        events_taken += len(events)
         alive.append(sum(type(thing) is Event and id(thing) not in others for thing in gc.get_objects()))
 
     result = made.run(output=count)
     assert (result.punched, result.typed, result.events) == ((), (), ())
-    assert found == result.cards_punched + result.characters_typed // 6 > 20_000
+    assert events_taken == result.cards_punched + result.characters_typed // 6 > 20_000
     assert len(alive) >= 5
-    assert 0 < max(alive) < found / 3
+    assert 0 < max(alive) < events_taken / 3
 
 
-def test_an_endless_list_does_not_grow() -> None:
+def test_an_endless_list_does_not_use_more_and_more_memory() -> None:
     lines = ["N=9999", "PUNCH 90,(K,K=1,N)", "90 FORMAT(I5)", "END"]
     made = Machine(program(*lines), deck_from_lines("d", ()), Options(limit=50_000))
     made.run(output=lambda events: None)
     assert made.listed == []
 
 
-def test_attention_twice_in_a_list_that_does_not_end() -> None:
+def test_a_second_attention_stops_an_endless_list() -> None:
     made = session("N=9999", "5 TYPE 90,(K,K=1,N)", "90 FORMAT(I5)", "END")
     for _ in range(2):
         assert made.advance(made.state.work + 500) is None

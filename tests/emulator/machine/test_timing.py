@@ -1,4 +1,4 @@
-"""The time table: counts follow from the object code, seconds from counts and measured times (part one 5)."""
+"""The time table: counts follow from the object code, seconds from counts and measured times."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ def timed(*lines: str, data: tuple[str, ...] = ()) -> Timing:
     return measure(made.program, made.run())
 
 
-def test_measured_milliseconds() -> None:
-    """Computed from the executed trace of IBM's subroutines: FMP 18.3, FDV 54, FSB 12.4, FAD 8.9 to 10.1."""
+def test_costs_of_arithmetic_are_those_of_the_executed_traces() -> None:
+    """From traces of IBM's subroutines: FMP 18.3, FDV 54, FSB 12.4, FAD 8.9 to 10.1."""
     assert COSTS["FMP"].milliseconds == 18.3
     assert COSTS["FDV"].milliseconds == 54.0
     assert COSTS["FSB"].milliseconds == 12.4
@@ -32,7 +32,7 @@ def test_measured_milliseconds() -> None:
     assert not any(COSTS[name].estimated for name in ("FAD", "FSB", "FMP", "FDV"))
 
 
-def test_device_speeds() -> None:
+def test_device_speeds_are_those_of_the_reference_card() -> None:
     """Reference card X26-5743-2: 250 and 125 cards a minute, 10 characters a second."""
     assert (READER_SECONDS, PUNCH_SECONDS, TYPEWRITER_SECONDS) == (0.24, 0.48, 0.1)
 
@@ -42,15 +42,15 @@ def test_every_operation_has_a_cost() -> None:
     assert set(FIELD_COSTS) == {kind + way for kind in "EFI" for way in "<>"}
 
 
-def test_one_stop_ends_a_run() -> None:
+def test_a_run_executes_one_stop() -> None:
     assert dict(timed("A=2.", "END").operations)["STOP"] == 1
     assert "STOP" not in dict(timed("5 READ 1,N", "1 FORMAT(I4)", "GO TO 5", data=("   1",)).operations)
 
 
-def test_operations_are_counted_by_their_trips() -> None:
-    found = dict(timed("A=2.", "DO 5 I=1,7", "B=A*A", "5 C=B/A+A", "END").operations)
-    del found["STOP"]
-    assert found == {
+def test_operations_are_counted_in_every_pass_of_a_loop() -> None:
+    operations = dict(timed("A=2.", "DO 5 I=1,7", "B=A*A", "5 C=B/A+A", "END").operations)
+    del operations["STOP"]
+    assert operations == {
         "SEND": 1,
         "TRANSMIT": 1,
         "TOFIX": 1,
@@ -64,12 +64,12 @@ def test_operations_are_counted_by_their_trips() -> None:
     }
 
 
-def test_operations_of_indexed_lists() -> None:
-    found = dict(timed("A=2.", "PUNCH 1,A,(A,I=1,5),A", "1 FORMAT(7E10.3)", "END").operations)
-    assert (found["BEGIN"], found["ITEM"], found["DOTEST"], found["FINISH"]) == (1, 7, 5, 1)
+def test_operations_of_indexed_lists_are_counted() -> None:
+    operations = dict(timed("A=2.", "PUNCH 1,A,(A,I=1,5),A", "1 FORMAT(7E10.3)", "END").operations)
+    assert (operations["BEGIN"], operations["ITEM"], operations["DOTEST"], operations["FINISH"]) == (1, 7, 5, 1)
 
 
-def test_statements_begun() -> None:
+def test_statements_are_counted() -> None:
     table = timed("DO 5 I=1,7", "J=I", "5 K=J", "END")
     assert table.statements == ((0, 1), (1, 7), (2, 7), (3, 1))
 
@@ -92,15 +92,15 @@ def test_subscripts_and_conversion_are_marked_as_estimates() -> None:
     assert not rows["fixed point"].estimated
 
 
-def test_device_rows() -> None:
+def test_device_rows_count_cards_and_characters() -> None:
     lines = ["READ 1,I", "PUNCH 1,I", "PUNCH 1,I", "TYPE 2", "1 FORMAT(I4)", "2 FORMAT(9HSOME TEXT)", "END"]
     rows = {row.cause: row for row in timed(*lines, data=("   2",)).devices}
     assert [row.count for row in rows.values()] == [1, 2, 10]
     assert [row.seconds for row in rows.values()] == pytest.approx([0.24, 0.96, 1.0])
 
 
-def test_longer_programs_are_longer() -> None:
-    """The estimate of the object program's length: more instructions, subscripts and text make it longer."""
+def test_the_estimated_length_grows_with_the_program() -> None:
+    """The estimate grows with instructions, subscripts and text."""
 
     def length(*lines: str) -> int:
         return code_positions(machine(*lines, "END").program)

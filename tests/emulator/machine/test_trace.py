@@ -1,4 +1,4 @@
-"""The trace: every statement with card, number, words, and the value it stored or tested."""
+"""The trace: each statement with its card, number, text, and the value that it stored or tested."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ def traced(*lines: str, data: tuple[str, ...] = (), limit: int = 1000, arithmeti
 
 
 def values(*lines: str, **setting: object) -> list[str]:
-    """What follows the statement's words on each line of the trace."""
+    """Return the value at the end of each line of the trace."""
     return [line[52:].strip() for line in traced(*lines, **setting)[1:]]  # type: ignore[arg-type]
 
 
-def test_a_trace() -> None:
+def test_a_trace_shows_stored_and_tested_values() -> None:
     assert traced("DIMENSION X(3)", "I=2", "10 X(I)=1.5*2.", "IF(X(2))20,20,20", "20 IF(I-5)30,30,30", "30 STOP") == [
         "* deck.f: card, number, statement, value",
         "   2       I=2                                       I = 2",
@@ -34,7 +34,7 @@ def test_a_trace() -> None:
     ]
 
 
-def test_copies_and_conversions() -> None:
+def test_copies_and_conversions_are_traced() -> None:
     assert values("A=1.", "B=A", "J=B", "C=J", "D=-A", "Z=0.", "Y=-Z", "END")[:7] == [
         "A = .10000000E+01",
         "B = .10000000E+01",
@@ -46,17 +46,17 @@ def test_copies_and_conversions() -> None:
     ]
 
 
-def test_an_undefined_copy_is_shown_as_such() -> None:
+def test_an_undefined_copy_is_traced_as_undefined() -> None:
     assert values("DIMENSION X(3)", "X(1)=X(2)", "END")[0] == "X(1) = undefined"
 
 
-def test_lists() -> None:
+def test_input_and_output_lists_are_traced() -> None:
     assert values("READ 1,I,A", "1 FORMAT(I2,E14.8)", "END", data=(" 5 .20000000E+01",))[0] == (
         "I = 5, A = .20000000E+01"
     )
 
 
-def test_a_loop_is_traced_trip_by_trip() -> None:
+def test_a_loop_is_traced_in_every_pass() -> None:
     assert values("DO 5 I=1,3", "5 K=I+I", "END") == ["I = 1", "K = 2", "K = 4", "K = 6", ""]
 
 
@@ -64,7 +64,7 @@ def test_the_last_statement_before_the_limit_is_traced() -> None:
     assert len(values("5 K=1", "GO TO 5", "END", limit=7)) == 7
 
 
-def test_a_machine_runs_the_same_with_and_without_a_tracer() -> None:
+def test_a_tracer_does_not_change_the_run() -> None:
     lines = ["K=0", "5 K=K+1", "IF(K-50)5,6,6", "6 PUNCH 1,K", "1 FORMAT(I4)", "END"]
     plain = machine(*lines).run()
     made = machine(*lines)

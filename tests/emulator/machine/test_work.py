@@ -1,4 +1,4 @@
-"""What the limit counts: plain programs a statement as 1, costly operations as the statements that take their time."""
+"""Work counted against the limit: a unit for a plain statement, more for operations that take longer."""
 
 from __future__ import annotations
 
@@ -30,20 +30,20 @@ PLAIN: dict[str, tuple[list[str], int]] = {
 }
 
 
-def worked(lines: Sequence[str], arithmetic: str, limit: int = 10_000_000) -> Machine:
-    """A machine that has run."""
-    found = machine(*lines, "END", arithmetic=arithmetic, limit=limit)
-    found.run()
-    return found
+def finished(lines: Sequence[str], arithmetic: str, limit: int = 10_000_000) -> Machine:
+    """Return a machine after its run."""
+    costly_machine = machine(*lines, "END", arithmetic=arithmetic, limit=limit)
+    costly_machine.run()
+    return costly_machine
 
 
 @pytest.mark.parametrize("name", PLAIN)
 @pytest.mark.parametrize("arithmetic", DEFAULTS)
 def test_plain_programs_count_statements_passes_numbers_and_lines(arithmetic: str, name: str) -> None:
-    """Nothing else; a profile that types its errors types a line."""
+    """An arithmetic that types its error codes also counts these lines."""
     lines, count = PLAIN[name]
     announced = arithmetic == "ibm1962" and name == "an error"
-    state = worked(lines, arithmetic).state
+    state = finished(lines, arithmetic).state
     assert (state.work, state.costly) == (count + announced, 0)
 
 
@@ -68,21 +68,23 @@ COSTLY = [
 
 
 @pytest.mark.parametrize(("arithmetic", "statement", "least", "most"), COSTLY)
-def test_costly_operations_count_in_proportion(arithmetic: str, statement: str, least: int, most: int) -> None:
-    """Beyond the statement's own 1, with or without the time of the operation being spent: the estimate is asked."""
+def test_costly_operations_count_in_proportion_to_their_time(
+    arithmetic: str, statement: str, least: int, most: int
+) -> None:
+    """The count excludes the plain unit of each statement. It is an estimate, made before the operation is done."""
     lines = ["A=1.0000123", *[statement[k : k + 66] for k in range(0, len(statement), 66)]]
     lines[2:] = ["     1" + line for line in lines[2:]]
-    state = worked(lines, arithmetic).state
+    state = finished(lines, arithmetic).state
     assert least <= state.work - 3 <= most
 
 
 @pytest.mark.parametrize("statement", ["B=EXP(A)", "B=A**A"])
 def test_an_operation_far_beyond_the_limit_is_not_done(statement: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """It would take seconds; the message names its statement and what to do."""
+    """The message names the statement and a remedy."""
     for name in ("function", "power"):
         monkeypatch.setattr(MultiprecisionNumbers, name, None)
-    found = machine("A=1.0000123", f"7 {statement}", "GO TO 7", "END", arithmetic="mp:100000", limit=50)
-    ending = found.run().ending
+    costly_machine = machine("A=1.0000123", f"7 {statement}", "GO TO 7", "END", arithmetic="mp:100000", limit=50)
+    ending = costly_machine.run().ending
     assert (ending.kind, ending.line and ending.line.label, ending.normal) == ("limit", 7, False)
     assert ending.message == (
         f"deck.f: card 2: the limit, the work of 50 statements, ends the run in 7 {statement}; "
@@ -90,7 +92,7 @@ def test_an_operation_far_beyond_the_limit_is_not_done(statement: str, monkeypat
     )
 
 
-def test_a_loop_of_costly_operations_says_what_was_counted() -> None:
+def test_the_message_about_a_costly_loop_gives_the_work() -> None:
     ending = machine("A=.5", "1 B=EXP(A)", "GO TO 1", "END", limit=1_000).run().ending
     assert ending.message == (
         "deck.f: stopped after the work of 1000 statements, 469 of it for costly operations; the last ones repeat "
@@ -111,14 +113,14 @@ ENDLESS = [
 
 
 @pytest.mark.parametrize("arithmetic", [*DEFAULTS, "mp:53", "mp:1000", "mp:20000", "mp:100000", "exact"])
-def test_a_unit_of_work_takes_no_longer_than_any_other(arithmetic: str) -> None:
-    """So long that 5,000,000 of them are five minutes, and twice that, as other processes may be at work."""
+def test_a_unit_of_work_takes_about_the_same_time_everywhere(arithmetic: str) -> None:
+    """5,000,000 units may take five minutes; the test allows twice that, because other processes may be running."""
     for lines in ENDLESS:
-        found = machine(*lines, "END", arithmetic=arithmetic, limit=3_000)
+        costly_machine = machine(*lines, "END", arithmetic=arithmetic, limit=3_000)
         begun = time.process_time()
-        found.run(output=lambda _: None)
+        costly_machine.run(output=lambda _: None)
         seconds = time.process_time() - begun
-        assert seconds < 0.2 + 2 * 60e-6 * max(found.state.work, 3_000), (lines, found.state.work)
+        assert seconds < 0.2 + 2 * 60e-6 * max(costly_machine.state.work, 3_000), (lines, costly_machine.state.work)
 
 
 GROWING = [
@@ -130,8 +132,8 @@ GROWING = [
 
 
 @pytest.mark.parametrize("lines", GROWING)
-def test_exact_numbers_that_grow_end_before_memory_does(lines: list[str]) -> None:
-    """In a process with half a gigabyte of addresses."""
+def test_growing_exact_numbers_reach_the_limit_before_they_fill_the_memory(lines: list[str]) -> None:
+    """The process has half a gigabyte of address space."""
     script = (
         "import resource, sys\n"
         "resource.setrlimit(resource.RLIMIT_AS, (1 << 29, 1 << 29))\n"
@@ -152,8 +154,8 @@ def test_exact_numbers_that_grow_end_before_memory_does(lines: list[str]) -> Non
 
 @pytest.mark.parametrize("arithmetic", ["truncating", "ibm1962", "rounding:9"])
 @pytest.mark.parametrize("limit", [1, 7, 100, 101, 102, 103, 5_000, 12_345])
-def test_both_executors_count_the_same(arithmetic: str, limit: int) -> None:
-    """Long statements, errors, powers multiplied out, long FORMATs, arrays: the run ends at the same place."""
+def test_both_engines_count_the_same_work(arithmetic: str, limit: int) -> None:
+    """Long statements, errors, multiplied powers, long FORMATs and arrays: both runs end at the same statement."""
     lines = ["DIMENSION X(60)", "A=1.0001", "J=999", "Z=0.", "DO 1 I=1,60", "1 X(I)=A"]
     lines += [
         "5 B=A" + "*A" * 33,
@@ -166,6 +168,6 @@ def test_both_executors_count_the_same(arithmetic: str, limit: int) -> None:
     assert agreed(program(*lines), [deck_from_lines("deck", ["1"])], options) == 1
 
 
-def test_a_step_is_an_operation_and_a_unit_a_card_of_them() -> None:
+def test_the_estimates_of_work_have_their_documented_values() -> None:
     assert (work.STEPS, work.product(10_000, 10_000), work.quotient(10_000, 10_000)) == (34, 125, 153)
     assert (work.series(10_000), work.decimal(10_000)) == (8358, 2590)
