@@ -114,14 +114,14 @@ class CompileError(EmulatorError):
 class Explanation:
     """An explanation of an error type of the compiler (``5``) or an error code of the machine (``E3``).
 
-    ``example`` is a deck that produces the error.  ``mend`` says how to correct it.  ``source`` names the manual and
+    ``example`` is a deck that produces the error.  ``remedy`` says how to correct it.  ``source`` names the manual and
     page, or the program that was executed.
     """
 
     title: str
     meaning: str
     example: tuple[str, ...]
-    mend: str
+    remedy: str
     source: str
 
 

@@ -65,7 +65,7 @@ def explained(number: str) -> Iterator[str]:
         if at:
             yield ""
         yield from textwrap.wrap(f"error {one}: {found.title}", 80, subsequent_indent="    ")
-        for name, text in (("", found.meaning), ("mend: ", found.mend.strip()), ("source: ", found.source)):
+        for name, text in (("", found.meaning), ("remedy: ", found.remedy.strip()), ("source: ", found.source)):
             yield from textwrap.wrap(name + text, 80, initial_indent="  ", subsequent_indent="  ")
             if not name:
                 yield from (f"    | {card}" for card in found.example)

@@ -20,7 +20,7 @@ def test_manual_explains_every_error(number: str) -> None:
     (section,) = re.findall(rf"^### Error {number}: (.*?)(?=^### |\Z)", TEXT, re.DOTALL | re.MULTILINE)
     example = "\n".join(explanation.example)
     assert f"```text\n{example}\n```" in section
-    remedy = f"*Mend:* {explanation.mend}. *Source:* {explanation.source}."
+    remedy = f"*Remedy:* {explanation.remedy}. *Source:* {explanation.source}."
     expected = f"{explanation.title} {explanation.meaning} ```text {example} ``` {remedy}"
     assert " ".join(section.split()) == " ".join(expected.split())
 

@@ -126,7 +126,7 @@ def test_an_error_is_explained_in_eighty_columns(number: str, capsys: pytest.Cap
     assert max(map(len, out.splitlines())) <= 80
     words = " ".join(out.split())
     assert words.startswith(f"error {number}: {found.title} ")
-    assert all(" ".join(text.split()) in words for text in (found.meaning, found.mend, found.source))
+    assert all(" ".join(text.split()) in words for text in (found.meaning, found.remedy, found.source))
 
 
 def test_all_errors_are_explained_at_once(capsys: pytest.CaptureFixture[str]) -> None:

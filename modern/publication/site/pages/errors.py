@@ -14,7 +14,9 @@ def make(argument: str) -> Made:
         example = element(
             "pre", escape("\n".join(explanation.example)), tabindex="0", aria_label=f"example of error {number}"
         )
-        rest = definitions((("remedy", escape(explanation.mend)), ("source", escape(explanation.source))), cls="facts")
+        rest = definitions(
+            (("remedy", escape(explanation.remedy)), ("source", escape(explanation.source))), cls="facts"
+        )
         html = text("p", explanation.meaning) + example + rest
         parts.append(Part(f"Error {number}: {explanation.title}", f"error-{number}", html=html))
         targets.append(Target(f"error-{number}", f"error {number}", f"error {number}", f"error {number}"))
