@@ -69,6 +69,7 @@ class Compiled:
         import numba
 
         types = tuple(map(numba.typeof, arguments))
+        # Loading takes a fraction of a second, and is not reported.
         fresh = types not in self.function.overloads and self.keeps and not self.kept
         with _shown(f"compiling {self._entry.__name__}, once: some seconds" if fresh else ""), _without_collecting():
             try:
@@ -148,6 +149,7 @@ def digest(entry: Function, options: str) -> str:
     """Return 16 letters that change with the compiled code: a hash of modules, constants and options."""
     functions = called(entry)
     text = [options]
+    # numba compiles globals into the code as constants, so that their values count as well as the source.
     for module in dict.fromkeys(function.__module__ for function in functions):
         text.append(inspect.getsource(sys.modules[module]))
     for function in functions:

@@ -57,6 +57,7 @@ class _Part(JITCodeLibrary):
         self._finalize_dynamic_globals()  # type: ignore[no-untyped-call]
         self._finalized = True
 
+    # numba asks for an address when it has compiled a function.  There is none, and the address is never used.
     def get_pointer_to_function(self, name: str) -> int:
         self._ensure_finalized()  # type: ignore[no-untyped-call]
         return 0
@@ -71,8 +72,10 @@ class _MakesPart(compiler_machinery.AnalysisPass):
         compiler_machinery.AnalysisPass.__init__(self)  # type: ignore[no-untyped-call]
 
     def run_pass(self, state: Any) -> bool:
+        # The later passes generate the code into this library instead of a new one that is optimised at once.
         if state.library is None:
-            state.library = _Part(state.targetctx.codegen(), state.func_id.func_qualname)  # type: ignore[no-untyped-call]
+            state.library = _Part(state.targetctx.codegen(), state.func_id.func_qualname)  # type:
+            ignore[no - untyped - call]
         return False
 
 

@@ -79,11 +79,14 @@ class Comparison:
         self._statement_of = program.statement_numbers
         self._decides = [i.operation in _DECISIONS for i in program.code]
         self._counts = [i.operation == op.COUNT for i in program.code]
+        # The executions of each instruction, or of each element of an array read as a whole.
         self._times: Counter[tuple[int, int]] = Counter()
         self._whole = [op.repeats(i) > 1 for i in program.code]
         self._tallies: dict[int, _Tally] = {}
-        poorer = min(studied.digits, reference.digits)
-        self.digits = poorer if math.isfinite(poorer) else 0.0
+        # P of the formula in divergence.py; 0 if both arithmetics are exact, which then cannot lose digits.
+        digits = min(studied.digits, reference.digits)
+        self.digits = digits if math.isfinite(digits) else 0.0
+        # Irrational exact values, such as roots, are compared with this many digits.
         self._exactly = 2 * int(self.digits) + 20
         self.first_value: Difference | None = None
         self.first_decision: Decision | None = None
@@ -144,6 +147,7 @@ class Comparison:
         if lost is not None:
             self.values_in_step += 1
             tally.differing += 1
+        # Tenths of a digit bound the memory: one counter for each, whatever the number of values.
         tally.tenths[round(10 * (lost or 0.0))] += 1
 
     def _bound(self, value: Number) -> Fraction | None:
@@ -213,6 +217,7 @@ class Comparison:
 
 
 def _loss(line: Line, tally: _Tally) -> Loss:
+    # The median of an even number of values is the mean of the two in the middle.
     lost = sorted(tally.tenths.elements())
     middle = (lost[(len(lost) - 1) // 2] + lost[len(lost) // 2]) / 2
     return Loss(line, tally.times, tally.differing, lost[-1] / 10, middle / 10)

@@ -51,6 +51,7 @@ class Cards:
 
 def command(session: Session, text: str, cards: Cards, width: int) -> Action | list[str]:
     """Return the action of a line typed at the console, or the lines to show, which may be an error message."""
+    # A command may be abbreviated, and an empty line means START.
     word, *operands = text.upper().replace("?", " HELP ").split() or ["START"]
     matches = [name for name in COMMANDS if name.startswith(word)]
     if len(matches) != 1:
@@ -74,6 +75,7 @@ def command(session: Session, text: str, cards: Cards, width: int) -> Action | l
             return flipped(session, int(number))
         case "BREAK", []:
             return wrapped(_breakpoints(session), width)
+    # The remaining commands are actions; for any other the help text shows its form.
     if word not in WORDS:
         return wrapped(COMMANDS[word], width)
     try:

@@ -71,6 +71,7 @@ class Devices:
             for card, beside in zip(self.deck.cards, self.uncut, strict=False)
             for column, width, value in beside
         }
+        # The numbers of the current record, with full digits (option ``uncut``).
         self._beside: list[Uncut] = []
         self._charges = [spec.charge for _, spec in self.program.formats]
         self._charge = 0
@@ -129,6 +130,7 @@ class Devices:
         self.transfer.finish()
 
     def _count_item(self, address: int) -> None:
+        # A unit for the number, the cost of each repetition of the FORMAT, and the cost of converting a long number.
         transfer, numbers = self.transfer, self.options.numbers
         assert transfer is not None
         self.state.work += 1 + self._charge * transfer.again
@@ -168,6 +170,7 @@ class Devices:
         return read_line("typewriter", self._lines, line.rstrip("\r\n")[:COLUMNS], "line")
 
     def _check_mode(self, spec: Field, fixed: bool, address: int) -> None:
+        # Fixed-point variables need I fields, floating-point variables E or F fields (C26-5619 p. 43).
         key = spec.kind + ("<" if isinstance(self.transfer, Input) else ">")
         self.fields[key] = self.fields.get(key, 0) + 1
         if (spec.kind == "I") != fixed:
@@ -203,6 +206,7 @@ class Devices:
             if fixed:
                 read = read_fixed(columns)
                 value, remark = read.mantissa, read.remark
+            # The full number that another program punched in this field replaces its columns.
             elif not typed and (card.number, column, spec.width) in self._whole:
                 value = self._whole[card.number, column, spec.width]
             else:
@@ -223,6 +227,7 @@ class Devices:
         """Type a line."""
         text = self._record(line, TYPEWRITER_COLUMNS)
         self.characters += len(text) + 1
+        # A typed line is often a message; the last decision shows why the program typed it.
         decision = self.state.decision
         last = self.line_at(decision - 1) if decision else None
         self.events.append(Event("type", text, self.line_at(self.state.at), last))

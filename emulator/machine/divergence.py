@@ -111,6 +111,7 @@ def diverge(
         If both runs find the same error in the deck, or if the program does not fit the machine.
     """
     options = options or Options()
+    # An exact reference has no rounding errors; any other runs together with bounds of its errors.
     if rounding and math.isfinite(reference.digits):
         reference = ShadowedNumbers(reference)
     runs = [_Run(program, deck, replace(options, numbers=n), values, operator()) for n in (studied, reference)]
@@ -131,6 +132,7 @@ def diverge(
         if comparison.uncertain:
             apart = comparison.uncertain
             break
+        # Without values only the first decision that differs is of interest.
         if not values:
             break
         # The decision differs: skip both runs to the instruction where their branches join.

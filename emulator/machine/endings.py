@@ -146,6 +146,7 @@ def looped(
     program: Program, limit: int, before: Sequence[int], counts: Sequence[int], decision: int, costly: int = 0
 ) -> Ending:
     """Return the ending at the limit.  The last statements are those whose counts grew since ``before``."""
+    # A statement is part of the loop if its count has grown since ``before``.
     ran = [
         (program.statements[counter.statement], new - old)
         for counter, old, new in zip(program.counters, before, counts, strict=True)

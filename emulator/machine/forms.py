@@ -61,6 +61,7 @@ class _Walk(ABC):
 
     def _advance(self) -> Field | None:
         """Process literals and slashes, and return the next field, or None at the end of the FORMAT."""
+        # Literals and slashes take effect when they are passed, before the next number.
         specs = self.layout.spec.specs
         while self.at < len(specs):
             spec = specs[self.at]
@@ -126,6 +127,7 @@ class Input(_Walk):
         return spec, self.card, column
 
     def _literal(self, width: int) -> None:
+        # The columns of the card become the new text, padded with blanks beyond the end of the card.
         self.layout.literals[self.at] = self.card.columns(self.column, self.column + width - 1).ljust(width)
         self.column += width
 

@@ -110,6 +110,7 @@ class FromFile(Operator):
                 self._passed = self._passed or (self._lines[0].number if self._lines else 0)
                 self._lines, self._heading = self._parts.pop(0), True
             self._session = session
+        # A line without AT waits for the next halt, and a line with AT for its amount of work.
         while self._lines:
             at, action = self._lines[0].at, self._lines[0].action
             self._heading = self._heading and at is None and action.word in _SETTING
@@ -174,6 +175,7 @@ class Logged(Operator):
         return self._operator.goal(session)
 
     def answer(self, session: Session, halt: Halt) -> Action:
+        # A halt is answered several times, for example by switches and START, but logged once.
         if halt is not self._halt:
             self._halt = halt
             self._write(f"* {halt_line(halt)}")

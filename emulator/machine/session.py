@@ -72,27 +72,13 @@ Tracer = Callable[[Line, "Session"], None]
 class Session:
     """A machine with a program in core storage and a deck in the card reader's hopper.
 
-    Raise DeckError if the program does not fit the machine's core storage.
+    tracer: a function that is called when a statement begins.  journal: records decisions and stores.  uncut: for each
+    card of the deck, the numbers to read instead of its columns (:attr:`emulator.machine.result.Result.uncut`).  keep:
+    keep events for the result after :meth:`take` has returned them.  retypes: ask again for a typed line that cannot be
+    read; otherwise it is an error.  by_lines: return from :meth:`advance` after every typed line.
 
-    Parameters
-    ----------
-    tracer
-        A function that is called when a statement begins.
-    journal
-        The record of the run's decisions and stores.
-    uncut
-        For each card of the deck, the numbers that are read instead of its columns
-        (:attr:`emulator.machine.result.Result.uncut`).
-    keep
-        Keep the events for the result after :meth:`take` has returned them.
-    retypes
-        Ask again for a typed line that cannot be read; otherwise such a line is an error.
-    by_lines
-        Return from :meth:`advance` after every typed line.
-
-    Notes
-    -----
-    ``last`` is the statement executed last, if statements were traced or stepped.
+    ``last`` is the last statement executed, if statements are traced or stepped.  Raise DeckError if the program does
+    not fit the machine's core storage.
     """
 
     program: Program
@@ -173,6 +159,7 @@ class Session:
                 if self.halt and self.halt.what == "accept":
                     self.devices.typed_line, self.halt = action.text, None
             case "STEP" | "START":
+                # ``_steps`` counts the statements before the next halt; 0 means that the machine runs freely.
                 self._steps, self._attention = action.number, False
                 if action.unasked and self.halt and self.halt.what == "pause":
                     self.devices.note(Notice("pause", self.program.source, self.halt.line))
@@ -182,6 +169,7 @@ class Session:
                 # No statement has begun since the first ATTN: the machine is in an endless list.
                 self.halt = Halt("stop", self.here, why="attention")
             case "ATTN":
+                # Stop before the next statement, as after a single step.
                 self._steps, self._attention = 1, True
             case "SWITCH":
                 self.switches[action.number - 1] = int(action.on)
@@ -225,6 +213,7 @@ class Session:
         """Run until ``goal``, which does not exceed the limit."""
         if self._ending or self.halt:
             return self._ending or self.halt
+        # A halt in the middle of a service leaves its reason in ``_pending``; the service is then done again.
         reason, self._line_was_typed = self._pending, False
         watched = self.tracer is not None or self._steps > 0
         self.devices.lists = watched
@@ -313,6 +302,7 @@ class Session:
         self.last, self._begun = self._begun, line
         if self.tracer is not None:
             self.tracer(line, self)
+        # A step ends when the next statement begins.
         stepped = self._steps == 1
         self._steps -= self._steps > 0
         if stepped:
@@ -364,6 +354,7 @@ class _Checkpoint:
         """Restore the session.  Output that the devices have already made stays."""
         devices = session.devices
         session._pending = self._pending
+        # The interpreter and the devices hold references to these lists, so that they are changed in place.
         for part in fields(State):
             value = getattr(self._state, part.name)
             if isinstance(value, list):
@@ -385,6 +376,7 @@ def refuse_overlap(program: Program, core: int) -> None:
 
 def overlap(program: Program, core: int) -> str:
     """Return a message if a program and its data do not fit ``core`` positions of storage, else ""."""
+    # IBM's subroutines and tables lie below the object program, the names of the library functions above the data.
     need = program.storage.fields * FIELD + code_positions(program)
     room = core - OBJECT_PROGRAM - FUNCTION_NAMES
     if need <= room:
@@ -399,6 +391,7 @@ def loaded(program: Program, numbers: Numbers) -> tuple[list[Number], list[int]]
     values: list[Number] = [0] * program.storage.fields
     kinds = [UNDEFINED] * program.storage.fields
     for address, text in program.storage.constants:
+        # A constant with a decimal point is floating point.
         if "." in text:
             values[address], kinds[address] = numbers.constant(text), FLOATING
         else:

@@ -42,6 +42,7 @@ def recorded_instructions(program: Program) -> list[bool]:
     named = {address for e in variables for address in range(e.first, e.first + e.size)}
     for instruction in program.code:
         operation = instruction.operation
+        # The numbers of an output list change no field.
         if operation == BEGIN:
             reading = program.verbs[instruction.address] in ("READ", "ACCEPT")
         if operation == ITEM:

@@ -78,6 +78,8 @@ COSTS: dict[str, Cost] = {
     "STOP": Cost(0.16, CONTROL),
 }
 """The cost of each operation of the object code."""
+# COUNT is not on the machine: it costs nothing.  SEND and TRANSMIT are a single transmit field instruction, whose time
+# is booked at SEND.  The time of an ITEM is that of its conversion, FIELD_COSTS.
 
 SUBSCRIPT = Cost(2.0, SUBSCRIPTS, True)
 SUBSCRIPT_2 = Cost(7.0, SUBSCRIPTS, True)
@@ -134,6 +136,7 @@ def measure(program: Program, result: Result) -> Timing:
         operations[op.NAMES[instruction.operation]] += times * op.repeats(instruction)
         if instruction.subscript >= 0:
             subscripts[2 if program.subscripts[instruction.subscript].columns else 1] += times
+    # A row of the table adds the operations of one cause.
     operations.pop("COUNT")
     causes: dict[str, list[tuple[int, Cost]]] = {}
     for name, count in operations.items():
@@ -196,6 +199,7 @@ def shares(program: Program, result: Result) -> tuple[float, ...]:
 
 
 def _row(cause: str, costs: list[tuple[int, Cost]]) -> Row:
+    # An ITEM costs nothing and is not counted here, because its conversion is counted by kind of field.
     used = [(count, cost) for count, cost in costs if count]
     count = sum(count for count, cost in used if cost.milliseconds or cause != CONVERSION)
     seconds = sum(count * cost.milliseconds for count, cost in used) / 1000

@@ -47,6 +47,7 @@ def read_action(line: str) -> tuple[int | None, Action]:
 
 def action(word: str, operands: list[str]) -> Action:
     """Return the action of a word other than ENTER and its operands.  Raise ValueError with a message."""
+    # Operands are an optional CARD, an optional number and, for SWITCH, ON or OFF.
     card = word in ("BREAK", "CLEAR") and operands[:1] == ["CARD"]
     numbers = [_number(text) for text in operands[card : card + 1]]
     number = numbers[0] if numbers else None

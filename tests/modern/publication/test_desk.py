@@ -86,7 +86,7 @@ def test_what_does_not_fit_the_moment_is_said() -> None:
     desk.load({"program": "program1", "deck": "example1"})
     desk.run(1)
     assert desk.act("ENTER 5") == {"lines": ["nothing is asked for"]}
-    assert desk.act("NONSENSE")["lines"][0].startswith("NONSENSE is none of START, STEP")
+    assert desk.act("NONSENSE")["lines"][0].startswith("NONSENSE is not a command: START, STEP")
     assert desk.show("CARDS")["lines"][0].startswith("read: 0 of")
 
 
