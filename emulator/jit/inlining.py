@@ -74,8 +74,7 @@ class _MakesPart(compiler_machinery.AnalysisPass):
     def run_pass(self, state: Any) -> bool:
         # The later passes generate the code into this library instead of a new one that is optimised at once.
         if state.library is None:
-            state.library = _Part(state.targetctx.codegen(), state.func_id.func_qualname)  # type:
-            ignore[no - untyped - call]
+            state.library = _Part(state.targetctx.codegen(), state.func_id.func_qualname)  # type: ignore[no-untyped-call]
         return False
 
 

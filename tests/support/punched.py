@@ -19,7 +19,7 @@ from modern.thesis.job import HullRun
 
 Row = tuple[str, ...]
 _NO_NUMBER = 0
-"""Of an end of a line that was found to be no vertex, as rounded numbers may have it."""
+"""The number of an end of a line that is not a vertex, which rounding can cause."""
 
 
 @dataclass(frozen=True, slots=True)

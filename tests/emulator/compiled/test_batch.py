@@ -46,7 +46,7 @@ def compiled_program(cards: Sequence[str]) -> Program | None:
 
 
 def count_compiled(lines: Sequence[str], *data: Sequence[str], options: Options | None = None) -> int:
-    """Run decks in both engines and return the number that the compiled engine ran by itself."""
+    """Run decks in both engines and return the number that the compiled engine ran."""
     return agreed(program(*lines), decks(*data), options or Options(limit=10_000))
 
 

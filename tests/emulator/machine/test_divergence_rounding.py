@@ -85,7 +85,7 @@ def test_a_decision_that_the_reference_can_make_is_counted() -> None:
     divergence = compared(*lines, names=("truncating:3", "truncating:12"))
     assert (divergence.decisions, divergence.apart) == (1, "")
     assert compared(*lines, names=("truncating:12", "truncating:3")).decisions == 0
-    # 2 - 2 is 0 in three digits too, and nothing was rounded: that is told.
+    # 2 - 2 is 0 in three digits too. Nothing was rounded, so the decision is certain.
     sure = compared("A=2.", "B=A-2.", "IF(B)10,20,10", "10 K=1", "20 M=1", names=("truncating", "truncating:3"))
     assert (sure.decisions, sure.apart) == (0, "")
 
