@@ -12,13 +12,13 @@ from emulator.machine.result import Options
 from modern.thesis.job import Load, run_hull
 
 Arm = tuple[int, str, str]
-"""A program's number, a statement's text with its place (``146+1``), and that of the one it goes to.
+"""The number of a program, the label (``146+1``) and text of a statement, and those of its target.
 
-Two signs that go to one statement are one arm, and so are the arms that both states of program 1 have.
+Signs with the same target are one arm, and so are the common arms of both states of program 1.
 """
 
 LARGE = Options(limit=200_000, core=60_000)
-"""The counters make a program longer; the statements counted are the same."""
+"""The counters make a program longer, but do not count as statements."""
 
 
 def with_arms(program: Program) -> tuple[Program, dict[int, tuple[str, str]]]:
@@ -46,11 +46,11 @@ def with_arms(program: Program) -> tuple[Program, dict[int, tuple[str, str]]]:
 
 def _places(program: Program) -> list[str]:
     """Return each statement's text after its number, or after the last number and the distance from it."""
-    found, label, steps = [], 0, 0
+    places, label, steps = [], 0, 0
     for line in program.statements:
         label, steps = (line.label, 0) if line.label else (label, steps + 1)
-        found.append(f"{label}+{steps} {''.join(line.text.split())}")
-    return found
+        places.append(f"{label}+{steps} {''.join(line.text.split())}")
+    return places
 
 
 def arms(names: Iterable[str], load: Load) -> set[Arm]:
@@ -61,10 +61,10 @@ def arms(names: Iterable[str], load: Load) -> set[Arm]:
 def taken(decks: Iterable[Deck], load: Load, first: str) -> set[Arm]:
     """Return the branches that decks take, with ``first`` as program 1."""
     made = {name: with_arms(load(name)) for name in (first, "program2", "program3")}
-    found: set[Arm] = set()
+    arms_taken: set[Arm] = set()
     for deck in decks:
         for step in run_hull(deck, lambda name: made[name][0], LARGE, first).steps:
             for counter, arm in made[step.name][1].items():
                 if step.result.counts[counter]:
-                    found.add((step.number, *arm))
-    return found
+                    arms_taken.add((step.number, *arm))
+    return arms_taken

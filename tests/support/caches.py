@@ -10,16 +10,16 @@ from types import ModuleType
 @contextmanager
 def cleared(*modules: ModuleType) -> Iterator[None]:
     """Clear the caches of all functions of the modules, before and after."""
-    kept = [
-        found
+    cached_functions = [
+        member
         for module in modules
-        for found in vars(module).values()
-        if hasattr(found, "cache_clear") and found.__module__ == module.__name__
+        for member in vars(module).values()
+        if hasattr(member, "cache_clear") and member.__module__ == module.__name__
     ]
-    for function in kept:
+    for function in cached_functions:
         function.cache_clear()
     try:
         yield
     finally:
-        for function in kept:
+        for function in cached_functions:
             function.cache_clear()

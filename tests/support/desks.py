@@ -48,9 +48,9 @@ class Pair:
         if self.cards:
             (room / deck).write_text(self.cards)
         (room / "done").write_text("".join(line + "\n" for line in self.operator))
-        words = ["run", program, *([deck] if deck else []), "--punch", "-", "--typewriter", "typed"]
-        words += ["--limit", str(self.limit), *(["--upcase"] if self.upcase else [])]
-        return [*words, *(["--operator=done"] if self.operator else [])]
+        arguments = ["run", program, *([deck] if deck else []), "--punch", "-", "--typewriter", "typed"]
+        arguments += ["--limit", str(self.limit), *(["--upcase"] if self.upcase else [])]
+        return [*arguments, *(["--operator=done"] if self.operator else [])]
 
 
 @dataclass
@@ -71,22 +71,22 @@ class Played:
 
 def played(desk: Desk, pair: Pair) -> Played:
     """Load and run a pair at a desk, performing an action of its operator at each halt."""
-    found = Played()
+    run = Played()
     answer = desk.load(pair.request)
     if "refused" in answer:
         return Played(False, messages=["hull1620: " + answer["refused"][0], *answer["refused"][1:]])
     desk.run(1)
-    left = [line for line in pair.operator if not line.startswith("*")]
-    while left and left[0].startswith("SWITCH"):
-        desk.act(left.pop(0))
+    actions = [line for line in pair.operator if not line.startswith("*")]
+    while actions and actions[0].startswith("SWITCH"):
+        desk.act(actions.pop(0))
     desk.act("START")
     while True:
         answer = desk.run(1000)
-        found.see(answer)
+        run.see(answer)
         if answer["ended"]:
-            return found
+            return run
         if answer["waits"]:
-            desk.act(left.pop(0) if left else "START")
+            desk.act(actions.pop(0) if actions else "START")
 
 
 def operator_lines(log: str) -> list[str]:

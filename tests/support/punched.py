@@ -89,22 +89,25 @@ def from_hull(hull: Hull) -> Punched:
 
 def differences(hull: Hull, punched: Punched) -> list[str]:
     """Return one line for each difference, including the sign of zero."""
-    mine = from_hull(hull)
-    found = []
+    expected = from_hull(hull)
+    lines = []
     for field in fields(Punched):
-        one, other = getattr(mine, field.name), getattr(punched, field.name)
+        from_port, from_card = getattr(expected, field.name), getattr(punched, field.name)
         if field.name == "satisfied":
-            other = tuple(_unnumbered(*rows) for rows in zip(one, other, strict=False)) + other[len(one) :]
-        if one != other:
-            found.append(f"{field.name}: {one} is not {other}")
-    return found
+            from_card = (
+                tuple(_unnumbered(*rows) for rows in zip(from_port, from_card, strict=False))
+                + from_card[len(from_port) :]
+            )
+        if from_port != from_card:
+            lines.append(f"{field.name}: {from_port} is not {from_card}")
+    return lines
 
 
-def _unnumbered(mine: tuple[int, ...], card: tuple[int, ...]) -> tuple[int, ...]:
+def _unnumbered(hull_row: tuple[int, ...], card: tuple[int, ...]) -> tuple[int, ...]:
     """Return the row of a card without numbers that the hull lacks."""
-    if len(mine) != len(card):
+    if len(hull_row) != len(card):
         return card
-    return tuple(_NO_NUMBER if own == _NO_NUMBER else number for own, number in zip(mine, card, strict=True))
+    return tuple(_NO_NUMBER if own == _NO_NUMBER else number for own, number in zip(hull_row, card, strict=True))
 
 
 def e_field(text: str) -> str:

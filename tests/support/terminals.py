@@ -26,7 +26,7 @@ _STARTED = (
 class Person:
     """A person at a terminal of ``columns``, on which one command of hull1620 runs in ``folder``.
 
-    The streams in ``elsewhere`` (``stdin``, ``stdout``, ``stderr``) are open files instead of the terminal. ``seen`` is
+    The streams in ``elsewhere`` (``stdin``, ``stdout``, ``stderr``) are open files instead of the terminal. ``output`` is
     all output so far, with plain line ends.
     """
 
@@ -50,7 +50,7 @@ class Person:
             **streams,  # type: ignore[arg-type]
         )
         self._slave = slave
-        self.seen = ""
+        self.output = ""
         self._from = 0
 
     def __enter__(self) -> Person:
@@ -67,13 +67,13 @@ class Person:
     def sees(self, text: str, seconds: float = 30.0) -> str:
         """Wait for ``text`` in the output after the last match, and return the output up to its end."""
         until = time.monotonic() + seconds
-        while text not in self.seen[self._from :]:
-            assert time.monotonic() < until, f"{text!r} is not shown:\n{self.seen}"
+        while text not in self.output[self._from :]:
+            assert time.monotonic() < until, f"{text!r} is not shown:\n{self.output}"
             if not self._look(0.1) and self._process.poll() is not None and not self._look(0.1):
-                assert text in self.seen[self._from :], f"ended without {text!r}:\n{self.seen}"
+                assert text in self.output[self._from :], f"ended without {text!r}:\n{self.output}"
         first = self._from
-        self._from = self.seen.index(text, first) + len(text)
-        return self.seen[first : self._from]
+        self._from = self.output.index(text, first) + len(text)
+        return self.output[first : self._from]
 
     def types(self, text: str) -> None:
         r"""Press keys. A line ends with ``\n``."""
@@ -93,7 +93,7 @@ class Person:
         """Return the exit code, after all output has been shown."""
         until = time.monotonic() + seconds
         while self._process.poll() is None:
-            assert time.monotonic() < until, f"does not end:\n{self.seen}"
+            assert time.monotonic() < until, f"does not end:\n{self.output}"
             if self._master >= 0:
                 self._look(0.1)
             else:
@@ -109,5 +109,5 @@ class Person:
     def _look(self, seconds: float) -> bool:
         if not select.select([self._master], [], [], seconds)[0]:
             return False
-        self.seen += os.read(self._master, 65536).decode("utf-8", "replace").replace("\r\n", "\n")
+        self.output += os.read(self._master, 65536).decode("utf-8", "replace").replace("\r\n", "\n")
         return True

@@ -131,7 +131,7 @@ def imported(folder: Path, source: str = SUM) -> Compiled:
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     sys.modules["entered"] = module
-    # Two versions may be written within a second, and have the same length.
+    # Two versions of the source may have the same length and the same second of modification.
     exec(compile(source, str(path), "exec"), vars(module))
     return Compiled(module.entry)
 

@@ -45,10 +45,10 @@ def test_a_third_times_three_differs_from_one() -> None:
     decision = divergence.first_decision
     assert decision is not None
     assert (decision.line.place.card, decision.line.text) == (3, "IF(B-1.)10,20,10")
-    # 1 is .10000000E+01: the last digit of .99999999 drops before the subtraction.
+    # 1 is .10000000E+01, so that the last digit of .99999999 is lost before the subtraction.
     assert decision.values == ("-1E-7", "0")
     assert [target and target.label for target in decision.targets] == [10, 20]
-    # A and B before the decision; K and C are apart; D after the runs have met at 30.
+    # A and B are stored before the decision, K and C after it; D is stored after the runs have joined at 30.
     assert (divergence.compared, divergence.values, divergence.values_in_step) == (3, 3, 2)
     assert (divergence.tested, divergence.decisions) == (1, 1)
     assert divergence.apart == ""
@@ -64,7 +64,7 @@ def test_a_difference_of_close_numbers_loses_digits() -> None:
     lines = ["READ 1,A,B", "C=A-B", "D=C-C", "1 FORMAT(2F14.8)", "END"]
     divergence = compared(*lines, data=["1234567.8599001234567.8399000"])
     losses = {loss.line.place.card: loss for loss in divergence.losses}
-    # 1234567.8 on both: nothing is left of .02, and nothing is right of it.
+    # Both are 1234567.8 in eight digits, so that the difference .02 is lost completely.
     assert losses[2].worst == 8.0
     # .0599 and .0399 of 1234567.8 are relative differences of 4.9E-8 and 3.2E-8: .7 and .5 of a digit.
     assert (losses[1].worst, losses[1].median) == (0.7, 0.6)
@@ -80,10 +80,10 @@ def test_losses_have_a_worst_and_a_median() -> None:
     divergence = compared(*lines, data=[" 5", "1.", "2.", "9.", "11.", "3."], names=("truncating:2", "exact"))
     loss = next(loss for loss in divergence.losses if loss.line.label == 5)
     assert (loss.line.label, loss.times, loss.differing) == (5, 5, 3)
-    # .11 for 1/9 and .33 for 1/3: one in a hundred; .090 for 1/11: as much; nothing for 1 and .5.
+    # Relative differences: 1 % for .11 (1/9), .33 (1/3) and .090 (1/11), none for 1 and .5.
     assert (loss.worst, loss.median) == (0.0, 0.0)
     zero = compared(*lines, data=[" 5", "1.", "2.", "6.", "7.", "13."], names=("truncating:2", "exact")).losses[0]
-    # .16 for 1/6: 4 in a hundred, .6 of a digit; .14 for 1/7: 2 in a hundred; .076 for 1/13: 1.2 in a hundred.
+    # Relative differences: 4 % for .16 (1/6), which is .6 of a digit, 2 % for .14 (1/7), 1.2 % for .076 (1/13).
     assert (zero.worst, zero.median) == (0.6, 0.1)
 
 
@@ -189,7 +189,7 @@ def test_without_values_only_the_first_decision_is_compared() -> None:
     assert (divergence.first_value, divergence.compared, divergence.losses) == (None, 0, ())
 
 
-# Laws, over random programs.
+# Laws, checked on random programs.
 
 
 def divergence_or_none(
@@ -283,7 +283,7 @@ def test_the_first_decision_is_where_two_traces_first_differ(
         ] is divergence.first_decision.line
 
 
-# Where ways meet.
+# Post-dominators.
 
 
 @settings(max_examples=100)

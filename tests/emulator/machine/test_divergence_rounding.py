@@ -46,7 +46,7 @@ def test_a_difference_larger_than_the_rounding_error_is_counted() -> None:
     assert divergence.first_value is not None
     assert divergence.first_value.relative == pytest.approx(1e-8)
     assert float(divergence.first_value.bound) == pytest.approx(2 * float(Fraction(1, 3) - Fraction(1 / 3)))
-    # Against exact numbers there is nothing to be off by.
+    # An exact reference has no error.
     exact = compared("A=1./3.", "B=A+1.", names=("truncating", "exact"))
     assert exact.first_value is not None
     assert exact.first_value.bound == 0

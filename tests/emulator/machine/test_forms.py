@@ -27,7 +27,7 @@ READ_5 = ["READ 1,I,J,K,L,M", "PUNCH 2,I,J,K,L,M", "2 FORMAT(5I3)", "END"]
 )
 def test_five_numbers_are_laid_out_by_each_format(form: str, data: list[str]) -> None:
     if form.endswith("/)"):
-        # Behind the 80th column there is nothing: four blank fields.
+        # Four fields lie beyond column 80, and are blank.
         result = run(f"1 FORMAT{form}", "READ 1,I,J", "PUNCH 2,I,J", "2 FORMAT(2I3)", "END", data=data)
         assert result.punched == ("  1  0",)
         return

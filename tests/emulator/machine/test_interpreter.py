@@ -27,10 +27,10 @@ from tests.support.decks_at_random import ALL_FUNCTIONS, DATA, programs
 from tests.support.deckwork import plain, program, source, until, within
 
 Ran = tuple[Result | str, Machine | None]
-"""A result or an error's words, and the machine where there is one."""
+"""A result or the message of an error, and the machine, if the program compiled."""
 KEYED = ["1.5", "-7", "2"]
 FAR = 1_000
-"""The limit of work for each statement that is compared."""
+"""The limit of work for each statement to be executed."""
 STANDS = Ending("limit", trouble="as many statements are done as were asked for")
 
 

@@ -56,7 +56,7 @@ MATRICES = ["  2  3  2", "   1.0   2.0   3.0", "   4.0   5.0   6.0", "   1.0   0
 def test_a_program_multiplies_matrices(engines: MakeMachine) -> None:
     """By hand: rows (1,2,3) and (4,5,6) times columns (1,0,2) and (.5,-1,2) give 7, 4.5 and 16, 9."""
     result = job(engines, "matrix", *MATRICES)
-    assert result.ending.kind == "undefined"  # PUNCH 5 puts out all of C(3,2), and its third row is not set
+    assert result.ending.kind == "undefined"  # PUNCH 5 writes all of C(3,2), whose third row is undefined
     assert result.punched == ("", "PRODUCT  2 BY  2", "ROW 1      7.00      4.50", "ROW 2     16.00      9.00")
 
 

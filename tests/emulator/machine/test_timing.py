@@ -105,7 +105,7 @@ def test_the_estimated_length_grows_with_the_program() -> None:
     def length(*lines: str) -> int:
         return code_positions(machine(*lines, "END").program)
 
-    assert length("A=B*C") - length("A=B") == 24  # TOFAC FMP FMFAC in place of the one TF of SEND and TRANSMIT
+    assert length("A=B*C") - length("A=B") == 24  # TOFAC, FMP and FMFAC instead of a single TF for SEND and TRANSMIT
     assert length("1 FORMAT(6HABCDEF)") - length("1 FORMAT(3HABC)") == 6
     plain = length("DIMENSION X(5)", "I=1", "A=X(1)")
     assert length("DIMENSION X(5)", "I=1", "A=X(I)") - plain == 30

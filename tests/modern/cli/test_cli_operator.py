@@ -84,7 +84,7 @@ def test_a_log_replays_to_the_same_bytes(
         person.sees("PAUSE 77")
         person.types("stop\n")
         assert person.ended() == 1
-        assert "hull1620: tictac.f: card 86: stopped by the operator, in PAUSE 77" in person.seen
+        assert "hull1620: tictac.f: card 86: stopped by the operator, in PAUSE 77" in person.output
     monkeypatch.chdir(folder)
     options = ("--punch", "cards2", "--log", "log2", "--typewriter", "typed")
     code, out, err = call(capsys, "run", "tictac.f", "tictac.deck", "--operator=log", *options)
@@ -95,7 +95,7 @@ def test_a_log_replays_to_the_same_bytes(
     assert (folder / "log2").read_text() == log
     typed = [line.removeprefix("* type").strip() for line in log.splitlines() if line.startswith("* type ")]
     assert [line.strip() for line in (folder / "typed").read_text().splitlines()] == typed
-    assert [line.strip() for line in person.seen.splitlines() if line.strip() in typed] == typed
+    assert [line.strip() for line in person.output.splitlines() if line.strip() in typed] == typed
 
 
 def test_example_4_is_stepped_a_switch_flipped_and_resumed(
@@ -125,7 +125,7 @@ def test_example_4_is_stepped_a_switch_flipped_and_resumed(
         person.sees("1 ON, 2 OFF, 3 OFF, 4 OFF")
         person.types("start\n")
         assert person.ended() == 0
-        assert person.seen.count("POINTS ARE COPLANAR") == 1
+        assert person.output.count("POINTS ARE COPLANAR") == 1
     assert call(capsys, "hull", deck, "--punch", "plain")[0] == 0
     assert call(capsys, "hull", deck, "--operator=log", "--punch", "again", "--log", "log2")[0] == 0
     assert (folder / "stepped").read_text() == (folder / "again").read_text() == (folder / "plain").read_text()
@@ -166,7 +166,7 @@ def test_attention_in_an_endless_loop(folder: Path) -> None:
         person.sees("read: 0 of 1 cards\npunched: 0\n")
         person.types("\n\x1b2")
         assert person.ended() == 0
-        assert person.seen.endswith("SWITCH 2 ON\n" + person.seen.rpartition("\n")[0].rpartition("\n")[2] + "\n")
+        assert person.output.endswith("SWITCH 2 ON\n" + person.output.rpartition("\n")[0].rpartition("\n")[2] + "\n")
     log = (folder / "log").read_text().splitlines()
     done = [line.split() for line in log if line[0] != "*"]
     assert 1_000 < int(done[3][1]) < int(done[5][1])
@@ -241,9 +241,9 @@ def test_in_60_columns_with_and_without_a_clever_terminal(folder: Path, term: st
         person.sees("stopped (breakpoint) before statement 15")
         person.types("step\nstep\ncards\nv l\nstop\n")
         assert person.ended() == 1
-        lines = person.seen.splitlines()
+        lines = person.output.splitlines()
         assert max(len(line) for line in lines if "hull1620:" not in line) <= 60
-        assert not [c for c in person.seen if not (c.isprintable() or c in "\n\b")]
+        assert not [c for c in person.output if not (c.isprintable() or c in "\n\b")]
         assert "M(9) = 1" in lines
         assert lines.count("  HELP") == 0
 
@@ -313,14 +313,14 @@ def test_nobody_is_asked_unless_all_is_one_terminal(folder: Path, stream: str) -
             file.seek(0)
         with Person(folder, "run", "ask.f", "one.deck", elsewhere={stream: file}) as person:
             assert person.ended() == (0 if stream == "stdin" else 2)
-            assert "waits" not in person.seen
+            assert "waits" not in person.output
 
 
 @pytest.mark.parametrize("more", [["--operator=none"], []])
 def test_nobody_is_asked_without_a_deck_or_against_ones_will(folder: Path, more: list[str]) -> None:
     with Person(folder, "run", "ask.f", *(["one.deck", *more] if more else [])) as person:
         assert person.ended() == 2
-        assert "nothing is typed for ACCEPT" in person.seen
+        assert "nothing is typed for ACCEPT" in person.output
 
 
 def test_without_a_terminal_the_option_says_so(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
