@@ -26,8 +26,8 @@ _STARTED = (
 class Person:
     """A person at a terminal of ``columns``, on which one command of hull1620 runs in ``folder``.
 
-    The streams in ``elsewhere`` (``stdin``, ``stdout``, ``stderr``) are open files instead of the terminal. ``output`` is
-    all output so far, with plain line ends.
+    The streams in ``elsewhere`` (``stdin``, ``stdout``, ``stderr``) are open files instead of the terminal. ``output``
+    is all output so far, with plain line ends.
     """
 
     def __init__(
