@@ -1,1 +1,1 @@
-"""Butler's data decks and jobs: program 1, then program 2 or 3, and the hull read back from cards."""
+"""Run Butler's three programs on data decks and read the hull from the punched cards."""

@@ -1,4 +1,4 @@
-"""Many hulls at once: program 1 over all decks, then program 2 and program 3 over the cards it punched."""
+"""Run the hull programs on many decks: program 1 on all of them, then programs 2 and 3 on the cards it punched."""
 
 from __future__ import annotations
 
@@ -15,16 +15,17 @@ from modern.thesis.job import HullRun, Load, Step, punched_deck, second_program
 
 @dataclass
 class Runs:
-    """Runs already made: the same program with the same options over the same deck is run once.
+    """A cache of runs, because the routes of a study's cell often share program 1 or 2.
 
-    Routes of a cell often share program 1 or 2.  The programs are kept, so that no other can take the identity of one.
+    done: results or errors by the identity of the program, the options and the deck.
+    programs: the programs themselves, so that no other program can get the same identity.
     """
 
     done: dict[tuple[int, Options, Deck], Result | EmulatorError] = field(default_factory=dict)
     programs: dict[int, Program] = field(default_factory=dict)
 
     def results(self, program: Program, decks: Sequence[Deck], options: Options) -> list[Result | EmulatorError]:
-        """The result of each deck, or the error it raised: a card of numbers no program can read."""
+        """Return the result for each deck, or the error of a deck that the program cannot read."""
         self.programs[id(program)] = program
         fresh = [deck for deck in dict.fromkeys(decks) if (id(program), options, deck) not in self.done]
         for deck, result in zip(fresh, _results(program, fresh, options), strict=True):
@@ -38,10 +39,10 @@ def _results(program: Program, decks: Sequence[Deck], options: Options) -> Seque
     except EmulatorError as error:
         if len(decks) == 1:
             return [error]
-    # One deck stops a batch: halves are tried, so that the others' results are kept.
+    # One invalid deck stops a batch.  Bisection finds it and preserves the results of the other decks.
     half = len(decks) // 2
     halves = decks[:half], decks[half:]
-    return [result for some in halves for result in _results(program, some, options)]
+    return [result for part in halves for result in _results(program, part, options)]
 
 
 def run_hulls(
@@ -51,23 +52,24 @@ def run_hulls(
     first: str = "program1",
     runs: Runs | None = None,
 ) -> list[HullRun | EmulatorError]:
-    """Each deck's hull run, equal to :func:`modern.thesis.job.run_hull`'s, or the error that would raise.
+    """Return for each deck of one data set what :func:`modern.thesis.job.run_hull` returns, or the error it raises.
 
-    A deck holds one data set; ``runs`` carries runs over from one call to the next.
+    ``runs`` is a cache that several calls can share.
     """
     options, runs = options or Options(), runs or Runs()
     program = load(first)
-    found: list[HullRun | EmulatorError] = []
+    hull_runs: list[HullRun | EmulatorError] = []
     waiting: dict[int, list[tuple[int, Step]]] = {}
     for place, (deck, result) in enumerate(zip(decks, runs.results(program, decks, options), strict=True)):
         if isinstance(result, EmulatorError):
-            found.append(result)
+            hull_runs.append(result)
             continue
         step = Step(first, 1, program, deck, result)
-        found.append(HullRun((step,)))
+        hull_runs.append(HullRun((step,)))
         second = second_program(result)
         if second is not None:
             waiting.setdefault(second, []).append((place, step))
+    # All decks for program 2, then all decks for program 3, or the other way around.
     for number, ready in waiting.items():
         name = f"program{number}"
         following = load(name)
@@ -75,7 +77,7 @@ def run_hulls(
         results = runs.results(following, middle, options)
         for (place, step), deck, result in zip(ready, middle, results, strict=True):
             if isinstance(result, EmulatorError):
-                found[place] = result
+                hull_runs[place] = result
             else:
-                found[place] = HullRun((step, Step(name, number, following, deck, result)))
-    return found
+                hull_runs[place] = HullRun((step, Step(name, number, following, deck, result)))
+    return hull_runs

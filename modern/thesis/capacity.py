@@ -1,8 +1,8 @@
-"""What number of points fits a machine: the hull programs' arrays against the positions of core.
+"""The number of points for which the hull programs fit into the core memory of a machine.
 
-The arrays of 51 hold a number a point, those of 98 a number a plane: 2N-4 for N points in space.  The layer
-``corrected`` has 52 and 193 instead, N+1 and 4N-11 (rows P2-023, P3-028).  The length of the object program is
-the estimate of :func:`emulator.language.length.code_positions`.
+Arrays of length 51 have one entry for each point, those of length 98 one for each plane: 2N-4 for N points in space.
+With the layer ``corrected`` the lengths are 52 and 193, that is N+1 and 4N-11 (rows P2-023, P3-028).  The length of the
+object program is estimated by ``code_positions``.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ _FORMULAS = {51: "N", 52: "N+1", 98: "2N-4", 193: "4N-11"}
 
 
 def data_positions(program: Program, points: int) -> int:
-    """The positions a program's data take when its arrays are dimensioned for ``points`` points."""
+    """Return the positions of core for a program's data, with arrays dimensioned for the given number of points."""
     fields = program.storage.fields
     for entry in program.storage.arrays():
         size = _SIZES.get(entry.size)
@@ -33,17 +33,17 @@ def data_positions(program: Program, points: int) -> int:
 
 
 def largest(program: Program, core: int) -> int:
-    """The largest number of points whose arrays fit beside the program; 0 if not even 4 do."""
-    room = core - OBJECT_PROGRAM - FUNCTION_NAMES - code_positions(program)
+    """Return the largest number of points whose arrays fit into core with the program, or 0 if that is less than 4."""
+    available = core - OBJECT_PROGRAM - FUNCTION_NAMES - code_positions(program)
     points = 0
     for candidate in range(4, 1000):
-        if data_positions(program, candidate) > room:
+        if data_positions(program, candidate) > available:
             break
         points = candidate
     return points
 
 
 def array_lengths(program: Program) -> tuple[str, ...]:
-    """The lengths of a program's arrays as the formulas they were dimensioned by, N being the number of points."""
+    """Return the lengths of a program's arrays as formulas in N, the number of points."""
     lengths = {entry.size for entry in program.storage.arrays()}
     return tuple(_FORMULAS[length] for length in sorted(lengths & _FORMULAS.keys()))

@@ -1,7 +1,7 @@
-"""Punched results read back, so that two of them can be compared whatever order they are in.
+"""Read the cards that the hull programs punch, and compare results regardless of order and scale.
 
-A last program punches a hull; program 1 before it the intermediate deck, which the next one reads.  The cards are
-those of the FORMATs of the three programs (thesis p. 73-74, 87, 102).  Numbers are exact.
+The last program of a run punches a hull.  Program 1 before it punches the intermediate deck, which the next program
+reads.  The cards follow the FORMATs of the three programs (thesis p. 73-74, 87, 102).  Numbers are exact.
 """
 
 from __future__ import annotations
@@ -27,9 +27,9 @@ SECTIONS = ("inside", "boundary", "vertices", "equations", "plane")
 
 @dataclass(frozen=True, slots=True)
 class CardHull:
-    """A result as it stands on the cards: points in order, equations in order, and which points satisfy which.
+    """A hull on cards: points and equations in the order of the cards.
 
-    ``satisfied`` pairs vertex numbers with an equation's number.
+    satisfied: pairs of vertex numbers and the number of the equation that these vertices satisfy.
     """
 
     inside: tuple[Point, ...]
@@ -41,59 +41,62 @@ class CardHull:
 
 
 def number(text: str) -> Fraction:
-    """The exact value of an E field's text; minus zero is zero."""
+    """Return the exact value of the text of an E field; minus zero becomes zero."""
     return Fraction(text)
 
 
 def floats(card: str) -> Point:
-    """The floating-point numbers on a card, in order."""
+    """Return the floating-point numbers on a card, in order."""
     return tuple(number(text) for text in _FLOAT.findall(card))
 
 
 @dataclass(frozen=True, slots=True)
 class Sections:
-    """The numbers of a result as text, section by section; ``satisfied`` are the whole numbers on a card."""
+    """The numbers of a hull on cards as text.
+
+    points: the rows of numbers of each section.  satisfied: the integers on each card of the last section.
+    """
 
     points: Mapping[str, tuple[tuple[str, ...], ...]]
     satisfied: tuple[tuple[int, ...], ...]
 
 
 def sections(cards: Sequence[str]) -> Sections:
-    """Read the cards a last program punched.  Cards that are none of a hull's are passed over."""
-    found: dict[str, list[tuple[str, ...]]] = {name: [] for name in SECTIONS}
+    """Read the cards that a last program punched, and ignore cards that do not belong to a hull."""
+    rows: dict[str, list[tuple[str, ...]]] = {name: [] for name in SECTIONS}
     satisfied: list[tuple[int, ...]] = []
     section = "vertices"
     for card in cards:
-        words = card.strip()
-        heading = next((kind for start, kind in _HEADINGS if words.startswith(start)), "")
+        text = card.strip()
+        heading = next((kind for start, kind in _HEADINGS if text.startswith(start)), "")
         if heading:
             section = heading
-        elif words.startswith("VERTICES"):
-            section = "satisfied" if "SATISFY" in words else "vertices"
-        elif section == "satisfied" and re.fullmatch(r"[\d, ]+", words):
-            satisfied.append(tuple(int(n) for n in re.findall(r"\d+", words)))
-        elif section in found and (numbers := _FLOAT.findall(card)):
-            found[section].append(tuple(numbers))
-    return Sections({name: tuple(rows) for name, rows in found.items()}, tuple(satisfied))
+        elif text.startswith("VERTICES"):
+            section = "satisfied" if "SATISFY" in text else "vertices"
+        elif section == "satisfied" and re.fullmatch(r"[\d, ]+", text):
+            satisfied.append(tuple(int(n) for n in re.findall(r"\d+", text)))
+        elif section in rows and (numbers := _FLOAT.findall(card)):
+            rows[section].append(tuple(numbers))
+    return Sections({name: tuple(section_rows) for name, section_rows in rows.items()}, tuple(satisfied))
 
 
 def read_hull(cards: Sequence[str]) -> CardHull:
-    """The cards of :func:`sections` as exact numbers."""
-    read = sections(cards)
+    """Read the hull on cards that a last program punched, as exact numbers."""
+    texts = sections(cards)
     inside, boundary, vertices, equations, plane = (
-        tuple(tuple(map(number, row)) for row in read.points[name]) for name in SECTIONS
+        tuple(tuple(map(number, row)) for row in texts.points[name]) for name in SECTIONS
     )
-    satisfied = tuple((numbers[:-1], numbers[-1]) for numbers in read.satisfied)
+    satisfied = tuple((numbers[:-1], numbers[-1]) for numbers in texts.satisfied)
     return CardHull(inside, boundary, vertices, equations, satisfied, plane)
 
 
-def same_hull(one: CardHull, other: CardHull, oriented: bool) -> bool:
-    """Whether two results say the same in whatever order and scale.
+def same_hull(first: CardHull, second: CardHull, oriented: bool) -> bool:
+    """Return True if two hulls on cards are equal except for order and scale.
 
-    Points are compared as sets, equations up to a factor (a positive one where ``oriented``: planes and
-    lines that program 2 or 3 turned outward), satisfied equations by what they join.
+    Equations are equal up to a factor, which must be positive if ``oriented`` is true, because programs 2 and 3 turn
+    planes and lines outward.
     """
-    return _canonical(one, oriented) == _canonical(other, oriented)
+    return _canonical(first, oriented) == _canonical(second, oriented)
 
 
 def _canonical(hull: CardHull, oriented: bool) -> tuple[object, ...]:
@@ -116,17 +119,18 @@ def _canonical(hull: CardHull, oriented: bool) -> tuple[object, ...]:
 
 
 def scaled(equation: Point, oriented: bool) -> Point:
-    """An equation divided by its first coefficient that is not zero, or by that coefficient's size."""
+    """Divide an equation by its first nonzero coefficient, or by the absolute value of it if ``oriented``."""
     lead = next((c for c in equation if c), Fraction(1))
     return tuple(c / (abs(lead) if oriented else lead) for c in equation)
 
 
 @dataclass(frozen=True, slots=True)
 class IntermediateDeck:
-    """What program 1 punches for the next: planes, N's card, and the points after it.
+    """The cards that program 1 punches for the next program.
 
-    ``planes`` pairs A, B, C, D with the numbers of the points the card names; ``count`` holds N and, of coplanar
-    points, KPROJ.
+    planes: pairs of A, B, C, D and the numbers of the points that the card names.
+    count: N and, for coplanar points, KPROJ.
+    points: the points in their new order.
     """
 
     planes: tuple[tuple[Point, tuple[int, ...]], ...]
@@ -135,7 +139,7 @@ class IntermediateDeck:
 
 
 def read_intermediate(cards: Sequence[str]) -> IntermediateDeck | None:
-    """The cards program 1 punched for the next; None where no card holds N."""
+    """Read the cards that program 1 punched for the next program; return None if no card has N."""
     for i, card in enumerate(cards):
         if card.strip() and not floats(card):
             planes = tuple((floats(c), tuple(map(int, c[56:].split()))) for c in cards[:i] if len(floats(c)) == 4)
@@ -144,7 +148,7 @@ def read_intermediate(cards: Sequence[str]) -> IntermediateDeck | None:
 
 
 def planes_hold(deck: IntermediateDeck) -> bool:
-    """Whether every plane vanishes exactly at the points it names, or at all points where it names none."""
+    """Return True if every plane vanishes exactly at the points that its card names, or else at all points."""
     unprojected = _unprojected(deck)
     for plane, named in deck.planes:
         points = [unprojected[k - 1] for k in named if 1 <= k <= len(unprojected)] if named else unprojected
@@ -154,7 +158,7 @@ def planes_hold(deck: IntermediateDeck) -> bool:
 
 
 def _unprojected(deck: IntermediateDeck) -> list[Point]:
-    """The points as x, y, z: program 1 punches coplanar points with the coordinate KPROJ drops at the end."""
+    """Return the points as x, y, z: program 1 punches the coordinate that KPROJ drops last."""
     orders = {"1": (2, 0, 1), "2": (0, 2, 1), "3": (0, 1, 2)}
     order = orders.get(deck.count[1], (0, 1, 2)) if len(deck.count) > 1 else (0, 1, 2)
     return [tuple(point[k] for k in order) for point in deck.points if len(point) == 3]

@@ -1,4 +1,4 @@
-"""A hull from cards to cards: program 1, then program 2 or 3 as the typewriter says (thesis p. 59)."""
+"""Run program 1 on a data deck, then the program that its typewriter names (thesis p. 59)."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ NOT_COPLANAR = "POINTS ARE NOT COPLANAR"
 REFUSALS = ("DATA NOT ACCEPTABLE", "ERROR IN PROGRAM")
 
 Load = Callable[[str], Program]
-"""Gives a program compiled, by name."""
+"""A function that returns a compiled program by name."""
 Watch = Callable[[Program, Machine], None]
-"""Sees each machine before it runs."""
+"""A function that is called with each machine before it runs."""
 
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One program's run within a hull run: its built-in's name, its number in the thesis, and the deck it read."""
+    """The run of one program: the name of the built-in, its number in the thesis, the deck that it read, the result."""
 
     name: str
     number: int
@@ -34,7 +34,7 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class HullRun:
-    """The steps of one data set, in order; the last one's punched cards are the final cards."""
+    """The runs of the programs for one data set, in order; the last one punched the final cards."""
 
     steps: tuple[Step, ...]
 
@@ -44,7 +44,7 @@ class HullRun:
 
     @property
     def refusal(self) -> str:
-        """DATA NOT ACCEPTABLE or ERROR IN PROGRAM where a program stopped at it, else empty."""
+        """The message with which a program stopped, DATA NOT ACCEPTABLE or ERROR IN PROGRAM; otherwise empty."""
         return next((r for r in (refusal(step.result) for step in self.steps) if r), "")
 
     @property
@@ -53,13 +53,13 @@ class HullRun:
 
 
 class Refusals:
-    """Whether a run stopped at a refusal, from its events as they come."""
+    """Detects from the events of a run, as they occur, whether it stopped at a refusal."""
 
     def __init__(self) -> None:
         self._last = self._stopped = ""
 
     def see(self, events: Iterable[Event]) -> None:
-        """Take further events, in order."""
+        """Process further events, in order."""
         for event in events:
             if self._stopped:
                 return
@@ -72,25 +72,25 @@ class Refusals:
 
     @property
     def stopped(self) -> str:
-        """The refusal typed with no card punched between it and the next data set or the end; else empty."""
+        """The refusal after which the run punched no card before the next data set or the end; otherwise empty."""
         return self._stopped or self._last
 
 
 def refusal(result: Result) -> str:
-    """The refusal a run stopped at, from the events its result holds; else empty."""
-    seen = Refusals()
-    seen.see(result.events)
-    return seen.stopped
+    """Return the refusal at which a run stopped, from the events in its result; otherwise an empty text."""
+    refusals = Refusals()
+    refusals.see(result.events)
+    return refusals.stopped
 
 
 def second_program(result: Result) -> int | None:
-    """The program that takes the cards of this run of program 1, 2 or 3; None where none does."""
+    """Return the number of the program that reads the cards of this run, or None if no program does."""
     second = 2 if COPLANAR in result.typed else 3 if NOT_COPLANAR in result.typed else None
     return second if result.ending.normal and not refusal(result) else None
 
 
 def punched_deck(step: Step) -> Deck:
-    """The cards a step punched, as the next program reads them."""
+    """Return the cards that a step punched, as a deck for the next program."""
     return deck_from_lines(f"cards from {step.name}", step.result.punched)
 
 
@@ -103,23 +103,24 @@ def run_hull(
     operator: Operator | None = None,
     output: Output | None = None,
 ) -> HullRun:
-    """Run one data set through program 1 and the program its typewriter names.
+    """Run one data set through program 1 and the program that its typewriter names.
 
-    With ``options.uncut`` numbers go from program 1 to the next whole, not as the card's digits.  ``first`` is the
-    built-in that plays program 1; ``watch`` sees each machine before it runs, ``operator`` serves them all and
-    ``output`` sees all events.  Raises what :meth:`emulator.machine.machine.Machine.run` raises.
+    With ``options.uncut`` numbers pass from program 1 to the next program with all their digits, not only those on the
+    card.  ``first`` is the built-in that is used as program 1.  ``watch`` is called with each machine before it runs,
+    ``operator`` operates all machines, and ``output`` receives all events.  Raise the errors of
+    :meth:`emulator.machine.machine.Machine.run`.
     """
     options = options or Options()
 
-    def ran(name: str, number: int, deck: Deck, uncut: Sequence[Sequence[Uncut]] = ()) -> Step:
+    def run_program(name: str, number: int, deck: Deck, uncut: Sequence[Sequence[Uncut]] = ()) -> Step:
         program = load(name)
         machine = Machine(program, deck, options, uncut=uncut)
         if watch is not None:
             watch(program, machine)
         return Step(name, number, program, deck, machine.run(operator, output, keep=True))
 
-    steps = [ran(first, 1, deck)]
+    steps = [run_program(first, 1, deck)]
     second = second_program(steps[0].result)
     if second is not None:
-        steps.append(ran(f"program{second}", second, punched_deck(steps[0]), steps[0].result.uncut))
+        steps.append(run_program(f"program{second}", second, punched_deck(steps[0]), steps[0].result.uncut))
     return HullRun(tuple(steps))
