@@ -128,7 +128,7 @@ def test_worst_verdict_of_claim_and_results_counts(first: Verdict, second: Verdi
         ("yau-srihari", "theorem", ["Theorem 1", "Theorem 2", "6-connected"]),
         ("yau-srihari", "figure", [f"Fig. {k}" for k in range(1, 7)]),
         ("yau-srihari", "complexity", ["O(n log n)", "O(n)", "O(n^3 log n)", "O(n^2)"]),
-        ("yau-srihari", "definition", ["3.2.1", "3.2.2", "3.2.3", "Half-cell", "semidigital", "Near"]),
+        ("yau-srihari", "definition", ["3.2.1", "3.2.2", "3.2.3", "half-cell expansion", "semidigital", "near if"]),
     ],
 )
 def test_every_numbered_item_has_a_row(document: str, kind: str, names: list[str]) -> None:
