@@ -43,22 +43,16 @@ def run_batch(
     CardError, DeckError
         As :meth:`emulator.machine.machine.Machine.run` does, for the first deck with an error.
     """
-    return tuple(results(program, decks, options, note))
-
-
-def results(
-    program: Program,
-    decks: Iterable[Deck],
-    options: Options | None = None,
-    note: Note | None = None,
-) -> Iterator[Result]:
-    """Yield the results of :func:`run_batch` as they are computed."""
     options = options or Options()
     runner = _runner(program, options, note)
+    results: list[Result] = []
     for block in _blocks(decks):
         runs = runner.runs([packed(deck) for deck in block]) if runner else iter([None] * len(block))
         for deck, run in zip(block, runs, strict=True):
-            yield Machine(program, deck, options).run() if run is None else _result(program, deck, options, run)
+            results.append(
+                Machine(program, deck, options).run() if run is None else _result(program, deck, options, run)
+            )
+    return tuple(results)
 
 
 def punched(

@@ -57,7 +57,7 @@ class _Part(JITCodeLibrary):
         self._finalize_dynamic_globals()  # type: ignore[no-untyped-call]
         self._finalized = True
 
-    # numba asks for an address when it has compiled a function.  There is none, and the address is never used.
+    # numba asks for an address when it has compiled a function.  No address exists, and none is used.
     def get_pointer_to_function(self, name: str) -> int:
         self._ensure_finalized()  # type: ignore[no-untyped-call]
         return 0

@@ -10,7 +10,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from emulator.compiled import runner
-from emulator.compiled.batch import punched, results, run_batch
+from emulator.compiled.batch import punched, run_batch
 from emulator.errors import CardError, DeckError, EmulatorError
 from emulator.language.cards import Card, Deck, deck_from_lines
 from emulator.language.compiler import translate
@@ -206,13 +206,10 @@ def test_unsupported_decks_run_in_the_interpreter(lines: list[str], data: list[s
     assert count_compiled(lines, data) == 0
 
 
-def test_an_error_is_raised_after_the_results_of_earlier_decks() -> None:
+def test_the_first_deck_with_an_error_raises_it() -> None:
     card = " .20000000E+01     1.5   12"
-    batch = results(program(*COPY), decks([card], [card], ["BAD"], [card]), Options())
-    assert next(batch).ending.kind == "hopper"
-    assert next(batch).punched
     with pytest.raises(CardError, match=r"deck 3: card 1, column 1: 'BAD' is not a number"):
-        next(batch)
+        run_batch(program(*COPY), decks([card], [card], ["BAD"], [card], ["WORSE"]))
 
 
 def test_a_program_that_is_too_large_is_rejected_even_without_decks() -> None:

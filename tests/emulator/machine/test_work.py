@@ -12,7 +12,7 @@ import pytest
 from emulator.language.cards import deck_from_lines
 from emulator.machine.machine import Machine
 from emulator.machine.result import Options
-from emulator.numbers import numbers, work
+from emulator.numbers import numbers
 from emulator.numbers.multiprecision import MultiprecisionNumbers
 from tests.support.deckwork import agreed, machine, program
 
@@ -166,8 +166,3 @@ def test_both_engines_count_the_same_work(arithmetic: str, limit: int) -> None:
     lines += ["PUNCH 3,X,A", "PUNCH 4", "A=A+.0001", "GO TO 5", "3 FORMAT(40(1X),2F5.2)", "4 FORMAT(35(1X),1HA)", "END"]
     options = Options(numbers=numbers(arithmetic), limit=limit)
     assert agreed(program(*lines), [deck_from_lines("deck", ["1"])], options) == 1
-
-
-def test_the_estimates_of_work_have_their_documented_values() -> None:
-    assert (work.STEPS, work.product(10_000, 10_000), work.quotient(10_000, 10_000)) == (34, 125, 153)
-    assert (work.series(10_000), work.decimal(10_000)) == (8358, 2590)
