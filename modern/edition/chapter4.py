@@ -11,6 +11,7 @@ import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 from typing import Any
@@ -80,6 +81,7 @@ def chapter4_folder() -> Traversable:
     return files("transcripts").joinpath("chapter4")
 
 
+@cache
 def load_text() -> Text:
     """Return the text of the three examples with its apparatus."""
     return load(chapter4_folder(), "chapter4")

@@ -13,6 +13,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 
 from emulator.files import write_text
@@ -77,8 +78,13 @@ def load_chapter(layers: Iterable[str] | None = None, without: Collection[str] =
 
     Raises ApparatusError if a row does not fit, and LayoutError for an invalid layout.
     """
+    return rebuilt(*_text_and_layout(), layers, without)
+
+
+@cache
+def _text_and_layout() -> tuple[Text, Layout]:
     folder = chapter6_folder()
-    return rebuilt(load(folder, "chapter6"), load_layout(folder), layers, without)
+    return load(folder, "chapter6"), load_layout(folder)
 
 
 def rebuilt(text: Text, layout: Layout, layers: Iterable[str] | None = None, without: Collection[str] = ()) -> Chapter:
