@@ -25,6 +25,7 @@ def _punches() -> dict[str, str]:
     code.update({c: f"12-{i}" for i, c in enumerate(_ZONES["12"], 1)})
     code.update({c: f"11-{i}" for i, c in enumerate(_ZONES["11"], 1)})
     code.update({c: f"0-{i}" for i, c in enumerate("STUVWXYZ", 2)})
+    # Special characters have three punches, or two (3-8 and 4-8).
     code.update({".": "12-3-8", ")": "12-4-8", "$": "11-3-8", "*": "11-4-8"})
     code.update({",": "0-3-8", "(": "0-4-8", "=": "3-8", "@": "4-8", "'": "4-8"})
     return code
@@ -70,6 +71,7 @@ def deck_from_lines(source: str, lines: Iterable[str]) -> Deck:
 
 def deck_from_text(source: str, text: str) -> Deck:
     """Make a deck from the text of a file with LF or CRLF line ends.  The last line need not be terminated."""
+    # A line end after the last card does not start another card.
     lines = text.replace("\r\n", "\n").split("\n")
     if lines and lines[-1] == "":
         lines.pop()
@@ -104,6 +106,7 @@ def read_line(source: str, number: int, line: str, unit: str = "card") -> Card:
 
     A card with C in column 1 may be a comment, and a comment may contain any character.
     """
+    # A comment of a source deck may hold any character, so it is not checked here.
     if not line.startswith("C"):
         check_characters(source, number, line, unit)
     text = line.rstrip(" ")

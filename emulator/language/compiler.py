@@ -120,6 +120,7 @@ class _Translation:
                 if not any(reference.name in self.foreign_names for reference in references(statement.body)):
                     self.diagnostics.append(refused.diagnostic)
             self._close_dos(statement)
+        # A DO that is still open has no last statement, unless that statement was rejected by the parser.
         for do in self.open_dos:
             if str(do.label) in self.refused:
                 continue
@@ -134,6 +135,7 @@ class _Translation:
             for label, place in self.jumps:
                 if label not in self.targets and str(label) not in self.refused:
                     self._error(place, self._why_no_target(label))
+        # A deck of FORMATs alone still needs a statement to stop at.
         if not self.lines:
             self.lines.append(Line(0, tree.Place(1, 1), ""))
         if not self.ended:
@@ -178,6 +180,7 @@ class _Translation:
                 spec = FormatSpec(())
             else:
                 self.diagnostics.extend(warnings)
+            # The first FORMAT of a number counts.  _check_labels reports the second one.
             positions += spec.positions
             self.formats.setdefault(statement.label, spec)
         self.format_places = {label: place for place, label in enumerate(self.formats)}
@@ -254,6 +257,7 @@ class _Translation:
                 emitter.emit(op.PAUSE, second=int(number or 0))
             case tree.Stop():
                 emitter.emit(op.STOP)
+            # END stops the run as STOP does.  The second operand tells the two apart in the ending.
             case tree.End():
                 self.ended = True
                 emitter.emit(op.STOP, second=1)
@@ -270,12 +274,14 @@ class _Translation:
         to_fixed, from_fixed = is_fixed_name(target.name), emitter.fixed(body.value)
         place = emitter.variable(target)
         # A copy within one mode is a transmission of the field, which bypasses the accumulator.
+        # SEND and TRANSMIT are the two instructions of that transmission.
         source = emitter.simple(body.value)
         if source is not None and to_fixed == from_fixed:
             emitter.emit(op.SEND, source)
             emitter.emit(op.TRANSMIT, place)
             return
         emitter.load(body.value)
+        # The mode changes across the equals sign (C26-5619 p. 21).
         if to_fixed != from_fixed:
             emitter.emit(op.FIX if to_fixed else op.FLOAT)
         emitter.emit(op.FMFIX if to_fixed else op.FMFAC, place)
@@ -316,6 +322,7 @@ class _Translation:
                 bounds.append(self._fixed_variable(bound, "a bound of a DO"))
             else:
                 raise Refused(bound.place, "a bound of a DO must be an integer or a fixed-point variable")
+        # Only the first value is stored now.  DOTEST reads step and limit from their fields at each pass.
         first, last, step = bounds
         self.emitter.emit(op.TOFIX, first)
         self.emitter.emit(op.FMFIX, variable)
@@ -325,6 +332,7 @@ class _Translation:
         if body.label in self.labels and self.labels[body.label] <= statement.place:
             raise Refused(statement.place, f"the last statement of this DO, number {body.label}, is before the DO")
         variable, step, limit = self._loop(body, statement.place)
+        # The statement number takes a field here, if this is its first appearance (p. 69).
         self.emitter.allocator.place("statement number", str(body.label))
         self.loops.append((variable, step, limit, len(self.emitter.code)))
         self.open_dos.append(_OpenDo(body.label, len(self.loops) - 1, index, statement.place))
@@ -374,6 +382,7 @@ class _Translation:
             emitter.emit(op.DOTEST, address=number)
             emitter.count(index, False, op.LIST_REST)
             return
+        # The sign of the second operand tells the engines the mode of the item.
         sign = -1 if is_fixed_name(item.name) else 1
         # An array without subscripts stands for all of its elements.
         if item.name in emitter.arrays and not item.arguments:

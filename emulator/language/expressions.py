@@ -139,11 +139,13 @@ class Emitter:
                 raise Refused(argument.place, "a subscript is v, c, v+c, v-c, c*v, c*v+c or c*v-c")
             (sign, constant), term = argument.rest[0], argument.first
             addend = (1 if sign == "+" else -1) * self._whole(constant)
+        # What remains is v, c, c*v or c*c, where a product must begin with its constant.
         factor = 1
         if isinstance(term, Product):
             if len(term.rest) != 1 or term.rest[0][0] != "*":
                 raise Refused(term.place, "a subscript is v, c, v+c, v-c, c*v, c*v+c or c*v-c")
             factor, term = self._whole(term.first), term.rest[0][1]
+        # A constant subscript has no variable: the factor and the constant give the addend.
         if isinstance(term, Number):
             return -1, 0, factor * self._whole(term) + addend
         if (
@@ -181,6 +183,7 @@ class Emitter:
                 raise Refused(expression.place, "a fixed-point quantity may not be raised to a power", 5)
             self.fixed(expression.exponent)
             return False
+        # All operands of a sum or product must have the mode of the first one (p. 19).
         mode = self.fixed(expression.first)
         for _, part in expression.rest:
             if self.fixed(part) != mode:
@@ -245,6 +248,7 @@ class Emitter:
                     self.emit(table["to"], waiting)
                 self.emit(table[sign], operand)
             else:
+                # The result so far is in the accumulator: save it before the accumulator is used again.
                 if waiting is None:
                     waiting = self.temporary()
                     self.emit(table["from"], waiting)
@@ -257,6 +261,7 @@ class Emitter:
     def _power(self, expression: Power) -> None:
         base, exponent = expression.base, expression.exponent
         # A ** B is POWER, A ** 2 is a product, and any other A ** J is POWERX.
+        # The base stays in its field, or in a temporary, while the exponent is computed in FAC.
         operand = self.simple(base)
         if not self.fixed(exponent):
             if operand is None:
@@ -266,6 +271,7 @@ class Emitter:
             self.load(exponent)
             self.emit(op.POWER, operand)
             return
+        # A square is a product with itself, as in the object code of the time.
         if isinstance(exponent, Number) and exponent.text == "2":
             self.load(base)
             if operand is None:
@@ -273,6 +279,7 @@ class Emitter:
                 self.emit(op.FMFAC, operand)
             self.emit(op.FMP, operand)
             return
+        # The exponent is computed first, because POWERX takes the base from FAC.
         power = self.simple(exponent)
         if power is None:
             self.load(exponent)

@@ -98,6 +98,7 @@ def parse_format(statement: Format) -> tuple[FormatSpec, tuple[Diagnostic, ...]]
         raise _suggest_width(reader) or failure from None
     warnings = list(reader.warnings)
     widest = max(spec.widths())
+    # Error type 12 is only a warning here, because the deck still runs (p. 56).
     if widest > MAX_RECORD:
         place = statement.places[0]
         message = f"a record of {widest} characters; those after {MAX_RECORD} typed or 72 punched are lost"
@@ -240,11 +241,13 @@ class _Reader:
             if self.peek() != ".":
                 raise _refused(self.place(), f"{letter}{width} has no decimal point and decimals")
             self.at += 1
+            # A blank between the point and the decimals is error type 11 (p. 56).
             if self.text[self.at : self.at + 1] == " ":
                 raise _refused(self.place(), f"a blank after the point of {letter}{width}.")
             decimals = self.number()
             if not decimals:
                 raise _refused(self.place(), f"{letter}{width}. has no number of decimals")
+        # No record is longer than a line of the typewriter (p. 43).
         if int(width) > MAX_RECORD:
             raise _refused(start, f"a field of {width} columns")
         return [Field(_KINDS[letter], int(width), int(decimals or 0))] * self.repeat(count, start), True
@@ -263,6 +266,7 @@ class _Reader:
             self.warnings.append(Diagnostic(start.card, start.column, message, 11, warning=True))
         if letter == "X":
             return Literal(" " * width, skip=True)
+        # _suggest_width tries another width for the Hollerith field at this place.
         if self.instead and self.instead[0] == self.at:
             width = self.instead[1]
         self.hollerith = begun, self.at, width

@@ -37,7 +37,7 @@ MEANINGS = {
     "XMP": "fixed multiply",
     "XDV": "fixed divide",
     "XDVR": "fixed divide, reversed",
-    "SEND": "field to be transmitted as it stands",
+    "SEND": "field to be transmitted unchanged",
     "TRANSMIT": "transmit field",
     "ITEM": "one number of an input or output list",
     "COUNT": "a statement begins",
@@ -252,6 +252,7 @@ def flatten(program: Program) -> Flat:
     """Return the object code of a program in flat form."""
     targets: list[int] = []
     starts: list[int] = []
+    # A branch table is flattened to its length and its targets, and instructions refer to its start.
     for branch in program.branches:
         targets.append(len(branch))
         starts.append(len(targets))
@@ -263,6 +264,7 @@ def flatten(program: Program) -> Flat:
             address = starts[address]
         elif instruction.operation == SELECT:
             second = starts[second]
+        # Each loop takes four entries of the flat table.
         elif instruction.operation == DOTEST:
             address *= 4
         operations.append(instruction.operation)
@@ -272,6 +274,7 @@ def flatten(program: Program) -> Flat:
     table = [n for s in program.subscripts for n in (s.v1, s.c1, s.o1, s.rows, s.v2, s.c2, s.o2, s.columns)]
     loops = [n for loop in program.loops for n in loop]
     begins = [1 if c.begins else 2 if c.what == LIST_PASS else 0 for c in program.counters]
+    # The work of a section is the number of its operations.  Items are counted when they are transferred.
     lengths = [0] * len(program.counters)
     counter = 0
     for instruction in program.code:
@@ -284,6 +287,7 @@ def flatten(program: Program) -> Flat:
 
 
 _INSTRUCTION, _SUBSCRIPT = 12, 30
+# Instructions of the object program per operation: IF compiles to three, FSBR to two (subtract and reverse sign).
 _LENGTHS = {
     COUNT: 0,
     IF: 3,

@@ -153,12 +153,14 @@ def parse_statement(source: Source) -> tree.Statement:
     text = "\n".join(card.text for card in source.cards)
     if source.kind == "format":
         return tree.Statement(label, source.place, text, tree.Format(source.text, source.places))
+    # An unknown statement that resembles a FORMAT gets the error types 10 and 11 of p. 56.
     if source.kind == "unknown":
         if _FORMAT_LIKE.match(source.text):
             raise Refused(source.place, "FORMAT is misspelled", 10)
         if source.text.startswith("FORMAT"):
             raise Refused(source.place, "no parenthesis follows FORMAT", 11)
         raise Refused(source.place, f"not a statement of this FORTRAN: {source.text[:40]}")
+    # The builder is recursive, so the depth is limited before parsing.
     if _depth(source.text) > MAX_NESTING:
         raise Refused(source.place, f"parentheses are nested more than {MAX_NESTING} deep")
     form, number = _FORMS[source.kind]
@@ -232,6 +234,7 @@ class _Builder:
 
     def number(self, children: list[Token]) -> tree.Number:
         token = children[0]
+        # C26-5619 p. 14.
         if "." not in token and len(token) > 4:
             raise Refused(self._at(token), f"fixed-point constant {token} has more than four digits")
         return tree.Number(str(token), self._at(token))
@@ -240,6 +243,7 @@ class _Builder:
         return self._name(children[0], tuple(c for c in children[1:] if c is not None))
 
     def _name(self, token: Token, arguments: tuple[tree.Expression, ...] = ()) -> tree.Reference:
+        # C26-5619 p. 16, and error type 6 on p. 56.
         if len(token) > 5:
             raise Refused(self._at(token), f"the name {token} has more than five characters", 6, about=str(token))
         return tree.Reference(str(token), arguments, self._at(token))
@@ -257,6 +261,7 @@ class _Builder:
         if isinstance(children[0], Token):
             minus = children[0] == "-"
             children = children[1:]
+        # A single term without a sign needs no Sum around it.
         if len(children) == 1 and not minus:
             return children[0]  # type: ignore[no-any-return]
         rest = tuple((str(op), term) for op, term in zip(children[1::2], children[2::2], strict=True))

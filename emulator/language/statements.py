@@ -146,6 +146,7 @@ def _continues(card: Card) -> bool:
     """
     if card.columns(1, 5).strip() or card.columns(6, 6) in (" ", "0"):
         return False
+    # Only a text that is no statement, or has unbalanced parentheses or a stray comma, continues the card before.
     source = _source((card,))
     if source.kind == "format":
         return False
@@ -162,6 +163,7 @@ def _source(cards: tuple[Card, ...]) -> Source:
     label = raw[:start].replace(" ", "")
     # A number without a statement is reported at the number.
     place = _place(cards, start if start < len(raw) else raw.index(label[0]))
+    # A FORMAT keeps its blanks, because they count in Hollerith fields.
     match = _FORMAT.match(raw, start)
     if match:
         indices = range(match.end() - 1, len(raw))

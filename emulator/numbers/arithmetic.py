@@ -68,6 +68,7 @@ def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
     if ea < eb:
         ma, ea, mb, eb = mb, eb, ma, ea
     shift = ea - eb
+    # The smaller operand loses all of its digits.
     if shift >= rules.digits:
         return ma, ea
     # Truncate toward zero: // alone would round negative numbers down.
@@ -268,6 +269,7 @@ def whole_power(mantissa: int, exponent: int, count: int, rules: Rules) -> tuple
         if e > MAX_EXPONENT + 1 or e < MIN_EXPONENT - 1:
             break
     if count < 0:
+        # A negative power is the reciprocal of the positive one, which may be slightly out of range.
         if MIN_EXPONENT - 1 <= e <= MAX_EXPONENT + 1:
             m, e = divide(one, ones, m, e, rules)
         else:
@@ -319,7 +321,7 @@ def rules_of(
 
 TRUNCATING = Profile(
     "truncating",
-    "thesis p. 116 (eight digits, no rounding occurs); signs of zero: the thesis's prints; signs of what underflows "
+    "thesis p. 116 (eight digits, no rounding occurs); signs of zero: the thesis, as printed; signs of what underflows "
     "or is divided by zero, and whole powers: IBM FORTRAN II-D executed in a simulator",
     rules_of(8),
 )

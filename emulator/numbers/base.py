@@ -200,6 +200,7 @@ def decimal_text(whole: int, power: int) -> str:
     """Return ``whole * 10**power``, which is not zero, as text: written out if that is short, or with an exponent."""
     sign, digits = ("-" if whole < 0 else ""), str(abs(whole)).rstrip("0")
     point = decimal_length(whole) + power
+    # Up to twenty digits before the point are written out, and up to four zeros after it.
     if 0 < point <= SHOWN:
         body = digits.ljust(point, "0")
         return f"{sign}{body[:point]}" + (f".{body[point:]}" if body[point:] else "")

@@ -63,6 +63,7 @@ class FloatNumbers(Numbers):
         total = first + second
         if self._single:
             total = _single(total)
+        # x - x is 0 for finite x only: an infinite result of finite operands is an overflow.
         if total - total != 0 and first - first == second - second == 0:
             raise Trap(accumulator.SUM_OVER, total)
         return total
@@ -83,6 +84,7 @@ class FloatNumbers(Numbers):
 
     def divide(self, dividend: float, divisor: float) -> float:
         if divisor == 0:
+            # Signed zeros: the sign of the infinity is that of the quotient, and 0/0 is NaN.
             negative = math.copysign(1, dividend) != math.copysign(1, divisor)
             quotient = math.nan if dividend == 0 or dividend != dividend else -_INFINITE if negative else _INFINITE
             raise Trap(accumulator.ZERO_DIVISOR, quotient)
@@ -177,5 +179,6 @@ class FloatNumbers(Numbers):
         """Return the shortest decimal that reads back as the same number."""
         if not self._single or value - value != 0:
             return repr(value)
+        # 17 digits always suffice, so the search ends.
         shorter = (float(f"{value:.{k}g}") for k in range(1, 18))
         return repr(next(number for number in shorter if _single(number) == value))

@@ -26,7 +26,7 @@ def squeeze(columns: MutableSequence[int], width: int) -> tuple[int, int]:
 
     Leading blanks are ignored.  If the field has a point or an exponent, trailing blanks are ignored too: after the
     point they would change nothing, and after an exponent they would multiply it by ten.  Blanks inside such a number
-    are zeros, except where an exponent may be meant, where they are dropped.  A sign after the first character begins
+    are zeros, unless they may belong to an exponent: then they are dropped.  A sign after the first character begins
     an exponent as an E does.  In any other number blanks are zeros (OPEN-QUESTIONS 6).
     """
     first = 0

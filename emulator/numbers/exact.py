@@ -96,6 +96,7 @@ class ExactNumbers(Numbers):
             return _power_steps(first, second)
         if operation == "power":
             return _power_steps(first, second.numerator) if not isinstance(second, RootSum) else 0
+        # Sums of roots have their own estimate.  Rational numbers are estimated by their longest part.
         if isinstance(first, RootSum) or isinstance(second, RootSum):
             return _root_steps(operation, first, second)
         if operation in ("add", "subtract", "multiply", "divide"):
@@ -206,6 +207,7 @@ def _power_steps(base: Exact, count: int) -> int:
         return 0
     if not isinstance(base, RootSum):
         return 2 * (work.product(bits, bits) if isinstance(base, int) and count > 0 else work.fractions(bits, bits))
+    # The number of terms grows with the power until MAX_ROOTS stops it.
     terms = min(int(len(base.terms) ** min(abs(count), 5)), MAX_ROOTS)
     size = min(max(n.bit_length() for n, _ in base.terms) * abs(count), 2 * MAX_BITS)
     roots = 2 + work.quotient(2 * size, 2 * size)

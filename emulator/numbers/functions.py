@@ -47,6 +47,7 @@ def function(name: str, mantissa: int, exponent: int, rules: Rules) -> Value:
     if name == "LOG" and mantissa < 0:
         value = function("LOG", -mantissa, exponent, rules)
         return Value(value.mantissa, value.exponent, "F3")
+    # An angle without digits after its point cannot be reduced (GOTRAN's F1).
     if name in ("SIN", "COS") and exponent > rules.digits:
         return Value(rules.limit - 1, MAX_EXPONENT, "F1")
     if name == "EXP" and exponent > 3:

@@ -70,6 +70,7 @@ class MultiprecisionNumbers(Numbers):
         return self._in_range(dividend / divisor, accumulator.QUOTIENT_OVER, accumulator.QUOTIENT_UNDER)
 
     def _in_range(self, value: Any, over: int, under: int) -> Any:
+        # mpmath's exponents are unlimited, so the range is checked here.  Infinities and NaN have mantissa 0.
         _, mantissa, exponent, bits = value._mpf_
         if mantissa and not -MAX_POWER <= exponent + bits <= MAX_POWER:
             if exponent > 0:
@@ -123,6 +124,7 @@ class MultiprecisionNumbers(Numbers):
         context, size = self._context, abs(base)
         if not context.isfinite(exponent) or not context.isfinite(size):
             return context.nan, "F4"
+        # The logarithm decides overflow and underflow before the power itself is computed.
         result, code = self._exponential(context.log(size) * exponent)
         if not code:
             result, code = self._coded(context.power(size, exponent), "F4", "F5")
