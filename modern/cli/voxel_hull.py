@@ -176,10 +176,10 @@ def _count_lines(hull: VoxelHull) -> Iterator[str]:
         yield f"flat: the hull is a {surface.kind}{vertices} and has no cell list"
         return
     faces, straight, saved = surface.faces, surface.straight, ""
-    if surface.made is None:
+    if surface.triangulation is None:
         yield f"hull of {len(hull.inserted)} local corners: {_cells(faces)}"
     else:
-        triangles, shuffled = len(surface.made.faces), ", shuffled" if hull.order == SHUFFLED else ""
+        triangles, shuffled = len(surface.triangulation.faces), ", shuffled" if hull.order == SHUFFLED else ""
         yield f"inserted: {len(hull.inserted)} local corners{shuffled}; {triangles} triangles"
         yield f"merged: {_cells(faces)}"
         saved = f"{triangulation_size(triangles)} for the triangles by (5), "

@@ -161,8 +161,9 @@ def extended_faces(kind: str = "") -> CheckResult:
     extended, quadrangles_hull = coplanar_hull(GRID, EXTENDED), coplanar_hull(GRID, QUADRANGLES)
     right = list(extended.faces) == sorted(f.polygon for f in exact_hull(GRID).facets)
     return holds_if(
-        right and extended.made < quadrangles_hull.made,
-        f"the cube of a grid needs {extended.made} new faces, and {quadrangles_hull.made} by the method of Fig. 7",
+        right and extended.created < quadrangles_hull.created,
+        f"the cube of a grid needs {extended.created} new faces, "
+        f"and {quadrangles_hull.created} by the method of Fig. 7",
     )
 
 

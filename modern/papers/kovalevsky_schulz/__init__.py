@@ -1,8 +1,12 @@
-"""Kovalevsky and Schulz, "Convex Hulls in a 3-dimensional Space": hulls of voxels by local corners and the cell list.
+"""Kovalevsky and Schulz's algorithm: the hull of voxels from their local corners, as a cell list.
 
-``voxel_hull(volume)`` is the whole way; the steps are ``local_corners``, ``convex_polyhedron``, ``merged`` and
-``straightened``, or ``local_corners`` and ``hull_cells`` where nobody asks for triangles.  ``reconstructed`` leads back
-from the economical encoding to the voxels.
+``voxel_hull(volume)`` runs all steps: ``local_corners``, ``convex_polyhedron``, ``merged`` and ``straightened``. If no
+order of insertion is requested, ``hull_cells`` replaces the last three steps. ``reconstructed`` computes the voxels
+from the economical encoding of their hull.
+
+References
+----------
+V. Kovalevsky and H. Schulz, "Convex Hulls in a 3-dimensional Space".
 """
 
 from modern.papers.kovalevsky_schulz.cells import CellList, CellListError, Economical, decoded, expanded

@@ -1,15 +1,15 @@
-"""The two-dimensional cell list: vertices, edges and faces of a polyhedron's surface, each naming its neighbours.
+"""The two-dimensional cell list: the vertices, edges and faces of a polyhedron's surface with their neighbours.
 
-Tables 1 to 3 of the paper fix the form; all numbers count from 1, as there.  ``CellList`` is the redundant list,
-``Economical`` what is left of it when only the coordinates and the vertices of each face are kept; ``expanded`` makes
-the first from the second.
+Its form is that of Tables 1 to 3 of the paper, and all numbers count from 1 as in the paper. ``CellList`` is the
+redundant list. ``Economical`` contains only the coordinates and the vertices of each face. ``expanded`` computes the
+redundant list from the economical one.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import chain, pairwise
+from itertools import chain, islice, pairwise
 from typing import Any
 
 import numpy as np
@@ -22,18 +22,18 @@ Plane = tuple[int, int, int, int]
 Numbers = NDArray[np.int64]
 Array = NDArray[Any]
 _BLOCK = 1 << 15
-"""So many values are computed at a time: they stay near the processor, and no second one is called in."""
+"""The number of values computed at a time: they fit the processor's cache, and BLAS does not start a second thread."""
 
 
 class CellListError(EmulatorError):
-    """A list of cells that is not the surface of a convex polyhedron; the message names vertex or face, from 1."""
+    """A cell list that is not the surface of a convex polyhedron. The message names the vertex or face, from 1."""
 
 
 @dataclass(frozen=True, slots=True)
 class Vertex:
     """A 0-cell (Table 1).
 
-    ``edges``: the edges at it in order of their numbers, -e where edge e starts here and +e where it ends here.
+    ``edges`` lists the edges at the vertex in the order of their numbers: -e if edge e starts here, +e if it ends here.
     """
 
     point: IntPoint
@@ -42,9 +42,9 @@ class Vertex:
 
 @dataclass(frozen=True, slots=True)
 class Edge:
-    """A 1-cell (Table 2): its two vertices, and the faces on its left and right.
+    """A 1-cell (Table 2): its two vertices and the faces on its left and right.
 
-    Left and right are those of one who stands outside and looks from ``start`` to ``end``.
+    Left and right are as seen from outside when looking from ``start`` to ``end``.
     """
 
     start: int
@@ -55,9 +55,10 @@ class Edge:
 
 @dataclass(frozen=True, slots=True)
 class Face:
-    """A 2-cell (Table 3): pairs (P, L) counterclockwise seen from outside; edge L leads from P to the next pair's P.
+    """A 2-cell (Table 3): pairs (P, L), counterclockwise as seen from outside.
 
-    L is positive where the edge is followed from its start to its end, so that the face is on its left.
+    Edge L leads from vertex P to the P of the next pair. L is positive if the edge is followed from its start to its
+    end, so that the face is on its left.
     """
 
     pairs: tuple[tuple[int, int], ...]
@@ -69,17 +70,20 @@ class Face:
 
 @dataclass(frozen=True, slots=True)
 class Economical:
-    """The economical encoding: coordinates of the vertices, and the vertices of each face by number from 1.
+    """The economical encoding: the coordinates of the vertices, and the vertices of each face by number from 1.
 
-    The cycles run counterclockwise seen from outside.
+    The faces run counterclockwise as seen from outside.
     """
 
     points: tuple[IntPoint, ...]
     faces: tuple[tuple[int, ...], ...]
 
     def integers(self) -> tuple[int, ...]:
-        """The encoding as a row of numbers: how many vertices and faces; x, y, z of each vertex; n and n vertices of
-        each face."""
+        """Return the encoding as a sequence of integers.
+
+        It consists of the numbers of vertices and faces, x, y, z of each vertex, and for each face the number of its
+        vertices and these vertices.
+        """
         head = (len(self.points), len(self.faces))
         coordinates = (number for point in self.points for number in point)
         return (*head, *coordinates, *(number for face in self.faces for number in (len(face), *face)))
@@ -99,58 +103,63 @@ class CellList:
         return tuple(vertex.point for vertex in self.vertices)
 
     def economical(self) -> Economical:
-        """The list without what can be found again: the edges, and the edges named by vertices and faces."""
+        """Return the economical encoding, which omits the edges and all references to them."""
         return Economical(self.points, tuple(face.vertices for face in self.faces))
 
     def planes(self) -> tuple[Plane, ...]:
-        """The plane of every face in lowest terms: H(x, y, z) = a x + b y + c z + d is at most 0 in the polyhedron."""
+        """Return the plane (a, b, c, d) of every face, in lowest terms.
+
+        H(x, y, z) = a x + b y + c z + d is at most 0 in the polyhedron.
+        """
         return tuple(planes_of(self.points, [face.vertices for face in self.faces]))
 
 
 def planes_of(points: Sequence[IntPoint], cycles: Sequence[Sequence[int]]) -> list[Plane]:
-    """The planes of plane polygons in lowest terms, outward where a polygon is counterclockwise seen from outside.
+    """Return the planes of plane polygons in lowest terms, outward if a polygon is counterclockwise from outside.
 
-    cycles: of each polygon its vertices, numbers of points from 1.  Vertices in line with their neighbours do no harm.
-    Raises CellListError for a polygon without area.
+    ``cycles`` lists the vertices of each polygon by point number from 1. Vertices in line with their neighbours are
+    allowed. Raise CellListError for a polygon without area.
     """
     sizes, vertex = _flat(cycles)
-    low, near = _moved(points, sizes)
-    normals, rest = _planes(near, sizes, vertex)
-    moved = rest.astype(object) - normals.astype(object) @ np.array(low, dtype=object)
+    low, shifted = _shifted(points, sizes)
+    normals, constants = _planes(shifted, sizes, vertex)
+    d = constants.astype(object) - normals.astype(object) @ np.array(low, dtype=object)
     a, b, c = normals.T.tolist()
-    return list(zip(a, b, c, moved.tolist(), strict=True))
+    return list(zip(a, b, c, d.tolist(), strict=True))
 
 
-def _moved(points: Sequence[IntPoint], sizes: Numbers) -> tuple[IntPoint, Array]:
-    """The least coordinates, and the points from there: in 64 bits where their planes surely fit, else Python's.
+def _shifted(points: Sequence[IntPoint], sizes: Numbers) -> tuple[IntPoint, Array]:
+    """Return the least coordinates and the points relative to them.
 
-    sizes: how many vertices polygons have.
+    The array has 64-bit integers if the values of all planes of polygons with these ``sizes`` fit, otherwise Python's
+    integers.
     """
     x, y, z = (min(axis) for axis in zip(*points, strict=True))
-    near = [(p[0] - x, p[1] - y, p[2] - z) for p in points]
-    reach = max(map(max, near))
-    # A normal is a sum of vector products, each at most 2 reach^2, one for each vertex of the polygon at most; the
-    # value at a point has three products with coordinates, and what makes the value 0 on the polygon as many.
-    fits = 12 * int(sizes.max()) * reach**3 < 2**62
-    return (x, y, z), np.array(near, dtype=np.int64 if fits else object)
+    shifted = [(p[0] - x, p[1] - y, p[2] - z) for p in points]
+    extent = max(map(max, shifted))
+    # A normal is a sum of at most one cross product per vertex, each at most 2 extent^2. The value of a plane at a
+    # point has three products of normal and coordinate, and its constant term has three more.
+    fits = 12 * int(sizes.max()) * extent**3 < 2**62
+    return (x, y, z), np.array(shifted, dtype=np.int64 if fits else object)
 
 
 def _flat(cycles: Sequence[Sequence[int]]) -> tuple[Numbers, Numbers]:
-    """How long cycles are, and what is in them, one after another."""
+    """Return the lengths of cycles and their concatenated elements."""
     sizes = np.fromiter(map(len, cycles), np.int64, len(cycles))
     return sizes, np.fromiter(chain.from_iterable(cycles), np.int64, int(sizes.sum()))
 
 
-def _planes(near: Array, sizes: Numbers, vertex: Numbers) -> tuple[Array, Array]:
-    """Normals without common divisor, shape (n, 3), and what makes the plane's value 0 on a polygon."""
+def _planes(points: Array, sizes: Numbers, vertex: Numbers) -> tuple[Array, Array]:
+    """Return primitive normals, shape (n, 3), and the constant terms that make each plane's value 0 on its polygon."""
     first = np.cumsum(sizes) - sizes
-    corner = near[vertex - 1]
-    origin = near[vertex[first] - 1]
+    corner = points[vertex - 1]
+    origin = points[vertex[first] - 1]
     arm = corner - np.repeat(origin, sizes, axis=0)
     (u1, u2, u3), (v1, v2, v3) = arm[:-1].T, arm[1:].T
+    # The normal of a polygon is the sum of the cross products of successive arms from its first vertex (a fan). The
+    # first arm of each polygon is zero, so the product across the border of two polygons vanishes.
     part = np.zeros_like(arm)
     part[:-1] = np.stack([u2 * v3 - u3 * v2, u3 * v1 - u1 * v3, u1 * v2 - u2 * v1], axis=1)
-    # A polygon's first arm is of no length: the product of its last arm with the next polygon's first is nothing.
     normal = np.add.reduceat(part, first, axis=0)
     divisor = np.gcd(np.gcd(normal[:, 0], normal[:, 1]), normal[:, 2])
     if not divisor.all():
@@ -160,27 +169,31 @@ def _planes(near: Array, sizes: Numbers, vertex: Numbers) -> tuple[Array, Array]
 
 
 def assembled(points: Sequence[IntPoint], starts: Numbers, ends: Numbers, sizes: Numbers, signed: Numbers) -> CellList:
-    """A cell list from faces as cycles of signed edges.
+    """Build a cell list from faces given as cycles of signed edges.
 
-    starts, ends: of each edge, by number of the vertex from 1.  sizes: how many edges a face has; signed: these edges,
-    face after face, as ``Face.pairs`` has them.  A face's first pair becomes that of its vertex of lowest number.
+    ``starts`` and ``ends`` give the vertices of each edge by number from 1. ``sizes`` gives the number of edges of each
+    face, and ``signed`` these edges, face after face, with the signs of ``Face.pairs``. Each face is rotated to begin
+    with its vertex of lowest number.
     """
     edge = abs(signed) - 1
     vertex = np.where(signed > 0, starts[edge], ends[edge])
     first = np.cumsum(sizes) - sizes
     face = np.repeat(np.arange(len(sizes)), sizes)
+    # Rotate each cycle: ``place`` is the old index of every new entry.
     lowest = np.flatnonzero(vertex == np.minimum.reduceat(vertex, first)[face])
     shift = np.empty(len(sizes), np.int64)
     shift[face[lowest[::-1]]] = lowest[::-1]
     place = first[face] + (np.arange(len(face)) - 2 * first[face] + shift[face]) % sizes[face]
     pairs = list(zip(vertex[place].tolist(), signed[place].tolist(), strict=True))
+    # Table 2: the face that follows an edge in its own direction is on its left (row 0), the other on its right.
     sides = np.empty((2, len(starts)), np.int64)
     sides[(signed < 0).astype(np.int64), edge] = face + 1
+    # Table 1: sort the edges by their vertex and then by their number.
     number = np.arange(1, len(starts) + 1)
-    at, of = np.concatenate([starts, ends]), np.concatenate([-number, number])
-    order = np.lexsort((abs(of), at))
+    at, signed_at = np.concatenate([starts, ends]), np.concatenate([-number, number])
+    order = np.lexsort((abs(signed_at), at))
     counts = np.cumsum(np.bincount(at, minlength=len(points) + 1)).tolist()
-    around = of[order].tolist()
+    around = signed_at[order].tolist()
     bounds = [*first.tolist(), len(pairs)]
     return CellList(
         tuple(Vertex(point, tuple(around[a:b])) for point, (a, b) in zip(points, pairwise(counts), strict=True)),
@@ -190,10 +203,10 @@ def assembled(points: Sequence[IntPoint], starts: Numbers, ends: Numbers, sizes:
 
 
 def expanded(encoding: Economical) -> CellList:
-    """The redundant cell list from the economical encoding.
+    """Compute the redundant cell list from the economical encoding.
 
-    The edges are numbered as the faces, one after another, first come along them, and start where they are first
-    left.  Raises CellListError for what is not the surface of a convex polyhedron.
+    Edges are numbered in the order in which the faces first use them and directed as in that first use. Raise
+    CellListError for an encoding that is not the surface of a convex polyhedron.
     """
     points, faces = encoding.points, encoding.faces
     try:
@@ -202,81 +215,88 @@ def expanded(encoding: Economical) -> CellList:
         raise CellListError("the number of a vertex is beyond 64 bits") from None
     face = np.repeat(np.arange(len(faces)), sizes)
     _check_cycles(sizes, start, face, len(points))
+    # Every entry of a cycle is a half-edge from its vertex to the next one, the last entry to the first.
     following = np.arange(1, len(start) + 1)
     last = np.cumsum(sizes) - 1
     following[last] = last + 1 - sizes
     end = start[following]
-    _, first, same = np.unique(
+    # Half-edges with the same two vertices are one edge, directed like the first of them.
+    _, first, edge_of = np.unique(
         np.minimum(start, end) * (len(points) + 1) + np.maximum(start, end), return_index=True, return_inverse=True
     )
-    forward = start == start[first][same]
-    unpaired = np.bincount(same, np.where(forward, 1, -1)).astype(bool)
+    forward = start == start[first][edge_of]
+    # An edge must have as many half-edges in one direction as in the other. Euler's formula then excludes all
+    # surfaces but the sphere, and convexity is checked last.
+    unpaired = np.bincount(edge_of, np.where(forward, 1, -1)).astype(bool)
     if unpaired.any():
         edge = first[unpaired].min()
         raise CellListError(f"the edge from vertex {start[edge]} to {end[edge]} has a face on one side only")
     unused = np.setdiff1d(np.arange(1, len(points) + 1), start)
     if unused.size:
-        raise CellListError(f"vertex {unused[0]}: no face has it")
+        raise CellListError(f"vertex {unused[0]}: it belongs to no face")
     if 2 * len(first) != len(start) or len(points) - len(first) + len(faces) != 2:
-        raise CellListError(f"{len(points)} vertices, {len(first)} edges and {len(faces)} faces make no polyhedron")
+        raise CellListError(f"{len(points)} vertices, {len(first)} edges and {len(faces)} faces are not a polyhedron")
     _check_convex(points, sizes, start, face)
     first_used = np.sort(first)
-    number = np.searchsorted(first_used, first)[same] + 1
+    number = np.searchsorted(first_used, first)[edge_of] + 1
     return assembled(points, start[first_used], end[first_used], sizes, np.where(forward, number, -number))
 
 
 def _check_cycles(sizes: Numbers, start: Numbers, face: Numbers, count: int) -> None:
-    """That faces have three vertices or more, each once, among those there are."""
-    few = np.flatnonzero(sizes < 3)
+    """Raise CellListError unless every face has at least three different vertices that exist."""
+    too_short = np.flatnonzero(sizes < 3)
     order = np.lexsort((start, face))
     twice = (face[order][1:] == face[order][:-1]) & (start[order][1:] == start[order][:-1])
-    poor = np.concatenate([few, face[order][1:][twice]])
-    absent = np.flatnonzero((start < 1) | (start > count))
-    if poor.size and (not absent.size or poor.min() <= face[absent[0]]):
-        raise CellListError(f"face {poor.min() + 1}: it has fewer than three vertices, or one of them twice")
-    if absent.size:
-        raise CellListError(f"face {face[absent[0]] + 1}: there is no vertex {start[absent[0]]}")
+    invalid = np.concatenate([too_short, face[order][1:][twice]])
+    missing = np.flatnonzero((start < 1) | (start > count))
+    # Report the face of lowest number.
+    if invalid.size and (not missing.size or invalid.min() <= face[missing[0]]):
+        raise CellListError(f"face {invalid.min() + 1}: it has fewer than three vertices, or one of them twice")
+    if missing.size:
+        raise CellListError(f"face {face[missing[0]] + 1}: vertex {start[missing[0]]} does not exist")
 
 
 def decoded(numbers: Iterable[int]) -> Economical:
-    """The economical encoding from its row of numbers.  Raises CellListError where the row ends early or late."""
-    row = iter(numbers)
-    vertices, faces = _taken(row, 2)
-    points = [_taken(row, 3) for _ in range(vertices)]
+    """Read the economical encoding from its integers. Raise CellListError if there are too few or too many."""
+    remaining = iter(numbers)
+    vertices, faces = _take(remaining, 2)
+    points = [_take(remaining, 3) for _ in range(vertices)]
     cycles = []
     for _ in range(faces):
-        (size,) = _taken(row, 1)
-        cycles.append(tuple(_taken(row, size)))
-    if next(row, None) is not None:
+        (size,) = _take(remaining, 1)
+        cycles.append(tuple(_take(remaining, size)))
+    if next(remaining, None) is not None:
         raise CellListError("numbers are left over after the last face")
     return Economical(tuple((x, y, z) for x, y, z in points), tuple(cycles))
 
 
-def _taken(row: Iterator[int], count: int) -> list[int]:
-    found = [number for _, number in zip(range(count), row, strict=False)]
-    if len(found) < count or count < 0:
-        raise CellListError("the row of numbers ends before its last face")
-    return found
+def _take(numbers: Iterator[int], count: int) -> list[int]:
+    taken = list(islice(numbers, max(count, 0)))
+    if len(taken) < count or count < 0:
+        raise CellListError("the numbers end before the last face")
+    return taken
 
 
 def _check_convex(points: Sequence[IntPoint], sizes: Numbers, vertex: Numbers, face: Numbers) -> None:
-    """Definition CP: no vertex outside of a face's plane; and each face's vertices in its plane."""
-    _, near = _moved(points, sizes)
-    normals, rest = _planes(near, sizes, vertex)
-    greatest = sum(int(abs(part).max()) * int(near.max()) for part in normals.T) + int(abs(rest).max())
-    # Products of whole numbers whose sums are so small are whole in floats too, in any order of addition.
-    kind = np.float64 if greatest < 2**53 else near.dtype
-    planes = np.column_stack([normals, rest]).astype(kind)
-    columns = np.array([*near.T, np.ones(len(points), np.int64)], dtype=kind)
+    """Raise CellListError if a vertex is outside of a face's plane, or a face's vertex is not in it (Definition CP)."""
+    _, shifted = _shifted(points, sizes)
+    normals, constants = _planes(shifted, sizes, vertex)
+    greatest = sum(int(abs(part).max()) * int(shifted.max()) for part in normals.T) + int(abs(constants).max())
+    # Sums of integer products below 2^53 are exact in float64 in any order of addition, and BLAS multiplies floats.
+    kind = np.float64 if greatest < 2**53 else shifted.dtype
+    planes = np.column_stack([normals, constants]).astype(kind)
+    columns = np.array([*shifted.T, np.ones(len(points), np.int64)], dtype=kind)
     width = min(len(points), _BLOCK)
     height = max(1, _BLOCK // width)
-    for left in range(0, len(points), width):
-        block = np.ascontiguousarray(columns[:, left : left + width])
-        for first in range(0, len(planes), height):
-            values = planes[first : first + height] @ block
+    for first_point in range(0, len(points), width):
+        block = np.ascontiguousarray(columns[:, first_point : first_point + width])
+        for first_plane in range(0, len(planes), height):
+            values = planes[first_plane : first_plane + height] @ block
             if values.max() > 0:
-                plane, place = (int(number) + 1 for number in np.argwhere(values > 0)[0])
-                raise CellListError(f"face {first + plane}: vertex {left + place} lies outside of its plane")
-    apart = np.flatnonzero((normals[face] * near[vertex - 1]).sum(axis=1) + rest[face])
-    if apart.size:
-        raise CellListError(f"face {face[apart[0]] + 1}: its vertices do not lie in one plane")
+                plane, point = (int(number) + 1 for number in np.argwhere(values > 0)[0])
+                raise CellListError(
+                    f"face {first_plane + plane}: vertex {first_point + point} lies outside of its plane"
+                )
+    off_plane = np.flatnonzero((normals[face] * shifted[vertex - 1]).sum(axis=1) + constants[face])
+    if off_plane.size:
+        raise CellListError(f"face {face[off_plane[0]] + 1}: its vertices do not lie in one plane")

@@ -1,10 +1,10 @@
-"""The two other treatments of coplanar faces (section 2, Figs. 7 and 8), which the paper tried and gave up.
+"""The two alternative treatments of coplanar faces (section 2, Figs. 7 and 8), which the paper tried and abandoned.
 
-A new point P lies in the plane of a face that it does not see.  *Quadrangles* (Fig. 7): the face counts as invisible,
-and of all its edges to visible faces together with P one new face is made, coplanar with it, not a triangle for each;
-the two are merged.  *Extended* (Fig. 8): the face itself is extended to P, as a hull in its plane.
+Both concern a new point P in the plane of a face that does not face it. *Quadrangles* (Fig. 7): the face counts as
+invisible. All of its edges to visible faces, together with P, form one new coplanar face instead of a triangle for each
+edge, and the two faces are merged. *Extended* (Fig. 8): the face itself is extended to P by a hull in its plane.
 
-Faces are kept whole, one of each plane, as the set of their corners; a corner in line with two others goes.  All
+There is one face for each plane, stored as the cycle of its vertices without those in line with two others. All
 arithmetic is in integers.
 """
 
@@ -27,16 +27,26 @@ Edge = tuple[int, int]
 
 @dataclass(frozen=True, slots=True)
 class Treated:
-    """A hull with maximal faces and what it took.
+    """A hull with maximal faces, and counts of the steps.
 
-    ``faces``: of each its corners, counterclockwise seen from outside, the smallest first.  ``made``: faces made from a
-    new point, triangles and others; ``larger``: those of them with more than three corners; ``merged``: how often a new
-    face was merged with another of its plane; ``extended``: how often a face was extended to a point; ``straightened``:
-    corners that went because two edges of a face came to lie in one line.
+    Attributes
+    ----------
+    faces
+        The vertices of each face, counterclockwise as seen from outside, beginning with the smallest.
+    created
+        The number of faces created from a new point.
+    larger
+        The number of these with more than three vertices.
+    merged
+        How many times a new face was merged with another face of its plane.
+    extended
+        How many times a face was extended to a point.
+    straightened
+        The number of vertices removed because two edges of a face lay in one line.
     """
 
     faces: tuple[tuple[int, ...], ...]
-    made: int
+    created: int
     larger: int
     merged: int
     extended: int
@@ -44,40 +54,40 @@ class Treated:
 
 
 def coplanar_hull(points: Iterable[Sequence[int]], treatment: Treatment) -> Treated:
-    """The hull of points with whole coordinates by one of the two treatments, inserting them in the order given.
+    """Compute the hull of points with integer coordinates by one of the two treatments, in the given order.
 
-    Raises ValueError for points in one plane and for another treatment.
+    Raise ValueError for points in one plane and for an unknown treatment.
     """
     if treatment not in (QUADRANGLES, EXTENDED):
-        raise ValueError(f"coplanar faces are made {QUADRANGLES} or {EXTENDED}, not {treatment!r}")
-    given = list(dict.fromkeys((int(x), int(y), int(z)) for x, y, z in points))
-    simplex = independent(given)
+        raise ValueError(f"the treatment of coplanar faces is {QUADRANGLES} or {EXTENDED}, not {treatment!r}")
+    distinct = list(dict.fromkeys((int(x), int(y), int(z)) for x, y, z in points))
+    simplex = independent(distinct)
     if len(simplex) < 4:
         raise ValueError("the points lie in one plane")
-    hull = _Growing(given, simplex)
-    for number in range(len(given)):
+    hull = _Growing(distinct, simplex)
+    for number in range(len(distinct)):
         if number not in simplex:
             hull.extend(number, treatment)
     return Treated(tuple(sorted(hull.cycles())), *hull.counts)
 
 
 class _Growing:
-    """The faces so far, by plane, with their corners in order."""
+    """The current faces by plane, each as the cycle of its vertices."""
 
     def __init__(self, points: Sequence[IntPoint], simplex: Sequence[int]) -> None:
         self.points = points
         self.faces: dict[Plane, tuple[int, ...]] = {}
-        self.made = self.larger = self.merged = self.extended = self.straightened = 0
+        self.created = self.larger = self.merged = self.extended = self.straightened = 0
         for k in range(4):
             a, b, c = (simplex[i] for i in range(4) if i != k)
             plane = self.plane(a, b, c)
             if self.value(plane, simplex[k]) > 0:
                 plane = (-plane[0], -plane[1], -plane[2], -plane[3])
-            self.faces[plane] = self.ring(plane, (a, b, c))
+            self.faces[plane] = self.convex_cycle(plane, (a, b, c))
 
     @property
     def counts(self) -> tuple[int, int, int, int, int]:
-        return self.made, self.larger, self.merged, self.extended, self.straightened
+        return self.created, self.larger, self.merged, self.extended, self.straightened
 
     def cycles(self) -> list[tuple[int, ...]]:
         return list(self.faces.values())
@@ -87,50 +97,52 @@ class _Growing:
         visible = [plane for plane, value in values.items() if value > 0]
         if not visible:
             return
-        beside = {edge: plane for plane, ring in self.faces.items() for edge in _edges(ring)}
+        # Collect the edges between visible and other faces, grouped by the face on their other side.
+        plane_at = {edge: plane for plane, cycle in self.faces.items() for edge in _edges(cycle)}
         boundary: dict[Plane, list[Edge]] = {}
         for plane in visible:
             for a, b in _edges(self.faces[plane]):
-                if values[beside[b, a]] <= 0:
-                    boundary.setdefault(beside[b, a], []).append((a, b))
+                if values[plane_at[b, a]] <= 0:
+                    boundary.setdefault(plane_at[b, a], []).append((a, b))
         for plane in visible:
             del self.faces[plane]
+        # A coplanar face is treated as Fig. 7 or 8 says; all other boundary edges give triangles, as usual.
         for plane, edges in boundary.items():
             if values[plane] == 0:
                 self.join_coplanar(plane, edges, new, treatment)
             else:
                 for a, b in edges:
-                    self.take(self.plane(a, b, new), (a, b, new))
-        # A point on the line in which two coplanar faces meet extends both, whether or not it saw one of their edges.
+                    self.add_triangle(self.plane(a, b, new), (a, b, new))
+        # A point on the line in which two coplanar faces meet extends both, even if neither has a visible neighbour.
         for plane, value in values.items():
             if value == 0 and plane not in boundary:
                 self.enlarge(plane, (new,))
 
     def join_coplanar(self, plane: Plane, edges: Sequence[Edge], new: int, treatment: Treatment) -> None:
-        """The face of a plane that holds the point, and its edges to visible faces."""
+        """Merge a coplanar face with the new point. ``edges`` are its edges to visible faces."""
         if treatment == QUADRANGLES:
-            self.made += 1
+            self.created += 1
             self.larger += len(edges) > 1
             self.merged += 1
         else:
             self.extended += 1
         self.enlarge(plane, (new,))
 
-    def take(self, plane: Plane, corners: tuple[int, int, int]) -> None:
-        """A new triangle, merged with a face of its plane if there is one."""
-        self.made += 1
+    def add_triangle(self, plane: Plane, corners: tuple[int, int, int]) -> None:
+        """Add a new triangle, merged with a face of its plane if one exists."""
+        self.created += 1
         if plane in self.faces:
             self.merged += 1
             self.enlarge(plane, corners)
         else:
-            self.faces[plane] = self.ring(plane, corners)
+            self.faces[plane] = self.convex_cycle(plane, corners)
 
     def enlarge(self, plane: Plane, corners: Sequence[int]) -> None:
-        before = dict.fromkeys((*self.faces[plane], *corners))
-        self.faces[plane] = self.ring(plane, tuple(before))
+        vertices = dict.fromkeys((*self.faces[plane], *corners))
+        self.faces[plane] = self.convex_cycle(plane, tuple(vertices))
 
     def plane(self, a: int, b: int, c: int) -> Plane:
-        """The plane of three points, counterclockwise seen from outside, in lowest terms."""
+        """Return the plane, in lowest terms, of three points that run counterclockwise as seen from outside."""
         p, q, r = self.points[a], self.points[b], self.points[c]
         normal = lowest(cross(minus(q, p), minus(r, p)))
         return (*normal, -dot(normal, p))
@@ -138,29 +150,32 @@ class _Growing:
     def value(self, plane: Plane, k: int) -> int:
         return dot(plane[:3], self.points[k]) + plane[3]
 
-    def ring(self, plane: Plane, corners: Sequence[int]) -> tuple[int, ...]:
-        """The hull of a face's corners in its plane, counterclockwise seen from outside, the smallest first."""
+    def convex_cycle(self, plane: Plane, corners: Sequence[int]) -> tuple[int, ...]:
+        """Return the hull of points in a plane, counterclockwise as seen from outside, beginning with the smallest."""
+        # Dropping the coordinate with the largest normal component projects the plane one to one. Exchanging the
+        # other two if that component is negative keeps the sense of rotation.
         axis = max(range(3), key=lambda k: abs(plane[k]))
         u, v = ((axis + 1) % 3, (axis + 2) % 3)[:: 1 if plane[axis] > 0 else -1]
         order = sorted(corners, key=lambda k: (self.points[k][u], self.points[k][v]))
         lower, upper = self.chain(order, u, v), self.chain(order[::-1], u, v)
-        found = (*lower[:-1], *upper[:-1])
-        start = found.index(min(found))
-        return found[start:] + found[:start]
+        cycle = (*lower[:-1], *upper[:-1])
+        start = cycle.index(min(cycle))
+        return cycle[start:] + cycle[:start]
 
     def chain(self, order: Sequence[int], u: int, v: int) -> list[int]:
-        found: list[int] = []
+        """Return the convex chain of sorted points (Andrew's monotone chain)."""
+        chain: list[int] = []
         for k in order:
-            while len(found) > 1:
-                p, q, r = (self.points[i] for i in (*found[-2:], k))
+            while len(chain) > 1:
+                p, q, r = (self.points[i] for i in (*chain[-2:], k))
                 turn = (q[u] - p[u]) * (r[v] - p[v]) - (q[v] - p[v]) * (r[u] - p[u])
                 if turn > 0:
                     break
                 self.straightened += turn == 0
-                found.pop()
-            found.append(k)
-        return found
+                chain.pop()
+            chain.append(k)
+        return chain
 
 
-def _edges(ring: Sequence[int]) -> list[Edge]:
-    return list(zip(ring, (*ring[1:], ring[0]), strict=True))
+def _edges(cycle: Sequence[int]) -> list[Edge]:
+    return list(zip(cycle, (*cycle[1:], cycle[0]), strict=True))

@@ -1,9 +1,10 @@
 """Local corners: the voxels, or the corners of voxels, that can be vertices of the hull (section 2 of the paper).
 
-A place of the set is no local corner if two places of the set lie opposite each other beside it, one step away: it
-is halfway between them.  Looked at are the 3 pairs of its 6 nearest neighbours, or the 13 pairs of all 26.
+A grid point of the set is not a local corner if it is halfway between two neighbours that belong to the set. The test
+covers the 3 pairs of opposite points among its 6 nearest neighbours, or the 13 pairs among all 26.
 
-The places are tested by 6 neighbours slab by slab, and the other pairs only where these 6 leave a corner.
+The test by 6 neighbours runs slab by slab over whole arrays. The other 10 pairs are tested only at the points that
+remain.
 """
 
 from __future__ import annotations
@@ -18,117 +19,122 @@ from numpy.typing import NDArray
 from modern.digital.solids import Volume, VolumeError, Voxels
 
 Of = Literal["centres", "vertices"]
-"""What the hull is of: the centres of voxels, or their corners."""
+"""The points whose hull is computed: the centres of voxels or their corners."""
 CENTRES: Final = "centres"
 VERTICES: Final = "vertices"
 NEIGHBOURS = (6, 26)
 
 Points = NDArray[np.int64]
 _SLAB = 1 << 20
-"""About so many places are tested at a time: they and what is made of them stay near the processor."""
+"""The approximate number of grid points tested at a time, which fit the processor's cache."""
 
 
 def places(volume: Volume, of: Of = VERTICES) -> Voxels:
-    """The places whose hull is wanted, as an array of truth values with the volume's origin.
+    """Return the grid points whose hull is computed, as an array of truth values with the volume's origin.
 
-    of: ``centres``: the voxels themselves (the paper's Int(M)); ``vertices``: their corners (Cl(M)), where voxel
-    (x, y, z) has the eight corners from (x, y, z) to (x + 1, y + 1, z + 1), so that a corner has the coordinates of
-    the farthest voxel from the origin that it bounds (Fig. 3 and Definition SG).  Raises VolumeError for a picture of
-    two dimensions.
+    ``centres`` are the voxels themselves (the paper's Int(M)), ``vertices`` their corners (Cl(M)). Voxel (x, y, z) has
+    the eight corners from (x, y, z) to (x + 1, y + 1, z + 1). A corner thus has the coordinates of the voxel farthest
+    from the origin among those it bounds (Fig. 3 and Definition SG).
+
+    Raise VolumeError for a volume of two dimensions.
     """
-    if not _side(volume, of):
+    if not _extra(volume, of):
         return volume.array
     nx, ny, nz = volume.array.shape
-    found = np.zeros((nx + 1, ny + 1, nz + 1), dtype=np.bool_)
-    found[:nx, :ny, :nz] = volume.array
+    corners = np.zeros((nx + 1, ny + 1, nz + 1), dtype=np.bool_)
+    corners[:nx, :ny, :nz] = volume.array
+    # Spreading the voxels by one step along each axis in turn reaches all eight corners.
     for axis in range(3):
-        turned = np.moveaxis(found, axis, 0)
-        turned[1:] |= turned[:-1].copy()
-    return found
+        view = np.moveaxis(corners, axis, 0)
+        view[1:] |= view[:-1].copy()
+    return corners
 
 
-def _side(volume: Volume, of: Of) -> int:
-    """How many places more than voxels there are along an axis of the box."""
+def _extra(volume: Volume, of: Of) -> int:
+    """Return how many more grid points than voxels there are along each axis."""
     if volume.dimension != 3:
-        raise VolumeError(f"{volume.source}: a picture of two dimensions; the paper's solids have three")
+        raise VolumeError(f"{volume.source}: expected a volume of three dimensions, found two")
     if of not in (CENTRES, VERTICES):
-        raise ValueError(f"places are {CENTRES} or {VERTICES}, not {of!r}")
+        raise ValueError(f"the hull is of {CENTRES} or {VERTICES}, not {of!r}")
     return int(of == VERTICES)
 
 
 def corners_by_neighbours(volume: Volume, of: Of = VERTICES) -> dict[int, Points]:
-    """The local corners that 6 and that 26 neighbours leave, each as ``local_corners``."""
-    side = _side(volume, of)
-    # Slabs lie across the axis along which voxels are farthest from each other in memory.
+    """Return the local corners by 6 and by 26 neighbours, each as ``local_corners`` does."""
+    extra = _extra(volume, of)
+    # The slabs are cut across the axis with the largest stride, so that each is contiguous in memory.
     order = sorted(range(3), key=lambda axis: -abs(volume.array.strides[axis]))
     solid = volume.array.transpose(order)
-    found: dict[int, list[NDArray[np.intp]]] = {neighbours: [] for neighbours in NEIGHBOURS}
-    for first, slab in _slabs(solid, side):
+    corners: dict[int, list[NDArray[np.intp]]] = {neighbours: [] for neighbours in NEIGHBOURS}
+    for first, slab in _slabs(solid, extra):
         flat = slab.ravel()
-        sizes = (slab.shape[1] * slab.shape[2], slab.shape[2], 1)
-        at = _of_six(flat, sizes)
+        strides = (slab.shape[1] * slab.shape[2], slab.shape[2], 1)
+        at = _by_six_neighbours(flat, strides)
         for neighbours in NEIGHBOURS:
             if neighbours != 6:
                 for step in _steps():
                     if sum(map(abs, step)) > 1:
-                        far = sum(way * size for way, size in zip(step, sizes, strict=True))
-                        at = at[~(flat[at + far] & flat[at - far])]
-            corner = np.stack(np.unravel_index(at, slab.shape), axis=1)
-            found[neighbours].append(corner + np.array((first - 1, -1, -1)))
-    return {neighbours: _in_raster_order(parts, order, volume.origin) for neighbours, parts in found.items()}
+                        # In the flat array the two opposite neighbours are ``offset`` after and before the point.
+                        offset = sum(way * stride for way, stride in zip(step, strides, strict=True))
+                        at = at[~(flat[at + offset] & flat[at - offset])]
+            indices = np.stack(np.unravel_index(at, slab.shape), axis=1)
+            corners[neighbours].append(indices + np.array((first - 1, -1, -1)))
+    return {neighbours: _in_raster_order(parts, order, volume.origin) for neighbours, parts in corners.items()}
 
 
-def _slabs(solid: Voxels, side: int) -> Iterator[tuple[int, Voxels]]:
-    """Places in slabs along the first axis, with a rim of one place all around; and of each the first index within.
+def _slabs(solid: Voxels, extra: int) -> Iterator[tuple[int, Voxels]]:
+    """Yield slabs of grid points along the first axis, each with its first index and a margin of one point all around.
 
-    The rim is of the slabs beside along the first axis, without any places along the others.
+    Along the first axis the margin repeats the neighbouring slabs. Along the other axes it is empty.
     """
     nx, ny, nz = solid.shape
-    height = max(1, _SLAB // ((ny + side + 2) * (nz + side + 2)))
-    for first in range(0, nx + side, height):
-        rows = min(height, nx + side - first)
-        slab = np.zeros((rows + 2, ny + side + 2, nz + side + 2), dtype=np.bool_)
-        # Places first - 1 to first + rows are those of voxels with the same index and, of corners, with one less.
-        for shift in range(side + 1):
+    height = max(1, _SLAB // ((ny + extra + 2) * (nz + extra + 2)))
+    for first in range(0, nx + extra, height):
+        rows = min(height, nx + extra - first)
+        slab = np.zeros((rows + 2, ny + extra + 2, nz + extra + 2), dtype=np.bool_)
+        # Points first - 1 to first + rows come from voxels with the same index and, for corners, with one index less.
+        for shift in range(extra + 1):
             low, high = max(0, first - 1 - shift), min(nx, first + rows + 1 - shift)
             if low < high:
                 begin = low + shift - (first - 1)
                 slab[begin : begin + high - low, 1 : ny + 1, 1 : nz + 1] |= solid[low:high]
         flat = slab.ravel()
-        for far in (slab.shape[2], 1) if side else ():
-            # The place before the first of a row or a layer is one of the rim.
-            flat[far:] |= flat[:-far].copy()
+        for stride in (slab.shape[2], 1) if extra else ():
+            # The point before the first of a row or a layer belongs to the empty margin.
+            flat[stride:] |= flat[:-stride].copy()
         yield first, slab
 
 
-def _of_six(flat: Voxels, sizes: tuple[int, ...]) -> NDArray[np.intp]:
-    """Where in a slab's row of places local corners by 6 neighbours are; sizes: how far on the next ones are."""
-    edge = sizes[0]
+def _by_six_neighbours(flat: Voxels, strides: tuple[int, ...]) -> NDArray[np.intp]:
+    """Return the indices of local corners by 6 neighbours in a flattened slab with the given strides."""
+    edge = strides[0]
     mask = flat[edge:-edge].copy()
     between = np.empty_like(mask)
-    for size in sizes:
-        np.logical_and(flat[edge - size : -edge - size], flat[edge + size : len(flat) - edge + size], out=between)
+    for stride in strides:
+        np.logical_and(
+            flat[edge - stride : -edge - stride], flat[edge + stride : len(flat) - edge + stride], out=between
+        )
         np.greater(mask, between, out=mask)
     return np.flatnonzero(mask) + edge
 
 
 def _in_raster_order(parts: list[NDArray[np.intp]], order: list[int], origin: tuple[int, ...]) -> Points:
-    """Indices along axes in some order, as coordinates, x fastest, then y, then z."""
-    found = np.concatenate([np.empty((0, 3), np.int64), *parts])[:, np.argsort(order)]
-    return found[np.lexsort(found.T)] + np.array(origin, dtype=np.int64)
+    """Convert indices along permuted axes to coordinates, sorted by z, then y, then x."""
+    points = np.concatenate([np.empty((0, 3), np.int64), *parts])[:, np.argsort(order)]
+    return points[np.lexsort(points.T)] + np.array(origin, dtype=np.int64)
 
 
 def local_corners(volume: Volume, of: Of = VERTICES, neighbours: int = 26) -> Points:
-    """The list L of the paper: coordinates of the local corners, shape (n, 3), in raster order.
+    """Return the paper's list L: the coordinates of the local corners, shape (n, 3), in raster order.
 
-    neighbours: 6 or 26, how many of each place are tested.  Raises VolumeError for a picture of two dimensions,
-    ValueError for another number of neighbours.
+    ``neighbours`` is 6 or 26. Raise VolumeError for a volume of two dimensions, ValueError for another number of
+    neighbours.
     """
     if neighbours not in NEIGHBOURS:
-        raise ValueError(f"6 or 26 neighbours are tested, not {neighbours}")
+        raise ValueError(f"expected 6 or 26 neighbours, found {neighbours}")
     return corners_by_neighbours(volume, of)[neighbours]
 
 
 def _steps() -> Iterator[tuple[int, ...]]:
-    """One neighbour of every pair: the steps whose first component other than 0 is 1."""
+    """Yield one neighbour of every pair: the steps whose first nonzero component is 1."""
     return (step for step in product((-1, 0, 1), repeat=3) if step > (0, 0, 0))

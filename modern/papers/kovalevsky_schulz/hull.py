@@ -1,7 +1,7 @@
-"""The paper's route from a set of voxels to the cell list of its convex hull.
+"""The complete method: from a set of voxels to the cell list of its convex hull.
 
-The last step is merging: triangles of one plane to one face, and edges in one line to one edge (section 2, Figs. 6
-and 7).  Where nobody asks how the points are inserted, the merged list is made without inserting them.
+The last step merges the triangles of one plane into a face and edges in one line into an edge (section 2, Figs. 6
+and 7). If no order of insertion is requested, the merged list is computed directly, without inserting the points.
 """
 
 from __future__ import annotations
@@ -23,89 +23,104 @@ from modern.papers.kovalevsky_schulz.outcome import hull_cells
 from modern.papers.kovalevsky_schulz.polyhedron import VISIBLE, Coplanar, Flat, convex_polyhedron
 
 Order = Literal["raster", "shuffled"]
-"""In which order local corners are inserted."""
+"""The order in which local corners are inserted."""
 RASTER: Final = "raster"
 SHUFFLED: Final = "shuffled"
 _SEED = 1963
 
 
 def merged(cells: CellList) -> CellList:
-    """The cell list with every two neighbouring faces of one plane made one.
+    """Merge the faces that lie in one plane.
 
-    Their common boundary goes, be it one edge or several, and with it the vertices within the new face; a vertex on
-    the new face's boundary stays, also where its two edges lie in one line.
+    Their common boundary disappears, whether it is one edge or several, and with it the vertices within the merged
+    face. A vertex on the boundary of the merged face remains, even if its two edges lie in one line.
     """
     group: dict[Plane, int] = {}
-    of_face = [group.setdefault(plane, len(group)) for plane in cells.planes()]
-    following: list[dict[int, int]] = [{} for _ in group]
+    group_of_face = [group.setdefault(plane, len(group)) for plane in cells.planes()]
+    # Only the edges between different planes remain. Those of a merged face form one cycle, because it is convex.
+    successors: list[dict[int, int]] = [{} for _ in group]
     for edge in cells.edges:
-        left, right = of_face[edge.left - 1], of_face[edge.right - 1]
-        if left != right:
-            following[left][edge.start] = edge.end
-            following[right][edge.end] = edge.start
-    return _renewed(cells, [_cycle(after) for after in following])
+        group_1, group_2 = group_of_face[edge.left - 1], group_of_face[edge.right - 1]
+        if group_1 != group_2:
+            successors[group_1][edge.start] = edge.end
+            successors[group_2][edge.end] = edge.start
+    return _renumbered(cells, [_cycle(successor) for successor in successors])
 
 
 def straightened(cells: CellList) -> CellList:
-    """The cell list with edges in one line made one: without the vertices that have two edges only.
+    """Merge edges in one line by removing the vertices that have only two edges.
 
-    Of merged faces these lie straight between their neighbours, for three faces meet in a vertex of the hull.  Where
-    there are none, the list is what it was.
+    After faces were merged, such a vertex lies straight between its neighbours, because at least three faces meet in a
+    vertex of the hull.
     """
-    dropped = {number for number, vertex in enumerate(cells.vertices, 1) if len(vertex.edges) == 2}
-    if not dropped:
+    removed = {number for number, vertex in enumerate(cells.vertices, 1) if len(vertex.edges) == 2}
+    if not removed:
         return cells
-    return _renewed(cells, [[v for v in face.vertices if v not in dropped] for face in cells.faces])
+    return _renumbered(cells, [[v for v in face.vertices if v not in removed] for face in cells.faces])
 
 
-def _cycle(after: dict[int, int]) -> list[int]:
-    """A cycle of vertices from the lowest on, given which follows which."""
-    way = [min(after)]
-    while after[way[-1]] != way[0]:
-        way.append(after[way[-1]])
-    return way
+def _cycle(successor: dict[int, int]) -> list[int]:
+    """Return a cycle of vertices, beginning with the lowest, from the successor of each vertex."""
+    cycle = [min(successor)]
+    while successor[cycle[-1]] != cycle[0]:
+        cycle.append(successor[cycle[-1]])
+    return cycle
 
 
-def _renewed(cells: CellList, cycles: list[list[int]]) -> CellList:
-    """The cell list of these faces, with vertices that no face has left out."""
-    kept = sorted({vertex for cycle in cycles for vertex in cycle})
-    numbers = {old: new for new, old in enumerate(kept, 1)}
-    points = tuple(cells.vertices[old - 1].point for old in kept)
+def _renumbered(cells: CellList, cycles: list[list[int]]) -> CellList:
+    """Build the cell list of these faces, without the vertices that no face uses."""
+    used = sorted({vertex for cycle in cycles for vertex in cycle})
+    numbers = {old: new for new, old in enumerate(used, 1)}
+    points = tuple(cells.vertices[old - 1].point for old in used)
     return expanded(Economical(points, tuple(tuple(numbers[vertex] for vertex in cycle) for cycle in cycles)))
 
 
 @dataclass(frozen=True, slots=True)
 class Surface:
-    """The surface of a polyhedron as cell lists: of ``faces``, coplanar triangles merged; ``straight``, edges in one
-    line merged too, so that every vertex is one of the hull; and of ``triangles``, where an order of insertion was
-    asked for.  ``made``: these, or None.
+    """The surface of a polyhedron as cell lists.
+
+    ``faces`` is the list with coplanar triangles merged. ``triangulation`` is the list of triangles if an order of
+    insertion was requested, otherwise None.
     """
 
     faces: CellList
-    made: CellList | None = None
+    triangulation: CellList | None = None
 
     @property
     def triangles(self) -> CellList:
-        """The triangles that the points inserted one by one leave.  Raises VolumeError where none were inserted."""
-        if self.made is None:
-            raise VolumeError("there are no triangles where no points are inserted: state an order, such as raster")
-        return self.made
+        """The triangles that result from inserting the points one by one. Raises VolumeError if none were inserted."""
+        if self.triangulation is None:
+            raise VolumeError("triangles exist only if points are inserted: choose an order, such as raster")
+        return self.triangulation
 
     @property
     def straight(self) -> CellList:
-        """Made when it is asked for."""
+        """The list with edges in one line merged too, so that all its vertices are vertices of the hull."""
         return straightened(self.faces)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class VoxelHull:
-    """The convex hull of a solid and what was counted on the way.
+    """The convex hull of a solid and the counts of the method.
 
-    ``source``: what messages call the solid.  ``voxels``: how many it has.  ``corners``: how many local corners 6 and
-    26 neighbours leave.  ``inserted``: those that the hull is of, shape (n, 3), in raster order.  ``surface``: the
-    hull, ``Flat`` where the places lie in one plane.  ``of``: whether places are centres or corners of voxels.
-    ``world``: where voxels lie, by the coordinates of their centres.  ``order``: in which the local corners were
-    inserted, None where none was.
+    Attributes
+    ----------
+    source
+        The name of the solid in messages.
+    voxels
+        The number of voxels.
+    corners
+        The numbers of local corners by 6 and by 26 neighbours.
+    inserted
+        The local corners whose hull was computed, shape (n, 3), in raster order.
+    surface
+        The hull, or ``Flat`` if all points lie in one plane.
+    of
+        ``centres`` or ``vertices``: whether the points are centres or corners of voxels.
+    world
+        The map from voxel coordinates to physical coordinates, if known.
+    order
+        The order in which the local corners were inserted, or None if they were not.
     """
 
     source: str
@@ -119,30 +134,30 @@ class VoxelHull:
 
     @property
     def polyhedron(self) -> Surface:
-        """The surface where there is one.  Raises VolumeError for a flat hull."""
+        """The surface of the hull. Raises VolumeError for a flat hull."""
         if isinstance(self.surface, Flat):
-            raise VolumeError(f"{self.source}: flat: the hull is a {self.surface.kind} and has no cell list")
+            raise VolumeError(f"{self.source}: the hull is flat, a {self.surface.kind}, and has no cell list")
         return self.surface
 
     def mesh(self, straight: bool = False) -> Mesh:
-        """The hull for the writers of mesh files and for the judge, as exact text: positions in the world where the
-        voxels have any, a corner half a step from the centres; else whole coordinates, as the paper's.
+        """Return the hull as a mesh with coordinates as exact text.
 
-        The faces are counterclockwise seen from outside in these coordinates.  straight: edges in one line merged, so
-        that every vertex is one of the hull.
+        The coordinates are physical if the voxels have physical positions, otherwise the paper's integers. The faces
+        are counterclockwise as seen from outside in these coordinates. With ``straight``, edges in one line are merged,
+        so that all vertices are vertices of the hull.
         """
         points, faces = self._polygons(straight)
         if self.world is None:
             return Mesh(self._dimension, tuple(_three(map(str, point)) for point in points), faces)
-        # A voxel's corner with the paper's coordinates of that voxel lies half a step before its centre.
+        # The corner (x, y, z) in the paper's coordinates lies half a step before the centre of voxel (x, y, z).
         half = Fraction(1, 2) if self.of == VERTICES else Fraction(0)
         places = (self.world.place([number - half for number in point]) for point in points)
         texts = tuple(_three(map(decimal_or_fraction, place)) for place in places)
-        turned = tuple(face[::-1] for face in faces) if self.world.mirrors else faces
-        return Mesh(self._dimension, texts, turned)
+        outward = tuple(face[::-1] for face in faces) if self.world.mirrors else faces
+        return Mesh(self._dimension, texts, outward)
 
     def measures(self) -> Measures:
-        """The measures of the solid and of its hull, in the world where the voxels have positions there."""
+        """Compute the measures of the solid and its hull, in physical units if the voxels have physical positions."""
         return measures(self.voxels, *self._polygons(False), self.world)
 
     @property
@@ -150,7 +165,7 @@ class VoxelHull:
         return self.surface.dimension if isinstance(self.surface, Flat) else 3
 
     def _polygons(self, straight: bool) -> tuple[tuple[IntPoint, ...], tuple[tuple[int, ...], ...]]:
-        """Vertices, and faces as their places from 0."""
+        """Return the vertices, and the faces as indices of vertices from 0."""
         if isinstance(self.surface, Flat):
             cycle = tuple(range(len(self.surface.vertices)))
             return self.surface.vertices, (cycle,) if self.surface.dimension == 2 else ()
@@ -170,23 +185,39 @@ def voxel_hull(
     coplanar: Coplanar | None = None,
     order: Order | None = None,
 ) -> VoxelHull:
-    """The hull of a solid's voxels (``of="centres"``) or of their corners (``of="vertices"``).
+    """Compute the hull of a solid's voxels.
 
-    volume: a volume, or an array of truth values indexed [x, y, z].
-    neighbours: 6 or 26, the test that chooses local corners.  coplanar: ``visible`` or ``invisible``, see
-    ``convex_polyhedron``.  order: ``raster``, the paper's, or ``shuffled``, which is quicker, the same for as many
-    points.  The hull does not depend on any of them, the number of triangles does, and which vertices there are in
-    line with others.  Where neither coplanar nor order is given, there are no triangles, and the cell list is that of
-    the hull; one alone stands for raster order, or for ``visible``.
+    The hull does not depend on ``neighbours``, ``coplanar`` and ``order``. The number of triangles does, and so do the
+    vertices in line with others.
 
-    Raises VolumeError for a picture of two dimensions, NoVoxels for a volume without voxels, ValueError for another
-    choice.
+    Parameters
+    ----------
+    volume
+        A volume, or an array of truth values indexed [x, y, z].
+    of
+        ``centres`` for the hull of the voxels' centres, ``vertices`` for the hull of their corners.
+    neighbours
+        6 or 26, the number of neighbours in the test for local corners.
+    coplanar
+        ``visible`` or ``invisible``, see ``convex_polyhedron``. The default is ``visible``.
+    order
+        ``raster`` as in the paper, or ``shuffled``, a faster and reproducible random order. If only ``coplanar`` is
+        given, it is ``raster``. If neither is given, no points are inserted and there are no triangles.
+
+    Raises
+    ------
+    VolumeError
+        For a volume of two dimensions.
+    NoVoxels
+        For a volume without voxels.
+    ValueError
+        For another value of an option.
     """
     volume = as_volume(volume)
     if not volume.count:
         raise NoVoxels(f"{volume.source}: there are no voxels")
     if neighbours not in NEIGHBOURS:
-        raise ValueError(f"6 or 26 neighbours are tested, not {neighbours}")
+        raise ValueError(f"expected 6 or 26 neighbours, found {neighbours}")
     if order is None and coplanar is not None:
         order = RASTER
     corners = corners_by_neighbours(volume, of)
@@ -196,7 +227,7 @@ def voxel_hull(
 
 
 def _surface(points: Points, order: Order | None, coplanar: Coplanar) -> Surface | Flat:
-    """The surface of the hull of local corners, in raster order."""
+    """Compute the surface of the hull of local corners, which are given in raster order."""
     if order is None:
         cells = hull_cells(points)
         return cells if isinstance(cells, Flat) else Surface(cells)
@@ -205,9 +236,9 @@ def _surface(points: Points, order: Order | None, coplanar: Coplanar) -> Surface
 
 
 def ordered(points: Points, order: Order) -> Points:
-    """Points in raster order in the order in which they are to be inserted.  Raises ValueError for another order."""
+    """Sort points in raster order into the order of insertion. Raise ValueError for an unknown order."""
     if order == SHUFFLED:
         return np.random.default_rng(_SEED).permutation(points)
     if order != RASTER:
-        raise ValueError(f"points are inserted {RASTER} or {SHUFFLED}, not {order!r}")
+        raise ValueError(f"the order of insertion is {RASTER} or {SHUFFLED}, not {order!r}")
     return points

@@ -1,10 +1,10 @@
-"""The cell list of a hull without the procedure that leads to it: from the digital polytope of the local corners.
+"""The cell list of a hull computed from the digital polytope of its local corners, without inserting points.
 
-The polytope's triangles are merged as the paper merges its own; edges in one line are merged too, so that the vertices
-are those of the hull.  In raster order, with coplanar faces counted as visible, the paper's procedure has the same
-vertices, in the same order, and the same faces: its points come each further in raster order than the ones before, and
-a point in line or in a plane with later ones goes, all faces at it being seen.  Only the numbers of faces and edges
-differ: here a face comes before another if its vertices, from the lowest number on, do.
+The triangles of the polytope are merged as in the paper. Edges in one line are merged too, so all vertices are vertices
+of the hull. The paper's procedure in raster order, with coplanar faces visible, has the same vertices in the same order
+and the same faces: each of its points is later in raster order than the ones before, and a point in line or in a plane
+with later points disappears, because all faces at it are visible. Only the numbers of faces and edges differ. Here
+faces are sorted by their cycles of vertices, each beginning with its lowest number.
 """
 
 from __future__ import annotations
@@ -25,32 +25,33 @@ Numbers = NDArray[np.int64]
 
 
 def hull_cells(points: Points) -> CellList | Flat:
-    """The cell list of the faces of the hull of points, or ``Flat``.
+    """Compute the cell list of the hull of points, or ``Flat`` if they lie in one plane.
 
-    points: distinct places of one volume in raster order, shape (n, 3), at least one.
+    ``points`` are distinct, in raster order, of shape (n, 3), and at least one.
     """
     low = points.min(axis=0)
-    near = points - low
-    found = column_ends_of(near)
-    simplex = independent(found)
+    candidates = column_ends_of(points - low)
+    simplex = independent(candidates)
     if len(simplex) < 4:
         return flat_hull(_tuples(points))
     a, b, c, d = simplex
-    corner, plane = polyhedron(found, (a, b, c, d), False)
-    used, corner = np.unique(corner, return_inverse=True)
-    raster = np.lexsort(found[used].T)
+    triangles, plane = polyhedron(candidates, (a, b, c, d), False)
+    # Number the vertices of the triangles in raster order, as the paper's procedure does.
+    used, triangles = np.unique(triangles, return_inverse=True)
+    raster = np.lexsort(candidates[used].T)
     number = np.empty_like(raster)
     number[raster] = np.arange(len(raster))
-    cycles = _cycles(number[corner.reshape(-1, 3)], plane)
-    kept, flat = np.unique(np.concatenate(cycles), return_inverse=True)
+    cycles = _cycles(number[triangles.reshape(-1, 3)], plane)
+    # Vertices that are in no cycle any more lose their numbers.
+    vertices, renumbered = np.unique(np.concatenate(cycles), return_inverse=True)
     bounds = np.cumsum([0, *map(len, cycles)]).tolist()
-    names = (flat + 1).tolist()
-    faces = sorted(tuple(names[start:end]) for start, end in pairwise(bounds))
-    return expanded(Economical(tuple(_tuples(found[used[raster[kept]]] + low)), tuple(faces)))
+    numbers = (renumbered + 1).tolist()
+    faces = sorted(tuple(numbers[start:end]) for start, end in pairwise(bounds))
+    return expanded(Economical(tuple(_tuples(candidates[used[raster[vertices]]] + low)), tuple(faces)))
 
 
 def column_ends_of(points: Points) -> Points:
-    """Of points none of which is negative those that can be vertices: ends of columns that are on no chord."""
+    """Reduce points with no negative coordinates to possible vertices: column ends that lie on no chord."""
     x, y, z = points[np.lexsort(points.T[::-1])].T
     new = np.concatenate(([True], (x[1:] != x[:-1]) | (y[1:] != y[:-1])))
     last = np.concatenate((new[1:], [True]))
@@ -63,29 +64,35 @@ def _tuples(points: Points) -> list[IntPoint]:
     return list(zip(*points.T.tolist(), strict=True))
 
 
-def _cycles(corner: Numbers, plane: Numbers) -> list[list[int]]:
-    """The vertices of the faces that triangles make, from the lowest number on, without those between two in line."""
+def _cycles(triangles: Numbers, plane: Numbers) -> list[list[int]]:
+    """Merge triangles into faces. Return their vertices, lowest number first, without those in line with two others.
+
+    ``triangles`` has the shape (n, 3) and ``plane`` the shape (n, 4).
+    """
     plane = plane // np.gcd.reduce(plane, axis=1)[:, None]
+    # Half-edge k belongs to triangle k // 3; group is the number of its plane.
     group = np.repeat(np.unique(plane, axis=0, return_inverse=True)[1].reshape(-1), 3)
-    start, end = corner.ravel(), np.roll(corner, -1, axis=1).ravel()
-    # Every edge is there twice: next to each other in this order are the two triangles at it.
+    start, end = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
+    # Every edge has two half-edges, which are neighbours in this order. It is on a border if their planes differ.
     twins = np.lexsort((np.maximum(start, end), np.minimum(start, end))).reshape(-1, 2)
     border = twins[group[twins[:, 0]] != group[twins[:, 1]]].ravel()
-    corners = np.bincount(start[border], minlength=int(corner.max()) + 1) > 2
+    # A vertex with only two border edges lies in line with its neighbours.
+    is_vertex = np.bincount(start[border], minlength=int(triangles.max()) + 1) > 2
     border = border[np.lexsort((start[border], group[border]))]
     group, start, end = group[border], start[border], end[border]
-    width = len(corners)
+    # Within a plane every vertex starts exactly one border half-edge, so the successor is found by (plane, vertex).
+    width = len(is_vertex)
     following = np.searchsorted(group * width + start, group * width + end).tolist()
     firsts = np.flatnonzero(np.concatenate(([True], group[1:] != group[:-1])))
-    numbers, stays = start.tolist(), corners.tolist()
+    numbers, remains = start.tolist(), is_vertex.tolist()
     cycles = []
     for first in firsts.tolist():
-        cycle, place = [], first
+        cycle, half_edge = [], first
         while True:
-            if stays[numbers[place]]:
-                cycle.append(numbers[place])
-            place = following[place]
-            if place == first:
+            if remains[numbers[half_edge]]:
+                cycle.append(numbers[half_edge])
+            half_edge = following[half_edge]
+            if half_edge == first:
                 break
         cycles.append(cycle)
     return cycles

@@ -1,22 +1,23 @@
 """The current polyhedron and its extension by one local corner after another (section 2, Figs. 5 to 7).
 
-The surface is kept as edges that name their faces, so that what a point sees, and its boundary, are found from one
-face that it sees, without a search.  All arithmetic is in integers of any length.
+Every edge stores its two faces, so the faces visible from a point and their boundary are found by walking from one
+visible face, without a search of all faces. All arithmetic is in integers of any length.
 
-Where the first face is found.  The faces that a point sees are connected through edges, also where a face counts as
-seen whose plane holds the point: such a face, or others of its plane, borders on one that sees the point from above,
-or else the point lies in that plane's face itself.
+Finding the first visible face. The faces visible from a point are connected through edges. This is true even if a face
+whose plane contains the point counts as visible: that face or another face of its plane has a neighbour that faces the
+point, or the point lies in the face itself.
 
-1. Points in raster order: a point further in that order than all vertices sees a face at the last of these, V.
-   Else the point would be in the cone of the faces at V, and V + t (P - V) with a small t in the polyhedron, further
-   than V.  The faces at V are those made last.  (Only points in the plane of the first, which wait for a fourth point,
-   may be found by a search of all faces.)
-2. Points in another order: every point that waits keeps one face that it sees, every face a list of these points.
-   Where faces go, the points of their lists are tried against the new ones and against no others.  Let P see a face
-   that goes, m be a point within it, and P still see a face.  The way from P to m meets the new surface first at a
-   point x of a face that P sees.  If that one is not new, x was in the polyhedron before.  But of that the way, in the
-   plane of m's face or above, meets only faces of this plane, which all go together: x lies on an edge between them and
-   the face that stays, hence on a boundary edge and in a new face, and P sees this one too.
+1. Points in raster order: a point later in that order than all vertices sees a face at the last vertex, V. Otherwise
+   the point would be in the cone of the faces at V, and V + t (P - V) for a small t would be a point of the polyhedron
+   later than V. The faces at V are those created last. Only points in the plane of the first points, before a fourth
+   point gives a tetrahedron, may need a search of all faces.
+2. Points in another order: every remaining point stores one face that it sees, and every face a list of such points.
+   When faces are removed, the points in their lists are tested against the new faces only. This is enough. Let P see a
+   removed face, let m be a point within that face, and let P still see some face. The segment from P to m first meets
+   the new surface at a point x of a face that P sees. If that face is not new, x was in the old polyhedron. But the
+   segment, in or above the plane of m's face, meets only faces of this plane in the old polyhedron, and all of them are
+   removed together. So x lies on an edge between them and the remaining face. This is a boundary edge, x lies in a new
+   face at this edge, and P sees that face too.
 """
 
 from __future__ import annotations
@@ -34,21 +35,22 @@ from modern.geometry.vectors import cross, dot, minus
 from modern.papers.kovalevsky_schulz.cells import CellList, IntPoint, assembled
 
 Coplanar = Literal["visible", "invisible"]
-"""What a face in one plane with a new point counts as."""
+"""The treatment of a face whose plane contains the new point."""
 VISIBLE: Final = "visible"
 INVISIBLE: Final = "invisible"
 _KINDS = ("point", "segment", "polygon")
 _MANY = 128
-"""Points times faces from which on values are computed in one product."""
+"""The least number of points times faces for which the values are computed by one matrix product."""
 Triangle = tuple[int, int, int, int, int, int, int]
-"""Three signed edges, and the plane: four numbers, positive outside."""
+"""Three signed edges and the four coefficients of the plane, whose value is positive outside."""
 
 
 @dataclass(frozen=True, slots=True)
 class Flat:
-    """The hull of points in one plane, where there is no polyhedron and no cell list.
+    """The hull of points in one plane, which is not a polyhedron and has no cell list.
 
-    ``dimension``: 0, 1 or 2.  ``vertices``: the point, the segment's ends, or the polygon's corners in cyclic order.
+    The dimension is 0, 1 or 2. The vertices are the point, the ends of the segment, or the vertices of the polygon in
+    cyclic order.
     """
 
     dimension: int
@@ -61,84 +63,94 @@ class Flat:
 
 
 class CurrentPolyhedron:
-    """The paper's CP: edges and triangles by number, in the order in which they are made, changed in place.
+    """The paper's CP: edges and triangles by number, in the order of their creation, changed in place.
 
-    points: all that may become vertices, a vertex's number is its place from 0; moved: from the lowest corner of their
-    box.  ends: start and end of an edge.  sides: the face on the left of edge e is sides[e], on its right sides[-e].
-    least: the least value of its plane at which a face is seen.  made: the number of the last face; new: of the first
-    of those made together with it.
+    Attributes
+    ----------
+    points, shifted
+        All points that may become vertices, numbered from 0, and the same relative to the lowest corner of their box.
+    least
+        The least value of its plane at which a face is visible from a point.
+    ends
+        The start and the end of each edge.
+    sides
+        The face on the left of edge e is ``sides[e]``, the face on its right ``sides[-e]``.
+    last_edge, last_face, first_new
+        The numbers of the last edge and the last face, and of the first face created in the same extension.
     """
 
     def __init__(self, points: Sequence[IntPoint], simplex: Sequence[int], coplanar: Coplanar) -> None:
-        """The tetrahedron of four points that lie in no plane."""
+        """Build the tetrahedron of four points that are not coplanar."""
         self.points = points
         low = [min(column) for column in zip(*points, strict=True)]
-        self.moved = [(x - low[0], y - low[1], z - low[2]) for x, y, z in points]
+        self.shifted = [(x - low[0], y - low[1], z - low[2]) for x, y, z in points]
         self.least = 0 if coplanar == VISIBLE else 1
         self.ends: dict[int, tuple[int, int]] = {}
         self.sides: dict[int, int] = {}
         self.faces: dict[int, Triangle] = {}
-        self.edges = self.made = self.new = 0
+        self.last_edge = self.last_face = self.first_new = 0
         a, b, c, d = simplex
+        # The first triangle must run counterclockwise as seen from outside, so d must be behind it.
         base = [points[number] for number in (a, b, c)]
         if dot(cross(minus(base[1], base[0]), minus(base[2], base[0])), minus(points[d], base[0])) > 0:
             b, c = c, b
         first, second, third = self._edge(a, b), self._edge(b, c), self._edge(c, a)
         self._face(first, second, third, a, b, c)
         self._cone(d, (-first, -second, -third))
-        self.new = 1
+        self.first_new = 1
 
-    def first_seen(self, number: int) -> int:
-        """A face that the point sees, one of those made last if it can be; 0 where there is none."""
-        x, y, z = self.moved[number]
-        last = range(self.new, self.made + 1)
-        for chosen in (last, self.faces):
-            for face in chosen:
+    def first_visible(self, number: int) -> int:
+        """Return a face that is visible from a point, preferably one of those created last, or 0 if none is."""
+        x, y, z = self.shifted[number]
+        newest = range(self.first_new, self.last_face + 1)
+        for candidates in (newest, self.faces):
+            for face in candidates:
                 _, _, _, a, b, c, d = self.faces[face]
                 if a * x + b * y + c * z + d >= self.least:
                     return face
         return 0
 
     def extend(self, number: int, first: int) -> list[int]:
-        """Take in a point that sees the face ``first``; returns the faces that are no more.
+        """Extend the polyhedron to a point that sees the face ``first``. Return the removed faces.
 
-        The visible faces go, with the edges between two of them and the vertices that have no other face; every edge
-        of their boundary is joined to the point by a triangle.
+        The visible faces are removed, together with the edges between two of them and the vertices that have no other
+        face. Every edge of their boundary and the point form a new triangle (section 2).
         """
         visible = self._visible(number, first)
-        going = set(visible)
+        removed = set(visible)
         faces, sides, ends = self.faces, self.sides, self.ends
         boundary: list[int] = []
         inner: list[int] = []
         for face in visible:
             for edge in faces.pop(face)[:3]:
-                if sides[-edge] not in going:
+                if sides[-edge] not in removed:
                     boundary.append(edge)
                 elif edge > 0:
+                    # An inner edge occurs in two removed faces, once with either sign.
                     inner.append(edge)
         for edge in inner:
             del ends[edge], sides[edge], sides[-edge]
-        self.new = self.made + 1
+        self.first_new = self.last_face + 1
         self._cone(number, boundary)
         return visible
 
     def _visible(self, number: int, first: int) -> list[int]:
-        """The numbers of the faces visible from a point (Definition VI), in order; one is known to be."""
-        x, y, z = self.moved[number]
+        """Return the sorted numbers of the faces visible from a point (Definition VI), by a search from ``first``."""
+        x, y, z = self.shifted[number]
         faces, sides, least = self.faces, self.sides, self.least
-        found, known = [first], {first}
-        for face in found:
+        visible, tested = [first], {first}
+        for face in visible:
             for edge in faces[face][:3]:
-                beyond = sides[-edge]
-                if beyond not in known:
-                    known.add(beyond)
-                    _, _, _, a, b, c, d = faces[beyond]
+                neighbour = sides[-edge]
+                if neighbour not in tested:
+                    tested.add(neighbour)
+                    _, _, _, a, b, c, d = faces[neighbour]
                     if a * x + b * y + c * z + d >= least:
-                        found.append(beyond)
-        return sorted(found)
+                        visible.append(neighbour)
+        return sorted(visible)
 
     def cell_list(self) -> CellList:
-        """The cell list of the surface as it is: vertices in the order of the points, edges and faces as made."""
+        """Return the cell list of the surface: vertices in input order, edges and faces in the order of creation."""
         edges, faces = sorted(self.ends), sorted(self.faces)
         ends = np.array([self.ends[edge] for edge in edges])
         vertices, renamed = np.unique(ends, return_inverse=True)
@@ -149,9 +161,11 @@ class CurrentPolyhedron:
         return assembled(points, starts, ends, np.full(len(faces), 3), numbers)
 
     def _cone(self, top: int, boundary: Iterable[int]) -> None:
-        """A triangle from ``top`` over every signed edge, each in the sense in which its new face follows it."""
+        """Add a triangle from ``top`` to every signed edge, directed as the new triangle follows it."""
         spokes: dict[int, int] = {}
         for edge in boundary:
+            # Neighbouring triangles share the edge between top and their common boundary vertex. It is created when
+            # the vertex occurs first; a negative sign marks that it runs towards top.
             near, far = self.ends[edge] if edge > 0 else self.ends[-edge][::-1]
             if near not in spokes:
                 spokes[near] = self._edge(top, near)
@@ -160,73 +174,76 @@ class CurrentPolyhedron:
             self._face(spokes[near], edge, -spokes[far], top, near, far)
 
     def _edge(self, start: int, end: int) -> int:
-        self.edges += 1
-        self.ends[self.edges] = (start, end)
-        return self.edges
+        self.last_edge += 1
+        self.ends[self.last_edge] = (start, end)
+        return self.last_edge
 
     def _face(self, first: int, second: int, third: int, p: int, q: int, r: int) -> None:
-        """A triangle by its signed edges and by its corners, counterclockwise seen from outside."""
-        self.made = face = self.made + 1
+        """Add a triangle with its signed edges and vertices, counterclockwise as seen from outside."""
+        self.last_face = face = self.last_face + 1
         sides = self.sides
         sides[first] = sides[second] = sides[third] = face
-        x, y, z = self.moved[p]
-        u1, u2, u3 = self.moved[q]
-        v1, v2, v3 = self.moved[r]
+        x, y, z = self.shifted[p]
+        u1, u2, u3 = self.shifted[q]
+        v1, v2, v3 = self.shifted[r]
         u1, u2, u3, v1, v2, v3 = u1 - x, u2 - y, u3 - z, v1 - x, v2 - y, v3 - z
+        # The plane is not reduced to lowest terms: only the sign of its values matters here.
         a, b, c = u2 * v3 - u3 * v2, u3 * v1 - u1 * v3, u1 * v2 - u2 * v1
         self.faces[face] = (first, second, third, a, b, c, -(a * x + b * y + c * z))
 
 
 class Waiting:
-    """Of each point that is still to come one face that it sees (2. above): ``face`` by point, ``lists`` by face."""
+    """One visible face for each remaining point (see 2. above): ``face`` by point, ``lists`` of points by face."""
 
     def __init__(self, polyhedron: CurrentPolyhedron, numbers: Iterable[int]) -> None:
         self.polyhedron = polyhedron
         self.face: dict[int, int] = {}
         self.lists: dict[int, list[int]] = {}
-        reach = max(map(max, polyhedron.moved))
-        # A normal's components are at most 2 reach^2, and each of the four terms of a value at most 6 reach^3.
-        self.places: NDArray[Any] | None = np.array(polyhedron.moved) if 24 * reach**3 < 2**63 else None
-        self._give(list(numbers), range(1, polyhedron.made + 1))
+        extent = max(map(max, polyhedron.shifted))
+        # The components of a normal are at most 2 extent^2, and each of the four terms of a value at most 6 extent^3.
+        self.array: NDArray[Any] | None = np.array(polyhedron.shifted) if 24 * extent**3 < 2**63 else None
+        self._assign(list(numbers), range(1, polyhedron.last_face + 1))
 
-    def renew(self, gone: Iterable[int], inserted: int) -> None:
-        """After an extension: the points of the faces that went are given to new ones, those that see none are done."""
-        orphans = [number for face in gone for number in self.lists.pop(face, ()) if number != inserted]
+    def renew(self, removed: Iterable[int], inserted: int) -> None:
+        """Reassign the points of removed faces to new faces. Points that see no new face are inside and are dropped."""
+        orphans = [number for face in removed for number in self.lists.pop(face, ()) if number != inserted]
         for number in orphans:
             del self.face[number]
-        self._give(orphans, range(self.polyhedron.new, self.polyhedron.made + 1))
+        self._assign(orphans, range(self.polyhedron.first_new, self.polyhedron.last_face + 1))
 
-    def _give(self, numbers: list[int], faces: range) -> None:
+    def _assign(self, numbers: list[int], faces: range) -> None:
         if not numbers:
             return
         least = self.polyhedron.least
         planes = [self.polyhedron.faces[face][3:] for face in faces]
-        if self.places is not None and len(numbers) * len(planes) >= _MANY:
-            table = np.array(planes)
-            seen = self.places[numbers] @ table[:, :3].T + table[:, 3] >= least
-            first = seen.argmax(axis=1)
-            for row in np.flatnonzero(seen[np.arange(len(numbers)), first]).tolist():
-                self._put(numbers[row], faces[first[row]])
+        if self.array is not None and len(numbers) * len(planes) >= _MANY:
+            # The same test for all points and planes at once: argmax gives the first visible face of each point.
+            coefficients = np.array(planes)
+            visible = self.array[numbers] @ coefficients[:, :3].T + coefficients[:, 3] >= least
+            first = visible.argmax(axis=1)
+            for row in np.flatnonzero(visible[np.arange(len(numbers)), first]).tolist():
+                self._store(numbers[row], faces[first[row]])
             return
         for number in numbers:
-            x, y, z = self.polyhedron.moved[number]
+            x, y, z = self.polyhedron.shifted[number]
             for face, (a, b, c, d) in zip(faces, planes, strict=True):
                 if a * x + b * y + c * z + d >= least:
-                    self._put(number, face)
+                    self._store(number, face)
                     break
 
-    def _put(self, number: int, face: int) -> None:
+    def _store(self, number: int, face: int) -> None:
         self.face[number] = face
         self.lists.setdefault(face, []).append(number)
 
 
 def convex_polyhedron(points: Iterable[Sequence[int]], coplanar: Coplanar = VISIBLE) -> CellList | Flat:
-    """The convex hull of points with whole coordinates, as triangles, inserting the points in the order given.
+    """Compute the hull of points with integer coordinates as triangles, inserting the points in the given order.
 
-    coplanar: whether a face whose plane holds a point counts as ``visible`` from it, as the paper decides, or
-    ``invisible``, as its figure of 1404 triangles needs.  Points that are given before are passed over.  For points in
-    one plane, of which the paper does not speak, the answer is ``Flat``, its vertices found by ``modern.exact_hull``.
-    Raises ValueError for no points and for another ``coplanar``.
+    ``coplanar`` determines whether a face whose plane contains the point counts as ``visible``, as the paper decides,
+    or ``invisible``, as its number of 1404 triangles requires. Repeated points are ignored. For points in one plane,
+    which the paper does not treat, the result is ``Flat``, computed by ``modern.exact_hull``.
+
+    Raise ValueError if there are no points or ``coplanar`` is unknown.
     """
     if coplanar not in (VISIBLE, INVISIBLE):
         raise ValueError(f"coplanar faces are {VISIBLE} or {INVISIBLE}, not {coplanar!r}")
@@ -237,38 +254,39 @@ def convex_polyhedron(points: Iterable[Sequence[int]], coplanar: Coplanar = VISI
     if len(simplex) < 4:
         return flat_hull(distinct)
     polyhedron = CurrentPolyhedron(distinct, simplex, coplanar)
-    rest = sorted(set(range(len(distinct))).difference(simplex))
+    remaining = sorted(set(range(len(distinct))).difference(simplex))
+    # Raster order is by z, then y, then x: it allows the first way of finding a visible face.
     if all(p[::-1] < q[::-1] for p, q in pairwise(distinct)):
-        for number in rest:
-            first = polyhedron.first_seen(number)
+        for number in remaining:
+            first = polyhedron.first_visible(number)
             if first:
                 polyhedron.extend(number, first)
     else:
-        waiting = Waiting(polyhedron, rest)
-        for number in rest:
+        waiting = Waiting(polyhedron, remaining)
+        for number in remaining:
             if number in waiting.face:
                 waiting.renew(polyhedron.extend(number, waiting.face.pop(number)), number)
     return polyhedron.cell_list()
 
 
 def flat_hull(points: Sequence[IntPoint]) -> Flat:
-    """The hull of distinct points in one plane."""
+    """Compute the hull of distinct points in one plane."""
     flat = exact_hull(points)
     return Flat(flat.dimension, tuple(points[number] for number in flat.polygon or flat.vertices))
 
 
 def independent(points: Sequence[IntPoint]) -> list[int]:
-    """The first four points that lie in no plane, or fewer where there are none."""
-    found = [0]
+    """Return the first four points that are not coplanar, or fewer if all points lie in one plane."""
+    simplex = [0]
     normal: IntPoint = (0, 0, 0)
     for number in range(1, len(points)):
         arm = minus(points[number], points[0])
-        if len(found) == 1:
-            found.append(number)
-        elif len(found) == 2:
-            normal = cross(minus(points[found[1]], points[0]), arm)
+        if len(simplex) == 1:
+            simplex.append(number)
+        elif len(simplex) == 2:
+            normal = cross(minus(points[simplex[1]], points[0]), arm)
             if any(normal):
-                found.append(number)
+                simplex.append(number)
         elif dot(normal, arm):
-            return [*found, number]
-    return found
+            return [*simplex, number]
+    return simplex

@@ -1,9 +1,10 @@
-"""A convex digital object exactly from the economical encoding of its hull (sections 2 and 5).
+"""Exact reconstruction of a convex digital object from the economical encoding of its hull (sections 2 and 5).
 
-An object is convex if it holds every voxel whose centre lies in the hull of its voxels' centres.  From the hull of the
-centres it comes back as the voxels whose centres lie in it; from the hull of the voxels' corners as the voxels that lie
-in it with all eight corners: that hull is the sum of the first and of a cube, so a voxel's cube is in it only if the
-voxel's centre is in the first.  Of any other object the result is the convex object around it.
+An object is convex if it contains every voxel whose centre lies in the hull of its voxels' centres. From the hull of
+the centres, the object is reconstructed as the voxels whose centres lie in that hull. From the hull of the corners, it
+is reconstructed as the voxels with all eight corners in that hull. The second hull is the Minkowski sum of the first
+and a cube, so it contains the cube of a voxel only if the first contains the voxel's centre. For an object that is not
+convex, the result is the convex object around it.
 """
 
 from __future__ import annotations
@@ -19,22 +20,24 @@ Places = NDArray[np.int64]
 
 
 def reconstructed(encoding: Economical, of: Of = VERTICES, source: str = "reconstruction") -> Volume:
-    """The digital object whose hull is encoded.
+    """Return the digital object whose hull is encoded.
 
-    of: what the hull is of, ``centres`` or ``vertices``.  Raises CellListError for an encoding that is no convex
-    polyhedron, VolumeError for one too large, or for a hull of vertices in which no voxel fits.
+    ``of`` is ``centres`` or ``vertices``, the points whose hull is encoded. Raise CellListError for an encoding that is
+    not a convex polyhedron, VolumeError for one that is too large, or for a hull of vertices that contains no voxel.
     """
     if of not in (CENTRES, VERTICES):
         raise ValueError(f"the hull is of {CENTRES} or {VERTICES}, not {of!r}")
-    side = 1 if of == VERTICES else 0
+    extra = 1 if of == VERTICES else 0
     columns = list(zip(*encoding.points, strict=True))
     low = tuple(min(column) for column in columns)
-    sizes = [max(column) - least + 1 - side for column, least in zip(columns, low, strict=True)]
+    sizes = [max(column) - least + 1 - extra for column, least in zip(columns, low, strict=True)]
     if min(sizes) < 1 or np.prod(sizes, dtype=object) > MAX_CELLS:
-        raise VolumeError(f"{source}: a box of {' x '.join(map(str, sizes))} voxels is not made")
-    # Of a voxel's corners the one farthest along the normal decides.
+        raise VolumeError(
+            f"{source}: a box of {' x '.join(map(str, sizes))} voxels is empty or has more than {MAX_CELLS}"
+        )
+    # All corners of a voxel are inside of a plane if the corner farthest along the normal is.
     planes = [
-        (a, b, c, d + a * low[0] + b * low[1] + c * low[2] + side * (max(a, 0) + max(b, 0) + max(c, 0)))
+        (a, b, c, d + a * low[0] + b * low[1] + c * low[2] + extra * (max(a, 0) + max(b, 0) + max(c, 0)))
         for a, b, c, d in expanded(encoding).planes()
     ]
     first, last = _intervals(planes, sizes)
@@ -46,21 +49,23 @@ def reconstructed(encoding: Economical, of: Of = VERTICES, source: str = "recons
 
 
 def _intervals(planes: list[Plane], sizes: list[int]) -> tuple[Places, Places]:
-    """The first and last z within all planes over every (x, y) of the box; an empty column has first > last.
+    """Return the first and last z within all planes for every (x, y) of the box. An empty column has first > last.
 
-    A normal's component is at most twice the product of two sides of the box, so no term of a plane's value exceeds
-    twice ``MAX_CELLS``: 64 bits hold all values.
+    A component of a normal is at most twice the product of two sides of the box, so no term of a plane's value exceeds
+    twice ``MAX_CELLS``, and all values fit 64 bits.
     """
     x = np.arange(sizes[0], dtype=np.int64)[:, None]
     y = np.arange(sizes[1], dtype=np.int64)[None, :]
     first = np.zeros((sizes[0], sizes[1]), dtype=np.int64)
     last = np.full((sizes[0], sizes[1]), sizes[2] - 1, dtype=np.int64)
     for a, b, c, d in planes:
-        rest = -(a * x + b * y + d)
+        # a x + b y + c z + d <= 0 is c z <= bound: an upper or a lower limit of z, rounded inwards, or for an
+        # upright plane a condition on the whole column.
+        bound = -(a * x + b * y + d)
         if c > 0:
-            np.minimum(last, rest // c, out=last)
+            np.minimum(last, bound // c, out=last)
         elif c < 0:
-            np.maximum(first, -(rest // -c), out=first)
+            np.maximum(first, -(bound // -c), out=first)
         else:
-            last[rest < 0] = -1
+            last[bound < 0] = -1
     return first, last

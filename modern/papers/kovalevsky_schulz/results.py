@@ -1,8 +1,9 @@
-"""The paper's published results, computed: what ``transcripts/kovalevsky_schulz`` is compared with.
+"""The computed lines of every published result of the paper.
 
-The bodies are not defined in the paper; these definitions are the ones that give its numbers.  The ball of diameter 32
-is centred on a voxel, Table 5's half-balls on a corner of voxels; hulls are of voxels' corners; the tables and the 1404
-triangles need 6 neighbours and coplanar faces counted as invisible, though the text decides for 26 and for visible.
+The paper does not define its bodies. The definitions here are those that reproduce its numbers. The ball of diameter 32
+is centred on a voxel, and the half-balls of Table 5 are centred on a corner of voxels. All hulls are hulls of the
+voxels' corners. The tables and the 1404 triangles need 6 neighbours and coplanar faces treated as invisible, although
+the text prefers 26 neighbours and visible faces.
 """
 
 from __future__ import annotations
@@ -26,18 +27,18 @@ from modern.papers.kovalevsky_schulz.tables import (
 )
 
 TETRAHEDRON = ((0, 0, 0), (0, 1, 0), (1, 0, 0), (0, 0, 1))
-"""Four points that stand to each other as those of Fig. 4: point 4 lies behind 1, 2, 3 counterclockwise."""
+"""Four points in the arrangement of Fig. 4: points 1, 2, 3 run counterclockwise, and point 4 is behind them."""
 
 
 def produced(printed: Lines) -> Lines:
-    """The lines of every result that can be computed, by its id."""
-    found: dict[str, Sequence[str]] = {}
-    found.update(_ball(32))
-    found.update(_tetrahedron())
-    found["formula-5"] = [f"{_decimal(triangulation_size(1), 1)} integers for each triangle"]
-    found.update(_future_car(printed["future-car"][0], printed["table4-hull"][0]))
-    found.update((name, [_table_5_row(rows[0])]) for name, rows in printed.items() if name.startswith("table5-"))
-    return found
+    """Compute the lines of every published result that can be computed, by its id in ``results.toml``."""
+    lines: dict[str, Sequence[str]] = {}
+    lines.update(_ball(32))
+    lines.update(_tetrahedron())
+    lines["formula-5"] = [f"{_decimal(triangulation_size(1), 1)} integers for each triangle"]
+    lines.update(_future_car(printed["future-car"][0], printed["table4-hull"][0]))
+    lines.update((name, [_table_5_row(rows[0])]) for name, rows in printed.items() if name.startswith("table5-"))
+    return lines
 
 
 def _ball(diameter: int) -> Iterator[tuple[str, Sequence[str]]]:
@@ -58,7 +59,7 @@ def _tetrahedron() -> Iterator[tuple[str, Sequence[str]]]:
 
 
 def _future_car(surface: str, hull: str) -> Iterator[tuple[str, Sequence[str]]]:
-    """Table 4 from the three counts that the paper gives of a body it does not define."""
+    """Compute Table 4 from the three counts that the paper prints for a body shown in a picture only."""
     voxel_faces = int(surface.split()[-2])
     triangles = cube_triangles(voxel_faces)
     size = _decimal(triangulation_size(triangles), 0)
@@ -68,17 +69,18 @@ def _future_car(surface: str, hull: str) -> Iterator[tuple[str, Sequence[str]]]:
 
 
 def _table_5_row(printed: str) -> str:
-    """A row of Table 5; diameter and number of Marching Cubes triangles are taken from the print."""
+    """Compute a row of Table 5. The diameter and the number of Marching Cubes triangles come from the print."""
+    # The digitisation behind the numbers of triangles is not stated, so they cannot be computed.
     diameter, triangles = map(int, printed.split()[:2])
     size = triangulation_size(triangles)
     cells = voxel_hull(half_ball(diameter), neighbours=6, coplanar=INVISIBLE).polyhedron.faces
     integers = cell_list_size(len(cells.vertices), len(cells.faces))
-    each = _decimal(Fraction(integers, len(cells.faces)), 2)
-    left = f"{diameter} {triangles} {_decimal(size, 0)} {_decimal(size / triangles, 1)}"
-    return f"{left} {len(cells.faces)} {integers} {each}"
+    per_face = _decimal(Fraction(integers, len(cells.faces)), 2)
+    triangulation = f"{diameter} {triangles} {_decimal(size, 0)} {_decimal(size / triangles, 1)}"
+    return f"{triangulation} {len(cells.faces)} {integers} {per_face}"
 
 
-def _decimal(number: Fraction, places: int) -> str:
-    """A positive fraction with so many decimals, rounded half up."""
+def _decimal(number: Fraction, decimals: int) -> str:
+    """Format a positive fraction with the given number of decimals, rounded half up."""
     exact = Decimal(number.numerator) / Decimal(number.denominator)
-    return str(exact.quantize(Decimal(1).scaleb(-places), ROUND_HALF_UP))
+    return str(exact.quantize(Decimal(1).scaleb(-decimals), ROUND_HALF_UP))

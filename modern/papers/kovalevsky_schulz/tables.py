@@ -1,6 +1,7 @@
-"""The cell list as the paper prints it: Tables 1, 2 and 3, a row each, columns apart by tabs.
+"""The cell list as the paper prints it, and the size of encodings.
 
-And what it costs: how many integers an encoding of a surface needs, by the paper's formulas and as counted (section 4).
+Tables 1, 2 and 3 are lines of cells separated by tabs. The number of integers that an encoding of a surface needs is
+computed by the paper's formulas of section 4 and counted exactly.
 """
 
 from __future__ import annotations
@@ -16,30 +17,33 @@ FACE_HEADING = "Face\tn\tPairs (P, L)"
 
 
 def coordinates(_: int, point: IntPoint) -> str:
-    """The coordinates of a vertex as they are; Table 1 has symbols in their place."""
+    """Format the coordinates of a vertex."""
     return str(point)
 
 
-def vertex_rows(cells: CellList, shown: Callable[[int, IntPoint], str] = coordinates) -> Iterator[str]:
-    """Table 1; ``shown``: what stands for the coordinates of a vertex, given its number and point."""
+def vertex_rows(cells: CellList, label: Callable[[int, IntPoint], str] = coordinates) -> Iterator[str]:
+    """Yield the rows of Table 1.
+
+    ``label`` formats the coordinates of a vertex from its number and point. The paper's Table 1 prints symbols.
+    """
     for number, vertex in enumerate(cells.vertices, 1):
-        yield f"{number}\t{shown(number, vertex.point)}\t{_listed(vertex.edges)}"
+        yield f"{number}\t{label(number, vertex.point)}\t{_listed(vertex.edges)}"
 
 
 def edge_rows(cells: CellList) -> Iterator[str]:
-    """Table 2."""
+    """Yield the rows of Table 2."""
     for number, edge in enumerate(cells.edges, 1):
         yield f"{number}\t{edge.start}\t{edge.end}\t{edge.left}\t{edge.right}"
 
 
 def face_rows(cells: CellList) -> Iterator[str]:
-    """Table 3."""
+    """Yield the rows of Table 3."""
     for number, face in enumerate(cells.faces, 1):
         yield f"{number}\t{len(face.pairs)}\t{_listed(face.pairs)}"
 
 
 def all_rows(cells: CellList) -> Iterator[str]:
-    """The three tables with their headings."""
+    """Yield the three tables with their headings."""
     yield VERTEX_HEADING
     yield from vertex_rows(cells)
     yield EDGE_HEADING
@@ -53,23 +57,23 @@ def _listed(items: Iterable[object]) -> str:
 
 
 def triangulation_size(triangles: int) -> Fraction:
-    """Formula (5): 3 NV + 3 NT = (3/2 + 3) NT, with half as many vertices as triangles."""
+    """Return formula (5): 3 NV + 3 NT = (3/2 + 3) NT, with half as many vertices as triangles."""
     return (Fraction(3, 2) + 3) * triangles
 
 
 def cell_list_size(vertices: int, faces: int) -> int:
-    """Formula (6): 3 NV + 5 NF, with five vertices a face; Table 5 is computed by it."""
+    """Return formula (6): 3 NV + 5 NF, which assumes five vertices per face. Table 5 uses it."""
     return 3 * vertices + 5 * faces
 
 
 def economical_size(cells: CellList) -> int:
-    """What formula (6) estimates: three coordinates a vertex, and the vertices of every face as they are."""
+    """Return the number that formula (6) estimates: three coordinates per vertex and the vertices of all faces."""
     return 3 * len(cells.vertices) + sum(len(face.pairs) for face in cells.faces)
 
 
 def cube_triangles(voxel_faces: int) -> int:
-    """Triangles of Marching Cubes on a voxel object whose surface is a sphere of ``voxel_faces`` squares.
+    """Return the number of Marching Cubes triangles of a voxel object whose surface is a sphere of squares.
 
-    Every square holds one vertex of the triangulation, and Euler's formula gives 2 V - 4 triangles.
+    Every square contains one vertex of the triangulation, and Euler's formula gives 2 V - 4 triangles.
     """
     return 2 * voxel_faces - 4

@@ -1,4 +1,4 @@
-"""The cell list: its conventions (Tables 1 to 3), merging, and the economical encoding there and back."""
+"""The cell list: its conventions (Tables 1 to 3), merging, and the conversion to and from the economical encoding."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from unittest.mock import patch
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from modern.digital.volumes import ball, half_ball
@@ -40,14 +40,14 @@ CUBE = Economical(
 
 
 def states(points: list[tuple[int, int, int]], coplanar: str) -> list[CellList]:
-    """The cell list with triangles, merged, and straightened; none for points in one plane."""
+    """Return the cell list of triangles, the merged and the straightened one, or none for points in one plane."""
     cells = convex_polyhedron(points, coplanar)
     return [] if isinstance(cells, Flat) else [cells, merged(cells), straightened(merged(cells))]
 
 
+@settings(max_examples=50)
 @given(POINTS, COPLANAR)
-def test_the_lists_say_the_same(points: list[tuple[int, int, int]], coplanar: str) -> None:
-    """Each of the three sublists, as the paper words them, from the others."""
+def test_the_three_sublists_agree(points: list[tuple[int, int, int]], coplanar: str) -> None:
     for cells in states(points, coplanar):
         around: list[list[int]] = [[] for _ in cells.vertices]
         for number, edge in enumerate(cells.edges, 1):
@@ -65,14 +65,15 @@ def test_the_lists_say_the_same(points: list[tuple[int, int, int]], coplanar: st
         assert len(cells.vertices) - len(cells.edges) + len(cells.faces) == 2
 
 
+@settings(max_examples=50)
 @given(POINTS, COPLANAR)
-def test_merging_leaves_maximal_faces_and_straightening_corners(
+def test_merging_gives_maximal_faces_and_straightening_removes_vertices_in_line(
     points: list[tuple[int, int, int]], coplanar: str
 ) -> None:
-    found = states(points, coplanar)
-    if not found:
+    lists = states(points, coplanar)
+    if not lists:
         return
-    triangles, faces, straight = found
+    triangles, faces, straight = lists
     assert set(triangles.planes()) == set(faces.planes()) == set(straight.planes())
     assert max(Counter(faces.planes()).values()) == 1
     assert len(straight.edges) == len(straight.vertices) + len(straight.faces) - 2
@@ -91,8 +92,9 @@ def test_merging_keeps_a_vertex_on_an_edge_and_drops_one_within_a_face() -> None
     assert set(straightened(merged(cells)).points) == set(square)
 
 
+@settings(max_examples=50)
 @given(POINTS, COPLANAR)
-def test_the_economical_encoding_there_and_back(points: list[tuple[int, int, int]], coplanar: str) -> None:
+def test_the_economical_encoding_preserves_the_cell_list(points: list[tuple[int, int, int]], coplanar: str) -> None:
     for cells in states(points, coplanar):
         encoding = cells.economical()
         assert decoded(encoding.integers()) == encoding
@@ -100,7 +102,7 @@ def test_the_economical_encoding_there_and_back(points: list[tuple[int, int, int
         assert len(encoding.integers()) == economical_size(cells) + 2 + len(cells.faces)
 
 
-def test_a_cube_from_its_encoding() -> None:
+def test_a_cube_is_expanded_from_its_encoding() -> None:
     cells = expanded(CUBE)
     assert cells.economical() == CUBE
     assert cells.planes() == ((0, 0, -1, 0), (0, 0, 1, -2), (0, -1, 0, 0), (1, 0, 0, -2), (0, 1, 0, -2), (-1, 0, 0, 0))
@@ -116,17 +118,17 @@ def faces(*cycles: tuple[int, ...]) -> Economical:
     [
         (faces((1, 3), *CUBE.faces[1:]), "face 1: it has fewer than three vertices"),
         (faces((1, 3, 1, 2), *CUBE.faces[1:]), "face 1: it has fewer than three vertices, or one of them twice"),
-        (faces((1, 3, 4, 9), *CUBE.faces[1:]), "face 1: there is no vertex 9"),
-        (faces((0, 3, 4, 2), *CUBE.faces[1:]), "face 1: there is no vertex 0"),
+        (faces((1, 3, 4, 9), *CUBE.faces[1:]), "face 1: vertex 9 does not exist"),
+        (faces((0, 3, 4, 2), *CUBE.faces[1:]), "face 1: vertex 0 does not exist"),
         (faces(*CUBE.faces[1:]), "has a face on one side only"),
         (faces((1, 2, 4, 3), *CUBE.faces[1:]), "has a face on one side only"),
-        (replace(CUBE, points=(*CUBE.points, (1, 1, 1))), "vertex 9: no face has it"),
+        (replace(CUBE, points=(*CUBE.points, (1, 1, 1))), "vertex 9: it belongs to no face"),
         (
             Economical(
                 (*CUBE.points, *((x + 9, y, z) for x, y, z in CUBE.points)),
                 (*CUBE.faces, *(tuple(number + 8 for number in face) for face in CUBE.faces)),
             ),
-            "16 vertices, 24 edges and 12 faces make no polyhedron",
+            "16 vertices, 24 edges and 12 faces are not a polyhedron",
         ),
         (replace(CUBE, points=((0, 0, -1), *CUBE.points[1:])), "face 1: its vertices do not lie in one plane"),
         (replace(CUBE, points=((1, 1, 1), *CUBE.points[1:])), "face 1: vertex 2 lies outside of its plane"),
@@ -137,28 +139,28 @@ def faces(*cycles: tuple[int, ...]) -> Economical:
         ),
     ],
 )
-def test_what_is_no_convex_surface_is_refused(encoding: Economical, message: str) -> None:
+def test_encodings_of_no_convex_surface_are_rejected(encoding: Economical, message: str) -> None:
     with pytest.raises(CellListError) as caught:
         expanded(encoding)
     assert message in str(caught.value)
 
 
-@given(st.data())
-def test_a_row_of_numbers_that_ends_early_or_late(data: st.DataObject) -> None:
-    row = CUBE.integers()
-    with pytest.raises(CellListError, match="ends before its last face"):
-        decoded(row[: data.draw(st.integers(0, len(row) - 1))])
+def test_too_few_or_too_many_numbers_are_rejected() -> None:
+    numbers = CUBE.integers()
+    for length in range(len(numbers)):
+        with pytest.raises(CellListError, match="the numbers end before the last face"):
+            decoded(numbers[:length])
     with pytest.raises(CellListError, match="left over"):
-        decoded((*row, 1))
+        decoded((*numbers, 1))
 
 
-@pytest.mark.parametrize("row", [(-1, 0), (0, -1), (1, 1, 0, 0, 0, -3)])
-def test_a_row_with_a_count_below_zero(row: tuple[int, ...]) -> None:
+@pytest.mark.parametrize("numbers", [(-1, 0), (0, -1), (1, 1, 0, 0, 0, -3)])
+def test_negative_counts_are_rejected(numbers: tuple[int, ...]) -> None:
     with pytest.raises(CellListError):
-        expanded(decoded(row))
+        expanded(decoded(numbers))
 
 
-def test_plane_of_a_polygon_with_vertices_in_line() -> None:
+def test_planes_of_polygons_with_vertices_in_line() -> None:
     polygon = [(0, 0, 5), (2, 0, 5), (4, 0, 5), (4, 4, 5), (0, 4, 5)]
     assert planes_of(polygon, [range(1, 6), (5, 4, 2, 1)]) == [(0, 0, 1, -5), (0, 0, -1, 5)]
     with pytest.raises(CellListError, match="no area"):
@@ -173,31 +175,31 @@ def test_planes_of_large_coordinates_are_exact() -> None:
     assert d == -far * (far + 1)
 
 
-def test_a_vertex_one_unit_outside_of_a_large_hull_is_found() -> None:
-    """In floats, in 64 bits, in Python's integers; and where planes are tried block by block."""
+def test_a_vertex_one_unit_outside_of_a_large_hull_is_detected() -> None:
+    """The values are floats, 64-bit integers or Python's integers, and the planes are tested block by block."""
     for far in (2, 10**4, 10**6, 10**12):
         points = tuple((x * far // 2, y * far // 2, z * far // 2) for x, y, z in CUBE.points)
         assert expanded(replace(CUBE, points=points)).points == points
-        split = ((1, 3, 4), (1, 4, 2), *CUBE.faces[1:])
-        sunk = ((0, 0, 1), *points[1:])
+        triangles = ((1, 3, 4), (1, 4, 2), *CUBE.faces[1:])
+        lowered = ((0, 0, 1), *points[1:])
         with pytest.raises(CellListError, match="lies outside of its plane"), patch.object(cells_module, "_BLOCK", 3):
-            expanded(Economical(sunk, split))
+            expanded(Economical(lowered, triangles))
 
 
-def test_marching_cubes_makes_two_triangles_less_four_of_every_square() -> None:
-    """The relation that links the two counts of Fig. 10 and Table 4, by another program."""
+def test_marching_cubes_gives_2_n_minus_4_triangles_for_n_squares() -> None:
+    """This relation, confirmed by scikit-image, connects the two counts of Fig. 10 and Table 4."""
     measure = pytest.importorskip("skimage.measure")
     for volume in (ball(8), half_ball(8), half_ball(10)):
-        wide = np.pad(volume.array, 1)
-        squares = sum(int(np.count_nonzero(np.diff(wide, axis=axis))) for axis in range(3))
-        triangles = measure.marching_cubes(wide.astype(np.float32), 0.5, method="lorensen")[1]
+        padded = np.pad(volume.array, 1)
+        squares = sum(int(np.count_nonzero(np.diff(padded, axis=axis))) for axis in range(3))
+        triangles = measure.marching_cubes(padded.astype(np.float32), 0.5, method="lorensen")[1]
         assert len(triangles) == cube_triangles(squares)
 
 
-def test_26_neighbours_need_716_triangles_in_either_mode_and_any_order() -> None:
-    """Twice 360 vertices less four: the text's own choices do not give its 1404."""
+def test_26_neighbours_give_716_triangles_for_either_treatment_and_any_order() -> None:
+    """716 is twice the 360 vertices minus 4: the choices of the text do not give its 1404."""
     points = local_corners(ball(32), "vertices", 26)
-    for order in (points, points[::-1], points[np.random.default_rng(1963).permutation(len(points))]):
+    for order in (points, points[np.random.default_rng(1963).permutation(len(points))]):
         for coplanar in (VISIBLE, INVISIBLE):
             cells = convex_polyhedron(order, coplanar)
             assert isinstance(cells, CellList)

@@ -1,10 +1,10 @@
-"""The cell list of the hull alone, from the digital polytope, against the paper's procedure and the judge."""
+"""The cell list computed from the digital polytope, compared with the paper's procedure and with the exact hull."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
@@ -32,7 +32,7 @@ PLACES = st.sampled_from([CENTRES, VERTICES])
 NEIGHBOURS = st.sampled_from([6, 26])
 LAYER = np.indices((7, 7, 7)).sum(axis=0) == 9
 SOLIDS = [
-    *(ball(diameter, centre) for diameter in (2, 3, 9, 20, 32, 47) for centre in ("voxel", "vertex")),
+    *(ball(diameter, centre) for diameter in (2, 3, 9, 20) for centre in ("voxel", "vertex")),
     *map(half_ball, (8, 15, 22)),
     Volume(np.ones((5, 4, 3), dtype=np.bool_), (10**15, 0, -7), "box"),
     Volume(LAYER, (-2, 0, 5), "slanted layer"),
@@ -43,63 +43,65 @@ SOLIDS = [
 ]
 
 
-def same(one: CellList | Flat, other: CellList | Flat) -> bool:
-    """The same vertices in the same order, and the same faces as cycles of them; or the same flat hull."""
-    if isinstance(one, Flat) or isinstance(other, Flat):
-        return one == other
-    faces = [sorted(face.vertices for face in cells.faces) for cells in (one, other)]
-    return one.points == other.points and faces[0] == faces[1]
+def same(a: CellList | Flat, b: CellList | Flat) -> bool:
+    """Return True if both have the same vertices in the same order and the same faces, or are the same flat hull."""
+    if isinstance(a, Flat) or isinstance(b, Flat):
+        return a == b
+    faces = [sorted(face.vertices for face in cells.faces) for cells in (a, b)]
+    return a.points == b.points and faces[0] == faces[1]
 
 
-def routes(volume: Volume, of: Of, neighbours: int, coplanar: Coplanar = VISIBLE) -> tuple[CellList | Flat, ...]:
-    """The cell list without an order, and by the procedure in raster order, edges in one line merged."""
-    surfaces = [voxel_hull(volume, of, neighbours, *way).surface for way in ((), (coplanar, RASTER))]
+def direct_and_inserted(
+    volume: Volume, of: Of, neighbours: int, coplanar: Coplanar = VISIBLE
+) -> tuple[CellList | Flat, ...]:
+    """Return the cell list computed directly, and that of the procedure in raster order with straight edges merged."""
+    surfaces = [voxel_hull(volume, of, neighbours, *options).surface for options in ((), (coplanar, RASTER))]
     return tuple(surface if isinstance(surface, Flat) else surface.straight for surface in surfaces)
 
 
+@settings(max_examples=50)
 @given(VOLUMES, PLACES, NEIGHBOURS, st.sampled_from([VISIBLE, INVISIBLE]))
 def test_any_voxels_have_the_cell_list_of_the_procedure(
     array: np.ndarray, of: Of, neighbours: int, coplanar: Coplanar
 ) -> None:
-    assert same(*routes(Volume(array, (3, -8, 1)), of, neighbours, coplanar))
+    assert same(*direct_and_inserted(Volume(array, (3, -8, 1)), of, neighbours, coplanar))
 
 
+@settings(max_examples=50)
 @given(VOLUMES, PLACES, NEIGHBOURS)
 def test_in_raster_order_with_coplanar_faces_visible_no_vertex_is_in_line(
     array: np.ndarray, of: Of, neighbours: int
 ) -> None:
-    """So that merged faces are those of the hull without more ado, whichever neighbours are tested."""
+    """The merged faces are therefore those of the hull without straightening, for 6 and for 26 neighbours."""
     volume = Volume(array, (0, 0, 0))
-    surface, alone = voxel_hull(volume, of, neighbours, order=RASTER).surface, voxel_hull(volume, of).surface
-    if isinstance(surface, Flat) or isinstance(alone, Flat):
-        assert surface == alone
+    surface, direct = voxel_hull(volume, of, neighbours, order=RASTER).surface, voxel_hull(volume, of).surface
+    if isinstance(surface, Flat) or isinstance(direct, Flat):
+        assert surface == direct
     else:
-        assert same(surface.faces, alone.faces)
+        assert same(surface.faces, direct.faces)
         assert len(surface.triangles.faces) == 2 * len(surface.faces.vertices) - 4
 
 
 @pytest.mark.parametrize("of", [CENTRES, VERTICES])
 @pytest.mark.parametrize("volume", SOLIDS, ids=lambda v: v.source)
-def test_named_solids(volume: Volume, of: Of) -> None:
+def test_named_solids_have_the_cell_list_of_the_procedure(volume: Volume, of: Of) -> None:
     for neighbours in (6, 26):
-        assert same(*routes(volume, of, neighbours))
+        assert same(*direct_and_inserted(volume, of, neighbours))
     shuffled = voxel_hull(volume, of, order=SHUFFLED)
     if not isinstance(shuffled.surface, Flat):
-        straight, alone = shuffled.surface.straight, voxel_hull(volume, of).polyhedron.faces
-        assert sorted(straight.points) == sorted(alone.points)  # numbered as inserted
-        assert set(straight.planes()) == set(alone.planes())
+        straight, direct = shuffled.surface.straight, voxel_hull(volume, of).polyhedron.faces
+        assert sorted(straight.points) == sorted(direct.points)  # numbered in the order of insertion
+        assert set(straight.planes()) == set(direct.planes())
         assert shuffled.measures() == voxel_hull(volume, of).measures()
 
 
-def test_the_comparison_can_fail() -> None:
-    one, other = (voxel_hull(ball(diameter)).polyhedron.faces for diameter in (8, 9))
-    assert not same(one, other)
-    less = hull_cells(voxel_hull(ball(9)).inserted[1:])
-    assert not same(other, less)
+def test_without_its_first_local_corner_a_ball_has_another_cell_list() -> None:
+    hull = voxel_hull(ball(9))
+    assert not same(hull.polyhedron.faces, hull_cells(hull.inserted[1:]))
 
 
 @pytest.mark.parametrize("volume", [ball(12), half_ball(9)], ids=lambda v: v.source)
-def test_faces_are_in_the_order_of_their_vertices_and_all_of_the_judge(volume: Volume) -> None:
+def test_faces_are_sorted_and_those_of_the_exact_hull(volume: Volume) -> None:
     hull = voxel_hull(volume)
     cells, judge = hull.polyhedron.faces, exact_hull(hull.inserted)
     assert [face.vertices for face in cells.faces] == sorted(face.vertices for face in cells.faces)
@@ -111,8 +113,8 @@ def test_faces_are_in_the_order_of_their_vertices_and_all_of_the_judge(volume: V
 
 def test_without_an_order_there_are_no_triangles() -> None:
     hull = voxel_hull(half_ball(8))
-    assert (hull.order, hull.polyhedron.made) == (None, None)
-    with pytest.raises(VolumeError, match="state an order, such as raster"):
+    assert (hull.order, hull.polyhedron.triangulation) == (None, None)
+    with pytest.raises(VolumeError, match="choose an order, such as raster"):
         _ = hull.polyhedron.triangles
     for choice in ({"order": RASTER}, {"coplanar": VISIBLE}):
         inserted = voxel_hull(half_ball(8), **choice)  # type: ignore[arg-type]

@@ -1,8 +1,7 @@
-"""What Kovalevsky and Schulz publish, against what is computed; and the command that prints it."""
+"""Every published result of Kovalevsky and Schulz compared with the computed one, and the command voxel-hull."""
 
 from __future__ import annotations
 
-from importlib.resources import files
 from pathlib import Path
 
 import numpy as np
@@ -37,12 +36,12 @@ KINDS = {
 }
 
 
-def test_every_verdict() -> None:
+def test_every_result_has_its_verdict() -> None:
     assert {finding.result.id: finding.kind for finding in findings(PAPER)} == KINDS
 
 
 @pytest.mark.parametrize("row", [row.id for row in text_of(PAPER).rows])
-def test_without_a_row_of_the_apparatus_a_result_differs(row: str) -> None:
+def test_every_emendation_is_needed(row: str) -> None:
     corrected = {line.id: line.text for line in build(text_of(PAPER), without=(row,))}
     lines = produced_by(PAPER)
     changed = [
@@ -55,42 +54,35 @@ def test_without_a_row_of_the_apparatus_a_result_differs(row: str) -> None:
     assert changed
 
 
-def test_a_number_changed_is_found() -> None:
+def test_a_changed_number_is_detected() -> None:
     lines = produced_by(PAPER)
     for result in results_of(PAPER):
         if KINDS[result.id] in (EXACT, CORRECTED):
-            words = lines[result.id][-1].split()
-            place = next(place for place, word in enumerate(words) if any(c.isdigit() for c in word))
-            words[place] += "1"
-            assert judge(PAPER, result, [*lines[result.id][:-1], " ".join(words)]).kind == DIFFERENT
+            tokens = lines[result.id][-1].split()
+            position = next(k for k, token in enumerate(tokens) if any(c.isdigit() for c in token))
+            tokens[position] += "1"
+            assert judge(PAPER, result, [*lines[result.id][:-1], " ".join(tokens)]).kind == DIFFERENT
 
 
-def test_the_printed_values_are_in_the_print() -> None:
-    """The witness holds 33 lines of values and no prose."""
-    witness = files("transcripts").joinpath(PAPER.folder, "witness.txt").read_text(encoding="utf-8")
-    assert len(witness.splitlines()) == 33
-    assert max(map(len, witness.splitlines())) < 60
-
-
-def test_table_5_the_vertices_each_row_implies() -> None:
-    """By formula (6) every row but the first has our vertices, that for diameter 12 too."""
+def test_the_rows_of_table_5_imply_our_vertices_except_for_diameter_8() -> None:
+    """Formula (6) gives the number of vertices from the printed faces and integers."""
     lines = produced_by(PAPER)
     for result in results_of(PAPER):
         if not result.id.startswith("table5-"):
             continue
         faces, integers = map(int, result.corrected[0].split()[4:6])
-        ours_faces, ours = map(int, lines[result.id][0].split()[4:6])
+        our_faces, our_integers = map(int, lines[result.id][0].split()[4:6])
         assert (integers - 5 * faces) % 3 == 0
-        same = (integers - 5 * faces) == (ours - 5 * ours_faces)
+        same = (integers - 5 * faces) == (our_integers - 5 * our_faces)
         assert same == (result.id != "table5-8")
 
 
-def test_table_5_no_half_ball_has_the_printed_triangles() -> None:
-    """Marching Cubes makes 2 N - 4 triangles of N squares; the reason given lists these numbers."""
+def test_no_half_ball_has_the_triangles_printed_in_table_5() -> None:
+    """Marching Cubes gives 2 N - 4 triangles for N squares. The stated reason lists these numbers."""
     reason = next(result.cannot for result in results_of(PAPER) if result.id == "triangulations")
     for diameter in range(8, 23, 2):
-        wide = np.pad(half_ball(diameter).array, 1)
-        squares = sum(int(np.count_nonzero(np.diff(wide, axis=axis))) for axis in range(3))
+        padded = np.pad(half_ball(diameter).array, 1)
+        squares = sum(int(np.count_nonzero(np.diff(padded, axis=axis))) for axis in range(3))
         printed = next(r for r in results_of(PAPER) if r.id == f"table5-{diameter}").corrected[0].split()[1]
         assert str(2 * squares - 4) in reason.replace(",", "").split()
         assert int(printed) != 2 * squares - 4
@@ -99,10 +91,10 @@ def test_table_5_no_half_ball_has_the_printed_triangles() -> None:
 def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
     try:
         code = main(["voxel-hull", *arguments])
-    except SystemExit as end:
-        code = int(end.code or 0)
-    said = capsys.readouterr()
-    return code, said.out, said.err
+    except SystemExit as stop:
+        code = int(stop.code or 0)
+    captured = capsys.readouterr()
+    return code, captured.out, captured.err
 
 
 @pytest.fixture(autouse=True)
@@ -119,36 +111,35 @@ WAYS = (
 )
 
 
-def test_the_command_prints_what_the_paper_prints(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_prints_the_numbers_of_the_paper(capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = run(capsys, "ball:32", "--corners", "6", "--coplanar", "invisible", "-o", "ball.off")
     assert (code, err) == (0, "coordinates: indices, voxel (x, y, z) from (x, y, z) to (x+1, y+1, z+1)\n")
     for number in ("17077", "776", "360", "1404", "266"):
         assert number in out.replace(",", "").split()
-    found = parse_off(Path("ball.off").read_text(encoding="utf-8"), "ball.off")
-    assert len(found.faces) == 266
+    mesh = parse_off(Path("ball.off").read_text(encoding="utf-8"), "ball.off")
+    assert len(mesh.faces) == 266
     code, out, err = run(capsys, "ball:32", "--centres")
     assert "260 faces, 342 vertices, 600 edges" in out
 
 
-def test_triangles_are_counted_where_an_order_is_asked_for(capsys: pytest.CaptureFixture[str]) -> None:
-    """Without one, nothing is said of triangles; all else is the same."""
-    said = {words: run(capsys, "ball:32", *words.split())[1].splitlines() for words in WAYS}
-    assert said[""][2:4] == [
+def test_triangles_are_reported_only_if_an_order_is_requested(capsys: pytest.CaptureFixture[str]) -> None:
+    output = {options: run(capsys, "ball:32", *options.split())[1].splitlines() for options in WAYS}
+    assert output[""][2:4] == [
         "hull of 360 local corners: 266 faces, 360 vertices, 624 edges",
         "integers to save: 2410 for the cell list by (6), 2328 counted",
     ]
-    assert said["--order raster"][2:5] == [
+    assert output["--order raster"][2:5] == [
         "inserted: 360 local corners; 716 triangles",
         "merged: 266 faces, 360 vertices, 624 edges",
         "integers to save: 3222 for the triangles by (5), 2410 for the cell list by (6), 2328 counted",
     ]
-    assert said["--coplanar visible"] == said["--order raster"]
-    assert said["--order shuffled"][2] == "inserted: 360 local corners, shuffled; 716 triangles"
-    assert "1404 triangles" not in said["--corners 6 --order shuffled --coplanar invisible"][2]
-    assert {tuple(lines[:2] + lines[-4:]) for lines in said.values()} == {tuple(said[""][:2] + said[""][-4:])}
+    assert output["--coplanar visible"] == output["--order raster"]
+    assert output["--order shuffled"][2] == "inserted: 360 local corners, shuffled; 716 triangles"
+    assert "1404 triangles" not in output["--corners 6 --order shuffled --coplanar invisible"][2]
+    assert {tuple(lines[:2] + lines[-4:]) for lines in output.values()} == {tuple(output[""][:2] + output[""][-4:])}
 
 
-def test_straight_edges_are_merged_where_asked(capsys: pytest.CaptureFixture[str]) -> None:
+def test_straight_merges_edges_in_one_line(capsys: pytest.CaptureFixture[str]) -> None:
     options = ("half-ball:8", "--corners", "6", "--coplanar", "invisible", "-o")
     run(capsys, *options, "kept.off")
     run(capsys, *options, "straight.off", "--straight")
@@ -170,18 +161,18 @@ def test_cells_are_printed_as_tables(capsys: pytest.CaptureFixture[str]) -> None
 
 
 @pytest.mark.parametrize(
-    ("voxels", "says", "off"),
+    ("voxels", "message", "off"),
     [
         ("5,5,5\n", "flat: the hull is a point and has no cell list", "1 0 0"),
         ("0,0,0\n1,1,1\n", "flat: the hull is a segment and has no cell list", "2 0 1"),
         ("0,0,0\n1,0,0\n1,1,0\n0,1,0\n", "flat: the hull is a polygon of 4 vertices and has no cell list", "4 1 4"),
     ],
 )
-def test_flat_solids(capsys: pytest.CaptureFixture[str], voxels: str, says: str, off: str) -> None:
+def test_flat_hulls_are_reported(capsys: pytest.CaptureFixture[str], voxels: str, message: str, off: str) -> None:
     Path("flat.csv").write_text(voxels, encoding="utf-8")
     code, out, _ = run(capsys, "flat.csv", "--centres", "-o", "flat.off")
     assert code == 0
-    assert says in out
+    assert message in out
     assert Path("flat.off").read_text(encoding="utf-8").splitlines()[1] == off
 
 
@@ -208,12 +199,10 @@ def test_fill_writes_the_filled_hull(capsys: pytest.CaptureFixture[str]) -> None
         (("ball:8", "--fill", "--order", "raster"), "--order is not for it"),
         (("ball:8", "--shape", "2,2,x"), "--shape: '2,2,x' is not NX,NY,NZ"),
         (("ball:8", "--centres", "--vertices"), "not allowed with argument"),
-        (("flat.npy",), "flat.npy: a picture of two dimensions"),
+        (("flat.npy",), "flat.npy: expected a volume of three dimensions, found two"),
     ],
 )
-def test_bad_calls_end_with_one_line(
-    capsys: pytest.CaptureFixture[str], arguments: tuple[str, ...], message: str
-) -> None:
+def test_an_error_is_one_line(capsys: pytest.CaptureFixture[str], arguments: tuple[str, ...], message: str) -> None:
     np.save("flat.npy", np.ones((3, 3), dtype=np.uint8))
     code, _, err = run(capsys, *arguments)
     assert code == 2
