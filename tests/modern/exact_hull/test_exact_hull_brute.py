@@ -1,4 +1,4 @@
-"""The exact hull against a judge that tries every triple of points, on sets of a tiny grid (degenerate throughout)."""
+"""Compare the exact hull with one that tries every triple of points, on highly degenerate sets of a small grid."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ def cross(u, v):
 
 
 def dot(u, v):
-    return sum(a * b for a, b in zip(u, v, strict=True))
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 
 
 def sub(p, q):
-    return tuple(a - b for a, b in zip(p, q, strict=True))
+    return (p[0] - q[0], p[1] - q[1], p[2] - q[2])
 
 
 def reduced(normal, point) -> Plane:
@@ -38,13 +38,16 @@ def from_smallest(cycle):
 
 
 def outline(members: list[int], points: list[Point], normal) -> list[int]:
-    """The corners of points in a plane: a is followed by b if all others are left of a-b or between a and b."""
+    """The corners of coplanar points: a is followed by b if all others are left of a-b or between a and b."""
     following = {}
     for a, b in itertools.permutations(members, 2):
         along = sub(points[b], points[a])
+        # The points to the left of a-b have a positive product with this vector.
+        leftward = cross(normal, along)
         for c in members:
-            side = dot(cross(along, sub(points[c], points[a])), normal)
-            if side < 0 or (side == 0 and not 0 <= dot(sub(points[c], points[a]), along) <= dot(along, along)):
+            offset = sub(points[c], points[a])
+            side = dot(leftward, offset)
+            if side < 0 or (side == 0 and not 0 <= dot(offset, along) <= dot(along, along)):
                 break
         else:
             assert a not in following
@@ -57,7 +60,7 @@ def outline(members: list[int], points: list[Point], normal) -> list[int]:
 
 
 def brute(points: list[Point]) -> Summary:
-    """Dimension, vertices, boundary, inside and facets of distinct points, by trying all triples."""
+    """Return dimension, vertices, boundary, inside and facets of distinct points, by trying all triples."""
     everyone = set(range(len(points)))
     if len(points) == 1:
         return 0, {0}, set(), set(), {}
@@ -87,11 +90,14 @@ def brute(points: list[Point]) -> Summary:
         return 2, set(cycle), edge_points - set(cycle), everyone - edge_points, facets
     facets, outer = {}, set()
     for start, normal in triples:
-        heights = [dot(normal, sub(point, points[start])) for point in points]
+        level = dot(normal, points[start])
+        heights = [dot(normal, point) - level for point in points]
+        if max(heights) > 0 > min(heights):
+            continue
         if max(heights) > 0:
             normal, heights = tuple(-number for number in normal), [-height for height in heights]
         plane = reduced(normal, points[start])
-        if max(heights) > 0 or plane in facets:
+        if plane in facets:
             continue
         members = [p for p in everyone if heights[p] == 0]
         facets[plane] = from_smallest(outline(members, points, normal))
@@ -106,12 +112,16 @@ def summary(hull: ExactHull) -> Summary:
     return hull.dimension, set(hull.vertices), set(hull.boundary), set(hull.inside), facets
 
 
-def compare(points: list[Point], rng: random.Random, orders: int = 1) -> None:
+def compare(points: list[Point], rng: random.Random, orders: int = 1) -> int:
+    """Compare both hulls of shuffled points, and return how many signs needed integers."""
+    in_integers = 0
     for _ in range(orders):
         rng.shuffle(points)
         hull = exact_hull(points)
         assert summary(hull) == brute(points), points
         assert hull.duplicates == ()
+        in_integers += hull.certificate.in_integers
+    return in_integers
 
 
 def grid(*sizes: int) -> list[Point]:
@@ -119,20 +129,20 @@ def grid(*sizes: int) -> list[Point]:
 
 
 def symmetries(points: list[Point]) -> list[list[int]]:
-    """The symmetries of a grid as permutations of its places."""
-    place = {point: index for index, point in enumerate(points)}
+    """Return the symmetries of a grid as permutations of the indices of its points."""
+    indices = {point: index for index, point in enumerate(points)}
     top = tuple(map(max, zip(*points, strict=True)))
-    found = []
+    permutations = []
     for axes in itertools.permutations(range(3)):
         for flips in itertools.product((False, True), repeat=3):
             images = [tuple(top[k] - p[axes[k]] if flips[k] else p[axes[k]] for k in range(3)) for p in points]
-            if all(image in place for image in images):
-                found.append([place[image] for image in images])
-    return found
+            if all(image in indices for image in images):
+                permutations.append([indices[image] for image in images])
+    return permutations
 
 
 def classes(points: list[Point], sizes: range):
-    """One set of every class of subsets under the grid's symmetries."""
+    """Yield one set of every class of subsets under the symmetries of the grid."""
     maps = symmetries(points)
     for size in sizes:
         for chosen in itertools.combinations(range(len(points)), size):
@@ -141,7 +151,7 @@ def classes(points: list[Point], sizes: range):
 
 
 def orbits(points: list[Point], size: int) -> int:
-    """How many classes of subsets there are, by Burnside's lemma: a check that ``classes`` leaves none out."""
+    """Return the number of classes of subsets by Burnside's lemma, to check that ``classes`` omits none."""
     maps = symmetries(points)
     total = 0
     for image in maps:
@@ -159,7 +169,7 @@ def orbits(points: list[Point], size: int) -> int:
     return total // len(maps)
 
 
-def test_the_judge_knows_the_cube() -> None:
+def test_trying_all_triples_finds_the_faces_of_a_cube() -> None:
     points = grid(3, 3, 3)
     dimension, vertices, boundary, inside, facets = brute(points)
     assert (dimension, len(vertices), len(boundary), inside, len(facets)) == (3, 8, 18, {13}, 6)
@@ -167,28 +177,28 @@ def test_the_judge_knows_the_cube() -> None:
     assert facets[(0, 0, -1, 0)] == (0, 6, 24, 18)
 
 
-def test_symmetries_of_the_cube() -> None:
+def test_grids_have_the_known_number_of_symmetries() -> None:
     assert len(symmetries(grid(3, 3, 3))) == 48
     assert len(symmetries(grid(2, 2, 3))) == 16
 
 
 @pytest.mark.parametrize("size", [1, 2, 3, 4, 5])
-def test_every_small_set_of_the_3_3_3_grid(size: int) -> None:
+def test_every_small_set_of_the_3_3_3_grid_has_the_hull_of_all_triples(size: int) -> None:
     rng = random.Random(size)
-    found = 0
+    count = 0
     for points in classes(grid(3, 3, 3), range(size, size + 1)):
-        found += 1
-        compare(points, rng, 2)
-    assert found == orbits(grid(3, 3, 3), size)
-
-
-def test_every_set_of_the_2_2_3_grid() -> None:
-    rng = random.Random(223)
-    found = 0
-    for points in classes(grid(2, 2, 3), range(1, 13)):
-        found += 1
+        count += 1
         compare(points, rng)
-    assert found == sum(orbits(grid(2, 2, 3), size) for size in range(1, 13))
+    assert count == orbits(grid(3, 3, 3), size)
+
+
+def test_every_set_of_the_2_2_3_grid_has_the_hull_of_all_triples() -> None:
+    rng = random.Random(223)
+    count = 0
+    for points in classes(grid(2, 2, 3), range(1, 13)):
+        count += 1
+        compare(points, rng)
+    assert count == sum(orbits(grid(2, 2, 3), size) for size in range(1, 13))
 
 
 def test_every_set_of_the_3_3_square_in_a_skew_plane() -> None:
@@ -205,45 +215,44 @@ def test_every_set_of_six_points_in_a_line() -> None:
         compare([point for index, point in enumerate(line) if bits >> index & 1], rng, 2)
 
 
-@pytest.mark.parametrize("seed", range(4))
-def test_random_sets_of_the_3_3_3_grid(seed: int) -> None:
+@pytest.mark.parametrize("seed", range(2))
+def test_random_sets_of_the_3_3_3_grid_have_the_hull_of_all_triples(seed: int) -> None:
     rng = random.Random(seed)
     points = grid(3, 3, 3)
-    for _ in range(400):
+    for _ in range(300):
         compare(rng.sample(points, rng.randint(5, 14)), rng)
-    for _ in range(15):
+    for _ in range(10):
         compare(rng.sample(points, rng.randint(15, 27)), rng)
 
 
-def test_random_sets_of_wider_grids() -> None:
+def test_random_sets_of_wider_grids_have_the_hull_of_all_triples() -> None:
     rng = random.Random(5)
-    for _ in range(300):
+    for _ in range(200):
         side = rng.choice((4, 5, 9))
         compare(list({tuple(rng.randrange(side) for _ in range(3)) for _ in range(rng.randint(4, 14))}), rng)
 
 
 @pytest.mark.parametrize("digits", [8, 15, 30])
-def test_grids_under_a_skew_map_with_many_digits(digits: int) -> None:
-    """Faces with many points in planes no float64 can hold; every sign near 0 needs the integers."""
+def test_grids_under_a_skew_map_need_integers(digits: int) -> None:
+    """Faces have many points in planes that float64 cannot represent, so every sign near 0 needs integers."""
     rng = random.Random(digits)
     in_integers = 0
-    for _ in range(100):
+    for _ in range(60):
         rows = [[rng.randrange(-(10**digits), 10**digits) for _ in range(3)] for _ in range(3)]
         points = [tuple(dot(row, p) for row in rows) for p in rng.sample(grid(3, 3, 3), rng.randint(5, 14))]
         if len(set(points)) == len(points):
-            compare(points, rng)
-            in_integers += exact_hull(points).certificate.in_integers
+            in_integers += compare(points, rng)
     assert in_integers > 1000
 
 
 @pytest.mark.parametrize("square", [1, 2, 3, 5, 9])
-def test_grid_points_on_a_sphere(square: int) -> None:
+def test_grid_points_on_a_sphere_have_the_hull_of_all_triples(square: int) -> None:
     points = [p for p in itertools.product(range(-3, 4), repeat=3) if sum(n * n for n in p) == square]
     compare([*points, (0, 0, 0)], random.Random(square), 2)
 
 
 @pytest.mark.parametrize("side", [3, 10**8, 10**25])
-def test_cube_with_points_on_its_faces_and_edges(side: int) -> None:
+def test_a_cube_with_points_on_its_faces_and_edges_has_the_hull_of_all_triples(side: int) -> None:
     rng = random.Random(side)
     points = set(itertools.product((0, side), repeat=3))
     while len(points) < 20:
@@ -255,10 +264,10 @@ def test_cube_with_points_on_its_faces_and_edges(side: int) -> None:
 
 
 @pytest.mark.parametrize("power", [2, 8, 20])
-def test_pairs_of_neighbours_and_flat_lenses(power: int) -> None:
-    """Neighbours one unit apart, and points at heights of one unit over a wide plane."""
+def test_close_pairs_and_flat_lenses_have_the_hull_of_all_triples(power: int) -> None:
+    """Pairs of points one unit apart, and points one unit above a wide plane."""
     rng = random.Random(power)
-    for _ in range(30):
+    for _ in range(20):
         ends = [tuple(rng.randrange(10**power) for _ in range(3)) for _ in range(6)]
         compare(list({tuple(n + rng.randrange(2) for n in p) for p in ends * 2}), rng)
         lens = {(rng.randrange(-3, 4) * 10**power, rng.randrange(10**power), rng.randrange(-1, 2)) for _ in range(12)}
@@ -267,7 +276,7 @@ def test_pairs_of_neighbours_and_flat_lenses(power: int) -> None:
 
 def test_duplicates_change_nothing_but_the_list_of_duplicates() -> None:
     rng = random.Random(7)
-    for _ in range(200):
+    for _ in range(100):
         points = [tuple(rng.randrange(3) for _ in range(3)) for _ in range(rng.randint(2, 16))]
         hull = exact_hull(points)
         first = list(dict.fromkeys(points))
