@@ -1,11 +1,11 @@
-"""What tests of the later layers share: sets of points, a run through the programs, and the exact hull as judge."""
+"""Sets of points, runs of the programs, and their comparison with the exact hull, for the tests of the later layers."""
 
 from __future__ import annotations
 
 import math
 import random
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 
 from emulator.errors import EmulatorError
@@ -14,6 +14,7 @@ from emulator.machine.result import Options
 from modern.edition import programs
 from modern.exact_hull import ExactHull, exact_hull
 from modern.formats.deck import data_deck, with_epsilon
+from modern.thesis.batch import run_hulls
 from modern.thesis.cards import CardHull, read_hull
 from modern.thesis.job import HullRun, run_hull
 
@@ -22,88 +23,105 @@ OPTIONS = Options(core=60_000, limit=5_000_000)
 
 
 def deck_of(points: Sequence[Sequence[int | str]], e: str = "") -> Deck:
-    """A data deck: the card with N (and e), and a card a point."""
+    """Return a data deck: the card with N (and e), and a card for each point."""
     deck = data_deck([list(map(str, point)) for point in points], "points")
     return with_epsilon(deck, e) if e else deck
 
 
 def run(points: Sequence[Sequence[int | str]], *layers: str, e: str = "", options: Options = OPTIONS) -> HullRun:
-    return run_hull(deck_of(points, e), lambda name: programs.with_layers(name, layers), options)
+    return run_hull(deck_of(points, e), programs.loader(layers), options)
+
+
+def run_all(
+    point_sets: Sequence[Sequence[Sequence[int | str]]], *layers: str, e: str = "", options: Options = OPTIONS
+) -> list[HullRun | EmulatorError]:
+    """Return what ``run`` returns for each set, or the error it raises, by the compiled engine if it is installed."""
+    return run_hulls([deck_of(points, e) for points in point_sets], programs.loader(layers), options)
 
 
 def lowest(coefficients: Sequence[Fraction | int]) -> tuple[int, ...]:
-    """An equation in integers without common divisor; the sense stays."""
+    """Return an equation as integers without a common divisor."""
     numbers = [Fraction(c) for c in coefficients]
     scale = math.lcm(*(c.denominator for c in numbers))
-    whole = [int(c * scale) for c in numbers]
-    return tuple(c // (math.gcd(*whole) or 1) for c in whole)
+    integers = [int(c * scale) for c in numbers]
+    return tuple(c // (math.gcd(*integers) or 1) for c in integers)
 
 
-def either(coefficients: Sequence[int]) -> tuple[int, ...]:
-    """An equation without sense: the first coefficient that is not zero positive."""
+def unsigned(coefficients: Sequence[int]) -> tuple[int, ...]:
+    """Return an equation with its first nonzero coefficient positive."""
     lead = next((c for c in coefficients if c), 1)
     return tuple(c if lead > 0 else -c for c in coefficients)
 
 
 def faults(points: Sequence[Point], *layers: str) -> list[str]:
-    """In what a run differs from the exact hull; empty where it is right."""
+    """Return how a run differs from the exact hull; empty if it is right."""
     try:
-        done = run(points, *layers)
+        return differences(points, run(points, *layers))
     except EmulatorError as error:
         return [str(error)]
-    return differences(points, done)
 
 
-def differences(points: Sequence[Point], done: HullRun) -> list[str]:
-    if not done.complete:
-        return [done.refusal or done.final.result.ending.message]
-    judge, seen = exact_hull(points), read_hull(done.final.result.punched)
+def faulty_sets(named_sets: Iterable[tuple[str, list[Point]]], *layers: str) -> dict[str, list[str]]:
+    """Return the differences from the exact hull by the name of the set, for sets that have any."""
+    names, point_sets = zip(*named_sets, strict=True)
+    faulty = {}
+    for name, points, hull_run in zip(names, point_sets, run_all(point_sets, *layers), strict=True):
+        found = [str(hull_run)] if isinstance(hull_run, EmulatorError) else differences(points, hull_run)
+        if found:
+            faulty[name] = found
+    return faulty
 
-    def named(indices: Sequence[int]) -> Counter[tuple[Fraction, ...]]:
+
+def differences(points: Sequence[Point], hull_run: HullRun) -> list[str]:
+    """Return how the punched hull differs from the exact one, one text for each kind of difference."""
+    if not hull_run.complete:
+        return [hull_run.refusal or hull_run.final.result.ending.message]
+    judge, cards = exact_hull(points), read_hull(hull_run.final.result.punched)
+
+    def coordinates(indices: Sequence[int]) -> Counter[tuple[Fraction, ...]]:
         return Counter(tuple(Fraction(c) for c in points[i]) for i in indices)
 
-    found = []
-    if Counter(seen.vertices) != named(judge.vertices):
-        found.append(f"vertices: {len(seen.vertices)}, not {len(judge.vertices)}")
-    if judge.dimension > 1 and Counter(seen.boundary) != named(judge.boundary):
-        found.append(f"boundary points: {len(seen.boundary)}, not {len(judge.boundary)}")
-    if judge.dimension > 1 and Counter(seen.inside) != named(judge.inside):
-        found.append(f"inside points: {len(seen.inside)}, not {len(judge.inside)}")
-    want = Counter(list(equations(points, judge)))
-    have = Counter(
-        lowest(c) if judge.dimension > 1 else either(lowest(c)) for c in (equation for equation in seen.equations)
-    )
-    if judge.dimension > 1 and have != want:
-        found.append(f"equations: {sum(have.values())}, not {sum(want.values())}, or others")
-    if judge.dimension > 1 and not found and satisfied(seen) != dict(equations(points, judge)):
-        found.append("which vertices satisfy which equation")
-    if judge.dimension == 2 and [either(lowest(p)) for p in seen.plane] != [judge.plane]:
-        found.append("the plane")
+    messages = []
+    if Counter(cards.vertices) != coordinates(judge.vertices):
+        messages.append(f"vertices: {len(cards.vertices)}, not {len(judge.vertices)}")
+    if judge.dimension > 1 and Counter(cards.boundary) != coordinates(judge.boundary):
+        messages.append(f"boundary points: {len(cards.boundary)}, not {len(judge.boundary)}")
+    if judge.dimension > 1 and Counter(cards.inside) != coordinates(judge.inside):
+        messages.append(f"inside points: {len(cards.inside)}, not {len(judge.inside)}")
+    exact_equations = equations(points, judge)
+    expected = Counter(list(exact_equations))
+    punched = Counter(lowest(c) if judge.dimension > 1 else unsigned(lowest(c)) for c in cards.equations)
+    if judge.dimension > 1 and punched != expected:
+        messages.append(f"equations: {sum(punched.values())}, not {sum(expected.values())}, or different ones")
+    if judge.dimension > 1 and not messages and satisfied(cards) != exact_equations:
+        messages.append("which vertices satisfy which equation")
+    if judge.dimension == 2 and [unsigned(lowest(p)) for p in cards.plane] != [judge.plane]:
+        messages.append("the plane")
     if judge.dimension == 1 and any(
-        sum(a * b for a, b in zip(q, (*p, 1), strict=True)) for q in seen.equations for p in seen.vertices
+        sum(a * b for a, b in zip(q, (*p, 1), strict=True)) for q in cards.equations for p in cards.vertices
     ):
-        found.append("the equations of the line")
-    return found
+        messages.append("the equations of the line")
+    return messages
 
 
-def satisfied(seen: CardHull) -> dict[tuple[int, ...], frozenset[tuple[Fraction, ...]]]:
-    found: dict[tuple[int, ...], set[tuple[Fraction, ...]]] = {}
-    for numbers, equation in seen.satisfied:
-        key = lowest(seen.equations[equation - 1])
-        found.setdefault(key, set()).update(seen.vertices[v - 1] for v in numbers)
-    return {key: frozenset(value) for key, value in found.items()}
+def satisfied(cards: CardHull) -> dict[tuple[int, ...], frozenset[tuple[Fraction, ...]]]:
+    vertices: dict[tuple[int, ...], set[tuple[Fraction, ...]]] = {}
+    for numbers, equation in cards.satisfied:
+        key = lowest(cards.equations[equation - 1])
+        vertices.setdefault(key, set()).update(cards.vertices[v - 1] for v in numbers)
+    return {key: frozenset(members) for key, members in vertices.items()}
 
 
 def equations(points: Sequence[Point], judge: ExactHull) -> dict[tuple[int, ...], frozenset[tuple[Fraction, ...]]]:
-    """The planes with their vertices; of a polygon the lines as program 2 has them, a coordinate projected away."""
+    """Return the planes with their vertices, or the lines of a polygon projected as in program 2."""
     if judge.dimension == 3:
         return {
             judge.plane_of(f): frozenset(tuple(Fraction(c) for c in points[i]) for i in f.polygon) for f in judge.facets
         }
     if judge.dimension != 2 or judge.plane is None:
         return {}
-    away = next(k for k in range(3) if judge.plane[k])
-    u, v = [k for k in range(3) if k != away]
+    dropped = next(k for k in range(3) if judge.plane[k])
+    u, v = [k for k in range(3) if k != dropped]
     lines = {}
     for i, j in judge.edges():
         p, q = points[i], points[j]
@@ -117,19 +135,19 @@ def equations(points: Sequence[Point], judge: ExactHull) -> dict[tuple[int, ...]
     return lines
 
 
-# --- families of point sets, distinct points with coordinates of at most two digits
+# --- families of sets of distinct points with coordinates of at most two digits
 
 
 def distinct(draw: Callable[[], Point], n: int) -> list[Point]:
-    """Up to n distinct points of two digits, in the order drawn."""
-    found: dict[Point, None] = {}
+    """Draw up to n distinct points of at most two digits, in the order drawn."""
+    points: dict[Point, None] = {}
     for _ in range(40 * n):
         point = draw()
         if max(map(abs, point)) <= 99:
-            found[point] = None
-        if len(found) == n:
+            points[point] = None
+        if len(points) == n:
             break
-    return list(found)
+    return list(points)
 
 
 def integers(r: random.Random, n: int) -> list[Point]:
@@ -177,7 +195,7 @@ def collinear(r: random.Random, n: int) -> list[Point]:
 
 
 def on_edges(r: random.Random, n: int) -> list[Point]:
-    """Corners and points in line with pairs of them: midpoints and points beyond."""
+    """Draw corners, and points on the lines through pairs of them: midpoints and points beyond."""
     corners = [(r.randint(-8, 8) * 2, r.randint(-8, 8) * 2, r.randint(-8, 8) * 2) for _ in range(max(4, n // 3))]
 
     def draw() -> Point:
@@ -196,7 +214,7 @@ def prism(r: random.Random, n: int) -> list[Point]:
 
 
 def symmetric(r: random.Random, n: int) -> list[Point]:
-    """Points with all their changes of sign and of axes: cubes, octahedra, and the like."""
+    """Draw points with all changes of sign and cyclic changes of axes: cubes, octahedra and the like."""
     points: dict[Point, None] = {}
     while len(points) < n:
         a, b, c = (r.choice((0, 0, 1, 2, 3, 7, 40)) for _ in range(3))
@@ -204,18 +222,18 @@ def symmetric(r: random.Random, n: int) -> list[Point]:
             for k in range(8):
                 x, y, z = ((-1) ** (k >> i & 1) * p[i] for i in range(3))
                 points[x, y, z] = None
-    found = list(points)[:51]
-    r.shuffle(found)
-    return found
+    chosen = list(points)[:51]
+    r.shuffle(chosen)
+    return chosen
 
 
 def flat(r: random.Random, n: int) -> list[Point]:
-    """Two or three layers, nearly coplanar."""
+    """Draw points in two or three layers, nearly coplanar."""
     return distinct(lambda: (r.randint(-99, 99), r.randint(-99, 99), r.randint(-1, 1)), n)
 
 
 def sheared(r: random.Random, n: int) -> list[Point]:
-    """Points close to a slanting plane: planes close to C."""
+    """Draw points close to an inclined plane, so that planes are close to the point C."""
     a, b = r.uniform(-1, 1), r.uniform(-1, 1)
 
     def draw() -> Point:
@@ -229,7 +247,7 @@ FAMILIES = (integers, grid, sphere, coplanar, collinear, on_edges, prism, symmet
 
 
 def sets(count: int, seed: int) -> Iterator[tuple[str, list[Point]]]:
-    """``count`` sets of 4 to 51 distinct points, the families in turn; the same for the same seed."""
+    """Yield ``count`` sets of 4 to 51 distinct points from the families in turn, the same sets for the same seed."""
     made = 0
     for k in range(20 * count):
         if made == count:

@@ -1,6 +1,6 @@
-"""Layer ``corrected``: with it the programs agree with the exact hull on sets of two-digit integers.
+"""With the layer ``corrected`` the programs find the exact hull of two-digit integers.
 
-The larger run: ``HULL1620_SETS=5000 pytest tests/modern/thesis/test_corrected.py``.
+A larger run: ``HULL1620_SETS=5000 pytest tests/modern/thesis/test_corrected.py``.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from modern.edition import programs
 from modern.edition.grounds import ground_deck
 from modern.thesis.cards import number
 from modern.thesis.job import HullRun, run_hull
-from tests.support.judged import Point, differences, faults, run, sets
+from tests.support.judged import Point, differences, faults, faulty_sets, run, run_all, sets
 from tests.support.paths import MACHINE_RUNS
 
 COUNT = int(os.environ.get("HULL1620_SETS", "240"))
@@ -30,15 +30,15 @@ LARGE = Options(core=60_000, limit=2_000_000)
 
 
 def points_of(deck: Deck) -> list[Point]:
-    """The points of a deck of integers."""
+    """Return the points of a deck of integers."""
 
-    def whole(text: str) -> int:
+    def integer(text: str) -> int:
         value = number(text)
         assert value == int(value)
         return int(value)
 
     return [
-        (whole(card.columns(1, 14)), whole(card.columns(15, 28)), whole(card.columns(29, 42)))
+        (integer(card.columns(1, 14)), integer(card.columns(15, 28)), integer(card.columns(29, 42)))
         for card in deck.cards[1:]
     ]
 
@@ -50,26 +50,24 @@ def ground(name: str) -> Deck:
 
 
 def through(deck: Deck, *layers: str) -> HullRun:
-    return run_hull(deck, lambda name: programs.with_layers(name, layers), LARGE)
+    return run_hull(deck, programs.loader(layers), LARGE)
 
 
-def test_the_cube_first() -> None:
-    """KNOWN-FAULTS 2 and 3, and every order of eight corners 60 times over: the listing finishes none."""
+def test_a_cube_is_right_in_sixty_orders_of_its_corners() -> None:
+    """KNOWN-FAULTS 2 and 3: the listing finishes none of them."""
     corners: list[Point] = [(x, y, z) for x, y, z in product((0, 1), repeat=3)]
-    for seed in range(60):
-        random.Random(seed).shuffle(corners)
-        assert not faults(corners, "corrected"), corners
+    orders = [(str(seed), random.Random(seed).sample(corners, 8)) for seed in range(60)]
+    assert not faulty_sets(orders, "corrected")
 
 
 @pytest.mark.parametrize("name", ["04_cube8", "39_prism_n10"])
-def test_the_sets_two_compilers_could_not_finish(name: str) -> None:
+def test_the_sets_that_two_compilers_could_not_finish_are_right(name: str) -> None:
     deck = read_deck(str(RUNS / name / "deck.cards"))
     assert not differences(points_of(deck), through(deck, "corrected"))
 
 
 @pytest.mark.parametrize("name", ["lastpair", "lastplane", "throughc", "between", "renumber", "table", "polygon51"])
-def test_the_decks_of_the_rows(name: str) -> None:
-    """Wrong or unfinished by the listing, right with the layer."""
+def test_the_ground_decks_are_wrong_in_the_listing_and_right_with_the_layer(name: str) -> None:
     deck = ground(name)
     points = points_of(deck)
     assert differences(points, through(deck))
@@ -77,46 +75,49 @@ def test_the_decks_of_the_rows(name: str) -> None:
 
 
 def test_a_plane_of_zeros_is_still_an_error() -> None:
-    """KNOWN-FAULTS 4 is no slip of the program: coordinates of four digits are too long for eight."""
+    """KNOWN-FAULTS 4 is not a mistake of the program: products of four-digit coordinates need more digits."""
     assert through(ground("zeroplane"), "corrected").refusal == "ERROR IN PROGRAM"
 
 
-def test_sets_of_two_digit_integers() -> None:
-    wrong = {name: found for name, points in sets(COUNT, 1963) if (found := faults(points, "corrected"))}
-    assert not wrong
-
-
-@settings(deadline=None, max_examples=60)
-@given(st.lists(st.tuples(*[st.integers(0, 2)] * 3), min_size=4, max_size=14, unique=True))
-def test_any_points_of_a_grid_of_27(points: list[Point]) -> None:
-    assert not faults(points, "corrected")
+def test_sets_of_two_digit_integers_are_right() -> None:
+    assert not faulty_sets(sets(COUNT, 1963), "corrected")
 
 
 @settings(deadline=None, max_examples=40)
-@given(st.lists(st.tuples(*[st.integers(-99, 99)] * 3), min_size=4, max_size=16, unique=True))
-def test_any_points_of_two_digits(points: list[Point]) -> None:
+@given(st.lists(st.tuples(*[st.integers(0, 2)] * 3), min_size=4, max_size=14, unique=True))
+def test_any_points_of_a_3_3_3_grid_are_right(points: list[Point]) -> None:
     assert not faults(points, "corrected")
 
 
-def test_where_the_listing_is_right_the_layer_changes_no_card() -> None:
+@settings(deadline=None, max_examples=30)
+@given(st.lists(st.tuples(*[st.integers(-99, 99)] * 3), min_size=4, max_size=16, unique=True))
+def test_any_points_of_two_digits_are_right(points: list[Point]) -> None:
+    assert not faults(points, "corrected")
+
+
+def test_if_the_listing_is_right_the_layer_changes_no_card() -> None:
+    point_sets = [points for _, points in sets(60, 7)]
+    listed = run_all(point_sets, options=Options(limit=300_000))
+    corrected = run_all(point_sets, "corrected")
     same = 0
-    for _, points in sets(60, 7):
-        listed = run(points, options=Options(limit=300_000))
-        if not differences(points, listed):
-            assert run(points, "corrected").final.result.punched == listed.final.result.punched
+    for points, without, with_layer in zip(point_sets, listed, corrected, strict=True):
+        assert isinstance(without, HullRun)
+        assert isinstance(with_layer, HullRun)
+        if not differences(points, without):
+            assert with_layer.final.result.punched == without.final.result.punched
             same += 1
     assert same > 30
 
 
-def test_the_tables_need_a_core_of_60000() -> None:
+def test_the_larger_tables_need_a_core_of_60000() -> None:
     with pytest.raises(DeckError, match="OVERLAP"):
         run([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], "corrected", options=Options())
 
 
-def test_every_combination_of_layers_is_a_deck_of_72_columns() -> None:
+def test_every_combination_of_layers_compiles_from_72_columns() -> None:
     for name in ("program1", "program2", "program3"):
-        for chosen in product((False, True), repeat=3):
-            layers = [layer for layer, on in zip(("epsilon", "translation", "corrected"), chosen, strict=True) if on]
+        for included in product((False, True), repeat=3):
+            layers = [layer for layer, on in zip(("epsilon", "translation", "corrected"), included, strict=True) if on]
             deck = programs.built(name, layers)
             compile_deck(deck)
             assert max(len(card.text.rstrip()) for card in deck.cards) <= 72
@@ -130,13 +131,10 @@ def test_the_readme_counts_the_rows() -> None:
         assert line.endswith(f"; {sum(row.layer == layer for row in rows)} rows |")
 
 
-# A judge that cannot say no is none.
-
-
-def test_the_comparison_sees_every_kind_of_difference() -> None:
+def test_the_comparison_detects_every_kind_of_difference() -> None:
     points: list[Point] = [(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4), (1, 1, 1), (2, 2, 0)]
-    done = run(points, "corrected")
-    assert not differences(points, done)
-    for k, other in ((4, (1, 1, 2)), (5, (2, 1, 0)), (3, (0, 0, 5)), (0, (-1, 0, 0))):
-        changed = [*points[:k], other, *points[k + 1 :]]
-        assert differences(changed, done), other
+    hull_run = run(points, "corrected")
+    assert not differences(points, hull_run)
+    for k, replacement in ((4, (1, 1, 2)), (5, (2, 1, 0)), (3, (0, 0, 5)), (0, (-1, 0, 0))):
+        changed = [*points[:k], replacement, *points[k + 1 :]]
+        assert differences(changed, hull_run), replacement

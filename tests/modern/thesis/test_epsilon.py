@@ -1,4 +1,4 @@
-"""Layer ``epsilon``: chapter 7's interval from -e to +e (thesis p. 117-118)."""
+"""The layer ``epsilon``: the interval from -e to +e of chapter 7 (thesis p. 117-118)."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from modern.exact_hull import exact_hull
 from modern.formats import deck as hulldeck
 from modern.thesis.cards import read_hull
 from modern.thesis.job import HullRun, run_hull
-from tests.support.judged import OPTIONS, deck_of, differences, run, sets
+from tests.support.judged import OPTIONS, deck_of, differences, run, run_all, sets
 from tests.support.paths import MACHINE_RUNS
 
 RUNS = MACHINE_RUNS
@@ -31,34 +31,39 @@ def deck_named(name: str) -> Deck:
 
 
 def through(deck: Deck, *layers: str, first: str = "program1", options: Options = OPTIONS) -> HullRun:
-    return run_hull(deck, lambda name: programs.with_layers(name, layers), options, first)
+    return run_hull(deck, programs.loader(layers), options, first)
 
 
 @pytest.mark.parametrize("name", DECKS)
-def test_blank_e_changes_nothing(name: str) -> None:
-    """Final cards and typed lines, on every deck a machine ran and every example."""
+def test_a_blank_e_changes_no_card_and_no_typed_line(name: str) -> None:
+    """On every deck that a machine of the time ran, and on every example."""
     short = Options(limit=200_000)
     for first in ("program1", "program1_examples"):
-        one, other = (through(deck_named(name), *layers, first=first, options=short) for layers in ((), ("epsilon",)))
-        assert one.final.result.punched == other.final.result.punched
-        assert [s.result.typed for s in one.steps] == [s.result.typed for s in other.steps]
-        assert one.final.result.ending.kind == other.final.result.ending.kind
+        listed, layered = (
+            through(deck_named(name), *layers, first=first, options=short) for layers in ((), ("epsilon",))
+        )
+        assert listed.final.result.punched == layered.final.result.punched
+        assert [s.result.typed for s in listed.steps] == [s.result.typed for s in layered.steps]
+        assert listed.final.result.ending.kind == layered.final.result.ending.kind
 
 
-def test_e_of_zero_on_top_of_the_corrections_changes_nothing() -> None:
-    for name, points in sets(60, 26):
-        one, other = run(points, "corrected"), run(points, "epsilon", "corrected", e="0")
-        assert one.final.result.punched == other.final.result.punched, name
+def test_an_e_of_zero_with_the_corrections_changes_no_card() -> None:
+    names, point_sets = zip(*sets(60, 26), strict=True)
+    corrected, zero = run_all(point_sets, "corrected"), run_all(point_sets, "epsilon", "corrected", e="0")
+    for name, without, with_zero in zip(names, corrected, zero, strict=True):
+        assert isinstance(without, HullRun)
+        assert isinstance(with_zero, HullRun)
+        assert without.final.result.punched == with_zero.final.result.punched, name
 
 
 @pytest.mark.parametrize(
     ("name", "counts"),
     [("epscube", (0, 2, 8, 6)), ("epsplane", (0, 2, 4, 4)), ("epsedge", (0, 1, 5, 5))],
 )
-def test_turned_solids_of_rounded_coordinates(name: str, counts: tuple[int, int, int, int]) -> None:
-    """A cube, a square and a pentagon turned at random, with points on faces and edges.
+def test_an_e_classifies_points_of_rotated_solids(name: str, counts: tuple[int, int, int, int]) -> None:
+    """A cube, a square and a pentagon, rotated and rounded, with points on faces and edges.
 
-    ``counts``: inside points, boundary points, vertices, equations.
+    counts: the numbers of inside points, boundary points, vertices and equations.
     """
     deck = ground_deck(name)
     assert deck is not None
@@ -70,15 +75,15 @@ def test_turned_solids_of_rounded_coordinates(name: str, counts: tuple[int, int,
     assert read_hull(through(without, "epsilon", "corrected").final.result.punched) != hull
 
 
-def test_points_on_a_line_to_three_decimals() -> None:
+def test_an_e_recognises_points_on_a_line_to_three_decimals() -> None:
     deck = ground_deck("epsline")
     assert deck is not None
     assert "POINTS ARE COLLINEAR" in [card.strip() for card in through(deck, "epsilon").final.result.punched]
     assert "POINTS ARE COLLINEAR" not in [card.strip() for card in through(deck).final.result.punched]
 
 
-def test_values_at_the_ends_of_the_interval_count() -> None:
-    """Point 5 has the value exactly e, -e or just beyond on the plane of the first three: z = 0 times 16."""
+def test_values_at_the_ends_of_the_interval_count_as_zero() -> None:
+    """Point 5 has the value e, or just more, in the plane of the first three, which is z = 0 times 16."""
     base = ["0", "0", "0"], ["4", "0", "0"], ["0", "4", "0"], ["1", "1", "-4"]
     for height, vertices in ((".5", 4), (".5625", 5)):
         done = run([*base, ["1", "1", height]], "epsilon", "corrected", e="8")
@@ -86,8 +91,8 @@ def test_values_at_the_ends_of_the_interval_count() -> None:
         assert len(read_hull(done.final.result.punched).vertices) == vertices, height
 
 
-def test_a_thousandth_makes_sets_of_three_decimals_acceptable() -> None:
-    """KNOWN-FAULTS 6: without e nearly all of them end in DATA NOT ACCEPTABLE; with it the vertices are the judge's."""
+def test_an_e_of_a_thousandth_makes_sets_of_three_decimals_right() -> None:
+    """KNOWN-FAULTS 6: without e nearly all of them end in DATA NOT ACCEPTABLE."""
     refused = 0
     for seed in range(30):
         r = random.Random(seed)
@@ -103,22 +108,19 @@ def test_a_thousandth_makes_sets_of_three_decimals_acceptable() -> None:
 
 
 def test_too_large_an_e_loses_vertices() -> None:
-    """Chapter 7's warning, p. 118: a point may be taken to be on a plane when it is not."""
+    """Chapter 7 warns of this on p. 118: a point that is not on a plane may count as being on it."""
     points = [(-9, 0, 0), (9, 0, 0), (0, 9, 0), (0, 0, 9), (0, 1, -1)]
     assert differences(points, run(points, "epsilon", "corrected", e="999"))
     assert not differences(points, run(points, "epsilon", "corrected", e=".1"))
 
 
-def test_n_51_fits_40000_positions() -> None:
-    """By the estimate of the program's length: chapter 7's e asks for no larger core."""
+def test_the_layer_needs_no_larger_core() -> None:
     points = [[str(k), str(k * k % 7), str(k % 5)] for k in range(4)]
     assert through(deck_of(points), "epsilon", options=Options()).final.result.ending.normal
 
 
-# After DATA NOT ACCEPTABLE (thesis p. 117; KNOWN-FAULTS 10): nothing to change, both readings are in the listing.
-
-
-def test_data_not_acceptable_terminates_unless_switch_1_is_on() -> None:
+def test_data_not_acceptable_ends_the_run_unless_switch_1_is_on() -> None:
+    """Thesis p. 117; KNOWN-FAULTS 10."""
     deck = deck_named("18_dec3_n6")
     off, on = (through(deck, options=Options(switches=frozenset(s), limit=200_000)) for s in ((), (1,)))
     assert off.refusal == "DATA NOT ACCEPTABLE"
@@ -127,14 +129,11 @@ def test_data_not_acceptable_terminates_unless_switch_1_is_on() -> None:
     assert on.final.result.statements > off.final.result.statements
 
 
-# The check of the deck.
-
-
 def checked(first: str, epsilon: bool = True) -> hulldeck.CheckedDeck:
     return hulldeck.check(deck_from_lines("d", [first, "1.            2.            3."]), epsilon=epsilon)
 
 
-def test_the_deck_check_takes_e() -> None:
+def test_the_check_of_a_deck_reads_e() -> None:
     assert not checked(" 1+.10000000E-02").warnings
     assert not checked(" 1").warnings
     assert checked(" 1+.10000000E-02", epsilon=False).warnings
@@ -144,6 +143,6 @@ def test_the_deck_check_takes_e() -> None:
 
 
 @pytest.mark.parametrize("e", ["-.10000000E-02", "ABC"])
-def test_the_deck_check_refuses_an_e_that_is_none(e: str) -> None:
+def test_the_check_of_a_deck_rejects_an_invalid_e(e: str) -> None:
     with pytest.raises(CardError, match=r"d: card 1, column 3: e"):
         checked(" 1" + e)
