@@ -75,8 +75,8 @@ def check_transcripts(pair_uses: Mapping[tuple[str, str], int]) -> Iterator[Proo
         yield _proof(text.id, faults, f"each of {len(text.rows)} rows is needed for a computed result")
 
 
-def _proof(subject: str, faults: list[str], words: str) -> Proof:
-    return Proof(subject, not faults, faults[0] if faults else words)
+def _proof(subject: str, faults: list[str], message: str) -> Proof:
+    return Proof(subject, not faults, faults[0] if faults else message)
 
 
 def _kinds(text: Text, pair_uses: Mapping[tuple[str, str], int]) -> Iterator[str]:

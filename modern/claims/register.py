@@ -190,7 +190,7 @@ def judge(statement: Statement, results: Results) -> Judged:
             raise StatementError(f"{statement.document}: {statement.id}: there is no result {name}")
         verdicts.append(verdict)
     if statement.results:
-        messages.append(f"judged above: {', '.join(statement.results)}")
+        messages.append(f"published results: {', '.join(statement.results)}")
     if verdicts:
         return Judged(statement, max(verdicts, key=_FROM_BEST.index), "; ".join(messages))
     if statement.tests:

@@ -29,7 +29,7 @@ def faces_and_edges(kind: str = "") -> CheckResult:
     """Check that a cuboid has three front faces, three inner edges and six contour edges.
 
     With ``kind``, view it along an axis: four faces are neither front nor back. If these count as back faces, there are
-    four contour edges; by the printed definition there is none.
+    four contour edges; there is no such edge by the printed definition.
     """
     (solid,) = _cuboid().solids
     kinds = [edge.kind for edge in solid.edges]

@@ -301,9 +301,9 @@ def gap_in_4_7() -> CheckResult:
 def outside_unreplaced_line() -> CheckResult:
     """Check the counterexample: a point is outside a line of H_1 that is not replaced and so remains a line of H_2."""
     points = counterexample_points("line_stays.csv")
-    one = SampledSet(tuple(points), convex_hull(points, history=True), exact_hull(points))
-    before, after = one.stages()[:2]
-    checked = one.hull.history[1].checked
+    sampled = SampledSet(tuple(points), convex_hull(points, history=True), exact_hull(points))
+    before, after = sampled.stages()[:2]
+    checked = sampled.hull.history[1].checked
     stays = [
         (k + 1, point)
         for k, plane in enumerate(before.equations)

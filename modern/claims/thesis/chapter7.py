@@ -318,13 +318,13 @@ def cost_of_orientation() -> CheckResult:
     operations: list[str] = []
 
     class Counted(int):
-        def __mul__(self, other: int) -> Counted:
+        def __mul__(self, factor: int) -> Counted:
             operations.append("product")
-            return Counted(int(self) * int(other))
+            return Counted(int(self) * int(factor))
 
-        def __add__(self, other: int) -> Counted:
+        def __add__(self, addend: int) -> Counted:
             operations.append("sum")
-            return Counted(int(self) + int(other))
+            return Counted(int(self) + int(addend))
 
     at(tuple(map(Counted, (1, -2, 3, -4))), tuple(map(Counted, (5, 6, 7))))
     products, sums = operations.count("product"), operations.count("sum")

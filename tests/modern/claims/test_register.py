@@ -94,7 +94,7 @@ def test_worst_verdict_of_claim_and_results_counts(first: Verdict, second: Verdi
     results = {"first": first, "second": second}
     judged = judge(row, lambda _, name: results[name])
     assert judged.computed == worst
-    assert judged.message.endswith("; judged above: first, second")
+    assert judged.message.endswith("; published results: first, second")
     failing_claim = replace(row, claim="thesis.chapter2.vertex_formula_with_minus")
     assert judge(failing_claim, lambda *_: HOLDS).computed == FAILS
 
