@@ -1,10 +1,10 @@
-"""Where everything of a flow chart lies: boxes down a spine, jumps in lanes beside it, pages.
+"""The layout of a flow chart: boxes along a vertical spine, jumps in lanes on both sides, and pages.
 
-The layout is fixed by the flow alone.  Boxes stand in the order of the cards.  The ways out of an IF leave at fixed
-sides: minus left, zero down, plus right; a jump without a choice turns right if it goes forward, left if back.  All
-jumps to one box that arrive on one side share a *rail*, a vertical line in a lane; rails are nested by their length,
-the shortest next to the boxes.  A jump to another page, or one for which no lane is left, is a pair of connectors
-that bear the number of the statement gone to.  Lengths are pixels, y downward.
+The layout depends only on the control flow.  Boxes are in the order of the cards.  The exits of an IF have fixed
+sides: minus left, zero down, plus right.  An unconditional jump turns right if it goes forward and left if it goes
+back.  All jumps that arrive at a box on the same side share a *rail*, a vertical line in a lane.  Rails are nested by
+length with the shortest next to the boxes.  A jump to another page, or a jump without a free lane, is drawn as a pair
+of connectors with the number of the target statement.  Lengths are in pixels, and y increases downward.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from typing import Literal
 from modern.publication.flow import Box, Flow
 
 BOX = 244
-"""Width of every box; decisions are as wide at their middle."""
+"""The width of every box; a decision has this width at its middle."""
 ZONE = 38
-"""Between a box and the first lane: what leaves it is named here, and connectors stand here."""
+"""The space between a box and the first lane, for the conditions of exits and for connectors."""
 LANE = 11
 LANES = 8
 MARGIN = 14
@@ -27,7 +27,7 @@ RIGHT = LEFT + BOX
 SPINE = LEFT + BOX // 2
 RADIUS = 11
 LETTER, ROW = 5.42, 12
-"""Width of a letter and height of a row of type, nine pixels high, in a font of one width."""
+"""The width of a character and the height of a line in a monospaced font of nine pixels."""
 WRAP = 39
 _TURN, _LAND, _JOIN, _DOWN, _ARROW = 16, 2 * RADIUS + 2, 6, 12, 11
 
@@ -36,7 +36,7 @@ Where = Literal["left", "right"]
 
 @dataclass(frozen=True, slots=True)
 class Placed:
-    """A box on a page: its place in the flow, its top, its height, and its lines as they are broken."""
+    """A box on a page: its index in the flow, its top and height, and its text broken into lines."""
 
     box: int
     top: int
@@ -54,10 +54,10 @@ class Placed:
 
 @dataclass(frozen=True, slots=True)
 class Path:
-    """One way from box to box, by its place among the exits of ``box``, as corners of a line.
+    """The line of the exit ``way`` of ``box``, as a sequence of corners.
 
-    ``lane`` counts lanes from the boxes, from 0; -1 where the way is straight down or ends in a connector.
-    ``connector`` is the centre of its circle, if it ends in one.
+    ``lane`` is the number of its lane, counted from 0 at the boxes, or -1 if the line goes straight down or ends in a
+    connector.  ``connector`` is the centre of that connector.
     """
 
     box: int
@@ -69,7 +69,7 @@ class Path:
 
 @dataclass(frozen=True, slots=True)
 class Landing:
-    """A connector from which a line goes to a box: its centre, and the corners of the line."""
+    """A connector that leads to a box: its centre, and the corners of the line to the box."""
 
     box: int
     centre: tuple[int, int]
@@ -78,7 +78,7 @@ class Landing:
 
 @dataclass(frozen=True, slots=True)
 class Page:
-    """One page: boxes, the ways that leave them, and the connectors by which others arrive."""
+    """A page: its boxes, the lines of their exits, and the connectors through which other exits arrive."""
 
     height: int
     boxes: tuple[Placed, ...]
@@ -88,19 +88,19 @@ class Page:
 
 @dataclass(frozen=True, slots=True)
 class Chart:
-    """A flow laid out on pages of one width."""
+    """The layout of a flow on pages of equal width."""
 
     flow: Flow
     pages: tuple[Page, ...]
 
 
 def chart(flow: Flow, height: int = 1100) -> Chart:
-    """Lay a flow out on pages of at most ``height``; a box that needs more has a page of its own."""
+    """Lay out a flow on pages of at most ``height`` pixels; a taller box gets a separate page."""
     return Chart(flow, tuple(_page(flow, first, last) for first, last in _breaks(flow, height)))
 
 
 def wrapped(line: str, width: int = WRAP) -> tuple[str, ...]:
-    """A statement in rows of at most ``width`` letters, broken after an operator, a comma or a blank, if it can be."""
+    """Break a statement into lines of at most ``width`` characters, if possible after an operator, comma or blank."""
     rows = []
     while len(line) > width:
         cut = max((k + 1 for k in range(width // 2, width) if line[k] in " ,)+-*/=("), default=width)
@@ -110,14 +110,14 @@ def wrapped(line: str, width: int = WRAP) -> tuple[str, ...]:
 
 
 def _size(box: Box) -> tuple[int, tuple[str, ...]]:
-    """Height and lines of a box."""
+    """Return the height and the lines of a box."""
     if box.kind == "step":
         return 2 * RADIUS, ()
     if box.kind != "decision":
         lines = tuple(row for line in box.lines for row in wrapped(line))
         return ROW * len(lines) + 10, lines
     lines = tuple(row for line in box.lines for row in wrapped(line, 26))
-    # A diamond is as wide as its text where the text's upper and lower edges meet it.
+    # The diamond must be as wide as the text at the upper and lower edges of the text.
     share = max(len(row) for row in lines) * LETTER / BOX
     tall = round(ROW * len(lines) / (1 - share)) + 8
     side = sum(way.side == "right" for way in box.exits)
@@ -125,7 +125,10 @@ def _size(box: Box) -> tuple[int, tuple[str, ...]]:
 
 
 def _breaks(flow: Flow, height: int) -> list[tuple[int, int]]:
-    """First box of each page and the one after its last: as few jumps between pages as may be, then few pages."""
+    """Return the first box of each page and the box after its last.
+
+    The breaks minimise the number of jumps between pages plus ten for each page (dynamic programming).
+    """
     count = len(flow.boxes)
     sizes = [_size(box)[0] + _ARROW + _DOWN for box in flow.boxes]
     across = [0] * (count + 1)
@@ -134,16 +137,16 @@ def _breaks(flow: Flow, height: int) -> list[tuple[int, int]]:
             low, high = sorted((place, way.target))
             for cut in range(low + 1, high + 1):
                 across[cut] += 1
-    # The cheapest way to end a page before each box; a page costs as much as ten jumps cut.
+    # best[end] is the smallest cost of the pages before the box `end`, with the first box of the last page.
     best: list[tuple[int, int]] = [(0, 0)] * (count + 1)
     for end in range(1, count + 1):
-        found, used = [], 0
+        candidates, used = [], 0
         for start in range(end - 1, -1, -1):
             used += sizes[start]
             if start < end - 1 and (used > height or _plan(flow, range(start, end)).height > height):
                 break
-            found.append((best[start][0] + 10 + across[start], start))
-        best[end] = min(found)
+            candidates.append((best[start][0] + 10 + across[start], start))
+        best[end] = min(candidates)
     pages = []
     end = count
     while end:
@@ -154,7 +157,7 @@ def _breaks(flow: Flow, height: int) -> list[tuple[int, int]]:
 
 @dataclass(frozen=True, slots=True)
 class _Rail:
-    """The vertical line all jumps to one box share that arrive on one side: the boxes it passes, by place."""
+    """The vertical line shared by all jumps to a box on one side, with the first and last box that it passes."""
 
     target: int
     side: Where
@@ -164,9 +167,10 @@ class _Rail:
 
 @dataclass(frozen=True, slots=True)
 class _Plan:
-    """What a page holds: its boxes placed, lanes by target and side, the boxes landed on, and levels by box.
+    """The layout of a page before its lines are drawn.
 
-    Ways turn below a box at ``turns``; connectors lead to it at ``lands``, rails at ``joins``.
+    ``lanes`` has the lane of each rail by target and side; ``landed`` are the boxes that connectors lead to.  The lists
+    have a vertical coordinate for each box: of the turn below it, of its connector, and of the end of its rails.
     """
 
     height: int
@@ -223,7 +227,7 @@ def _page(flow: Flow, first: int, end: int) -> Page:
 
 
 def _side(flow: Flow, place: int, k: int) -> Where:
-    """The side of the boxes a way that is not straight down takes."""
+    """Return the side on which an exit runs that does not go straight down."""
     way = flow.boxes[place].exits[k]
     if way.side != "down":
         return way.side
@@ -231,13 +235,13 @@ def _side(flow: Flow, place: int, k: int) -> Where:
 
 
 def _straight(flow: Flow, inside: range, place: int, k: int) -> bool:
-    """Whether a way goes straight down to the next box of its page."""
+    """Return True if an exit goes straight down to the next box of its page."""
     way = flow.boxes[place].exits[k]
     return way.side == "down" and way.target == place + 1 and way.target in inside
 
 
 def _joined(flow: Flow, inside: range, lanes: dict[tuple[int, Where], int], place: int, k: int) -> bool:
-    """Whether a way within its page is drawn to its end, and not cut by connectors."""
+    """Return True if a line is drawn to its target without connectors."""
     return _straight(flow, inside, place, k) or (flow.boxes[place].exits[k].target, _side(flow, place, k)) in lanes
 
 
@@ -252,24 +256,24 @@ def _rails(flow: Flow, inside: range, ways: Iterable[tuple[int, int]]) -> list[_
 
 
 def _lanes(rails: Sequence[_Rail]) -> dict[tuple[int, Where], int]:
-    """A lane for every rail that gets one, the shortest first and next to the boxes."""
+    """Assign lanes to rails, to the shortest first; rails without a free lane are omitted."""
     taken: dict[tuple[Where, int], list[_Rail]] = {}
-    found: dict[tuple[int, Where], int] = {}
+    lanes: dict[tuple[int, Where], int] = {}
     for rail in sorted(rails, key=lambda r: (r.last - r.first, r.first, r.target)):
         for lane in range(LANES):
-            beside = taken.setdefault((rail.side, lane), [])
-            # One box between them at least, so that no line ends where another begins.
-            if all(rail.first > other.last + 1 or rail.last + 1 < other.first for other in beside):
-                beside.append(rail)
-                found[rail.target, rail.side] = lane
+            in_lane = taken.setdefault((rail.side, lane), [])
+            # At least one box lies between two rails of a lane, so that no line ends where another begins.
+            if all(rail.first > other.last + 1 or rail.last + 1 < other.first for other in in_lane):
+                in_lane.append(rail)
+                lanes[rail.target, rail.side] = lane
                 break
-    return found
+    return lanes
 
 
 def _stack(
     flow: Flow, inside: range, landed: set[int], joined: set[int]
 ) -> tuple[tuple[Placed, ...], list[int], list[int], list[int]]:
-    """Boxes one below the other; the levels at which ways turn below each, and connectors and rails join above it."""
+    """Stack the boxes; return them with the coordinates of :class:`_Plan`: turns, lands and joins."""
     placed: list[Placed] = []
     turns, lands, joins = [], [], []
     y = MARGIN
@@ -291,14 +295,14 @@ def _stack(
 
 
 def _start(box: Box, placed: Placed, k: int) -> tuple[int, int]:
-    """Where a way leaves its box."""
+    """Return the point where an exit leaves its box."""
     way = box.exits[k]
     if way.side == "down":
         return SPINE, placed.bottom
     same = [j for j, other in enumerate(box.exits) if other.side == way.side]
     if len(same) == 1:
         return (LEFT if way.side == "left" else RIGHT), placed.middle
-    # Several on one side leave one below the other, from the slant of the diamond.
+    # Several exits on one side leave the slanted edge of the diamond one below the other.
     y = placed.top + placed.height * (same.index(k) + 1) // (len(same) + 1)
     from_middle = abs(2 * (y - placed.top) - placed.height) / placed.height
     return round(SPINE + BOX / 2 * (1 - from_middle)), y

@@ -1,7 +1,7 @@
-"""A flow chart as SVG, in the symbols of the thesis (p. 60): direction of flow, decision, input and output, processing,
-connector or step.
+"""Draw a flow chart as SVG in the symbols of the thesis (p. 60).
 
-Text stays text, every box is a link where the caller says to what, and nothing is told by colour.
+The symbols are: direction of flow, decision, input and output, processing, and connector or step.  Text stays text,
+boxes can be links, and nothing depends on colour.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from modern.publication.chart import BOX, LEFT, MARGIN, RADIUS, RIGHT, ROW, SPIN
 from modern.publication.flow import Box
 
 Link = Callable[[Box], str]
-"""What a box leads to: an address, or nothing."""
+"""Returns the address to which a box links, or an empty string."""
 
 _STYLE = (
     "text{font:9px ui-monospace,Menlo,Consolas,'DejaVu Sans Mono',monospace;fill:#000}"
@@ -21,50 +21,50 @@ _STYLE = (
     ".b{fill:#fff;stroke:#000}.w{fill:none;stroke:#000}.r{fill:none;stroke:#000}.d{fill:#000;stroke:none}"
 )
 _SLANT = 8
-"""How far the sides of the symbol for input and output lean."""
+"""The horizontal offset of the slanted sides of the symbol for input and output."""
 
 
 def chart_svg(chart: Chart, page: int | None = None, link: Link | None = None) -> str:
-    """One page of a chart, counted from 1, or all below each other.  Raises IndexError for a page it does not have."""
+    """Draw one page of a chart, counted from 1, or all pages in a column.  Raise IndexError for a wrong page."""
     if page is not None and not 1 <= page <= len(chart.pages):
         raise IndexError(page)
     pages = chart.pages if page is None else chart.pages[page - 1 : page]
-    height = sum(each.height for each in pages)
+    height = sum(sheet.height for sheet in pages)
     left, right = extent(chart)
     width = right - left
     title = f"Flow chart of {chart.flow.source}" + ("" if page is None else f", page {page} of {len(chart.pages)}")
     # A screen reader does not look for links inside an image.
     role = "img" if link is None else "group"
-    boxes = sum(len(each.boxes) for each in pages)
+    boxes = sum(len(sheet.boxes) for sheet in pages)
     lines = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
         f'viewBox="{left} 0 {width} {height}" role="{role}" aria-labelledby="title desc">',
         f'<title id="title">{escape(title)}</title>',
-        f'<desc id="desc">{boxes} boxes in the order of the cards, made from the compiled program. Of an IF, minus '
-        "leaves to the left, zero below, plus to the right; a number in a circle is the statement gone to.</desc>",
+        f'<desc id="desc">{boxes} boxes in the order of the cards, from the compiled program. The exits of an IF '
+        "are left for minus, below for zero and right for plus. A number in a circle is the target of a jump.</desc>",
         f"<style>{_STYLE}</style>",
         f'<rect x="{left}" width="{width}" height="{height}" fill="#fff"/>',
     ]
     top = 0
-    for number, each in enumerate(pages, page or 1):
+    for number, sheet in enumerate(pages, page or 1):
         lines.append(f'<g class="page" transform="translate(0 {top})">')
-        lines += _page(chart, each, link)
+        lines += _page(chart, sheet, link)
         if len(chart.pages) > 1:
-            lines.append(f'<text class="e" x="{right - MARGIN}" y="{each.height - 4}">{number}</text>')
+            lines.append(f'<text class="e" x="{right - MARGIN}" y="{sheet.height - 4}">{number}</text>')
         lines.append("</g>")
-        top += each.height
+        top += sheet.height
     return "\n".join([*lines, "</svg>"]) + "\n"
 
 
 def extent(chart: Chart) -> tuple[int, int]:
-    """The left and the right end of a chart's pages: as wide as the page that needs most lanes."""
+    """Return the left and right edges of the pages, which are as wide as the page with the most lanes."""
     lines = [path.corners for page in chart.pages for path in page.paths]
-    found = [x for corners in lines for x, _ in corners] + [LEFT - ZONE, RIGHT + ZONE]
-    return min(found) - MARGIN, max(found) + MARGIN
+    edges = [x for corners in lines for x, _ in corners] + [LEFT - ZONE, RIGHT + ZONE]
+    return min(edges) - MARGIN, max(edges) + MARGIN
 
 
 def short(box: Box) -> str:
-    """What a connector calls a box: the statement's number, or ``c`` and the card where it has none."""
+    """Return the text of a connector to a box: its statement number, or ``c`` and the number of its card."""
     return box.label or f"c{box.cards[0]}"
 
 
@@ -95,7 +95,9 @@ def _page(chart: Chart, page: Page, link: Link | None) -> Iterator[str]:
             to = boxes[way.target]
             yield from _connector(path.connector, short(to), f"to {to.name}, page {_page_of(chart, way.target)}")
     for landing in page.landings:
-        yield from _connector(landing.centre, short(boxes[landing.box]), f"here {boxes[landing.box].name} is gone to")
+        yield from _connector(
+            landing.centre, short(boxes[landing.box]), f"from other exits to {boxes[landing.box].name}"
+        )
 
 
 def _page_of(chart: Chart, box: int) -> int:
@@ -107,7 +109,7 @@ def _line(corners: Sequence[tuple[int, int]]) -> str:
 
 
 def _symbol(box: Box, placed: Placed) -> Iterator[str]:
-    """A box: outline, number and lines."""
+    """Yield a box: its outline, its number and its text."""
     top, bottom, middle = placed.top, placed.bottom, placed.middle
     if box.kind == "step":
         yield from _connector((SPINE, middle), box.label, f"step {box.name}")
@@ -133,11 +135,11 @@ def _outline(*corners: tuple[int, int]) -> str:
 
 
 def _taken(box: Box, path: Path, middle: int) -> Iterator[str]:
-    """What a way is taken for, beside its beginning; ``middle`` is its box's."""
+    """Yield the condition of an exit next to its start.  ``middle`` is the vertical middle of the box."""
     way = box.exits[path.way]
     if not way.taken:
         return
-    words = {"-": "\u2212"}.get(way.taken, way.taken)
+    condition = {"-": "\u2212"}.get(way.taken, way.taken)
     x, y = path.corners[0]
     if way.side == "down":
         place = f'x="{x + 4}" y="{y + 9}"'
@@ -146,12 +148,12 @@ def _taken(box: Box, path: Path, middle: int) -> Iterator[str]:
     elif x == RIGHT:
         place = f'class="e" x="{x - 2}" y="{y - 7}"'
     else:
-        # On the slant: above the line in the upper half, below it in the lower.
+        # On the slanted edge, the text is above the line in the upper half and below it in the lower half.
         place = f'x="{x + 4}" y="{y - 3 if y <= middle else y + 9}"'
-    yield f"<text {place}>{escape(words)}</text>"
+    yield f"<text {place}>{escape(condition)}</text>"
 
 
-def _connector(centre: tuple[int, int], words: str, title: str) -> Iterator[str]:
+def _connector(centre: tuple[int, int], label: str, title: str) -> Iterator[str]:
     x, y = centre
     yield f'<circle class="b" cx="{x}" cy="{y}" r="{RADIUS}"><title>{escape(title)}</title></circle>'
-    yield f'<text class="c" x="{x}" y="{y + 3}">{escape(words)}</text>'
+    yield f'<text class="c" x="{x}" y="{y + 3}">{escape(label)}</text>'

@@ -1,10 +1,10 @@
-"""The console's desk without a face: a program and a deck are laid in, and the machine is run in slices.
+"""The interface between the emulator and the page that controls it: load a program and a deck, run, and operate.
 
-What goes in and what comes out is plain data that JSON can hold, so that any face can be put on it; the page of the
-site has one (``docs/console``).  The operator is that of the command line with the same questions, words and log
-(:mod:`emulator.machine.operator`, :mod:`emulator.machine.console`); he has no terminal, so a halt that nobody has
-answered yet ends the slice, and the next one begins there.  Nothing here waits, and nothing is imported that a page
-has not: the standard library, lark, mpmath, and no numpy.
+Requests and answers are plain data that JSON can represent; the page is ``docs/console``.  The machine runs in slices
+of some milliseconds.  The operator has the same questions, commands and log as on the command line
+(:mod:`emulator.machine.operator`, :mod:`emulator.machine.console`).  Without a terminal nothing can wait for an answer,
+so a halt without an answer ends the slice, and the next slice continues there.  The module imports only the standard
+library, lark and mpmath, which are available in the browser, but not numpy.
 """
 
 from __future__ import annotations
@@ -32,40 +32,41 @@ from modern.edition import programs
 from modern.edition.chapter6 import EXAMPLES, input_deck
 
 Answer = dict[str, Any]
-"""What the desk says: keys and plain values, as each method states."""
+"""The answer to a request: keys and plain values, which the docstring of each method describes."""
 
 _WIDTH = 72
-_RUNNING = ("ATTN", "SWITCH", "BREAK", "CLEAR", "STOP", "STEP")
+_WHILE_RUNNING = ("ATTN", "SWITCH", "BREAK", "CLEAR", "STOP", "STEP")
 
 
 class _Unanswered(Exception):
-    """The machine stands, and nobody has said yet what is to be done."""
+    """The machine waits for the operator, and the page has not sent an action."""
 
 
 class _Visitor(Operator):
-    """Does what was asked for, and does not answer before."""
+    """An operator whose actions come from the page."""
 
     present = True
 
     def __init__(self) -> None:
         super().__init__()
-        self.asked: deque[Action] = deque()
+        self.actions: deque[Action] = deque()
 
     def attend(self, session: Session) -> Iterator[Action]:
-        while self.asked and self.asked[0].word in _RUNNING:
-            yield self.asked.popleft()
+        while self.actions and self.actions[0].word in _WHILE_RUNNING:
+            yield self.actions.popleft()
 
     def answer(self, session: Session, halt: Halt) -> Action:
-        if not self.asked:
+        if not self.actions:
             raise _Unanswered
-        return self.asked.popleft()
+        return self.actions.popleft()
 
 
 @dataclass
 class Desk:
-    """One machine and what lies around it.
+    """A machine with its program, its decks and its operator.
 
-    ``clock`` gives seconds, and says when a slice is over.  ``small``: how much work is done between two looks at it.
+    ``clock`` returns seconds and ends a slice.  ``small`` is the number of operations between two readings of the
+    clock.
     """
 
     clock: Callable[[], float] = time.monotonic
@@ -80,19 +81,21 @@ class Desk:
     _happened: list[Event] = field(default_factory=list)
 
     def offers(self) -> Answer:
-        """What can be chosen by name: ``programs`` and ``decks``, pairs of name and title."""
+        """Return the built-in ``programs`` and ``decks`` as pairs of name and title."""
         return {
             "programs": [[b.name, b.title] for b in programs.BUILT_INS],
             "decks": [[f"example{n}", f"example {n} of chapter 6"] for n in EXAMPLES],
         }
 
     def load(self, request: Answer) -> Answer:
-        """Compile a program and lay in a deck; the machine waits for START.
+        """Compile a program and load a deck; the machine then waits for START.
 
-        ``program`` and ``deck`` are each a name that is offered, or a pair of name and text; of a deck ``""`` is none
-        and ``"stacker"`` the cards punched last.  ``switches`` are those that are on; ``arithmetic``, ``core``,
-        ``limit``, ``upcase`` as of the command.  Answers with ``program``, ``listing`` (number and text of each
-        card), ``deck`` and ``switches``; or with ``refused``, lines of what is wrong, and the machine as it was.
+        In the request, ``program`` and ``deck`` are each a built-in name or a pair of name and text.  The deck ``""``
+        is empty, and ``"stacker"`` has the cards that were punched last.  ``switches`` lists the sense switches that
+        are on.  ``arithmetic``, ``core``, ``limit`` and ``upcase`` are those of the command line.
+
+        The answer has ``program``, ``listing`` (number and text of each card), ``deck`` and ``switches``.  If the
+        request is invalid, it has ``refused``, a list of messages, and the machine is unchanged.
         """
         try:
             source = self._source(request["program"], bool(request.get("upcase")))
@@ -109,13 +112,13 @@ class Desk:
             )
             session = Session(program, deck, options)
         except LowerCaseError as error:
-            return {"refused": [f"{error}; it can be read with capitals"]}
+            return {"refused": [f"{error}; choose “read lower case as capitals” to accept it"]}
         except (EmulatorError, ValueError) as error:
             return {"refused": str(error).splitlines()}
         self._session, self._ending = session, False
         self._visitor, self._cards, self._stacker = _Visitor(), Cards(), []
         self._logged = Logged(self._visitor, self._log)
-        self._visitor.asked.append(Action("ATTN"))
+        self._visitor.actions.append(Action("ATTN"))
         return {
             "program": program.source,
             "listing": [[card.number, card.text] for card in source.cards],
@@ -124,19 +127,19 @@ class Desk:
         }
 
     def run(self, milliseconds: float, pace: float = 0.0) -> Answer:
-        """Run on for about that long, or until the machine stands or has ended.
+        """Run for about the given time, or until the machine waits or the run ends.
 
-        ``pace``: at most that many times the speed of the 1620, 0 for as fast as can be.  Answers with ``events``
-        (what and text), ``card`` (that the machine is at), ``work``, ``seconds`` of a 1620, ``stands`` (a line, empty
-        where it runs on), ``waits`` for a line to be ``typed`` or for an ``answer``, ``ended`` (a line) and
+        ``pace`` is the largest speed relative to the 1620, or 0 for full speed.  The answer has ``events`` (kind and
+        text), ``card`` (the card that is executed next), ``work``, ``seconds`` on a 1620, ``stands`` (why the machine
+        waits, or empty), ``waits`` (``typed`` for a line, ``answer`` for an action, or empty), ``ended`` and
         ``messages``.
         """
         session = self._session
         if session is None or self._ending:
             return self._answer()
-        until = self.clock() + milliseconds / 1000
-        far = self._seconds(session) + pace * milliseconds / 1000
-        ending, wrong = None, ""
+        end_of_slice = self.clock() + milliseconds / 1000
+        furthest = self._seconds(session) + pace * milliseconds / 1000
+        ending, failure = None, ""
         while True:
             goal = session.state.work + (self.small if not pace else max(1, self.small // 200))
             try:
@@ -144,75 +147,76 @@ class Desk:
             except _Unanswered:
                 break
             except EmulatorError as error:
-                wrong = str(error)
+                failure = str(error)
                 break
-            if ending is not None or self.clock() >= until or (pace and self._seconds(session) >= far):
+            if ending is not None or self.clock() >= end_of_slice or (pace and self._seconds(session) >= furthest):
                 break
         messages: list[str] = []
-        if ending is not None or wrong:
+        if ending is not None or failure:
             self._ending = True
             result = session.result() if ending is None else session.result(ending)
-            if not wrong:
+            if not failure:
                 messages = list(notes(session.program, result))
-            if wrong or (ending is not None and not ending.normal):
-                messages.append(f"hull1620: {wrong or result.ending.message}")
+            if failure or (ending is not None and not ending.normal):
+                messages.append(f"hull1620: {failure or result.ending.message}")
         return self._answer(messages)
 
     def act(self, words: str) -> Answer:
-        """What the operator types at the console, or a line for ACCEPT (``ENTER`` and the line).
+        """Process a command of the operator, or a line for ACCEPT (``ENTER`` and the line).
 
-        Answers with ``lines`` to be shown; an action is done in the next slice.
+        The answer has ``lines`` to show.  The next slice executes the action.
         """
         session = self._session
         if session is None or self._ending:
-            return {"lines": ["nothing runs: load a program"]}
+            return {"lines": ["nothing is running: load a program first"]}
         if words.startswith("ENTER"):
             if not (session.halt and session.halt.what == "accept"):
-                return {"lines": ["nothing is asked for"]}
+                return {"lines": ["the program does not ask for a line"]}
             action = Action("ENTER", text=words[6:].upper().rstrip())
         elif words == "ATTN":
             action = Action("ATTN")
         else:
-            found = command(session, words, self._cards, _WIDTH)
-            if isinstance(found, list):
-                return {"lines": found}
-            action = found
+            # A command either changes the machine, or shows something.
+            action_or_lines = command(session, words, self._cards, _WIDTH)
+            if isinstance(action_or_lines, list):
+                return {"lines": action_or_lines}
+            action = action_or_lines
         if session.halt is not None and action.word == "ATTN":
             return {"lines": []}
         if session.halt is None and action.word == "START":
             return {"lines": []}
         if session.halt and session.halt.what == "accept" and action.word in ("START", "STEP"):
             return {"lines": [halt_line(session.halt)]}
-        self._visitor.asked.append(action)
+        self._visitor.actions.append(action)
         return {"lines": [action_line(action)] if action.word in ("SWITCH", "BREAK", "CLEAR", "STEP") else []}
 
     def show(self, words: str) -> Answer:
-        """``VARIABLES``, ``CORE`` and the like, while it runs too: ``lines``."""
+        """Execute a command that only shows something, such as ``VARIABLES``; the answer has ``lines``."""
         session = self._session
-        found = [] if session is None else command(session, words, self._cards, _WIDTH)
-        return {"lines": found if isinstance(found, list) else []}
+        lines = [] if session is None else command(session, words, self._cards, _WIDTH)
+        return {"lines": lines if isinstance(lines, list) else []}
 
     def log(self) -> str:
-        """Everything since the page was opened, as a file of the operator."""
+        """Return everything since the page was opened as an operator file for the command line."""
         return self._log.getvalue()
 
-    def _source(self, asked: Any, upcase: bool) -> Deck:
-        if isinstance(asked, str):
-            return programs.committed(asked) if asked in programs.NAMES else _strange(asked)
-        text = str(asked[1])
-        return deck_from_text(str(asked[0]), capitals(text) if upcase else text)
+    def _source(self, program: Any, upcase: bool) -> Deck:
+        if isinstance(program, str):
+            return programs.committed(program) if program in programs.NAMES else _unknown(program)
+        text = str(program[1])
+        return deck_from_text(str(program[0]), capitals(text) if upcase else text)
 
-    def _deck(self, asked: Any) -> Deck:
-        if asked == "":
+    def _deck(self, deck: Any) -> Deck:
+        if deck == "":
             return Deck("no deck", ())
-        if asked == "stacker":
+        if deck == "stacker":
             return deck_from_text("the cards punched", "".join(card + "\n" for card in self._stacker))
-        if isinstance(asked, str):
-            return next((input_deck(n) for n in EXAMPLES if asked == f"example{n}"), None) or _strange(asked)
-        return deck_from_text(str(asked[0]), str(asked[1]))
+        if isinstance(deck, str):
+            return next((input_deck(n) for n in EXAMPLES if deck == f"example{n}"), None) or _unknown(deck)
+        return deck_from_text(str(deck[0]), str(deck[1]))
 
     def _operator(self) -> Operator:
-        assert self._logged is not None, "a machine has its operator"
+        assert self._logged is not None, "load sets the operator"
         return self._logged
 
     def _see(self, events: Sequence[Event]) -> None:
@@ -245,5 +249,5 @@ class Desk:
         }
 
 
-def _strange(name: str) -> Any:
-    raise ValueError(f"there is no {name!r} to choose")
+def _unknown(name: str) -> Any:
+    raise ValueError(f"unknown name {name!r}")

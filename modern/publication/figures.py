@@ -1,8 +1,8 @@
-"""Figures of committed results by name, and texts that quote them: no figure of a result is typed in the article.
+"""Figures of committed results by name, and the function that fills them into documents.
 
-A text names a figure between double braces, ``{{ seventy.failures }}``; :func:`filled` puts the figures in.  It is text
-to text over Markdown, so that site and book use it alike.  Figures come from the tables of ``docs/studies`` and
-``docs/weight`` (:data:`CELLS`), from the data of the edition, and from the examples, run anew.
+A document quotes a figure by its name between double braces, such as ``{{ seventy.failures }}``.  :func:`filled`
+replaces the names in Markdown text, for the site and for the book.  The figures come from the tables in
+``docs/studies`` and ``docs/weight`` (:data:`CELLS`), from the data of the edition, and from a new run of the examples.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ _PLACE = re.compile(r"\{\{ *([a-z][\w.-]*) *\}\}")
 
 
 class FigureError(ValueError):
-    """A text names a figure there is not, or a table has not the cell of one; one line."""
+    """A document names an unknown figure, or a table does not have the cell of a figure."""
 
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """A cell of a table: the file below ``docs``, the first cells of its row, the head of its column."""
+    """A cell of a table: the file below ``docs``, the first cells of the row, and the heading of the column."""
 
     table: str
     row: tuple[str, ...]
@@ -41,13 +41,13 @@ def _cell(table: str, row: str | tuple[str, ...], column: str) -> Cell:
     return Cell(table, (row,) if isinstance(row, str) else row, column)
 
 
-_LISTED, _MENDED = "as listed", "last pair mended"
+_LISTED, _CORRECTED = "as listed", "last pair mended"
 _SHEET = ("33.3 %", "as on the sheet (.0146)")
 _TENTH = "near a plane with a gap of .1"
 CELLS: Mapping[str, Cell] = {
     "seventy.sets": _cell("studies/seventy/table.csv", _LISTED, "sets"),
     "seventy.failures": _cell("studies/seventy/table.csv", _LISTED, "failures in 70"),
-    "seventy.mended": _cell("studies/seventy/table.csv", _MENDED, "failures in 70"),
+    "seventy.mended": _cell("studies/seventy/table.csv", _CORRECTED, "failures in 70"),
     "seventy.two-or-more": _cell("studies/seventy/table.csv", _LISTED, "70s with 2 or more"),
     "seventy.sheets-refused": _cell("studies/seventy/decimals.csv", _SHEET, "refused"),
     "seventy.sheets-for-two": _cell("studies/seventy/decimals.csv", _SHEET, "sheets in 70 for two"),
@@ -79,34 +79,34 @@ CELLS: Mapping[str, Cell] = {
     "divergence.share": _cell("studies/divergence/table.csv", "program1 196+2", "of all sets"),
     "divergence.nowhere": _cell("studies/divergence/table.csv", "nowhere", "of all sets"),
 }
-"""The figures that are cells of committed tables."""
+"""The figures that are cells of committed tables, by name."""
 
-_NOTICED = ("print", "machine", "equation", "sibling")
+_CHECKS = ("print", "machine", "equation", "sibling")
 
 
 def filled(text: str, values: Mapping[str, str]) -> str:
-    """A text with every ``{{ name }}`` replaced by its value.  Raises FigureError for a name without one."""
+    """Replace every ``{{ name }}`` in a text by its value.  Raise FigureError for an unknown name."""
 
-    def put(found: re.Match[str]) -> str:
-        if found[1] not in values:
-            raise FigureError(f"there is no figure {found[1]!r}")
-        return values[found[1]]
+    def value(match: re.Match[str]) -> str:
+        if match[1] not in values:
+            raise FigureError(f"unknown figure {match[1]!r}")
+        return values[match[1]]
 
-    return _PLACE.sub(put, text)
+    return _PLACE.sub(value, text)
 
 
 def named(text: str) -> tuple[str, ...]:
-    """The figures a text names, in its order."""
+    """Return the names of the figures in a text, in order."""
     return tuple(_PLACE.findall(text))
 
 
 def figures(docs: Path) -> dict[str, str]:
-    """Every figure by its name; ``docs`` is the folder of that name.  Takes some seconds: the examples are run.
+    """Return every figure by name.  ``docs`` is the folder of the documents.  This runs the examples (some seconds).
 
-    Raises FigureError where a table has not the cell that a figure is, FileError where there is no table.
+    Raise FigureError if a table does not have the cell of a figure, and FileError if a table does not exist.
     """
     return {
-        **{name: _written(read_cell(docs, cell)) for name, cell in CELLS.items()},
+        **{name: _formatted(read_cell(docs, cell)) for name, cell in CELLS.items()},
         **dict(_weight(docs)),
         **dict(_examples()),
         **dict(_papers()),
@@ -116,15 +116,16 @@ def figures(docs: Path) -> dict[str, str]:
 
 
 def read_cell(docs: Path, cell: Cell) -> str:
-    """What stands in a cell.  Raises FigureError unless just one row begins so, and has the column."""
-    found = [line for line in _table(docs / cell.table) if tuple(line.values())[: len(cell.row)] == cell.row]
-    if len(found) != 1 or cell.column not in found[0]:
-        raise FigureError(f"{cell.table}: {len(found)} rows begin with {', '.join(cell.row)}; column {cell.column}")
-    return found[0][cell.column]
+    """Return the text of a cell.  Raise FigureError unless exactly one row matches and has the column."""
+    matches = [line for line in _table(docs / cell.table) if tuple(line.values())[: len(cell.row)] == cell.row]
+    if len(matches) != 1 or cell.column not in matches[0]:
+        row = ", ".join(cell.row)
+        raise FigureError(f"{cell.table}: expected one row {row} with column {cell.column}, found {len(matches)} rows")
+    return matches[0][cell.column]
 
 
-def _written(value: str) -> str:
-    """A number of five digits and more with commas, as the other figures have them."""
+def _formatted(value: str) -> str:
+    """Write an integer of five or more digits with commas, like the other figures."""
     return f"{int(value):,}" if value.isdigit() and len(value) > 4 else value
 
 
@@ -134,12 +135,12 @@ def _table(path: Path) -> list[dict[str, str]]:
 
 def _weight(docs: Path) -> Iterator[tuple[str, str]]:
     lines = _table(docs / "weight" / "cards.csv")
-    sums = {kind: sum(int(line[kind]) for line in lines) for kind in ("compiler", *_NOTICED, "nothing")}
+    sums = {kind: sum(int(line[kind]) for line in lines) for kind in ("compiler", *_CHECKS, "nothing")}
     compiled = sum(sums.values()) - sums["compiler"]
     yield "weight.variants", f"{sum(sums.values()):,}"
     yield "weight.refused", f"{sums['compiler']:,}"
     yield "weight.compiled", f"{compiled:,}"
-    yield "weight.noticed", f"{sum(sums[kind] for kind in _NOTICED):,}"
+    yield "weight.noticed", f"{sum(sums[kind] for kind in _CHECKS):,}"
     yield "weight.silent", f"{sums['nothing']:,}"
     yield "weight.silent-share", f"{100 * sums['nothing'] / compiled:.1f} %"
 
@@ -148,12 +149,12 @@ def _examples() -> Iterator[tuple[str, str]]:
     reports = [report for report in reproduce() if not report.stated]
     yield "examples.count", str(len(EXAMPLES))
     for state, name in (("examples", "run"), ("listing", "listed")):
-        of_it = [report.verdict for report in reports if report.state == state]
-        kinds = Counter(verdict.kind for verdict in of_it)
-        yield f"examples.{name}-results", str(len(of_it))
+        verdicts = [report.verdict for report in reports if report.state == state]
+        kinds = Counter(verdict.kind for verdict in verdicts)
+        yield f"examples.{name}-results", str(len(verdicts))
         yield f"examples.{name}-exact", str(kinds["exact"])
         yield f"examples.{name}-reordered", str(kinds["exact in another order"])
-        exact = [verdict for verdict in of_it if verdict.kind == "exact"]
+        exact = [verdict for verdict in verdicts if verdict.kind == "exact"]
         yield f"examples.{name}-cards", str(sum(verdict.cards + verdict.blank for verdict in exact))
         yield f"examples.{name}-numbers", str(sum(verdict.numbers for verdict in exact))
 
@@ -166,7 +167,7 @@ def _papers() -> Iterator[tuple[str, str]]:
 
 
 def _statements() -> Iterator[tuple[str, str]]:
-    counted = {document: Counter(one.verdict for one in statements_of(document)) for document in DOCUMENTS}
+    counted = {document: Counter(statement.verdict for statement in statements_of(document)) for document in DOCUMENTS}
     counted = {**counted, "all": sum(counted.values(), Counter())}
     lines = [("document", "statements", *VERDICTS), ("---", *("--:",) * (1 + len(VERDICTS)))]
     for document, counts in counted.items():

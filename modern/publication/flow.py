@@ -1,9 +1,8 @@
-"""The flow of control of a program, box by box, as a flow chart of 1963 shows it.
+"""The control flow of a program as the boxes of a flow chart in the style of 1963.
 
-A box is a run of statements of one kind with one way in: processing, input and output, a decision, a step that is
-only gone through, or an end.  It is made from object code, so that a chart shows where the compiled program goes and
-not what its cards seem to say: a DO becomes its first assignment and, after its last statement, the decision whether
-to go round again.
+A box is a sequence of statements of one kind with one entry: processing, input and output, a decision, an empty step,
+or an end.  The boxes are derived from object code, so that the chart shows the control flow of the compiled program.  A
+DO becomes its first assignment and, after its last statement, the decision whether to repeat the loop.
 """
 
 from __future__ import annotations
@@ -22,7 +21,7 @@ Side = Literal["left", "down", "right"]
 
 @dataclass(frozen=True, slots=True)
 class Exit:
-    """A way out of a box: what it is taken for (nothing where there is only one), its side, the box it goes to."""
+    """An exit of a box: its condition ``taken`` (empty if there is only one), its side, and the index of its target."""
 
     taken: str
     side: Side
@@ -31,10 +30,10 @@ class Exit:
 
 @dataclass(frozen=True, slots=True)
 class Box:
-    """One symbol of the chart.
+    """A symbol of the chart.
 
-    ``name`` is its first statement's number, else ``card N``, and ``label`` that number alone, or nothing; ``cards``
-    are those it stands for; ``lines`` is what is written in it, a line a statement.
+    ``label`` is the number of its first statement, or empty.  ``name`` is that number or ``card N``.  ``cards`` are the
+    cards that the box represents, and ``lines`` its text, one line for each statement.
     """
 
     kind: Kind
@@ -47,39 +46,39 @@ class Box:
 
 @dataclass(frozen=True)
 class Flow:
-    """The boxes of a program, in the order of its cards; an exit names its target by its place here, from 0."""
+    """The boxes of a program in the order of its cards.  An exit names its target by its index here."""
 
     source: str
     boxes: tuple[Box, ...]
 
     def arrivals(self, target: int) -> tuple[tuple[int, int], ...]:
-        """The ways that go to a box: box and place among its exits."""
+        """Return the exits that lead to a box, each as the index of its box and its index among the exits there."""
         return self._arrivals[target]
 
     @cached_property
     def _arrivals(self) -> tuple[tuple[tuple[int, int], ...], ...]:
-        found: list[list[tuple[int, int]]] = [[] for _ in self.boxes]
+        arrivals: list[list[tuple[int, int]]] = [[] for _ in self.boxes]
         for place, box in enumerate(self.boxes):
             for k, way in enumerate(box.exits):
-                found[way.target].append((place, k))
-        return tuple(tuple(ways) for ways in found)
+                arrivals[way.target].append((place, k))
+        return tuple(map(tuple, arrivals))
 
     def table(self) -> tuple[tuple[str, str, str], ...]:
-        """Every way from box to box, as words: from, taken for, to."""
+        """Return every transition as the names of its boxes and its condition: from, condition, to."""
         return tuple(
             (box.name, way.taken or "next", self.boxes[way.target].name) for box in self.boxes for way in box.exits
         )
 
 
 def flow(program: Program) -> Flow:
-    """The flow of a program.  An empty hopper, which ends a run at a READ, is not drawn."""
+    """Return the control flow of a program.  The end of a run at a READ with an empty hopper is not drawn."""
     parts = _parts(program)
     return Flow(program.source, _merged(_forwarded([_box(program, part, parts) for part in parts])))
 
 
 @dataclass(frozen=True, slots=True)
 class _Part:
-    """A statement, or the closing of a DO: its instructions."""
+    """The instructions of a statement, or, if ``begins`` is False, those that close a DO."""
 
     start: int
     end: int
@@ -88,12 +87,13 @@ class _Part:
 
     @property
     def written(self) -> str:
-        """The statement without its number."""
+        """The text of the statement without its number."""
         text = " ".join(self.line.text.split())
         return text.removeprefix(str(self.line.label)).lstrip() if self.line.label else text
 
 
 def _parts(program: Program) -> list[_Part]:
+    # A statement and the closing of a DO begin with a COUNT; those inside input and output lists are skipped.
     counts = [
         (pc, program.counters[i.address])
         for pc, i in enumerate(program.code)
@@ -107,15 +107,15 @@ def _parts(program: Program) -> list[_Part]:
 
 
 def _box(program: Program, part: _Part, parts: Sequence[_Part]) -> Box:
-    """The box of one part, its targets by part."""
-    at = {each.start: place for place, each in enumerate(parts)}
-    place = at[part.start]
+    """Return the box of a part.  Its exits lead to indices of parts."""
+    index_of = {other.start: index for index, other in enumerate(parts)}
+    index = index_of[part.start]
     code = program.code[part.start : part.end]
     last = code[-1]
     label, written = (str(part.line.label or ""), part.written) if part.begins else ("", "")
 
     def box(kind: Kind, lines: Iterable[str], *exits: tuple[str, Side, int]) -> Box:
-        ways = tuple(Exit(taken, side, at[pc]) for taken, side, pc in exits)
+        ways = tuple(Exit(taken, side, index_of[pc]) for taken, side, pc in exits)
         return Box(kind, label, label or f"card {part.line.place.card}", (part.line.place.card,), tuple(lines), ways)
 
     if last.operation in (op.IF, op.IFX):
@@ -129,7 +129,7 @@ def _box(program: Program, part: _Part, parts: Sequence[_Part]) -> Box:
     if last.operation == op.DOTEST and not part.begins:
         return box(
             "decision",
-            (_again(program, last),),
+            (_loop_test(program, last),),
             ("again", "left", program.loops[last.address][3]),
             ("done", "down", part.end),
         )
@@ -137,28 +137,28 @@ def _box(program: Program, part: _Part, parts: Sequence[_Part]) -> Box:
         return box("end", (written or "END",))
     if last.operation == op.BRANCH:
         return box("step", (), ("", "down", program.branches[last.address][0]))
-    serves = any(i.operation in (op.BEGIN, op.PAUSE) for i in code)
-    kind: Kind = "input/output" if serves else "processing" if len(code) > 1 else "step"
-    after = part.end if place + 1 < len(parts) else part.start
+    uses_device = any(i.operation in (op.BEGIN, op.PAUSE) for i in code)
+    kind: Kind = "input/output" if uses_device else "processing" if len(code) > 1 else "step"
+    after = part.end if index + 1 < len(parts) else part.start
     return box(kind, (_first_value(written),) if kind != "step" else (), ("", "down", after))
 
 
 def _tested(written: str) -> str:
-    """What an IF tests: the text between its outer parentheses."""
+    """Return the expression that an IF tests: the text between its outer parentheses."""
     return written[written.index("(") + 1 : written.rindex(")")].strip()
 
 
 def _first_value(written: str) -> str:
-    """A DO as the assignment it begins with: ``DO 101 I=1,N`` is ``I=1``; other statements as they stand."""
-    words = written.split(None, 2)
-    if len(words) == 3 and words[0] == "DO" and words[1].isdigit() and "=" in words[2]:
-        variable, _, rest = words[2].partition("=")
+    """Return the first assignment of a DO (``DO 101 I=1,N`` gives ``I=1``), and other statements unchanged."""
+    tokens = written.split(None, 2)
+    if len(tokens) == 3 and tokens[0] == "DO" and tokens[1].isdigit() and "=" in tokens[2]:
+        variable, _, rest = tokens[2].partition("=")
         return f"{variable.strip()}={rest.split(',')[0].strip()}"
     return written
 
 
-def _again(program: Program, test: Instruction) -> str:
-    """The closing of a DO: ``I+1 <= N``."""
+def _loop_test(program: Program, test: Instruction) -> str:
+    """Return the test that closes a DO: ``I+1 <= N``."""
     variable, step, limit = (
         program.storage.name_of(field).removeprefix("constant ") for field in program.loops[test.address][:3]
     )
@@ -166,7 +166,7 @@ def _again(program: Program, test: Instruction) -> str:
 
 
 def _selected(targets: Sequence[int]) -> list[tuple[str, Side, int]]:
-    """A computed GO TO: an exit a statement gone to, with the values it is gone to for."""
+    """Return the exits of a computed GO TO: one for each target, with the values that select it."""
     values: dict[int, list[str]] = {}
     for value, target in enumerate(targets, 1):
         values.setdefault(target, []).append(str(value))
@@ -174,56 +174,56 @@ def _selected(targets: Sequence[int]) -> list[tuple[str, Side, int]]:
 
 
 def _forwarded(boxes: Sequence[Box]) -> list[Box | None]:
-    """The boxes with a GO TO of no number drawn as the line it is: the box before it goes where it goes."""
-    found: list[Box | None] = list(boxes)
+    """Remove the box of each GO TO without a number: the box before it gets the target of the GO TO."""
+    forwarded: list[Box | None] = list(boxes)
     come_from = _sources(boxes)
     for place, box in enumerate(boxes):
-        before = found[place - 1] if place else None
+        before = forwarded[place - 1] if place else None
         if box.kind != "step" or box.label or come_from[place] != [place - 1] or before is None:
             continue
         if box.exits[0].target == place:
             continue
         ways = tuple(replace(way, target=box.exits[0].target) if way.target == place else way for way in before.exits)
-        found[place - 1] = replace(before, exits=ways, cards=_together(before.cards, box.cards))
-        found[place] = None
-    return found
+        forwarded[place - 1] = replace(before, exits=ways, cards=_union(before.cards, box.cards))
+        forwarded[place] = None
+    return forwarded
 
 
 def _merged(boxes: Sequence[Box | None]) -> tuple[Box, ...]:
-    """One box for statements of one kind that follow each other; then exits name their targets by place."""
-    kept: list[Box] = []
-    now_at: dict[int, int] = {}
+    """Merge consecutive boxes of processing or of input and output, and renumber the targets of the exits."""
+    merged: list[Box] = []
+    new_index: dict[int, int] = {}
     come_from = _sources(boxes)
     for place, box in enumerate(boxes):
         if box is None:
             continue
-        last = kept[-1] if kept else None
-        joined = (
+        last = merged[-1] if merged else None
+        joins_last = (
             last is not None
             and last.kind == box.kind in ("processing", "input/output")
             and come_from[place] == [place - 1]
             and last.exits[0].target == place
         )
-        if last is not None and joined:
-            kept[-1] = replace(
-                last, cards=_together(last.cards, box.cards), lines=last.lines + box.lines, exits=box.exits
+        if last is not None and joins_last:
+            merged[-1] = replace(
+                last, cards=_union(last.cards, box.cards), lines=last.lines + box.lines, exits=box.exits
             )
         else:
-            kept.append(box)
-        now_at[place] = len(kept) - 1
+            merged.append(box)
+        new_index[place] = len(merged) - 1
     return tuple(
-        replace(box, exits=tuple(replace(way, target=now_at[way.target]) for way in box.exits)) for box in kept
+        replace(box, exits=tuple(replace(way, target=new_index[way.target]) for way in box.exits)) for box in merged
     )
 
 
 def _sources(boxes: Sequence[Box | None]) -> list[list[int]]:
-    """For each box those that go to it."""
-    found: list[list[int]] = [[] for _ in boxes]
+    """Return for each box the indices of the boxes that lead to it."""
+    sources: list[list[int]] = [[] for _ in boxes]
     for place, box in enumerate(boxes):
         for way in box.exits if box else ():
-            found[way.target].append(place)
-    return found
+            sources[way.target].append(place)
+    return sources
 
 
-def _together(some: tuple[int, ...], more: tuple[int, ...]) -> tuple[int, ...]:
-    return tuple(dict.fromkeys(some + more))
+def _union(first: tuple[int, ...], second: tuple[int, ...]) -> tuple[int, ...]:
+    return tuple(dict.fromkeys(first + second))

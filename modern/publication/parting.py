@@ -1,8 +1,8 @@
-"""Where 1963 and exact numbers part: a visitor's points, what the programs make of them, and what is true.
+"""Compare the result of the 1963 programs with the true hull, for points that a visitor of the site enters.
 
-For the page of the same name, in plain data, and without numpy.  The true hull is found here by looking at every plane
-through three points, which 51 points bear (:func:`true_hull`): a way that shares nothing with the programs, the port or
-the judge, and that the tests compare with the judge.
+The module returns plain data and does not need numpy, so that it runs in the browser.  It computes the true hull by
+testing every plane through three points (:func:`true_hull`), which is fast enough for 51 points.  This method shares no
+code with the programs, the port or the exact hull; the tests compare it with the exact hull.
 """
 
 from __future__ import annotations
@@ -29,53 +29,55 @@ from modern.thesis.job import HullRun, run_hull
 from modern.thesis.refusals import Cause, explain_run
 
 MOST = 51
-"""Points of a data set, as many as the programs have places for."""
+"""The largest number of points; the arrays of the programs have 51 elements."""
 LIMIT = 300_000
-"""Work a run may do here: three times what 51 points take."""
+"""The largest number of operations of a run, three times the need of 51 points."""
 Whole = tuple[int, int, int]
 
 
 def parted(text: str) -> dict[str, Any]:
-    """What there is to show of points given as text, a point a line.
+    """Compare the two hulls of points that are given as text, one point per line.
 
-    Answers with ``points`` (as typed), ``true`` and ``found``, each ``dimension``, ``vertices`` (numbers from 0) and
-    ``faces`` (loops of such numbers; a polygon or a line is one face), ``says``: lines, and ``part``: the first
-    statement that eight digits mislead, lines, empty where there is none.  Or with ``refused``, a line.
+    The answer has ``points`` (as typed), and ``true`` and ``found`` for the two hulls.  Each hull has ``dimension``,
+    ``vertices`` (indices from 0) and ``faces`` (loops of indices; a polygon or a line is one face).  ``says`` are
+    messages about the run, and ``part`` describes the first statement on which eight-digit and exact arithmetic
+    disagree, if there is one.  For invalid input the answer has only ``refused``, a message.
     """
     try:
-        given = parse_bytes(text.encode(), "points")
-        deck = data_deck(given.points, "points")
+        parsed = parse_bytes(text.encode(), "points")
+        deck = data_deck(parsed.points, "points")
     except (EmulatorError, ValueError) as error:
         return {"refused": str(error)}
-    if len(given.points) > MOST:
-        return {"refused": f"{len(given.points)} points; the programs take {MOST}"}
-    points = scaled([coordinates(point) for point in given.points])
+    if len(parsed.points) > MOST:
+        return {"refused": f"{len(parsed.points)} points; the programs accept at most {MOST}"}
+    points = scaled([coordinates(point) for point in parsed.points])
     run, cause = explain_run(partial(run_hull, deck, programs.program, Options(limit=LIMIT)))
     dimension, faces = true_hull(points)
-    says, found = _found(run, cause, given.points)
-    right = {n for face in faces for n in face}
-    if found["faces"] or found["vertices"]:
-        says += _compared(right, set(found["vertices"]), points)
+    messages, program_hull = _program_hull(run, cause, parsed.points)
+    true_vertices = {n for face in faces for n in face}
+    if program_hull["faces"] or program_hull["vertices"]:
+        messages += _differences(true_vertices, set(program_hull["vertices"]), points)
     return {
-        "points": [list(point) for point in given.points],
-        "true": {"dimension": dimension, "vertices": sorted(right), "faces": [list(face) for face in faces]},
-        "found": found,
-        "says": says,
+        "points": [list(point) for point in parsed.points],
+        "true": {"dimension": dimension, "vertices": sorted(true_vertices), "faces": [list(face) for face in faces]},
+        "found": program_hull,
+        "says": messages,
         "part": list(_part(run, deck)),
     }
 
 
 def scaled(points: Sequence[tuple[Fraction, Fraction, Fraction]]) -> list[Whole]:
-    """Points as whole numbers, each coordinate multiplied by one common number."""
-    by = lcm(1, *(value.denominator for point in points for value in point))
-    return [(int(x * by), int(y * by), int(z * by)) for x, y, z in points]
+    """Scale points to integers with a common factor."""
+    factor = lcm(1, *(value.denominator for point in points for value in point))
+    return [(int(x * factor), int(y * factor), int(z * factor)) for x, y, z in points]
 
 
 def true_hull(points: Sequence[Whole]) -> tuple[int, tuple[tuple[int, ...], ...]]:
-    """The hull's dimension, and its faces as loops of places: of a polygon itself, of a line its ends, of a point it.
+    """Return the dimension of the hull and its faces as loops of indices.
 
-    A plane through three points is a face's where no two points lie on different sides of it.  Of equal points the
-    first is taken.  Points that lie on a side or in a face without being a corner are in no loop.
+    A polygon has one face, a line the loop of its two ends, and a point the loop of itself.  A plane through three
+    points supports a face if all points lie on one side of it.  Of equal points only the first is used.  A loop has
+    corners only, not the other points on its edges or in its face.
     """
     places = sorted({point: n for n, point in reversed(list(enumerate(points)))}.values())
     first = places[0]
@@ -95,10 +97,10 @@ def true_hull(points: Sequence[Whole]) -> tuple[int, tuple[tuple[int, ...], ...]
 
 
 def _faces(points: Sequence[Whole], places: Sequence[int]) -> Iterator[tuple[int, ...]]:
-    seen: set[frozenset[int]] = set()
+    known_faces: set[frozenset[int]] = set()
     for a, b, c in combinations(places, 3):
         normal = cross(minus(points[b], points[a]), minus(points[c], points[a]))
-        if not any(normal) or any({a, b, c} <= face for face in seen):
+        if not any(normal) or any({a, b, c} <= face for face in known_faces):
             continue
         level, sides = dot(normal, points[a]), set()
         within = []
@@ -111,22 +113,22 @@ def _faces(points: Sequence[Whole], places: Sequence[int]) -> Iterator[tuple[int
             else:
                 within.append(n)
         else:
-            seen.add(frozenset(within))
+            known_faces.add(frozenset(within))
             yield _loop(points, within, normal)
 
 
 def _loop(points: Sequence[Whole], within: Sequence[int], normal: Whole) -> tuple[int, ...]:
-    """The corners of the hull of points in one plane, in order (Andrew's monotone chain, 1979).
+    """Return the corners of the hull of points in one plane, in order (Andrew's monotone chain, 1979).
 
-    The coordinate in which the normal is largest is left out.
+    The points are projected along the axis in which the normal is largest.
     """
-    out = max(range(3), key=lambda axis: abs(normal[axis]))
-    across, up = (axis for axis in range(3) if axis != out)
+    dropped = max(range(3), key=lambda axis: abs(normal[axis]))
+    across, up = (axis for axis in range(3) if axis != dropped)
     order = sorted(within, key=lambda n: (points[n][across], points[n][up]))
 
-    def half(some: Sequence[int]) -> list[int]:
+    def half(ordered: Sequence[int]) -> list[int]:
         chain: list[int] = []
-        for n in some:
+        for n in ordered:
             while len(chain) > 1 and _turn(*(points[k] for k in (chain[-2], chain[-1], n))) <= 0:
                 chain.pop()
             chain.append(n)
@@ -138,9 +140,11 @@ def _loop(points: Sequence[Whole], within: Sequence[int], normal: Whole) -> tupl
     return tuple(half(order) + half(order[::-1]))
 
 
-def _found(run: HullRun, cause: Cause | None, given: Sequence[Sequence[str]]) -> tuple[list[str], dict[str, Any]]:
-    """What the programs say, in words and as data."""
-    nothing: dict[str, Any] = {"dimension": -1, "vertices": [], "faces": []}
+def _program_hull(
+    run: HullRun, cause: Cause | None, typed: Sequence[Sequence[str]]
+) -> tuple[list[str], dict[str, Any]]:
+    """Return messages about a run, and the hull that it punched as data."""
+    no_hull: dict[str, Any] = {"dimension": -1, "vertices": [], "faces": []}
     if not run.complete:
         ending = run.final.result.ending
         lines = [run.refusal or ending.message]
@@ -148,29 +152,29 @@ def _found(run: HullRun, cause: Cause | None, given: Sequence[Sequence[str]]) ->
             lines.append(f"decided by program {cause.program}, card {cause.decision.place.card}: {cause.decision.text}")
         if cause is not None and cause.fault:
             lines.append(f"known fault {cause.fault}")
-        return lines, nothing
+        return lines, no_hull
     hull = read_hull(run.final.result.punched)
-    where: dict[tuple[Fraction, ...], int] = {}
-    for n, point in enumerate(given):
-        where.setdefault(coordinates(point), n)
-    known = [where.get(point, -1) for point in hull.vertices]
-    whole = scaled([coordinates(point) for point in given])
+    index_of: dict[tuple[Fraction, ...], int] = {}
+    for n, point in enumerate(typed):
+        index_of.setdefault(coordinates(point), n)
+    indices = [index_of.get(point, -1) for point in hull.vertices]
+    points = scaled([coordinates(point) for point in typed])
     dimension = {"program1": 1, "program2": 2, "program3": 3}[run.final.name]
-    loops = [[known[k - 1] for k in ends] for ends, _ in hull.satisfied]
+    loops = [[indices[k - 1] for k in ends] for ends, _ in hull.satisfied]
     if dimension == 3:
-        loops = [list(_drawn(whole, loop)) for loop in loops]
+        loops = [list(_in_order(points, loop)) for loop in loops]
     elif dimension == 2:
         loops = [[n for n in loop if n >= 0] for loop in loops]
-    strange = known.count(-1)
+    unknown = indices.count(-1)
     count = len(hull.vertices)
     lines = [f"{count} {'vertex' if count == 1 else 'vertices'}, {len(hull.equations)} equations"]
-    if strange:
-        lines.append(f"of the vertices punched {strange} are no points of the set: their coordinates were cut")
-    return lines, {"dimension": dimension, "vertices": [n for n in known if n >= 0], "faces": [x for x in loops if x]}
+    if unknown:
+        lines.append(f"{unknown} punched vertices are not points of the set: their coordinates were truncated")
+    return lines, {"dimension": dimension, "vertices": [n for n in indices if n >= 0], "faces": [x for x in loops if x]}
 
 
-def _drawn(points: Sequence[Whole], loop: Sequence[int]) -> tuple[int, ...]:
-    """The corners a plane of the programs is said to have, in an order to draw them."""
+def _in_order(points: Sequence[Whole], loop: Sequence[int]) -> tuple[int, ...]:
+    """Return the corners of a face that the programs punched, in the order of a polygon."""
     corners = [n for n in loop if n >= 0]
     for a, b, c in combinations(corners, 3):
         normal = cross(minus(points[b], points[a]), minus(points[c], points[a]))
@@ -179,35 +183,35 @@ def _drawn(points: Sequence[Whole], loop: Sequence[int]) -> tuple[int, ...]:
     return tuple(corners)
 
 
-def _compared(right: set[int], found: set[int], points: Sequence[Whole]) -> list[str]:
-    """Vertices missed and points wrongly called vertices, counted from 1; equal points are one."""
-    at = {points[n] for n in right}, {points[n] for n in found}
-    missed = [n + 1 for n in sorted(right) if points[n] not in at[1]]
-    extra = [n + 1 for n in sorted(found) if points[n] not in at[0]]
+def _differences(true_vertices: set[int], punched: set[int], points: Sequence[Whole]) -> list[str]:
+    """Compare the vertices; points are counted from 1, and equal points count as one."""
+    true_points, punched_points = {points[n] for n in true_vertices}, {points[n] for n in punched}
+    missed = [f"point {n + 1}" for n in sorted(true_vertices) if points[n] not in punched_points]
+    extra = [f"point {n + 1}" for n in sorted(punched) if points[n] not in true_points]
     if not missed and not extra:
         return ["its vertices are those of the true hull"]
-    says = []
+    messages = []
     if missed:
-        says.append(f"missed: {', '.join(f'point {n}' for n in missed)}")
+        messages.append(f"missed: {', '.join(missed)}")
     if extra:
-        says.append(f"no vertex of the true hull: {', '.join(f'point {n}' for n in extra)}")
-    return says
+        messages.append(f"not a vertex of the true hull: {', '.join(extra)}")
+    return messages
 
 
 def _part(run: HullRun, deck: Deck) -> Iterator[str]:
-    """The first decision, of whatever program ran, that exact numbers take otherwise."""
+    """Yield the first decision of the run that exact arithmetic takes differently, with both values and targets."""
     for step in run.steps:
         try:
-            found = diverge(
+            divergence = diverge(
                 step.program, step.deck, numbers("truncating"), numbers("exact"), Options(limit=LIMIT), values=False
             )
         except EmulatorError as error:
             yield str(error)
             return
-        first = found.first_decision
-        if first is not None:
-            number = f"{first.line.label} " if first.line.label else ""
-            yield f"program {step.number}, card {first.line.place.card}: {number}{first.line.text}"
-            for name, value, target in zip(("eight digits", "exact"), first.values, first.targets, strict=True):
+        decision = divergence.first_decision
+        if decision is not None:
+            number = f"{decision.line.label} " if decision.line.label else ""
+            yield f"program {step.number}, card {decision.line.place.card}: {number}{decision.line.text}"
+            for name, value, target in zip(("eight digits", "exact"), decision.values, decision.targets, strict=True):
                 yield f"{name}: {value}, goes to {target.name if target else 'the end'}"
             return

@@ -1,7 +1,7 @@
-"""What the papers' methods do, step by step, as things in space: hidden lines, cells of a ball, octants of a hull.
+"""The steps of the papers' methods as objects in space: hidden lines, cells of a ball, octants of a hull.
 
-Of Appel and Will the tables of :mod:`modern.papers.appel_will` are the steps already.  Nothing here has a size or a
-colour; a picture takes a direction of view and lays out the strokes.
+The objects have no size or colour; ``site/pages/papers.py`` draws them.  The steps of Appel and Will are the tables of
+:mod:`modern.papers.appel_will`.
 """
 
 from __future__ import annotations
@@ -30,16 +30,16 @@ from modern.papers.yau_srihari.octree import QUADRANTS, divided
 from modern.papers.yau_srihari.quadtree import Quadtree, ceiling, sons_of
 
 EYE: Eye = (24, -55, 29)
-"""From the front, a little above and from the right."""
+"""The direction of view from the front, slightly above and to the right."""
 ABOVE: Eye = (57, 31, 43)
-"""From where all three axes come towards the eye."""
+"""A direction of view from which all three axes point towards the eye."""
 SEEN, EDGE_OF_CONTOUR, HIDDEN, REMOVED = "seen", "contour", "hidden", "removed"
-"""What a stroke is; ``removed``: taken away by this step."""
+"""The kinds of strokes; ``removed`` means removed by this step."""
 
 
 @dataclass(frozen=True, slots=True)
 class Stroke:
-    """A straight line in space, and what it is."""
+    """A line segment in space and its kind."""
 
     start: Vector
     end: Vector
@@ -48,7 +48,7 @@ class Stroke:
 
 @dataclass(frozen=True, slots=True)
 class Pane:
-    """A face that is seen, and how much light falls on it, from 0 to 1."""
+    """A visible face and its brightness from 0 to 1."""
 
     corners: tuple[Vector, ...]
     light: float
@@ -56,7 +56,7 @@ class Pane:
 
 @dataclass(frozen=True, slots=True)
 class Plate:
-    """A picture of a step: its name, strokes, faces and points (each with whether it is hidden), all in space."""
+    """The picture of a step: its name, strokes, faces, and points with True for a hidden point."""
 
     name: str
     strokes: tuple[Stroke, ...] = ()
@@ -64,7 +64,7 @@ class Plate:
     points: tuple[tuple[Vector, bool], ...] = ()
 
     def count(self, kind: str) -> int:
-        """How many strokes are of a kind."""
+        """Return the number of strokes of a kind."""
         return sum(stroke.kind == kind for stroke in self.strokes)
 
 
@@ -74,20 +74,23 @@ _WHOLE: Spans = [(Fraction(0), Fraction(1))]
 
 @cache
 def hidden_lines(name: str = "house") -> tuple[Eye, tuple[Plate, ...]]:
-    """A scene of the project drawn stepwise: all edges; without edges between two faces turned away; without what lies
-    behind a nearer contour; without the lines that only divide an object (Nakamae and Nishita, sections 3.1 to 3.5)."""
-    given = scene(name)
-    x, y, z = (int(number) for number in given.sight.eye)
-    observer = given.sight.observer(given.make)
-    ghostly, last = draw(given.make, observer, without=(GHOSTS,)), draw(given.make, observer)
-    kept, result = _pieces(ghostly), _pieces(last)
+    """Draw a scene in four steps (Nakamae and Nishita, sections 3.1 to 3.5), and return the eye and the steps.
+
+    The steps are: all edges; without the edges between two faces turned away from the eye; without the parts behind a
+    nearer contour; without the lines that only divide an object (ghost lines).
+    """
+    model = scene(name)
+    x, y, z = (int(number) for number in model.sight.eye)
+    observer = model.sight.observer(model.make)
+    with_ghosts, final = draw(model.make, observer, without=(GHOSTS,)), draw(model.make, observer)
+    visible, result = _visible_spans(with_ghosts), _visible_spans(final)
     fronts: list[Stroke] = []
     backs: list[Stroke] = []
-    behind: list[Stroke] = []
-    apart: list[Stroke] = []
+    behind: list[Stroke] = []  # removed in the third step, and what remains
     before: list[Stroke] = []
+    ghosts: list[Stroke] = []  # removed in the fourth step, and what remains
     after: list[Stroke] = []
-    for item in last.solids:
+    for item in final.solids:
         places = (*item.polyhedron.vertices, *(p for f in item.polyhedron.figures for p in f.corners))
         for edge in item.edges:
             if edge.kind in (BACK, OUTLINE):
@@ -97,37 +100,37 @@ def hidden_lines(name: str = "house") -> tuple[Eye, tuple[Plate, ...]]:
             kind = EDGE_OF_CONTOUR if segment.kind == CONTOUR else SEEN
             key = (item.number, segment.start, segment.end)
             fronts.append(Stroke(a, b, kind))
-            seen, drawn = kept.get(key, []), result.get(key, [])
-            before += _cut(a, b, seen, SEEN)
-            behind += _cut(a, b, _without(_WHOLE, seen), REMOVED)
-            after += _cut(a, b, drawn, SEEN)
-            apart += _cut(a, b, _without(seen, drawn), REMOVED)
-    gone = [Stroke(stroke.start, stroke.end, REMOVED) for stroke in backs]
+            spans, drawn = visible.get(key, []), result.get(key, [])
+            before += _strokes(a, b, spans, SEEN)
+            behind += _strokes(a, b, _without(_WHOLE, spans), REMOVED)
+            after += _strokes(a, b, drawn, SEEN)
+            ghosts += _strokes(a, b, _without(spans, drawn), REMOVED)
+    removed = [Stroke(stroke.start, stroke.end, REMOVED) for stroke in backs]
     return (x, y, z), (
         Plate("all", (*(Stroke(s.start, s.end) for s in fronts), *backs)),
-        Plate("facing", (*gone, *fronts)),
+        Plate("facing", (*removed, *fronts)),
         Plate("nearer", (*behind, *before)),
-        Plate("result", (*apart, *after)),
+        Plate("result", (*ghosts, *after)),
     )
 
 
-def _pieces(drawing: Drawing) -> dict[tuple[int, int, int], Spans]:
-    """What is seen of every segment."""
-    found: dict[tuple[int, int, int], Spans] = {}
+def _visible_spans(drawing: Drawing) -> dict[tuple[int, int, int], Spans]:
+    """Return the visible spans of every segment."""
+    visible: dict[tuple[int, int, int], Spans] = {}
     for piece in drawing.pieces:
         if piece.seen:
-            found.setdefault((piece.solid, piece.start, piece.end), []).append((piece.first, piece.last))
-    return found
+            visible.setdefault((piece.solid, piece.start, piece.end), []).append((piece.first, piece.last))
+    return visible
 
 
 def _without(spans: Spans, others: Spans) -> Spans:
-    """The parts of spans that lie in none of the others."""
+    """Subtract the other spans from the spans."""
     for low, high in others:
         spans = [part for a, b in spans for part in ((a, min(b, low)), (max(a, high), b)) if part[0] < part[1]]
     return spans
 
 
-def _cut(a: Vector, b: Vector, spans: Spans, kind: str) -> Iterator[Stroke]:
+def _strokes(a: Vector, b: Vector, spans: Spans, kind: str) -> Iterator[Stroke]:
     for low, high in spans:
         yield Stroke(_at(a, b, low), _at(a, b, high), kind)
 
@@ -139,10 +142,10 @@ def _at(a: Vector, b: Vector, share: Fraction) -> Vector:
 
 @dataclass(frozen=True, slots=True)
 class Cells:
-    """A small ball of voxels and its hull: pictures, and numbers of cells by dimension.
+    """A small ball of voxels and its hull as pictures, with the numbers of cells by dimension.
 
-    ``counts``: of a complex its name and the numbers of 0-, 1-, 2- and 3-cells.  ``hull`` is the cell list with
-    coplanar triangles merged.
+    ``counts`` has for each complex its name and the numbers of its 0-, 1-, 2- and 3-cells.  ``hull`` is the cell list
+    of the hull with coplanar triangles merged.
     """
 
     diameter: int
@@ -153,24 +156,24 @@ class Cells:
 
 @cache
 def cells(diameter: int = 5) -> Cells:
-    """The ball of that diameter, its local corners' hull, and what their complexes are made of.
+    """Return the ball of a diameter, its hull, and the numbers of cells of both.
 
-    Of the voxels' surface the cells are counted that lie on the boundary; the 3-cells are the voxels, and one for the
-    inside of a polyhedron.
+    Only cells on the boundary of the voxels are counted, except the 3-cells, which are the voxels.  A polyhedron counts
+    as one 3-cell.
     """
     volume = ball(diameter)
-    found = voxel_hull(volume, order=RASTER).polyhedron
+    polyhedron = voxel_hull(volume, order=RASTER).polyhedron
     counts = [("the ball's voxels and their boundary", (*_boundary(volume), volume.count))]
     for name, cell_list in (
-        ("its hull, as triangles", found.triangles),
-        ("its hull, coplanar triangles merged", found.faces),
+        ("its hull, as triangles", polyhedron.triangles),
+        ("its hull, coplanar triangles merged", polyhedron.faces),
     ):
         counts.append((name, (len(cell_list.vertices), len(cell_list.edges), len(cell_list.faces), 1)))
-    points = [_vector(point) for point in found.faces.points]
-    faces = tuple(tuple(k - 1 for k in face.vertices[::-1]) for face in found.faces.faces)
+    points = [_vector(point) for point in polyhedron.faces.points]
+    faces = tuple(tuple(k - 1 for k in face.vertices[::-1]) for face in polyhedron.faces.faces)
     drawing = draw((Polyhedron("hull", tuple(points), faces),), parallel(_vector(EYE)), hidden=True)
     (item,) = drawing.solids
-    light = [_light(plane) for plane in found.faces.planes()]
+    light = [_light(plane) for plane in polyhedron.faces.planes()]
     panes = [
         Pane(_shrunk([points[k] for k in face]), shade)
         for face, sign, shade in zip(faces, item.signs, light, strict=True)
@@ -179,18 +182,18 @@ def cells(diameter: int = 5) -> Cells:
     edges = [(points[e.start], points[e.end], e.kind == BACK) for e in item.edges]
     front = {k for face, sign in zip(faces, item.signs, strict=True) if sign > 0 for k in face}
     at = tuple((point, k not in front) for k, point in enumerate(points))
-    strokes = tuple(Stroke(_at(a, b, _NEAR), _at(a, b, 1 - _NEAR), HIDDEN if back else SEEN) for a, b, back in edges)
+    strokes = tuple(Stroke(_at(a, b, _GAP), _at(a, b, 1 - _GAP), HIDDEN if back else SEEN) for a, b, back in edges)
     plates = (
         Plate("voxels", _drawn([_cube(where, 1) for where in volume.coordinates().tolist()], EYE)),
         Plate("vertices", points=at),
         Plate("edges", strokes),
         Plate("faces", panes=tuple(panes)),
     )
-    return Cells(diameter, plates, tuple(counts), found.faces)
+    return Cells(diameter, plates, tuple(counts), polyhedron.faces)
 
 
-_NEAR = Fraction(1, 8)
-"""How much of a cell is left out at each end, so that cells beside each other are seen to be two."""
+_GAP = Fraction(1, 8)
+"""The share of a cell that is omitted at each end, so that adjacent cells are visibly separate."""
 
 
 def _vector(point: Iterable[int]) -> Vector:
@@ -208,7 +211,7 @@ def _shrunk(corners: list[Vector]) -> tuple[Vector, ...]:
     middle = _vector((0, 0, 0))
     for corner in corners:
         middle = tuple(a + b / len(corners) for a, b in zip(middle, corner, strict=True))  # type: ignore[assignment]
-    return tuple(_at(corner, middle, _NEAR) for corner in corners)
+    return tuple(_at(corner, middle, _GAP) for corner in corners)
 
 
 def _cube(low: Iterable[int], side: int) -> Polyhedron:
@@ -217,29 +220,29 @@ def _cube(low: Iterable[int], side: int) -> Polyhedron:
 
 
 def _drawn(solids: list[Polyhedron], eye: Eye) -> tuple[Stroke, ...]:
-    """Solids with their hidden lines removed; where they touch, the edges of both are drawn."""
+    """Draw solids without their hidden lines.  Where two solids touch, the edges of both are drawn."""
     drawing = draw(solids, parallel(_vector(eye)), check=False)
-    found: list[Stroke] = []
+    strokes: list[Stroke] = []
     for piece in drawing.pieces:
         vertices = drawing.solids[piece.solid].polyhedron.vertices
-        found += _cut(vertices[piece.start], vertices[piece.end], [(piece.first, piece.last)], SEEN)
-    return tuple(found)
+        strokes += _strokes(vertices[piece.start], vertices[piece.end], [(piece.first, piece.last)], SEEN)
+    return tuple(strokes)
 
 
 def _boundary(volume: Volume) -> tuple[int, int, int]:
-    """How many corners, edges and squares the boundary of the voxels has."""
-    there = {tuple(where) for where in volume.coordinates().tolist()}
+    """Return the numbers of corners, edges and squares on the boundary of the voxels."""
+    voxels = {tuple(where) for where in volume.coordinates().tolist()}
     squares: set[tuple[int, ...]] = set()
-    # In doubled coordinates a cell is its middle: odd where it extends, even where it does not.
-    for where in there:
+    # In doubled coordinates a cell is its centre: a coordinate is odd if the cell extends along the axis, else even.
+    for where in voxels:
         for axis, step in product(range(3), (-1, 1)):
-            beside = tuple(number + step * (k == axis) for k, number in enumerate(where))
-            if beside not in there:
+            neighbour = tuple(number + step * (k == axis) for k, number in enumerate(where))
+            if neighbour not in voxels:
                 squares.add(tuple(2 * number + 1 + step * (k == axis) for k, number in enumerate(where)))
-    found = [squares]
-    for _ in range(2):
-        found.append({_moved(cell, k, step) for cell in found[-1] for k in range(3) if cell[k] % 2 for step in (-1, 1)})
-    return len(found[2]), len(found[1]), len(found[0])
+    # The ends of a cell along the axes in which it extends are the cells of the next lower dimension.
+    edges = {_moved(cell, k, step) for cell in squares for k in range(3) if cell[k] % 2 for step in (-1, 1)}
+    corners = {_moved(cell, k, step) for cell in edges for k in range(3) if cell[k] % 2 for step in (-1, 1)}
+    return len(corners), len(edges), len(squares)
 
 
 def _moved(cell: tuple[int, ...], axis: int, step: int) -> tuple[int, ...]:
@@ -248,9 +251,9 @@ def _moved(cell: tuple[int, ...], axis: int, step: int) -> tuple[int, ...]:
 
 @dataclass(frozen=True, slots=True)
 class Quadrant:
-    """A square of the quadtree of heights: its corner, its side; ``height`` None where there is no column.
+    """A square of the quadtree of heights: its corner, its side, and the greatest height in it.
 
-    ``height``: the greatest below it.  ``whole``: it is a leaf and is divided no further.
+    ``height`` is None if the square has no column.  ``whole`` is True for a leaf, which is not divided further.
     """
 
     x: int
@@ -262,10 +265,10 @@ class Quadrant:
 
 @dataclass(frozen=True, slots=True)
 class Level:
-    """A level of the trees of a hull, 0 the whole cube.
+    """A level of the trees of a hull; level 0 is the whole cube.
 
-    quadrants: of the ceiling, as far as they are divided here.  full, divided, empty: how many nodes the octree has at
-    this level.  ``plate`` shows the cubes that are full at this level and above it.
+    ``quadrants`` are those of the ceiling, divided down to this level.  ``full``, ``divided`` and ``empty`` are the
+    numbers of octree nodes at this level.  ``plate`` shows the full cubes down to this level.
     """
 
     number: int
@@ -277,12 +280,12 @@ class Level:
 
 
 RODS = 8
-"""How long the three rods of the octree's picture are, in voxels."""
+"""The length of the three rods in the picture of the octree, in voxels."""
 
 
 @cache
 def rods() -> tuple[OctreeHull, tuple[Level, ...]]:
-    """Three rods of voxels along the axes, their digital hull by octrees, and its levels."""
+    """Return the digital hull of three rods of voxels along the axes, computed with octrees, and its levels."""
     along = [[k if axis == own else 0 for axis in range(3)] for own in range(3) for k in range(RODS)]
     hull = octree_hull(listed(np.unique(np.array(along), axis=0), "three rods"))
     top = ceiling(hull.hull)
@@ -290,16 +293,16 @@ def rods() -> tuple[OctreeHull, tuple[Level, ...]]:
     leaves = [(_cube((x, y, z), hull.side >> level), level) for (x, y, z), level in cubes]
     levels: list[Level] = []
     for number in range(hull.side.bit_length()):
-        here = 8 * levels[-1].divided if levels else 1
-        full, parted = sum(level == number for _, level in leaves), divided(hull.hull, number)
+        nodes = 8 * levels[-1].divided if levels else 1
+        full, divided_nodes = sum(level == number for _, level in leaves), divided(hull.hull, number)
         drawn = [cube for cube, level in leaves if level <= number]
         levels.append(
             Level(
                 number,
                 tuple(_quadrants(top, number)),
                 full,
-                parted,
-                here - full - parted,
+                divided_nodes,
+                nodes - full - divided_nodes,
                 Plate(f"level {number}", _drawn(drawn, ABOVE) if drawn else ()),
             )
         )

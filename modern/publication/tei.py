@@ -1,10 +1,10 @@
-"""A text as TEI P5, by parallel segmentation: listings and prints with their witness and every emendation in line.
+"""Write a text as TEI P5 with parallel segmentation: listings and prints with their witness and every emendation.
 
-An *app* holds the readings of a place: ``lem`` what this edition prints (the layers of the deck or the corrected
-print), ``rdg`` with ``wit="#ocr"`` what the witness has, ``rdg`` with ``resp`` and no witness a reading of a layer
-beyond it.  An empty reading is an omission.  Apps nest where a later row changes what an earlier one established.  A
-card or line is an ``ab``: ``n`` is the line of the witness, the ``lb`` in it the line of the document's text.  From the
-file alone :mod:`modern.publication.tei_reading` gives back witness, corrected text and cards, byte for byte.
+An *app* element holds the readings of a passage.  ``lem`` is the reading of this edition (the layers of the deck, or
+the corrected print).  ``rdg`` with ``wit="#ocr"`` is the reading of the witness, and ``rdg`` with ``resp`` but no
+witness that of a further layer.  An empty reading is an omission.  Apps are nested if a later row changes the reading
+of an earlier one.  A card or line is an ``ab`` element: ``n`` is the line of the witness, and the ``lb`` in it the line
+of the whole document.  :mod:`modern.publication.tei_reading` restores witness, corrected text and cards from the file.
 
 Source: TEI P5 Guidelines, chapter 2 (header), 12.1 (apparatus entries), 12.2.3 (parallel segmentation).
 """
@@ -27,34 +27,35 @@ TEI = "http://www.tei-c.org/ns/1.0"
 XML = "http://www.w3.org/XML/1998/namespace"
 _ID, _SPACE, _LANG = f"{{{XML}}}id", f"{{{XML}}}space", f"{{{XML}}}lang"
 CERTAINTY = {"certain": "high", "probable": "medium", "conjecture": "low"}
-"""The TEI's words for ours."""
+"""The values of the attribute ``cert`` for our degrees of certainty."""
 LAYERS = {
-    "ocr": "the page certainly said so; the OCR misread it",
-    "typist": "a slip of the retyping that stands on the page",
-    "author": "a slip of the author, or one that cannot be told from it",
+    "ocr": "a misreading of the OCR; the page certainly has this reading",
+    "typist": "a typing error on the page",
+    "author": "an error of the author, or indistinguishable from one",
     "print": "proved by the printed output",
-    "lacuna": "conjecture: missing from listing or OCR, needed to run",
-    "examples": "the earlier state of program 1, reconstructed from the printed orders",
-    "epsilon": "modification of chapter 7: values from -e to +e count as zero",
-    "translation": "modification of chapter 7: the origin moved to C",
-    "corrected": "modern corrections of faults of the original",
+    "lacuna": "conjecture: missing from the listing or the OCR, and needed to run",
+    "examples": "the earlier state of program 1 that ran the examples, reconstructed from the printed order",
+    "epsilon": "proposal of chapter 7: values from -e to +e count as zero",
+    "translation": "proposal of chapter 7: the origin is moved to C",
+    "corrected": "our corrections of faults of the original",
 }
+"""A short description of every layer of the apparatus."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Edition:
-    """What is needed of a text while it is written; ``named`` the rows whose first app has been written, by id."""
+    """A text while it is written.  ``app_counts`` counts the app elements written so far for each row."""
 
     text: Text
     document: Document
     printed: frozenset[str]
-    named: dict[str, int]
+    app_counts: dict[str, int]
 
 
 def tei(name: str, version: str) -> str:
-    """The TEI document of a text of the edition (``program1``, ``chapter6``, ``appel_will_1976``, ...).
+    """Return the TEI document of a text of the edition (``program1``, ``chapter6``, ``appel_will_1976``, ...).
 
-    ``version`` is the edition's, as the project states it.  Raises KeyError for a name that is no text's.
+    ``version`` is the version of the project.  Raise KeyError for an unknown name.
     """
     text = texts()[name]
     excerpt = sources().excerpt(name)
@@ -119,17 +120,17 @@ def _encoding(encoding: Element, edition: _Edition) -> None:
     _words(
         SubElement(encoding, "projectDesc"),
         "p",
-        "The text an OCR made of the pages is the one witness. Every departure from it is an app with its row's id.",
+        "The OCR text of the pages is the only witness. Every departure from it is an app with the id of its row.",
     )
     editorial = SubElement(encoding, "editorialDecl")
     _words(
         editorial,
         "p",
-        "lem has what the edition prints, rdg with wit what the witness has, rdg with resp alone a reading of a layer "
-        "beyond the edition's text, rdg of type rejected a reading considered and not accepted. An empty lem or rdg is "
-        "an omission. A line whose readings are all empty is no line of that state. cert is high for certain, medium "
-        "for probable, low for conjecture. Of an ab, n is the line of the witness, and n of its lb the line of the "
-        "whole text.",
+        "lem is the reading of the edition, rdg with wit that of the witness, rdg with resp alone that of a further "
+        "layer, and rdg of type rejected a reading that was considered and not accepted. An empty lem or rdg is an "
+        "omission. A line whose readings are all empty does not exist in that state. cert is high for certain, medium "
+        "for probable, low for conjecture. n of an ab is the line of the witness, and n of its lb the line of the "
+        "whole document.",
     )
     SubElement(encoding, "variantEncoding", method="parallel-segmentation", location="internal")
     classes = SubElement(encoding, "classDecl")
@@ -141,45 +142,52 @@ def _encoding(encoding: Element, edition: _Edition) -> None:
 
 
 def _witness(div: Element, edition: _Edition, source: str) -> None:
-    """Every line of the witness's file in its order, each followed by the lines rows put after it."""
+    """Write every line of the witness in order, each followed by the lines that rows insert after it."""
     excerpt = sources().excerpt(edition.text.id)
-    follow = _followers(segments(edition.text))
+    groups = _with_insertions(segments(edition.text))
     number = 0
     for raw in source.removesuffix("\n").split("\n"):
         if raw.startswith(PAGE_MARK):
             SubElement(div, "pb", n=raw[len(PAGE_MARK) :].strip(), ed="print")
             continue
         number += 1
-        lines = follow.get(str(number))
-        at = excerpt.line(number)
+        lines = groups.get(str(number))
+        source_line = excerpt.line(number)
         if lines is None:
+            # A line outside the text: a page number, a heading, or a blank line.
             kind = "furniture" if raw.strip() else "blank"
-            _ab(div, edition, f"l{number}", kind, (raw,) if raw else (), at, str(number))
+            _ab(div, edition, f"l{number}", kind, (raw,) if raw else (), source_line, str(number))
             continue
         for line in lines:
             if line.inserted:
                 _ab(div, edition, line.id, "line", line.pieces, None, "")
             else:
-                _ab(div, edition, f"l{line.id}", "line", line.pieces, at, line.id)
+                _ab(div, edition, f"l{line.id}", "line", line.pieces, source_line, line.id)
 
 
-def _followers(lines: Iterable[Segments]) -> dict[str, list[Segments]]:
-    """Each line of the witness with the lines put in after it."""
-    found: dict[str, list[Segments]] = {}
+def _with_insertions(lines: Iterable[Segments]) -> dict[str, list[Segments]]:
+    """Group each line of the witness with the lines inserted after it."""
+    groups: dict[str, list[Segments]] = {}
     last = ""
     for line in lines:
         last = last if line.inserted else line.id
-        found.setdefault(last, []).append(line)
-    return found
+        groups.setdefault(last, []).append(line)
+    return groups
 
 
 def _ab(
-    div: Element, edition: _Edition, place: str, kind: str, pieces: tuple[Piece, ...], at: int | None, number: str
+    div: Element,
+    edition: _Edition,
+    place: str,
+    kind: str,
+    pieces: tuple[Piece, ...],
+    source_line: int | None,
+    number: str,
 ) -> None:
     names = {_ID: f"{edition.text.id}-{place}", "type": kind, _SPACE: "preserve"}
     ab = SubElement(div, "ab", names | ({"n": number} if number else {}))
-    if at is not None:
-        SubElement(ab, "lb", n=str(at), ed="ocr")
+    if source_line is not None:
+        SubElement(ab, "lb", n=str(source_line), ed="ocr")
     _write(ab, edition, pieces)
 
 
@@ -189,11 +197,12 @@ def _write(parent: Element, edition: _Edition, pieces: Iterable[Piece]) -> None:
             _append(parent, piece)
             continue
         row = piece.row
-        edition.named[row.id] = edition.named.get(row.id, 0) + 1
-        first = edition.named[row.id] == 1
-        names = {"type": row.layer, "ana": f"#layer-{row.layer} #kind-{row.kind}"}
-        names |= {_ID: row.id} if first else {"corresp": f"#{row.id}"}
-        app = SubElement(parent, "app", names)
+        edition.app_counts[row.id] = edition.app_counts.get(row.id, 0) + 1
+        first = edition.app_counts[row.id] == 1
+        attributes = {"type": row.layer, "ana": f"#layer-{row.layer} #kind-{row.kind}"}
+        # The first app of a row has its id; further ones refer to it.
+        attributes |= {_ID: row.id} if first else {"corresp": f"#{row.id}"}
+        app = SubElement(parent, "app", attributes)
         ours = {"resp": "#ed", "cert": CERTAINTY[row.certainty], "cause": row.cause}
         if row.layer in edition.printed:
             _write(SubElement(app, "lem", ours), edition, piece.new)
@@ -219,12 +228,12 @@ def _plain(value: object) -> str:
     if isinstance(value, list | tuple):
         return ", ".join(map(_plain, value))
     if isinstance(value, Mapping):
-        return ", ".join(f"{key} {_plain(one)}" for key, one in value.items())
+        return ", ".join(f"{key} {_plain(inner)}" for key, inner in value.items())
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
 def _devices(div: Element, chapter: Chapter) -> None:
-    """The device files: cards whose words are tied to lines of the print, and whose blanks are the layout's."""
+    """Write the device files: cards whose tokens refer to lines of the print and whose blanks follow the layout."""
     for example, program, device, file in device_files(chapter):
         layout = device_layout(chapter, example, program, device)
         part = SubElement(div, "div", {"type": device, "n": file})
@@ -234,12 +243,13 @@ def _devices(div: Element, chapter: Chapter) -> None:
                 if card.image:
                     _words(ab, "supplied", card.image, reason="stated", resp="#ed")
                 continue
-            at = 1
+            column = 1
             for token in card.tokens:
-                if token.first > at:
-                    SubElement(ab, "space", dim="horizontal", unit="chars", quantity=str(token.first - at), resp="#ed")
+                if token.first > column:
+                    blanks = str(token.first - column)
+                    SubElement(ab, "space", dim="horizontal", unit="chars", quantity=blanks, resp="#ed")
                 _words(ab, "seg", token.text, corresp=f"#chapter6-{_place(token.line)}")
-                at = token.last + 1
+                column = token.last + 1
 
 
 def _place(line: str) -> str:
@@ -253,7 +263,7 @@ def _words(parent: Element, name: str, words: str, **attributes: str) -> Element
 
 
 def _append(parent: Element, words: str) -> None:
-    """Characters at the end of an element's content."""
+    """Append characters to the content of an element."""
     if len(parent):
         parent[-1].tail = (parent[-1].tail or "") + words
     else:
@@ -261,11 +271,11 @@ def _append(parent: Element, words: str) -> None:
 
 
 def _indent(root: Element) -> None:
-    """Line ends and indentation everywhere but in what keeps its blanks."""
-    kept = {id(ab): _copy(ab) for ab in root.iter("ab")}
+    """Indent the document, except the ``ab`` elements, in which blanks are significant."""
+    originals = {id(ab): _copy(ab) for ab in root.iter("ab")}
     indent(root, " ")
     for ab in root.iter("ab"):
-        text, inner = kept[id(ab)]
+        text, inner = originals[id(ab)]
         ab.text = text
         for element, (words, tail) in zip(list(ab.iter())[1:], inner, strict=True):
             element.text, element.tail = words, tail
@@ -276,10 +286,10 @@ def _copy(ab: Element) -> tuple[str | None, list[tuple[str | None, str | None]]]
 
 
 def names() -> Iterator[str]:
-    """The texts that can be written."""
+    """Return the names of the texts."""
     yield from texts()
 
 
 def schema() -> str:
-    """The project's own RELAX NG schema: the elements and attributes these documents use, and no others."""
+    """Return the project's RELAX NG schema, which allows only the elements and attributes of these documents."""
     return files("modern").joinpath("publication", "tei.rng").read_text(encoding="utf-8")

@@ -1,7 +1,7 @@
-"""What a TEI document of ours gives back, from itself alone: witness, corrected text, deck, cards.
+"""Restore witness, corrected text, deck and cards from a TEI document of this edition.
 
-It is the other way of :mod:`modern.publication.tei` and shares nothing with it, nor with the apparatus, so that it
-shows what the document itself holds.
+The module is the inverse of :mod:`modern.publication.tei`.  It shares no code with that module or with the apparatus,
+so that a successful round trip proves that the document is complete.
 """
 
 from __future__ import annotations
@@ -16,37 +16,39 @@ _ID = "{http://www.w3.org/XML/1998/namespace}id"
 
 
 class TeiError(EmulatorError, ValueError):
-    """A file that is no TEI document of this edition, or has no such part; one line naming the file."""
+    """A file is not a TEI document of this edition, or lacks the requested part."""
 
 
 def parsed(name: str, source: str) -> Element:
-    """The document's root element.  ``name`` is the file's, for the message.  Raises TeiError."""
+    """Parse a document and return its root element.  Raise TeiError with the name of the file if that fails."""
     try:
         root = fromstring(source)
     except ParseError as error:
         line, column = error.position
-        raise TeiError(f"{name}, line {line}, column {column + 1}: no XML: {str(error).split(':')[0]}") from None
+        raise TeiError(
+            f"{name}, line {line}, column {column + 1}: not well-formed XML: {str(error).split(':')[0]}"
+        ) from None
     if root.tag != _TEI + "TEI" or root.find(f".//{_TEI}body") is None:
-        raise TeiError(f"{name}: no TEI document with a text")
+        raise TeiError(f"{name}: not a TEI document with a text")
     return root
 
 
 def layers(root: Element) -> tuple[str, ...]:
-    """The layers a document knows, in their order."""
-    found = root.iterfind(f".//{_TEI}taxonomy")
-    named = [c.get(_ID, "") for t in found if t.get(_ID) == "layer" for c in t.iterfind(_TEI + "category")]
+    """Return the layers that a document declares, in order."""
+    taxonomies = root.iterfind(f".//{_TEI}taxonomy")
+    named = [c.get(_ID, "") for t in taxonomies if t.get(_ID) == "layer" for c in t.iterfind(_TEI + "category")]
     return tuple(name.removeprefix("layer-") for name in named)
 
 
 def printed_layers(root: Element) -> frozenset[str]:
-    """The layers of the edition's own text: those whose reading is the lemma."""
+    """Return the layers of the edited text, whose readings are the lemmas."""
     return frozenset(
         app.get("type", "") for app in root.iter(_TEI + "app") for lem in app.iterfind(_TEI + "lem") if lem.get("resp")
     )
 
 
 def witness(root: Element) -> str:
-    """The witness as its file has it, page marks too."""
+    """Return the witness as it is in its file, with page marks."""
     lines: list[str] = []
     for element in _listing(root):
         if element.tag == _TEI + "pb":
@@ -56,28 +58,28 @@ def witness(root: Element) -> str:
     return "".join(line + "\n" for line in lines)
 
 
-def corrected(root: Element, wanted: Collection[str] | None = None) -> str:
-    """The text with the rows of ``wanted`` layers (default: those of the edition's text), a line a line.
+def corrected(root: Element, selected: Collection[str] | None = None) -> str:
+    """Return the text with the rows of the selected layers, by default those of the edited text.
 
-    For a listing it is the deck.
+    For a listing this is the deck.
     """
-    chosen = printed_layers(root) if wanted is None else wanted
+    chosen = printed_layers(root) if selected is None else selected
     lines = (_reading(ab, chosen) for ab in _listing(root) if ab.tag == _TEI + "ab" and ab.get("type") == "line")
     return "".join(line + "\n" for line in lines if line.strip())
 
 
 def parts(root: Element) -> tuple[str, ...]:
-    """The names of the device files a document holds."""
+    """Return the names of the device files in a document."""
     return tuple(div.get("n", "") for div in _devices(root))
 
 
 def part(root: Element, name: str) -> str:
-    """A device file: its cards, a line each.  Raises TeiError."""
+    """Return a device file with one line for each card.  Raise TeiError if the document does not have it."""
     for div in _devices(root):
         if div.get("n") == name:
             return "".join(_card(ab) + "\n" for ab in div.iterfind(_TEI + "ab"))
     held = ", ".join(parts(root)) or "none"
-    raise TeiError(f"there is no part {name!r}; the document has {held}")
+    raise TeiError(f"unknown part {name!r}; the document has {held}")
 
 
 def _divisions(root: Element, types: Collection[str]) -> Iterator[Element]:
@@ -98,34 +100,35 @@ def _devices(root: Element) -> Iterator[Element]:
 
 
 def _reading(element: Element, chosen: Collection[str]) -> str:
-    """The characters of a line, or of a reading, with one reading of each app."""
-    found = element.text or ""
+    """Return the characters of a line or of a reading, with one reading of each app."""
+    text = element.text or ""
     for child in element:
         if child.tag == _TEI + "app":
-            found += _chosen(child, chosen)
-        found += child.tail or ""
-    return found
+            text += _chosen(child, chosen)
+        text += child.tail or ""
+    return text
 
 
 def _chosen(app: Element, chosen: Collection[str]) -> str:
+    """Return our reading if the layer of the app is chosen, else that of the witness."""
     ours = app.get("type") in chosen
     for reading in app:
-        kept = reading.tag in (_TEI + "lem", _TEI + "rdg") and reading.get("type") != "rejected"
-        if kept and bool(reading.get("wit")) != ours:
+        is_reading = reading.tag in (_TEI + "lem", _TEI + "rdg") and reading.get("type") != "rejected"
+        if is_reading and bool(reading.get("wit")) != ours:
             return _reading(reading, chosen)
     return ""
 
 
 def _card(ab: Element) -> str:
-    found = ab.text or ""
+    text = ab.text or ""
     for child in ab:
-        found += _blanks(child) if child.tag == _TEI + "space" else child.text or ""
-        found += child.tail or ""
-    return found
+        text += _blanks(child) if child.tag == _TEI + "space" else child.text or ""
+        text += child.tail or ""
+    return text
 
 
 def _blanks(space: Element) -> str:
-    given = space.get("quantity", "")
-    if not given.isdecimal() or int(given) > 80:
-        raise TeiError(f"a space of {given!r} characters; a card has 80 columns")
-    return " " * int(given)
+    quantity = space.get("quantity", "")
+    if not quantity.isdecimal() or int(quantity) > 80:
+        raise TeiError(f"a space of {quantity!r} characters; a card has 80 columns")
+    return " " * int(quantity)

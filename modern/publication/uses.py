@@ -1,6 +1,6 @@
-"""Who goes where and what is used where in a deck: jumps by card, names and FORMATs with the cards that use them.
+"""Cross references of a deck: the jumps between its cards, and the cards that use each name and FORMAT.
 
-Everything is read from the syntax tree, so that it holds for a deck and not for a run.
+They are read from the syntax tree and therefore do not depend on a run.
 """
 
 from __future__ import annotations
@@ -17,15 +17,17 @@ from emulator.language.storage import Storage
 from modern.edition import programs
 
 How = Literal["declared", "set", "used"]
+"""What a card does with a name."""
 _SIGNS = ("\u2212", "0", "+")
 
 
 @dataclass(frozen=True, slots=True)
 class Jump:
-    """A way from one card to another that is not the next: ``taken`` for what (nothing where there is no choice).
+    """A reference from one card to another.
 
-    ``kind``: a jump; ``again``, the last statement of a DO going back to the first; ``format``, a list that is read or
-    written by a FORMAT.
+    ``kind`` is ``jump`` for a transfer of control, ``again`` for the last statement of a DO loop, which returns to the
+    first, and ``format`` for an input or output statement that uses a FORMAT.  ``taken`` is the condition of the jump,
+    or empty if it is unconditional.
     """
 
     card: int
@@ -36,10 +38,10 @@ class Jump:
 
 @dataclass(frozen=True, slots=True)
 class Name:
-    """A name of a program: how large it is, and on what cards it is declared, set and used.
+    """A name in a program with the cards that declare, set and use it.
 
-    ``shape`` are the dimensions of an array; ``floating`` the mode; ``function`` a library function.  A card that sets
-    a name and uses it too is in both.
+    ``floating`` is its mode, ``shape`` has the dimensions of an array, ``fields`` is its size in fields, and
+    ``function`` is True for a library function.
     """
 
     name: str
@@ -54,41 +56,41 @@ class Name:
 
 @dataclass(frozen=True)
 class Uses:
-    """Jumps and names of a deck, by card; ``labels`` gives the card of a statement number."""
+    """The jumps and names of a deck.  ``labels`` maps a statement number to its card."""
 
     labels: dict[int, int]
     jumps: tuple[Jump, ...]
     names: tuple[Name, ...]
 
     def to(self, card: int) -> tuple[Jump, ...]:
-        """Who comes to a card."""
+        """Return the references to a card."""
         return tuple(jump for jump in self.jumps if jump.target == card)
 
     def of(self, card: int) -> tuple[str, ...]:
-        """The names that stand on a card."""
+        """Return the names on a card."""
         return tuple(name.name for name in self.names if card in (*name.declared, *name.set, *name.used))
 
 
 @cache
 def uses(program: str) -> Uses:
-    """Jumps and names of a built-in program's deck."""
+    """Return the jumps and names of a built-in program."""
     deck = programs.deck(program)
     statements = parse(deck).statements
     labels = {s.label: s.place.card for s in statements if s.label}
     jumps = tuple(jump for s in statements for jump in _jumps(s, labels))
-    found: dict[str, dict[How, list[int]]] = {}
+    cards_of: dict[str, dict[How, list[int]]] = {}
     for statement in statements:
         for name, how in _names(statement.body):
-            cards = found.setdefault(name, {"declared": [], "set": [], "used": []})[how]
+            cards = cards_of.setdefault(name, {"declared": [], "set": [], "used": []})[how]
             if statement.place.card not in cards:
                 cards.append(statement.place.card)
     storage = compile_deck(deck).storage
-    names = tuple(_name(name, how, storage) for name, how in sorted(found.items()))
+    names = tuple(_name(name, how, storage) for name, how in sorted(cards_of.items()))
     return Uses(labels, jumps, names)
 
 
 def _jumps(statement: tree.Statement, labels: dict[int, int]) -> Iterator[Jump]:
-    """The ways that leave a statement, several for one target in one."""
+    """Yield the references from a statement.  Several conditions with the same target are joined."""
     body, card = statement.body, statement.place.card
     ways: list[tuple[str, int]] = []
     if isinstance(body, tree.GoTo):
@@ -103,15 +105,15 @@ def _jumps(statement: tree.Statement, labels: dict[int, int]) -> Iterator[Jump]:
         yield Jump(labels[body.label], card, "", "again")
     elif isinstance(body, tree.InputOutput):
         yield Jump(card, labels[body.format], body.verb, "format")
-    taken: dict[int, list[str]] = {}
-    for way, label in ways:
-        taken.setdefault(labels[label], []).append(way)
-    for target, what in taken.items():
-        yield Jump(card, target, ", ".join(filter(None, what)), "jump")
+    conditions: dict[int, list[str]] = {}
+    for condition, label in ways:
+        conditions.setdefault(labels[label], []).append(condition)
+    for target, of_target in conditions.items():
+        yield Jump(card, target, ", ".join(filter(None, of_target)), "jump")
 
 
 def _names(body: tree.Body) -> Iterator[tuple[str, How]]:
-    """Every name of a statement and what is done to it."""
+    """Yield every name in a statement and what the statement does with it."""
     if isinstance(body, tree.Dimension):
         yield from ((name, "declared") for name, _, _ in body.arrays)
     elif isinstance(body, tree.Assignment):
@@ -124,9 +126,9 @@ def _names(body: tree.Body) -> Iterator[tuple[str, How]]:
     elif isinstance(body, tree.Do):
         yield from _loop(body)
     elif isinstance(body, tree.InputOutput):
-        taken = body.verb in ("READ", "ACCEPT")
+        is_input = body.verb in ("READ", "ACCEPT")
         for item in body.items:
-            yield from _item(item, taken)
+            yield from _item(item, is_input)
 
 
 def _loop(loop: tree.Do | tree.Loop) -> Iterator[tuple[str, How]]:
@@ -136,13 +138,13 @@ def _loop(loop: tree.Do | tree.Loop) -> Iterator[tuple[str, How]]:
             yield from _read(bound)
 
 
-def _item(item: tree.Item, taken: bool) -> Iterator[tuple[str, How]]:
-    """An item of a list: what is read is set, what is written used."""
+def _item(item: tree.Item, is_input: bool) -> Iterator[tuple[str, How]]:
+    """Yield the names in an item of an input or output list: input sets them, output uses them."""
     if isinstance(item, tree.Loop):
         yield from _loop(item)
         for inner in item.items:
-            yield from _item(inner, taken)
-    elif taken:
+            yield from _item(inner, is_input)
+    elif is_input:
         yield from _target(item)
     else:
         yield from _read(item)

@@ -1,7 +1,7 @@
-"""Typst markup from words and from the documents' Markdown.
+"""Write Typst markup from plain text and from the Markdown of the documents.
 
-Words go in as strings of Typst's code (``#"..."``), where nothing but a quotation mark and a backslash has a meaning;
-so no character of a text is ever taken for markup.  Typst: Reference, "Syntax" and "Strings".
+Text is written as string literals of Typst's code mode (``#"..."``), in which only quotation marks and backslashes have
+a meaning.  No character of a text can therefore be interpreted as markup (Typst reference, "Syntax" and "Strings").
 """
 
 from __future__ import annotations
@@ -19,63 +19,63 @@ _DIRECTIVE = re.compile(r"^:::\{.*?^:::$\n?|^```\{.*?^```$\n?", re.MULTILINE | r
 _HEAD = re.compile(r"\A---\n.*?\n---\n", re.DOTALL)
 _COMMENT = re.compile(r"<!--.*?-->\n?", re.DOTALL)
 _ROLE = re.compile(r"\{([a-z]+)\}\Z")
-_FURTHEST = 0x2E80
-"""Where the scripts of East Asia begin, of which the fonts that Typst brings have nothing."""
+_FIRST_UNSUPPORTED = 0x2E80
+"""The first code point of the East Asian scripts, which the fonts of Typst do not contain."""
 _LINE, _LONG, _CELL, _WORD, _GAP = 104, 90, 40, 12, 2
-"""Letters: a table's width; the most that a column counts for; a cell that is no sentence; a word where none is known;
-what is between columns."""
+"""Widths in characters: a table; the largest weight of a column; a cell that is not a sentence; the default for the
+longest word; the gap between columns."""
 _USUAL, _SMALL, _SMALLEST = 8.5, 6.5, 5.0
-"""Points: a table's letters; the least for cells each in a line; the least at all."""
+"""Font sizes of tables in points: the normal size; the smallest for cells on one line; the smallest of all."""
 
 
 def string(words: str) -> str:
-    """A Typst string; a character that the book's fonts have not, as the OCR's full stop of Chinese, by its number."""
-    words = "".join(c if ord(c) < _FURTHEST else f"[U+{ord(c):04X}]" for c in words)
+    """Return a Typst string.  A character that the fonts lack, such as a Chinese full stop, becomes its code."""
+    words = "".join(c if ord(c) < _FIRST_UNSUPPORTED else f"[U+{ord(c):04X}]" for c in words)
     escaped = words.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n").replace("\t", "  ")
     return f'"{escaped}"'
 
 
 def say(words: str) -> str:
-    """Words within markup."""
+    """Return plain text as markup."""
     return f"#{string(words)};" if words else ""
 
 
 def code(words: str) -> str:
-    """Words of a program within a line."""
+    """Return program text within a line."""
     return f"#raw({string(words)});"
 
 
 def block(words: str, size: str = "7.8pt") -> str:
-    """Lines of a program, set in a block of their own."""
+    """Return lines of a program as a block."""
     return f"#listing({size}, {string(words.rstrip(chr(10)))})\n\n"
 
 
 def call(name: str, *content: str, **named: str) -> str:
-    """A function of Typst called with pieces of markup; ``named`` arguments are code."""
+    """Return a call of a Typst function with pieces of markup; ``named`` arguments are code."""
     arguments = "".join(f"{key.replace('_', '-')}: {value}, " for key, value in named.items())
-    return f"#{name}({arguments}{', '.join(f'[{one}]' for one in content)})"
+    return f"#{name}({arguments}{', '.join(f'[{piece}]' for piece in content)})"
 
 
 def label(*parts: str) -> str:
-    """A label of words: what a label may not hold becomes a code of it."""
-    words = "--".join(parts)
-    return "".join(c if c.isalnum() and c.isascii() else "-" if c in "-_ " else f".{ord(c):x}." for c in words)
+    """Return a label made from texts; a character that labels may not contain is replaced by its code."""
+    joined = "--".join(parts)
+    return "".join(c if c.isalnum() and c.isascii() else "-" if c in "-_ " else f".{ord(c):x}." for c in joined)
 
 
 def heading(words: str, level: int, place: str) -> str:
-    """A heading with its label."""
+    """Return a heading with its label."""
     return f"{'=' * level} {say(words)} <{place}>\n\n"
 
 
 def to(place: str, content: str) -> str:
-    """A reference to a label: its words and the page."""
+    """Return a reference to a label: the given markup and the page number."""
     return f"#to(<{place}>)[{content}]"
 
 
 def table(
     head: Sequence[str], rows: Iterable[Sequence[str]], widths: Sequence[int], words: Sequence[int] | None = None
 ) -> str:
-    """A table of markup; ``widths`` are each column's longest cells, in letters, and ``words`` the longest words."""
+    """Return a table.  ``widths`` are the longest cell of each column in characters, ``words`` the longest words."""
     size, columns = columns_of(widths, [min(width, _WORD) for width in widths] if words is None else words)
     cells = "".join(f"[{cell}], " for row in rows for cell in row)
     top = "".join(f"[{call('strong', cell)}], " for cell in head)
@@ -83,11 +83,11 @@ def table(
 
 
 def columns_of(widths: Sequence[int], words: Sequence[int]) -> tuple[float, list[str]]:
-    """The size of a table's letters in points, and how wide each of its columns is, as Typst has it.
+    """Return the font size of a table in points and the widths of its columns in Typst's notation.
 
-    Where all cells fit a column is as wide as it is, or, without sentences, as its cells in somewhat smaller letters.
-    Else no column is narrower than its longest word, and what is left goes to those with longer cells; letters get
-    smaller where the words alone do not fit.
+    If all cells fit on one line, columns get their natural width.  If no cell is a sentence, the font may be reduced
+    until the cells fit.  Otherwise every column is at least as wide as its longest word, the remaining space goes to
+    columns with longer cells, and the font is reduced if even the words do not fit.
     """
     room = _LINE - _GAP * len(widths)
     if sum(widths) <= room:
@@ -96,17 +96,17 @@ def columns_of(widths: Sequence[int], words: Sequence[int]) -> tuple[float, list
         return _USUAL * room / sum(widths), [f"{width + _GAP}fr" for width in widths]
     least = sum(words)
     size = max(_SMALLEST, min(_USUAL, _USUAL * room / least))
-    more = [min(width, _LONG) - word if width > word else 0 for width, word in zip(widths, words, strict=True)]
-    spare = max(0.0, room * _USUAL / size - least) / max(1, sum(more))
-    return size, [f"{word + _GAP + spare * each:.1f}fr" for word, each in zip(words, more, strict=True)]
+    extra = [min(width, _LONG) - word if width > word else 0 for width, word in zip(widths, words, strict=True)]
+    spare = max(0.0, room * _USUAL / size - least) / max(1, sum(extra))
+    return size, [f"{word + _GAP + spare * weight:.1f}fr" for word, weight in zip(words, extra, strict=True)]
 
 
 @dataclass
 class Markdown:
-    """A document's Markdown made Typst.
+    """A translator of one document from Markdown to Typst.
 
-    ``name`` is its path below ``docs``, ``known`` the documents and addresses of the book; ``level`` what its first
-    heading becomes.  ``picture`` gives Typst's name for a picture's file, or nothing where the book has it not.
+    ``name`` is the path of the document below ``docs``, ``known`` are all labels of the book, and ``level`` is that of
+    the first heading.  ``picture`` returns Typst's name for the file of a picture, or "" if the book lacks it.
     """
 
     name: str
@@ -116,18 +116,17 @@ class Markdown:
     _slugs: dict[str, int] = field(default_factory=dict)
 
     def typst(self, source: str) -> str:
-        """The whole document."""
+        """Translate the whole document."""
         text = _DIRECTIVE.sub("", _COMMENT.sub("", _HEAD.sub("", source)))
         tokens = MarkdownIt("commonmark").enable("table").use(deflist_plugin).parse(text)
         return "".join(self._blocks(tokens))
 
     def _blocks(self, tokens: Sequence[Token]) -> Iterator[str]:
-        at = 0
-        while at < len(tokens):
-            token = tokens[at]
-            end = _end(tokens, at)
-            yield self._block(token, tokens[at + 1 : end])
-            at = max(end, at) + 1
+        start = 0
+        while start < len(tokens):
+            end = _end(tokens, start)
+            yield self._block(tokens[start], tokens[start + 1 : end])
+            start = max(end, start) + 1
 
     def _block(self, token: Token, inner: Sequence[Token]) -> str:
         match token.type:
@@ -159,25 +158,26 @@ class Markdown:
         return ""
 
     def _items(self, tokens: Sequence[Token]) -> list[str]:
-        found, at = [], 0
-        while at < len(tokens):
-            end = _end(tokens, at)
-            found.append("".join(self._blocks(tokens[at + 1 : end])))
-            at = end + 1
-        return found
+        items, start = [], 0
+        while start < len(tokens):
+            end = _end(tokens, start)
+            items.append("".join(self._blocks(tokens[start + 1 : end])))
+            start = end + 1
+        return items
 
     def _definitions(self, tokens: Sequence[Token]) -> str:
-        found, at, term = [], 0, ""
-        while at < len(tokens):
-            end = _end(tokens, at)
-            if tokens[at].type == "dt_open":
-                term = self._inline(tokens[at + 1])
-                place = label(self.name, self._slug(_plain(tokens[at + 1])))
+        items, start, term = [], 0, ""
+        while start < len(tokens):
+            end = _end(tokens, start)
+            if tokens[start].type == "dt_open":
+                term = self._inline(tokens[start + 1])
+                place = label(self.name, self._slug(_plain(tokens[start + 1])))
                 term = f"#[{term}#[] <{place}>]"
             else:
-                found.append(call("terms.item", term, "".join(self._blocks(tokens[at + 1 : end]))).removeprefix("#"))
-            at = end + 1
-        return f"#terms({', '.join(found)})\n\n"
+                definition = "".join(self._blocks(tokens[start + 1 : end]))
+                items.append(call("terms.item", term, definition).removeprefix("#"))
+            start = end + 1
+        return f"#terms({', '.join(items)})\n\n"
 
     def _table(self, tokens: Sequence[Token]) -> str:
         rows: list[list[Token]] = []
@@ -188,10 +188,10 @@ class Markdown:
                 rows[-1].append(token)
         columns = [[_plain(row[k]) for row in rows] for k in range(len(rows[0]))]
         words = [max(len(word) for cell in column for word in cell.split() or ("",)) for column in columns]
-        # A head may go on below; a cell is better in a line.
+        # A heading may be broken into lines; the width depends on the cells.
         widths = [max(word, *map(len, column[1:])) for word, column in zip(words, columns, strict=True)]
-        made = [[self._inline(cell) for cell in row] for row in rows]
-        return table(made[0], made[1:], widths, words)
+        head, *body = [[self._inline(cell) for cell in row] for row in rows]
+        return table(head, body, widths, words)
 
     def _inline(self, token: Token) -> str:
         out: list[str] = []
@@ -223,25 +223,28 @@ class Markdown:
                     out.append(f"#picture({string(file)}, {alt})" if file else say(child.content))
         return "".join(out)
 
-    def _role(self, out: list[str], words: str) -> str:
-        """Words in backquotes: of a role before them (``{card}``), if there is one, else of a program."""
+    def _role(self, out: list[str], content: str) -> str:
+        """Translate text in backquotes: a role if ``{card}`` or another name precedes it, otherwise program text.
+
+        The name is the end of the last piece of ``out``, from which it is removed.
+        """
         before = _ROLE.search(out[-1].removesuffix('";')) if out else None
         if before is None:
-            return code(words)
+            return code(content)
         out[-1] = say(out[-1][2:-2].removesuffix(before[0]).replace('\\"', '"').replace("\\\\", "\\"))
-        shown, _, rest = words.partition(" <")
-        target = rest.rstrip(">") or words
+        shown, _, rest = content.partition(" <")
+        target = rest.rstrip(">") or content
         names = {"card": label("card", *target.split()), "row": label("row", target), "error": label("error", target)}
         place = names.get(before[1], "") or self._target(f"{target}.md" if before[1] == "doc" else "")
-        content = say(shown) if rest or before[1] in ("doc", "ref") else code(shown)
-        return to(place, content) if place in self.known else content
+        markup = say(shown) if rest or before[1] in ("doc", "ref") else code(shown)
+        return to(place, markup) if place in self.known else markup
 
     @property
     def _folder(self) -> str:
         return posixpath.dirname(self.name)
 
     def _target(self, address: str) -> str:
-        """The label an address of the documents is, or nothing."""
+        """Return the label for an address in the documents, or an empty string."""
         file, _, part = address.partition("#")
         if not file.endswith(".md") and not (part and not file):
             return ""
@@ -253,7 +256,7 @@ class Markdown:
         return f"#link({string(address)})[" if re.match(r"https?:", address) else ""
 
     def _slug(self, words: str) -> str:
-        """The name of a heading in addresses, as MyST makes it; a second one of the name is counted."""
+        """Return the anchor of a heading as MyST derives it; a repeated anchor gets a number."""
         slug = re.sub(r"[^\w\- ]", "", words.lower()).replace(" ", "-")
         times = self._slugs.get(slug, 0)
         self._slugs[slug] = times + 1
@@ -261,24 +264,24 @@ class Markdown:
 
 
 def places(name: str, source: str) -> tuple[str, ...]:
-    """The labels of a document: its headings and its definitions, and itself, which is its first heading."""
-    found = Markdown(name, (), 1, lambda file: "").typst(source)
-    return (label(name), *re.findall(r" <([\w.-]+)>(?=\n|\])", found))
+    """Return the labels of a document: that of the document itself and those of its headings and definitions."""
+    markup = Markdown(name, (), 1, lambda file: "").typst(source)
+    return (label(name), *re.findall(r" <([\w.-]+)>(?=\n|\])", markup))
 
 
 def _is_title(paragraph: Token) -> bool:
-    """Whether a paragraph is strong words alone: the title of the table below it, which it is not to be parted from."""
+    """Return True if a paragraph is only bold text: the title of a table, which must stay on the page of the table."""
     kinds = [child.type for child in paragraph.children or () if child.type != "text" or child.content]
     return kinds[:1] == ["strong_open"] and kinds.index("strong_close") == len(kinds) - 1
 
 
-def _end(tokens: Sequence[Token], at: int) -> int:
-    """Where what begins at a token ends; the token itself where it is whole."""
+def _end(tokens: Sequence[Token], start: int) -> int:
+    """Return the index of the token that closes the one at ``start``, or ``start`` if it opens nothing."""
     depth = 0
-    for place in range(at, len(tokens)):
-        depth += tokens[place].nesting
+    for index in range(start, len(tokens)):
+        depth += tokens[index].nesting
         if depth == 0:
-            return place
+            return index
     return len(tokens) - 1
 
 

@@ -14,18 +14,6 @@ from modern.edition.grounds import check_row
 from modern.edition.sources import place
 from modern.publication.site.markup import definitions, element, escape, link, text
 
-LAYERS = {
-    "ocr": "misreadings of the OCR",
-    "print": "readings proved by the printed output",
-    "lacuna": "missing text that the programs need to run",
-    "examples": "program 1 in the state that ran the examples",
-    "epsilon": "proposal of chapter 7: values from -e to +e count as zero",
-    "translation": "proposal of chapter 7: the origin is moved to C",
-    "corrected": "our corrections of known faults",
-    "typist": "typing errors on the page",
-    "author": "errors of the author, or indistinguishable from them",
-}
-"""A short description of every layer."""
 GROUNDS = {
     "parse": "without the row, the deck does not compile",
     "print": "without the row, a printed result is no longer reproduced",

@@ -12,10 +12,11 @@ from modern.edition import programs
 from modern.edition.apparatus import Row
 from modern.publication.facing import Card, Facing, Piece, Variant, facing
 from modern.publication.measured import DETECTED_BY, Run, runs, weights
-from modern.publication.site.entries import LAYERS, entry
+from modern.publication.site.entries import entry
 from modern.publication.site.made import Made, Part, Target, one_of
 from modern.publication.site.markup import code, definitions, element, escape, link, text
 from modern.publication.site.pages.symbols import symbols
+from modern.publication.tei import LAYERS
 from modern.publication.uses import Jump, uses
 
 SIGNS = {"ours": "+", "changed": "\u2260", "blanks": "\u2423"}
