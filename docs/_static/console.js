@@ -1,14 +1,14 @@
-// The face of the desk (modern/publication/desk.py), which runs in a worker beside this page.
+// The controls of the emulator (modern/publication/desk.py), which runs in a worker of this page.
 "use strict";
 (() => {
   const at = (id) => document.getElementById(`desk-${id}`);
   const desk = document.getElementById("desk");
   const there = new URL("../console/", document.currentScript.src).href;
-  const bytes = window.hull1620Bytes ?? 0; // what console/size.js says, where the machine was laid into the site
+  const bytes = window.hull1620Bytes ?? 0; // set by console/size.js; 0 if the site was built without the emulator
   const PACES = [1, 10, 100, 1000, 10000, 0];
-  const SPEEDS = ["as in 1963", "10 times 1963", "100 times", "1,000 times", "10,000 times", "at once"];
-  const COMPILING = 10000; // milliseconds a source may take
-  const SHOWN = 2000; // lines of paper and cards the page keeps in sight; what is saved is whole
+  const SPEEDS = ["as in 1963", "10 times 1963", "100 times", "1,000 times", "10,000 times", "full speed"];
+  const COMPILING = 10000; // the largest compile time in milliseconds
+  const SHOWN = 2000; // the number of lines and cards that the page shows; saved files are complete
   const period = JSON.parse(at("period").textContent);
   const own = { programs: new Map(), decks: new Map() };
   let worker = null;
@@ -23,17 +23,17 @@
 
   if (location.protocol === "file:") {
     at("says").textContent =
-      "The machine needs a server: in a checkout, “make serve” shows this site on your own computer. " +
+      "The emulator needs a web server. In a checkout, “make serve” shows this site on your own computer. " +
       "Below is a recorded session.";
     return;
   }
   if (!bytes) {
     at("says").textContent =
-      "This site was built without the machine: “npm ci --prefix docs/console” fetches what it needs, then “make edition”.";
+      "This site was built without the emulator. To include it, run “npm ci --prefix docs/console” and “make edition”.";
     return;
   }
   at("says").textContent =
-    `It loads Python and this project into the page, ${(bytes / 1e6).toFixed(1)} MB. Nothing leaves your computer.`;
+    `The page loads Python and this project (${(bytes / 1e6).toFixed(1)} MB). Nothing leaves your computer.`;
   at("progress").max = bytes;
   at("begin").hidden = false;
   at("begin").addEventListener("click", begin);
@@ -59,7 +59,7 @@
         else done(data.answer);
       }
     };
-    worker.onerror = (event) => stopped(event.message || "the machine could not be loaded");
+    worker.onerror = (event) => stopped(event.message || "the emulator could not be loaded");
   }
 
   async function begin() {
@@ -79,7 +79,7 @@
     desk.querySelector(".desk-parts").hidden = false;
     desk.querySelector(".desk-recorded").hidden = true;
     at("says").textContent = "";
-    say("Choose a program and a deck, and load them.");
+    say("Choose a program and a deck and load them.");
     pace();
     at("program").focus();
   }
@@ -87,7 +87,7 @@
   function stopped(why) {
     at("progress").hidden = true;
     at("begin").disabled = false;
-    at("says").textContent = `The machine is not there: ${why}. The recorded session below stands as it is.`;
+    at("says").textContent = `The emulator is not available: ${why}. The recorded session below is unchanged.`;
   }
 
   function option(select, value, text) {
@@ -105,7 +105,7 @@
     for (const [name, text] of Object.entries(period)) {
       const what = name.endsWith(".f") ? "programs" : "decks";
       own[what].set(name, text);
-      option(at(what === "programs" ? "program" : "deck"), name, `${name}, in the manner of the time`);
+      option(at(what === "programs" ? "program" : "deck"), name, `${name}, in the style of the period`);
     }
     at("program").value = "program1_examples";
     at("deck").value = "example4";
@@ -119,7 +119,7 @@
       const select = at(what === "programs" ? "program" : "deck");
       option(select, file.name, file.name);
       select.value = file.name;
-      say(`${file.name} is taken for a ${what === "programs" ? "program" : "deck"}.`);
+      say(`${file.name} is read as a ${what === "programs" ? "program" : "deck"}.`);
     }
   }
   at("files").addEventListener("change", ({ target }) => take(target.files));
@@ -141,7 +141,7 @@
   at("again").addEventListener("click", () => {
     option(at("deck"), "stacker", "the cards punched last");
     at("deck").value = "stacker";
-    say("The cards are in the reader. Choose the program, and load.");
+    say("The cards are in the reader. Choose a program and load it.");
     at("program").focus();
   });
 
@@ -151,7 +151,7 @@
     say("Compiling …");
     const late = setTimeout(() => {
       worker.terminate();
-      say("The compiler was stopped after 10 seconds; the command hull1620 check takes the time it needs. Loading again …");
+      say("The compiler was stopped after 10 seconds. The command hull1620 check has no time limit. Loading again …");
       employ();
       ask("begin").then(() => say("The compiler was stopped after 10 seconds. The machine is on again."));
     }, COMPILING);
@@ -159,7 +159,7 @@
     clearTimeout(late);
     if (answer.refused) {
       const [first, ...rest] = answer.refused;
-      say(first + (rest.length ? ` (and ${rest.length} more lines, on the paper)` : ""));
+      say(first + (rest.length ? ` (and ${rest.length} more lines on the typewriter)` : ""));
       paper(answer.refused, "note");
       return;
     }

@@ -1,4 +1,4 @@
-/* What a browser does for the edition beyond reading: nothing here is needed to read it. A classic script: it runs from the file system. */
+/* Conveniences; every page can be read without them. A classic script, because modules do not load from the file system. */
 (function () {
   "use strict";
 
@@ -31,7 +31,7 @@
   }
 
   function finder() {
-    var field = document.getElementById("find"), told = document.getElementById("found");
+    var field = document.getElementById("find"), result = document.getElementById("found");
     if (!field) { return; }
     var lines = Array.prototype.slice.call(document.querySelectorAll("ul.addresses li"));
     var words = lines.map(function (line) { return line.textContent.toLowerCase(); });
@@ -45,7 +45,7 @@
       document.querySelectorAll("ul.addresses").forEach(function (list) {
         list.parentElement.hidden = wanted.length > 0 && !list.querySelector("li:not([hidden])");
       });
-      told.textContent = wanted.length ? count + " found" : "";
+      result.textContent = wanted.length ? count + " found" : "";
     }
     field.disabled = false;
     field.addEventListener("input", look);

@@ -1,4 +1,4 @@
-// Where 1963 and exact numbers part: points typed or dragged, both answers drawn (modern/publication/parting.py).
+// Compare the programs of 1963 with exact arithmetic: enter or drag points, draw both hulls (modern/publication/parting.py).
 "use strict";
 (() => {
   const at = (id) => document.getElementById(`parting-${id}`);
@@ -7,7 +7,7 @@
   const sets = JSON.parse(at("sets-data").textContent);
   const picture = at("picture");
   const SVG = "http://www.w3.org/2000/svg";
-  const LATEST = 60000; // milliseconds a set may take
+  const LATEST = 60000; // the largest time for a set in milliseconds
   let answer = JSON.parse(at("first").textContent);
   let worker = null;
   let busy = false;
@@ -30,7 +30,7 @@
       .filter((point) => point.length === 3 && point.every(Number.isFinite));
   const level = (points) => new Set(points.map((point) => point[2])).size < 2;
 
-  // Where a point is in the picture; the plane is seen from above, a solid from the side it is turned to.
+  // The position of a point in the picture: a plane is seen from above, a solid from the chosen direction.
   function frame(points) {
     const flat = level(points);
     const size = Math.max(1, ...points.flat().map(Math.abs));
@@ -61,7 +61,7 @@
     const { place } = frame(points);
     const at2 = points.map(place);
     picture.replaceChildren();
-    mark("title", {}, "The points, the true hull and what the programs of 1963 say");
+    mark("title", {}, "The points, the true hull and the hull of the programs of 1963");
     const same = answer && answer.points && answer.points.length === points.length;
     const loop = (face) => face.map((n) => at2[n].map((x) => x.toFixed(2)).join(",")).join(" ");
     if (same) {
@@ -93,8 +93,8 @@
     const kinds = ["a point", "a line", "a polygon", "a solid"];
     lines("The true hull", [`${kinds[answer.true.dimension]} of ${answer.true.vertices.length} vertices`]);
     lines(
-      "The first statement that eight digits mislead",
-      answer.part.length ? answer.part : ["None: every decision is that of exact numbers."],
+      "The first statement on which eight-digit and exact arithmetic disagree",
+      answer.part.length ? answer.part : ["None: every decision agrees."],
     );
   }
 
@@ -112,7 +112,7 @@
       if (data.failed !== undefined) {
         at("begin").hidden = false;
         at("begin").disabled = false;
-        at("says").textContent = `That failed: ${data.failed}`;
+        at("says").textContent = `Loading failed: ${data.failed}`;
         worker = null;
         return;
       }
@@ -123,7 +123,7 @@
         answer = data.answer;
         tell();
         draw();
-      } else go(); // the points have changed since
+      } else go(); // the points have changed in the meantime
     };
     worker.postMessage({ id: 1, do: "begin" });
   }
@@ -132,12 +132,12 @@
     if (busy || !worker) return;
     busy = true;
     at("go").disabled = true;
-    at("says").textContent = "The programs run …";
+    at("says").textContent = "The programs are running …";
     worker.late = setTimeout(() => {
       worker.terminate();
       worker = null;
       busy = false;
-      at("says").textContent = "No end in a minute; the run was stopped.";
+      at("says").textContent = "The run was stopped after a minute.";
       at("begin").hidden = false;
       at("begin").disabled = false;
     }, LATEST);
@@ -202,10 +202,10 @@
   draw();
   if (answer) tell();
   if (location.protocol === "file:")
-    at("says").textContent = "To run your own points this page needs a server: “make serve” in a checkout.";
-  else if (!bytes) at("says").textContent = "This site was built without the machine; the answer shown is that of the first set.";
+    at("says").textContent = "To run your own points, this page needs a web server: run “make serve” in a checkout.";
+  else if (!bytes) at("says").textContent = "This site was built without the emulator. The answer shown is that of the first set.";
   else {
-    at("says").textContent = `Python and this project come into the page, ${(bytes / 1e6).toFixed(1)} MB. Nothing leaves your computer.`;
+    at("says").textContent = `The page loads Python and this project (${(bytes / 1e6).toFixed(1)} MB). Nothing leaves your computer.`;
     at("progress").max = bytes;
     at("begin").hidden = false;
   }

@@ -1,15 +1,15 @@
-// The machine: Python with this project's package, run in slices between the page's messages.
-// In: {id, do, ...}. Out: {id, answer} to each, {slice} after each slice of a run, {progress} while loading.
+// The emulator in a worker: Python with this project's package, run in slices between the messages of the page.
+// In: {id, do, ...}. Out: {id, answer} for each, {slice} after each slice of a run, {progress} while loading.
 import { loadPyodide } from "./pyodide/pyodide.mjs";
 
-const SLICE = 40; // milliseconds between two looks at the messages
+const SLICE = 40; // milliseconds between two checks for messages
 let desk = null;
-let pace = 0; // times the speed of the 1620; 0: as fast as can be
-let turn = 0; // counts loads, so that a slice planned for a former machine does nothing
+let pace = 0; // speed relative to the 1620; 0 means full speed
+let turn = 0; // counts loads, so that a slice planned before the last load does nothing
 let planned = false;
 
-// What is fetched is counted as it comes, whoever fetches it. The largest file lies here compressed, by a name that no
-// server takes for an encoding.
+// Count the bytes of every file that is fetched, including those that Pyodide fetches. The largest file is stored
+// compressed, under a name that no server interprets as an encoding.
 let loaded = 0;
 const plain = self.fetch.bind(self);
 self.fetch = async (what, ...options) => {
@@ -37,7 +37,7 @@ self.fetch = async (what, ...options) => {
 async function begin() {
   const [python, packages] = await Promise.all([
     loadPyodide({ indexURL: new URL("./pyodide/", import.meta.url).href }),
-    self.fetch(new URL("./packages.zip", import.meta.url)).then((found) => found.arrayBuffer()),
+    self.fetch(new URL("./packages.zip", import.meta.url)).then((response) => response.arrayBuffer()),
   ]);
   python.unpackArchive(packages, "zip", { extractDir: "/packages" });
   python.runPython(`
@@ -45,40 +45,40 @@ import sys, json
 sys.path.insert(0, "/packages")
 from modern.publication.desk import Desk
 desk = Desk()
-def ask(name, words):
+def ask(name, arguments):
     if name == "part":
-        from modern.publication.parting import parted as does
+        from modern.publication.parting import parted as function
     else:
-        does = getattr(desk, name)
-    return json.dumps(does(*json.loads(words)))
+        function = getattr(desk, name)
+    return json.dumps(function(*json.loads(arguments)))
 `);
   const ask = python.globals.get("ask");
-  desk = (name, ...words) => JSON.parse(ask(name, JSON.stringify(words)));
+  desk = (name, ...parameters) => JSON.parse(ask(name, JSON.stringify(parameters)));
   return desk("offers");
 }
 
 function plan(delay = 0) {
   if (planned) return;
   planned = true;
-  const mine = turn;
+  const planned_for = turn;
   setTimeout(() => {
     planned = false;
-    if (mine === turn) slice();
+    if (planned_for === turn) slice();
   }, delay);
 }
 
-let before = 0; // seconds of the 1620 at the end of the slice before
+let before = 0; // seconds on the 1620 at the end of the previous slice
 function slice() {
   const began = performance.now();
   const answer = desk("run", SLICE, pace);
   postMessage({ slice: answer });
   if (answer.ended || answer.waits) return;
-  const owed = pace ? ((answer.seconds - before) / pace) * 1000 - (performance.now() - began) : 0;
+  const delay = pace ? ((answer.seconds - before) / pace) * 1000 - (performance.now() - began) : 0;
   before = answer.seconds;
-  plan(Math.min(Math.max(owed, 0), 500));
+  plan(Math.min(Math.max(delay, 0), 500));
 }
 
-const does = {
+const handlers = {
   begin,
   load({ request }) {
     turn += 1;
@@ -103,7 +103,7 @@ const does = {
 
 self.onmessage = async ({ data }) => {
   try {
-    postMessage({ id: data.id, answer: await does[data.do](data) });
+    postMessage({ id: data.id, answer: await handlers[data.do](data) });
   } catch (error) {
     postMessage({ id: data.id, failed: String(error.message ?? error).trim().split("\n").at(-1) });
   }

@@ -73,12 +73,19 @@ def as_tuple(members: Sequence[T]) -> tuple[T, ...]:
 class Face:
     """A supporting plane A x + B y + C z + D = 0, or a supporting line of a polygon, positive outside.
 
-    coefficients: A, B, C, D scaled as in the thesis, products of coordinate differences of the defining points.  For a
-        line the coefficient of the coordinate that the projection drops is 0 (thesis p. 16-17).
-    lowest: the same equation as integers without a common divisor.
-    defining: the points MM, NN, KK (for a line MM, NN) from which the equation was made.
-    polygon: the vertices on it in cyclic order, counterclockwise seen from outside; for a line its two vertices.
-    on: all other points of the input on it.
+    Attributes
+    ----------
+    coefficients
+        A, B, C, D scaled as in the thesis, products of coordinate differences of the defining points.  For a line the
+        coefficient of the coordinate that the projection drops is 0 (thesis p. 16-17).
+    lowest
+        The same equation as integers without a common divisor.
+    defining
+        The points MM, NN, KK (for a line MM, NN) from which the equation was made.
+    polygon
+        The vertices on it in cyclic order, counterclockwise seen from outside; for a line its two vertices.
+    on
+        All other points of the input on it.
     """
 
     coefficients: Coefficients

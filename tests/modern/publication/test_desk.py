@@ -81,11 +81,11 @@ def test_single_statements_say_what_they_did() -> None:
 
 def test_what_does_not_fit_the_moment_is_said() -> None:
     desk = Desk()
-    assert desk.act("START") == {"lines": ["nothing runs: load a program"]}
+    assert desk.act("START") == {"lines": ["nothing is running: load a program first"]}
     assert desk.run(1)["card"] == 0
     desk.load({"program": "program1", "deck": "example1"})
     desk.run(1)
-    assert desk.act("ENTER 5") == {"lines": ["nothing is asked for"]}
+    assert desk.act("ENTER 5") == {"lines": ["the program does not ask for a line"]}
     assert desk.act("NONSENSE")["lines"][0].startswith("NONSENSE is not a command: START, STEP")
     assert desk.show("CARDS")["lines"][0].startswith("read: 0 of")
 
@@ -93,11 +93,11 @@ def test_what_does_not_fit_the_moment_is_said() -> None:
 @pytest.mark.parametrize(
     ("request_", "message"),
     [
-        ({"program": "program9", "deck": ""}, "there is no 'program9' to choose"),
-        ({"program": "program1", "deck": "example9"}, "there is no 'example9' to choose"),
+        ({"program": "program9", "deck": ""}, "unknown name 'program9'"),
+        ({"program": "program1", "deck": "example9"}, "unknown name 'example9'"),
         ({"program": ["x.f", ""], "deck": ""}, "x.f"),
         ({"program": ["x.f", "      STOP 1\n      END\n"], "deck": ["x", "é"]}, "x: card 1, column 1"),
-        ({"program": ["x.f", "      i=1\n"], "deck": ""}, "it can be read with capitals"),
+        ({"program": ["x.f", "      i=1\n"], "deck": ""}, "choose “read lower case as capitals” to accept it"),
         ({"program": "program1", "deck": "", "arithmetic": "roman"}, "roman"),
         ({"program": ["x.f", "      DIMENSION A(9000)\n      A(1)=0.\n      END\n"], "deck": ""}, "OVERLAP"),
     ],

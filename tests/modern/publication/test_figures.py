@@ -97,7 +97,7 @@ def test_figures_are_put_in_where_they_are_named() -> None:
 
 
 def test_a_name_without_a_figure_is_refused() -> None:
-    with pytest.raises(FigureError, match=r"no figure 'seventy\.mean'"):
+    with pytest.raises(FigureError, match=r"unknown figure 'seventy\.mean'"):
         filled("{{ seventy.mean }}", {"seventy.sets": "1"})
 
 

@@ -129,7 +129,7 @@ def test_the_hull_of_three_rods_is_a_corner_of_the_grid() -> None:
     """Its voxels are those with x + y + z <= 7, 120 by the formula for tetrahedral numbers."""
     hull, levels = steps.rods()
     n = steps.RODS
-    assert (hull.given, hull.voxels) == (3 * n - 2, n * (n + 1) * (n + 2) // 6)
+    assert (hull.solid_voxels, hull.voxels) == (3 * n - 2, n * (n + 1) * (n + 2) // 6)
     assert sum(level.full * (hull.side >> level.number) ** 3 for level in levels) == hull.voxels
     for level, above in zip(levels[1:], levels[:-1], strict=True):
         assert level.full + level.divided + level.empty == 8 * above.divided
