@@ -1,7 +1,7 @@
-"""Speed of the engines beside each other and beside the same program through a Fortran compiler of today.
+"""The speed of the engines, compared with each other and with the same program compiled by a modern Fortran compiler.
 
-Everything is measured with one thread, as the peers have one: numpy's library of linear algebra would else begin a
-second, which waits busily, and whose waiting would be counted in the seconds of the processor.
+All measurements use one thread, like the programs they are compared with. numpy's linear algebra library would start a
+second one, whose busy waiting would count as processor time.
 """
 
 import os

@@ -1,6 +1,6 @@
-"""What is run: program 3 with the layer ``corrected`` over decks of 51 points, as program 1 punches them.
+"""The benchmark's work: program 3 with the layer ``corrected`` over decks of 51 points, as program 1 punches them.
 
-``python -m modern.bench.decks`` is the process that runs one deck, its input, on the compiled engine.
+``python -m modern.bench.decks`` runs one deck, read from standard input, on the compiled engine.
 """
 
 from __future__ import annotations
@@ -23,30 +23,30 @@ Point = tuple[int, int, int]
 
 
 def random_points(count: int, seed: int) -> list[Point]:
-    """Distinct points with uniform integers in [-99, 99], in no order."""
+    """Return distinct points with uniform integers in [-99, 99], in random order."""
     source = random.Random(seed)
-    found: set[Point] = set()
-    while len(found) < count:
+    distinct: set[Point] = set()
+    while len(distinct) < count:
         x, y, z = (source.randint(-LARGEST, LARGEST) for _ in range(3))
-        found.add((x, y, z))
-    points = sorted(found)
+        distinct.add((x, y, z))
+    points = sorted(distinct)
     source.shuffle(points)
     return points
 
 
 def data_deck(points: Sequence[Point]) -> Deck:
-    """The deck for program 1: N, and a card a point."""
+    """Return the deck for program 1: N, and one card for each point."""
     return deck.data_deck([list(map(str, point)) for point in points], "random deck")
 
 
 def middle_texts(sets: Sequence[Sequence[Point]]) -> list[str]:
-    """The decks program 1 punches of the sets, as texts."""
+    """Return the decks that program 1 punches for the sets, as texts."""
     results = run_batch(programs.program("program1"), [data_deck(points) for points in sets])
     return ["".join(card + "\n" for card in result.punched) for result in results]
 
 
 def main() -> None:
-    """Put out what program 3 punches."""
+    """Print the cards that program 3 punches."""
     sys.stdout.writelines(punched(programs.program(PROGRAM, LAYERS), [sys.stdin.read()], OPTIONS))
 
 

@@ -1,4 +1,4 @@
-"""The engines side by side in one run: plain, compiled, the port in doubles, and the same program made native."""
+"""The engines compared in one run: plain, compiled, the port in doubles, and the same program compiled natively."""
 
 from __future__ import annotations
 
@@ -18,38 +18,38 @@ from emulator.compiled.batch import punched
 from emulator.language.cards import deck_from_text
 from emulator.machine.machine import Machine
 from modern.bench import native
-from modern.bench.agreement import Agreement, compared, data_sets
+from modern.bench.agreement import Agreement, compare, data_sets
 from modern.bench.decks import LAYERS, OPTIONS, POINTS, PROGRAM, SEED, middle_texts, random_points
 from modern.bench.timing import Figure, side_by_side, timed, timed_once
 from modern.edition import programs
 from modern.port import convex_hull
 
 PLAIN_SHARE, PORT_SHARE = 50, 5
-"""The plain engine runs one deck in fifty of those the compiled one runs, the port one in five."""
+"""The plain engine runs one of fifty decks of the compiled engine, and the port one of five."""
 
 PLAIN, COMPILED, PORT, NATIVE = "plain engine", "compiled engine", "port, float64", "native program"
-COLD, WARM = "cold start: nothing compiled yet", "warm start: a process to its first result"
+COLD, WARM = "cold start: nothing compiled yet", "warm start: time to the first result"
 
 Say = Callable[[str], None]
-"""Takes one line for the user."""
+"""A function that receives one line for the user."""
 
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A figure and the number of decks each of its runs did."""
+    """A figure and the number of decks in each of its runs."""
 
     figure: Figure
     decks: int
 
     @property
     def each(self) -> float:
-        """Median seconds a deck."""
+        """The median seconds for one deck."""
         return self.figure.median / self.decks
 
 
 @dataclass(frozen=True, slots=True)
 class Bench:
-    """Everything measured: a row an engine, process starts, who the native program agrees with, and remarks."""
+    """All results: a row for each engine, process starts, the agreement with the native program, and remarks."""
 
     rows: tuple[Row, ...]
     starts: tuple[Figure, ...]
@@ -62,14 +62,14 @@ class Bench:
 
 
 def measure(count: int, say: Say = lambda line: None) -> Bench:
-    """Measure with ``count`` decks; ``say`` is told what is going on."""
+    """Measure with ``count`` decks. ``say`` receives lines about the progress."""
     program = programs.program(PROGRAM, LAYERS)
-    say(f"making {count} decks of {POINTS} points")
+    say(f"generating {count} decks of {POINTS} points")
     sets = [random_points(POINTS, SEED + n) for n in range(count)]
     texts = middle_texts(sets)
-    few, some = texts[: -(-count // PLAIN_SHARE)], sets[: -(-count // PORT_SHARE)]
+    plain_texts, port_sets = texts[: -(-count // PLAIN_SHARE)], sets[: -(-count // PORT_SHARE)]
     works: dict[str, Callable[[], object]] = {}
-    sizes = {PLAIN: len(few), COMPILED: count, PORT: len(some), NATIVE: count}
+    sizes = {PLAIN: len(plain_texts), COMPILED: count, PORT: len(port_sets), NATIVE: count}
     remarks: list[str] = []
     next(punched(program, texts, OPTIONS, remarks.append))
     compiles = not remarks
@@ -79,29 +79,29 @@ def measure(count: int, say: Say = lambda line: None) -> Bench:
         folder = Path(name)
         version = ""
         try:
-            found = native.compiler()
-            made = native.built(programs.deck(PROGRAM, LAYERS), found, folder)
-            cards, taken = folder / "cards", folder / "punched"
+            fortran = native.compiler()
+            executable = native.built(programs.deck(PROGRAM, LAYERS), fortran, folder)
+            cards, punched_file = folder / "cards", folder / "punched"
             cards.write_text("".join(texts), encoding="ascii")
-            native.run(made, cards, taken)
-            works[NATIVE] = lambda: native.run(made, cards, taken)
-            version = found.version
+            native.run(executable, cards, punched_file)
+            works[NATIVE] = lambda: native.run(executable, cards, punched_file)
+            version = fortran.version
         except native.NoCompiler as error:
             remarks.append(str(error))
-        works[PLAIN] = lambda: [Machine(program, deck_from_text("deck", text), OPTIONS).run() for text in few]
-        works[PORT] = lambda: [convex_hull(points, "float64", on_refusal="return") for points in some]
+        works[PLAIN] = lambda: [Machine(program, deck_from_text("deck", text), OPTIONS).run() for text in plain_texts]
+        works[PORT] = lambda: [convex_hull(points, "float64", on_refusal="return") for points in port_sets]
         say(f"running {', '.join(works)}, in turn")
         rows = tuple(Row(figure, sizes[figure.what]) for figure in side_by_side(works))
         agreement = None
         if version:
             ours = [text.splitlines() for text in punched(program, texts, OPTIONS)]
-            agreement = compared(ours, data_sets(taken.read_text(encoding="ascii").splitlines()))
+            agreement = compare(ours, data_sets(punched_file.read_text(encoding="ascii").splitlines()))
         starts = _starts(texts[0], folder, say) if compiles else ()
     return Bench(rows, starts, agreement, version, tuple(remarks))
 
 
 def _starts(text: str, folder: Path, say: Say) -> tuple[Figure, ...]:
-    """A process that has nothing compiled, and those that come after it."""
+    """Time a process that has nothing compiled yet, and later processes."""
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(folder / "cache")}
 
     def process() -> None:
@@ -113,24 +113,26 @@ def _starts(text: str, folder: Path, say: Say) -> tuple[Figure, ...]:
 
 
 def lines(bench: Bench) -> list[str]:
-    """The table as text, 78 columns; below it sentences, a line each."""
-    compiled, made = bench.row(COMPILED), bench.row(NATIVE)
-    against = " ".join(f"{f'/ {word}':>10}" for word, row in (("compiled", compiled), ("native", made)) if row)
-    found = [f"{'program 3, 51 points, text to text':<34}{'decks':>6}{'ms/deck':>8}{'decks/s':>8} {against}".rstrip()]
+    """Return the table as text of 78 columns, followed by one sentence in each line."""
+    compiled_row, native_row = bench.row(COMPILED), bench.row(NATIVE)
+    headings = " ".join(
+        f"{f'/ {word}':>10}" for word, row in (("compiled", compiled_row), ("native", native_row)) if row
+    )
+    rows = [f"{'program 3, 51 points, text to text':<34}{'decks':>6}{'ms/deck':>8}{'decks/s':>8} {headings}".rstrip()]
     for row in bench.rows:
-        ratios = " ".join(f"{row.each / other.each:10.2f}" for other in (compiled, made) if other)
+        ratios = " ".join(f"{row.each / reference.each:10.2f}" for reference in (compiled_row, native_row) if reference)
         line = f"{row.figure.what:<34}{row.decks:>6}{row.each * 1000:>8.3f}{1 / row.each:>8.0f} {ratios}"
-        found.append(line.rstrip())
-    found += [f"{figure.what:<47}{figure.median:>9.3f} s" for figure in bench.starts]
+        rows.append(line.rstrip())
+    rows += [f"{figure.what:<47}{figure.median:>9.3f} s" for figure in bench.starts]
     if bench.compiler:
-        found.append(f"native program: {bench.compiler}, -O2, doubles, one process for all decks")
+        rows.append(f"native program: {bench.compiler}, -O2, doubles, one process for all decks")
     if bench.agreement:
-        found.append(f"its cards beside the emulated ones: {bench.agreement.line()}")
-    return found + list(bench.remarks)
+        rows.append(f"native and emulated cards: {bench.agreement.line()}")
+    return rows + list(bench.remarks)
 
 
 def document(bench: Bench) -> dict[str, Any]:
-    """The same as JSON: every run's seconds, and on what it was measured."""
+    """Return the results as JSON data: the seconds of every run, and the machine and versions."""
     versions = {"python": platform.python_version()}
     for name in ("hull1620", "numba", "numpy"):
         with suppress(importlib.metadata.PackageNotFoundError):
@@ -158,7 +160,7 @@ def document(bench: Bench) -> dict[str, Any]:
         else {
             "same": agreement.same,
             "other_digits": agreement.digits,
-            "another_hull": agreement.other,
+            "another_hull": agreement.different,
             "first": agreement.first,
         },
         "remarks": list(bench.remarks),

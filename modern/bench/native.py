@@ -1,4 +1,4 @@
-"""A Fortran compiler of today, if there is one, and programs made with it."""
+"""A modern Fortran compiler, if one is installed, and programs compiled with it."""
 
 from __future__ import annotations
 
@@ -14,72 +14,72 @@ from emulator.language.cards import Deck
 from modern.bench.translate import translated
 
 COMPILERS = ("gfortran", "flang", "flang-new", "ifx", "f95")
-"""Looked for in this order, after what the environment variable FC names."""
+"""The compilers tried in this order, after the one that the environment variable FC names."""
 
 _EXTRA = {"gfortran": ("-std=legacy", "-w"), "ifx": ("-w",)}
 _PATIENCE = 120
 
 
 class NoCompiler(EmulatorError):
-    """No Fortran compiler, or one that does not do; ``str`` is one line."""
+    """No Fortran compiler was found, or it failed. The message is one line."""
 
 
 @dataclass(frozen=True, slots=True)
 class Compiler:
-    """A command and the line it says of itself."""
+    """A command and the first line of its version text."""
 
     command: tuple[str, ...]
     version: str
 
 
 def compiler() -> Compiler:
-    """The compiler FC names, else the first one found.  Raises NoCompiler."""
+    """Return the compiler that FC names, otherwise the first one installed. Raise NoCompiler if none is installed."""
     try:
-        named = shlex.split(os.environ.get("FC", ""))
+        command_of_fc = shlex.split(os.environ.get("FC", ""))
     except ValueError as error:
-        raise NoCompiler(f"FC names no Fortran compiler, {os.environ['FC']}: {error}") from None
-    commands = [tuple(named)] if named else [(name,) for name in COMPILERS]
+        raise NoCompiler(f"FC is not a command, {os.environ['FC']}: {error}") from None
+    commands = [tuple(command_of_fc)] if command_of_fc else [(name,) for name in COMPILERS]
     for command in commands:
         if shutil.which(command[0]):
-            said = _run([*command, "--version"]).stdout.strip().splitlines()
-            return Compiler(command, said[0] if said else command[0])
-    if named:
-        raise NoCompiler(f"the Fortran compiler named by FC, {named[0]}, is not found")
-    raise NoCompiler(f"no Fortran compiler is found ({', '.join(COMPILERS)}, or FC); the native program is left out")
+            version = _run([*command, "--version"]).stdout.strip().splitlines()
+            return Compiler(command, version[0] if version else command[0])
+    if command_of_fc:
+        raise NoCompiler(f"the Fortran compiler that FC names, {command_of_fc[0]}, is not installed")
+    raise NoCompiler(f"no Fortran compiler is installed ({', '.join(COMPILERS)}, or FC); the native program is omitted")
 
 
-def built(deck: Deck, with_: Compiler, folder: Path) -> Path:
-    """The program of a source deck, translated and compiled with -O2 in ``folder``.  Raises NoCompiler."""
+def built(deck: Deck, fortran: Compiler, folder: Path) -> Path:
+    """Translate a source deck, compile it with -O2 in ``folder`` and return the program. Raise NoCompiler."""
     source, program = folder / "deck.f90", folder / "deck"
     source.write_text(translated(deck), encoding="ascii")
-    extra = _EXTRA.get(Path(with_.command[0]).name, ())
-    done = _run([*with_.command, "-O2", *extra, "-o", str(program), str(source)])
-    if done.returncode:
-        said = [line for line in done.stderr.splitlines() if "rror" in line] or ["no reason given"]
-        raise NoCompiler(f"{with_.version} does not compile the translated program: {said[0].strip()}")
+    extra = _EXTRA.get(Path(fortran.command[0]).name, ())
+    process = _run([*fortran.command, "-O2", *extra, "-o", str(program), str(source)])
+    if process.returncode:
+        errors = [line for line in process.stderr.splitlines() if "rror" in line] or ["no reason given"]
+        raise NoCompiler(f"{fortran.version} cannot compile the translated program: {errors[0].strip()}")
     if not program.exists():
-        raise NoCompiler(f"{with_.command[0]} is no Fortran compiler: it makes no program")
+        raise NoCompiler(f"{fortran.command[0]} is not a Fortran compiler: it produced no program")
     return program
 
 
 def run(program: Path, cards: Path, punched: Path) -> None:
-    """Run it over a file of cards in its own folder.  Raises NoCompiler where it fails or does not end."""
-    with cards.open("rb") as given, punched.open("wb") as taken:
+    """Run the program on a file of cards in its own folder. Raise NoCompiler if it fails or does not end."""
+    with cards.open("rb") as source, punched.open("wb") as target:
         try:
-            done = subprocess.run(
+            process = subprocess.run(
                 [str(program)],
-                stdin=given,
-                stdout=taken,
+                stdin=source,
+                stdout=target,
                 stderr=subprocess.PIPE,
                 cwd=program.parent,
                 timeout=_PATIENCE,
                 check=False,
             )
         except subprocess.TimeoutExpired:
-            raise NoCompiler(f"the native program has not ended after {_PATIENCE} s") from None
-    if done.returncode:
-        said = done.stderr.decode(errors="replace").strip().splitlines() or ["no reason given"]
-        raise NoCompiler(f"the native program failed: {said[0]}")
+            raise NoCompiler(f"the native program did not end within {_PATIENCE} s") from None
+    if process.returncode:
+        errors = process.stderr.decode(errors="replace").strip().splitlines() or ["no reason given"]
+        raise NoCompiler(f"the native program failed: {errors[0]}")
 
 
 def _run(command: list[str]) -> subprocess.CompletedProcess[str]:

@@ -1,4 +1,4 @@
-"""Timing: medians of five runs after one that fills caches; and plots of how times grow."""
+"""Timing: medians of five runs after one that fills caches, and plots of growth."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Clock = Callable[[], float]
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """One measured figure: seconds of each run and what to compare them with."""
+    """A measured figure: the seconds of each run and a note to compare them with."""
 
     what: str
     seconds: tuple[float, ...]
@@ -31,19 +31,19 @@ class Figure:
 
 
 def timed_once(what: str, work: Callable[[], object], note: str = "") -> Figure:
-    """Time ``work`` once: what cannot be done a second time, or takes too long for five."""
+    """Time ``work`` once, because it cannot be repeated or takes too long for five runs."""
     return Figure(what, (_seconds(work),), note)
 
 
 def timed(what: str, work: Callable[[], object], note: str = "") -> Figure:
-    """Time ``work`` five times; the first, untimed, fills caches."""
+    """Time ``work`` five times, after an untimed run that fills caches."""
     return side_by_side({what: work}, note)[0]
 
 
 def side_by_side(
     works: Mapping[str, Callable[[], object]], note: str = "", clock: Clock = time.perf_counter
 ) -> list[Figure]:
-    """Time several works in turn, five rounds of them, so that what else the machine does falls on all of them."""
+    """Time several works in turn, in five rounds, so that other activity on the machine affects all of them."""
     for work in works.values():
         work()
     rounds = [[_seconds(work, clock) for work in works.values()] for _ in range(RUNS)]
@@ -51,25 +51,25 @@ def side_by_side(
 
 
 class Measured(float):
-    """Seconds that a work measured itself, as a process does that has to read its points first."""
+    """Seconds that a work measured itself, for example a process that must first read its points."""
 
 
 def _seconds(work: Callable[[], object], clock: Clock = time.perf_counter) -> float:
     start = clock()
-    found = work()
-    return float(found) if isinstance(found, Measured) else clock() - start
+    result = work()
+    return float(result) if isinstance(result, Measured) else clock() - start
 
 
 @dataclass(frozen=True, slots=True)
 class Curve:
-    """Seconds by number, and how matplotlib draws them; lines are told apart in grey."""
+    """Seconds by size, and the style in which matplotlib draws them. Curves differ in grey."""
 
     name: str
     points: Sequence[tuple[int, float]]
     style: Mapping[str, Any]
 
     def slope(self, least: int = 0) -> float | None:
-        """The exponent of growth: of the line nearest to the logarithms (least squares), from ``least`` points on."""
+        """Return the exponent of growth by least squares of the logarithms, for sizes of at least ``least``."""
         logs = [(math.log(count), math.log(seconds)) for count, seconds in self.points if count >= least]
         if len(logs) < 2:
             return None
@@ -77,7 +77,7 @@ class Curve:
 
 
 def plot(curves: Sequence[Curve], path: str, what: str) -> None:
-    """Write curves on logarithmic axes as SVG; ``what`` is numbered along the first (extra ``plot``)."""
+    """Write curves on logarithmic axes as SVG. ``what`` labels the first axis (extra ``plot``)."""
     import matplotlib
 
     matplotlib.use("svg")
@@ -97,12 +97,12 @@ def plot(curves: Sequence[Curve], path: str, what: str) -> None:
 
 
 def plotted(curves: Sequence[Curve], path: str, what: str, least: int = 0) -> Iterator[str]:
-    """A line of figures for each curve; then they are plotted, each with its slope from ``least`` on in its name."""
+    """Yield a line of figures for each curve, then plot the curves with their slopes in the legend."""
     shown = []
     for curve in curves:
         slope = curve.slope(least)
-        words = "" if slope is None else f"slope {slope:.2f}"
+        label = "" if slope is None else f"slope {slope:.2f}"
         figures = ", ".join(f"{count:,}: {seconds:.4f} s" for count, seconds in curve.points)
-        yield f"{curve.name} {figures} {words}".rstrip()
-        shown.append(replace(curve, name=f"{curve.name}: {words}" if words else curve.name))
+        yield f"{curve.name} {figures} {label}".rstrip()
+        shown.append(replace(curve, name=f"{curve.name}: {label}" if label else curve.name))
     plot(shown, path, what)

@@ -1,17 +1,17 @@
-"""A source deck of 1620 FORTRAN as free-form Fortran that a present compiler accepts, computing in doubles.
+"""Translation of a source deck of 1620 FORTRAN to free-form Fortran for a modern compiler, computing in doubles.
 
-What differs between the two languages, and what becomes of it:
+The differences of the two languages are translated as follows:
 
-- a statement may begin in any column, names run together with blanks: printed anew from the syntax tree;
-- PUNCH goes to standard output, PRINT and TYPE to a second file, READ comes from standard input, and a hopper
-  that is empty ends the run (C26-5619 p. 32-43);
-- a DO runs at least once and its limit is looked up at each pass (p. 25-28): step, test and jump are written
-  out after its last statement, so that jumps into its range do what they do on the machine;
-- IF (SENSE SWITCH n) asks a logical constant;
-- Hollerith texts of a FORMAT become quoted ones, on input blanks;
-- floating-point constants become double precision, names keep their implicit type; SQRTF is SQRT.
+- A statement may begin in any column and contain blanks anywhere. It is printed again from the syntax tree.
+- PUNCH writes to standard output, PRINT and TYPE write to a second file, and READ reads standard input. An empty
+  hopper ends the run (C26-5619 p. 32-43).
+- A DO runs at least once and reads its limit again at each pass (p. 25-28). Step, test and jump are written after its
+  last statement, so that jumps into its range work as on the machine.
+- IF (SENSE SWITCH n) tests a logical constant.
+- Hollerith texts of a FORMAT become quoted texts, and blanks on input.
+- Floating-point constants become double precision, names keep their implicit type, and SQRTF becomes SQRT.
 
-Whole numbers are the compiler's, not four digits modulo 10000; ACCEPT has no counterpart and is refused.
+Integers are those of the compiler, not four digits modulo 10000. ACCEPT has no counterpart and is refused.
 """
 
 from __future__ import annotations
@@ -28,19 +28,16 @@ from emulator.numbers.fields import Field
 
 LIBRARY = {name + end: name for name in ("SQRT", "SIN", "COS", "ATAN", "EXP", "LOG") for end in ("", "F")}
 EMPTY = 90000
-"""Label of the end of the run; statement numbers of the 1620 have four digits (C26-5619 p. 12)."""
+"""The label of the end of the run. Statement numbers of the 1620 have four digits (C26-5619 p. 12)."""
 TOPS = 90001
 LINE = 100
-"""Where a statement is continued on the next line."""
+"""The length after which a statement continues on the next line."""
 TYPED = 8
-"""The unit of typed lines."""
+"""The unit for typed lines."""
 
 
 def translated(deck: Deck, switches: Collection[int] = ()) -> str:
-    """The program, one free-form source text.
-
-    Raises DeckError for a deck that does not parse or has an ACCEPT.
-    """
+    """Return the program as one free-form source text. Raise DeckError if the deck does not parse or has an ACCEPT."""
     parsed = parse(deck)
     if parsed.diagnostics:
         raise DeckError(parsed.diagnostics[0].line(deck.source))
@@ -81,14 +78,15 @@ class _Writer:
             yield f"{self.top} continue"
             self.open.append((body, self.top))
             return
-        yield from _wrapped(label + self.words(body, statement))
+        yield from _wrapped(label + self.translated_line(body, statement))
+        # Loops that end at this statement end innermost first.
         while self.open and statement.label and self.open[-1][0].label == statement.label:
             loop, top = self.open.pop()
             name, step = loop.variable.name, self.text(loop.step) if loop.step else "1"
             yield f"{name} = {name} + {step}"
             yield f"if ({name} <= {self.text(loop.last)}) go to {top}"
 
-    def words(self, body: tree.Body, statement: tree.Statement) -> str:
+    def translated_line(self, body: tree.Body, statement: tree.Statement) -> str:
         match body:
             case tree.Assignment(target, value):
                 return f"{self.text(target)} = {self.text(value)}"
@@ -152,13 +150,13 @@ class _Writer:
             case tree.Power(base, exponent):
                 return f"{self.factor(base)}**{self.factor(exponent)}"
             case tree.Product(first, rest):
-                return self.factor(first) + "".join(sign + self.factor(other) for sign, other in rest)
+                return self.factor(first) + "".join(sign + self.factor(operand) for sign, operand in rest)
             case tree.Sum(minus, first, rest):
                 head = ("-" if minus else "") + self.factor(first)
-                return head + "".join(sign + self.factor(other) for sign, other in rest)
+                return head + "".join(sign + self.factor(operand) for sign, operand in rest)
 
     def factor(self, node: tree.Expression) -> str:
-        """An operand, in parentheses where it is an expression itself: the tree's order is kept."""
+        """Return an operand, in parentheses if it is an expression, so that the order of the tree is preserved."""
         simple = isinstance(node, tree.Reference) or (isinstance(node, tree.Number) and node.text[0] not in "+-")
         return self.text(node) if simple else f"({self.text(node)})"
 
@@ -172,7 +170,7 @@ def _commas(parts: object) -> str:
 
 
 def _wrapped(text: str) -> Iterator[str]:
-    """A statement on lines of at most LINE columns; a text in quotes may go on too."""
+    """Yield the lines of a statement, with at most LINE columns. A quoted text may continue too."""
     lines = [text[at : at + LINE] for at in range(0, len(text), LINE)]
     for n, line in enumerate(lines):
         yield ("&" if n else "") + line + ("&" if n < len(lines) - 1 else "")

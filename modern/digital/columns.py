@@ -1,7 +1,7 @@
-"""A volume by its columns: their lowest and highest voxels, those that can be extreme, and the columns filled again.
+"""The columns of a volume: their lowest and highest voxels, the candidates for vertices, and filled columns.
 
-A column is a line of voxels along the last axis of an array.  Whatever lies between the ends of a column is in the hull
-of the ends, so that the hull of a volume is that of its columns' ends, two a column.
+A column is a line of voxels along the last axis of an array. All its voxels lie between its two ends, so the hull of a
+volume is the hull of the ends of its columns, two points for each column.
 """
 
 from __future__ import annotations
@@ -12,39 +12,39 @@ import numpy as np
 from numpy.typing import NDArray
 
 SLAB = 1 << 24
-"""About so many voxels are worked on at a time."""
+"""The approximate number of voxels processed at a time."""
 STILL_PAYS = 64
-"""Points are struck in another round while the last one struck one in so many."""
+"""Another round of removal runs while the last one removed at least one point in this number."""
 
 Grid = NDArray[np.int64]
 Truth = NDArray[np.bool_]
 
 
 def slabs(array: NDArray[Any]) -> list[slice]:
-    """Parts of the first axis, of about ``SLAB`` voxels each."""
+    """Return slices of the first axis with about ``SLAB`` voxels each."""
     step = max(1, SLAB // max(1, array[:1].size))
     return [slice(first, first + step) for first in range(0, len(array), step)]
 
 
 def column_ends(volume: Truth) -> tuple[Grid, Grid, Grid, Grid]:
-    """The columns with voxels, in raster order: indices along axes 0 and 1, lowest and highest index along axis 2."""
-    found: list[tuple[Any, Any, Any, Any]] = []
+    """Return the non-empty columns in raster order: indices on axes 0 and 1, lowest and highest index on axis 2."""
+    slab_ends: list[tuple[Any, Any, Any, Any]] = []
     last = volume.shape[2] - 1
     for part in slabs(volume):
         slab = volume[part]
         x, y = np.nonzero(slab.any(axis=2))
         lowest = slab.argmax(axis=2)[x, y]
         highest = last - slab[:, :, ::-1].argmax(axis=2)[x, y]
-        found.append((x + part.start, y, lowest, highest))
-    x, y, low, high = (np.concatenate(parts).astype(np.int64) for parts in zip(*found, strict=True))
+        slab_ends.append((x + part.start, y, lowest, highest))
+    x, y, low, high = (np.concatenate(parts).astype(np.int64) for parts in zip(*slab_ends, strict=True))
     return x, y, low, high
 
 
 def reduced(x: Grid, y: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
-    """The points left when those on or above a chord of their row or column of (x, y) are struck.
+    """Remove points on or above a chord of their row or column of (x, y), and return the remaining points.
 
-    No struck point is a vertex of the lower side of the hull; other points may be left.  x, y, z: one point a
-    place (x, y), in raster order, as is the result.
+    A removed point is never a vertex of the lower side of the hull. Not every other point is removed. The arrays x, y,
+    z hold one point for each (x, y), in raster order, and so does the result.
     """
     x, y, z = _along(x, y, z)
     order = np.lexsort((x, y))
@@ -54,19 +54,20 @@ def reduced(x: Grid, y: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
 
 
 def _along(line: Grid, t: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
-    """Strike points on or above the chord between their neighbours on the same line, all at once, while it pays."""
-    struck = np.ones(len(line), dtype=np.bool_)
-    while len(line) > 2 and STILL_PAYS * np.count_nonzero(struck) >= len(line):
+    """Remove all points on or above the chord between their neighbours on the same line, repeatedly while it pays."""
+    removed = np.ones(len(line), dtype=np.bool_)
+    while len(line) > 2 and STILL_PAYS * np.count_nonzero(removed) >= len(line):
         before, after = t[1:-1] - t[:-2], t[2:] - t[1:-1]
+        # The chord's height at the point, multiplied by the distance of the neighbours to avoid a division.
         chord = z[:-2] * after + z[2:] * before
-        struck = (line[:-2] == line[2:]) & (z[1:-1] * (before + after) >= chord)
-        kept = np.concatenate(([True], ~struck, [True]))
-        line, t, z = line[kept], t[kept], z[kept]
+        removed = (line[:-2] == line[2:]) & (z[1:-1] * (before + after) >= chord)
+        retained = np.concatenate(([True], ~removed, [True]))
+        line, t, z = line[retained], t[retained], z[retained]
     return line, t, z
 
 
 def fill(low: Grid, high: Grid, depth: int) -> Truth:
-    """The volume of ``depth`` voxels a column whose column (x, y) holds low[x, y] to high[x, y], none if low > high."""
+    """Return a volume whose column (x, y) of ``depth`` voxels is filled from low[x, y] to high[x, y]."""
     filled = np.empty((*low.shape, depth), dtype=np.bool_)
     index = np.arange(depth, dtype=np.int32)
     for part in slabs(filled):

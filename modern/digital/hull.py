@@ -1,9 +1,9 @@
-"""The filled digital hull of a volume: every grid point in the convex hull of its voxels' centres, exactly.
+"""The digital hull of a volume: every grid point in the convex hull of its voxels' centres, exactly.
 
-The hull is that of the two ends of every column; of these only the vertices of the rows' and columns' hulls are kept.
-Planes are of integers, and whether a voxel on a plane belongs is decided by integers.  For a 6-connected solid this is
-what Yau and Srihari take for its digital convex hull (section 3.3), and the grid points that Kovalevsky and Schulz's
-polyhedron of voxel centres contains.
+Only the two ends of every column can be vertices, and of these only the vertices of the hulls of rows and columns are
+used. Planes have integer coefficients, and integers decide whether a voxel on a plane belongs to the hull. For a
+6-connected solid this is the digital convex hull of Yau and Srihari (section 3.3), and the set of grid points in
+Kovalevsky and Schulz's polyhedron of voxel centres.
 """
 
 from __future__ import annotations
@@ -25,9 +25,9 @@ from modern.digital.solids import NoVoxels, Volume, VolumeError
 from modern.digital.world import World, voxel_volume, world_of
 
 MAX_VOXELS = 1 << 56
-"""Beyond this a product of three lengths would leave 64 bits; no memory holds so much."""
+"""The largest volume for which a product of three lengths fits in 64 bits. No memory holds as many voxels."""
 WORTH_COMPILING = 1000
-"""From so many candidates on compiled code is used where numba is installed."""
+"""The number of candidates from which compiled code is used if numba is installed."""
 Kind = Literal["point", "segment", "polygon", "polyhedron"]
 KINDS: tuple[Kind, ...] = get_args(Kind)
 
@@ -36,9 +36,16 @@ KINDS: tuple[Kind, ...] = get_args(Kind)
 class DigitalHull:
     """The digital hull of a volume.
 
-    filled: truth values of the volume's shape, in its order of memory.  dimension: that of the voxels' centres: 3; 2 if
-    they lie in one plane, 1 on one line; 0 for one voxel.  given: how many voxels the volume has.  source: the volume
-    whose hull it is, for where its voxels lie.
+    Attributes
+    ----------
+    filled
+        Truth values in the volume's shape and memory order.
+    dimension
+        The dimension of the voxels' centres: 3, or 2 in one plane, 1 on one line, 0 for a single voxel.
+    given
+        The number of voxels of the volume.
+    source
+        The volume, which also holds the position of its voxels.
     """
 
     filled: Truth
@@ -53,34 +60,34 @@ class DigitalHull:
 
     @property
     def solidity(self) -> Fraction:
-        """The share of the hull that the volume fills, in voxels."""
+        """The fraction of the hull's voxels that belong to the volume."""
         return Fraction(self.given, self.voxels)
 
     @property
     def deficiency(self) -> int:
-        """How many voxels the convex deficiency has: those of the hull that are not given."""
+        """The number of voxels in the convex deficiency, the hull without the volume."""
         return self.voxels - self.given
 
     @property
     def world(self) -> World | None:
-        """Where the voxels of ``filled`` lie, by their indices; None where nothing says it."""
+        """The position of the voxels of ``filled`` by index, or None if it is unknown."""
         world = self.source.world
         return None if world is None else world.moved(self.source.origin)
 
     @property
     def volume(self) -> Fraction:
-        """The volume of the hull's voxels in the world, exactly; their number where there is no world."""
+        """The exact volume of the hull's voxels in physical units, or their number if the position is unknown."""
         return self.voxels * voxel_volume(self.source.world)
 
     @property
     def voxels(self) -> int:
-        """How many voxels the hull has."""
+        """The number of voxels of the hull."""
         return int(np.count_nonzero(self.filled))
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write ``filled``: as .nrrd with the place of its voxels, or as .npy, which holds none.
+        """Write ``filled`` as .nrrd with the position of its voxels, or as .npy, which stores no position.
 
-        Raises VolumeError for another ending, FileError where the file cannot be written.
+        Raise VolumeError for another file name extension and FileError if the file cannot be written.
         """
         from modern.digital.volumes import write_array
 
@@ -95,23 +102,33 @@ def digital_hull(
     origin: Sequence[Any] | None = None,
     directions: Sequence[Sequence[Any]] | None = None,
 ) -> DigitalHull:
-    """The grid points in the convex hull of a volume's voxel centres.
+    """Return the grid points in the convex hull of a volume's voxel centres.
 
-    volume: two or three axes; every value other than 0 is a voxel.  fast: True for compiled code (numba, the extra
-    ``fast``), False for plain Python, None for whichever is quicker; the result is the same.  spacing, origin,
-    directions: where the voxels of an array lie, see :func:`modern.digital.world.world_of`; the hull's voxels do not
-    depend on it, its ``world`` and ``volume`` do.
+    Parameters
+    ----------
+    volume
+        A volume, or an array with two or three axes in which every value other than 0 is a voxel.
+    fast
+        True for compiled code (numba, the extra ``fast``), False for plain Python, None for the faster one. The result
+        is the same.
+    spacing, origin, directions
+        The position of an array's voxels, as in :func:`modern.digital.world.world_of`. It affects the hull's ``world``
+        and ``volume`` but not its voxels.
 
-    Raises VolumeError for other arrays, for a place that is not valid, and where ``fast`` is asked for without numba;
-    NoVoxels, which is a PointsError, where there are no voxels.
+    Raises
+    ------
+    VolumeError
+        For an invalid array or position, and if ``fast`` is True and numba is missing.
+    NoVoxels
+        If the volume has no voxels. This is also a PointsError.
     """
     source = placed(volume, spacing, origin, directions)
-    array, given = source.array, source.count
+    array, count = source.array, source.count
     solid = array.reshape((1,) * (3 - array.ndim) + array.shape)
     # Columns run along the axis whose voxels are next to each other in memory.
     order = sorted(range(3), key=lambda axis: -abs(solid.strides[axis]))
     dimension, filled = _hull(solid.transpose(order), fast)
-    return DigitalHull(filled.transpose(np.argsort(order)).reshape(array.shape), dimension, given, source)
+    return DigitalHull(filled.transpose(np.argsort(order)).reshape(array.shape), dimension, count, source)
 
 
 def placed(
@@ -120,15 +137,15 @@ def placed(
     origin: Sequence[Any] | None = None,
     directions: Sequence[Sequence[Any]] | None = None,
 ) -> Volume:
-    """A volume as it is, or an array of two or three axes with its place; every value other than 0 is a voxel.
+    """Return a volume unchanged, or an array with its position as a volume of the values other than 0.
 
-    Raises VolumeError and NoVoxels as ``digital_hull``.
+    Raise VolumeError and NoVoxels as ``digital_hull`` does.
     """
     if not isinstance(volume, Volume):
         array = _truth(np.asarray(volume))
         volume = Volume(array, (0,) * array.ndim, world=world_of(array.ndim, spacing, origin, directions))
     elif spacing is not None or origin is not None or directions is not None:
-        raise VolumeError(f"{volume.source}: a Volume has its place; spacing, origin and directions are of arrays")
+        raise VolumeError(f"{volume.source}: a Volume has a position; spacing, origin and directions are for arrays")
     if not _truth(volume.array).any():
         raise NoVoxels("there are no points")
     return volume
@@ -137,19 +154,20 @@ def placed(
 def _truth(array: NDArray[Any]) -> Truth:
     if array.ndim not in (2, 3) or array.dtype.kind not in "biuf":
         raise VolumeError(
-            f"a volume is an array of numbers or truth values with two or three axes, not of {array.dtype} "
+            f"expected an array of numbers or truth values with two or three axes, found {array.dtype} "
             f"with {array.ndim}"
         )
     if array.size > MAX_VOXELS:
         raise VolumeError(f"a volume of more than {MAX_VOXELS} voxels has no exact hull in 64 bits")
     if array.dtype.kind == "f" and np.isnan(array).any():
-        raise VolumeError("a value is not a number (nan), so that nobody can say whether the voxel belongs")
+        raise VolumeError("a value is not a number (nan), so its voxel cannot be classified")
     truth: Truth = array if array.dtype == np.bool_ else array != 0
     return truth
 
 
 def _hull(solid: Truth, fast: bool | None) -> tuple[int, Truth]:
-    """Dimension and filled hull of a volume of three axes that has voxels."""
+    """Return dimension and filled hull of a volume with three axes and at least one voxel."""
+    # Candidates for vertices: the lower and the upper ends of the columns, reduced separately.
     x, y, low, high = column_ends(solid)
     lower = np.stack(reduced(x, y, low), axis=1)
     upper = np.stack(reduced(x, y, -high), axis=1) * (1, 1, -1)
@@ -168,7 +186,7 @@ def _hull(solid: Truth, fast: bool | None) -> tuple[int, Truth]:
 
 
 def _compile(fast: bool | None, candidates: int) -> bool:
-    """Whether compiled code is to be used.  Raises VolumeError where it is asked for and there is none."""
+    """Return True if compiled code is to be used. Raise VolumeError if it was requested and is not available."""
     if not (candidates >= WORTH_COMPILING if fast is None else fast):
         return False
     try:
@@ -181,10 +199,11 @@ def _compile(fast: bool | None, candidates: int) -> bool:
 
 
 def independent(points: Grid) -> list[int]:
-    """Affinely independent points, as many as there are and at most four; two of them are the ends of a segment."""
+    """Return up to four affinely independent points, the largest number possible, including the ends of a segment."""
     if len(points) == 1:
         return [0]
-    along = points[-1] - points[0]  # first and last in lexicographic order
+    # The points are sorted, so the first and the last are extreme.
+    along = points[-1] - points[0]
     chosen = [0, len(points) - 1]
     normals = np.cross(points - points[0], along)
     third = int(np.abs(normals).max(axis=1).argmax())
@@ -196,25 +215,26 @@ def independent(points: Grid) -> list[int]:
 
 
 def _fill_segment(filled: Truth, first: Grid, last: Grid) -> None:
-    """The grid points between two."""
+    """Fill the grid points between two points."""
     steps = max(1, int(np.gcd.reduce(last - first)))
     filled[tuple((first + np.arange(steps + 1)[:, None] * ((last - first) // steps)).T)] = True
 
 
 def _fill_polygon(filled: Truth, points: Grid, simplex: list[int]) -> None:
-    """The grid points in the hull of points of one plane, which is projected along an axis it does not contain."""
+    """Fill the grid points in the hull of coplanar points, projected along an axis that crosses the plane."""
     origin = points[simplex[0]]
     normal = np.cross(points[simplex[1]] - origin, points[simplex[2]] - origin)
     normal //= np.gcd.reduce(normal)
     axis = int(np.abs(normal).argmax())
     first, second = (k for k in range(3) if k != axis)
     low, high = below_edges(points[:, first], points[:, second], filled.shape[first])
-    places = in_plane(low, high, filled.shape[second])
+    inside = in_plane(low, high, filled.shape[second])
     if abs(normal[axis]) == np.abs(normal).sum():
-        np.moveaxis(filled, axis, 0)[origin[axis]] = places
+        np.moveaxis(filled, axis, 0)[origin[axis]] = inside
         return
-    u, v = np.nonzero(places)
+    u, v = np.nonzero(inside)
     over = -(normal[first] * (u - origin[first]) + normal[second] * (v - origin[second]))
+    # Only positions at which the plane passes through a grid point have one in the hull.
     exact = over % normal[axis] == 0
-    found = {axis: origin[axis] + over[exact] // normal[axis], first: u[exact], second: v[exact]}
-    filled[found[0], found[1], found[2]] = True
+    indices = {axis: origin[axis] + over[exact] // normal[axis], first: u[exact], second: v[exact]}
+    filled[indices[0], indices[1], indices[2]] = True

@@ -1,7 +1,7 @@
-"""Which grid points lie between the lower and the upper side of a hull: an interval for every column, exactly.
+"""The grid points between the lower and the upper side of a hull: an interval for every column, exactly.
 
-Where a plane or a line passes between two grid points the division is of integers, rounded up on the lower side and
-down on the upper; where it passes through one, that one belongs to the hull.
+Where a plane or a line passes between two grid points, an integer division rounds up on the lower side and down on the
+upper side. A grid point on the plane or line belongs to the hull.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from modern.digital.columns import Grid, Truth
 
 
 def lower_chain(points: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
-    """The vertices of the lower side of points (t, z) sorted by t, each t once: one scan, going back where it turns."""
+    """Return the vertices of the lower side of points (t, z) sorted by t, each t once, by Andrew's scan."""
     chain: list[tuple[int, int]] = []
     for t, z in points:
         while len(chain) > 1:
@@ -27,14 +27,15 @@ def lower_chain(points: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
 
 
 BATCH = 1 << 20
-"""About so many columns are worked on at a time."""
+"""The approximate number of columns processed at a time."""
 
 
 def below_facets(points: Grid, corner: Grid, plane: Grid, shape: tuple[int, int]) -> tuple[Grid, Grid]:
-    """The lowest and the highest grid point of a polyhedron over every place (x, y) of a grid of this shape.
+    """Return the lowest and the highest grid point of a polyhedron over every position (x, y) of a grid of this shape.
 
-    points: shape (n, 3); corner: three of them a facet, counterclockwise seen from outside; plane: four coefficients a
-    facet, positive outside.  Where the polyhedron has no grid point the lowest is above the highest.
+    ``points`` has the shape (n, 3). ``corner`` has three point indices for each facet, counterclockwise as seen from
+    outside, and ``plane`` its four coefficients, positive outside. Where the polyhedron has no grid point, the lowest
+    is above the highest.
     """
     low = np.ones(shape, dtype=np.int64)
     high = np.zeros(shape, dtype=np.int64)
@@ -46,47 +47,51 @@ def below_facets(points: Grid, corner: Grid, plane: Grid, shape: tuple[int, int]
 
 
 def write_heights(grid: Grid, triangles: Grid, plane: Grid, rounded_up: bool) -> None:
-    """Write the height of every triangle at the places below it, its boundary included; a later one overwrites.
+    """Write the height of every triangle at the positions below it and its boundary; later triangles overwrite.
 
-    triangles: of grid points, shape (n, 3, 3), counterclockwise seen from above; plane: four coefficients each, with a
-    positive third one.  A height that is no whole number is rounded up, or down.
+    ``triangles`` has the shape (n, 3, 3), counterclockwise as seen from above. ``plane`` has four coefficients for
+    each, the third positive. Heights that are not integers are rounded up or down.
     """
     x, y = triangles[:, :, 0], triangles[:, :, 1]
     first, rows = x.min(axis=1), np.ptp(x, axis=1) + 1
     which = np.repeat(np.arange(len(triangles)), rows)
+    # One entry for every row of every triangle, with the interval of y that the triangle covers in it.
     row = first[which] + _count_up(rows)
     least, most = _sides(x[which], y[which], row, grid.shape[1])
     count = np.maximum(most - least + 1, 0)
     ends = np.cumsum(count)
+    # Split the rows into batches of about BATCH positions, so that memory stays bounded.
     cuts = np.searchsorted(ends, np.arange(BATCH, int(ends[-1]) if len(ends) else 0, BATCH))
     for part in np.split(np.arange(len(which)), np.unique(cuts)):
         column = np.repeat(part, count[part])
         a, b, c, d = plane[which[column]].T
         at_x, at_y = row[column], least[column] + _count_up(count[part])
+        # The plane a x + b y + c z + d = 0, solved for z by an integer division.
         above = a * at_x + b * at_y + d
         grid[at_x, at_y] = -(above // c) if rounded_up else (-above) // c
 
 
 def _sides(x: Grid, y: Grid, row: Grid, width: int) -> tuple[Grid, Grid]:
-    """The least and the most y of triangles in a row of places: three edges each, with the triangle on their left."""
+    """Return the least and the greatest y of triangles in a row. Each triangle lies on the left of its three edges."""
     least, most = np.zeros(len(row), dtype=np.int64), np.full(len(row), width - 1, dtype=np.int64)
     for k in range(3):
         run, rise = x[:, (k + 1) % 3] - x[:, k], y[:, (k + 1) % 3] - y[:, k]
         over = rise * (row - x[:, k])
         unit = np.where(run == 0, 1, np.abs(run))
+        # An edge that runs toward +x bounds y from below, one toward -x from above.
         np.maximum(least, y[:, k] - (-over // unit), out=least, where=run > 0)
         np.minimum(most, y[:, k] + (-over // unit), out=most, where=run < 0)
     return least, most
 
 
 def _count_up(counts: Grid) -> Grid:
-    """0, 1, ... up to each count less one, one after the other."""
+    """Return 0, 1, ... up to each count minus one, concatenated."""
     ends = np.cumsum(counts)
     return np.arange(int(ends[-1]) if len(ends) else 0) - np.repeat(ends - counts, counts)
 
 
 def below_edges(u: Grid, v: Grid, width: int) -> tuple[Grid, Grid]:
-    """The lowest and the highest grid point of the polygon of points (u, v), for every u of 0 to ``width`` - 1."""
+    """Return the lowest and the highest grid point of the polygon of points (u, v) for every u below ``width``."""
     low, high = np.ones(width, dtype=np.int64), np.zeros(width, dtype=np.int64)
     places = np.arange(u.min(), u.max() + 1)
     low[places] = _chain(u, v, places)
@@ -95,7 +100,7 @@ def below_edges(u: Grid, v: Grid, width: int) -> tuple[Grid, Grid]:
 
 
 def _chain(u: Grid, v: Grid, places: Grid) -> Grid:
-    """The lower side of the points' hull, rounded up, at each place."""
+    """Return the lower side of the points' hull, rounded up, at each position."""
     order = np.lexsort((v, u))
     u, v = u[order], v[order]
     lowest = np.concatenate(([True], u[1:] != u[:-1]))
@@ -110,6 +115,6 @@ def _chain(u: Grid, v: Grid, places: Grid) -> Grid:
 
 
 def in_plane(low: Grid, high: Grid, depth: int) -> Truth:
-    """The places (u, v) of a picture whose column u holds low[u] to high[u]; none if low[u] > high[u]."""
+    """Return the positions (u, v) whose column u spans low[u] to high[u], none if low[u] > high[u]."""
     v = np.arange(depth)
     return (low[:, None] <= v) & (v <= high[:, None])

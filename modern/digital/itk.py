@@ -1,8 +1,9 @@
-"""Volumes by SimpleITK (the extra ``volumes``): NIfTI, MetaImage, TIFF, and DICOM files or a folder with a series.
+"""Volumes read by SimpleITK (the extra ``volumes``): NIfTI, MetaImage, TIFF, and DICOM files or series folders.
 
-The library runs in a process of its own, ``itk_child.py``: whatever it prints is kept from the user, whatever becomes
-of it (an error, a crash, no end) is one line here.  The array comes back as an NPY file of a temporary folder, spacing,
-origin and directions as the shortest decimal text that names each double, and are exact from there on.
+The library runs in a separate process, ``itk_child.py``. Its output is hidden from the user, and any failure (an
+error, a crash, a hang) becomes one line here. The process returns the array as an NPY file in a temporary folder. It
+returns spacing, origin and directions as the shortest decimal text that identifies each double; they are exact from
+then on.
 """
 
 from __future__ import annotations
@@ -35,15 +36,15 @@ KINDS = {
     ".tiff": "TIFF",
     ".dcm": "DICOM",
 }
-"""What a file is by the ending of its name."""
+"""The format of a file by the extension of its name."""
 LIMIT = 60
-"""Seconds a file may take to be read, and one more for each megabyte."""
+"""The seconds allowed for reading a file, plus one for each megabyte."""
 _CHILD = str(Path(__file__).with_name("itk_child.py"))
 _DICOM = (128, b"DICM")
 
 
 def kind_of(path: str) -> str | None:
-    """What SimpleITK reads a path as, None for what is read otherwise.  A folder is a DICOM series."""
+    """Return the format in which SimpleITK reads a path, or None for other files. A folder is a DICOM series."""
     if path == "-" or "\0" in path:
         return None
     if os.path.isdir(path):
@@ -52,21 +53,19 @@ def kind_of(path: str) -> str | None:
 
 
 def read_itk(path: str, kind: str, series: str | None = None) -> Scan:
-    """The scan of a file or a folder by SimpleITK, indexed [x, y] or [x, y, z]; see ``kind_of``.
+    """Read a file or a folder with SimpleITK into a scan indexed [x, y] or [x, y, z].
 
-    series: the identifier of one of several DICOM series in the folder.  Positions are those of the library: LPS, in
-    millimetres where the format says so; a TIFF file has none.
-
-    Raises FileError for a file that cannot be read, VolumeError where SimpleITK is not installed, says that it cannot
-    read the file, crashes, or takes longer than ``LIMIT`` allows; where a voxel has several numbers, and for more than
-    ``MAX_CELLS`` voxels.
+    ``series`` identifies one of several DICOM series in a folder. Positions are those of the library: LPS, in
+    millimetres if the format states it. A TIFF file has no position. Raise FileError if the file cannot be read. Raise
+    VolumeError if SimpleITK is not installed, rejects the file, crashes or exceeds ``LIMIT``, if voxels have several
+    values, or for more than ``MAX_CELLS`` voxels.
     """
     if kind == SERIES:
         _check_folder(path)
     else:
         _check_file(path)
     if importlib.util.find_spec("SimpleITK") is None:
-        raise VolumeError(f"{path}: {kind} is read by SimpleITK: pip install 'hull1620[volumes]'")
+        raise VolumeError(f"{path}: reading {kind} needs SimpleITK: pip install 'hull1620[volumes]'")
     with tempfile.TemporaryDirectory(prefix="hull1620-") as folder:
         seconds = LIMIT + _bytes(path) // 10**6
         code = _run([kind, os.path.abspath(path), folder, str(MAX_CELLS), series or ""], path, seconds)
@@ -81,7 +80,7 @@ def read_itk(path: str, kind: str, series: str | None = None) -> Scan:
 
 
 def _check_file(path: str) -> None:
-    """Refuse a file that cannot be opened, in the words of all files.  Raises FileError."""
+    """Raise FileError if the file cannot be opened."""
     try:
         with open(path, "rb"):
             return
@@ -90,7 +89,7 @@ def _check_file(path: str) -> None:
 
 
 def _check_folder(path: str) -> None:
-    """Refuse a folder without DICOM files, which have their mark after 128 bytes.  Raises VolumeError."""
+    """Raise VolumeError for a folder without DICOM files, which have their signature after 128 bytes."""
     place, mark = _DICOM
     try:
         with os.scandir(path) as entries:
@@ -101,11 +100,13 @@ def _check_folder(path: str) -> None:
                             return
     except OSError as error:
         raise VolumeError(f"{path}: {reason(error)}") from None
-    raise VolumeError(f"{path}: is a directory without a DICOM file; a volume is a file, or a folder with a series")
+    raise VolumeError(f"{path}: is a directory without a DICOM file; expected a file, or a folder with a DICOM series")
 
 
 def _bytes(path: str) -> int:
-    """How much there is to read: the file, all of a folder, or of the folder where a header's data may lie."""
+    """Return the number of bytes to read: the file, its folder if a header may refer to data there, or the series
+    folder.
+    """
     try:
         if path.lower().endswith(".mhd"):
             path = os.path.dirname(os.path.abspath(path))
@@ -117,12 +118,12 @@ def _bytes(path: str) -> int:
         return 0
 
 
-def _run(words: Sequence[str], path: str, seconds: float) -> int:
-    """Run the child to its end; its exit code, negative for a signal.  Raises VolumeError where it takes too long."""
+def _run(arguments: Sequence[str], path: str, seconds: float) -> int:
+    """Run the child process and return its exit code, negative for a signal. Raise VolumeError after the time limit."""
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "ITK_GLOBAL_DEFAULT_NUMBER_OF_THREADS": "1"}
-    command = [sys.executable, "-P", "-W", "ignore", _CHILD, *words]
+    command = [sys.executable, "-P", "-W", "ignore", _CHILD, *arguments]
     try:
-        done = subprocess.run(
+        process = subprocess.run(
             command,
             env=environment,
             stdin=subprocess.DEVNULL,
@@ -132,19 +133,19 @@ def _run(words: Sequence[str], path: str, seconds: float) -> int:
             check=False,
         )
     except subprocess.TimeoutExpired:
-        raise VolumeError(f"{path}: SimpleITK has not read it within {seconds} seconds") from None
+        raise VolumeError(f"{path}: SimpleITK did not read it within {seconds} seconds") from None
     except OSError as error:
         raise VolumeError(f"{path}: a process for SimpleITK cannot be started: {reason(error)}") from None
-    return done.returncode
+    return process.returncode
 
 
 def _facts(path: Path) -> dict[str, Any] | None:
-    """What the child wrote down, None where it did not come to that."""
+    """Return the facts that the child wrote, or None if it wrote none."""
     try:
-        found: dict[str, Any] = json.loads(path.read_text(encoding="ascii"))
+        facts: dict[str, Any] = json.loads(path.read_text(encoding="ascii"))
     except (OSError, ValueError):
         return None
-    return found
+    return facts
 
 
 def _ended(code: int) -> str:
@@ -157,7 +158,7 @@ def _ended(code: int) -> str:
 
 
 def _world(facts: dict[str, Any], path: str) -> World | None:
-    """The place by spacing, origin and the matrix whose columns are the axes' directions."""
+    """Return the position from spacing, origin and the matrix whose columns are the directions of the axes."""
     if not facts["placed"]:
         return None
     try:
@@ -171,6 +172,6 @@ def _world(facts: dict[str, Any], path: str) -> World | None:
         raise VolumeError(f"{path}: {_plain(str(error))}") from None
 
 
-def _plain(words: str) -> str:
-    """Words of a library on one line, without what a terminal would take for a command."""
-    return " ".join("".join(c if c.isprintable() else " " for c in words).split())
+def _plain(message: str) -> str:
+    """Return a library's message on one line, without control characters."""
+    return " ".join("".join(c if c.isprintable() else " " for c in message).split())

@@ -1,7 +1,7 @@
-"""The process in which SimpleITK reads a file: run by path, it imports nothing of ours and says nothing.
+"""The process in which SimpleITK reads a file. It is run by path, imports nothing of the project and prints nothing.
 
-Its arguments are the kind of file, the path, a folder for the answer, the most voxels and a series' identifier.  The
-answer is ``array.npy``, x fastest, and ``facts.json``: spacing, origin and direction as text, or an ``error``.
+The arguments are the format, the path, a folder for the result, the largest number of voxels and a series identifier.
+The result is ``array.npy``, x fastest, and ``facts.json`` with spacing, origin and direction as text, or an ``error``.
 """
 
 from __future__ import annotations
@@ -20,16 +20,16 @@ from typing import Any
 READERS = {"NIfTI": "NiftiImageIO", "MetaImage": "MetaImageIO", "TIFF": "TIFFImageIO", "DICOM": "GDCMImageIO"}
 _POSITION, _ORIENTATION = "0020|0032", "0020|0037"
 _UNEVEN = 1e-3
-"""Distances of slices that differ by more than this part of their mean are told."""
-_SAID = 160
+"""Distances between slices that differ by more than this fraction of their mean are reported."""
+_LONGEST_MESSAGE = 160
 
 
 class Refused(Exception):
-    """What the user is told in one line."""
+    """An error with a message of one line for the user."""
 
 
 def main(arguments: Sequence[str]) -> None:
-    """Read the file, write the answer."""
+    """Read the file and write the result."""
     kind, path, folder, most, series = arguments
     _limit()
     answer = Path(folder, "facts.json")
@@ -40,12 +40,12 @@ def main(arguments: Sequence[str]) -> None:
     except MemoryError:
         facts = {"error": "there is not enough memory for this"}
     except Exception as error:
-        facts = {"error": f"SimpleITK cannot read it as {kind}: {_said(error)}"}
+        facts = {"error": f"SimpleITK cannot read it as {kind}: {_message_of(error)}"}
     answer.write_text(json.dumps(facts), encoding="ascii")
 
 
 def read(kind: str, path: str, target: Path, most: int, series: str) -> dict[str, Any]:
-    """Write the array; what else is known of it.  Raises Refused, and whatever the library raises."""
+    """Write the array and return the other facts. Raise Refused, or any error of the library."""
     import numpy as np
 
     sitk: Any = importlib.import_module("SimpleITK")
@@ -72,15 +72,15 @@ def read(kind: str, path: str, target: Path, most: int, series: str) -> dict[str
     size, spacing, origin = image.GetSize(), image.GetSpacing(), image.GetOrigin()
     direction, width = image.GetDirection(), len(size)
     if array.ndim == 4 and size[3] == 1:
-        # A volume with one moment of time is a volume.
+        # Four axes with a single point in time are a volume.
         array, width = array[..., 0], 3
         direction = [direction[4 * row + column] for row in range(3) for column in range(3)]
     if array.ndim not in (2, 3):
-        raise Refused(f"{array.ndim} axes, {' x '.join(map(str, size))}; a volume has two or three")
+        raise Refused(f"expected two or three axes, found {array.ndim}, {' x '.join(map(str, size))}")
     np.save(target, array, allow_pickle=False)
     placed = kind != "TIFF"
     if kind == "TIFF" and any(length != 1 for length in spacing[:2]):
-        notes.append("the resolution of a TIFF file is not taken for the spacing of its voxels")
+        notes.append("the resolution of a TIFF file is not used as the spacing of its voxels")
     unit = "mm" if kind.startswith("DICOM") else ""
     if kind == "NIfTI":
         unit = _nifti(reader, notes)
@@ -91,46 +91,46 @@ def read(kind: str, path: str, target: Path, most: int, series: str) -> dict[str
 
 
 def _check(size: Sequence[int], numbers: int, most: int) -> None:
-    """Refuse what is no volume before it is read."""
+    """Raise Refused if the image is not a volume, before its data are read."""
     count = 1
     for side in size:
         count *= side
     sides = " x ".join(map(str, size))
     if count > most:
-        raise Refused(f"{sides} voxels; at most {most} are read")
+        raise Refused(f"expected at most {most} voxels, found {sides}")
     if numbers != 1:
-        raise Refused(f"every voxel has {numbers} numbers; a volume has one")
+        raise Refused(f"expected one number for each voxel, found {numbers}")
     if len(size) > 4 or (len(size) == 4 and size[3] != 1):
-        raise Refused(f"{len(size)} axes, {sides}; a volume has two or three")
+        raise Refused(f"expected two or three axes, found {len(size)}, {sides}")
 
 
 def _nifti(reader: Any, notes: list[str]) -> str:
-    """The unit of a NIfTI file, which the library turns into millimetres; a note where it has no orientation."""
-    said = {key: reader.GetMetaData(key) for key in reader.GetMetaDataKeys()}
-    if said.get("qform_code") == "0" and said.get("sform_code") == "0":
+    """Return the unit of a NIfTI file, which the library converts to mm. Add a note if it has no orientation."""
+    metadata = {key: reader.GetMetaData(key) for key in reader.GetMetaDataKeys()}
+    if metadata.get("qform_code") == "0" and metadata.get("sform_code") == "0":
         notes.append("the file states no orientation (qform and sform are 0)")
-    return "mm" if int(said.get("xyzt_units", "0") or 0) & 7 else ""
+    return "mm" if int(metadata.get("xyzt_units", "0") or 0) & 7 else ""
 
 
 def _series(sitk: Any, folder: str, series: str) -> Sequence[str]:
-    """The files of the series in a folder, in their order in space."""
-    found = sitk.ImageSeriesReader.GetGDCMSeriesIDs(folder)
+    """Return the files of a series in a folder, in their spatial order."""
+    identifiers = sitk.ImageSeriesReader.GetGDCMSeriesIDs(folder)
     names: dict[str, Sequence[str]] = {
-        name: sitk.ImageSeriesReader.GetGDCMSeriesFileNames(folder, name) for name in found
+        name: sitk.ImageSeriesReader.GetGDCMSeriesFileNames(folder, name) for name in identifiers
     }
     listed = "; ".join(f"{name} ({len(files)} files)" for name, files in list(names.items())[:6]) or "none"
     if series:
         if series not in names:
-            raise Refused(f"there is no series {series[:70]}, only {listed}")
+            raise Refused(f"there is no series {series[:70]}; the folder has {listed}")
         return names[series]
     if len(names) != 1:
-        raise Refused(f"{len(names)} DICOM series; --series names one of them: {listed}")
+        raise Refused(f"found {len(names)} DICOM series; select one with --series: {listed}")
     return next(iter(names.values()))
 
 
 def _uneven(sitk: Any, files: Sequence[str]) -> list[str]:
-    """A note where the slices are not at equal distances, by their positions along the normal of the first."""
-    places = []
+    """Return a note if the slices are not evenly spaced along the normal of the first slice."""
+    positions = []
     normal: list[float] = []
     for name in files:
         reader = sitk.ImageFileReader()
@@ -138,33 +138,33 @@ def _uneven(sitk: Any, files: Sequence[str]) -> list[str]:
         reader.ReadImageInformation()
         if not (reader.HasMetaDataKey(_POSITION) and reader.HasMetaDataKey(_ORIENTATION)):
             return ["a slice does not state its position"]
-        place, turn = (_floats(reader.GetMetaData(key)) for key in (_POSITION, _ORIENTATION))
+        position, turn = (_floats(reader.GetMetaData(key)) for key in (_POSITION, _ORIENTATION))
         if not normal:
             (a, b, c), (d, e, f) = turn[:3], turn[3:]
             normal = [b * f - c * e, c * d - a * f, a * e - b * d]
-        places.append(sum(x * y for x, y in zip(place, normal, strict=True)))
-    gaps = [abs(there - here) for here, there in pairwise(places)]
+        positions.append(sum(x * y for x, y in zip(position, normal, strict=True)))
+    gaps = [abs(there - here) for here, there in pairwise(positions)]
     if gaps and max(gaps) - min(gaps) > _UNEVEN * (sum(gaps) / len(gaps)):
-        return [f"slices lie {min(gaps):.6g} to {max(gaps):.6g} mm apart; they are taken as evenly spaced"]
+        return [f"slices are {min(gaps):.6g} to {max(gaps):.6g} mm apart and are treated as evenly spaced"]
     return []
 
 
 def _floats(text: str) -> list[float]:
-    """The numbers of a DICOM value."""
+    """Return the numbers of a DICOM value."""
     return [float(word) for word in text.split("\\")]
 
 
-def _said(error: Exception) -> str:
-    """The last thing an exception of the library says, without places in its source and in memory."""
-    words = " ".join(str(error).split())
-    words = re.split(r"(?:itk::|sitk::|ITK )ERROR: ", words)[-1]
-    words = re.sub(r"\b\w+\((?:0x)?[0-9a-fA-F]+\): ", "", words)
-    words = re.sub(r"(?:/[^\s/]+)+/", "", words)
-    return (words or type(error).__name__)[:_SAID]
+def _message_of(error: Exception) -> str:
+    """Return the last part of a library's message, without locations in its source and in memory."""
+    message = " ".join(str(error).split())
+    message = re.split(r"(?:itk::|sitk::|ITK )ERROR: ", message)[-1]
+    message = re.sub(r"\b\w+\((?:0x)?[0-9a-fA-F]+\): ", "", message)
+    message = re.sub(r"(?:/[^\s/]+)+/", "", message)
+    return (message or type(error).__name__)[:_LONGEST_MESSAGE]
 
 
 def _limit() -> None:
-    """No core file, and no more memory than the machine has: a damaged header may ask for any."""
+    """Disable core files and limit memory to that of the machine, because a damaged header may request any amount."""
     with contextlib.suppress(ImportError, OSError, ValueError):
         import resource
 

@@ -1,8 +1,8 @@
-"""Exact measures of a solid of voxels and of its hull: volumes, areas, solidity, convex deficiency.
+"""Exact measures of a voxel solid and of its hull: volumes, areas, solidity, convex deficiency.
 
-The hull's vertices are whole coordinates (of voxels' centres or corners).  Volumes are fractions.  The area of
-a surface is a sum of square roots and has ``AREA_DIGITS`` significant digits; it is exact where every root is a
-decimal of no more.
+The hull's vertices have integer coordinates (of voxel centres or corners). Volumes are fractions. The area of a
+surface is a sum of square roots with ``AREA_DIGITS`` significant digits. It is exact if every root is a decimal of at
+most that length.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ Whole = tuple[int, int, int]
 
 @dataclass(frozen=True, slots=True)
 class Measures:
-    """What a solid and its hull measure, in the world's units, or in voxels where there is no world.
+    """The measures of a solid and its hull, in physical units, or in voxels if the position is unknown.
 
-    voxels: how many the solid has.  volume: theirs.  hull_volume, hull_area: of the hull, 0 of what is flat; the area
-    of a polygon is that of its one side.
+    ``voxels`` and ``volume`` are those of the solid. ``hull_volume`` and ``hull_area`` are 0 for a flat hull; the area
+    of a polygon is that of one side.
     """
 
     voxels: int
@@ -36,12 +36,12 @@ class Measures:
 
     @property
     def solidity(self) -> Fraction:
-        """The share of the hull that the solid fills, where the hull is of voxels' corners and so contains them.
+        """The fraction of the hull that the solid fills, for a hull of voxel corners, which contains the solid.
 
-        Raises VolumeError for a flat hull.
+        Raise VolumeError for a flat hull.
         """
         if not self.hull_volume:
-            raise VolumeError("a flat hull has no volume, and a solid in it no solidity")
+            raise VolumeError("a flat hull has no volume, so its solidity is undefined")
         return self.volume / self.hull_volume
 
     @property
@@ -53,23 +53,24 @@ class Measures:
 def measures(
     voxels: int, points: Sequence[Whole], faces: Iterable[Sequence[int]], world: World | None = None
 ) -> Measures:
-    """The measures of a solid with so many voxels and of the hull with these vertices and faces.
+    """Return the measures of a solid with ``voxels`` voxels and of the hull with these vertices and faces.
 
-    points: whole coordinates.  faces: of a polyhedron all, of a polygon one, of other hulls none; places in ``points``
-    from 0, in cyclic order; all of a polyhedron's in the same sense.  world: three steps in a space of three axes.
+    ``points`` have integer coordinates. ``faces`` list indices of ``points`` in cyclic order: all faces of a
+    polyhedron, in the same orientation, the only face of a polygon, and none for other hulls. ``world`` has three
+    steps in a space with three axes.
     """
     polygons = [tuple(face) for face in faces]
     six = six_volumes(points, polygons) if len(polygons) > 1 else 0
     steps = _UNIT if world is None else world.steps
     cell = voxel_volume(world)
-    # Areas turn with the cofactors: of edges u, v the vector product of their images is that of the cofactors' rows.
+    # A linear map multiplies area vectors by its cofactor matrix, whose rows are vector products of the steps.
     rows = [cross(_three(steps[(k + 1) % 3]), _three(steps[(k + 2) % 3])) for k in range(3)]
     scale = math.lcm(*(number.denominator for row in rows for number in row))
-    whole = [[int(number * scale) for number in row] for row in rows]
+    cofactors = [[int(number * scale) for number in row] for row in rows]
     squares = []
     for face in polygons:
         normal = area_vector(points, face)
-        image = [sum(normal[k] * whole[k][j] for k in range(3)) for j in range(3)]
+        image = [sum(normal[k] * cofactors[k][j] for k in range(3)) for j in range(3)]
         squares.append(Fraction(sum(number * number for number in image), (2 * scale) ** 2))
     area = sum_of_roots(squares, AREA_DIGITS)
     return Measures(voxels, voxels * cell, Fraction(abs(six), 6) * cell, area)

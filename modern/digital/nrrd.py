@@ -1,10 +1,10 @@
 """NRRD files (Kindlmann, "Definition of NRRD File Format", teem.sourceforge.net/nrrd/format.html): volumes as arrays.
 
-Read are arrays of two or three axes of the standard number types, encoded raw or gzip, with the data after the
-header or in one file that a detached header names (``data file: NAME``).  The fastest axis is the first, so the
-array is indexed [x, y, z].  Where the volume lies (``spacings`` or ``space directions``, ``space origin``, ``space``
-and units) is kept as decimal text says it; ``space origin`` is the centre of the first voxel.  Written are truth
-values as uint8, packed, with all of that.
+The reader accepts arrays with two or three axes of the standard number types, encoded raw or gzip, with the data after
+the header or in one file that a detached header names (``data file: NAME``). The first axis is the fastest, so the
+array is indexed [x, y, z]. The position (``spacings`` or ``space directions``, ``space origin``, ``space`` and units)
+is kept as the exact value of its decimal text. ``space origin`` is the centre of the first voxel. The writer stores
+truth values as compressed uint8 with the position.
 """
 
 from __future__ import annotations
@@ -54,54 +54,56 @@ _OTHER_NAMES = {
 _SPACES = {"lps": ANATOMICAL[0], "ras": ANATOMICAL[1], "las": ANATOMICAL[2]}
 _VECTOR = re.compile(r"\(([^()]*)\)|(none)(?!\S)")
 _QUOTED = re.compile(r'"((?:[^"\\]|\\.)*)"')
-_NOT_TAKEN = ("axis mins", "axis maxs")
+_IGNORED = ("axis mins", "axis maxs")
 _MOST_AXES = 3
 
 
 def parse_nrrd(data: bytes, source: str) -> Scan:
-    """The array of an NRRD file, indexed [x, y] or [x, y, z], and where it lies.
+    """Return the array of an NRRD file, indexed [x, y] or [x, y, z], and its position.
 
-    source: the name messages use; a detached header's data file is looked for beside it.  Raises VolumeError with the
-    header's line for a field that is missing, unknown here or no number, and for data that are too short, too long or
-    damaged, FileError for a data file that cannot be read.
+    ``source`` is the name in messages, and the data file of a detached header is relative to it. Raise VolumeError,
+    with the header's line, for a field that is missing, unknown or not a number, and for data that are too short, too
+    long or damaged. Raise FileError if the data file cannot be read.
     """
-    head, body = _cut(data)
+    head, body = _split(data)
     fields = _fields(head, source)
     dimension = _number(fields, "dimension", source)
     if dimension not in (2, 3):
-        raise VolumeError(f"{source}: line {fields['dimension'][0]}: {dimension} axes; a volume has two or three")
+        raise VolumeError(f"{source}: line {fields['dimension'][0]}: expected two or three axes, found {dimension}")
     line, text = fields.get("sizes", (0, ""))
-    words = text.split()
-    if len(words) != dimension or not all(_is_count(word) and int(word) for word in words):
-        raise VolumeError(f"{source}: line {line}: sizes: {dimension} numbers above 0 are due, here is {text!r}")
-    sizes = tuple(int(word) for word in words)
+    values = text.split()
+    if len(values) != dimension or not all(_is_count(word) and int(word) for word in values):
+        raise VolumeError(f"{source}: line {line}: sizes: expected {dimension} positive integers, found {text!r}")
+    sizes = tuple(int(word) for word in values)
     if math.prod(sizes) > MAX_CELLS:
-        raise VolumeError(f"{source}: line {line}: a volume of more than {MAX_CELLS} voxels is not read")
+        raise VolumeError(f"{source}: line {line}: expected at most {MAX_CELLS} voxels")
     line, encoding = fields["encoding"]
     if encoding.lower() not in (_RAW, *_PACKED):
-        raise VolumeError(f"{source}: line {line}: encoding: {encoding!r} is not read, only raw and gzip")
+        raise VolumeError(f"{source}: line {line}: encoding: expected raw or gzip, found {encoding!r}")
     kind = _type(fields, source)
     for name in ("line skip", "byte skip"):
         if name in fields and _number(fields, name, source):
-            raise VolumeError(f"{source}: line {fields[name][0]}: {name}: only 0 is read")
+            raise VolumeError(f"{source}: line {fields[name][0]}: {name}: expected 0")
     if "data file" in fields:
-        body = _beside(source, *fields["data file"])
-    wanted = math.prod(sizes) * kind.itemsize
+        body = _read_data_file(source, *fields["data file"])
+    expected = math.prod(sizes) * kind.itemsize
     if encoding.lower() in _PACKED:
-        body = _unpacked(body, wanted, source)
-    if len(body) < wanted:
-        raise VolumeError(f"{source}: the data end after {len(body)} of {wanted} bytes")
-    if len(body) > wanted:
-        raise VolumeError(f"{source}: the data go on after the {wanted} bytes of {'x'.join(map(str, sizes))} numbers")
+        body = _unpacked(body, expected, source)
+    if len(body) < expected:
+        raise VolumeError(f"{source}: expected {expected} bytes of data, found {len(body)}")
+    if len(body) > expected:
+        raise VolumeError(
+            f"{source}: expected {expected} bytes of data for {'x'.join(map(str, sizes))} numbers, found more"
+        )
     array = np.frombuffer(body, kind).reshape(sizes, order="F")
     world, notes = _world(fields, dimension, source)
     return Scan(array, (0,) * dimension, source, world, notes)
 
 
 def write_nrrd(path: str, array: NDArray[np.bool_], volume: Volume) -> None:
-    """Write truth values of a volume's shape as NRRD with the volume's place, whole or not at all.
+    """Write truth values of a volume's shape as NRRD with the volume's position, atomically.
 
-    Raises FileError, and VolumeError for a place that no decimal numbers name.
+    Raise FileError, and VolumeError for a position that has no finite decimal text.
     """
     world = volume.world
     if world is None and any(volume.origin):
@@ -122,45 +124,45 @@ def write_nrrd(path: str, array: NDArray[np.bool_], volume: Volume) -> None:
                 packed.write(array[..., place].astype(np.uint8).tobytes("F"))
 
 
-def _cut(data: bytes) -> tuple[bytes, bytes]:
-    """Header and data: an empty line stands between."""
+def _split(data: bytes) -> tuple[bytes, bytes]:
+    """Return header and data, which are separated by an empty line."""
     ends = [(data.find(mark), len(mark)) for mark in (b"\n\n", b"\r\n\r\n")]
-    found = [(at, length) for at, length in ends if at >= 0]
-    if not found:
+    separators = [(at, length) for at, length in ends if at >= 0]
+    if not separators:
         return data, b""
-    at, length = min(found)
+    at, length = min(separators)
     return data[:at], data[at + length :]
 
 
 def _fields(head: bytes, source: str) -> dict[str, tuple[int, str]]:
-    """Every field of the header, lower case, with its line; comments and key/value pairs left out."""
-    found: dict[str, tuple[int, str]] = {}
+    """Return every field of the header in lower case with its line, without comments and key/value pairs."""
+    fields: dict[str, tuple[int, str]] = {}
     for line, raw in enumerate(head.decode("latin-1").splitlines(), 1):
         if line == 1 or raw.startswith("#") or not raw.strip():
             continue
         name, colon, value = raw.partition(":")
         if not colon:
-            raise VolumeError(f"{source}: line {line}, column 1: neither a field nor a comment of an NRRD header")
+            raise VolumeError(f"{source}: line {line}, column 1: expected a field or a comment of an NRRD header")
         if value.startswith("="):
             continue
-        known = _OTHER_NAMES.get(name.lower(), name.lower())
-        if known in found:
-            raise VolumeError(f"{source}: line {line}, column 1: {name} stands twice")
-        found[known] = (line, value.strip())
+        canonical_name = _OTHER_NAMES.get(name.lower(), name.lower())
+        if canonical_name in fields:
+            raise VolumeError(f"{source}: line {line}, column 1: duplicate field {name}")
+        fields[canonical_name] = (line, value.strip())
     for name in ("type", "dimension", "sizes", "encoding"):
-        if name not in found:
+        if name not in fields:
             raise VolumeError(f"{source}: the header has no field {name!r}")
-    return found
+    return fields
 
 
-def _is_count(word: str) -> bool:
-    return word.isascii() and word.isdigit() and len(word) < 12
+def _is_count(text: str) -> bool:
+    return text.isascii() and text.isdigit() and len(text) < 12
 
 
 def _number(fields: Mapping[str, tuple[int, str]], name: str, source: str) -> int:
     line, text = fields[name]
     if not _is_count(text.removeprefix("-")):
-        raise VolumeError(f"{source}: line {line}: {name}: {text!r} is not a whole number")
+        raise VolumeError(f"{source}: line {line}: {name}: {text!r} is not an integer")
     return int(text)
 
 
@@ -168,49 +170,54 @@ def _type(fields: Mapping[str, tuple[int, str]], source: str) -> np.dtype[Any]:
     line, text = fields["type"]
     code = _CODES.get(" ".join(text.lower().split()))
     if code is None:
-        raise VolumeError(f"{source}: line {line}: type: {text!r} is not read")
+        raise VolumeError(f"{source}: line {line}: type: {text!r} is not supported")
     if code.endswith("1"):
         return np.dtype(code)
     if "endian" not in fields:
-        raise VolumeError(f"{source}: the header has no field 'endian', which numbers of {code[1]} bytes need")
+        raise VolumeError(
+            f"{source}: the header has no field 'endian', which is required for numbers of {code[1]} bytes"
+        )
     line, text = fields["endian"]
     if text.lower() not in _ENDIANS:
-        raise VolumeError(f"{source}: line {line}: endian: {text!r} is neither little nor big")
+        raise VolumeError(f"{source}: line {line}: endian: expected little or big, found {text!r}")
     return np.dtype(_ENDIANS[text.lower()] + code)
 
 
-def _beside(source: str, line: int, name: str) -> bytes:
+def _read_data_file(source: str, line: int, name: str) -> bytes:
     if name.upper().startswith("LIST") or "%" in name:
-        raise VolumeError(f"{source}: line {line}: data in several files are not read")
+        raise VolumeError(f"{source}: line {line}: data in several files are not supported")
     return read_bytes(str(Path(source).parent / name), f"{source}: line {line}: {name}")
 
 
-def _unpacked(body: bytes, wanted: int, source: str) -> bytes:
-    """The data of a packed file, checked by its checksum; of longer data one byte more than is wanted."""
+def _unpacked(body: bytes, expected: int, source: str) -> bytes:
+    """Decompress the data and verify their checksum. Data that are too long are cut to one byte more than expected."""
     try:
         with gzip.GzipFile(fileobj=io.BytesIO(body)) as packed:
-            found = packed.read(wanted)
-            return found + packed.read(1)
+            data = packed.read(expected)
+            return data + packed.read(1)
     except (OSError, EOFError, zlib.error) as error:
-        raise VolumeError(f"{source}: the data cannot be unpacked: {str(error).lower()}") from None
+        raise VolumeError(f"{source}: the data cannot be decompressed: {str(error).lower()}") from None
 
 
 def _world(fields: Mapping[str, tuple[int, str]], dimension: int, source: str) -> tuple[World | None, tuple[str, ...]]:
-    """Where the volume lies, None where the header does not say it, and notes on what is not taken."""
+    """Return the position, or None if the header does not state it, and notes on ignored fields."""
     notes = [
-        f"{source}: line {fields[name][0]}: {name} is not taken; space origin says where a volume lies"
-        for name in _NOT_TAKEN
+        f"{source}: line {fields[name][0]}: {name} is ignored; space origin states the position"
+        for name in _IGNORED
         if name in fields
     ]
     line, steps = _steps(fields, dimension, source)
     if not line:
         at = fields.get("space origin")
-        return None, (*notes, *([f"{source}: line {at[0]}: space origin, but no spacings: not taken"] if at else []))
+        return None, (
+            *notes,
+            *([f"{source}: line {at[0]}: space origin is ignored, because there are no spacings"] if at else []),
+        )
     if steps is None:
-        return None, (*notes, f"{source}: line {line}: an axis of the array is none of space: no place is taken")
+        return None, (*notes, f"{source}: line {line}: an axis of the array is not spatial; the position is ignored")
     width = len(steps[0])
     if width > _MOST_AXES:
-        return None, (*notes, f"{source}: line {line}: a space of {width} axes: no place is taken")
+        return None, (*notes, f"{source}: line {line}: the space has {width} axes; the position is ignored")
     origin = _origin(fields, width, source)
     space = fields.get("space", (0, ""))[1]
     space = _SPACES.get(space.lower(), space.lower() if space.lower() in ANATOMICAL else space)
@@ -223,22 +230,24 @@ def _world(fields: Mapping[str, tuple[int, str]], dimension: int, source: str) -
 def _steps(
     fields: Mapping[str, tuple[int, str]], dimension: int, source: str
 ) -> tuple[int, tuple[Position, ...] | None]:
-    """The line that says the steps, 0 for none, and the steps; None where one of them is unknown."""
+    """Return the line that states the steps (0 if no field does), and the steps (None if one is unknown)."""
     if "space directions" not in fields:
         if "spacings" not in fields:
             return 0, None
         line, text = fields["spacings"]
-        found = _lengths(text.split(), dimension, f"{source}: line {line}: spacings")
-        if any(number is None for number in found):
+        lengths = _lengths(text.split(), dimension, f"{source}: line {line}: spacings")
+        if any(number is None for number in lengths):
             return line, None
         zero = Fraction(0)
         return line, tuple(
             tuple((number or zero) if k == axis else zero for k in range(dimension))
-            for axis, number in enumerate(found)
+            for axis, number in enumerate(lengths)
         )
     line, text = fields["space directions"]
     if any(word.lower() != "nan" for word in fields.get("spacings", (0, ""))[1].split()):
-        raise VolumeError(f"{source}: line {fields['spacings'][0]}: spacings beside space directions: which holds?")
+        raise VolumeError(
+            f"{source}: line {fields['spacings'][0]}: spacings and space directions contradict each other"
+        )
     vectors = _vectors(text, dimension, f"{source}: line {line}: space directions")
     if any(vector is None or None in vector for vector in vectors):
         return line, None
@@ -252,32 +261,32 @@ def _origin(fields: Mapping[str, tuple[int, str]], width: int, source: str) -> P
     what = f"{source}: line {line}: space origin"
     (vector,) = _vectors(text, 1, what)
     if vector is None or None in vector or len(vector) != width:
-        raise VolumeError(f"{what}: {text[:60]!r} are not {width} numbers in parentheses")
+        raise VolumeError(f"{what}: expected {width} numbers in parentheses, found {text[:60]!r}")
     return tuple(number for number in vector if number is not None)
 
 
 def _vectors(text: str, count: int, what: str) -> list[list[Fraction | None] | None]:
-    """So many vectors of one length: ``(1,0,0)``, or ``none``."""
-    found = list(_VECTOR.finditer(text))
-    if len(found) != count or _VECTOR.sub("", text).strip():
-        raise VolumeError(f"{what}: {count} vectors as (1,0,0) are due, here is {text[:60]!r}")
-    inner = [None if match[2] else match[1].split(",") for match in found]
-    width = len(next((words for words in inner if words is not None), ()))
-    return [None if words is None else _lengths(words, width, what) for words in inner]
+    """Read the given number of vectors of one length: ``(1,0,0)``, or ``none``."""
+    matches = list(_VECTOR.finditer(text))
+    if len(matches) != count or _VECTOR.sub("", text).strip():
+        raise VolumeError(f"{what}: expected {count} vectors such as (1,0,0), found {text[:60]!r}")
+    inner = [None if match[2] else match[1].split(",") for match in matches]
+    width = len(next((components for components in inner if components is not None), ()))
+    return [None if components is None else _lengths(components, width, what) for components in inner]
 
 
-def _lengths(words: Sequence[str], count: int, what: str) -> list[Fraction | None]:
-    """So many numbers, None for nan."""
-    if len(words) != count:
-        raise VolumeError(f"{what}: {count} numbers are due, here are {len(words)}")
+def _lengths(texts: Sequence[str], count: int, what: str) -> list[Fraction | None]:
+    """Read the given number of numbers, None for nan."""
+    if len(texts) != count:
+        raise VolumeError(f"{what}: expected {count} numbers, found {len(texts)}")
     try:
-        return [None if word.strip().lower() == "nan" else length_text(word) for word in words]
+        return [None if text.strip().lower() == "nan" else length_text(text) for text in texts]
     except ValueError as error:
         raise VolumeError(f"{what}: {error}") from None
 
 
 def _unit(fields: Mapping[str, tuple[int, str]], source: str) -> str:
-    """The unit of all axes.  Raises VolumeError where they have several."""
+    """Return the common unit of all axes. Raise VolumeError if they differ."""
     line, text = fields.get("space units") or fields.get("units") or (0, "")
     units = {unit for unit in _QUOTED.findall(text) if unit}
     if len(units) > 1:
@@ -288,5 +297,5 @@ def _unit(fields: Mapping[str, tuple[int, str]], source: str) -> str:
 def _vector(place: Position, path: str) -> str:
     texts = [finite_decimal(number) for number in place]
     if None in texts:
-        raise VolumeError(f"{path}: {place[texts.index(None)]} has no finite decimal; NRRD holds decimals only")
+        raise VolumeError(f"{path}: {place[texts.index(None)]} has no finite decimal, which NRRD requires")
     return f"({','.join(text for text in texts if text is not None)})"

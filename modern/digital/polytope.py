@@ -1,12 +1,12 @@
-"""The convex polyhedron of points of a grid, exactly: quickhull over integers.
+"""The convex polyhedron of grid points, exactly: quickhull with integers.
 
-How far a point is outside a facet is the value of the facet's plane, an integer; a point on the plane is not outside.
-Coplanar points therefore leave a face cut into triangles.  None of these is degenerate: an edge of the horizon that
-lies on one line with the new point would lie in the plane of the facet that sees it.
+The distance of a point outside a facet is the value of the facet's plane, an integer. A point on the plane is not
+outside. Coplanar points therefore leave a face divided into triangles. No triangle is degenerate: an edge of the
+horizon that is collinear with the new point would lie in the plane of the facet that sees the point.
 
-The functions up to ``hull`` use flat sequences of integers only: one source runs over Python lists and, compiled, over
-arrays of 64-bit integers.  With coordinates from 0 on, a plane's coefficients and its values at points of the box
-of X by Y by Z cells are at most 12 XYZ: no volume that a memory can hold comes near 63 bits.
+The functions up to ``hull`` use flat sequences of integers only. The same source runs on Python lists and, compiled,
+on arrays of 64-bit integers. With coordinates from 0 on, the coefficients of a plane and its values at points of a box
+of X by Y by Z cells are at most 12 XYZ. No volume that fits in memory comes near 63 bits.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ Grid = NDArray[np.int64]
 
 
 class Points(NamedTuple):
-    """Coordinates, one sequence an axis."""
+    """Coordinates, one sequence for each axis."""
 
     x: Sequence[int]
     y: Sequence[int]
@@ -35,11 +35,12 @@ class Points(NamedTuple):
 class Surface(NamedTuple):
     """Facets under construction, in numbered slots, and the points outside them.
 
-    corner: three points a facet, counterclockwise seen from outside, the first -1 in an empty slot.  across: three
-    facets, beyond the edges from each corner to the next.  plane: four coefficients, positive outside.  head: the
-    first of a facet's outside points, the farthest, -1 for none; after: the next one, by point.  depth: the value at
-    the head.  mark: the number, from 1, of the point that last saw the facet.  The rest is room for one step: facets
-    seen, edges of the horizon (start, end, facet beyond), the new facet whose edge starts at a point, empty slots.
+    ``corner`` has three points for each facet, counterclockwise as seen from outside, the first -1 in an empty slot.
+    ``across`` has the three facets beyond the edges from each corner to the next. ``plane`` has four coefficients,
+    positive outside. ``head`` is the farthest of a facet's outside points, or -1, and ``depth`` its value. ``after``
+    is the next outside point in a facet's list. ``mark`` is the number, from 1, of the point that last saw the facet.
+    The other arrays are scratch space for one step: visible facets, edges of the horizon (start, end, facet beyond),
+    the new facet whose edge starts at a point, and empty slots.
     """
 
     corner: Integers
@@ -49,20 +50,20 @@ class Surface(NamedTuple):
     after: Integers
     depth: Integers
     mark: Integers
-    seen: Integers
+    visible: Integers
     horizon: Integers
     starting: Integers
     spare: Integers
 
 
 def value(at: Points, surface: Surface, f: int, p: int) -> int:
-    """The plane of facet ``f`` at point ``p``: positive outside."""
+    """Return the value of the plane of facet ``f`` at point ``p``, positive outside."""
     a = surface.plane
     return a[4 * f] * at.x[p] + a[4 * f + 1] * at.y[p] + a[4 * f + 2] * at.z[p] + a[4 * f + 3]
 
 
-def place(at: Points, surface: Surface, f: int, p: int, q: int, r: int) -> None:
-    """Slot ``f`` becomes the facet p, q, r."""
+def set_facet(at: Points, surface: Surface, f: int, p: int, q: int, r: int) -> None:
+    """Store the facet p, q, r in slot ``f``."""
     ux, uy, uz = at.x[q] - at.x[p], at.y[q] - at.y[p], at.z[q] - at.z[p]
     vx, vy, vz = at.x[r] - at.x[p], at.y[r] - at.y[p], at.z[r] - at.z[p]
     a, b, c = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
@@ -73,38 +74,43 @@ def place(at: Points, surface: Surface, f: int, p: int, q: int, r: int) -> None:
     surface.mark[f] = 0
 
 
-def hand_out(at: Points, surface: Surface, first: int, chosen: Integers, count: int) -> None:
-    """Give each point of the list from ``first`` on to a chosen facet it is outside of; drop it where there is none."""
+def distribute(at: Points, surface: Surface, first: int, chosen: Integers, count: int) -> None:
+    """Assign each point of the list that starts at ``first`` to a chosen facet it is outside of, or drop it."""
     head, after, depth = surface.head, surface.after, surface.depth
     p = first
     while p >= 0:
         following = after[p]
         for k in range(count):
             f = chosen[k]
-            far = value(at, surface, f, p)
-            if far > 0:
-                if head[f] < 0 or far > depth[f]:
-                    after[p], head[f], depth[f] = head[f], p, far
+            distance = value(at, surface, f, p)
+            if distance > 0:
+                # The farthest point stays at the head of the list. The order of the others does not matter.
+                if head[f] < 0 or distance > depth[f]:
+                    after[p], head[f], depth[f] = head[f], p, distance
                 else:
                     after[p], after[head[f]] = after[head[f]], p
                 break
         p = following
 
 
-def look(at: Points, surface: Surface, p: int, first: int) -> tuple[int, int]:
-    """Mark and list the facets ``p`` sees, from one of them on, and the horizon; returns how many facets and edges."""
-    seen, mark, across, horizon = surface.seen, surface.mark, surface.across, surface.horizon
-    mark[first], seen[0] = p + 1, first
+def find_visible(at: Points, surface: Surface, p: int, first: int) -> tuple[int, int]:
+    """Mark and list the facets that ``p`` sees, starting from one of them, and the horizon.
+
+    Return the numbers of facets and edges.
+    """
+    visible, mark, across, horizon = surface.visible, surface.mark, surface.across, surface.horizon
+    mark[first], visible[0] = p + 1, first
     count, edges, at_facet = 1, 0, 0
     while at_facet < count:
-        f = seen[at_facet]
+        f = visible[at_facet]
         at_facet += 1
         for k in range(3):
             g = across[3 * f + k]
+            # The mark is the number of the point plus 1, so that no marks need to be cleared.
             if mark[g] == p + 1:
                 continue
             if value(at, surface, g, p) > 0:
-                mark[g], seen[count] = p + 1, g
+                mark[g], visible[count] = p + 1, g
                 count += 1
             else:
                 horizon[3 * edges] = surface.corner[3 * f + k]
@@ -115,27 +121,29 @@ def look(at: Points, surface: Surface, p: int, first: int) -> tuple[int, int]:
 
 
 def cone(at: Points, surface: Surface, p: int, slots: Integers, edges: int) -> None:
-    """Facets from ``p`` to every edge of the horizon, in the given slots, joined to their neighbours."""
+    """Create facets from ``p`` to every edge of the horizon in the given slots, and link them to their neighbours."""
     corner, across, horizon, starting = surface.corner, surface.across, surface.horizon, surface.starting
     for k in range(edges):
         a, b, g = horizon[3 * k], horizon[3 * k + 1], horizon[3 * k + 2]
         f = slots[k]
-        place(at, surface, f, a, b, p)
+        set_facet(at, surface, f, a, b, p)
         across[3 * f] = g
         starting[a] = f
+        # Beyond the horizon, the neighbour's edge runs in the opposite direction, from b to a.
         for side in range(3):
             if corner[3 * g + side] == b and corner[3 * g + (side + 1) % 3] == a:
                 across[3 * g + side] = f
     for k in range(edges):
         f = slots[k]
+        # Two new facets share the edge from the horizon's vertex to p.
         following = starting[horizon[3 * k + 1]]
         across[3 * f + 1] = following
         across[3 * following + 2] = f
 
 
 def grow(at: Points, surface: Surface, used: int) -> int:
-    """Add the farthest point of every facet that has points outside it until none has; returns the slots used."""
-    head, after, seen, spare = surface.head, surface.after, surface.seen, surface.spare
+    """Add the farthest point of every facet that has points outside, until none has. Return the slots used."""
+    head, after, visible, spare = surface.head, surface.after, surface.visible, surface.spare
     empty, f, idle = 0, 0, 0
     while idle < used:
         f = f + 1 if f + 1 < used else 0
@@ -143,12 +151,15 @@ def grow(at: Points, surface: Surface, used: int) -> int:
         if surface.corner[3 * f] < 0 or head[f] < 0:
             continue
         idle = 0
+        # The farthest point outside this facet is a vertex of the hull of all points.
         p = head[f]
         head[f] = after[p]
-        count, edges = look(at, surface, p, f)
+        count, edges = find_visible(at, surface, p, f)
+        # Collect the outside points of all visible facets. Each of them is inside the new hull or outside a new
+        # facet.
         pool = -1
         for k in range(count):
-            g = seen[k]
+            g = visible[k]
             q = head[g]
             while q >= 0:
                 following = after[q]
@@ -160,74 +171,80 @@ def grow(at: Points, surface: Surface, used: int) -> int:
         for k in range(edges):
             if empty:
                 empty -= 1
-                seen[k] = spare[empty]
+                visible[k] = spare[empty]
             else:
-                seen[k] = used
+                visible[k] = used
                 used += 1
-        cone(at, surface, p, seen, edges)
-        hand_out(at, surface, pool, seen, edges)
+        cone(at, surface, p, visible, edges)
+        distribute(at, surface, pool, visible, edges)
     return used
 
 
 def hull(at: Points, surface: Surface, a: int, b: int, c: int, d: int) -> int:
-    """The polyhedron of all points, from a tetrahedron with d below the plane of a, b, c; returns the slots used."""
-    place(at, surface, 0, a, b, c)
-    place(at, surface, 1, b, a, d)
-    place(at, surface, 2, c, b, d)
-    place(at, surface, 3, a, c, d)
+    """Compute the polyhedron of all points from a tetrahedron with d below the plane of a, b, c.
+
+    Return the slots used.
+    """
+    set_facet(at, surface, 0, a, b, c)
+    set_facet(at, surface, 1, b, a, d)
+    set_facet(at, surface, 2, c, b, d)
+    set_facet(at, surface, 3, a, c, d)
     across, after = surface.across, surface.after
     for f in range(1, 4):
-        # The edges of facet 0 border facets 1, 2, 3 in turn; of each of these the second borders the one before.
+        # The edges of facet 0 border facets 1, 2, 3 in turn. The second edge of each of these borders the next one.
         across[f - 1] = f
         across[3 * f] = 0
         across[3 * f + 1] = (f + 1) % 3 + 1
         across[3 * f + 2] = f % 3 + 1
-        surface.seen[f] = f
-    surface.seen[0] = 0
+        surface.visible[f] = f
+    surface.visible[0] = 0
     for p in range(len(after) - 1):
         after[p] = p + 1
     after[len(after) - 1] = -1
-    hand_out(at, surface, 0, surface.seen, 4)
+    distribute(at, surface, 0, surface.visible, 4)
     return grow(at, surface, 4)
 
 
 @cache
 def compiled_hull() -> Callable[..., Any]:
-    """``hull`` compiled.  Raises NotInstalled."""
-    one: Any = np.zeros(1, np.int64)
-    # No array is made: numba need not count the users of each it is given.
-    return Compiled(hull, _nrt=False).ready(Points(one, one, one), Surface(*[one] * len(Surface._fields)), 0, 0, 0, 0)
+    """Return ``hull`` compiled. Raise NotInstalled if numba is missing."""
+    sample: Any = np.zeros(1, np.int64)
+    # The kernel allocates no arrays, so numba need not count references.
+    return Compiled(hull, _nrt=False).ready(
+        Points(sample, sample, sample), Surface(*[sample] * len(Surface._fields)), 0, 0, 0, 0
+    )
 
 
 def polyhedron(points: Grid, simplex: tuple[int, int, int, int], fast: bool) -> tuple[Grid, Grid]:
-    """The hull of points that do not lie in one plane: its facets' corners, shape (n, 3), and planes, shape (n, 4).
+    """Return the hull of points that are not coplanar: its facets' corners, shape (n, 3), and planes, shape (n, 4).
 
-    points: distinct, int64 of shape (count, 3), none negative.  simplex: four of them not in a plane.  fast: compiled.
-    Facets are triangles, counterclockwise seen from outside; several may lie in one plane.
+    ``points`` are distinct, int64 of shape (count, 3), none negative. ``simplex`` names four of them that are not
+    coplanar. ``fast`` selects compiled code. Facets are triangles, counterclockwise as seen from outside, and several
+    may be coplanar.
     """
     work = compiled_hull() if fast else hull
-    room = 2 * len(points) + 4
+    capacity = 2 * len(points) + 4
     table: Callable[[int, int], Any] = partial(np.full, dtype=np.int64) if fast else _listed
     axes: list[Any] = [np.ascontiguousarray(axis) if fast else axis.tolist() for axis in points.T]
     at = Points(*axes)
     surface = Surface(
-        corner=table(3 * room, -1),
-        across=table(3 * room, 0),
-        plane=table(4 * room, 0),
-        head=table(room, -1),
+        corner=table(3 * capacity, -1),
+        across=table(3 * capacity, 0),
+        plane=table(4 * capacity, 0),
+        head=table(capacity, -1),
         after=table(len(points), -1),
-        depth=table(room, 0),
-        mark=table(room, 0),
-        seen=table(room, 0),
-        horizon=table(3 * room, 0),
+        depth=table(capacity, 0),
+        mark=table(capacity, 0),
+        visible=table(capacity, 0),
+        horizon=table(3 * capacity, 0),
         starting=table(len(points), 0),
-        spare=table(room, 0),
+        spare=table(capacity, 0),
     )
     used = work(at, surface, *_outward(points, simplex))
     corner = np.array(surface.corner[: 3 * used], dtype=np.int64).reshape(-1, 3)
     plane = np.array(surface.plane[: 4 * used], dtype=np.int64).reshape(-1, 4)
-    kept = corner[:, 0] >= 0
-    return corner[kept], plane[kept]
+    occupied = corner[:, 0] >= 0
+    return corner[occupied], plane[occupied]
 
 
 def _listed(count: int, number: int) -> list[int]:
@@ -235,7 +252,7 @@ def _listed(count: int, number: int) -> list[int]:
 
 
 def _outward(points: Grid, simplex: tuple[int, int, int, int]) -> tuple[int, int, int, int]:
-    """The four points in an order in which the fourth is below the plane of the first three."""
+    """Return the four points in an order in which the fourth is below the plane of the first three."""
     a, b, c, d = simplex
     normal = np.cross(points[b] - points[a], points[c] - points[a])
     return (a, b, c, d) if normal @ (points[d] - points[a]) < 0 else (b, a, c, d)

@@ -1,7 +1,7 @@
-"""Sets of voxels: the type, sets from arrays and from lists of coordinates, digital balls and half-balls.
+"""Voxel solids: the type, volumes from arrays and from lists of coordinates, digital balls and half-balls.
 
-A voxel is named by its whole coordinates (x, y, z); its centre is that point, and as a cube it reaches half a unit
-further each way.  Pixels of a plane picture are voxels with two coordinates.
+A voxel is identified by its integer coordinates (x, y, z). Its centre is that point, and as a cube it extends half a
+unit in each direction. The pixels of a plane picture are voxels with two coordinates.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ VOXEL, VERTEX = "voxel", "vertex"
 MAX_CELLS = 2**31
 DIGITS = 18
 FARTHEST = 10**DIGITS
-"""No coordinate is as far from 0: sums with the sides of a box stay within 64 bits."""
+"""A bound for coordinates, so that sums with the sides of a box fit in 64 bits."""
 
 Voxels = NDArray[np.bool_]
 
@@ -31,12 +31,11 @@ Voxels = NDArray[np.bool_]
 class Volume:
     """A finite set of voxels in a box.
 
-    ``array``: truth values of shape (nx, ny) or (nx, ny, nz), indexed [x, y, z]; any order of memory.  ``origin``: the
-    coordinates of the voxel at index 0, 0, 0, so that array[i, j, k] is voxel origin + (i, j, k).  ``source``: what
-    messages call it.  ``notes``: what the reader of the file should know, a line each.  ``world``: where voxels lie, by
-    their coordinates; None where these are all that is known.
-
-    Raises VolumeError for an array of another type or dimension, and for a world of another number of axes.
+    ``array`` holds truth values of shape (nx, ny) or (nx, ny, nz), indexed [x, y, z], in any memory order. ``origin``
+    is the coordinates of the voxel at index 0, 0, 0, so array[i, j, k] is voxel origin + (i, j, k). ``source`` is the
+    name in messages, and ``notes`` has one line for each remark of the reader. ``world`` is the position of the voxels
+    by their coordinates, or None if it is unknown. Raise VolumeError for an array of another type or dimension, and
+    for a world with another number of axes.
     """
 
     array: Voxels
@@ -48,13 +47,17 @@ class Volume:
     def __post_init__(self) -> None:
         if self.array.dtype != np.bool_ or self.array.ndim not in (2, 3):
             raise VolumeError(
-                f"{self.source}: a volume is an array of truth values with two or three dimensions, "
-                f"not of {self.array.dtype} with {self.array.ndim}"
+                f"{self.source}: expected an array of truth values with two or three dimensions, "
+                f"found {self.array.dtype} with {self.array.ndim}"
             )
         if len(self.origin) != self.array.ndim:
-            raise VolumeError(f"{self.source}: {len(self.origin)} coordinates of the origin for {self.array.ndim} axes")
+            raise VolumeError(
+                f"{self.source}: expected {self.array.ndim} coordinates of the origin, found {len(self.origin)}"
+            )
         if self.world is not None and len(self.world.steps) != self.array.ndim:
-            raise VolumeError(f"{self.source}: {len(self.world.steps)} steps in the world for {self.array.ndim} axes")
+            raise VolumeError(
+                f"{self.source}: expected {self.array.ndim} steps of the position, found {len(self.world.steps)}"
+            )
 
     @property
     def dimension(self) -> int:
@@ -67,15 +70,15 @@ class Volume:
         return int(np.count_nonzero(self.array))
 
     def coordinates(self) -> NDArray[np.int64]:
-        """The voxels as an int64 array of shape (count, dimension) in raster order: x runs fastest, then y, then z."""
-        found = np.argwhere(self.array.T)[:, ::-1]
-        return found.astype(np.int64) + np.array(self.origin, dtype=np.int64)
+        """Return the voxels as an int64 array of shape (count, dimension) in raster order, x fastest."""
+        indices = np.argwhere(self.array.T)[:, ::-1]
+        return indices.astype(np.int64) + np.array(self.origin, dtype=np.int64)
 
 
 def as_volume(volume: Volume | Voxels) -> Volume:
-    """A volume as it is; an array of truth values as one whose voxels have their indices for coordinates.
+    """Return a volume unchanged, or an array of truth values as a volume whose coordinates are indices.
 
-    Raises VolumeError as ``Volume`` does.
+    Raise VolumeError as ``Volume`` does.
     """
     if isinstance(volume, Volume):
         return volume
@@ -84,55 +87,58 @@ def as_volume(volume: Volume | Voxels) -> Volume:
 
 
 def listed(coordinates: Sequence[Sequence[int]] | NDArray[np.integer[Any]], source: str = "volume") -> Volume:
-    """The volume of voxels by their whole coordinates, in any order, shape (n, 2) or (n, 3); it keeps them.
+    """Return the volume of the voxels with these integer coordinates, in any order, shape (n, 2) or (n, 3).
 
-    A voxel that is listed again counts once, and a note says so.  Raises VolumeError for coordinates of another shape
-    or type and for one of more than ``DIGITS``, NoVoxels for none, and for voxels in a box of more than ``MAX_CELLS``.
+    Repeated voxels count once and are reported in a note. Raise VolumeError for coordinates of another shape or type
+    or with more than ``DIGITS`` digits, and for voxels in a box of more than ``MAX_CELLS``. Raise NoVoxels for an
+    empty list.
     """
-    given = np.asarray(coordinates)
-    if not given.size:
+    rows = np.asarray(coordinates)
+    if not rows.size:
         raise NoVoxels(f"{source}: there are no voxels")
-    if given.ndim != 2 or given.shape[1] not in (2, 3) or given.dtype.kind not in "iu":
+    if rows.ndim != 2 or rows.shape[1] not in (2, 3) or rows.dtype.kind not in "iu":
         raise VolumeError(
-            f"{source}: coordinates are whole numbers, two or three a voxel, "
-            f"not an array of {given.dtype} of shape {given.shape}"
+            f"{source}: expected two or three integer coordinates for each voxel, "
+            f"found an array of {rows.dtype} of shape {rows.shape}"
         )
-    if int(given.min()) <= -FARTHEST or int(given.max()) >= FARTHEST:
+    if int(rows.min()) <= -FARTHEST or int(rows.max()) >= FARTHEST:
         raise VolumeError(f"{source}: a coordinate has more than {DIGITS} digits")
-    places = given.astype(np.int64)
-    low = [int(least) for least in places.min(axis=0)]
-    sides = [int(most) - least + 1 for most, least in zip(places.max(axis=0), low, strict=True)]
+    voxels = rows.astype(np.int64)
+    low = [int(least) for least in voxels.min(axis=0)]
+    sides = [int(most) - least + 1 for most, least in zip(voxels.max(axis=0), low, strict=True)]
     if math.prod(sides) > MAX_CELLS:
         size = " x ".join(map(str, sides))
-        raise VolumeError(f"{source}: the voxels lie in a box of {size}; more than {MAX_CELLS} places are not kept")
+        raise VolumeError(f"{source}: expected a box of at most {MAX_CELLS} voxels, found {size}")
     array = np.zeros(sides, dtype=np.bool_)
-    array[tuple((places - places.min(axis=0)).T)] = True
-    again = len(places) - int(np.count_nonzero(array))
-    notes = (f"{source}: {again} of {len(places)} voxels are listed before",) if again else ()
+    array[tuple((voxels - voxels.min(axis=0)).T)] = True
+    repeated = len(voxels) - int(np.count_nonzero(array))
+    notes = (f"{source}: {repeated} of {len(voxels)} voxels are repetitions",) if repeated else ()
     return Volume(array, tuple(low), source, notes)
 
 
 def ball(diameter: int, centre: str = VOXEL) -> Volume:
-    """The digital ball of a whole diameter: the voxels whose centres lie in it, those on its surface included.
+    """Return the digital ball of an integer diameter: the voxels whose centres lie in it or on its surface.
 
-    centre: ``voxel``: the ball's centre is that of voxel (0, 0, 0), as of Kovalevsky and Schulz's ball of diameter 32
-    with 17077 voxels; ``vertex``: it is the corner (1/2, 1/2, 1/2) that voxels (0, 0, 0) and (1, 1, 1) share, as of the
-    half-balls of their Table 5.  Raises VolumeError for another centre, or a diameter too small or too large.
+    With ``centre`` ``voxel`` the ball's centre is that of voxel (0, 0, 0), as in Kovalevsky and Schulz's ball of
+    diameter 32 with 17077 voxels. With ``vertex`` it is the corner (1/2, 1/2, 1/2) of voxels (0, 0, 0) and (1, 1, 1),
+    as in the half-balls of their Table 5. Raise VolumeError for another centre, or a diameter that is too small or too
+    large.
     """
     return _ball(f"ball:{diameter}:{centre}", diameter, centre, half=False)
 
 
 def half_ball(diameter: int, centre: str = VERTEX) -> Volume:
-    """The half of ``ball(diameter, centre)`` with z from its centre up.
+    """Return the half of ``ball(diameter, centre)`` at or above its centre in z.
 
-    With the centre at a vertex these are the layers z = 1, 2, ... and just half of the voxels (Kovalevsky and Schulz,
-    Table 5); with the centre at a voxel the layer z = 0 belongs to it whole.  Raises VolumeError as ``ball`` does.
+    With the centre at a vertex these are the layers z = 1, 2, ... and exactly half of the voxels (Kovalevsky and
+    Schulz, Table 5). With the centre at a voxel the layer z = 0 belongs to it entirely. Raise VolumeError as ``ball``
+    does.
     """
     return _ball(f"half-ball:{diameter}:{centre}", diameter, centre, half=True)
 
 
 def _widest() -> int:
-    """The largest diameter whose box has no more than ``MAX_CELLS`` voxels."""
+    """Return the largest diameter whose box has at most ``MAX_CELLS`` voxels."""
     size = round(MAX_CELLS ** (1 / 3)) + 1
     return next(d for d in range(size, 0, -1) if (d + 1) ** 3 <= MAX_CELLS)
 
@@ -141,10 +147,10 @@ def _ball(name: str, diameter: int, centre: str, half: bool) -> Volume:
     if centre not in (VOXEL, VERTEX):
         raise VolumeError(f"{name}: the centre is {VOXEL} or {VERTEX}")
     if diameter < 1:
-        raise VolumeError(f"{name}: the diameter is a whole number from 1 on")
+        raise VolumeError(f"{name}: the diameter is a positive integer")
     if (diameter + 1) ** 3 > MAX_CELLS:
         raise VolumeError(f"{name}: the diameter is at most {_widest()}, for a box of {MAX_CELLS} voxels")
-    # Twice the distance from the ball's centre is a whole number: even for a centre in a voxel, else odd.
+    # Twice the distance from the ball's centre is an integer, even for a centre in a voxel and odd otherwise.
     shift = 0 if centre == VOXEL else 1
     first = -((diameter - shift) // 2)
     twice = 2 * np.arange(first, (diameter + shift) // 2 + 1, dtype=np.int64) - shift
@@ -155,5 +161,5 @@ def _ball(name: str, diameter: int, centre: str, half: bool) -> Volume:
     for x, square in enumerate(squares):
         np.less_equal(plane, diameter**2 - square, out=array[x])
     if not array.any():
-        raise NoVoxels(f"{name}: there is no voxel in it")
+        raise NoVoxels(f"{name}: it contains no voxel")
     return Volume(array, (first, first, low), name)

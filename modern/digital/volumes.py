@@ -1,8 +1,8 @@
-"""Volumes from files, and from names of digital balls: which file is read how, and the files that are written.
+"""Volumes from files and from names of digital balls: the choice of the reader, and the files that are written.
 
-NPY, NPZ, NRRD, bare numbers and lists of coordinates are read here; NIfTI, MetaImage, TIFF and DICOM by SimpleITK (the
-extra ``volumes``), see :mod:`modern.digital.itk`.  Coordinates of an array's voxels are its indices from 0, axes in the
-order x, y, z; a list of coordinates keeps those it states.
+NPY, NPZ, NRRD, raw data and lists of coordinates are read here. SimpleITK (the extra ``volumes``) reads NIfTI,
+MetaImage, TIFF and DICOM, see :mod:`modern.digital.itk`. The coordinates of an array's voxels are its indices from 0,
+in the order x, y, z. A list of coordinates keeps its coordinates.
 """
 
 from __future__ import annotations
@@ -45,19 +45,19 @@ __all__ = [
 ]
 
 ARRAYS = (".npy", ".nrrd")
-"""The endings of files a filled hull is written to."""
+"""The file name extensions for a filled hull."""
 _BALL = re.compile(r"(half-)?ball:([0-9]{1,9})(?::(voxel|vertex))?", re.ASCII)
-_WHOLE = re.compile(r"[+-]?[0-9]+", re.ASCII)
-_LOOKED_AT = 1 << 16
+_INTEGER = re.compile(r"[+-]?[0-9]+", re.ASCII)
+_EXAMINED = 1 << 16
 
 
 @dataclass(frozen=True, slots=True)
 class Stated:
-    """What a file does not say of itself.
+    """Facts that the user states because a file does not.
 
-    shape, dtype: of bare numbers, x fastest (``uint8`` where only the shape is given).  array: the name of one of
-    several arrays (NPZ).  series: the identifier of one of several DICOM series.  spacing, origin: one number an axis,
-    of files that do not say where their voxels lie; see ``world_of``.
+    ``shape`` and ``dtype`` describe raw data, x fastest (``uint8`` if only the shape is given). ``array`` selects one
+    of several arrays (NPZ) and ``series`` one of several DICOM series. ``spacing`` and ``origin`` have one number for
+    each axis, for files without a position; see ``world_of``.
     """
 
     shape: Sequence[int] | None = None
@@ -80,13 +80,29 @@ def read_volume(
     array: str | None = None,
     series: str | None = None,
 ) -> Volume:
-    """The voxels of a file (``-``: standard input), of a folder with a DICOM series, or of a ball: ``ball:32``.
+    """Read the voxels of a file (``-`` for standard input), a folder with a DICOM series, or a ball: ``ball:32``.
 
-    shape, dtype: of a file of bare numbers, x fastest.  threshold: values from it up are voxels.  labels: values that
-    are voxels.  With neither, all values other than 0.  spacing, origin: of a file that does not say where its voxels
-    lie.  array: the name of one of several in an NPZ file.  series: the identifier of one of several in a folder.
+    Parameters
+    ----------
+    shape, dtype
+        The shape and type of a file of raw data, x fastest.
+    threshold
+        Values of at least this number are voxels.
+    labels
+        Values that are voxels. Without threshold and labels all values except 0 are voxels.
+    spacing, origin
+        The position of voxels, for a file that does not state it.
+    array
+        The name of one of several arrays in an NPZ file.
+    series
+        The identifier of one of several series in a folder.
 
-    Raises FileError for a file that cannot be read, VolumeError for an invalid volume.
+    Raises
+    ------
+    FileError
+        If the file cannot be read.
+    VolumeError
+        If the volume is invalid.
     """
     stated = Stated(None if shape is None else tuple(shape), dtype, array, series, spacing, origin)
     try:
@@ -97,40 +113,42 @@ def read_volume(
 
 
 def read_scan(path: str, stated: Stated | None = None) -> Scan:
-    """The values of a file, a folder or a ball, before voxels are chosen; see ``read_volume``."""
+    """Read the values of a file, a folder or a ball before voxels are selected; see ``read_volume``."""
     stated = stated or Stated()
-    named = _BALL.fullmatch(path)
-    if named:
+    ball_name = _BALL.fullmatch(path)
+    if ball_name:
         if stated.shape is not None or stated.dtype is not None:
             raise VolumeError(f"{path}: a ball has no --shape and no --dtype")
-        make, default = (half_ball, VERTEX) if named[1] else (ball, VOXEL)
-        return _placed(_scan(make(int(named[2]), named[3] or default)), stated)
+        make, default = (half_ball, VERTEX) if ball_name[1] else (ball, VOXEL)
+        return _with_position(_scan(make(int(ball_name[2]), ball_name[3] or default)), stated)
     if re.match(r"(half-)?ball:", path) and not Path(path).exists():
-        raise VolumeError(f"{path}: a ball is ball:DIAMETER, half-ball:DIAMETER, with :voxel or :vertex for its centre")
-    bare = stated.shape is not None or stated.dtype is not None
-    kind = None if bare else kind_of(path)
+        raise VolumeError(
+            f"{path}: expected ball:DIAMETER or half-ball:DIAMETER, optionally with :voxel or :vertex for its centre"
+        )
+    is_raw = stated.shape is not None or stated.dtype is not None
+    kind = None if is_raw else kind_of(path)
     if stated.series is not None and kind != SERIES:
-        raise VolumeError(f"{path}: only a folder of DICOM files has a series to name")
+        raise VolumeError(f"{path}: a series can be selected only in a folder of DICOM files")
     if kind is not None:
-        return _placed(read_itk(path, kind, stated.series), stated)
-    return _placed(_parsed(read_bytes(path), source_name(path), stated), stated)
+        return _with_position(read_itk(path, kind, stated.series), stated)
+    return _with_position(_parsed(read_bytes(path), source_name(path), stated), stated)
 
 
 def parse_volume(data: bytes, source: str, shape: Sequence[int] | None = None, dtype: str | None = None) -> Volume:
-    """The voxels of a file's bytes, those whose value is not 0; see ``read_volume``."""
+    """Return the voxels of a file's bytes, those with values other than 0; see ``read_volume``."""
     return chosen(_parsed(data, source, Stated(shape, dtype))).volume
 
 
 def write_npy(path: str, array: NDArray[Any]) -> None:
-    """Write an array as NPY (``-``: standard output), whole or not at all.  Raises FileError."""
+    """Write an array as NPY (``-`` for standard output), atomically. Raise FileError on failure."""
     with writing_bytes(path) as file:
         np.save(file, array, allow_pickle=False)
 
 
 def write_array(path: str, array: NDArray[np.bool_], volume: Volume) -> None:
-    """Write truth values of a volume's shape: as NRRD, which keeps the volume's place, or as NPY, which cannot.
+    """Write truth values of a volume's shape as NRRD, which stores the volume's position, or as NPY, which does not.
 
-    Raises FileError, and VolumeError for another ending and as ``write_nrrd``.
+    Raise FileError, and VolumeError for another file name extension and as ``write_nrrd`` does.
     """
     if path.lower().endswith(".nrrd"):
         write_nrrd(path, array, volume)
@@ -144,21 +162,19 @@ def _parsed(data: bytes, source: str, stated: Stated) -> Scan:
     if stated.shape is not None or stated.dtype is not None:
         return _of_array(parse_raw(data, source, stated.shape, stated.dtype or "uint8"), source)
     if stated.array is not None and not data.startswith(NPZ):
-        raise VolumeError(f"{source}: only an NPZ file has an array to name")
+        raise VolumeError(f"{source}: an array can be selected only in an NPZ file")
     if data.startswith(NPY):
         return _of_array(parse_npy(data, source), source)
     if data.startswith(NPZ):
         return _of_array(parse_npz(data, source, stated.array), source)
     if data.startswith(MAGIC):
         return parse_nrrd(data, source)
-    if b"\0" in data[:_LOOKED_AT]:
-        raise VolumeError(f"{source}: neither NPY nor NRRD nor text in UTF-8; bare numbers need --shape NX,NY,NZ")
+    if b"\0" in data[:_EXAMINED]:
+        raise VolumeError(f"{source}: not NPY, NRRD or UTF-8 text; raw data need --shape NX,NY,NZ")
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        raise VolumeError(
-            f"{source}: neither NPY nor NRRD nor text in UTF-8; bare numbers need --shape NX,NY,NZ"
-        ) from None
+        raise VolumeError(f"{source}: not NPY, NRRD or UTF-8 text; raw data need --shape NX,NY,NZ") from None
     return _scan(_listed(text, source))
 
 
@@ -170,12 +186,14 @@ def _scan(volume: Volume) -> Scan:
     return Scan(volume.array, volume.origin, volume.source, volume.world, volume.notes)
 
 
-def _placed(scan: Scan, stated: Stated) -> Scan:
-    """The scan with the place the user states.  Raises VolumeError where the file states one."""
+def _with_position(scan: Scan, stated: Stated) -> Scan:
+    """Return the scan with the position the user states. Raise VolumeError if the file states one."""
     if stated.spacing is None and stated.origin is None:
         return scan
     if scan.world is not None:
-        raise VolumeError(f"{scan.source}: the file says where its voxels lie; no spacing and origin are taken beside")
+        raise VolumeError(
+            f"{scan.source}: the file states the position of its voxels; spacing and origin cannot be given"
+        )
     try:
         return replace(scan, world=world_of(scan.values.ndim, stated.spacing, stated.origin))
     except VolumeError as error:
@@ -183,16 +201,16 @@ def _placed(scan: Scan, stated: Stated) -> Scan:
 
 
 def _listed(text: str, source: str) -> Volume:
-    """The voxels of a list, a line ``x,y,z`` (or ``x,y``) each."""
-    found: list[tuple[int, ...]] = []
+    """Return the voxels of a list with a line ``x,y,z`` (or ``x,y``) for each."""
+    voxels: list[tuple[int, ...]] = []
     for line, row in rows(text, source):
-        if len(row) not in (2, 3) or (found and len(row) != len(found[0])):
-            due = f"{len(found[0])}" if found else "three, x,y,z (or two, x,y)"
-            raise VolumeError(f"{source}: line {line}, column 1: {len(row)} fields; a voxel has {due}")
-        for field, word in enumerate(row, 1):
-            if not _WHOLE.fullmatch(word.strip()):
-                raise VolumeError(f"{source}: line {line}, field {field}: {quoted(word.strip())} is not a whole number")
-            if len(word.strip().lstrip("+-")) > DIGITS:
+        if len(row) not in (2, 3) or (voxels and len(row) != len(voxels[0])):
+            expected = f"{len(voxels[0])}" if voxels else "three, x,y,z (or two, x,y)"
+            raise VolumeError(f"{source}: line {line}, column 1: expected {expected} fields, found {len(row)}")
+        for field, text in enumerate(row, 1):
+            if not _INTEGER.fullmatch(text.strip()):
+                raise VolumeError(f"{source}: line {line}, field {field}: {quoted(text.strip())} is not an integer")
+            if len(text.strip().lstrip("+-")) > DIGITS:
                 raise VolumeError(f"{source}: line {line}, field {field}: more than {DIGITS} digits")
-        found.append(tuple(int(word) for word in row))
-    return listed(found, source)
+        voxels.append(tuple(int(text) for text in row))
+    return listed(voxels, source)

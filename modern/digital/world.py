@@ -1,8 +1,8 @@
-"""Where voxels lie: the affine map from a voxel's whole coordinates to a position in the world, in exact numbers.
+"""The position of voxels: the affine map from a voxel's integer coordinates to physical coordinates, in exact numbers.
 
-A position is that of a voxel's centre: voxel (0, 0, 0) has its centre at the origin, and one step along an axis of the
-array adds that axis's step.  The voxel as a body reaches half a step further each way.  Spacing, origin and directions
-come from a file as decimal text and stay exact, so a hull in the world is the exact image of the hull of indices.
+A position is that of a voxel's centre. The centre of voxel (0, 0, 0) is the origin, and a step along an axis of the
+array adds that axis's step. As a body, a voxel extends half a step in each direction. Spacing, origin and directions
+are read as decimal text and stay exact, so a hull in physical coordinates is the exact image of the hull of indices.
 """
 
 from __future__ import annotations
@@ -19,30 +19,29 @@ from modern.geometry.numbers import Exact, PointsError, decimal, finite_decimal,
 Position = tuple[Fraction, ...]
 
 LPS, RAS, LAS = "left-posterior-superior", "right-anterior-superior", "left-anterior-superior"
-"""The spaces of NRRD in which axes have anatomical names: to what side each of x, y and z grows."""
 ANATOMICAL = (LPS, RAS, LAS)
+"""The anatomical spaces of NRRD, named after the directions in which x, y and z increase."""
 _OPPOSITE = {"left": "right", "posterior": "anterior", "superior": "inferior"}
 _OPPOSITE |= {there: here for here, there in _OPPOSITE.items()}
 _MOST_DIGITS, _MOST_EXPONENT = 100, 400
 
 
 class VolumeError(EmulatorError):
-    """A volume that cannot be read or made; the message names file and place."""
+    """An error in reading or creating a volume. The message names the file and the place in it."""
 
 
 class NoVoxels(VolumeError, PointsError):
-    """A volume without a voxel: as with no points, there is no hull."""
+    """A volume without voxels, which has no hull."""
 
 
 @dataclass(frozen=True, slots=True)
 class World:
-    """The place of a volume in the world.
+    """The position of a volume in physical coordinates.
 
-    steps: for each axis of the array, from a voxel's centre to that of the next along it.  origin: the centre of voxel
-    (0, 0, 0).  space: what the world's axes mean, ``left-posterior-superior`` or whatever the file calls it; empty if
-    nothing is said.  unit: of lengths, such as ``mm``; empty if nothing is said.
-
-    Raises VolumeError for steps of different lengths, and for steps that lie in one plane or on one line.
+    ``steps`` has for each axis of the array the vector from a voxel's centre to the next. ``origin`` is the centre of
+    voxel (0, 0, 0). ``space`` is the meaning of the physical axes, ``left-posterior-superior`` or any name from the
+    file. ``unit`` is the unit of lengths, such as ``mm``. Both are empty if unknown. Raise VolumeError for steps of
+    different lengths, and for steps that are linearly dependent.
     """
 
     steps: tuple[Position, ...]
@@ -52,13 +51,13 @@ class World:
 
     def __post_init__(self) -> None:
         if any(len(step) != len(self.origin) for step in self.steps):
-            raise VolumeError(f"the steps and the origin have {len(self.origin)} coordinates each")
-        gram = [[sum(map(_product, one, other), Fraction(0)) for other in self.steps] for one in self.steps]
+            raise VolumeError(f"expected {len(self.origin)} coordinates in each step, as in the origin")
+        gram = [[sum(map(_product, first, second), Fraction(0)) for second in self.steps] for first in self.steps]
         if not determinant(gram):
-            raise VolumeError("the spacing of an axis is 0, or the directions of the axes depend on each other")
+            raise VolumeError("the spacing of an axis is 0, or the directions of the axes are linearly dependent")
 
     def place(self, voxel: Sequence[Exact]) -> Position:
-        """The position of a voxel's centre; of a corner, whose coordinates are halves, that corner's."""
+        """Return the position of a voxel's centre, or of a corner, whose coordinates are half-integers."""
         return tuple(
             sum((step[k] * number for step, number in zip(self.steps, voxel, strict=True)), start)
             for k, start in enumerate(self.origin)
@@ -66,40 +65,39 @@ class World:
 
     @property
     def mirrors(self) -> bool:
-        """Whether three steps turn a right hand into a left one."""
+        """True if three steps reverse the orientation of space."""
         return len(self.steps) == len(self.origin) == 3 and determinant(self.steps) < 0
 
     def moved(self, voxel: Sequence[int]) -> World:
-        """The world in which the coordinates count from another voxel."""
+        """Return the position with coordinates counted from another voxel."""
         return replace(self, origin=self.place(voxel))
 
     def turned(self, space: str) -> World:
-        """The same place in another anatomical space.  Raises VolumeError where one of the two is none."""
+        """Return the same position in another anatomical space. Raise VolumeError if either space is not anatomical."""
         if space not in ANATOMICAL or self.space not in ANATOMICAL or len(self.origin) != 3:
-            raise VolumeError(
-                f"the space is {self.space or 'not stated'}, and only {', '.join(ANATOMICAL)} are exchanged"
-            )
+            raise VolumeError(f"expected one of the spaces {', '.join(ANATOMICAL)}, found {self.space or 'none'}")
         signs = [
-            1 if here == there else -1 for here, there in zip(self.space.split("-"), space.split("-"), strict=True)
+            1 if current == target else -1
+            for current, target in zip(self.space.split("-"), space.split("-"), strict=True)
         ]
         steps = tuple(tuple(map(_product, signs, step)) for step in self.steps)
         return replace(self, steps=steps, origin=tuple(map(_product, signs, self.origin)), space=space)
 
     def spacings(self) -> tuple[tuple[str, bool], ...]:
-        """The length of every step as decimal text, and whether it is exact; else it has six digits."""
+        """Return the length of every step as decimal text, and whether it is exact. Others have six digits."""
         return tuple(_length(step) for step in self.steps)
 
     def bearings(self) -> tuple[tuple[str, bool], ...]:
-        """To what side each axis of the array runs, and whether exactly so; none where the space has no such names."""
+        """Return the anatomical direction of each axis, and whether it is exact. Empty for other spaces."""
         if self.space not in ANATOMICAL or len(self.steps) != 3:
             return ()
         names = self.space.split("-")
-        # Each axis has a side of its own: the three that lie best along the steps, as large a product as there is.
+        # Assign a different direction to each axis, with the largest product of squared cosines.
         best = max(permutations(range(3)), key=lambda order: _aligned(self.steps, order))
-        found = []
+        directions = []
         for step, k in zip(self.steps, best, strict=True):
-            found.append((names[k] if step[k] > 0 else _OPPOSITE[names[k]], sum(map(bool, step)) == 1))
-        return tuple(found)
+            directions.append((names[k] if step[k] > 0 else _OPPOSITE[names[k]], sum(map(bool, step)) == 1))
+        return tuple(directions)
 
 
 def world_of(
@@ -109,13 +107,12 @@ def world_of(
     directions: Sequence[Sequence[object]] | None = None,
     unit: str = "",
 ) -> World | None:
-    """The world of an array with so many axes from numbers of any real type, None where nothing is given.
+    """Return the position of an array with ``dimension`` axes, or None if no argument is given.
 
-    spacing: a length for each axis (default: 1).  origin: the position of the first voxel's centre (default: 0).
-    directions: for each axis a vector, which is multiplied by its spacing (default: along x, y, z).  A float is the
-    number it holds; decimal text and fractions are exact.
-
-    Raises VolumeError for numbers of another count or kind, and as ``World``.
+    ``spacing`` is a length for each axis (default 1), ``origin`` the position of the first voxel's centre (default 0),
+    and ``directions`` a vector for each axis, which is multiplied by its spacing (default along x, y, z). Numbers may
+    have any real type. A float is the number it holds, and decimal text and fractions are exact. Raise VolumeError for
+    another count or kind of numbers, and as ``World`` does.
     """
     if spacing is None and origin is None and directions is None:
         return None
@@ -124,7 +121,7 @@ def world_of(
         rows = [tuple(Fraction(int(k == axis)) for k in range(dimension)) for axis in range(dimension)]
     else:
         if len(directions) != dimension:
-            raise VolumeError(f"directions: {len(directions)} vectors; the array has {dimension} axes")
+            raise VolumeError(f"directions: expected {dimension} vectors, found {len(directions)}")
         width = len(directions[0])
         rows = [_numbers(f"direction of axis {axis}", row, width) for axis, row in enumerate(directions)]
     width = len(rows[0])
@@ -134,21 +131,23 @@ def world_of(
 
 
 def voxel_volume(world: World | None) -> Fraction:
-    """The volume (in a plane the area) of a voxel, exactly; 1 where there is no world.
+    """Return the exact volume of a voxel (in a plane its area), or 1 if the position is unknown.
 
-    Raises VolumeError for a picture in a space of three axes, whose pixels have areas with roots.
+    Raise VolumeError for a picture in a space with three axes, because the area of its pixels is irrational.
     """
     if world is None:
         return Fraction(1)
     if len(world.steps) != len(world.origin):
-        raise VolumeError(f"{len(world.steps)} axes in a space of {len(world.origin)}: a pixel's area is no fraction")
+        raise VolumeError(
+            f"{len(world.steps)} axes in a space of {len(world.origin)}: the area of a pixel is not a fraction"
+        )
     return abs(determinant(world.steps))
 
 
 def length_text(text: str) -> Fraction:
-    """The number of a header: decimal text of at most 100 digits, its exponent within -400 to 400.
+    """Read a number of a header: decimal text of at most 100 digits with an exponent from -400 to 400.
 
-    Raises ValueError.
+    Raise ValueError for other text.
     """
     _, whole, fraction, exponent = split_decimal(text)
     if len(whole) + len(fraction) > _MOST_DIGITS or abs(exponent) > _MOST_EXPONENT:
@@ -157,28 +156,28 @@ def length_text(text: str) -> Fraction:
 
 
 def decimal_or_fraction(value: Fraction) -> str:
-    """The exact text of a number: a decimal where it has a finite one, else p/q."""
+    """Return the exact text of a number: a decimal if it has a finite one, otherwise p/q."""
     return finite_decimal(value) or str(value)
 
 
 def determinant(rows: Sequence[Sequence[Fraction]]) -> Fraction:
-    """The determinant of a square of one to three rows, by its definition."""
+    """Return the determinant of one to three rows by expansion along the first row."""
     if len(rows) == 1:
         return rows[0][0]
     total = Fraction(0)
     for k, head in enumerate(rows[0]):
-        rest = [[number for j, number in enumerate(row) if j != k] for row in rows[1:]]
-        total += (-head if k % 2 else head) * determinant(rest)
+        minor = [[number for j, number in enumerate(row) if j != k] for row in rows[1:]]
+        total += (-head if k % 2 else head) * determinant(minor)
     return total
 
 
-def _product(one: Exact, other: Exact) -> Fraction:
-    return Fraction(one * other)
+def _product(first: Exact, second: Exact) -> Fraction:
+    return Fraction(first * second)
 
 
 def _numbers(what: str, values: Sequence[object], count: int) -> Position:
     if len(values) != count:
-        raise VolumeError(f"{what}: {len(values)} numbers; {count} are due")
+        raise VolumeError(f"{what}: expected {count} numbers, found {len(values)}")
     try:
         return tuple(Fraction(real(value)) for value in values)
     except ValueError as error:

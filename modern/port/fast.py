@@ -84,7 +84,7 @@ def load(name: str) -> Steps:
     cloud = Cloud(sample[:3].copy(), sample_index, sample_index, sample_index)
     slots = Slots(sample, np.zeros((3, 1), np.int64), sample[0].copy(), np.ones(1, np.bool_))
     rules = Rules(sample[:3, 0].copy(), False, sample[0, 0], False, LISTED_PLANES, PLANES)
-    # No array is made: numba need not count the users of each it is given.
+    # The kernels allocate no arrays, so numba need not count references.
     return with_kernels(
         Compiled(kernels.grow, _nrt=False).ready(
             cloud, slots, workspace.scratch_for(1, name), sample_index, rules, False, 1

@@ -1,7 +1,4 @@
-"""Run the benchmarks: what, median, least, most, and what to compare it with.
-
-``python -m modern.bench.suite`` runs every group, ``python -m modern.bench.suite digital papers`` those named.
-"""
+"""The benchmarks of the project: median, minimum and maximum of each figure, and a value to compare it with."""
 
 from __future__ import annotations
 
@@ -21,13 +18,13 @@ DECKS = 1_000
 
 
 def process(*arguments: str) -> Callable[[], object]:
-    """A whole process of the command, its output thrown away."""
+    """Return a function that runs the command in a new process and discards its output."""
     command = [sys.executable, "-m", "modern.cli.main", *arguments]
     return lambda: subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
 def command_lines() -> Iterator[str]:
-    """Whole processes, process start included."""
+    """Measure complete processes, including their start."""
     yield timed("an empty Python process", lambda: subprocess.run([sys.executable, "-c", "pass"], check=True)).line()
     yield timed("hull1620 --help", process("--help"), "bar 0.15 s").line()
     yield timed("hull1620 reproduce 5, process start included", process("reproduce", "5"), "bar 0.5 s").line()
@@ -35,7 +32,7 @@ def command_lines() -> Iterator[str]:
 
 
 def engine_lines() -> Iterator[str]:
-    """The engines: one run over one deck, and ``hull1620 bench`` over a thousand."""
+    """Measure the engines: one run over one deck, and ``hull1620 bench`` over a thousand decks."""
     deck = data_deck(random_points(POINTS, 1))
     middle = deck_from_lines("middle", Machine(programs.program("program1"), deck).run().punched)
     program = programs.program("program3")
@@ -57,10 +54,10 @@ GROUPS: Mapping[str, Callable[[], Iterator[str]]] = {
 
 
 def main(names: Sequence[str]) -> int:
-    """Print every figure of the groups named, or of all."""
+    """Print every figure of the named groups, or of all."""
     unknown = [name for name in names if name not in GROUPS]
     if unknown:
-        print(f"bench: there is no group {unknown[0]!r}; there are {', '.join(GROUPS)}", file=sys.stderr)
+        print(f"bench: unknown group {unknown[0]!r}; the groups are {', '.join(GROUPS)}", file=sys.stderr)
         return 2
     print(f"medians of {RUNS}")
     for name in names or GROUPS:

@@ -1,8 +1,7 @@
-"""Digital hulls: the filled hull of solid balls, beside scikit-image where it is installed, and its memory; the octree
-hull, and the cell list of Kovalevsky and Schulz, beside them.
+"""Digital hulls: the filled hull of balls compared with scikit-image, its memory, the octree hull and the cell list.
 
-``python -m modern.bench.suite.digital FILE.svg`` measures how the time of solids' hulls grows with the number of
-voxels, and plots it with the slope of each curve (extra ``plot``).
+``python -m modern.bench.suite.digital FILE.svg`` measures the growth of time with the number of voxels and plots it
+with the slope of each curve (extra ``plot``).
 """
 
 from __future__ import annotations
@@ -28,20 +27,20 @@ from modern.papers.yau_srihari import octree_hull
 BARS = {128: "bar 1 s", 256: "bar 4 s", 512: "bar 30 s"}
 
 DIAMETERS = (15, 31, 63, 127, 254)
-"""Of the balls whose octrees are measured: the cubes have sides of 16, 32, ... 256."""
+"""The diameters of the balls whose octrees are measured. Their cubes have sides of 16, 32, ... 256."""
 COMMANDS = (
     ("octree", 127, "bar 2 s, 500 MB"),
     ("octree", 254, "bar 10 s, 500 MB"),
     ("voxel", 255, "bar 1.4 s"),
     ("voxel", 511, "bar 10 s"),
 )
-"""Whole processes: the hull, the diameter of a ball, and the bars."""
+"""Complete processes: the hull, the diameter of a ball, and the bars."""
 CURVES = (STYLES[0], STYLES[1], STYLES[2], STYLES[4])
 SLOPES_FROM = 10_000
-"""Fewer voxels measure what a call costs."""
+"""Smaller solids measure the cost of a call."""
 OCTREE, CELLS, FILLED, SCIKIT_IMAGE = "octree hull", "voxel hull, cell list", "digital hull", "skimage"
 SCIKIT_UP_TO = 31
-"""The largest diameter for which scikit-image is waited for in a table, 63 in the picture: it takes half a minute."""
+"""The largest diameter measured with scikit-image in a table. In the plot it is 63, which takes half a minute."""
 
 PEAK = """
 import resource, sys
@@ -63,17 +62,19 @@ print(array.size, peak)
 
 
 def figures(largest: int = 512) -> Iterator[Figure]:
-    """Every figure, smallest first."""
+    """Yield every figure, smallest first."""
     ways = ([("compiled", True)] if find_spec("numba") else []) + [("plain", False)]
     small = ball(64, VERTEX).array
-    ours = {}
+    own_figures = {}
     for name, fast in ways:
-        ours[name] = timed(f"filled hull of a ball of 64^3, {name}", lambda fast=fast: digital_hull(small, fast))  # type: ignore[misc]
-        yield ours[name]
-    theirs = scikit_image(small)
-    if theirs is not None:
-        ratios = (f"{name} {theirs.median / figure.median:,.0f} times as fast" for name, figure in ours.items())
-        yield Figure(theirs.what, theirs.seconds, ", ".join(ratios) + ", bar 100")
+        own_figures[name] = timed(f"filled hull of a ball of 64^3, {name}", lambda fast=fast: digital_hull(small, fast))  # type: ignore[misc]
+        yield own_figures[name]
+    scikit_figure = scikit_image(small)
+    if scikit_figure is not None:
+        ratios = (
+            f"{name} {scikit_figure.median / figure.median:,.0f} times as fast" for name, figure in own_figures.items()
+        )
+        yield Figure(scikit_figure.what, scikit_figure.seconds, ", ".join(ratios) + ", bar 100")
     for side in (128, 256, 512):
         if side > largest:
             break
@@ -89,7 +90,7 @@ def figures(largest: int = 512) -> Iterator[Figure]:
 
 
 def lines(largest: int = 512) -> Iterator[str]:
-    """Every figure as text, and the solids' hulls beside their peers."""
+    """Yield every figure as text, and the tables of solids' hulls."""
     for figure in figures(largest):
         yield figure.line()
     for diameter in DIAMETERS:
@@ -98,13 +99,13 @@ def lines(largest: int = 512) -> Iterator[str]:
 
 
 def process_of(name: str, diameter: int) -> Work:
-    """The command ``octree-hull`` or ``voxel-hull`` for a ball, its output thrown away."""
+    """Return a process that runs ``octree-hull`` or ``voxel-hull`` on a ball and discards the output."""
     command = [sys.executable, "-m", "modern.cli.main", f"{name}-hull", f"ball:{diameter}"]
     return lambda: subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
 def works(volume: Volume) -> dict[str, Work]:
-    """Hulls of a solid's centres: rows of the table and curves of the picture; the digital hull is the peer."""
+    """Return the hulls of a solid's voxel centres, as rows of the table and curves of the plot."""
     return {
         OCTREE: lambda: octree_hull(volume),
         CELLS: lambda: voxel_hull(volume, CENTRES),
@@ -113,7 +114,7 @@ def works(volume: Volume) -> dict[str, Work]:
 
 
 def table(volume: Volume, slow: bool) -> Table:
-    """The hulls of a solid, measured in turn in seconds of the processor; with ``slow`` scikit-image once too."""
+    """Measure the hulls of a solid in turn in processor seconds. ``slow`` adds one run of scikit-image."""
     rows = side_by_side(works(volume), clock=time.process_time)
     peers = [FILLED]
     filled = digital_hull(volume).filled
@@ -121,53 +122,53 @@ def table(volume: Volume, slow: bool) -> Table:
     same = np.array_equal(octree_hull(volume).filled, filled)
     same = same and np.array_equal(reconstructed(cells.economical(), CENTRES).array, filled)
     if slow and find_spec("skimage"):
-        found: list[Any] = []
+        scikit_results: list[Any] = []
         by_scikit_image(np.ones((2, 2, 2), dtype=np.bool_))  # loads it
-        rows.append(timed_once(SCIKIT_IMAGE, lambda: found.append(by_scikit_image(volume.array))))
+        rows.append(timed_once(SCIKIT_IMAGE, lambda: scikit_results.append(by_scikit_image(volume.array))))
         peers.append(SCIKIT_IMAGE)
-        same = same and np.array_equal(found[0], filled)
+        same = same and np.array_equal(scikit_results[0], filled)
     name = f"{volume.source}, {volume.count:,} voxels" + ("" if same else ", OTHER HULLS")
     return Table(name, tuple(rows), tuple(peers))
 
 
 def growth(diameters: Sequence[int] = DIAMETERS) -> list[Curve]:
-    """Median seconds by way and number of voxels, of digital balls; scikit-image once, and only of the smaller."""
-    found: dict[str, list[tuple[int, float]]] = {}
+    """Return median seconds by method and number of voxels for balls. scikit-image runs once, on small ones."""
+    points_by_way: dict[str, list[tuple[int, float]]] = {}
     for diameter in diameters:
         volume = ball(diameter)
         for figure in table(volume, diameter <= 2 * SCIKIT_UP_TO + 1).rows:
-            found.setdefault(figure.what, []).append((volume.count, figure.median))
-    return [Curve(name, points, style) for (name, points), style in zip(found.items(), CURVES, strict=False)]
+            points_by_way.setdefault(figure.what, []).append((volume.count, figure.median))
+    return [Curve(name, points, style) for (name, points), style in zip(points_by_way.items(), CURVES, strict=False)]
 
 
 def scikit_image(array: Any) -> Figure | None:
-    """Once scikit-image on the same voxels, and whether it finds the same; None where it is not installed.
+    """Run scikit-image once on the same voxels and compare the results. Return None if it is not installed.
 
-    ``offset_coordinates=False`` is the hull of the voxels' centres.  It takes long, so it is timed once.
+    ``offset_coordinates=False`` selects the hull of the voxels' centres. One run takes long enough.
     """
     if not find_spec("skimage"):
         return None
-    found: list[Any] = []
-    figure = timed_once("", lambda: found.append(by_scikit_image(array)))
-    same = "same voxels" if np.array_equal(found[0], digital_hull(array).filled) else "OTHER VOXELS"
+    results: list[Any] = []
+    figure = timed_once("", lambda: results.append(by_scikit_image(array)))
+    same = "same voxels" if np.array_equal(results[0], digital_hull(array).filled) else "OTHER VOXELS"
     return Figure(f"scikit-image, ball of {len(array)}^3, once, {same}", figure.seconds)
 
 
 def by_scikit_image(array: Any) -> Any:
-    """The filled hull of the voxels' centres by scikit-image."""
+    """Return the filled hull of the voxels' centres by scikit-image."""
     from skimage.morphology import convex_hull_image
 
     return convex_hull_image(array, offset_coordinates=False)  # type: ignore[no-untyped-call]
 
 
 def memory(side: int, way: str) -> str:
-    """The most memory a process holds that makes the ball and fills its hull, beside the bar."""
+    """Return the peak memory of a process that creates the ball and fills its hull, next to the bar."""
     size, most = peak(side, way)
     return f"{most / 1e6:.0f} MB, bar {(4 * size + 300e6) / 1e6:.0f} MB"
 
 
 def peak(side: int, way: str) -> tuple[int, float]:
-    """How many voxels the box of a ball has, and the most bytes such a process holds, median of three."""
+    """Return the number of voxels in a ball's box and the median peak memory of three such processes, in bytes."""
     runs = []
     for _ in range(3):
         run = subprocess.run([sys.executable, "-c", PEAK, str(side), way], check=True, capture_output=True, text=True)
@@ -176,7 +177,7 @@ def peak(side: int, way: str) -> tuple[int, float]:
 
 
 def main() -> None:
-    """Print every figure, or measure the growth, print and plot it."""
+    """Print every figure, or measure, print and plot the growth."""
     what = f"voxels of a ball; slopes from {SLOPES_FROM:,} on"
     for line in plotted(growth(), sys.argv[1], what, SLOPES_FROM) if len(sys.argv) == 2 else lines():
         print(line, flush=True)

@@ -1,4 +1,4 @@
-"""Hidden lines by Nakamae and Nishita: all three steps, and how their time grows with the number of cuboids.
+"""Hidden lines by Nakamae and Nishita: all three steps, and the growth of time with the number of cuboids.
 
 ``python -m modern.bench.suite.hidden_line FILE.svg`` measures the growth and plots it (extra ``plot``).
 """
@@ -9,6 +9,7 @@ import math
 import sys
 from collections.abc import Iterator
 from fractions import Fraction
+from functools import partial
 
 from modern.bench.timing import Curve, Figure, plot, timed
 from modern.papers.nakamae_nishita.hidden import Drawing, draw
@@ -23,56 +24,57 @@ STYLES = ({"marker": "o", "linestyle": "-", "color": "0"}, {"marker": "s", "line
 
 
 def array(x: int, y: int, z: int, step: Fraction) -> list[Polyhedron]:
-    """Unit cuboids in a grid, so far apart."""
-    one = cuboid("cuboid", Fraction(1), Fraction(1), Fraction(1))
+    """Return unit cuboids in a grid with the given distance."""
+    unit_cuboid = cuboid("cuboid", Fraction(1), Fraction(1), Fraction(1))
     places = ((i, j, k) for i in range(x) for j in range(y) for k in range(z))
-    return [placed(one, moved((step * i, step * j, step * k)), "cuboid") for i, j, k in places]
+    return [placed(unit_cuboid, moved((step * i, step * j, step * k)), "cuboid") for i, j, k in places]
 
 
 def field(count: int) -> list[Polyhedron]:
-    """Cuboids on a floor, so far apart that few overlap in the picture."""
+    """Return cuboids on a floor, far enough apart that few overlap in the picture."""
     side = math.isqrt(count - 1) + 1
     return array(side, side, 1, Fraction(2))[:count]
 
 
 def block(count: int) -> list[Polyhedron]:
-    """Cuboids in a grid of three dimensions: the deeper, the more overlap."""
+    """Return cuboids in a three-dimensional grid, in which deeper cuboids overlap more."""
     side = next(n for n in range(1, count + 1) if n**3 >= count)
     return array(side, side, side, Fraction(7, 4))[:count]
 
 
 def drawn(polyhedra: list[Polyhedron]) -> Drawing:
-    """Steps II and III, with the proof that no two polyhedra intersect."""
+    """Run steps II and III, including the proof that no two polyhedra intersect."""
     return draw(polyhedra, parallel(EYE))
 
 
 def figures() -> Iterator[Figure]:
-    """Every figure, smallest first."""
-    found = scene("cuboids")
-    observer = found.sight.observer(found.make)
-    yield timed("hidden lines, 60 cuboids, all steps", lambda: draw(found.make, observer), "bar 0.3 s")
+    """Yield every figure, smallest first."""
+    cuboids = scene("cuboids")
+    observer = cuboids.sight.observer(cuboids.make)
+    yield timed("hidden lines, 60 cuboids, all steps", lambda: draw(cuboids.make, observer), "bar 0.3 s")
     yield timed("hidden lines, 1,000 cuboids in a grid, all steps", lambda: drawn(block(1000)), "bar 10 s")
     yield timed("hidden lines, 1,000 cuboids on a floor, all steps", lambda: drawn(field(1000)))
 
 
 def growth() -> dict[str, list[tuple[int, float, int]]]:
-    """Median seconds of all steps, and pairs that overlap, by arrangement and number."""
-    found: dict[str, list[tuple[int, float, int]]] = {}
-    for name, made in (("in a grid of three dimensions", block), ("on a floor, few overlap", field)):
-        found[name] = [
-            (count, timed("", lambda n=count, m=made: drawn(m(n))).median, len(drawn(made(count)).relations))  # type: ignore[misc]
+    """Return median seconds of all steps and the number of overlapping pairs, by arrangement and size."""
+    rows_by_arrangement: dict[str, list[tuple[int, float, int]]] = {}
+    for name, arrangement in (("in a grid of three dimensions", block), ("on a floor, few overlap", field)):
+        rows_by_arrangement[name] = [
+            (count, timed("", partial(drawn, arrangement(count))).median, len(drawn(arrangement(count)).relations))
             for count in COUNTS
         ]
-    return found
+    return rows_by_arrangement
 
 
-def curves(found: dict[str, list[tuple[int, float, int]]]) -> list[Curve]:
-    """The growth, and a line that grows as n log n."""
-    *_, (count, seconds, _) = found["on a floor, few overlap"]
+def curves(rows_by_arrangement: dict[str, list[tuple[int, float, int]]]) -> list[Curve]:
+    """Return the measured growth, and a line that grows as n log n."""
+    *_, (count, seconds, _) = rows_by_arrangement["on a floor, few overlap"]
     scale = seconds / (count * math.log(count))
     guide = Curve("n log n", [(n, scale * n * math.log(n)) for n in COUNTS], {"linestyle": ":", "color": "0.6"})
     rows = [
-        Curve(name, [row[:2] for row in rows], style) for (name, rows), style in zip(found.items(), STYLES, strict=True)
+        Curve(name, [row[:2] for row in rows], style)
+        for (name, rows), style in zip(rows_by_arrangement.items(), STYLES, strict=True)
     ]
     return [*rows, guide]
 
@@ -83,10 +85,10 @@ def main() -> None:
         sys.exit("usage: python -m modern.bench.suite.hidden_line FILE.svg")
     for figure in figures():
         print(figure.line())
-    found = growth()
-    for name, rows in found.items():
+    rows_by_arrangement = growth()
+    for name, rows in rows_by_arrangement.items():
         print(name, ", ".join(f"{count:,}: {seconds:.4f} s, {pairs} pairs" for count, seconds, pairs in rows))
-    plot(curves(found), sys.argv[1], "cuboids")
+    plot(curves(rows_by_arrangement), sys.argv[1], "cuboids")
 
 
 if __name__ == "__main__":

@@ -1,7 +1,8 @@
-"""The later papers: Appel and Will's convex edges beside the judge, hidden lines, and cell lists of digital balls.
+"""The later papers: Appel and Will's convex edges compared with the judge, hidden lines, and cell lists of digital
+balls.
 
-Appel and Will's 60 points are exact, by the star polygon itself and by its short form.  Of Kovalevsky and Schulz's cell
-list the seconds are given, and microseconds a local corner inserted.
+Appel and Will's 60 points are computed exactly, with the star polygon and with its short form. The figures of
+Kovalevsky and Schulz's cell list are seconds, and microseconds for each inserted local corner.
 """
 
 from __future__ import annotations
@@ -39,47 +40,47 @@ WAYS: tuple[tuple[Of, int, Coplanar], ...] = (
     (CENTRES, 26, VISIBLE),
 )
 BAR = 32
-"""The diameter of the paper's ball, for which the bar of 2 s is set."""
+"""The diameter of the paper's ball, to which the bar of 2 s applies."""
 
 
 def figures() -> Iterator[Figure]:
-    """Every figure of the papers."""
+    """Yield every figure of the papers."""
     yield from convex_edges()
     yield from hidden_line.figures()
     yield from cell_lists()
 
 
 def on_sphere(count: int, seed: int = 3) -> list[tuple[int, int, int]]:
-    """Points of eight digits close to a sphere: all of them vertices, the most edges there can be."""
+    """Return points of eight digits close to a sphere. All are vertices, which gives the largest number of edges."""
     directions = np.random.default_rng(seed).normal(size=(count, 3))
     return [tuple(p) for p in eight_digits(directions / np.linalg.norm(directions, axis=1)[:, None]).tolist()]
 
 
 def on_grid(count: int, seed: int = 4) -> list[tuple[int, int, int]]:
-    """Distinct points of a 5 x 5 x 5 grid: many in one line and in one plane."""
+    """Return distinct points of a 5 x 5 x 5 grid, many of them collinear or coplanar."""
     cells = [(x, y, z) for x in range(5) for y in range(5) for z in range(5)]
     return random.Random(seed).sample(cells, count)
 
 
 def convex_edges() -> Iterator[Figure]:
-    """Appel and Will's method, beside the judge."""
+    """Measure Appel and Will's method and the judge."""
     in_ball = [tuple(p) for p in eight_digits(ball(POINTS)).tolist()]
     sets = {"in a ball": in_ball, "on a sphere": on_sphere(POINTS), "of a grid": on_grid(POINTS)}
     by_star = Method(star=as_corrected)
     for name, points in sets.items():
         what = f"Appel & Will, {POINTS} points {name}"
-        ours = timed(what, lambda p=points: appel_will(p, method=CORRECTED), "bar 2 s")  # type: ignore[misc]
-        yield ours
+        short_form = timed(what, lambda p=points: appel_will(p, method=CORRECTED), "bar 2 s")  # type: ignore[misc]
+        yield short_form
         star = timed(f"{what}, star polygons", lambda p=points: appel_will(p, method=by_star))  # type: ignore[misc]
-        yield Figure(star.what, star.seconds, f"{star.median / ours.median:.1f} times as long")
+        yield Figure(star.what, star.seconds, f"{star.median / short_form.median:.1f} times as long")
         judge = timed(f"judge, {POINTS} points {name}", lambda p=points: exact_hull(p))  # type: ignore[misc]
-        yield Figure(judge.what, judge.seconds, f"Appel & Will {ours.median / judge.median:.1f} times as long")
+        yield Figure(judge.what, judge.seconds, f"Appel & Will {short_form.median / judge.median:.1f} times as long")
     many = on_sphere(ON_SPHERE)
     yield timed(f"Appel & Will, {ON_SPHERE} points on a sphere", lambda: appel_will(many, method=CORRECTED))
 
 
 def cell_lists(largest: int = LARGEST_BALL) -> Iterator[Figure]:
-    """Volume in memory to merged cell list, diameters 32, 64, ...; then the step without merging."""
+    """Measure cell lists of volumes with diameters 32, 64, ..., and the local corners alone."""
     diameter = BAR
     while diameter <= largest:
         volume = solids.ball(diameter)
@@ -90,11 +91,11 @@ def cell_lists(largest: int = LARGEST_BALL) -> Iterator[Figure]:
 
 
 def cell_list(volume: solids.Volume, of: Of, neighbours: int, coplanar: Coplanar, bar: str) -> Figure:
-    """The cell list of a solid's hull, with the time a corner in the note."""
+    """Measure the cell list of a solid's hull. The note gives the time for each corner."""
     corners = len(local_corners(volume, of, neighbours))
-    found = timed(
+    figure = timed(
         f"cell list, {volume.source}, {of}, {neighbours}, {coplanar}",
         lambda: voxel_hull(volume, of, neighbours, coplanar),
     )
-    each = f"{corners} corners, {found.median / corners * 1e6:.0f} microseconds each"
-    return replace(found, note=f"{bar}; {each}" if bar else each)
+    cost = f"{corners} corners, {figure.median / corners * 1e6:.0f} microseconds each"
+    return replace(figure, note=f"{bar}; {cost}" if bar else cost)

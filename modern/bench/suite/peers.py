@@ -1,4 +1,4 @@
-"""What a hull is measured beside: Qhull through scipy, and CGAL by a program of some ten lines."""
+"""The programs that hulls are compared with: Qhull through scipy, and CGAL through a short C++ program."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from typing import Any
 from modern.bench.timing import Measured
 
 COMPILERS = ("c++", "g++", "clang++")
-"""Looked for in this order, after what the environment variable CXX names."""
+"""The compilers tried in this order, after the one that the environment variable CXX names."""
 
 CGAL = """
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -37,14 +37,14 @@ int main() {
   }
 }
 """
-"""``convex_hull_3`` with exact predicates, run twice, first to fill caches; prints processor seconds and vertices."""
+"""``convex_hull_3`` with exact predicates, run twice to fill caches first. Prints processor seconds and vertices."""
 
 _LIBRARIES = (("-lgmp", "-lmpfr"), ("-lgmp",), ())
 _PATIENCE = 300
 
 Work = Callable[[], object]
 Peer = Callable[[Any], Work]
-"""From points (n, 3) to one hull of them."""
+"""A function from points (n, 3) to the computation of one hull."""
 
 
 class Peers(AbstractContextManager["Peers"]):
@@ -52,24 +52,24 @@ class Peers(AbstractContextManager["Peers"]):
 
     def __init__(self) -> None:
         self._folder = TemporaryDirectory()
-        self.found: dict[str, Peer] = {}
+        self.installed: dict[str, Peer] = {}
         self.remarks: list[str] = []
         for name, peer in (("Qhull", qhull), ("CGAL", lambda: cgal(Path(self._folder.name)))):
             try:
-                self.found[name] = peer()
+                self.installed[name] = peer()
             except Missing as reason:
-                self.remarks.append(f"{name} is left out: {reason}")
+                self.remarks.append(f"{name} is omitted: {reason}")
 
     def __exit__(self, *_: object) -> None:
         self._folder.cleanup()
 
 
 class Missing(Exception):
-    """A peer that is not here; ``str`` says why."""
+    """A peer that is not installed. The message gives the reason."""
 
 
 def qhull() -> Peer:
-    """Qhull on the points as doubles.  Raises Missing."""
+    """Return Qhull on the points as doubles. Raise Missing if scipy is not installed."""
     try:
         from scipy.spatial import ConvexHull
     except ImportError:
@@ -83,24 +83,27 @@ def qhull() -> Peer:
 
 
 def cgal(folder: Path) -> Peer:
-    """CGAL on the points as doubles, in a process that reads them first and times itself.  Raises Missing."""
-    named = shlex.split(os.environ.get("CXX", ""))
-    command = named or next(([name] for name in COMPILERS if shutil.which(name)), [])
+    """Return CGAL on the points as doubles, in a process that reads them and then times itself.
+
+    Raise Missing if there is no compiler or CGAL's headers are not installed.
+    """
+    command_of_cxx = shlex.split(os.environ.get("CXX", ""))
+    command = command_of_cxx or next(([name] for name in COMPILERS if shutil.which(name)), [])
     if not command or not shutil.which(command[0]):
-        raise Missing(f"no C++ compiler is found ({', '.join(COMPILERS)}, or CXX)")
+        raise Missing(f"no C++ compiler is installed ({', '.join(COMPILERS)}, or CXX)")
     source, program = folder / "hull.cpp", folder / "hull"
     source.write_text(CGAL, encoding="ascii")
     for libraries in _LIBRARIES:
         compiled = [*command, "-O2", "-DNDEBUG", "-w", "-o", str(program), str(source), *libraries]
         try:
-            done = subprocess.run(compiled, capture_output=True, text=True, timeout=_PATIENCE)
+            process = subprocess.run(compiled, capture_output=True, text=True, timeout=_PATIENCE)
         except (OSError, subprocess.TimeoutExpired) as error:
             raise Missing(f"{command[0]}: {error}") from None
-        if not done.returncode:
+        if not process.returncode:
             break
     else:
-        said = next((line for line in done.stderr.splitlines() if "rror" in line), "no reason given")
-        raise Missing(f"{command[0]} does not compile a program with its headers: {said.strip()}")
+        error_line = next((line for line in process.stderr.splitlines() if "rror" in line), "no reason given")
+        raise Missing(f"{command[0]} cannot compile a program with CGAL's headers: {error_line.strip()}")
 
     def peer(points: Any) -> Work:
         text = "".join(f"{x!r} {y!r} {z!r}\n" for x, y, z in points.tolist())

@@ -1,4 +1,4 @@
-"""The bench: translation to Fortran of today, agreement of cards, and the table; a compiler where there is one."""
+"""The bench: translation to modern Fortran, agreement of cards, and the table, with a compiler if one is installed."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from emulator.language.cards import deck_from_lines
 from emulator.language.compiler import compile_deck
 from emulator.machine.machine import Machine
 from modern.bench import native
-from modern.bench.agreement import compared, data_sets, plain
+from modern.bench.agreement import compare, data_sets, plain
 from modern.bench.decks import LAYERS, OPTIONS, PROGRAM, data_deck, middle_texts, random_points
 from modern.bench.measure import COLD, COMPILED, NATIVE, PLAIN, PORT, WARM, Bench, Row, document, lines, measure
 from modern.bench.timing import Figure, side_by_side
@@ -29,13 +29,15 @@ needs_compiler = pytest.mark.skipif(GFORTRAN is None, reason="no gfortran")
 
 
 def fortran(*cards: str) -> list[str]:
-    """The statements of a translation, without its first and last lines."""
+    """Return the statements of a translation without its first and last lines."""
     text = translated(deck_from_lines("deck.f", cards))
-    found = text.splitlines()
-    return [line for line in found if not line.startswith(("program", "implicit", "logical", "open", "90000", "end"))]
+    statements = text.splitlines()
+    return [
+        line for line in statements if not line.startswith(("program", "implicit", "logical", "open", "90000", "end"))
+    ]
 
 
-def test_statements() -> None:
+def test_statements_are_printed_in_free_form() -> None:
     assert fortran("DIMENSION X(3),L(2,2)", "  10 X (I) = -1.5E-3*SQRTF(A)/(-2.)", "GO TO(10,10),M", "END") == [
         "dimension X(3),L(2,2)",
         "10 X(I) = -(1.5d-3*SQRT(A)/(-2.d0))",
@@ -43,8 +45,8 @@ def test_statements() -> None:
     ]
 
 
-def test_a_do_is_written_out() -> None:
-    """One trip at least, and the limit looked up at each pass; two that end together end inner first."""
+def test_a_do_becomes_explicit_jumps() -> None:
+    """A loop runs at least once and reads its limit at each pass. Of two that end together the inner ends first."""
     assert fortran("DO 5 I=1,N", "DO 5 J=I,9,2", "5 K=K+1", "END") == [
         "I = 1",
         "90002 continue",
@@ -58,7 +60,7 @@ def test_a_do_is_written_out() -> None:
     ]
 
 
-def test_input_and_output() -> None:
+def test_input_and_output_statements_are_translated() -> None:
     formats = "1 FORMAT(2HAB,F5.1)", "2 FORMAT(2X,3HA'B/)"
     assert fortran("READ 1,A,(X(I),I=1,N)", "PUNCH 2", "TYPE 1,A", *formats, "END") == [
         "read (*,1,end=90000) A,(X(I),I=1,max(1,N))",
@@ -69,7 +71,7 @@ def test_input_and_output() -> None:
     ]
 
 
-def test_switches_and_endings() -> None:
+def test_switches_and_stops_are_translated() -> None:
     assert fortran("5 IF (SENSE SWITCH 2) 5,6", "6 PAUSE", "IF(A-B)5,6,6", "STOP", "END") == [
         "5 go to (5,6), merge(1, 2, switch_2)",
         "6 continue",
@@ -81,7 +83,7 @@ def test_switches_and_endings() -> None:
     assert "switch_2 = .false." in text
 
 
-def test_what_has_no_counterpart() -> None:
+def test_accept_and_invalid_decks_are_refused() -> None:
     with pytest.raises(DeckError, match=r"deck\.f: card 1: ACCEPT has no counterpart"):
         fortran("ACCEPT 1,A", "1 FORMAT(F5.1)", "END")
     with pytest.raises(DeckError, match=r"deck\.f: card 1"):
@@ -89,7 +91,7 @@ def test_what_has_no_counterpart() -> None:
 
 
 @pytest.mark.parametrize("name", programs.NAMES)
-def test_no_line_is_too_long(name: str) -> None:
+def test_translated_lines_are_within_the_limit(name: str) -> None:
     assert max(map(len, translated(programs.deck(name)).splitlines())) <= LINE + 2
 
 
@@ -104,56 +106,55 @@ TEXTS += ["7 FORMAT(/5HNO. 1/)", "8 FORMAT(3HABC,F4.1)", "END"]
     ("cards", "data"),
     [(LOOPS, []), (COPY, ["4.               3", "9.              12"]), (TEXTS, ["XYZ12.5"])],
 )
-def test_programs_do_natively_what_they_do_here(cards: list[str], data: list[str], tmp_path: Path) -> None:
+def test_native_programs_punch_the_emulated_cards(cards: list[str], data: list[str], tmp_path: Path) -> None:
     deck = deck_from_lines("deck.f", cards)
-    given, taken = tmp_path / "cards", tmp_path / "punched"
-    given.write_text("".join(f"{card:80}\n" for card in data))
-    native.run(native.built(deck, native.compiler(), tmp_path), given, taken)
+    cards_file, punched_file = tmp_path / "cards", tmp_path / "punched"
+    cards_file.write_text("".join(f"{card:80}\n" for card in data))
+    native.run(native.built(deck, native.compiler(), tmp_path), cards_file, punched_file)
     expected = Machine(compile_deck(deck), deck_from_lines("data", data)).run().punched
-    assert [plain(line) for line in taken.read_text().splitlines()] == [plain(card) for card in expected]
+    assert [plain(line) for line in punched_file.read_text().splitlines()] == [plain(card) for card in expected]
 
 
 @needs_compiler
-def test_program_3_natively(tmp_path: Path) -> None:
-    """Thirty sets in one process: the same cards, but for the printing of zeros."""
+def test_native_program_3_agrees_with_the_emulated_one(tmp_path: Path) -> None:
+    """Thirty sets in one process give the same cards, except for the printing of zeros."""
     texts = middle_texts([random_points(4 + n, n) for n in range(30)])
-    given, taken = tmp_path / "cards", tmp_path / "punched"
-    given.write_text("".join(texts))
-    native.run(native.built(programs.deck(PROGRAM, LAYERS), native.compiler(), tmp_path), given, taken)
+    cards_file, punched_file = tmp_path / "cards", tmp_path / "punched"
+    cards_file.write_text("".join(texts))
+    native.run(native.built(programs.deck(PROGRAM, LAYERS), native.compiler(), tmp_path), cards_file, punched_file)
     program = programs.program(PROGRAM, LAYERS)
     ours = [Machine(program, deck_from_lines("d", text.splitlines()), OPTIONS).run().punched for text in texts]
-    found = compared(ours, data_sets(taken.read_text().splitlines()))
-    assert (found.same, found.digits, found.other) == (30, 0, 0)
+    agreement = compare(ours, data_sets(punched_file.read_text().splitlines()))
+    assert (agreement.same, agreement.digits, agreement.different) == (30, 0, 0)
 
 
-def test_no_compiler(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_missing_compilers_are_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PATH", os.devnull)
     monkeypatch.delenv("FC", raising=False)
-    with pytest.raises(native.NoCompiler, match="no Fortran compiler is found"):
+    with pytest.raises(native.NoCompiler, match="no Fortran compiler is installed"):
         native.compiler()
     monkeypatch.setenv("FC", "nothere -O")
-    with pytest.raises(native.NoCompiler, match="named by FC, nothere, is not found"):
+    with pytest.raises(native.NoCompiler, match="that FC names, nothere, is not installed"):
         native.compiler()
 
 
-def test_a_compiler_that_does_not_compile(tmp_path: Path) -> None:
+def test_compiler_errors_are_reported(tmp_path: Path) -> None:
     broken = tmp_path / "broken"
     broken.write_text('#!/bin/sh\n[ "$1" = --version ] && echo Broken 1.0 && exit\necho "Error: no" >&2\nexit 1\n')
     broken.chmod(0o755)
-    found = native.Compiler((str(broken),), "Broken 1.0")
-    with pytest.raises(native.NoCompiler, match=r"Broken 1\.0 does not compile the translated program: Error: no"):
-        native.built(deck_from_lines("deck.f", ["STOP", "END"]), found, tmp_path)
+    compiler = native.Compiler((str(broken),), "Broken 1.0")
+    with pytest.raises(native.NoCompiler, match=r"Broken 1\.0 cannot compile the translated program: Error: no"):
+        native.built(deck_from_lines("deck.f", ["STOP", "END"]), compiler, tmp_path)
 
 
 ONE = ["", "CONVEX HULL", "N=   4", "  1    .20000000E+01  -.30000000E+00"]
 
 
-def test_cards_that_agree() -> None:
-    """A zero before the point, and a zero's sign and exponent, are printing; nothing else is."""
+def test_cards_agree_if_only_zeros_are_printed_differently() -> None:
     theirs = ["", "CONVEX HULL", "N=   4", "  1   0.20000000E+01  -.30000000E+00"]
-    assert compared([ONE], [theirs]).line() == "1 decks the same, 0 with other last digits, 0 another hull"
-    for ours, other in ((" .00000000E-99", "0.00000000E+00"), ("-.00000000E-99", "0.00000000E+00")):
-        assert plain(ours) == plain(other)
+    assert compare([ONE], [theirs]).line() == "1 decks the same, 0 with different digits, 0 with another hull"
+    for ours, native_card in ((" .00000000E-99", "0.00000000E+00"), ("-.00000000E-99", "0.00000000E+00")):
+        assert plain(ours) == plain(native_card)
     assert plain("-.10000000E-99") != plain("0.10000000E-99")
 
 
@@ -168,20 +169,20 @@ def test_cards_that_agree() -> None:
         ("  1   0.20000000E+01", "other"),
     ],
 )
-def test_cards_that_differ(card: str, kind: str) -> None:
-    found = compared([ONE, ONE], [ONE, [*ONE[:3], card]])
-    assert (found.same, found.digits, found.other) == (1, int(kind == "digits"), int(kind == "other"))
-    assert found.first.startswith("deck 2 has '1 ")
+def test_differences_are_classified(card: str, kind: str) -> None:
+    agreement = compare([ONE, ONE], [ONE, [*ONE[:3], card]])
+    assert (agreement.same, agreement.digits, agreement.different) == (1, int(kind == "digits"), int(kind == "other"))
+    assert agreement.first.startswith("deck 2 has '1 ")
 
 
-def test_decks_and_cards_that_are_missing() -> None:
-    assert compared([ONE, ONE], [ONE]).other == 1
-    assert compared([ONE], [ONE[:3]]).other == 1
+def test_missing_decks_and_cards_count_as_another_hull() -> None:
+    assert compare([ONE, ONE], [ONE]).different == 1
+    assert compare([ONE], [ONE[:3]]).different == 1
     assert data_sets([*ONE, *ONE]) == [ONE, ONE]
     assert data_sets([]) == []
 
 
-def test_the_decks_are_the_same_each_time() -> None:
+def test_random_decks_depend_only_on_the_seed() -> None:
     points = random_points(51, 7)
     assert points == random_points(51, 7)
     assert points != random_points(51, 8)
@@ -197,12 +198,12 @@ def test_works_are_timed_in_turn(monkeypatch: pytest.MonkeyPatch) -> None:
     assert [(figure.what, len(figure.seconds)) for figure in figures] == [("a", 2), ("b", 2)]
 
 
-def made(what: str, seconds: float, count: int) -> Row:
+def row_of(what: str, seconds: float, count: int) -> Row:
     return Row(Figure(what, (seconds,) * 5), count)
 
 
-def test_the_table() -> None:
-    rows = (made(COMPILED, 2.0, 1000), made(NATIVE, 0.25, 1000), made(PLAIN, 2.0, 20))
+def test_table_has_times_and_ratios() -> None:
+    rows = (row_of(COMPILED, 2.0, 1000), row_of(NATIVE, 0.25, 1000), row_of(PLAIN, 2.0, 20))
     bench = Bench(rows, (Figure(COLD, (9.0,)), Figure(WARM, (0.5,))), None, "GNU Fortran 12", ("a remark",))
     table = lines(bench)
     assert table[1].split() == ["compiled", "engine", "1000", "2.000", "500", "1.00", "8.00"]
@@ -212,8 +213,10 @@ def test_the_table() -> None:
     assert json.loads(json.dumps(document(bench)))["engines"][1]["seconds_a_deck"] == 0.00025
 
 
-def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without a compiler and without numba: what is left is measured, and a line each says what is missing."""
+def test_command_measures_without_compiler_and_numba(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The remaining engines are measured, and one line each reports what is missing."""
     monkeypatch.setenv("PATH", os.devnull)
     monkeypatch.delenv("FC", raising=False)
     monkeypatch.setitem(sys.modules, "numba", None)
@@ -222,9 +225,9 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeyp
     place = tmp_path / "bench.json"
     assert main(["bench", "--decks", "1", "--json", str(place)]) == 0
     out, err = capsys.readouterr()
-    assert "no Fortran compiler is found" in out
+    assert "no Fortran compiler is installed" in out
     assert "needs numba: pip install 'hull1620[fast]'" in out
-    assert err.startswith("making 1 decks")
+    assert err.startswith("generating 1 decks")
     found = json.loads(place.read_text())
     assert [engine["what"] for engine in found["engines"]] == [PLAIN, PORT]
     assert found["compiler"] is None
@@ -232,22 +235,24 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeyp
 
 
 @pytest.mark.parametrize(
-    ("named", "words"),
+    ("command", "message"),
     [
-        ('gfortran "', "FC names no Fortran compiler"),
-        ("true", "true is no Fortran compiler: it makes no program"),
-        ("false", "^false.* does not compile the translated program: no reason given"),
+        ('gfortran "', "FC is not a command"),
+        ("true", "true is not a Fortran compiler: it produced no program"),
+        ("false", "^false.* cannot compile the translated program: no reason given"),
     ],
 )
-def test_what_is_no_compiler(named: str, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("FC", named)
-    with pytest.raises(native.NoCompiler, match=words) as caught:
+def test_commands_that_are_not_compilers_are_reported(
+    command: str, message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("FC", command)
+    with pytest.raises(native.NoCompiler, match=message) as caught:
         native.built(programs.deck(PROGRAM, LAYERS), native.compiler(), tmp_path)
     assert "\n" not in str(caught.value)
 
 
 @needs_compiler
-def test_everything_together(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_all_engines_are_measured(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("numba")
     monkeypatch.setattr("modern.bench.measure._starts", lambda text, folder, say: ())
     bench = measure(3)
@@ -258,15 +263,17 @@ def test_everything_together(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
 
 
 @pytest.mark.parametrize(
-    ("arguments", "words"),
+    ("arguments", "message"),
     [
         (["--decks", "0"], "--decks: 0 is not a number of decks"),
         (["--json", "/nothere/x.json"], "no such file or directory"),
         (["--json", "."], "is a directory"),
     ],
 )
-def test_bad_arguments(arguments: list[str], words: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_invalid_arguments_are_reported_in_one_line(
+    arguments: list[str], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert main(["bench", *arguments]) == 2
     err = capsys.readouterr().err
-    assert words in err
+    assert message in err
     assert err.count("\n") == 1

@@ -1,4 +1,4 @@
-"""The bench of hulls: peers that are there or not, rows beside their peers, slopes."""
+"""The benchmarks of hulls: installed and missing peers, tables and slopes."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ POINTS = np.array([(x, y, z) for x in (0, 2) for y in (0, 2) for z in (0, 2)])
 
 
 def compiler(folder: Path, monkeypatch: pytest.MonkeyPatch, script: str) -> None:
-    """A C++ compiler that is a script; OUT is what it is to make."""
+    """Install a script as C++ compiler. In it, OUT is the file to create."""
     made = folder / "compiler"
     made.write_text(f'#!/bin/sh\nwhile [ "$1" != -o ]; do shift; done\nOUT=$2\n{script}\n')
     made.chmod(0o755)
@@ -37,8 +37,8 @@ END
 chmod +x "$OUT\""""
 
 
-def test_a_program_times_itself(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The second of its two runs counts, not the process."""
+def test_cgal_program_times_itself(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The result is the second of its two runs, not the time of the process."""
     compiler(tmp_path, monkeypatch, PROGRAM)
     work = cgal(tmp_path)(POINTS)
     assert work() == Measured(0.25)
@@ -46,46 +46,46 @@ def test_a_program_times_itself(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
     assert side_by_side({"CGAL": work})[0].seconds == (0.25, 0.25)
 
 
-def test_libraries_that_are_not_there_are_left_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_missing_libraries_are_omitted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     compiler(tmp_path, monkeypatch, f'case "$*" in *-l*) exit 1;; esac\n{PROGRAM}')
     assert cgal(tmp_path)(POINTS)() == 0.25
 
 
 @pytest.mark.parametrize(
-    ("script", "words"),
+    ("script", "message"),
     [
         (
             'echo "hull.cpp:2: fatal error: CGAL/x.h: No such file" >&2; exit 1',
-            "with its headers: hull.cpp:2: fatal error",
+            "with CGAL's headers: hull.cpp:2: fatal error",
         ),
         ("exit 1", "no reason given"),
     ],
 )
-def test_a_compiler_without_the_headers(
-    script: str, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def test_missing_headers_are_reported(
+    script: str, message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     compiler(tmp_path, monkeypatch, script)
-    with pytest.raises(Missing, match=words) as caught:
+    with pytest.raises(Missing, match=message) as caught:
         cgal(tmp_path)
     assert "\n" not in str(caught.value)
 
 
-def test_no_peers(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A line each says what is missing, and our rows are measured alone."""
+def test_tables_work_without_peers(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each missing peer has one line, and the project's rows are measured alone."""
     monkeypatch.setenv("CXX", "nothere")
     monkeypatch.setitem(sys.modules, "scipy.spatial", None)
     monkeypatch.setattr("modern.bench.timing.RUNS", 1)
-    with Peers() as found:
-        assert found.found == {}
-        assert found.remarks == [
-            "Qhull is left out: scipy is not installed",
-            "CGAL is left out: no C++ compiler is found (c++, g++, clang++, or CXX)",
+    with Peers() as available:
+        assert available.installed == {}
+        assert available.remarks == [
+            "Qhull is omitted: scipy is not installed",
+            "CGAL is omitted: no C++ compiler is installed (c++, g++, clang++, or CXX)",
         ]
-        table = hulls.table("eight points", POINTS, {"judge": lambda: None}, found)
+        table = hulls.table("eight points", POINTS, {"judge": lambda: None}, available)
     assert table.lines()[0].split() == ["eight", "points", "seconds"]
 
 
-def test_rows_beside_their_peers() -> None:
+def test_table_has_ratios_to_the_peers() -> None:
     rows = (Figure("judge", (0.3, 0.2, 0.1)), Figure("Qhull", (0.1,)), Figure("CGAL", (0.05,)))
     lines = hulls.Table("100 points", rows, ("Qhull", "CGAL")).lines()
     assert [line.split() for line in lines] == [
@@ -97,39 +97,38 @@ def test_rows_beside_their_peers() -> None:
     assert max(map(len, lines)) <= 78
 
 
-def test_every_row_is_measured(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Each table has judge or port, by numpy and where numba is by the kernels, and each peer."""
+def test_every_table_measures_judge_or_port_and_peers(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("scipy")
     monkeypatch.setattr("modern.bench.timing.RUNS", 1)
     monkeypatch.setattr(hulls, "find_spec", lambda name: None)
     monkeypatch.setattr(hulls, "starts", lambda: iter(()))
     monkeypatch.setattr(peers, "cgal", lambda folder: qhull())
-    found = list(hulls.lines(100))
-    names = [line.split()[0].rstrip(",") for line in found]
+    names = [line.split()[0].rstrip(",") for line in hulls.lines(100)]
     assert names == ["100", "port", "Qhull", "CGAL", *["100", "judge", "Qhull", "CGAL"] * 3]
     assert bench.GROUPS["hulls"] is hulls.lines
-    with Peers() as others:
-        curves = hulls.growth(others, (20, 40))
+    with Peers() as available:
+        curves = hulls.growth(available, (20, 40))
     assert [curve.name for curve in curves] == ["judge, numpy", "port, numpy", "Qhull", "CGAL"]
     assert all([count for count, _ in curve.points] == [20, 40] for curve in curves)
 
 
-def test_slopes() -> None:
+def test_slope_is_the_exponent_of_growth() -> None:
     points = [(10, 99.0), *((count, 2e-6 * count**1.25) for count in (100, 1_000, 10_000))]
     assert Curve("", points, {}).slope(100) == pytest.approx(1.25)
     assert Curve("", points, {}).slope(10_000) is None
 
 
-def test_seconds_of_the_processor() -> None:
-    """What waits costs none."""
+def test_waiting_is_not_counted_as_processor_time() -> None:
     figure = side_by_side({"waits": lambda: time.sleep(0.02)}, clock=time.process_time)[0]
     assert figure.median < 0.01
     assert side_by_side({"waits": lambda: time.sleep(0.02)})[0].median >= 0.02
 
 
-def test_linear_algebra_has_one_thread_as_the_peers_have() -> None:
-    """A process of its own: what numpy reads when it is loaded."""
-    words = "import os, sys, modern.bench; print(os.environ['OPENBLAS_NUM_THREADS'], 'numpy' in sys.modules)"
+def test_linear_algebra_uses_one_thread() -> None:
+    """A separate process is needed, because numpy reads the setting when it is loaded."""
+    script = "import os, sys, modern.bench; print(os.environ['OPENBLAS_NUM_THREADS'], 'numpy' in sys.modules)"
     environment = {name: value for name, value in os.environ.items() if name != "OPENBLAS_NUM_THREADS"}
-    found = subprocess.run([sys.executable, "-c", words], env=environment, capture_output=True, text=True, check=True)
-    assert found.stdout == "1 False\n"
+    process = subprocess.run(
+        [sys.executable, "-c", script], env=environment, capture_output=True, text=True, check=True
+    )
+    assert process.stdout == "1 False\n"
