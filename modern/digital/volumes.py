@@ -205,7 +205,7 @@ def _listed(text: str, source: str) -> Volume:
     voxels: list[tuple[int, ...]] = []
     for line, row in rows(text, source):
         if len(row) not in (2, 3) or (voxels and len(row) != len(voxels[0])):
-            expected = f"{len(voxels[0])}" if voxels else "three, x,y,z (or two, x,y)"
+            expected = f"{len(voxels[0])}" if voxels else "3 (x,y,z) or 2 (x,y)"
             raise VolumeError(f"{source}: line {line}, column 1: expected {expected} fields, found {len(row)}")
         for field, text in enumerate(row, 1):
             if not _INTEGER.fullmatch(text.strip()):

@@ -1,4 +1,4 @@
-"""What tests of digital hulls share: random solids, and the grid points of a hull by the exact judge."""
+"""Helpers for tests of digital hulls: random solids, and the grid points of a hull by the exact judge."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from modern.exact_hull import exact_hull
 
 
 def random_solid(source: random.Random, side: int, steps: int = 120) -> Any:
-    """A 6-connected solid: voxels set one after the other, each beside one that is set, in a box of random sides."""
+    """Return a 6-connected solid: voxels added one by one next to existing ones, in a box with random sides."""
     shape = tuple(source.randint(1, side) for _ in range(3))
     voxels = [tuple(source.randrange(length) for length in shape)]
     array = np.zeros(shape, dtype=np.bool_)
@@ -27,7 +27,7 @@ def random_solid(source: random.Random, side: int, steps: int = 120) -> Any:
 
 
 def judged(array: Any) -> tuple[int, Any]:
-    """Dimension and grid points of the hull of a volume's voxels: every point of the box tried on every facet."""
+    """Return dimension and grid points of the hull of a volume, testing every point of the box against every facet."""
     shape = array.shape + (1,) * (3 - array.ndim)
     hull = exact_hull(np.argwhere(array.reshape(shape)))
     points = np.array(hull.scaled, dtype=object)
@@ -46,9 +46,9 @@ def judged(array: Any) -> tuple[int, Any]:
 
 
 def solid_of(voxels: Any) -> Any:
-    """The smallest array that holds these voxels."""
-    places = np.array(voxels)
-    places -= places.min(axis=0)
-    array = np.zeros(places.max(axis=0) + 1, dtype=np.bool_)
-    array[tuple(places.T)] = True
+    """Return the smallest array that contains these voxels."""
+    corners = np.array(voxels)
+    corners -= corners.min(axis=0)
+    array = np.zeros(corners.max(axis=0) + 1, dtype=np.bool_)
+    array[tuple(corners.T)] = True
     return array

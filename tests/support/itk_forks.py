@@ -1,6 +1,7 @@
-"""The child that reads volumes by SimpleITK, many times over: the library is loaded once, each file read in a fork.
+"""A fast form of the process that reads volumes with SimpleITK: the library is loaded once and each file is read in a
+fork.
 
-Loading it takes longer than reading a small file.  What a fork does, and what becomes of it, is as in a new process.
+Loading the library takes longer than reading a small file. A fork behaves and ends like a new process.
 """
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ import json
 import subprocess
 import sys
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 
 import pytest
@@ -40,30 +41,40 @@ for line in sys.stdin:
 """
 
 
-@contextmanager
-def forks(monkeypatch: pytest.MonkeyPatch, seconds: int = 60) -> Iterator[Counter[int]]:
-    """Within this, a volume is read in a fork; one that takes longer than so many seconds ends by SIGALRM.
+Run = Callable[[Sequence[str], str, float], int]
+"""A replacement of ``itk._run``."""
 
-    Gives how often each exit code came: 0, or a negative signal where the library crashed.
+
+@contextmanager
+def fork_server(seconds: int = 60) -> Iterator[tuple[Run, Counter[int]]]:
+    """Start a process that loads the library once and forks for each file, with SIGALRM after ``seconds``.
+
+    Yield a replacement of ``itk._run``, and a count of the exit codes: 0, or a negative signal after a crash.
     """
-    words = [sys.executable, "-P", "-W", "ignore", "-c", _SERVER, itk._CHILD, str(seconds)]
+    command = [sys.executable, "-P", "-W", "ignore", "-c", _SERVER, itk._CHILD, str(seconds)]
     with subprocess.Popen(
-        words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+        command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
     ) as server:
         assert server.stdin is not None
         assert server.stdout is not None
-        asked, answered = server.stdin, server.stdout
-        answered.readline()
+        requests, answers = server.stdin, server.stdout
+        answers.readline()
         endings: Counter[int] = Counter()
 
-        def run(words: Sequence[str], _: str, __: float) -> int:
-            asked.write(json.dumps(list(words)) + "\n")
-            asked.flush()
-            code = int(answered.readline())
+        def run(arguments: Sequence[str], _: str, __: float) -> int:
+            requests.write(json.dumps(list(arguments)) + "\n")
+            requests.flush()
+            code = int(answers.readline())
             endings[code] += 1
             return code
 
-        with monkeypatch.context() as patched:
-            patched.setattr(itk, "_run", run)
-            yield endings
-        asked.close()
+        yield run, endings
+        requests.close()
+
+
+@contextmanager
+def forks(monkeypatch: pytest.MonkeyPatch, seconds: int = 60) -> Iterator[Counter[int]]:
+    """Read volumes in forks of one server process. Yield the count of exit codes."""
+    with fork_server(seconds) as (run, endings), monkeypatch.context() as patched:
+        patched.setattr(itk, "_run", run)
+        yield endings

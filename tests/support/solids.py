@@ -1,4 +1,4 @@
-"""Solids in doubles and as triangles, and the rule for joining faces once more, in fractions and without haste."""
+"""Solids in doubles and as triangles, and a simple exact implementation of the rule that merges coplanar faces."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ ELL_FACES = [(5, 4, 3, 2, 1, 0), (6, 7, 8, 9, 10, 11), *((k, (k + 1) % 6, (k + 1
 
 
 def dodecahedron() -> list[tuple[float, float, float]]:
-    """A regular dodecahedron about the origin, turned so that no coordinate is a short number."""
+    """Return a regular dodecahedron around the origin, rotated so that all coordinates have many digits."""
     golden = (1 + math.sqrt(5)) / 2
     points = [(a, b, c) for a in (-1.0, 1.0) for b in (-1.0, 1.0) for c in (-1.0, 1.0)]
     for a in (-1, 1):
@@ -33,20 +33,20 @@ def dodecahedron() -> list[tuple[float, float, float]]:
 
 
 def joined_faces(surface: Mesh, within: Fraction) -> tuple[list[list[int]], Fraction]:
-    """The faces of a convex surface that are read as one, and the square of the largest distance from a plane."""
+    """Return the groups of merged faces of a convex surface, and the square of the largest distance from a plane."""
     points = surface.numbers()
     corners = [[points[place] for place in face] for face in surface.faces]
     normals = [_normal(face) for face in corners]
-    left = sorted(range(len(corners)), key=lambda k: (-_dot(normals[k], normals[k]), k))
+    remaining = sorted(range(len(corners)), key=lambda k: (-_dot(normals[k], normals[k]), k))
     groups, greatest = [], Fraction(0)
-    while left:
-        leader = left[0]
+    while remaining:
+        leader = remaining[0]
         group = [leader]
         changed = True
         while changed:
             changed = False
-            for face in left:
-                near = any(len(set(surface.faces[face]) & set(surface.faces[other])) >= 2 for other in group)
+            for face in remaining:
+                near = any(len(set(surface.faces[face]) & set(surface.faces[member])) >= 2 for member in group)
                 if face in group or not near or _dot(normals[face], normals[leader]) <= 0:
                     continue
                 square = max(_square(normals[leader], corners[leader][0], point) for point in corners[face])
@@ -55,12 +55,12 @@ def joined_faces(surface: Mesh, within: Fraction) -> tuple[list[list[int]], Frac
                     greatest = max(greatest, square)
                     changed = True
         groups.append(sorted(group))
-        left = [face for face in left if face not in group]
+        remaining = [face for face in remaining if face not in group]
     return sorted(groups), greatest
 
 
 def _normal(corners: list[Vector]) -> Vector:
-    """The sum of the cross products of neighbouring corners."""
+    """Return the sum of the cross products of neighbouring corners."""
     total = [Fraction(0)] * 3
     for (a, b, c), (d, e, f) in zip(corners, [*corners[1:], corners[0]], strict=True):
         total = [old + new for old, new in zip(total, (b * f - c * e, c * d - a * f, a * e - b * d), strict=True)]
@@ -76,16 +76,16 @@ def _square(normal: Vector, base: Vector, point: Vector) -> Fraction:
 
 
 def twelve_faces() -> Hull:
-    """The dodecahedron's hull with its faces joined: pentagons that are plane but for rounding."""
+    """Return the dodecahedron's hull with merged faces: pentagons that are plane except for rounding."""
     return coplanar(convex_hull(dodecahedron()), "1e-9")[0]
 
 
 def cut(points: Sequence[Point], faces: Sequence[tuple[int, ...]]) -> list[tuple[Point, ...]]:
-    """Faces cut into triangles, from their first corners."""
+    """Return faces divided into triangles from their first corners."""
     return [(points[f[0]], points[f[k]], points[f[k + 1]]) for f in faces for k in range(1, len(f) - 1)]
 
 
 def binary_stl(triangles: Sequence[Sequence[Point]]) -> bytes:
-    """Triangles as a binary STL file."""
+    """Return triangles as a binary STL file."""
     rows = (struct.pack("<12fH", 0, 0, 0, *(c for corner in t for c in corner), 0) for t in triangles)
     return b"parts".ljust(80) + struct.pack("<I", len(triangles)) + b"".join(rows)

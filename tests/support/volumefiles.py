@@ -1,4 +1,4 @@
-"""Volumes as the bytes of files, written out by hand as the definitions of the formats describe them."""
+"""Volumes as the bytes of files, written by hand from the definitions of the formats."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ PLACE = (
     "space origin: (-10,5,0.25)",
     'space units: "mm" "mm" "mm"',
 )
-"""Fields of an NRRD header: spacing 0.5 0.5 2 mm, the second axis to the front."""
+"""Fields of an NRRD header: spacing 0.5 0.5 2 mm, the second axis toward anterior."""
 _TYPES = {"uint8": 2, "int16": 4, "float32": 16}
-"""NIfTI's numbers of types."""
+"""The type codes of NIfTI."""
 
 
 def nrrd(array: np.ndarray, *fields: str) -> bytes:
-    """An NRRD file of bytes; ``fields`` are further lines of its header."""
+    """Return an NRRD file of bytes. ``fields`` are additional lines of its header."""
     head = ["NRRD0005", "type: uint8", f"dimension: {array.ndim}", f"sizes: {' '.join(map(str, array.shape))}"]
     return "\n".join([*head, "encoding: raw", *fields, "", ""]).encode() + array.astype(np.uint8).tobytes("F")
 
@@ -26,9 +26,9 @@ def nrrd(array: np.ndarray, *fields: str) -> bytes:
 def nifti(
     array: np.ndarray, spacing: Sequence[float], origin: Sequence[float], by: str = "sform", units: int = 2
 ) -> bytes:
-    """A NIfTI file (nifti1.h) of three axes along right, anterior and superior.
+    """Return a NIfTI file (nifti1.h) with three axes toward right, anterior and superior.
 
-    by: ``sform``, ``qform``, or ``none`` for no orientation.  units: 2 for millimetres, 0 for none.
+    ``by`` is ``sform``, ``qform``, or ``none`` for no orientation. ``units`` is 2 for millimetres and 0 for none.
     """
     header = bytearray(352)
 

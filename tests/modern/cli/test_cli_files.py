@@ -98,7 +98,7 @@ def test_bytes_that_are_no_text(capsys: pytest.CaptureFixture[str], reader: str)
     if reader in SOURCE_DECKS:
         assert message == "bytes: card 2, column 3: '\u00ff' is not in the card code"
     elif reader in ("octree-hull", "voxel-hull"):
-        assert message == "bytes: neither NPY nor NRRD nor text in UTF-8; bare numbers need --shape NX,NY,NZ"
+        assert message == "bytes: not NPY, NRRD or UTF-8 text; raw data need --shape NX,NY,NZ"
     else:
         assert message == "bytes: line 2, column 3: not a text file in UTF-8"
 

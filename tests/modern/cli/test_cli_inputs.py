@@ -114,7 +114,7 @@ def test_a_raw_volume_without_a_shape_asks_for_it(folder: Path, capsys: pytest.C
     for command in ("voxel-hull", "octree-hull"):
         code, _, err = call(capsys, command, "a.raw")
         assert code == 2
-        assert "bare numbers need --shape NX,NY,NZ" in err
+        assert "raw data need --shape NX,NY,NZ" in err
     assert call(capsys, "voxel-hull", "a.raw", "--shape", "5,5,5")[0] == 0
 
 

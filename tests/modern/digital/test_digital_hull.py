@@ -1,4 +1,4 @@
-"""The filled digital hull: against the exact judge, between its own ways, and where others give no answer."""
+"""The digital hull compared with the exact judge, with scikit-image, and between its own implementations."""
 
 from __future__ import annotations
 
@@ -40,21 +40,23 @@ def agrees(array: Any, fast: bool = False) -> bool:
 
 
 @given(VOLUMES)
-def test_any_volume_has_the_grid_points_of_the_judge(array: np.ndarray) -> None:
+def test_hull_has_the_grid_points_of_the_judge(array: np.ndarray) -> None:
     assert agrees(array)
 
 
 @given(st.integers(0, 10**9))
-def test_random_solids_have_the_grid_points_of_the_judge(seed: int) -> None:
+def test_hull_of_a_connected_solid_has_the_grid_points_of_the_judge(seed: int) -> None:
     assert agrees(random_solid(random.Random(seed), side=9))
 
 
 @given(st.integers(0, 10**9), st.tuples(*[st.integers(-3, 3)] * 3), st.integers(-4, 9))
-def test_voxels_of_one_plane(seed: int, normal: tuple[int, int, int], offset: int) -> None:
+def test_coplanar_voxels_have_the_grid_points_of_the_judge(
+    seed: int, normal: tuple[int, int, int], offset: int
+) -> None:
     source = np.random.default_rng(seed)
     array = source.random((7, 6, 8)) < 0.4
-    places = np.indices(array.shape).reshape(3, -1).T
-    array &= (places @ np.array(normal) == offset).reshape(array.shape)
+    positions = np.indices(array.shape).reshape(3, -1).T
+    array &= (positions @ np.array(normal) == offset).reshape(array.shape)
     assert not array.any() or agrees(array)
 
 
@@ -75,7 +77,9 @@ def test_the_comparison_with_the_judge_can_fail(monkeypatch: pytest.MonkeyPatch)
         ([(0, 0, 0), (3, 0, 0), (0, 3, 0), (0, 0, 3)], "polyhedron"),
     ],
 )
-def test_kinds(voxels: list[tuple[int, int, int]], kind: str) -> None:
+def test_hulls_of_every_dimension_have_the_grid_points_of_the_judge(
+    voxels: list[tuple[int, int, int]], kind: str
+) -> None:
     array = solid_of(voxels)
     for hull in (digital_hull(array), digital_hull(np.asfortranarray(array)), digital_hull(array.astype(float))):
         assert hull.kind == kind == KINDS[hull.dimension]
@@ -90,7 +94,7 @@ def test_an_empty_volume_has_no_hull(shape: tuple[int, ...]) -> None:
         digital_hull(np.zeros(shape, dtype=np.uint8))
 
 
-def test_a_picture_has_a_polygon_at_most() -> None:
+def test_hull_of_a_picture_is_a_polygon() -> None:
     picture = np.zeros((5, 6), dtype=np.bool_)
     picture[0, 0] = picture[4, 1] = picture[2, 5] = True
     hull = digital_hull(picture)
@@ -99,14 +103,14 @@ def test_a_picture_has_a_polygon_at_most() -> None:
 
 
 @given(VOLUMES, st.permutations(range(3)))
-def test_axes_and_memory_do_not_matter(array: np.ndarray, order: list[int]) -> None:
+def test_order_of_axes_does_not_change_the_hull(array: np.ndarray, order: list[int]) -> None:
     axes = order if array.ndim == 3 else [axis for axis in order if axis < 2]
     turned = digital_hull(array.transpose(axes)[..., ::-1])
     assert np.array_equal(turned.filled[..., ::-1].transpose(np.argsort(axes)), digital_hull(array).filled)
 
 
 @pytest.mark.parametrize("axes", list(itertools.permutations(range(3))))
-def test_the_axes_stay_in_their_order_whatever_that_of_memory(axes: tuple[int, int, int]) -> None:
+def test_result_has_the_axes_of_the_volume_in_any_memory_order(axes: tuple[int, int, int]) -> None:
     array = np.zeros((3, 5, 7), dtype=np.bool_)
     array[0, 0, 0] = array[2, 1, 3] = array[1, 4, 2] = array[0, 2, 6] = True
     assert agrees(array.transpose(axes))
@@ -115,26 +119,26 @@ def test_the_axes_stay_in_their_order_whatever_that_of_memory(axes: tuple[int, i
 @given(VOLUMES)
 def test_the_hull_holds_its_volume_and_is_its_own_hull(array: np.ndarray) -> None:
     hull = digital_hull(array)
-    again = digital_hull(hull.filled)
+    repeated = digital_hull(hull.filled)
     assert not (array & ~hull.filled).any()
-    assert np.array_equal(again.filled, hull.filled)
-    assert again.dimension == hull.dimension
+    assert np.array_equal(repeated.filled, hull.filled)
+    assert repeated.dimension == hull.dimension
 
 
 @pytest.mark.parametrize("diameter", [12, 33])
-def test_a_ball_is_convex(diameter: int) -> None:
+def test_ball_is_its_own_hull(diameter: int) -> None:
     volume = ball(diameter, VERTEX)
     assert np.array_equal(digital_hull(volume).filled, volume.array)
 
 
-def test_planes_of_a_ball_against_the_judge() -> None:
+def test_hull_of_a_ball_surface_has_the_grid_points_of_the_judge() -> None:
     array = ball(18).array
     surface = array.copy()
     surface[1:-1, 1:-1, 1:-1] &= ~(array[:-2, 1:-1, 1:-1] & array[2:, 1:-1, 1:-1])
     assert agrees(surface)
 
 
-def test_small_batches_give_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_batch_size_does_not_change_the_hull(monkeypatch: pytest.MonkeyPatch) -> None:
     array = ball(15).array & (np.indices((15, 15, 15)).sum(axis=0) % 5 == 0)
     whole = digital_hull(array)
     monkeypatch.setattr(columns, "SLAB", 1)
@@ -143,7 +147,7 @@ def test_small_batches_give_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
     assert agrees(array)
 
 
-def test_compiled_code_gives_the_same_facets() -> None:
+def test_compiled_facets_equal_plain_facets() -> None:
     pytest.importorskip("numba")
     points = np.argwhere(ball(24).array)
     simplex = (0, len(points) - 1, len(points) // 2, len(points) // 3)
@@ -158,20 +162,20 @@ def no_numba() -> None:
     raise NotInstalled("compiled code needs numba")
 
 
-def test_compiled_code_is_taken_where_it_pays(monkeypatch: pytest.MonkeyPatch) -> None:
-    asked = []
+def test_compiled_code_runs_for_large_volumes_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    calls = []
 
-    def noted(points: Any, simplex: Any, fast: bool) -> Any:
-        asked.append((len(points) >= WORTH_COMPILING, fast))
+    def recorded(points: Any, simplex: Any, fast: bool) -> Any:
+        calls.append((len(points) >= WORTH_COMPILING, fast))
         return polyhedron(points, simplex, False)
 
-    monkeypatch.setattr("modern.digital.hull.polyhedron", noted)
+    monkeypatch.setattr("modern.digital.hull.polyhedron", recorded)
     monkeypatch.setattr("modern.digital.hull.compiled_hull", lambda: None)
     digital_hull(ball(10))
     digital_hull(ball(64))
     monkeypatch.setattr("modern.digital.hull.compiled_hull", no_numba)
     digital_hull(ball(64))
-    assert asked == [(False, False), (True, True), (True, False)]
+    assert calls == [(False, False), (True, True), (True, False)]
 
 
 def test_compiled_code_without_numba_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -190,24 +194,24 @@ def test_compiled_code_without_numba_is_an_error(monkeypatch: pytest.MonkeyPatch
         (np.broadcast_to(np.True_, (1 << 30, 1 << 30)), "no exact hull"),
     ],
 )
-def test_what_is_no_volume_is_refused(array: np.ndarray, message: str) -> None:
+def test_invalid_arrays_are_refused(array: np.ndarray, message: str) -> None:
     with pytest.raises(VolumeError, match=message):
         digital_hull(array)
 
 
-def test_the_public_name() -> None:
+def test_modern_exports_digital_hull() -> None:
     assert modern.digital_hull is digital_hull
     assert modern.digital_hull(Volume(np.ones((2, 2), dtype=np.bool_), (5, 5))).voxels == 4
 
 
 @given(VOLUMES)
-def test_scikit_image_by_centres_agrees_where_it_answers(array: np.ndarray) -> None:
-    """``offset_coordinates=False``: its hull is of centres too; of flat volumes it returns nothing."""
+def test_hull_agrees_with_scikit_image(array: np.ndarray) -> None:
+    """With ``offset_coordinates=False`` its hull is one of voxel centres too. It returns nothing for flat volumes."""
     morphology = pytest.importorskip("skimage.morphology")
     hull = digital_hull(array)
     if hull.dimension == array.ndim:
-        theirs = morphology.convex_hull_image(array, offset_coordinates=False)
-        assert np.array_equal(theirs, hull.filled)
+        reference = morphology.convex_hull_image(array, offset_coordinates=False)
+        assert np.array_equal(reference, hull.filled)
 
 
 @pytest.mark.filterwarnings("ignore:Failed to get convex hull image")

@@ -1,4 +1,4 @@
-"""NIfTI, MetaImage, TIFF and DICOM by SimpleITK, which writes the samples; whatever becomes of it is one line."""
+"""NIfTI, MetaImage, TIFF and DICOM read by SimpleITK, which also writes the samples. Every failure is one line."""
 
 from __future__ import annotations
 
@@ -21,13 +21,15 @@ from modern.digital.scans import Scan
 from modern.digital.solids import VolumeError
 from modern.digital.volumes import Stated, read_scan, read_volume, write_array
 from modern.digital.world import LPS, RAS
+from tests.support.itk_forks import Run, fork_server
 from tests.support.paths import ROOT
 from tests.support.volumefiles import nifti
 
 sitk: Any = pytest.importorskip("SimpleITK")
+REAL_RUN = itk._run
 
 VALUES = (np.arange(24).reshape(2, 3, 4) % 5).astype(np.int16)
-"""Indexed [x, y, z], at places that no exchange of axes leaves alone."""
+"""Values indexed [x, y, z] that change under every exchange of axes."""
 TURNED = (math.cos(0.3), -math.sin(0.3), 0, math.sin(0.3), math.cos(0.3), 0, 0, 0, -1)
 
 
@@ -36,12 +38,29 @@ def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
 
 
+@pytest.fixture(scope="module")
+def server() -> Iterator[Run]:
+    with fork_server() as (run, _):
+        yield run
+
+
+@pytest.fixture(autouse=True)
+def _forks(server: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(itk, "_run", server)
+
+
+@pytest.fixture
+def separate_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Read each file in a new process, as the commands do."""
+    monkeypatch.setattr(itk, "_run", REAL_RUN)
+
+
 @pytest.fixture(autouse=True)
 def _locale() -> Iterator[None]:
-    """Writing DICOM sets the locale of the process to C; the command reads in a process of its own."""
-    before = locale.setlocale(locale.LC_ALL)
+    """Restore the locale, because writing DICOM sets that of the process to C."""
+    previous = locale.setlocale(locale.LC_ALL)
     yield
-    locale.setlocale(locale.LC_ALL, before)
+    locale.setlocale(locale.LC_ALL, previous)
 
 
 def written(name: str, direction: Any = (1, 0, 0, 0, -1, 0, 0, 0, 1), values: np.ndarray = VALUES) -> str:
@@ -55,14 +74,14 @@ def written(name: str, direction: Any = (1, 0, 0, 0, -1, 0, 0, 0, 1), values: np
 
 
 def series(folder: str, heights: tuple[float, ...] = (0.0, 1.5, 3.0, 4.5), uid: str = "1.2.3") -> str:
-    """A DICOM series of slices along z, written last slice first."""
+    """Write a DICOM series of slices along z, the last slice first."""
     Path(folder).mkdir(exist_ok=True)
     writer = sitk.ImageFileWriter()
     writer.KeepOriginalImageUIDOn()
     for number, height in reversed(list(enumerate(heights))):
         image = sitk.GetImageFromArray(VALUES[:, :, number].T)
         image.SetSpacing((0.5, 0.25))
-        said = {
+        metadata = {
             "0020|0032": f"-10\\20\\{height}",
             "0020|0037": "1\\0\\0\\0\\1\\0",
             "0020|0013": str(number),
@@ -73,7 +92,7 @@ def series(folder: str, heights: tuple[float, ...] = (0.0, 1.5, 3.0, 4.5), uid: 
             "0028|1052": "0",
             "0028|1053": "1",
         }
-        for key, value in said.items():
+        for key, value in metadata.items():
             image.SetMetaData(key, value)
         writer.SetFileName(f"{folder}/{uid}-{9 - number}.dcm")
         writer.Execute(image)
@@ -81,7 +100,7 @@ def series(folder: str, heights: tuple[float, ...] = (0.0, 1.5, 3.0, 4.5), uid: 
 
 
 @pytest.mark.parametrize("name", ["a.nii", "a.nii.gz", "A.NII.GZ", "a.mha", "a.mhd"])
-def test_values_and_places_are_those_of_the_library(name: str) -> None:
+def test_values_and_positions_are_those_of_the_library(name: str) -> None:
     os.rename(written(name.lower()), name)
     scan = read_scan(name)
     assert np.array_equal(scan.values, VALUES)
@@ -103,12 +122,12 @@ def test_oblique_directions_are_the_columns_of_the_matrix(name: str) -> None:
         ours = [float(number) for number in scan.world.place(voxel)]
         assert ours == pytest.approx(image.TransformIndexToPhysicalPoint(voxel), abs=1e-12)
     if name == "a.mha":
-        # A double is taken as the shortest decimal that names it: for a text of few digits, the text.
+        # A double becomes the shortest decimal that identifies it, which for a short text is the text.
         assert scan.world.steps[1][1] == Fraction(repr(math.cos(0.3))) / 4
 
 
-def test_nifti_tells_left_from_right_as_nifti_does() -> None:
-    """The file's world is RAS, the library's LPS."""
+def test_nifti_orientation_is_converted_to_lps() -> None:
+    """The positions of the file are RAS, those of the library LPS."""
     for by in ("sform", "qform"):
         Path("a.nii").write_bytes(nifti(VALUES, (0.5, 0.25, 2), (10, 20, 30), by))
         scan = read_scan("a.nii")
@@ -121,7 +140,7 @@ def test_nifti_tells_left_from_right_as_nifti_does() -> None:
         assert turned.steps == ((Fraction(1, 2), 0, 0), (0, Fraction(1, 4), 0), (0, 0, 2))
 
 
-def test_what_a_nifti_file_does_not_state_is_said() -> None:
+def test_missing_nifti_orientation_is_noted() -> None:
     Path("a.nii").write_bytes(nifti(VALUES, (0.5, 0.25, 2), (0, 0, 0), "none", units=0))
     scan = read_scan("a.nii")
     assert scan.notes == ("a.nii: the file states no orientation (qform and sform are 0)",)
@@ -130,7 +149,7 @@ def test_what_a_nifti_file_does_not_state_is_said() -> None:
 
 
 @pytest.mark.parametrize("name", ["a.nii", "a.mha"])
-def test_one_moment_of_time_is_a_volume_and_more_are_not(name: str) -> None:
+def test_a_single_point_in_time_is_a_volume_and_several_are_refused(name: str) -> None:
     image = sitk.GetImageFromArray(VALUES.T)
     image.SetSpacing((0.5, 0.25, 2.0))
     sitk.WriteImage(sitk.JoinSeries([image], 7.0, 3.0), name)
@@ -139,15 +158,15 @@ def test_one_moment_of_time_is_a_volume_and_more_are_not(name: str) -> None:
     assert scan.world is not None
     assert [text for text, _ in scan.world.spacings()] == ["0.5", "0.25", "2"]
     sitk.WriteImage(sitk.JoinSeries([image, image]), name)
-    with pytest.raises(VolumeError, match=f"{name}: 4 axes, 2 x 3 x 4 x 2; a volume has two or three"):
+    with pytest.raises(VolumeError, match=f"{name}: expected two or three axes, found 4, 2 x 3 x 4 x 2"):
         read_scan(name)
 
 
-def test_a_tiff_file_has_no_place() -> None:
+def test_a_tiff_file_has_no_position() -> None:
     scan = read_scan(written("a.tif", values=VALUES.astype(np.uint8)))
     assert np.array_equal(scan.values, VALUES)
     assert scan.world is None
-    assert scan.notes == ("a.tif: the resolution of a TIFF file is not taken for the spacing of its voxels",)
+    assert scan.notes == ("a.tif: the resolution of a TIFF file is not used as the spacing of its voxels",)
     placed = read_scan("a.tif", Stated(spacing=("0.1", "0.1", 1)))
     assert placed.world is not None
     assert placed.world.steps[0] == (Fraction(1, 10), 0, 0)
@@ -155,15 +174,15 @@ def test_a_tiff_file_has_no_place() -> None:
     assert np.array_equal(picture.values, VALUES[:, :, 0])
 
 
-def test_every_kind_of_number() -> None:
+def test_all_types_of_numbers_are_read() -> None:
     for kind in ("u1", "i1", "u2", "i4", "u4", "f4", "f8"):
         array = VALUES.astype(kind)
-        found = read_scan(written("a.mha", values=array)).values
-        assert found.dtype == array.dtype
-        assert np.array_equal(found, array)
+        values = read_scan(written("a.mha", values=array)).values
+        assert values.dtype == array.dtype
+        assert np.array_equal(values, array)
 
 
-def test_a_dicom_series_is_a_folder_in_the_order_of_its_slices() -> None:
+def test_a_dicom_series_is_read_in_the_order_of_its_slices() -> None:
     scan = read_scan(series("ct"))
     assert np.array_equal(scan.values, VALUES)
     assert scan.world is not None
@@ -175,15 +194,17 @@ def test_a_dicom_series_is_a_folder_in_the_order_of_its_slices() -> None:
 
 def test_uneven_slices_are_noted() -> None:
     scan = read_scan(series("ct", (0.0, 1.5, 3.0, 7.5)))
-    assert scan.notes == ("ct: slices lie 1.5 to 4.5 mm apart; they are taken as evenly spaced",)
+    assert scan.notes == ("ct: slices are 1.5 to 4.5 mm apart and are treated as evenly spaced",)
 
 
-def test_one_of_several_series_is_named() -> None:
+def test_one_of_several_series_can_be_selected() -> None:
     series("ct")
     series("ct", (0.0, 2.0, 4.0), "1.2.4")
-    with pytest.raises(VolumeError, match=r"ct: 2 DICOM series; --series names one of them: .*1\.2\.4\S* \(3 files\)"):
+    with pytest.raises(
+        VolumeError, match=r"ct: found 2 DICOM series; select one with --series: .*1\.2\.4\S* \(3 files\)"
+    ):
         read_scan("ct")
-    with pytest.raises(VolumeError, match=r"there is no series 7, only 1\.2\.3"):
+    with pytest.raises(VolumeError, match=r"there is no series 7; the folder has 1\.2\.3"):
         read_scan("ct", Stated(series="7"))
     listed = sitk.ImageSeriesReader.GetGDCMSeriesIDs("ct")
     three = next(name for name in listed if len(sitk.ImageSeriesReader.GetGDCMSeriesFileNames("ct", name)) == 3)
@@ -200,18 +221,18 @@ def test_one_of_several_series_is_named() -> None:
         (lambda: saved("a.mhd", Path(written("b.mhd")).read_bytes().replace(b"b.raw", b"c.raw")), "a.mhd: SimpleITK "),
         (lambda: saved("a.tif", b"no picture"), "a.tif: SimpleITK cannot read it as TIFF: "),
         (lambda: saved("a.dcm", b"no slice"), "a.dcm: SimpleITK cannot read it as DICOM: "),
-        (lambda: rgb("a.mha"), "a.mha: every voxel has 3 numbers; a volume has one"),
+        (lambda: rgb("a.mha"), "a.mha: expected one number for each voxel, found 3"),
         (lambda: endless("a.mha"), "a.mha: SimpleITK "),
-        (lambda: huge("a.mha"), "a.mha: 9000 x 9000 x 9000 voxels; at most 2147483648 are read"),
+        (lambda: huge("a.mha"), "a.mha: expected at most 2147483648 voxels, found 9000 x 9000 x 9000"),
     ],
 )
-def test_a_file_that_is_none_is_one_line(make: Callable[[], str], message: str, capfd: Any) -> None:
+def test_invalid_files_are_reported_in_one_line(make: Callable[[], str], message: str, capfd: Any) -> None:
     name = make()
     with pytest.raises(Exception, match=r"\S") as caught:
         read_scan(name)
     assert str(caught.value).startswith(message)
     assert "\n" not in str(caught.value)
-    assert ".cxx" not in str(caught.value)  # the library's own places
+    assert ".cxx" not in str(caught.value)  # locations in the library's source
     assert capfd.readouterr() == ("", "")
 
 
@@ -232,7 +253,7 @@ def rgb(name: str) -> str:
 
 
 def endless(name: str) -> str:
-    """A number of axes at which ITK 5.4 ends by a segmentation fault."""
+    """Write a number of axes at which ITK 5.4 ends with a segmentation fault."""
     data = Path(written(name)).read_bytes()
     return saved(name, data.replace(b"NDims = 3", b"NDims = 18446744073709551616"))
 
@@ -242,6 +263,7 @@ def huge(name: str) -> str:
     return saved(name, data.replace(b"DimSize = 2 3 4", b"DimSize = 9000 9000 9000"))
 
 
+@pytest.mark.usefixtures("separate_process")
 @pytest.mark.parametrize(
     ("child", "message"),
     [
@@ -249,10 +271,10 @@ def huge(name: str) -> str:
         ("import os; os.abort()", "SimpleITK crashed (SIGABRT) while it read the file"),
         ("raise SystemExit(7)", "SimpleITK ended with exit code 7 while it read the file"),
         ("print('noise')", "SimpleITK ended with exit code 0 while it read the file"),
-        ("import time; time.sleep(60)", "SimpleITK has not read it within 0.5 seconds"),
+        ("import time; time.sleep(60)", "SimpleITK did not read it within 0.5 seconds"),
     ],
 )
-def test_whatever_becomes_of_the_library_is_one_line(
+def test_every_failure_of_the_library_is_one_line(
     child: str, message: str, monkeypatch: pytest.MonkeyPatch, capfd: Any
 ) -> None:
     Path("child.py").write_text(f"print('noise', flush=True)\n{child}\n", encoding="utf-8")
@@ -265,7 +287,8 @@ def test_whatever_becomes_of_the_library_is_one_line(
     assert capfd.readouterr() == ("", "")
 
 
-def test_nothing_is_left_behind(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+@pytest.mark.usefixtures("separate_process")
+def test_temporary_files_are_removed(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("TMPDIR", str(tmp_path / "tmp"))
     monkeypatch.setattr("tempfile.tempdir", None)
     (tmp_path / "tmp").mkdir()
@@ -273,17 +296,19 @@ def test_nothing_is_left_behind(monkeypatch: pytest.MonkeyPatch, tmp_path: Path)
     assert os.listdir(tmp_path / "tmp") == []
 
 
-def test_a_missing_library_is_named_as_it_is_installed() -> None:
+def test_message_about_a_missing_library_says_how_to_install_it() -> None:
     written("a.nii")
     code = "import sys; sys.modules['SimpleITK'] = None; import hull1620; hull1620.read_volume('a.nii')"
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, env=environment)
-    assert done.stderr.splitlines()[-1].endswith("a.nii: NIfTI is read by SimpleITK: pip install 'hull1620[volumes]'")
+    process = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, env=environment)
+    assert process.stderr.splitlines()[-1].endswith(
+        "a.nii: reading NIfTI needs SimpleITK: pip install 'hull1620[volumes]'"
+    )
 
 
 @pytest.mark.parametrize("direction", [TURNED, (0, 0, 1, -1, 0, 0, 0, 1, 0)])
-def test_nrrd_is_read_and_written_as_the_library_reads_and_writes_it(direction: Any) -> None:
-    """Our own reader and writer against the library's, in both senses."""
+def test_nrrd_agrees_with_the_library(direction: Any) -> None:
+    """Compare the project's reader and writer with those of the library, in both directions."""
     scan = read_scan(written("a.nrrd", direction, VALUES.astype(np.uint8)))
     image = sitk.ReadImage("a.nrrd")
     assert np.array_equal(scan.values, sitk.GetArrayFromImage(image).T)
@@ -298,25 +323,25 @@ def test_nrrd_is_read_and_written_as_the_library_reads_and_writes_it(direction: 
         assert ours.TransformIndexToPhysicalPoint(voxel) == pytest.approx(place, abs=1e-12)
 
 
-def test_kinds_are_by_the_ending_of_a_name() -> None:
+def test_format_follows_from_the_file_name_extension() -> None:
     assert {kind_of(f"a{ending}") for ending in KINDS} == {"NIfTI", "MetaImage", "TIFF", "DICOM"}
     assert (kind_of("-"), kind_of("a.nrrd"), kind_of("nii"), kind_of("a\0.nii")) == (None, None, None, None)
 
 
-def test_a_scan_by_the_library_is_chosen_from_as_any() -> None:
+def test_voxels_of_a_file_read_by_the_library_can_be_selected() -> None:
     written("a.nii.gz")
     volume = read_volume("a.nii.gz", labels=[3])
     assert volume.count == np.count_nonzero(VALUES == 3)
     assert isinstance(read_scan("a.nii.gz"), Scan)
-    with pytest.raises(VolumeError, match="the file says where its voxels lie"):
+    with pytest.raises(VolumeError, match="the file states the position of its voxels"):
         read_volume("a.nii.gz", spacing=(1, 1, 1))
-    with pytest.raises(VolumeError, match="only a folder of DICOM files has a series"):
+    with pytest.raises(VolumeError, match="a series can be selected only in a folder of DICOM files"):
         read_scan("a.nii.gz", Stated(series="1"))
 
 
-def test_the_time_allowed_grows_with_what_there_is_to_read(monkeypatch: pytest.MonkeyPatch) -> None:
-    allowed = []
-    monkeypatch.setattr(itk, "_run", lambda words, path, seconds: allowed.append(seconds) or 1)
+def test_time_limit_grows_with_the_size_of_the_files(monkeypatch: pytest.MonkeyPatch) -> None:
+    limits = []
+    monkeypatch.setattr(itk, "_run", lambda arguments, path, seconds: limits.append(seconds) or 1)
     Path("far").mkdir()
     for name in ("a.nii", "far/a.mhd"):
         Path(name).write_bytes(b"header")
@@ -325,4 +350,4 @@ def test_the_time_allowed_grows_with_what_there_is_to_read(monkeypatch: pytest.M
     for name in ("a.nii", "far/a.mhd", "far/a.dcm", "far"):
         with pytest.raises(VolumeError, match="ended with exit code 1"):
             read_scan(name)
-    assert allowed == [60, 64, 61, 64]
+    assert limits == [60, 64, 61, 64]

@@ -1,4 +1,4 @@
-"""Where an NRRD file says that its voxels lie: read as decimal text, written again as it was."""
+"""The position of voxels in an NRRD file: read exactly and restored after writing."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from modern.digital.world import LAS, LPS, RAS, World, determinant, world_of
 from tests.support.volumefiles import nrrd
 
 STEPS = (np.arange(24).reshape(2, 3, 4) % 5).astype(np.uint8)
-"""Values 0 to 4; further lines of the header are lines 6 on."""
+"""Values 0 to 4. Additional lines of the header start at line 6."""
 
 
 def world_in(*fields: str) -> World:
@@ -29,7 +29,7 @@ def world_in(*fields: str) -> World:
     return world
 
 
-def test_decimals_are_taken_to_the_last_digit() -> None:
+def test_decimals_are_read_exactly() -> None:
     world = world_in(
         "space: left-posterior-superior",
         "space directions: (0.1,0,0) (0,-0.30000000000000004,1e-3) (0, 0, 2.5)",
@@ -42,61 +42,73 @@ def test_decimals_are_taken_to_the_last_digit() -> None:
     assert (world.space, world.unit) == (LPS, "mm")
 
 
-def test_spacings_are_along_the_axes_and_begin_at_zero() -> None:
+def test_spacings_are_steps_along_the_axes_from_zero() -> None:
     world = world_in("spacings: 0.5 0.25 2", 'units: "mm" "mm" "mm"')
     assert world == World(((Fraction(1, 2), 0, 0), (0, Fraction(1, 4), 0), (0, 0, 2)), (0, 0, 0), "", "mm")  # type: ignore[arg-type]
-    beside = world_in("spacings: nan nan nan", "space directions: (1,0,0) (0,1,0) (0,0,1)")
-    assert beside.steps[0] == (1, 0, 0)
+    unknown = world_in("spacings: nan nan nan", "space directions: (1,0,0) (0,1,0) (0,0,1)")
+    assert unknown.steps[0] == (1, 0, 0)
 
 
 @pytest.mark.parametrize(
     ("word", "space"), [("RAS", RAS), ("left-anterior-superior", LAS), ("Lps", LPS), ("scanner-xyz", "scanner-xyz")]
 )
-def test_a_space_has_its_long_name(word: str, space: str) -> None:
+def test_names_of_spaces_are_expanded(word: str, space: str) -> None:
     assert world_in(f"space: {word}", "space directions: (1,0,0) (0,1,0) (0,0,1)").space == space
 
 
 @pytest.mark.parametrize(
     ("fields", "note"),
     [
-        (("spacings: 1 nan 2",), "line 6: an axis of the array is none of space: no place is taken"),
+        (("spacings: 1 nan 2",), "line 6: an axis of the array is not spatial; the position is ignored"),
         (
             ("space dimension: 2", "space directions: none (1,0) (0,1)"),
-            "line 7: an axis of the array is none of space: no place is taken",
+            "line 7: an axis of the array is not spatial; the position is ignored",
         ),
-        (("space origin: (1,2,3)",), "line 6: space origin, but no spacings: not taken"),
-        (("space directions: (1,0,0,0) (0,1,0,0) (0,0,1,0)",), "line 6: a space of 4 axes: no place is taken"),
-        (("axis mins: 0 0 0", "spacings: 1 1 1"), "line 6: axis mins is not taken; space origin says where"),
-        (("axismaxs: 2 3 4", "spacings: 1 1 1"), "line 6: axis maxs is not taken; space origin says where"),
+        (("space origin: (1,2,3)",), "line 6: space origin is ignored, because there are no spacings"),
+        (("space directions: (1,0,0,0) (0,1,0,0) (0,0,1,0)",), "line 6: the space has 4 axes; the position is ignored"),
+        (("axis mins: 0 0 0", "spacings: 1 1 1"), "line 6: axis mins is ignored; space origin states"),
+        (("axismaxs: 2 3 4", "spacings: 1 1 1"), "line 6: axis maxs is ignored; space origin states"),
     ],
 )
-def test_what_is_not_taken_is_noted(fields: tuple[str, ...], note: str) -> None:
+def test_ignored_fields_are_noted(fields: tuple[str, ...], note: str) -> None:
     scan = parse_nrrd(nrrd(STEPS, *fields), "a.nrrd")
-    assert (scan.world is None) == ("no place" in note or "no spacings" in note)
+    assert (scan.world is None) == ("position is ignored" in note or "no spacings" in note)
     assert scan.notes[0].startswith(f"a.nrrd: {note}")
 
 
 @pytest.mark.parametrize(
     ("fields", "message"),
     [
-        (("spacings: 1 2",), "line 6: spacings: 3 numbers are due, here are 2"),
+        (("spacings: 1 2",), "line 6: spacings: expected 3 numbers, found 2"),
         (("spacings: 1 2 x",), "line 6: spacings: 'x' is not a decimal number"),
         (("spacings: 1 2 1e999",), "line 6: spacings: '1e999' has more than 100 digits or an exponent beyond 400"),
         (("spacings: 1 2 0",), "line 6: the spacing of an axis is 0"),
-        (("space directions: (1,0,0) (0,1,0)",), "line 6: space directions: 3 vectors as (1,0,0) are due"),
-        (("space directions: (1,0,0) (0,1,0) (0,0)",), "line 6: space directions: 3 numbers are due, here are 2"),
-        (("space directions: (1,0,0) (0,1,0) (0,0,1) 7",), "line 6: space directions: 3 vectors"),
-        (("space directions: (1,0,0) (0,1,0) (1,1,0)",), "the directions of the axes depend on each other"),
-        (("spacings: 1 1 1", "space directions: (1,0,0) (0,1,0) (0,0,1)"), "line 6: spacings beside space directions"),
-        (("spacings: 1 1 1", "space origin: (1,2)"), "line 7: space origin: '(1,2)' are not 3 numbers in parentheses"),
-        (("spacings: 1 1 1", "space origin: (1,nan,2)"), "line 7: space origin: '(1,nan,2)' are not 3 numbers"),
-        (("spacings: 1 1 1", "space origin: none"), "line 7: space origin: 'none' are not 3 numbers"),
+        (("space directions: (1,0,0) (0,1,0)",), "line 6: space directions: expected 3 vectors such as (1,0,0)"),
+        (("space directions: (1,0,0) (0,1,0) (0,0)",), "line 6: space directions: expected 3 numbers, found 2"),
+        (("space directions: (1,0,0) (0,1,0) (0,0,1) 7",), "line 6: space directions: expected 3 vectors"),
+        (("space directions: (1,0,0) (0,1,0) (1,1,0)",), "the directions of the axes are linearly dependent"),
+        (
+            ("spacings: 1 1 1", "space directions: (1,0,0) (0,1,0) (0,0,1)"),
+            "line 6: spacings and space directions contradict",
+        ),
+        (
+            ("spacings: 1 1 1", "space origin: (1,2)"),
+            "line 7: space origin: expected 3 numbers in parentheses, found '(1,2)'",
+        ),
+        (
+            ("spacings: 1 1 1", "space origin: (1,nan,2)"),
+            "line 7: space origin: expected 3 numbers in parentheses, found '(1,nan,2)'",
+        ),
+        (
+            ("spacings: 1 1 1", "space origin: none"),
+            "line 7: space origin: expected 3 numbers in parentheses, found 'none'",
+        ),
         (("spacings: 1 1 1", 'space units: "mm" "m" "mm"'), "line 7: the axes have different units: m, mm"),
-        (("spacings: 1 1 1", "SPACINGS: 1 1 1"), "line 7, column 1: SPACINGS stands twice"),
-        (("axis mins: 0 0 0", "axismins: 0 0 0"), "line 7, column 1: axismins stands twice"),
+        (("spacings: 1 1 1", "SPACINGS: 1 1 1"), "line 7, column 1: duplicate field SPACINGS"),
+        (("axis mins: 0 0 0", "axismins: 0 0 0"), "line 7, column 1: duplicate field axismins"),
     ],
 )
-def test_a_place_that_is_none_is_one_line(fields: tuple[str, ...], message: str) -> None:
+def test_invalid_positions_are_reported_in_one_line(fields: tuple[str, ...], message: str) -> None:
     with pytest.raises(VolumeError) as caught:
         parse_nrrd(nrrd(STEPS, *fields), "a.nrrd")
     assert message in str(caught.value)
@@ -109,7 +121,7 @@ vectors = st.tuples(numbers, numbers, numbers)
 
 @settings(deadline=None, max_examples=60)
 @given(st.tuples(vectors, vectors, vectors), vectors, st.sampled_from(["", LPS, "scanner-xyz"]), st.booleans())
-def test_a_volume_written_is_read_again_in_its_place(
+def test_a_written_volume_is_restored_with_its_position(
     steps: tuple[tuple[Fraction, ...], ...], origin: tuple[Fraction, ...], space: str, unit: bool
 ) -> None:
     if not determinant(steps):
@@ -117,11 +129,11 @@ def test_a_volume_written_is_read_again_in_its_place(
     volume = Volume(STEPS > 2, (4, -1, 0), world=World(steps, origin, space, "mm" if unit else ""))
     path = Path("a.nrrd")
     write_nrrd(str(path), volume.array, volume)
-    found = chosen(parse_nrrd(path.read_bytes(), "a.nrrd")).volume
+    restored = chosen(parse_nrrd(path.read_bytes(), "a.nrrd")).volume
     path.unlink()
-    assert np.array_equal(found.array, volume.array)
+    assert np.array_equal(restored.array, volume.array)
     assert volume.world is not None
-    assert found.world == volume.world.moved(volume.origin)
+    assert restored.world == volume.world.moved(volume.origin)
 
 
 @pytest.fixture(autouse=True)
@@ -129,7 +141,7 @@ def _folder(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.Monkey
     monkeypatch.chdir(tmp_path_factory.mktemp("nrrd"))
 
 
-def test_a_filled_hull_keeps_its_place() -> None:
+def test_a_saved_hull_keeps_its_position() -> None:
     array = np.zeros((3, 3, 3), np.uint8)
     array[0, 0, 0] = array[2, 2, 2] = array[2, 0, 1] = 1
     hull = digital_hull(array, spacing=("0.1", 2, "-0.25"), origin=(1, "2.5", 0))
@@ -141,7 +153,7 @@ def test_a_filled_hull_keeps_its_place() -> None:
         hull.save("hull.off")
 
 
-def test_a_list_of_voxels_keeps_its_coordinates_as_an_origin() -> None:
+def test_coordinates_of_a_list_are_stored_as_an_origin() -> None:
     volume = listed([(5, -2, 7), (6, -2, 7)])
     write_array("a.nrrd", volume.array, volume)
     world = read_volume("a.nrrd").world
@@ -152,20 +164,20 @@ def test_a_list_of_voxels_keeps_its_coordinates_as_an_origin() -> None:
     assert read_volume("b.nrrd").world is None
 
 
-def test_a_picture_in_space_is_written_and_read() -> None:
+def test_a_picture_in_space_is_restored() -> None:
     picture = Volume(np.ones((2, 3), np.bool_), (0, 0), world=world_of(2, directions=[(0, 1, 1), (2, 0, 0)]))
     write_nrrd("a.nrrd", picture.array, picture)
     assert read_volume("a.nrrd").world == picture.world
 
 
-def test_what_no_decimal_names_is_not_written() -> None:
+def test_positions_without_finite_decimals_are_not_written() -> None:
     volume = Volume(STEPS > 0, (0, 0, 0), world=world_of(3, spacing=(Fraction(1, 3), 1, 1)))
     with pytest.raises(VolumeError, match=r"a\.nrrd: 1/3 has no finite decimal"):
         write_nrrd("a.nrrd", volume.array, volume)
     assert not Path("a.nrrd").exists()
 
 
-def test_what_is_written_is_the_same_every_time() -> None:
+def test_written_bytes_are_reproducible() -> None:
     volume = Volume(STEPS > 0, (0, 0, 0), world=world_of(3, (1, 2, 3)))
     write_nrrd("a.nrrd", volume.array, volume)
     first = Path("a.nrrd").read_bytes()

@@ -1,4 +1,4 @@
-"""Which voxels of a scan are taken: a threshold and labels, compared exactly in every type of number."""
+"""The selection of a scan's voxels: thresholds and labels, compared exactly in every type of number."""
 
 from __future__ import annotations
 
@@ -36,22 +36,22 @@ def exact(value: Any) -> Fraction | float:
 
 @settings(deadline=None)
 @given(values, st.data())
-def test_a_threshold_takes_what_is_not_below_it(array: np.ndarray, data: st.DataObject) -> None:
+def test_a_threshold_selects_the_values_not_below_it(array: np.ndarray, data: st.DataObject) -> None:
     finite = [exact(v) for v in array.ravel() if np.isfinite(v)] or [Fraction(0)]
     near = data.draw(st.sampled_from(finite))
     little = Fraction(1, 10**40)
     threshold = near + data.draw(st.sampled_from([0, little, -little, Fraction(1, 3), 10**30]))
-    wanted = np.array([exact(v) >= threshold for v in array.ravel()]).reshape(array.shape)
-    if wanted.any():
-        assert np.array_equal(chosen(scan(array), Choice(Fraction(threshold))).volume.array, wanted)
+    expected = np.array([exact(v) >= threshold for v in array.ravel()]).reshape(array.shape)
+    if expected.any():
+        assert np.array_equal(chosen(scan(array), Choice(Fraction(threshold))).volume.array, expected)
     else:
         with pytest.raises(NoVoxels, match="the threshold"):
             chosen(scan(array), Choice(Fraction(threshold)))
 
 
 @pytest.mark.parametrize("kind", ["f4", "f8", "g"])
-def test_a_threshold_is_a_decimal_and_a_value_the_number_it_is(kind: str) -> None:
-    """The float called 0.1 is more than a tenth, in single precision too; the double 0.3 is less than three tenths."""
+def test_thresholds_are_compared_exactly_with_floats(kind: str) -> None:
+    """The float written 0.1 is above one tenth, in single precision too. The double 0.3 is below three tenths."""
     narrow = np.float32 if kind == "f4" else np.float64
     assert chosen(scan(np.full((1, 1, 1), narrow(0.1), kind)), Choice(Fraction(1, 10))).volume.count == 1
     with pytest.raises(NoVoxels):
@@ -59,38 +59,38 @@ def test_a_threshold_is_a_decimal_and_a_value_the_number_it_is(kind: str) -> Non
 
 
 def test_a_threshold_between_two_numbers_of_a_wide_type() -> None:
-    """The double next to 5/3 is above it: a wider type has numbers between the two."""
+    """The double next to 5/3 is above it, and a wider type has numbers between the two."""
     threshold = Fraction(5, 3)
     value = np.longdouble(float(threshold))
     while Fraction(*np.nextafter(value, np.longdouble(0)).as_integer_ratio()) >= threshold:
         value = np.nextafter(value, np.longdouble(0))
     below = np.nextafter(value, np.longdouble(0))
-    found = chosen(scan(np.array([[below, value]])), Choice(threshold))
-    assert found.volume.array.tolist() == [[False, True]]
+    selection = chosen(scan(np.array([[below, value]])), Choice(threshold))
+    assert selection.volume.array.tolist() == [[False, True]]
 
 
 @settings(deadline=None)
 @given(values)
-def test_labels_are_the_whole_values_but_zero(array: np.ndarray) -> None:
+def test_labels_are_the_integer_values_except_zero(array: np.ndarray) -> None:
     whole = {int(v) for v in array.ravel() if np.isfinite(v) and v and v == np.floor(v)}
     assert labels_of(scan(array)) == tuple(sorted(whole))
     boxes = label_boxes(scan(array)) if whole else {}
     assert set(boxes) == whole
     for label, box in boxes.items():
         volume = label_volume(scan(array), label, box)
-        found = {tuple(voxel) for voxel in volume.coordinates().tolist()}
-        assert found == {tuple(place) for place in np.argwhere(array == array.dtype.type(label)).tolist()}
+        voxels = {tuple(voxel) for voxel in volume.coordinates().tolist()}
+        assert voxels == {tuple(index) for index in np.argwhere(array == array.dtype.type(label)).tolist()}
         for axis in range(array.ndim):
-            # The box is the smallest: every side of it has a voxel.
-            others = tuple(k for k in range(array.ndim) if k != axis)
-            assert volume.array.any(axis=others)[[0, -1]].all()
+            # In the smallest box every side has a voxel.
+            other_axes = tuple(k for k in range(array.ndim) if k != axis)
+            assert volume.array.any(axis=other_axes)[[0, -1]].all()
 
 
-def test_several_labels_are_taken_together() -> None:
+def test_several_labels_are_selected_together() -> None:
     array = np.array([[[0, 1, 2, 3, 3, 7]]], np.uint8)
-    found = chosen(scan(array), Choice(labels=(3, 1)))
-    assert found.volume.array.ravel().tolist() == [False, True, False, True, True, False]
-    assert (found.present, found.lowest, found.highest) == ((1, 2, 3, 7), 0, 7)
+    selection = chosen(scan(array), Choice(labels=(3, 1)))
+    assert selection.volume.array.ravel().tolist() == [False, True, False, True, True, False]
+    assert (selection.present, selection.lowest, selection.highest) == ((1, 2, 3, 7), 0, 7)
     assert chosen(scan(-array.astype(">f4")), Choice(labels=(-7,))).volume.count == 1
 
 
@@ -99,22 +99,22 @@ def test_several_labels_are_taken_together() -> None:
     [
         ([[0, 1, 3]], Choice(labels=(3, 2)), "scan: no voxel has the label 2; the labels are 1, 3"),
         ([[0.5, 0.25]], Choice(labels=(1,)), "scan: no voxel has the label 1; there are no labels"),
-        ([[0, 1]], Choice(Fraction(1), (1,)), "scan: a threshold and labels are not asked for together"),
-        ([[0, 3]], Choice(Fraction(7, 2)), "there are no voxels: the greatest value is 3, the threshold 3.5"),
+        ([[0, 1]], Choice(Fraction(1), (1,)), "scan: a threshold and labels cannot be combined"),
+        ([[0, 3]], Choice(Fraction(7, 2)), "there are no voxels: the greatest value is 3, below the threshold 3.5"),
         ([[0, 0]], Choice(), "there are no voxels: every value is 0"),
         ([[0.0, np.nan]], Choice(), "a value is not a number (nan)"),
         (np.zeros((0, 2, 2)), Choice(), "there are no voxels: the array is empty"),
-        (np.zeros((2, 2), complex), Choice(), "an array of complex128 with 2 axes"),
+        (np.zeros((2, 2), complex), Choice(), "found an array of complex128 with 2"),
     ],
 )
-def test_what_is_not_there_is_told(array: Any, choice: Choice, message: str) -> None:
+def test_invalid_selections_are_reported(array: Any, choice: Choice, message: str) -> None:
     with pytest.raises(VolumeError) as caught:
         chosen(scan(array), choice)
     assert message in str(caught.value)
 
 
-def test_no_label_at_all() -> None:
-    with pytest.raises(NoVoxels, match="there are no labels: no value is whole and not 0"):
+def test_missing_labels_are_reported() -> None:
+    with pytest.raises(NoVoxels, match="there are no labels: no value is an integer other than 0"):
         label_boxes(scan([[0.5, 0.0]]))
     with pytest.raises(NoVoxels, match="no voxel has the label 9; the labels are 1, 2"):
         label_boxes(scan([[1, 2]]), (1, 9))
@@ -125,7 +125,7 @@ def test_many_labels_are_listed_briefly() -> None:
     assert listed_labels(range(1, 40)) == "1, 2, 3, 4, ... 39 (39 labels)"
 
 
-def test_a_volume_is_read_by_threshold_and_by_label(tmp_path: Any) -> None:
+def test_read_volume_selects_by_threshold_and_by_label(tmp_path: Any) -> None:
     path = tmp_path / "a.npy"
     write_npy(str(path), np.array([[[0, 1, 2, 3]]], np.int16))
     assert read_volume(path).count == 3
@@ -138,5 +138,5 @@ def test_a_volume_is_read_by_threshold_and_by_label(tmp_path: Any) -> None:
     assert hull.world.place((0, 0, 1)) == (1, 1, 3)
     with pytest.raises(VolumeError, match="threshold: 'x' is not a decimal"):
         read_volume(path, threshold="x")
-    with pytest.raises(VolumeError, match="spacing: 2 numbers; 3 are due"):
+    with pytest.raises(VolumeError, match="spacing: expected 3 numbers, found 2"):
         read_volume(path, spacing=(1, 2))

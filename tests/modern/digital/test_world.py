@@ -1,4 +1,4 @@
-"""Where voxels lie: the hull in the world is the exact image of the hull of indices, whatever way the axes run."""
+"""Positions of voxels: the hull in physical coordinates is the exact image of the hull of indices for any axes."""
 
 from __future__ import annotations
 
@@ -28,52 +28,52 @@ vectors = st.tuples(tenths, tenths, tenths)
 
 @st.composite
 def worlds(draw: st.DrawFn) -> World:
-    """Any steps that span space: oblique, mirrored, with negative directions."""
+    """Draw steps that span space: oblique, mirrored, with negative directions."""
     steps = draw(st.tuples(vectors, vectors, vectors))
     assume(determinant(steps))
     return World(steps, draw(vectors))
 
 
 def faces(points: Any, polygons: Any) -> set[tuple[Any, ...]]:
-    """Every face as its cycle of points, from the least one on: counterclockwise stays counterclockwise."""
-    found = set()
+    """Return every face as its cycle of points that starts with the least one and keeps its orientation."""
+    cycles = set()
     for polygon in polygons:
         cycle = [points[k] for k in polygon]
         first = cycle.index(min(cycle))
-        found.add((*cycle[first:], *cycle[:first]))
-    return found
+        cycles.add((*cycle[first:], *cycle[:first]))
+    return cycles
 
 
 def image_of_every_voxel(volume: Volume, world: World, of: Of) -> list[tuple[Fraction, ...]]:
-    """Centres, or all eight corners, by the definition: the centre, and half a step each way."""
+    """Return all centres, or all eight corners of all voxels, from the definition of the position."""
     halves = [Fraction(0)] if of == CENTRES else [Fraction(-1, 2), Fraction(1, 2)]
-    found = {}
+    points = {}
     for voxel in volume.coordinates().tolist():
         for shift in product(halves, repeat=3):
             place = [
                 world.origin[k] + sum(world.steps[axis][k] * (voxel[axis] + shift[axis]) for axis in range(3))
                 for k in range(3)
             ]
-            found[tuple(place)] = None
-    return list(found)
+            points[tuple(place)] = None
+    return list(points)
 
 
 @settings(deadline=None, max_examples=60)
 @given(st.integers(0, 10**9), worlds(), st.tuples(*[st.integers(-9, 9)] * 3), st.sampled_from([VERTICES, CENTRES]))
-def test_the_hull_in_the_world_is_that_of_the_judge(
+def test_hull_in_physical_coordinates_is_that_of_the_judge(
     seed: int, world: World, origin: tuple[int, int, int], of: Of
 ) -> None:
     solid = random_solid(random.Random(seed), side=4, steps=20)
     volume = Volume(solid, origin, world=world)
     hull = voxel_hull(volume, of)
     mesh = hull.mesh(straight=True)
-    judged = exact_hull(image_of_every_voxel(volume, world, of))
-    given_points = image_of_every_voxel(volume, world, of)
+    points = image_of_every_voxel(volume, world, of)
+    judged = exact_hull(points)
     assert mesh.dimension == judged.dimension
-    assert {tuple(map(number, point)) for point in mesh.points} == {given_points[k] for k in judged.vertices}
+    assert {tuple(map(number, point)) for point in mesh.points} == {points[k] for k in judged.vertices}
     if judged.dimension == 3:
         polygons = [facet.polygon for facet in judged.facets]
-        assert faces(mesh.numbers(), mesh.faces) == faces(given_points, polygons)
+        assert faces(mesh.numbers(), mesh.faces) == faces(points, polygons)
 
 
 @settings(deadline=None, max_examples=40)
@@ -81,28 +81,28 @@ def test_the_hull_in_the_world_is_that_of_the_judge(
 def test_measures_are_those_of_the_judge(seed: int, world: World) -> None:
     volume = Volume(random_solid(random.Random(seed), side=4, steps=20), (1, -2, 3), world=world)
     for of in (VERTICES, CENTRES):
-        found = voxel_hull(volume, of).measures()
+        measures = voxel_hull(volume, of).measures()
         judged = proved(image_of_every_voxel(volume, world, of))
-        assert found.hull_volume == judged.volume
-        assert abs(found.hull_area - judged.area) <= judged.area.scaleb(-48)
-        assert found.volume == volume.count * abs(determinant(world.steps))
+        assert measures.hull_volume == judged.volume
+        assert abs(measures.hull_area - judged.area) <= judged.area.scaleb(-48)
+        assert measures.volume == volume.count * abs(determinant(world.steps))
         if of == VERTICES:
-            assert found.solidity == found.volume / judged.volume <= 1
-            assert found.deficiency == judged.volume - found.volume >= 0
+            assert measures.solidity == measures.volume / judged.volume <= 1
+            assert measures.deficiency == judged.volume - measures.volume >= 0
 
 
-def test_an_axis_turned_round_turns_the_faces_and_nothing_else() -> None:
-    """Of one body: the array reversed along x, with the step negative and the origin at the other end."""
+def test_reversing_an_axis_with_its_step_leaves_the_faces_unchanged() -> None:
+    """The array is reversed along x, the step is negative and the origin is at the other end."""
     solid = random_solid(random.Random(7), side=6)
     size = solid.shape[0]
-    there = world_of(3, (2, 3, "0.5"), (5, 5, 5))
-    back = world_of(3, (-2, 3, "0.5"), (5 + 2 * (size - 1), 5, 5))
-    one = voxel_hull(Volume(solid, (0, 0, 0), world=there)).mesh(straight=True)
-    other = voxel_hull(Volume(solid[::-1], (0, 0, 0), world=back)).mesh(straight=True)
-    assert faces(one.numbers(), one.faces) == faces(other.numbers(), other.faces)
+    forward = world_of(3, (2, 3, "0.5"), (5, 5, 5))
+    backward = world_of(3, (-2, 3, "0.5"), (5 + 2 * (size - 1), 5, 5))
+    mesh = voxel_hull(Volume(solid, (0, 0, 0), world=forward)).mesh(straight=True)
+    reversed_mesh = voxel_hull(Volume(solid[::-1], (0, 0, 0), world=backward)).mesh(straight=True)
+    assert faces(mesh.numbers(), mesh.faces) == faces(reversed_mesh.numbers(), reversed_mesh.faces)
 
 
-def test_half_a_voxel_lies_between_centres_and_corners() -> None:
+def test_corners_are_half_a_voxel_from_centres() -> None:
     voxel = np.ones((1, 1, 1), np.bool_)
     spaced = hull_of_voxels(voxel, spacing=("0.5", "0.5", 2), origin=(10, 0, -1))
     assert sorted(map(tuple, spaced.points.tolist()))[0] == (9.75, -0.25, -2.0)
@@ -113,7 +113,7 @@ def test_half_a_voxel_lies_between_centres_and_corners() -> None:
     assert (bare.points.min(), bare.points.max()) == (0, 1)
 
 
-def test_left_and_right_are_exchanged_between_spaces() -> None:
+def test_positions_are_converted_between_anatomical_spaces() -> None:
     world = World(((ONE, NONE, NONE), (NONE, -2 * ONE, NONE), (NONE, NONE, 3 * ONE)), (5 * ONE,) * 3, LPS)
     turned = world.turned(RAS)
     assert turned.origin == (-5, -5, 5)
@@ -122,24 +122,24 @@ def test_left_and_right_are_exchanged_between_spaces() -> None:
     assert world.turned(LAS).origin == (5, -5, 5)
     assert world.bearings() == turned.bearings() == (("left", True), ("anterior", True), ("superior", True))
     assert (world.mirrors, turned.mirrors, world.turned(LAS).mirrors) == (True, True, False)
-    with pytest.raises(VolumeError, match="the space is not stated"):
+    with pytest.raises(VolumeError, match="found none"):
         World(world.steps, world.origin).turned(RAS)
 
 
-def test_oblique_axes_are_named_by_the_sides_they_run_to_most() -> None:
+def test_oblique_axes_are_named_by_their_main_direction() -> None:
     steps = ((ONE / 2, 4 * ONE, ONE), (-3 * ONE, ONE, NONE), (NONE, ONE, -2 * ONE))
     world = World(steps, (NONE,) * 3, RAS)
     assert world.bearings() == (("anterior", False), ("left", False), ("inferior", False))
     assert World(steps, (NONE,) * 3, "scanner-xyz").bearings() == ()
 
 
-def test_the_length_of_a_step_is_exact_along_an_axis_and_has_six_digits_else() -> None:
+def test_step_lengths_are_exact_along_an_axis_and_have_six_digits_otherwise() -> None:
     world = world_of(3, directions=[(0, "-0.1234567891", 0), (3, 0, 4), (0, 1, 1)])
     assert world is not None
     assert world.spacings() == (("0.1234567891", True), ("5", False), ("1.41421", False))
 
 
-def test_a_place_is_of_numbers_of_any_real_type() -> None:
+def test_positions_accept_numbers_of_any_real_type() -> None:
     assert world_of(3) is None
     world = world_of(2, spacing=(0.1, "0.1"), unit="mm")
     assert world is not None
@@ -156,36 +156,36 @@ def test_a_place_is_of_numbers_of_any_real_type() -> None:
 @pytest.mark.parametrize(
     ("place", "message"),
     [
-        ({"spacing": (1, 2)}, "spacing: 2 numbers; 3 are due"),
+        ({"spacing": (1, 2)}, "spacing: expected 3 numbers, found 2"),
         ({"origin": (1, 2, "x")}, "origin: 'x' is not a decimal number"),
         ({"spacing": (1, 2, float("nan"))}, "spacing: nan is not finite"),
         ({"spacing": (1, 2, 0)}, "the spacing of an axis is 0"),
-        ({"directions": [(1, 0, 0)]}, "directions: 1 vectors; the array has 3 axes"),
-        ({"directions": [(1, 0, 0), (0, 1, 0), (1, 1, 0)]}, "the directions of the axes depend on each other"),
-        ({"directions": [(1, 0, 0), (0, 1, 0), (1, 1)]}, "direction of axis 2: 2 numbers; 3 are due"),
+        ({"directions": [(1, 0, 0)]}, "directions: expected 3 vectors, found 1"),
+        ({"directions": [(1, 0, 0), (0, 1, 0), (1, 1, 0)]}, "the directions of the axes are linearly dependent"),
+        ({"directions": [(1, 0, 0), (0, 1, 0), (1, 1)]}, "direction of axis 2: expected 3 numbers, found 2"),
     ],
 )
-def test_what_is_no_place(place: dict[str, Any], message: str) -> None:
+def test_invalid_positions_are_reported(place: dict[str, Any], message: str) -> None:
     with pytest.raises(VolumeError) as caught:
         hull_of_voxels(np.ones((2, 2, 2)), **place)
     assert message in str(caught.value)
 
 
-def test_a_picture_in_space_has_pixels_without_an_exact_area() -> None:
+def test_pixels_of_a_picture_in_space_have_no_exact_area() -> None:
     world = world_of(2, directions=[(1, 0, 1), (0, 1, 0)])
     with pytest.raises(VolumeError, match="2 axes in a space of 3"):
         voxel_volume(world)
 
 
 @pytest.mark.parametrize("text", ["1e401", "9" * 101, "", "x", "1/2", "0x10"])
-def test_a_number_of_a_header_is_a_decimal_of_a_readable_size(text: str) -> None:
+def test_numbers_of_headers_are_decimals_of_limited_size(text: str) -> None:
     with pytest.raises(ValueError, match=r"\S"):
         length_text(text)
     assert length_text("-1.5e-2") == Fraction(-3, 200)
 
 
-def test_a_volume_has_a_step_for_every_axis() -> None:
-    with pytest.raises(VolumeError, match="2 steps in the world for 3 axes"):
+def test_a_volume_needs_a_step_for_every_axis() -> None:
+    with pytest.raises(VolumeError, match="expected 3 steps of the position, found 2"):
         Volume(np.ones((1, 1, 1), np.bool_), (0, 0, 0), world=world_of(2, (1, 1)))
-    with pytest.raises(VolumeError, match="a Volume has its place"):
+    with pytest.raises(VolumeError, match="a Volume has a position"):
         hull_of_voxels(Volume(np.ones((1, 1, 1), np.bool_), (0, 0, 0)), spacing=(1, 1, 1))

@@ -180,7 +180,7 @@ def test_fill_writes_the_filled_hull(capsys: pytest.CaptureFixture[str]) -> None
     Path("two.csv").write_text("3,0,0\n5,0,0\n3,0,0\n", encoding="utf-8")
     code, out, err = run(capsys, "two.csv", "--fill", "-o", "filled.npy")
     assert code == 0
-    assert "two.csv: 1 of 3 voxels are listed before" in err
+    assert "two.csv: 1 of 3 voxels are repetitions" in err
     assert "(segment): 3 voxels" in out
     assert "note: the array's first voxel is (3,0,0)" in err
     assert np.load("filled.npy").tolist() == [[[True]], [[True]], [[True]]]

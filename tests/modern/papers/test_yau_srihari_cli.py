@@ -101,7 +101,7 @@ def test_notes_of_the_reader_are_printed_only_on_success(stair: str, capsys: pyt
     code, out, err = call(capsys, "octree-hull", "far.csv", "-o", "far.npy")
     assert (code, out, err.count("\n")) == (2, "", 1), err
     Path("twice.csv").write_text("0,0,0\n0,0,0\n", encoding="utf-8")
-    note = "note: twice.csv: 1 of 2 voxels are listed before\n"
+    note = "note: twice.csv: 1 of 2 voxels are repetitions\n"
     assert call(capsys, "octree-hull", "twice.csv")[::2] == (0, note)
 
 
