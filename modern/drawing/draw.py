@@ -53,31 +53,15 @@ def draw_svg(
 ) -> str:
     """Return a picture of a hull as the text of an SVG file.
 
-    Parameters
-    ----------
-    eye
-        The direction from the hull to the eye. None chooses one. For a polyhedron it is a direction from a fixed list
-        in which no face is edge-on and no two vertices coincide. For a polygon or segment it is perpendicular.
-    title
-        A line below the picture.
-    width
-        The width of the file in pixels, 320 to 4000. The default is 640, or 1000 for more than 120 points. The height
-        follows.
-    show
-        The parts of the picture to show.
+    ``eye`` is the direction from the hull to the eye. None chooses one: for a polyhedron a direction from a fixed list
+    in which no face is edge-on and no two vertices coincide, for a polygon or segment a perpendicular one. ``title``
+    is a line below the picture. ``width`` is 320 to 4000 pixels, by default 640, or 1000 for more than 120 points.
+    Raise ExportError if there is no hull, the direction is 0,0,0 or shows a polygon or segment edge-on, or the width
+    is out of range.
 
-    Raises
-    ------
-    ExportError
-        If there is no hull, the direction is 0,0,0 or shows a polygon or segment edge-on, or the width is out of
-        range.
-
-    Notes
-    -----
     Vertices less than 2.5 pixels apart share a number. With more than 120 points only visible vertices are numbered,
     with more than 400 vertices none. Visible faces are shaded. An edge with one face edge-on and no visible face lies
-    on the outline and is drawn as visible. Two faces in one plane have no edge between them. The same hull gives the
-    same text on every machine.
+    on the outline and is drawn as visible. The same hull gives the same text on every machine.
     """
     show = show or Show()
     picture = filter_scene(scene(hull, None if eye is None else [Fraction(number) for number in eye]), show)

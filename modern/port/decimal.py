@@ -7,7 +7,7 @@ an operation that would report an error code on the 1620 is used without a repor
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -29,6 +29,18 @@ from emulator.numbers.functions import function
 from modern.geometry.numbers import Exact, scaled_decimal
 from modern.port.arithmetic import Arithmetic, RangeError, Vector
 
+Operator = Callable[["Number1620", "Number1620"], "Number1620"]
+
+
+def _operator(rule: Callable[[int, int, int, int, Rules], tuple[int, int, int]]) -> Operator:
+    def apply(self: Number1620, operand: Number1620) -> Number1620:
+        if not isinstance(operand, Number1620):
+            return NotImplemented  # numpy then applies the operation to each element
+        m, e, _ = rule(self.m, self.e, operand.m, operand.e, self.by)
+        return Number1620(m, e, self.by)
+
+    return apply
+
 
 class Number1620:
     """One number: mantissa and exponent as in :mod:`emulator.numbers.arithmetic`, never undefined."""
@@ -40,29 +52,10 @@ class Number1620:
         self.e = e
         self.by = by
 
-    def __add__(self, operand: Number1620) -> Number1620:
-        if not isinstance(operand, Number1620):
-            return NotImplemented  # numpy then applies the operation to each element
-        by = self.by
-        m, e, _ = accumulator.add(self.m, self.e, operand.m, operand.e, by)
-        return Number1620(m, e, by)
-
-    def __sub__(self, operand: Number1620) -> Number1620:
-        if not isinstance(operand, Number1620):
-            return NotImplemented
-        by = self.by
-        m, e, _ = accumulator.subtract(self.m, self.e, operand.m, operand.e, by)
-        return Number1620(m, e, by)
-
-    def __mul__(self, operand: Number1620) -> Number1620:
-        if not isinstance(operand, Number1620):
-            return NotImplemented
-        m, e, _ = accumulator.multiply(self.m, self.e, operand.m, operand.e, self.by)
-        return Number1620(m, e, self.by)
-
-    def __truediv__(self, operand: Number1620) -> Number1620:
-        m, e, _ = accumulator.divide(self.m, self.e, operand.m, operand.e, self.by)
-        return Number1620(m, e, self.by)
+    __add__ = _operator(accumulator.add)
+    __sub__ = _operator(accumulator.subtract)
+    __mul__ = _operator(accumulator.multiply)
+    __truediv__ = _operator(accumulator.divide)
 
     def __neg__(self) -> Number1620:
         return Number1620(*accumulator.negate(self.m, self.e), self.by)

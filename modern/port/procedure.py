@@ -38,45 +38,14 @@ def convex_hull(
 ) -> Hull:
     """Return the convex hull of points by Butler's procedure (thesis chapter 3; programs 1 to 3, chapter 5).
 
-    Parameters
-    ----------
-    points
-        Three coordinates for each point: real numbers of any type (a float is the binary number it holds), decimal
-        strings or fractions ``"p/q"``. An array has the shape (n, 3).
-    arithmetic
-        ``exact``, ``float64``, ``float32``, ``mp:BITS``, ``truncating`` (the eight digits of the thesis), ``ibm1962``,
-        ``truncating:P``, ``guarded:P`` or ``rounding:P``.
-    epsilon
-        The e of chapter 7 (thesis p. 117). A value of an equation at an input point counts as zero from -e to +e. Any
-        real number, or ``"rel:E"`` for E times the equation's largest coefficient A, B or C.
-    translate
-        True to move the origin to C, so that the constant terms decide how equations are oriented (thesis p. 118).
-    history
-        True to record every H_j in the result.
-    fast
-        Use the compiled kernels (numba, the extra ``fast``) for ``float64`` and ``float32``. None uses them if they
-        are installed and the points are many. The result is the same.
-    on_refusal
-        Rounded arithmetic may end in a status other than ``determined``, as the programs do. Then ``"raise"`` raises
-        HullRefused and ``"return"`` returns the result with that status.
-    text
-        True to follow the text of chapter 3 in the two steps in which the listing differs: the fourth point (p. 29)
-        and the order of the planes a point is outside of (p. 32).
-
-    Raises
-    ------
-    PointsError
-        If points are invalid.
-    HullRefused
-        If no hull was determined.
-    ValueError
-        If the arithmetic is unknown, the epsilon is invalid, or kernels were requested and numba is missing or fails.
-    RangeError
-        If an intermediate result exceeds the range of floating-point numbers.
-
-    Notes
-    -----
-    The corrections of the layer ``corrected`` are built in. :attr:`Hull.corrected` names the rows that mattered.
+    :func:`hull1620.convex_hull` describes the parameters. ``epsilon`` is chapter 7's e (thesis p. 117): the value of
+    an equation at an input point counts as zero from -e to +e, where ``"rel:E"`` is E times the equation's largest
+    coefficient A, B or C. ``translate`` moves the origin to C, so that constant terms decide how equations are
+    oriented (p. 118). ``text`` follows chapter 3 in two steps in which the listing differs: the fourth point (p. 29)
+    and the order of the planes a point is outside of (p. 32). The corrections of the layer ``corrected`` are built in,
+    and :attr:`Hull.corrected` names the rows that mattered. Raise PointsError for invalid points, HullRefused if no
+    hull was determined (unless ``on_refusal`` is ``"return"``), RangeError if an intermediate result is too large for
+    a float, and ValueError for any other invalid argument or if kernels were requested and numba is missing.
     """
     if on_refusal not in ("raise", "return"):
         raise ValueError(f"on_refusal: expected 'raise' or 'return', found {on_refusal!r}")
