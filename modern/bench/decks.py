@@ -46,7 +46,6 @@ def middle_texts(sets: Sequence[Sequence[Point]]) -> list[str]:
 
 
 def main() -> None:
-    """Print the cards that program 3 punches."""
     sys.stdout.writelines(punched(programs.program(PROGRAM, LAYERS), [sys.stdin.read()], OPTIONS))
 
 

@@ -23,7 +23,8 @@ from modern.cli.shared.volumes import (
 )
 from modern.digital.hull import digital_hull
 from modern.digital.scans import label_boxes, label_volume
-from modern.digital.volumes import Volume, write_array
+from modern.digital.solids import Volume
+from modern.digital.volumes import write_array
 from modern.digital.world import voxel_volume
 from modern.formats import MESHES
 from modern.formats.export import mesh_text

@@ -122,6 +122,5 @@ def _as_truth(array: NDArray[Any]) -> NDArray[Any]:
 
 
 def _message_of(error: Exception) -> str:
-    """Return the message of an error as one line of readable length."""
     message = " ".join(str(error).split()) or type(error).__name__
     return message[:_LONGEST_MESSAGE]

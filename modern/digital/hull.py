@@ -55,7 +55,6 @@ class DigitalHull:
 
     @property
     def kind(self) -> Kind:
-        """``point``, ``segment``, ``polygon`` or ``polyhedron``."""
         return KINDS[self.dimension]
 
     @property
@@ -81,7 +80,6 @@ class DigitalHull:
 
     @property
     def voxels(self) -> int:
-        """The number of voxels of the hull."""
         return int(np.count_nonzero(self.filled))
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -215,7 +213,6 @@ def independent(points: Grid) -> list[int]:
 
 
 def _fill_segment(filled: Truth, first: Grid, last: Grid) -> None:
-    """Fill the grid points between two points."""
     steps = max(1, int(np.gcd.reduce(last - first)))
     filled[tuple((first + np.arange(steps + 1)[:, None] * ((last - first) // steps)).T)] = True
 

@@ -80,7 +80,6 @@ def read_itk(path: str, kind: str, series: str | None = None) -> Scan:
 
 
 def _check_file(path: str) -> None:
-    """Raise FileError if the file cannot be opened."""
     try:
         with open(path, "rb"):
             return

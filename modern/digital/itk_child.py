@@ -29,7 +29,6 @@ class Refused(Exception):
 
 
 def main(arguments: Sequence[str]) -> None:
-    """Read the file and write the result."""
     kind, path, folder, most, series = arguments
     _limit()
     answer = Path(folder, "facts.json")
@@ -113,7 +112,6 @@ def _nifti(reader: Any, notes: list[str]) -> str:
 
 
 def _series(sitk: Any, folder: str, series: str) -> Sequence[str]:
-    """Return the files of a series in a folder, in their spatial order."""
     identifiers = sitk.ImageSeriesReader.GetGDCMSeriesIDs(folder)
     names: dict[str, Sequence[str]] = {
         name: sitk.ImageSeriesReader.GetGDCMSeriesFileNames(folder, name) for name in identifiers
@@ -150,7 +148,6 @@ def _uneven(sitk: Any, files: Sequence[str]) -> list[str]:
 
 
 def _floats(text: str) -> list[float]:
-    """Return the numbers of a DICOM value."""
     return [float(word) for word in text.split("\\")]
 
 

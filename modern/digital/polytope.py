@@ -63,7 +63,6 @@ def value(at: Points, surface: Surface, f: int, p: int) -> int:
 
 
 def set_facet(at: Points, surface: Surface, f: int, p: int, q: int, r: int) -> None:
-    """Store the facet p, q, r in slot ``f``."""
     ux, uy, uz = at.x[q] - at.x[p], at.y[q] - at.y[p], at.z[q] - at.z[p]
     vx, vy, vz = at.x[r] - at.x[p], at.y[r] - at.y[p], at.z[r] - at.z[p]
     a, b, c = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
@@ -207,7 +206,6 @@ def hull(at: Points, surface: Surface, a: int, b: int, c: int, d: int) -> int:
 
 @cache
 def compiled_hull() -> Callable[..., Any]:
-    """Return ``hull`` compiled. Raise NotInstalled if numba is missing."""
     sample: Any = np.zeros(1, np.int64)
     # The kernel allocates no arrays, so numba need not count references.
     return Compiled(hull, _nrt=False).ready(

@@ -132,7 +132,6 @@ def label_boxes(scan: Scan, labels: Sequence[int] = ()) -> dict[int, tuple[slice
 
 
 def label_volume(scan: Scan, label: int, box: tuple[slice, ...]) -> Volume:
-    """Return the voxels of one label in its box from ``label_boxes``."""
     truth = scan.values[box] == scan.values.dtype.type(label)
     origin = tuple(start + side.start for start, side in zip(scan.origin, box, strict=True))
     return Volume(truth, origin, f"{scan.source}: label {label}", (), scan.world)
@@ -145,7 +144,6 @@ def _check_label(scan: Scan, label: int, present: Sequence[int]) -> None:
 
 
 def _labels(part: NDArray[Any]) -> list[int]:
-    """Return the distinct integer values of a part except 0."""
     distinct = _distinct(_counted(part))
     integers = (
         distinct[np.isfinite(distinct) & (distinct != 0) & (distinct == np.floor(distinct))]
@@ -160,7 +158,6 @@ def _counted(values: NDArray[Any]) -> NDArray[Any]:
 
 
 def _distinct(part: NDArray[Any]) -> NDArray[Any]:
-    """Return the distinct values of a part."""
     if part.dtype.kind in "iu":
         low, high = int(part.min()), int(part.max())
         if high < 2**63 and high - low < _TABLE_SIZE:

@@ -66,7 +66,6 @@ class Volume:
 
     @property
     def count(self) -> int:
-        """The number of voxels."""
         return int(np.count_nonzero(self.array))
 
     def coordinates(self) -> NDArray[np.int64]:

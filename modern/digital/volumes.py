@@ -28,22 +28,6 @@ from modern.digital.world import world_of
 from modern.formats.csv import rows
 from modern.geometry.numbers import quoted, real
 
-__all__ = [
-    "VERTEX",
-    "VOXEL",
-    "Stated",
-    "Volume",
-    "VolumeError",
-    "ball",
-    "half_ball",
-    "listed",
-    "parse_volume",
-    "read_scan",
-    "read_volume",
-    "write_array",
-    "write_npy",
-]
-
 ARRAYS = (".npy", ".nrrd")
 """The file name extensions for a filled hull."""
 _BALL = re.compile(r"(half-)?ball:([0-9]{1,9})(?::(voxel|vertex))?", re.ASCII)

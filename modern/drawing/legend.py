@@ -21,13 +21,11 @@ _UNITS = tuple(tuple(Fraction(row == column) for column in range(3)) for row in 
 
 
 def band_height(picture: Scene, width: int, title: str, numbered: bool = True) -> int:
-    """Return the height of the band in pixels."""
     rows = len(_rows(picture, width)) + sum(map(len, _text_lines(picture, width, title, numbered)))
     return max(_STEP * rows + 20, 76 if picture.dimension else 0)
 
 
 def band(picture: Scene, width: int, top: int, title: str, numbered: bool) -> Iterator[str]:
-    """Yield the items of the band that begins at ``top``."""
     base = top + 12
     for lines, weight in zip(_text_lines(picture, width, title, numbered), ('font-weight="bold"', ""), strict=True):
         for line in lines:
@@ -60,7 +58,6 @@ def _text_lines(picture: Scene, width: int, title: str, numbered: bool) -> tuple
 
 
 def caption(picture: Scene) -> str:
-    """Return one sentence that describes the picture."""
     what = _KINDS[picture.dimension]
     if picture.dimension > 1:
         what += ": " + _count_of(len(picture.images), "vertex", "vertices")

@@ -43,7 +43,6 @@ class Frame:
 
     @property
     def caption(self) -> tuple[str, str]:
-        """The two lines of text below the picture."""
         stage = self.stage
         numbers = ", ".join(str(index + 1) for index in stage.added)
         faces = "face" if stage.outside == 1 else "faces"

@@ -33,14 +33,12 @@ def escape(text: str) -> str:
 
 
 def line(a: Pixel, b: Pixel, attributes: str = "") -> str:
-    """Return a straight line."""
     return (
         f'<line x1="{number(a.x)}" y1="{number(a.y)}" x2="{number(b.x)}" y2="{number(b.y)}"{_after_space(attributes)}/>'
     )
 
 
 def polygon(corners: Iterable[Pixel], attributes: str = "") -> str:
-    """Return a closed polygon."""
     return f'<polygon points="{" ".join(f"{number(c.x)},{number(c.y)}" for c in corners)}"{_after_space(attributes)}/>'
 
 

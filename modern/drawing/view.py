@@ -67,7 +67,6 @@ class View:
 
 
 def view(eye: Eye) -> View:
-    """Return the view from a direction that is not zero."""
     right, up = _axes(eye)
     return View(eye, right, up, root(Fraction(dot(eye, eye))))
 
@@ -78,7 +77,6 @@ def root(square: Fraction) -> Fraction:
 
 
 def along(direction: Eye, point: Vector) -> Fraction:
-    """Return the scalar product."""
     return direction[0] * point[0] + direction[1] * point[1] + direction[2] * point[2]
 
 

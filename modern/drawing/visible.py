@@ -52,7 +52,6 @@ def value(line: tuple[N, N, N], point: tuple[N, N, N]) -> N:
 
 
 def sign(number: int | Fraction) -> int:
-    """Return -1, 0 or 1."""
     return (number > 0) - (number < 0)
 
 

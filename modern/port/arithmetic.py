@@ -76,11 +76,9 @@ class Arithmetic(ABC):
         """Return the value as exact text. An arithmetic with a minus zero writes it ``-0``."""
 
     def exacts(self, values: Vector, degree: int) -> list[Exact]:
-        """Apply :meth:`exact` to each value."""
         return [self.exact(value, degree) for value in values]
 
     def texts(self, values: Vector, degree: int) -> list[str]:
-        """Apply :meth:`text` to each value."""
         return [self.text(value, degree) for value in values]
 
     def keys(self, coordinates: Vector) -> Iterable[object]:
@@ -92,7 +90,6 @@ class Arithmetic(ABC):
         return False
 
     def filled(self, values: Sequence[Scalar]) -> Vector:
-        """Return a vector of the given numbers."""
         vector = np.empty(len(values), dtype=self.dtype)
         vector[:] = values
         return vector
@@ -123,7 +120,6 @@ class Arithmetic(ABC):
         return self.last_largest(values * values)
 
     def all_squares_zero(self, values: Vector) -> bool:
-        """Return True if the sum of the squares is zero."""
         return not self.sign(values * values).any()
 
     def distances_add_up(self, first_square: Scalar, second_square: Scalar, total_square: Scalar) -> bool:

@@ -126,7 +126,6 @@ class Historian:
 
     @property
     def stages(self) -> Sequence[Stage]:
-        """The stages recorded so far."""
         notes = self._notes.copy()
         return LazyTuple(len(notes), lambda: (_stage(number, *note) for number, note in enumerate(notes, 1)))
 

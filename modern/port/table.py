@@ -32,11 +32,9 @@ class PointTable:
         return self.coordinates[0], self.coordinates[1], self.coordinates[2]
 
     def at(self, index: int) -> tuple[Scalar, Scalar, Scalar]:
-        """Return the coordinates of one point."""
         return self.coordinates[0, index], self.coordinates[1, index], self.coordinates[2, index]
 
     def several(self, indices: NDArray[np.int64]) -> tuple[Vector, Vector, Vector]:
-        """Return the coordinates of several points as vectors."""
         selected = self.coordinates[:, indices]
         return selected[0], selected[1], selected[2]
 
@@ -143,7 +141,6 @@ class Equations:
         self.made += count
 
     def keep(self, mask: NDArray[np.bool_]) -> None:
-        """Delete the equations outside the mask."""
         self.coefficients = self.coefficients[:, mask]
         self.defining = self.defining[:, mask]
         self.serial = self.serial[mask]
@@ -151,13 +148,11 @@ class Equations:
             self.tolerances = self.tolerances[mask]
 
     def one_at(self, equation: int, points: tuple[Vector, ...]) -> Vector:
-        """Return the values of one equation at points."""
         values = at(tuple(self.coefficients[:, equation]), points)
         slack = None if self.tolerances is None else self.tolerances[equation]
         return snapped(self.arithmetic, values, slack)
 
     def all_at(self, point: tuple[Scalar, ...]) -> Vector:
-        """Return the values of all equations at one point."""
         return snapped(self.arithmetic, at(tuple(self.coefficients), point), self.tolerances)
 
     def values(self, coefficients: Vector, point: tuple[Scalar, ...]) -> Vector:

@@ -24,7 +24,6 @@ def process(*arguments: str) -> Callable[[], object]:
 
 
 def command_lines() -> Iterator[str]:
-    """Measure complete processes, including their start."""
     yield timed("an empty Python process", lambda: subprocess.run([sys.executable, "-c", "pass"], check=True)).line()
     yield timed("hull1620 --help", process("--help"), "bar 0.15 s").line()
     yield timed("hull1620 reproduce 5, process start included", process("reproduce", "5"), "bar 0.5 s").line()
@@ -54,7 +53,6 @@ GROUPS: Mapping[str, Callable[[], Iterator[str]]] = {
 
 
 def main(names: Sequence[str]) -> int:
-    """Print every figure of the named groups, or of all."""
     unknown = [name for name in names if name not in GROUPS]
     if unknown:
         print(f"bench: unknown group {unknown[0]!r}; the groups are {', '.join(GROUPS)}", file=sys.stderr)

@@ -62,7 +62,6 @@ print(array.size, peak)
 
 
 def figures(largest: int = 512) -> Iterator[Figure]:
-    """Yield every figure, smallest first."""
     ways = ([("compiled", True)] if find_spec("numba") else []) + [("plain", False)]
     small = ball(64, VERTEX).array
     own_figures = {}
@@ -90,7 +89,6 @@ def figures(largest: int = 512) -> Iterator[Figure]:
 
 
 def lines(largest: int = 512) -> Iterator[str]:
-    """Yield every figure as text, and the tables of solids' hulls."""
     for figure in figures(largest):
         yield figure.line()
     for diameter in DIAMETERS:
@@ -155,7 +153,6 @@ def scikit_image(array: Any) -> Figure | None:
 
 
 def by_scikit_image(array: Any) -> Any:
-    """Return the filled hull of the voxels' centres by scikit-image."""
     from skimage.morphology import convex_hull_image
 
     return convex_hull_image(array, offset_coordinates=False)  # type: ignore[no-untyped-call]
@@ -177,7 +174,6 @@ def peak(side: int, way: str) -> tuple[int, float]:
 
 
 def main() -> None:
-    """Print every figure, or measure, print and plot the growth."""
     what = f"voxels of a ball; slopes from {SLOPES_FROM:,} on"
     for line in plotted(growth(), sys.argv[1], what, SLOPES_FROM) if len(sys.argv) == 2 else lines():
         print(line, flush=True)

@@ -24,7 +24,6 @@ STYLES = ({"marker": "o", "linestyle": "-", "color": "0"}, {"marker": "s", "line
 
 
 def array(x: int, y: int, z: int, step: Fraction) -> list[Polyhedron]:
-    """Return unit cuboids in a grid with the given distance."""
     unit_cuboid = cuboid("cuboid", Fraction(1), Fraction(1), Fraction(1))
     places = ((i, j, k) for i in range(x) for j in range(y) for k in range(z))
     return [placed(unit_cuboid, moved((step * i, step * j, step * k)), "cuboid") for i, j, k in places]
@@ -48,7 +47,6 @@ def drawn(polyhedra: list[Polyhedron]) -> Drawing:
 
 
 def figures() -> Iterator[Figure]:
-    """Yield every figure, smallest first."""
     cuboids = scene("cuboids")
     observer = cuboids.sight.observer(cuboids.make)
     yield timed("hidden lines, 60 cuboids, all steps", lambda: draw(cuboids.make, observer), "bar 0.3 s")
@@ -68,7 +66,6 @@ def growth() -> dict[str, list[tuple[int, float, int]]]:
 
 
 def curves(rows_by_arrangement: dict[str, list[tuple[int, float, int]]]) -> list[Curve]:
-    """Return the measured growth, and a line that grows as n log n."""
     *_, (count, seconds, _) = rows_by_arrangement["on a floor, few overlap"]
     scale = seconds / (count * math.log(count))
     guide = Curve("n log n", [(n, scale * n * math.log(n)) for n in COUNTS], {"linestyle": ":", "color": "0.6"})
@@ -80,7 +77,6 @@ def curves(rows_by_arrangement: dict[str, list[tuple[int, float, int]]]) -> list
 
 
 def main() -> None:
-    """Measure, print and plot."""
     if len(sys.argv) != 2:
         sys.exit("usage: python -m modern.bench.suite.hidden_line FILE.svg")
     for figure in figures():

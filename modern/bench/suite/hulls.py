@@ -67,7 +67,6 @@ def exact_in_doubles(points: Any) -> Any:
 
 
 def eight_digits(points: Any) -> Any:
-    """Scale coordinates in [-1, 1] to integers of eight digits."""
     return np.rint(points * 99_999_999).astype(np.int64)
 
 
@@ -113,13 +112,11 @@ class Table:
 
 
 def table(name: str, points: Any, works: Mapping[str, Work], peers: Peers) -> Table:
-    """Measure works and peers in turn on the same points."""
     peer_works = {peer: of(points) for peer, of in peers.installed.items()}
     return Table(name, tuple(side_by_side({**works, **peer_works}, clock=time.process_time)), tuple(peer_works))
 
 
 def tables(peers: Peers, largest: int = 100_000) -> Iterator[Table]:
-    """Yield every table, smallest first, with at most ``largest`` points."""
     counts = [count for count in COUNTS if count <= min(largest, 100_000)]
     for count in counts:
         points = exact_in_doubles(ball(count))
@@ -134,7 +131,6 @@ def tables(peers: Peers, largest: int = 100_000) -> Iterator[Table]:
 
 
 def lines(largest: int = 100_000) -> Iterator[str]:
-    """Yield every table as text, process starts, and the missing peers."""
     with Peers() as peers:
         for measured_table in tables(peers, largest):
             yield from measured_table.lines()
@@ -174,7 +170,6 @@ def growth(peers: Peers, counts: Sequence[int] = COUNTS) -> list[Curve]:
 
 
 def main() -> None:
-    """Measure the growth, print it and plot it."""
     if len(sys.argv) != 2:
         sys.exit("usage: python -m modern.bench.suite.hulls FILE.svg")
     with Peers() as peers:

@@ -44,7 +44,6 @@ BAR = 32
 
 
 def figures() -> Iterator[Figure]:
-    """Yield every figure of the papers."""
     yield from convex_edges()
     yield from hidden_line.figures()
     yield from cell_lists()
@@ -63,7 +62,6 @@ def on_grid(count: int, seed: int = 4) -> list[tuple[int, int, int]]:
 
 
 def convex_edges() -> Iterator[Figure]:
-    """Measure Appel and Will's method and the judge."""
     in_ball = [tuple(p) for p in eight_digits(ball(POINTS)).tolist()]
     sets = {"in a ball": in_ball, "on a sphere": on_sphere(POINTS), "of a grid": on_grid(POINTS)}
     by_star = Method(star=as_corrected)

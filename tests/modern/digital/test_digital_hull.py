@@ -14,12 +14,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-import modern
 from emulator.jit.functions import NotInstalled
 from modern.digital import columns, intervals
 from modern.digital.hull import KINDS, WORTH_COMPILING, digital_hull
 from modern.digital.polytope import polyhedron
-from modern.digital.solids import VERTEX, NoVoxels, Volume, VolumeError, ball
+from modern.digital.solids import VERTEX, NoVoxels, VolumeError, ball
 from tests.support.digital_judge import judged, random_solid, solid_of
 
 VOLUMES = st.one_of(
@@ -197,11 +196,6 @@ def test_compiled_code_without_numba_is_an_error(monkeypatch: pytest.MonkeyPatch
 def test_invalid_arrays_are_refused(array: np.ndarray, message: str) -> None:
     with pytest.raises(VolumeError, match=message):
         digital_hull(array)
-
-
-def test_modern_exports_digital_hull() -> None:
-    assert modern.digital_hull is digital_hull
-    assert modern.digital_hull(Volume(np.ones((2, 2), dtype=np.bool_), (5, 5))).voxels == 4
 
 
 @given(VOLUMES)

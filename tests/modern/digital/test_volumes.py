@@ -15,7 +15,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from emulator.errors import EmulatorError, FileError
-from modern.digital.volumes import Volume, VolumeError, ball, half_ball, listed, parse_volume, read_volume, write_npy
+from modern.digital.solids import Volume, VolumeError, ball, half_ball, listed
+from modern.digital.volumes import parse_volume, read_volume, write_npy
 
 STEPS = np.arange(24).reshape(2, 3, 4) % 5
 """Values 0 to 4 that change under every exchange of axes."""

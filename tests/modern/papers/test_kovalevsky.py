@@ -14,7 +14,7 @@ from hypothesis.extra import numpy as arrays
 from numpy.typing import NDArray
 
 from modern.digital.hull import digital_hull
-from modern.digital.volumes import Volume, VolumeError, ball, half_ball
+from modern.digital.solids import Volume, VolumeError, ball, half_ball
 from modern.exact_hull import ExactHull, exact_hull
 from modern.papers.kovalevsky_schulz import (
     CENTRES,

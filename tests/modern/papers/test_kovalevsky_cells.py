@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from modern.digital.volumes import ball, half_ball
+from modern.digital.solids import ball, half_ball
 from modern.papers.kovalevsky_schulz import (
     INVISIBLE,
     VISIBLE,

@@ -19,7 +19,7 @@ from modern.claims.published import (
     text_of,
 )
 from modern.cli.main import main
-from modern.digital.volumes import half_ball
+from modern.digital.solids import half_ball
 from modern.edition.apparatus import build
 from modern.edition.reproduce import DIFFERENT, EXACT
 from modern.formats.off import parse_off

@@ -14,7 +14,7 @@ from hypothesis.extra import numpy as arrays
 
 from modern.digital.hull import digital_hull
 from modern.digital.intervals import lower_chain
-from modern.digital.volumes import Volume, VolumeError, ball
+from modern.digital.solids import Volume, VolumeError, ball
 from modern.exact_hull import exact_hull
 from modern.papers.kovalevsky_schulz import CENTRES, Flat, convex_polyhedron, local_corners, reconstructed
 from modern.papers.yau_srihari import OctreeHull, Printed, octree_hull
