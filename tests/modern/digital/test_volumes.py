@@ -207,10 +207,7 @@ HEADER = nrrd(STEPS.astype("u1"), "uchar")
         (HEADER.replace(b"sizes: 2 3 4", b"sizes: 99999 99999 99999"), "line 5: expected at most"),
         (HEADER.replace(b"type: uchar", b"type: block"), "line 3: type: 'block' is not supported"),
         (HEADER.replace(b"type: uchar", b"type: short"), "the header has no field 'endian'"),
-        (
-            HEADER.replace(b"type: uchar", b"type: int\nendian: odd"),
-            "line 4: endian: expected little or big, found 'odd'",
-        ),
+        (HEADER.replace(b"type: uchar", b"type: int\nendian: odd"), "line 4: endian: expected little or big"),
         (HEADER.replace(b"type: uchar\n", b""), "the header has no field 'type'"),
         (HEADER.replace(b"encoding: raw", b"encoding: hex"), "line 6: encoding: expected raw or gzip, found 'hex'"),
         (HEADER.replace(b"encoding: raw", b"encoding: gzip"), "the data cannot be decompressed"),
@@ -218,10 +215,7 @@ HEADER = nrrd(STEPS.astype("u1"), "uchar")
         (HEADER.replace(b"# a", b"type: a"), "line 3, column 1: duplicate field type"),
         (HEADER.replace(b"key:=", b"byte skip: -1\nkey:="), "line 7: byte skip: expected 0"),
         (HEADER.replace(b"key:=", b"data file: LIST\nkey:="), "line 7: data in several files are not supported"),
-        (
-            HEADER.replace(b"type: uchar", b"type: int").replace(b"raw", b"ascii"),
-            "encoding: expected raw or gzip, found 'ascii'",
-        ),
+        (HEADER.replace(b"type: uchar", b"type: int").replace(b"raw", b"ascii"), "encoding: expected raw or gzip"),
         (HEADER[:-3], "expected 24 bytes of data, found 21"),
         (HEADER + b"12", "expected 24 bytes of data for 2x3x4 numbers, found more"),
     ],

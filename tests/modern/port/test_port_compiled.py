@@ -5,7 +5,6 @@ from __future__ import annotations
 import subprocess
 import sys
 from collections.abc import Callable
-from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +19,7 @@ from modern.geometry.hull import DETERMINED, ERROR, NOT_ACCEPTABLE, TABLE_FULL, 
 from modern.port import fast, kernels, workspace
 from modern.port.binary import FloatArithmetic
 from modern.port.growth import LAST_PAIR, TABLE_OF_PLANES, THROUGH_CENTRE
-from modern.port.table import PointTable, Slack
+from modern.port.table import PointTable
 from tests.support.ported import convex_hull
 
 Points = NDArray[np.float64]
@@ -178,16 +177,6 @@ def test_compiler_does_not_fuse_products_with_sums() -> None:
     arguments = slots, np.array([[1 - e, 1.0], [0.0, 0.0], [0.0, 0.0]]), counts, indices
     assert Compiled(kernels.satisfied).ready(*arguments)(*arguments) == 1
     assert (counts.tolist(), indices.tolist()) == ([1], [0, -1])
-
-
-def test_numbers_that_may_overflow_are_left_to_numpy() -> None:
-    numbers = FloatArithmetic(np.float64)
-    for size, slack, kernel in ((1e75, None, True), (1e78, None, False), (1.0, "1e300", True), (1e75, "1e300", False)):
-        points = PointTable(np.array([[size], [0.0], [0.0]]), np.arange(1))
-        e = None if slack is None else Slack(numbers, Fraction(slack), True)
-        with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(fast, "load", lambda _: fast.Steps(len, len))
-            assert (fast.choose(numbers, points, e, True) is not fast.PLAIN) == kernel
 
 
 def test_numpy_runs_without_numba(monkeypatch: pytest.MonkeyPatch) -> None:
