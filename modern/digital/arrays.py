@@ -37,7 +37,7 @@ def parse_npy(data: bytes, source: str) -> NDArray[Any]:
                 raise ValueError(f"unsupported version {version[0]}.{version[1]}")
             shape, column_major, kind = _HEADERS[version](file)
     except Exception as error:
-        # A damaged header ends in whatever error the reading meets: TokenError, IndexError, OverflowError ...
+        # A damaged header can raise any error: TokenError, IndexError, OverflowError and others.
         raise VolumeError(f"{source}: not an NPY array of numbers: {_message_of(error)}") from None
     if kind.kind not in "biufc" or kind.itemsize == 0:
         raise VolumeError(f"{source}: not an NPY array of numbers: its type is {quoted(str(kind))}")

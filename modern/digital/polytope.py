@@ -154,8 +154,7 @@ def grow(at: Points, surface: Surface, used: int) -> int:
         p = head[f]
         head[f] = after[p]
         count, edges = find_visible(at, surface, p, f)
-        # Collect the outside points of all visible facets. Each of them is inside the new hull or outside a new
-        # facet.
+        # Collect the outside points of all visible facets. They are inside the new hull or outside a new facet.
         pool = -1
         for k in range(count):
             g = visible[k]

@@ -74,11 +74,11 @@ def scene(hull: Hull, eye: Sequence[Fraction] | None = None) -> Scene:
     normals = [area_vector(points, face) for face in surface.faces]
     sight = view(_direction(surface, points, normals, eye))
     images = tuple(sight.project(point) for point in points)
-    # A mesh has its faces counterclockwise from outside, the paper clockwise.
+    # Faces of a mesh are counterclockwise from outside, those of the paper clockwise.
     faces = [face[::-1] for face in surface.faces]
     signs = [facing([(*images[place], _ONE) for place in face]) for face in faces]
     if surface.dimension == 2:
-        # A polygon has two sides; whichever the eye is on is the one drawn.
+        # A polygon has two sides. The one on the side of the eye is drawn.
         signs = [abs(sign) for sign in signs]
     around: dict[int, list[int]] = defaultdict(list)
     for face, sign in zip(surface.faces, signs, strict=True):

@@ -135,14 +135,13 @@ def _clearness(points: Sequence[Eye], normals: Sequence[Eye], eye: Eye) -> Fract
         return Fraction(0)
     square = dot(eye, eye)
     clear = Fraction(1)
-    # The squared sine of the angle between face and direction, limited to 1.
+    # The squared sine of the angle between face and direction, scaled, and limited to 1.
     for normal in normals:
         clear = min(clear, Fraction(dot(normal, eye) ** 2 * _CLEAR_FACE, dot(normal, normal) * square))
     if len(points) <= _MOST_PAIRS:
         pairs = [minus(p, q) for k, p in enumerate(points) for q in points[:k]]
         extent = max(dot(pair, pair) for pair in pairs)
-        # The distance of two images is the cross product of their difference and the direction, divided by its
-        # length.
+        # The distance of two images is |pair x eye| / |eye|. It is compared with the extent of the solid.
         nearest = min(dot(apart, apart) for apart in (cross(pair, eye) for pair in pairs))
         clear = min(clear, Fraction(nearest * _CLEAR_PAIR, square * extent))
     return clear

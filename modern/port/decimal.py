@@ -90,7 +90,7 @@ class Arithmetic1620(Arithmetic):
             return Number1620(0, MINUS_ZERO if minus else ZERO, self.rules)
         digits = self.profile.digits
         size = abs(Fraction(value))
-        # The number of digits of numerator and denominator gives the exponent or one more than it.
+        # The numbers of digits of numerator and denominator give the exponent, or one more than it.
         exponent = decimal_length(size.numerator) - decimal_length(size.denominator) + 1
         if size < Fraction(10) ** (exponent - 1):
             exponent -= 1

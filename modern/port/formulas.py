@@ -23,8 +23,8 @@ def less(total: Number, product: Number) -> Number:
 def plane(p: Point, q: Point, r: Point) -> tuple[Number, Number, Number, Number]:
     """Return the coefficients A, B, C, D of the plane through three points: equations (3.4), thesis p. 16."""
     (xi, yi, zi), (xj, yj, zj), (xk, yk, zk) = p, q, r
-    # Each coefficient is a determinant of six products. The listing adds the three positive products first
-    # (AA, BB, CC and DD at statements 126 to 130 of program 3) and then subtracts the three negative ones.
+    # Each coefficient is a sum of six products. The listing adds the three positive products first (AA, BB, CC and DD
+    # after statement 130 of program 3) and then subtracts the three negative ones one by one.
     a = less(less(less(zi * yk + (yj * zk + yi * zj), yk * zj), yi * zk), yj * zi)
     b = less(less(less(xj * zi + (xi * zk + xk * zj), xi * zj), xj * zk), xk * zi)
     c = less(less(less(yi * xk + (xj * yk + xi * yj), yj * xk), xi * yk), xj * yi)

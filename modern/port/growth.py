@@ -44,9 +44,8 @@ class Remaining:
             return []
         alive = np.zeros(table.made + 1, np.bool_)
         alive[table.serial] = True
-        # Statements 103 to 113: a point is inside if every equation is negative at it. A point whose recorded
-        # equation
-        # is still in the table cannot be inside, so only the other points are tested.
+        # Statements 103 to 113: a point is inside if every equation is negative at it. A point with a recorded equation
+        # that is still in the table cannot be inside, so only the other points are tested.
         doubtful = np.flatnonzero(~alive[self.keeper])
         fresh = int(np.searchsorted(table.serial, self.tried))
         # Test the new equations first: at most points one of them replaces the deleted one. The older equations are

@@ -150,8 +150,7 @@ class Polyhedron:
         retained = np.ones(defining.shape[1], np.bool_)
         if len(retained) == 3:
             return retained
-        # Statements 141 to 160 compare every pair of planes. A dictionary of planes not yet paired finds the same
-        # pairs.
+        # Statements 141 to 160 compare every two planes. A dictionary of unpaired planes finds the same pairs.
         waiting: dict[tuple[int, ...], int] = {}
         pairs: list[tuple[int, int]] = []
         for k, key in enumerate(map(tuple, np.sort(defining, axis=0).T.tolist())):
