@@ -88,7 +88,7 @@ def test_standard_input_that_cannot_be_read(
 )
 def test_files_that_cannot_be_read(capsys: pytest.CaptureFixture[str], reader: str, path: str, message: str) -> None:
     if path == "folder" and reader in ("octree-hull", "voxel-hull"):
-        message += " without a DICOM file; a volume is a file, or a folder with a series"
+        message += " without a DICOM file; expected a file, or a folder with a DICOM series"
     assert refused(capsys, reader, path) == message
 
 
