@@ -90,6 +90,7 @@ def chapter4_faults(text: Text, row: Row) -> tuple[str, ...]:
     holds = {"sibling": _sibling, "arithmetic": _arithmetic}[str(row.ground["kind"])]
     if not holds(row, build(text)):
         return (f"row {row.id}: its ground does not hold",)
+    # Each step of a reading must be needed, and so must the row as a whole.
     for step in steps(row) or ():
         if holds(row, build(text, instead=without_step(row, step))):
             return (f"row {row.id}: {step.pair.lemma!r} for {step.pair.witness!r} is not needed",)
@@ -138,6 +139,7 @@ def paper_faults(paper: published.Paper, text: Text, row: Row) -> tuple[str, ...
             continue
         has_computed_result = True
         computed_words = [line.split() for line in _produced(paper.name).get(result.id, ())]
+        # The lines of the result with all emendations, and without the one that is checked.
         with_row, without = (
             [line.text.split() for line in build(text, None, left_out) if line.id in span]
             for left_out in ((), {row.id})

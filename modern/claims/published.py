@@ -125,6 +125,7 @@ def results_of(paper: Paper, folder: Traversable | None = None) -> tuple[Publish
     results: list[PublishedResult] = []
     free = [line.id for line in corrected]
     for entry in data["result"]:
+        # Every line of the print belongs to one result; lines are taken in the order of results.toml.
         first, last = str(entry["lines"][0]), str(entry["lines"][-1])
         if first not in free or last not in free:
             raise ApparatusError(

@@ -192,6 +192,7 @@ def surface_area() -> CheckResult:
         {(k, 0, 0) for k in range(ARM + 1)} | {(0, k, 0) for k in range(ARM + 1)} | {(0, 0, k) for k in range(ARM + 1)}
     )
     ways = [step for step in product((-1, 0, 1), repeat=3) if sum(map(abs, step)) == 1]
+    # The surface of the star is the number of faces of cubes without a neighbouring cube.
     star = sum((x + i, y + j, z + k) not in cubes for x, y, z in cubes for i, j, k in ways)
     around = _surface(sorted({(x + i, y + j, z + k) for x, y, z in cubes for i, j, k in CUBE}))
     message = (
@@ -277,12 +278,15 @@ def step_as_printed(step: str) -> CheckResult:
     name = {"step5": "fig14.csv", "step7": "octahedron.csv", "step9": "pentagon.csv", "step10": "fig14.csv"}[step]
     points = counterexample_points(name)
     also = ("step3",) if step == "step9" else ()
-    letter, corrected = appel_will(points, method=printed(step, *also)), appel_will(points, method=printed(*also))
-    same = [loop.entries for loop in letter.table.loops] == [loop.entries for loop in corrected.table.loops]
-    message = letter.fault or (
+    as_printed_hull, corrected = (
+        appel_will(points, method=printed(step, *also)),
+        appel_will(points, method=printed(*also)),
+    )
+    same = [loop.entries for loop in as_printed_hull.table.loops] == [loop.entries for loop in corrected.table.loops]
+    message = as_printed_hull.fault or (
         "the same loops" if same else "the loops come in an order that differs from the printed one"
     )
-    return fails_if(letter.fault or not same, message)
+    return fails_if(as_printed_hull.fault or not same, message)
 
 
 def planar_graph() -> CheckResult:
@@ -300,6 +304,7 @@ def planar_graph() -> CheckResult:
             after = {
                 ring[k - 1]: ring[(k + 1) % len(ring)] for ring in rings for k, v in enumerate(ring) if v == vertex
             }
+            # Walk around the vertex from face to face; the walk must visit every face once.
             first = at = next(iter(after))
             turns = [at := after[at] for _ in after]
             checks.append(turns[-1] == first and len({*turns}) == len(after))

@@ -51,6 +51,7 @@ def _cycles(graph: Graph) -> Iterator[frozenset[int]]:
         path = paths.pop()
         for new in graph[path[-1]]:
             if new > path[0] and new not in path:
+                # A neighbour earlier in the path is a chord, unless it is the start, which closes the cycle.
                 before = graph[new] & {*path[:-1]}
                 if before == {path[0]}:
                     yield frozenset((*path, new))
@@ -95,6 +96,7 @@ def list_of_points(count: str = COUNT) -> CheckResult:
             a, b, c = (hull.points[k] for k in ring[:3])
             values = {k: plane_value(plane_through(a, b, c), hull.points[k]) for k in hull.vertices}
             checks.append({k for k, plane_value in values.items() if not plane_value} == {*ring})
+            # Follow steps 9 and 10 along the printed order of lines up to the one chosen.
             taken, match = [abs(entry) - 1 for entry in loop.entries[:2]], loop.match
             for entry in loop.entries[2:]:
                 chosen = abs(entry) - 1

@@ -258,6 +258,7 @@ def normal_from_two_lines() -> CheckResult:
                 )
                 product_ = cross(u, v)
                 checks.append(lowest(product_) in (lowest(normal), minus((0, 0, 0), lowest(normal))))
+                # At a concave corner the product is reversed; for unit directions its length is the sine.
                 turned += dot(product_, normal) < 0
                 shorter += dot(product_, product_) < dot(u, u) * dot(v, v)
     message = f"{len(checks)} corners agree; at {turned} the product is reversed, and at {shorter} it is shorter than 1"

@@ -215,6 +215,7 @@ def manifold(kind: str = "") -> CheckResult:
         for vertex in judge.vertices:
             around = Counter(end for ring in rings if vertex in ring for end in _beside(ring, vertex))
             faces = sum(vertex in ring for ring in rings)
+            # At the rim two edges have only one face of the patch, so there is one edge more than faces.
             row = len(around) == faces + 1 and sorted(around.values())[:2] == [1, 1]
             rows += row
             closed = len(around) == faces and {*around.values()} == {2}
@@ -248,6 +249,7 @@ def connected(kind: str = "") -> CheckResult:
     good_ones = []
     for cells in (frozenset(sorted(s)[:14]) for s in _subsets(3)):
         related = {(a, b) for a in cells for b in cells if _incident(a, b)}
+        # Close the incidence relation transitively, as the recursion of the definition does.
         while more := {(a, d) for a, b in related for c, d in related if b == c} - related:
             related |= more
         parts = _components(cells)

@@ -129,6 +129,7 @@ def _horizons() -> Iterator[tuple[Point, Plane, Plane, Plane, list[Point], tuple
         for new in ((9, 1, 0), (-8, 3, 7)):
             for edge in judge.edges():
                 first_plane, second_plane = (f.plane for f in judge.facets if {*edge} <= {*f.polygon})
+                # The edge is on the horizon if exactly one of its faces is visible from the new point.
                 visible, hidden = (
                     (first_plane, second_plane) if plane_value(first_plane, new) > 0 else (second_plane, first_plane)
                 )
@@ -184,6 +185,7 @@ def section_angles() -> CheckResult:
         outward = tuple(sign * n for n in plane[:3])
         along = minus(edge[1], edge[0])
         share = Fraction(dot(along, minus(new, edge[0])), dot(along, along))
+        # The foot of the perpendicular from P on the line of the edge.
         foot = [a + share * d for a, d in zip(edge[0], along, strict=True)]
         for q, sums in ((foot, right), ([*map(Fraction, edge[0])], elsewhere)):
             line = [p - c for p, c in zip(new, q, strict=True)]
@@ -218,6 +220,7 @@ def coefficients_by_cosines() -> CheckResult:
         for face in (below[:3], slanted[:3], normal)
     )
     a, b = _coefficients(visible, hidden, outer)  # type: ignore[arg-type]
+    # Compare squares for unit normals, so that no roots are needed.
     ratio = a * a * dot(visible, visible) / (b * b * dot(hidden, hidden))  # type: ignore[arg-type]
     cosines = _cosine(visible, outer) / _cosine(hidden, outer)
     sines = (1 - _cosine(hidden, outer)) / (1 - _cosine(visible, outer))

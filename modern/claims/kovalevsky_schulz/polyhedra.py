@@ -214,6 +214,7 @@ def memory_requirements() -> CheckResult:
     """
     fewer, more = [], {}
     for diameter, (_, triangulated, faces, cells) in zip(DIAMETERS, _table_5(), strict=True):
+        # Formula (6) counts 5 integers for each face and 3 for each vertex.
         own = triangulation_size(2 * ((cells - 5 * faces) // 3) - 4)
         fewer.append(cells < triangulated)
         if cells > own:
@@ -265,6 +266,7 @@ def cells_removed() -> CheckResult:
             after = exact_hull([*points, new])
             if 0 in values.values():
                 continue
+            # Expected: the invisible faces, and a triangle on each edge that bounds exactly one of them.
             hidden = {frozenset(f.polygon) for f, v in values.items() if v < 0}
             faces = {frozenset(f.polygon) for f in after.facets}
             rim = [e for e in judge.edges() if sum({*e} <= h for h in hidden) == 1]

@@ -40,6 +40,7 @@ def corners_against_centres(kind: str = "") -> CheckResult:
             checks += [corners == voxel_vertices, {tuple(c // 2 for c in cell) for cell in cells} == voxels]
             sizes.append(f"{len(voxels)} and {len(corners)}")
             continue
+        # A centre has odd coordinates in half units; its cube has the eight even corners around it.
         grown = [(2 * x + 2 * i, 2 * y + 2 * j, 2 * z + 2 * k) for x, y, z in sorted(voxels) for i, j, k in STEPS]
         outer, inner = exact_hull([(2 * x, 2 * y, 2 * z) for x, y, z in sorted(corners)]), exact_hull(grown)
         checks.append({f.plane for f in outer.facets} == {f.plane for f in inner.facets})

@@ -87,6 +87,7 @@ def convex_contour() -> CheckResult:
     ):
         images = [(x + u * z, y + v * z) for x, y, z in points]
         values = [dot(face.plane[:3], (-u, -v, 1)) for face in judge.facets]
+        # A directed edge of a front face is on the contour if its reverse belongs to no front face.
         front = [face.polygon for face, face_value in zip(judge.facets, values, strict=True) if face_value > 0]
         sides = {(a, b) for ring in front for a, b in zip(ring, (*ring[1:], ring[0]), strict=True)}
         after = {b: a for a, b in sides if (b, a) not in sides}
@@ -114,7 +115,7 @@ def correlations(kind: str = "") -> CheckResult:
     Exactly one of the three applies unless the polygons touch; for some that touch none applies.
     """
     counts: dict[str, int] = dict.fromkeys(("apart", "encloses", "partly", "touching"), 0)
-    checks, loose = [], False
+    checks, some_unrelated = [], False
     for v, w in pairs():
         both = (v, w), (w, v)
         relations = {
@@ -124,14 +125,14 @@ def correlations(kind: str = "") -> CheckResult:
         }
         meet = any(d in (-1, -2) for d, _ in numbers_of_meetings(v, w)) or {*v} & {*w}
         if meet:
-            loose |= not any(relations.values())
+            some_unrelated |= not any(relations.values())
             counts["touching"] += 1
         else:
             checks.append(sum(relations.values()) == 1)
             counts = {name: n + relations.get(name, False) for name, n in counts.items()}
-    fine = all(checks) and loose and all(counts.values())
+    passed = all(checks) and some_unrelated and all(counts.values())
     message = ", ".join(f"{name} {number}" for name, number in counts.items())
-    return holds_if(fine, message, conditional=not kind)
+    return holds_if(passed, message, conditional=not kind)
 
 
 def formula(number: str, kind: str = "") -> CheckResult:
@@ -157,8 +158,8 @@ def formula(number: str, kind: str = "") -> CheckResult:
         return _formula_5()
     if kind:
         overlap = overlap_in_line()
-        fine = all(checks) and overlap.verdict == CONDITION
-        return holds_if(fine, f"{len(checks)} cases agree; {overlap.message}", conditional=True)
+        passed = all(checks) and overlap.verdict == CONDITION
+        return holds_if(passed, f"{len(checks)} cases agree; {overlap.message}", conditional=True)
     return holds_if(bool(checks) and all(checks), f"{len(checks)} cases agree")
 
 
@@ -170,8 +171,8 @@ def _formula_5() -> CheckResult:
         rows = [(1, 2, z), *corners]
         (a, b, c) = (minus(row, rows[0]) for row in rows[1:])
         signs[z] = (sign(dot(a, cross(b, c))), sign(height(plane, (1, 2, z, 1))))
-    fine = all(by_determinant == by_program == sign(z) for z, (by_determinant, by_program) in signs.items())
-    return holds_if(fine, "the value is positive above the face, negative below it, and 0 in it", conditional=True)
+    passed = all(by_determinant == by_program == sign(z) for z, (by_determinant, by_program) in signs.items())
+    return holds_if(passed, "the value is positive above the face, negative below it, and 0 in it", conditional=True)
 
 
 def numbers_of_meetings(v: tuple[Place, ...], w: tuple[Place, ...]) -> Iterator[tuple[int, int]]:
@@ -180,6 +181,7 @@ def numbers_of_meetings(v: tuple[Place, ...], w: tuple[Place, ...]) -> Iterator[
     tables = Tables(tuple(map(tuple, pl)), tuple(map(tuple, lp)))
     for i, j in product(range(len(v)), range(len(w))):
         a, b, c, d = v[i], v[(i + 1) % len(v)], w[j], w[(j + 1) % len(w)]
+        # Section 3.2: -4 for a crossing, -2 for a vertex on a segment, -1 for a common vertex, else 0.
         touching = [p for p in {a, b} if _between(c, d, p)] + [p for p in {c, d} if _between(a, b, p)]
         in_line = side(a, b, c) == side(a, b, d) == 0
         same = {a, b} & {c, d}
@@ -258,7 +260,7 @@ def intersection_counts() -> CheckResult:
 
     There are at most two unless the segment runs along a side. At a corner, d of (3) is not 0 for both adjacent sides.
     """
-    counts, along, more = set(), 0, 0
+    counts, along, over_two = set(), 0, 0
     for v in _polygons():
         for a, b in combinations([(x, y) for x in (-3, 0, 2, 4) for y in (-2, 0, 3, 4)], 2):
             places, by_3 = set(), 0
@@ -276,9 +278,9 @@ def intersection_counts() -> CheckResult:
                     by_3 += (sign(at_b) - sign(at_a)) * (side(a, b, q) - side(a, b, p)) != 0
             else:
                 counts.add(len(places))
-                more += by_3 > 2
+                over_two += by_3 > 2
     message = (
         f"segments meet a contour in {', '.join(map(str, sorted(counts)))} points; {along} run along a side, "
-        f"and {more} meet more than two"
+        f"and {over_two} meet more than two"
     )
-    return holds_if(counts == {0, 1, 2} and along and more, f"{message} sides", conditional=True)
+    return holds_if(counts == {0, 1, 2} and along and over_two, f"{message} sides", conditional=True)

@@ -39,14 +39,14 @@ def faces_and_edges(kind: str = "") -> CheckResult:
         return holds_if(passed, message)
     (along,) = _cuboid((0, 0, 1)).solids
     pairs_ = combinations(zip(along.polyhedron.faces, along.signs, strict=True), 2)
-    letter = sum(
+    edges_as_printed = sum(
         first_sign * second_sign == -1 and len({*a} & {*b}) == 2 for (a, first_sign), (b, second_sign) in pairs_
     )
     contour = sum(edge.kind == CONTOUR for edge in along.edges)
-    passed &= along.signs.count(0) == 4 == contour and not letter
+    passed &= along.signs.count(0) == 4 == contour and not edges_as_printed
     return holds_if(
         passed,
-        f"{message}; along an axis it has {contour} contour edges, and {letter} by the printed definition",
+        f"{message}; along an axis it has {contour} contour edges, and {edges_as_printed} by the printed definition",
         conditional=True,
     )
 
@@ -99,6 +99,7 @@ def indices(kind: str = "") -> CheckResult:
         for k, column in enumerate(of_square):
             (xi, yi), (xj, yj) = SQUARE[k], SQUARE[(k + 1) % 4]
             if crosses(SQUARE, k, (a, b), 0):
+                # Formula (6): the sign of the determinant tells whether the segment enters or leaves.
                 determinant = (xj - xi) * (a[1] - b[1]) - (yj - yi) * (a[0] - b[0])
                 met.append((Fraction(column[0], column[0] - column[1]), sign(determinant)))
         by_six = tuple((place, len(met) * index) for place, index in sorted(met))
@@ -188,18 +189,19 @@ def overlap_by_neighbours() -> CheckResult:
 
 def segments_within() -> CheckResult:
     """Check that every side of V that crosses a diagonal of V' has a part inside V', but is not always inside."""
-    checks, partly = [], 0
+    checks, partly_inside = [], 0
     for v, w in pairs():
         for i, (p, q) in product(range(len(v)), combinations(range(len(w)), 2)):
             if crosses(v, i, (w[p], w[q]), 0):
                 a, b = v[i], v[(i + 1) % len(v)]
                 values_at_w = values(lines_of(w), [(*a, 0, 1), (*b, 0, 1)])
                 checks.append(values_at_w is not None and clipped(values_at_w, 0, 1) != CLEAR)
-                partly += not (inside(a, w) and inside(b, w))
+                partly_inside += not (inside(a, w) and inside(b, w))
     message = (
-        f"in {len(checks)} crossings of inner edges a part of the segment is inside, in {partly} of them not all of it"
+        f"in {len(checks)} crossings of inner edges a part of the segment is inside, "
+        f"in {partly_inside} of them not all of it"
     )
-    return holds_if(all(checks) and partly, message, conditional=True)
+    return holds_if(all(checks) and partly_inside, message, conditional=True)
 
 
 def table_by_formula_4() -> CheckResult:
@@ -252,6 +254,7 @@ def counts_of_table_1d() -> CheckResult:
     In (a) and (c) the number of vertices is the largest possible one.
     """
     most = {name: 2 * faces - 4 * parts for name, (parts, _, faces) in COUNTS.items()}
+    # 25 prisms, 23 on quadrangles and 2 on triangles, and five plates with four corners and two faces.
     bases = [4] * 23 + [3] * 2
     plates = (len(bases) + 5, 2 * sum(bases) + 5 * 4, sum(bases) + 2 * len(bases) + 5 * 2)
     passed = all(most[name] == COUNTS[name][1] for name in "ac")

@@ -122,6 +122,7 @@ def vertex_in_space(count: str = COUNT) -> CheckResult:
     for sampled in sampled_sets(3, int(count)):
         for k, point in enumerate(sampled.points):
             rest = exact_hull([p for p in sampled.points if p != point])
+            # The point is a combination of the others if no facet of their hull separates it.
             held = rest.dimension == 3 and max(plane_value(f.plane, point) for f in rest.facets) <= 0
             checks.append(held == (k not in sampled.judge.vertices))
     points = [(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4), (1, 1, 1)]
@@ -159,6 +160,7 @@ def _turned(points: Sequence[Point], p: Point, q: Point) -> Plane:
 
 
 def _turned_planes(points: Sequence[Point]) -> set[frozenset[int]]:
+    # Start with a vertical plane at the smallest point, and turn it about the vertical line.
     x, y, z = p = min(points)
     plane = _turned(points, p, (x, y, z + 1))
     facets_found: set[frozenset[int]] = set()
@@ -171,6 +173,7 @@ def _turned_planes(points: Sequence[Point]) -> set[frozenset[int]]:
             continue
         if flat.dimension == 2:
             facets_found.add(frozenset(on))
+        # Turn the plane about each edge of the face found, in both directions.
         ring = [points[on[k]] for k in (flat.polygon if flat.dimension == 2 else flat.vertices)]
         sides = zip(ring, (*ring[1:], ring[0]), strict=True)
         queue += [_turned(points, *ends) for a, b in sides for ends in ((a, b), (b, a))]
@@ -187,6 +190,7 @@ def _turned_lines(sampled: SampledSet) -> set[frozenset[int]]:
         line = _turned(sampled.points, p, above)
         lines_found.add(_on(sampled.points, line))
         on = [sampled.points[k] for k in _on(sampled.points, line)]
+        # Continue at the far end of the side, as in gift wrapping.
         p = max(on, key=lambda q: dot(minus(q, p), minus(q, p)))
     return lines_found
 

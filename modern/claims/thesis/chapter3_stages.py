@@ -62,24 +62,24 @@ def eliminated_points(count: str = COUNT) -> CheckResult:
 def _steps(sampled: SampledSet) -> Iterator[tuple[Approximation, Approximation, Stage, int]]:
     """Yield each stage after the first: the stage before, the stage, the record of the port, and the point added."""
     stages = sampled.stages()
-    for before, after, news in zip(stages, stages[1:], sampled.hull.history[1:], strict=False):
-        yield before, after, news, news.added[0]
+    for before, after, record in zip(stages, stages[1:], sampled.hull.history[1:], strict=False):
+        yield before, after, record, record.added[0]
 
 
-def _contain(sampled: SampledSet) -> Iterator[bool]:
+def _nested(sampled: SampledSet) -> Iterator[bool]:
     """H_j lies in H_j+1, and the added point does not lie in H_j, so H_j+1 is larger."""
-    for before, after, _, new in _steps(sampled):
+    for before, after, _, added in _steps(sampled):
         yield all(plane_value(plane, sampled.points[k]) <= 0 for plane in after.equations for k in before.vertices)
-        yield any(plane_value(plane, sampled.points[new]) > 0 for plane in before.equations)
+        yield any(plane_value(plane, sampled.points[added]) > 0 for plane in before.equations)
 
 
-def _hulls(sampled: SampledSet) -> Iterator[bool]:
+def _equations(sampled: SampledSet) -> Iterator[bool]:
     for stage in sampled.stages():
         judge = exact_hull([sampled.points[k] for k in stage.vertices])
         yield {reduced_plane(plane) for plane in stage.equations} == {facet.plane for facet in judge.facets}
 
 
-def _final(sampled: SampledSet) -> Iterator[bool]:
+def _last_hull(sampled: SampledSet) -> Iterator[bool]:
     """All equations of a stage support if and only if they are those of the hull of all points."""
     hull_planes = {facet.plane for facet in sampled.judge.facets}
     stages = sampled.stages()
@@ -88,22 +88,22 @@ def _final(sampled: SampledSet) -> Iterator[bool]:
         yield support == ({reduced_plane(plane) for plane in stage.equations} == hull_planes) == (stage is stages[-1])
 
 
-def _struck(sampled: SampledSet) -> Iterator[bool]:
+def _struck_points(sampled: SampledSet) -> Iterator[bool]:
     for stage in sampled.hull.history:
         yield not set(stage.struck) & {*sampled.judge.vertices}
 
 
-def _eliminated(sampled: SampledSet) -> Iterator[bool]:
+def _struck_inside(sampled: SampledSet) -> Iterator[bool]:
     """A stage eliminates exactly the remaining points inside it; those on its boundary remain."""
     eliminated_points: set[int] = set()
-    for stage, news in zip(sampled.stages(), sampled.hull.history, strict=True):
+    for stage, record in zip(sampled.stages(), sampled.hull.history, strict=True):
         remaining = set(range(len(sampled.points))) - eliminated_points - {*stage.vertices}
         inside = {k for k in remaining if all(plane_value(plane, sampled.points[k]) < 0 for plane in stage.equations)}
-        yield inside == set(news.struck)
+        yield inside == set(record.struck)
         eliminated_points |= inside
 
 
-def _contained(sampled: SampledSet) -> Iterator[bool]:
+def _contained_points(sampled: SampledSet) -> Iterator[bool]:
     """A point inside or on the boundary of an H_j that is not one of its vertices is not a vertex of the last hull."""
     for stage in sampled.stages():
         for k, point in enumerate(sampled.points):
@@ -111,65 +111,67 @@ def _contained(sampled: SampledSet) -> Iterator[bool]:
                 yield k not in sampled.judge.vertices
 
 
-def _never_back(sampled: SampledSet) -> Iterator[bool]:
+def _decreasing(sampled: SampledSet) -> Iterator[bool]:
     """N_j, the number of remaining points, never grows, and an eliminated point is never used again."""
     remaining = len(sampled.points)
-    gone: set[int] = set()
+    eliminated_so_far: set[int] = set()
     for stage in sampled.hull.history:
-        yield not gone & ({*stage.struck} | {*stage.added})
-        gone.update(stage.struck)
-        yield len(sampled.points) - len(gone) <= remaining
-        remaining = len(sampled.points) - len(gone)
+        yield not eliminated_so_far & ({*stage.struck} | {*stage.added})
+        eliminated_so_far.update(stage.struck)
+        yield len(sampled.points) - len(eliminated_so_far) <= remaining
+        remaining = len(sampled.points) - len(eliminated_so_far)
 
 
 def _finite(sampled: SampledSet) -> Iterator[bool]:
     yield len(sampled.hull.history) - 1 <= len(sampled.points) - sampled.judge.dimension - 1
 
 
-def _settled(sampled: SampledSet) -> Iterator[bool]:
-    for before, _, news, _ in _steps(sampled):
-        for plane in before.equations[: news.checked - 1]:
+def _accepted_planes(sampled: SampledSet) -> Iterator[bool]:
+    for before, _, record, _ in _steps(sampled):
+        for plane in before.equations[: record.checked - 1]:
             yield all(plane_value(plane, point) <= 0 for point in sampled.points)
 
 
-def _outside(sampled: SampledSet) -> Iterator[bool]:
-    gone: set[int] = set()
-    for (before, _, news, new), struck in zip(_steps(sampled), sampled.hull.history, strict=False):
-        gone.update(struck.struck)
-        plane = before.equations[news.checked - 1]
-        most = max(plane_value(plane, point) for k, point in enumerate(sampled.points) if k not in gone)
-        yield plane_value(plane, sampled.points[new]) == most > 0
+def _farthest_outside(sampled: SampledSet) -> Iterator[bool]:
+    eliminated_so_far: set[int] = set()
+    for (before, _, record, added), elimination in zip(_steps(sampled), sampled.hull.history, strict=False):
+        eliminated_so_far.update(elimination.struck)
+        plane = before.equations[record.checked - 1]
+        largest = max(plane_value(plane, point) for k, point in enumerate(sampled.points) if k not in eliminated_so_far)
+        yield plane_value(plane, sampled.points[added]) == largest > 0
 
 
 def _largest_of_all(sampled: SampledSet) -> Iterator[bool]:
     """The largest value among the remaining points is the largest among all points: eliminated points are negative."""
-    for before, _, news, new in _steps(sampled):
-        plane = before.equations[news.checked - 1]
-        yield plane_value(plane, sampled.points[new]) == max(plane_value(plane, point) for point in sampled.points)
+    for before, _, record, added in _steps(sampled):
+        plane = before.equations[record.checked - 1]
+        yield plane_value(plane, sampled.points[added]) == max(plane_value(plane, point) for point in sampled.points)
 
 
-def _one_more(sampled: SampledSet) -> Iterator[bool]:
+def _replaced_facet(sampled: SampledSet) -> Iterator[bool]:
     """If a point is outside one equation only, that facet is removed and each of its sides gets a new facet."""
-    for before, after, news, new in _steps(sampled):
-        if news.outside == 1:
-            gone = {*before.defining[news.checked - 1]}
-            kept_lines = [d for k, d in enumerate(before.defining) if k != news.checked - 1]
-            made = [{*d} for d in after.defining if {*d} not in [{*k} for k in kept_lines]]
+    for before, after, record, added in _steps(sampled):
+        if record.outside == 1:
+            replaced = {*before.defining[record.checked - 1]}
+            kept_lines = [d for k, d in enumerate(before.defining) if k != record.checked - 1]
+            new_facets = [{*d} for d in after.defining if {*d} not in [{*k} for k in kept_lines]]
             yield (
-                len(after.defining) == len(kept_lines) + len(made) == len(before.defining) + sampled.judge.dimension - 1
+                len(after.defining)
+                == len(kept_lines) + len(new_facets)
+                == len(before.defining) + sampled.judge.dimension - 1
             )
-            yield sorted(map(sorted, made)) == sorted(sorted({new} | (gone - {k})) for k in gone)
+            yield sorted(map(sorted, new_facets)) == sorted(sorted({added} | (replaced - {k})) for k in replaced)
 
 
-def _both_new(sampled: SampledSet) -> Iterator[bool]:
+def _two_new_lines(sampled: SampledSet) -> Iterator[bool]:
     """No point is outside both new lines; they meet in the new vertex."""
-    for _, after, _, new in _steps(sampled):
-        lines = [plane for plane, ends in zip(after.equations, after.defining, strict=True) if new in ends]
+    for _, after, _, added in _steps(sampled):
+        lines = [plane for plane, ends in zip(after.equations, after.defining, strict=True) if added in ends]
         yield len(lines) == 2
         yield all(min(plane_value(plane, point) for plane in lines) <= 0 for point in sampled.points)
 
 
-def _counted(sampled: SampledSet) -> Iterator[bool]:
+def _counts(sampled: SampledSet) -> Iterator[bool]:
     """In a plane NV and NE are 3 for H_1 and grow by one at each stage; in space both are 4 for H_1."""
     first = sampled.judge.dimension + 1
     for number, stage in enumerate(sampled.stages()):
@@ -178,58 +180,63 @@ def _counted(sampled: SampledSet) -> Iterator[bool]:
             yield len(stage.equations) == first + number
 
 
-def _moved_up(sampled: SampledSet) -> Iterator[bool]:
+def _renumbering(sampled: SampledSet) -> Iterator[bool]:
     """The equations after the removed one move up by one number, and the two new ones come last."""
-    for before, after, news, _ in _steps(sampled):
-        kept_lines = [d for k, d in enumerate(before.defining) if k != news.checked - 1]
+    for before, after, record, _ in _steps(sampled):
+        kept_lines = [d for k, d in enumerate(before.defining) if k != record.checked - 1]
         yield [{*d} for d in after.defining[:-2]] == [{*d} for d in kept_lines]
 
 
-def _turned_at_one(sampled: SampledSet) -> Iterator[bool]:
+def _netc_order(sampled: SampledSet) -> Iterator[bool]:
     """NETC never decreases from one stage to the next."""
     yield all(a.checked <= b.checked for a, b in pairwise(sampled.hull.history))
 
 
-def _vertices_among_used(sampled: SampledSet) -> Iterator[bool]:
+def _vertices_used(sampled: SampledSet) -> Iterator[bool]:
     yield {*sampled.judge.vertices} <= {k for stage in sampled.hull.history for k in stage.added}
 
 
-def _vertex_once(sampled: SampledSet) -> Iterator[bool]:
+def _vertex_when_added(sampled: SampledSet) -> Iterator[bool]:
     """When a point is added, it is a vertex of the hull of the points used so far."""
-    for stage, news in zip(sampled.stages(), sampled.hull.history, strict=True):
+    for stage, record in zip(sampled.stages(), sampled.hull.history, strict=True):
         judge = exact_hull([sampled.points[k] for k in stage.vertices])
-        yield {stage.vertices.index(k) for k in news.added} <= {*judge.vertices}
+        yield {stage.vertices.index(k) for k in record.added} <= {*judge.vertices}
 
 
-def _triangle_added(sampled: SampledSet) -> Iterator[bool]:
+def _added_triangle(sampled: SampledSet) -> Iterator[bool]:
     """A lattice point is in H_k+1 if and only if it is in H_k or in the added triangle."""
     plane = sampled.judge.plane
     assert plane is not None
     lattice = [
         (x, y, (-plane[3] - plane[0] * x - plane[1] * y) // plane[2]) for x, y in product(range(-5, 6, 2), repeat=2)
     ]
-    for before, after, news, new in _steps(sampled):
-        a, b = (sampled.points[k] for k in before.defining[news.checked - 1])
+    for before, after, record, added in _steps(sampled):
+        a, b = (sampled.points[k] for k in before.defining[record.checked - 1])
         for point in lattice:
-            old, now = (max(plane_value(e, point) for e in stage.equations) <= 0 for stage in (before, after))
-            yield now == (old or _in_triangle(point, a, b, sampled.points[new]))
+            in_before, in_after = (
+                max(plane_value(e, point) for e in stage.equations) <= 0 for stage in (before, after)
+            )
+            yield in_after == (in_before or _in_triangle(point, a, b, sampled.points[added]))
 
 
-def _tetrahedra_added(sampled: SampledSet) -> Iterator[bool]:
+def _added_tetrahedra(sampled: SampledSet) -> Iterator[bool]:
     """A lattice point is in H_k+1 if and only if it is in H_k or in a tetrahedron at the new point.
 
     The other three corners of such a tetrahedron define an equation that the new point is outside of. If NETC is the
     only such equation, there is one tetrahedron.
     """
     lattice: list[Point] = [(x, y, z) for x, y, z in product(range(-5, 6, 2), repeat=3)]
-    for before, after, news, new in _steps(sampled):
-        apex = sampled.points[new]
+    for before, after, record, added in _steps(sampled):
+        apex = sampled.points[added]
         visible = [k for k, plane in enumerate(before.equations) if plane_value(plane, apex) > 0]
-        yield news.checked - 1 in visible
+        yield record.checked - 1 in visible
+        # One tetrahedron stands on each equation that is positive at the new point.
         corners = [[apex, *(sampled.points[k] for k in before.defining[at])] for at in visible]
         for point in lattice:
-            old, now = (max(plane_value(e, point) for e in stage.equations) <= 0 for stage in (before, after))
-            yield now == (old or any(_in_tetrahedron(point, four) for four in corners))
+            in_before, in_after = (
+                max(plane_value(e, point) for e in stage.equations) <= 0 for stage in (before, after)
+            )
+            yield in_after == (in_before or any(_in_tetrahedron(point, four) for four in corners))
 
 
 def _in_tetrahedron(point: Point, corners: list[Point]) -> bool:
@@ -247,45 +254,48 @@ def _in_triangle(point: Point, a: Point, b: Point, c: Point) -> bool:
     return all(dot(normal, cross(minus(q, p), minus(point, p))) >= 0 for p, q in ((a, b), (b, c), (c, a)))
 
 
-def _convex_if(sampled: SampledSet) -> Iterator[bool]:
+def _convexity(sampled: SampledSet) -> Iterator[bool]:
     """If only equation NETC is replaced, the polyhedron is convex if and only if no other equation was positive."""
     inner = [sampled.points[k] for k in sampled.hull.history[0].added]
-    for before, after, news, new in _steps(sampled):
-        others = [plane for k, plane in enumerate(before.equations) if k != news.checked - 1]
-        i, j, k = (sampled.points[k] for k in before.defining[news.checked - 1])
-        made = [_turned(plane_through(p, q, sampled.points[new]), inner) for p, q in ((i, j), (i, k), (j, k))]
-        values = [plane_value(plane, sampled.points[k]) for plane in (*others, *made) for k in after.vertices]
-        yield (max(values) <= 0) == all(plane_value(plane, sampled.points[new]) <= 0 for plane in others)
+    for before, after, record, added in _steps(sampled):
+        # Page 30: replace only equation NETC, by the planes through its sides and the new point.
+        other_planes = [plane for k, plane in enumerate(before.equations) if k != record.checked - 1]
+        i, j, k = (sampled.points[k] for k in before.defining[record.checked - 1])
+        new_planes = [_oriented(plane_through(p, q, sampled.points[added]), inner) for p, q in ((i, j), (i, k), (j, k))]
+        values = [
+            plane_value(plane, sampled.points[k]) for plane in (*other_planes, *new_planes) for k in after.vertices
+        ]
+        yield (max(values) <= 0) == all(plane_value(plane, sampled.points[added]) <= 0 for plane in other_planes)
 
 
-def _turned(plane: Plane, inner: list[Point]) -> Plane:
+def _oriented(plane: Plane, inner: list[Point]) -> Plane:
     total = sum(plane_value(plane, point) for point in inner)
     return plane if total < 0 else (-plane[0], -plane[1], -plane[2], -plane[3])
 
 
 _PROPERTIES = {
-    "nested": _contain,
-    "equations": _hulls,
-    "last_hull": _final,
-    "struck_points": _struck,
-    "struck_inside": _eliminated,
-    "contained_points": _contained,
-    "decreasing": _never_back,
+    "nested": _nested,
+    "equations": _equations,
+    "last_hull": _last_hull,
+    "struck_points": _struck_points,
+    "struck_inside": _struck_inside,
+    "contained_points": _contained_points,
+    "decreasing": _decreasing,
     "finite": _finite,
-    "accepted_planes": _settled,
-    "farthest_outside": _outside,
+    "accepted_planes": _accepted_planes,
+    "farthest_outside": _farthest_outside,
     "largest_of_all": _largest_of_all,
-    "replaced_line": _one_more,
-    "replaced_plane": _one_more,
-    "two_new_lines": _both_new,
-    "counts": _counted,
-    "renumbering": _moved_up,
-    "netc_order": _turned_at_one,
-    "vertices_used": _vertices_among_used,
-    "vertex_when_added": _vertex_once,
-    "added_triangle": _triangle_added,
-    "added_tetrahedra": _tetrahedra_added,
-    "convexity": _convex_if,
+    "replaced_line": _replaced_facet,
+    "replaced_plane": _replaced_facet,
+    "two_new_lines": _two_new_lines,
+    "counts": _counts,
+    "renumbering": _renumbering,
+    "netc_order": _netc_order,
+    "vertices_used": _vertices_used,
+    "vertex_when_added": _vertex_when_added,
+    "added_triangle": _added_triangle,
+    "added_tetrahedra": _added_tetrahedra,
+    "convexity": _convexity,
 }
 PROPERTY_NAMES = tuple(_PROPERTIES)
 _FLAT = ("replaced_line", "renumbering", "two_new_lines", "added_triangle")

@@ -72,6 +72,7 @@ def value_v() -> CheckResult:
     p, q, x = counterexample_points("v_as_our_text.csv")
     on_line = not any(cross(minus(q, p), minus(x, p)))
     (x1, y1, z1), (x2, y2, z2), (xi, yi, zi) = p, q, x
+    # The display of page 14 in our text: the first and third factors have the index 1 for i.
     as_text = ((y2 - y1) * (z2 - z1) - (z2 - zi) * (y2 - y1)) ** 2
     as_text += ((z2 - z1) * (x2 - x1) - (x2 - xi) * (z2 - z1)) ** 2
     as_text += ((x2 - x1) * (y2 - y1) - (y2 - yi) * (x2 - x1)) ** 2
@@ -95,6 +96,7 @@ def common_first_steps(count: str = COUNT) -> CheckResult:
     """Check that flat sets and sets with one more point outside their plane start with the same three points."""
     checks = []
     for sampled in sampled_sets(2, int(count)):
+        # Scale the set so that its mean moved by one unit is an integer point near the plane.
         size = 9 * len(sampled.points)
         flat = [(size * x, size * y, size * z) for x, y, z in sampled.points]
         x, y, z = (9 * sum(point[axis] for point in sampled.points) for axis in range(3))
@@ -148,8 +150,8 @@ def classification_by_signs(count: str = COUNT) -> CheckResult:
     some_boundary = bool(exact_hull([(0, 0, 0), (2, 0, 0), (1, 0, 0), (0, 2, 0)]).boundary)
     for sampled in flat_and_spatial_sets(count):
         for k, point in enumerate(sampled.points):
-            most = max(plane_value(facet.plane, point) for facet in sampled.judge.facets)
-            checks.append(most <= 0 and (most == 0) == (k not in sampled.judge.inside))
+            largest = max(plane_value(facet.plane, point) for facet in sampled.judge.facets)
+            checks.append(largest <= 0 and (largest == 0) == (k not in sampled.judge.inside))
     return holds_if(
         all(checks) and some_boundary,
         (f"{sum(checks)} of {len(checks)} points are classified correctly; the midpoint of a side is not a vertex"),
@@ -183,17 +185,17 @@ def remaining_points(dimension: str) -> CheckResult:
     points = [(x, y, z) for x in range(sizes[0]) for y in range(sizes[1]) for z in range(sizes[2])]
     hull, judge = convex_hull(points, history=True), exact_hull(points)
     used = {k for stage in hull.history for k in stage.added}
-    struck = {k for stage in hull.history for k in stage.struck}
-    left_points = set(range(len(points))) - used - struck
+    eliminated = {k for stage in hull.history for k in stage.struck}
+    remaining = set(range(len(points))) - used - eliminated
     passed = (
-        bool(left_points)
-        and left_points <= {*judge.boundary}
-        and struck == {*judge.inside}
+        bool(remaining)
+        and remaining <= {*judge.boundary}
+        and eliminated == {*judge.inside}
         and {*judge.vertices} <= used
     )
     return holds_if(
         passed,
-        (f"{len(left_points)} of {len(points)} points remain; all of them are on the boundary and none is a vertex"),
+        (f"{len(remaining)} of {len(points)} points remain; all of them are on the boundary and none is a vertex"),
     )
 
 
@@ -202,9 +204,11 @@ def used_boundary_point() -> CheckResult:
     points = [(3, 0, 0), (4, 4, 0), (4, 2, 0), (4, 3, 0)]
     hull = convex_hull(points, history=True)
     used = {k for stage in hull.history for k in stage.added}
-    none = used & {*hull.boundary}
-    message = f"the points {', '.join(str(points[k]) for k in sorted(none))} were used and lie on one line only"
-    return holds_if(bool(none), message)
+    boundary_used = used & {*hull.boundary}
+    message = (
+        f"the points {', '.join(str(points[k]) for k in sorted(boundary_used))} were used and lie on one line only"
+    )
+    return holds_if(bool(boundary_used), message)
 
 
 def between_by_distances() -> CheckResult:
@@ -261,7 +265,7 @@ def fourth_point_by_largest() -> CheckResult:
 def visible_planes(kind: str, count: str = COUNT) -> CheckResult:
     """Check how the planes that a new point is outside of are replaced.
 
-    kind: ``counts`` of planes, ``pairs`` of planes with a common edge, the same ``letter`` by letter, the ``names`` MM,
+    kind: ``counts`` of planes, ``pairs`` of planes with a common edge, the step ``as_worded``, the ``names`` MM,
     NN and KK of common points, or the ``order`` of the planes.
     """
     if kind == "order":
@@ -271,6 +275,7 @@ def visible_planes(kind: str, count: str = COUNT) -> CheckResult:
     for sampled in sampled_sets(3, int(count)):
         for before, after in zip(sampled.stages(), sampled.stages()[1:], strict=False):
             point = sampled.points[after.vertices[-1]]
+            # Page 31: the planes that the added point is outside of, and their pairs with a common edge.
             visible = [k for k, plane in enumerate(before.equations) if plane_value(plane, point) > 0]
             shared = list(_shared(before, visible))
             pairs += len(shared)
@@ -283,7 +288,7 @@ def visible_planes(kind: str, count: str = COUNT) -> CheckResult:
     if kind == "names":
         message = f"in {same_places} of {pairs} pairs the two common points have the same positions among MM, NN and KK"
         return CheckResult(CONDITION if same_places < pairs else HOLDS, message)
-    if kind == "letter":
+    if kind == "as_worded":
         return holds_if(all(checks), f"{len(checks)} pairs of planes i and m", conditional=True)
     return _all(checks, "stages" if kind == "counts" else "pairs")
 
@@ -330,8 +335,11 @@ def duplicate_planes() -> CheckResult:
     """Check that a pyramid over nine points of a square keeps one equation of each plane."""
     points = [(x, y, 0) for x in (0, 1, 2) for y in (0, 1, 2)] + [(1, 1, 2)]
     hull = convex_hull(points, history=True)
-    made = len(hull.history[-1].equations)
-    return holds_if(len(hull.faces) == 5 < made, f"{made} equations were made, and {len(hull.faces)} planes remain")
+    equation_count = len(hull.history[-1].equations)
+    return holds_if(
+        len(hull.faces) == 5 < equation_count,
+        f"{equation_count} equations were made, and {len(hull.faces)} planes remain",
+    )
 
 
 def planes_at_vertex(kind: str = "", count: str = COUNT) -> CheckResult:
@@ -355,10 +363,12 @@ def duplicates_removed() -> CheckResult:
     """Check a triangle with a used point on a side: three of four vertices and of four equations remain."""
     hull = convex_hull([(3, 0, 0), (4, 4, 0), (4, 2, 0), (4, 3, 0)], history=True)
     used = [k for stage in hull.history for k in stage.added]
-    made, stay = len(hull.history[-1].equations), [face.lowest for face in hull.faces]
-    passed = len(used) > len(hull.vertices) == 3 == len(set(stay)) == len(stay) < made
+    equation_count, kept_equations = len(hull.history[-1].equations), [face.lowest for face in hull.faces]
+    passed = len(used) > len(hull.vertices) == 3 == len(set(kept_equations)) == len(kept_equations) < equation_count
     return holds_if(
-        passed, f"{len(hull.vertices)} of {len(used)} used points remain, and {len(stay)} of {made} equations"
+        passed,
+        f"{len(hull.vertices)} of {len(used)} used points remain, "
+        f"and {len(kept_equations)} of {equation_count} equations",
     )
 
 
@@ -379,15 +389,16 @@ def boundary_points_on_edges() -> CheckResult:
     """Check that surface points of a pyramid in two planes lie between the ends of the common edge."""
     points = [(x, y, 0) for x in (0, 2, 4) for y in (0, 2, 4)] + [(2, 2, 4), (1, 1, 2)]
     judge = exact_hull(points)
-    checks, one_plane = [], 0
+    checks, in_one_plane = [], 0
     for k, point in enumerate(points):
         on = [f for f in judge.facets if not plane_value(f.plane, point)]
-        one_plane += len(on) == 1
+        in_one_plane += len(on) == 1
         if len(on) == 2:
             p, q = (points[j] for j in {*on[0].polygon} & {*on[1].polygon})
             checks.append(not any(cross(minus(point, p), minus(q, p))) and dot(minus(point, p), minus(point, q)) < 0)
             checks.append(k not in judge.vertices)
     message = (
-        f"{len(checks) // 2} points are in two planes; {one_plane} is in one plane and between no two ends of an edge"
+        f"{len(checks) // 2} points are in two planes; "
+        f"{in_one_plane} is in one plane and between no two ends of an edge"
     )
-    return holds_if(checks and all(checks) and one_plane, message, conditional=True)
+    return holds_if(checks and all(checks) and in_one_plane, message, conditional=True)

@@ -63,24 +63,26 @@ def line_duplicates_as_printed() -> CheckResult:
     points = counterexample_points("line_lost.csv")
     judge, hull = exact_hull(points), convex_hull(points, history=True)
     used = [k for stage in hull.history for k in stage.added]
-    remaining = _by_letter(points, used, [(d[0], d[1]) for d in hull.history[-1].equations])
-    lines = len({frozenset(_on(points, *pair)) for pair in remaining})
+    remaining = _duplicates_removed_as_worded(points, used, [(d[0], d[1]) for d in hull.history[-1].equations])
+    lines = len({frozenset(_indices_on_line(points, *pair)) for pair in remaining})
     right = len({face.lowest for face in hull.faces}) == len(judge.facets)
     message = f"as worded {lines} of {len(judge.facets)} lines remain; the listing keeps all of them"
     return fails_if(lines < len(judge.facets) and right, message)
 
 
-def _by_letter(points: Sequence[Point], used: Sequence[int], equations: Sequence[Pair]) -> list[Pair]:
+def _duplicates_removed_as_worded(
+    points: Sequence[Point], used: Sequence[int], equations: Sequence[Pair]
+) -> list[Pair]:
     """Apply pages 26 to 28: remove equation k for each point that satisfies but does not define it."""
     remaining = list(equations)
     for i in used:
         for pair in [*remaining]:
-            if i not in pair and i in _on(points, *pair):
+            if i not in pair and i in _indices_on_line(points, *pair):
                 remaining.remove(pair)
     return remaining
 
 
-def _on(points: Sequence[Point], a: int, b: int) -> list[int]:
+def _indices_on_line(points: Sequence[Point], a: int, b: int) -> list[int]:
     p, q = points[a], points[b]
     return [k for k, x in enumerate(points) if not any(cross(minus(q, p), minus(x, p)))]
 
@@ -93,14 +95,15 @@ def plane_duplicates_as_printed(count: str = COUNT) -> CheckResult:
     for points in (pyramid, *(list(sampled.points) for sampled in sampled_sets(3, int(count)))):
         last = convex_hull(points, history=True).history[-1].equations
         planes = [plane_through(points[a], points[b], points[c]) for a, b, c in last]
-        stay = [
+        # Page 34 removes plane j if a later plane i contains its three points.
+        kept_indices = [
             j
             for j, plane in enumerate(planes)
             if not any(not any(plane_value(plane, points[k]) for k in last[i]) for i in range(j + 1, len(last)))
         ]
-        kept_planes = [_unsigned(planes[j]) for j in stay]
+        kept_planes = [_unsigned(planes[j]) for j in kept_indices]
         checks.append(sorted(kept_planes) == sorted(_unsigned(facet.plane) for facet in exact_hull(points).facets))
-        differing += stay != [
+        differing += kept_indices != [
             j for j, sampled in enumerate(planes) if _unsigned(sampled) not in map(_unsigned, planes[:j])
         ]
     message = (
@@ -133,13 +136,13 @@ def last_equation_accepted(dimension: str) -> CheckResult:
 def collinearity_test() -> CheckResult:
     """Check on a lattice that both equations of a line are 0 on the line only, for five kinds of lines."""
     checks = []
-    for way in ((1, 0, 0), (0, 2, 0), (0, 0, 3), (0, 1, -2), (3, -1, 2)):
+    for direction in ((1, 0, 0), (0, 2, 0), (0, 0, 3), (0, 1, -2), (3, -1, 2)):
         p: Point = (1, 2, 3)
-        q: Point = (1 + way[0], 2 + way[1], 3 + way[2])
+        q: Point = (1 + direction[0], 2 + direction[1], 3 + direction[2])
         lines = [tuple(map(int, line)) for line in convex_hull([p, q]).lines]
         for x in ((x, y, z) for x in range(-3, 6) for y in range(-1, 5) for z in range(-1, 8)):
-            both = not any(plane_value((a, b, c, d), x) for a, b, c, d in lines)
-            checks.append(both == (not any(cross(way, minus(x, p)))))
+            satisfies_both = not any(plane_value((a, b, c, d), x) for a, b, c, d in lines)
+            checks.append(satisfies_both == (not any(cross(direction, minus(x, p)))))
     return holds_if(all(checks), f"{sum(checks)} of {len(checks)} lattice points near five lines agree")
 
 
@@ -164,9 +167,10 @@ def substitution_counts() -> CheckResult:
         points = [(k % 7 - 3, k // 7 - 3, (k % 7 - 3) ** 2 + (k // 7 - 3) ** 2) for k in range(n)]
         history = convex_hull(points, history=True).history
         needed[n] = sum(2 * n * len(stage.equations) for stage in history), math.comb(n, 3) * n
-    shares = [done / all_ for done, all_ in needed.values()]
+    shares = [substitutions / all_substitutions for substitutions, all_substitutions in needed.values()]
     message = ", ".join(
-        f"{n} points: at most {done:,} substitutions instead of {all_:,}" for n, (done, all_) in needed.items()
+        f"{n} points: at most {substitutions:,} substitutions instead of {all_substitutions:,}"
+        for n, (substitutions, all_substitutions) in needed.items()
     )
     return holds_if(shares == sorted(shares, reverse=True) and shares[-1] < 1 / 3, message)
 
@@ -192,14 +196,14 @@ def order_of_elimination() -> CheckResult:
     """
     sequences = []
     for example in (4, 5, 6):
-        way: list[str] = []
+        steps: list[str] = []
 
-        def watch(program: Program, machine: Machine, way: list[str] = way) -> None:
+        def watch(program: Program, machine: Machine, steps: list[str] = steps) -> None:
             labels = _ELIMINATE_CHECK_GROW.get(program.source, {})
-            machine.tracer = lambda line, _: way.append(labels[line.label]) if line.label in labels else None
+            machine.tracer = lambda line, _: steps.append(labels[line.label]) if line.label in labels else None
 
         run_hull(input_deck(example), programs.program, watch=watch)
-        hulls = "".join(way)
+        hulls = "".join(steps)
         sequences.append((bool(re.fullmatch("(EC+G)*EC*", hulls)), hulls.count("E")))
     counts = ", ".join(str(hulls) for _, hulls in sequences)
     message = f"examples 4, 5 and 6 make {counts} hulls; the inside points of each are eliminated before it is checked"
@@ -210,7 +214,7 @@ def coplanar_extremes() -> CheckResult:
     """Check sets whose six extreme points are coplanar: their hull has no volume although the set has."""
     checks = []
     for points in EXTREMES_IN_A_PLANE:
-        six, whole = exact_hull(_six(points)), exact_hull(points)
+        six, whole = exact_hull(_extreme_points(points)), exact_hull(points)
         checks.append(six.dimension == 2 and whole.dimension == 3 and _volume(points, whole) > 0)
     return holds_if(
         all(checks),
@@ -226,32 +230,34 @@ def first_hull_against_extremes(count: str = "12") -> CheckResult:
     """
     within, fewer = [], []
     for sampled in sampled_sets(3, int(count)):
-        first, six = _first_and_six(sampled.points, sampled)
-        fewer.append(first[1] <= six[1] or not six[1])
-        if {sampled.points[k] for k in sampled.hull.history[0].added} <= {*_six(sampled.points)}:
-            within.append(six[0] - first[0])
-    flat = [_first_and_six(points, None) for points in EXTREMES_IN_A_PLANE]
-    first, six = _first_and_six(counterexample_points("first_hull.csv"), None)
+        first, six_extremes = _volumes_and_planes(sampled.points, sampled)
+        fewer.append(first[1] <= six_extremes[1] or not six_extremes[1])
+        if {sampled.points[k] for k in sampled.hull.history[0].added} <= {*_extreme_points(sampled.points)}:
+            within.append(six_extremes[0] - first[0])
+    flat = [_volumes_and_planes(points, None) for points in EXTREMES_IN_A_PLANE]
+    first, six_extremes = _volumes_and_planes(counterexample_points("first_hull.csv"), None)
     passed = min(within, default=-1) >= 0 < max(within, default=0) and all(fewer)
-    passed &= all(sampled[0] > six_measures[0] == 0 for sampled, six_measures in flat) and first[0] > six[0] > 0
+    passed &= (
+        all(sampled[0] > six_measures[0] == 0 for sampled, six_measures in flat) and first[0] > six_extremes[0] > 0
+    )
     message = (
         f"in {len(within)} of {len(fewer)} sets H_1 uses only extreme points, and is not larger; in the counterexample "
     )
-    return holds_if(passed, message + f"six times the volumes are {first[0]} and {six[0]}", conditional=True)
+    return holds_if(passed, message + f"six times the volumes are {first[0]} and {six_extremes[0]}", conditional=True)
 
 
-def _first_and_six(points: Sequence[Point], sampled: SampledSet | None) -> tuple[tuple[int, int], tuple[int, int]]:
+def _volumes_and_planes(points: Sequence[Point], sampled: SampledSet | None) -> tuple[tuple[int, int], tuple[int, int]]:
     """Return six times the volume and the number of planes of H_1 and of the hull of the six extreme points."""
     hull = sampled.hull if sampled else convex_hull(points, history=True)
     first = [points[k] for k in hull.history[0].added]
     measures = []
-    for some in (first, _six(points)):
+    for some in (first, _extreme_points(points)):
         judge = exact_hull(some)
         measures.append((_volume(some, judge), len(judge.facets) if judge.dimension == 3 else 0))
     return measures[0], measures[1]
 
 
-def _six(points: Sequence[Point]) -> list[Point]:
+def _extreme_points(points: Sequence[Point]) -> list[Point]:
     """Return the extreme points of a set; among equals the last one, as in program 1 (statements 134 to 146)."""
     extreme = {choose(reversed(points), key=lambda p, k=k: p[k]) for choose in (min, max) for k in range(3)}  # type: ignore[misc]
     return [point for point in points if point in extreme]
@@ -259,10 +265,10 @@ def _six(points: Sequence[Point]) -> list[Point]:
 
 def _volume(points: Sequence[Point], judge: ExactHull) -> int:
     """Return six times the volume of a hull, or 0 if it is flat."""
-    return sum(_cones(points, judge)) if judge.dimension == 3 else 0
+    return sum(_cone_volumes(points, judge)) if judge.dimension == 3 else 0
 
 
-def _cones(points: Sequence[Point], judge: ExactHull) -> Iterator[int]:
+def _cone_volumes(points: Sequence[Point], judge: ExactHull) -> Iterator[int]:
     apex = points[0]
     for facet in judge.facets:
         p, *rest = (minus(points[k], apex) for k in facet.polygon)

@@ -180,17 +180,17 @@ def _last_outside(theorem: Theorem) -> CheckResult:
 
 def _programs(theorem: Theorem, load: Load) -> CheckResult:
     """Check that the listing finds the exact hull of the printed points, or rejects them if cards truncate them."""
-    cut = [[_CARD.divide(x.numerator, x.denominator) for x in point.at] for point in theorem.points]
-    points: list[Vector] = [tuple(map(Fraction, point)) for point in cut]
-    deck = data_deck([list(map(str, point)) for point in cut], "theorem")
-    exactly = all(card_point == point.at for card_point, point in zip(points, theorem.points, strict=True))
+    truncated_points = [[_CARD.divide(x.numerator, x.denominator) for x in point.at] for point in theorem.points]
+    points: list[Vector] = [tuple(map(Fraction, point)) for point in truncated_points]
+    deck = data_deck([list(map(str, point)) for point in truncated_points], "theorem")
+    is_exact = all(card_point == point.at for card_point, point in zip(points, theorem.points, strict=True))
     judge = from_judge(exact_hull([*map(list, points)]), points)
     outcome = from_cards("listing", run_hull(deck, load, Options(limit=200_000)), points)
     agrees = outcome.determined and disagreement(outcome, judge, points).agrees
-    taken = "the printed points" if exactly else "the points truncated to eight digits"
+    description = "the printed points" if is_exact else "the points truncated to eight digits"
     missing = f", without {', '.join(theorem.lost)}" if theorem.lost else ""
-    fine = agrees if exactly else outcome.status == NOT_ACCEPTABLE
-    return holds_if(fine, f"{taken}{missing}: {_seen(outcome, agrees, judge)}")
+    passed = agrees if is_exact else outcome.status == NOT_ACCEPTABLE
+    return holds_if(passed, f"{description}{missing}: {_seen(outcome, agrees, judge)}")
 
 
 def procedure_of_4_8(kind: str = "") -> CheckResult:
@@ -204,11 +204,11 @@ def procedure_of_4_8(kind: str = "") -> CheckResult:
     hull = convex_hull(points, history=True)
     used = [theorem.points[k].name for stage in hull.history for k in stage.added]
     same = [set(used[:n]) == set(ADDED[:n]) for n in range(4, 9)]
-    letter = convex_hull(points, text=True, on_refusal="return")
-    six = same[-1] and used[8:] == ["Q9"] and hull.history[-1].outside == 6
+    as_worded = convex_hull(points, text=True, on_refusal="return")
+    outside_six = same[-1] and used[8:] == ["Q9"] and hull.history[-1].outside == 6
     if kind:
-        return holds_if(six, "the last point is outside six planes of the H_5 that the procedure makes")
-    passed = six and same == [True, True, False, False, True] and not letter.determined
+        return holds_if(outside_six, "the last point is outside six planes of the H_5 that the procedure makes")
+    passed = outside_six and same == [True, True, False, False, True] and not as_worded.determined
     message = "the procedure makes H_1, H_2 and H_5, but other hulls H_3 and H_4; the last point is outside six planes"
     return holds_if(passed, message, conditional=True)
 
@@ -219,15 +219,15 @@ def slips_of_4_8(which: str) -> CheckResult:
     printed_points, _ = csv_points(counterexample("slips_4_8.csv"), "slips_4_8.csv")
     listed, in_table = (Point("", tuple(map(Fraction, map(str, p))), "", "") for p in printed_points)
     if which == "list":
-        off = [plane.number for plane in theorem.planes if "Q1" in plane.vertices and plane.at(listed)]
-        return fails_if(off == [1, 2, 7], f"equations {', '.join(map(str, off))} are not 0 at (-4, -4, 2)")
-    off = [plane.number for plane in theorem.planes if "Q6" in plane.vertices and plane.at(in_table)]
-    none = in_table.at not in [point.at for point in theorem.points]
+        nonzero = [plane.number for plane in theorem.planes if "Q1" in plane.vertices and plane.at(listed)]
+        return fails_if(nonzero == [1, 2, 7], f"equations {', '.join(map(str, nonzero))} are not 0 at (-4, -4, 2)")
+    nonzero = [plane.number for plane in theorem.planes if "Q6" in plane.vertices and plane.at(in_table)]
+    not_a_point = in_table.at not in [point.at for point in theorem.points]
     message = (
-        f"(3, 4, -1) is not one of the nine points, and equations {', '.join(map(str, off))} of (3, 4, 1) are "
+        f"(3, 4, -1) is not one of the nine points, and equations {', '.join(map(str, nonzero))} of (3, 4, 1) are "
         "not 0 there"
     )
-    return fails_if(none and off == [1, 6], message)
+    return fails_if(not_a_point and nonzero == [1, 6], message)
 
 
 def _seen(outcome: Outcome, agrees: bool, judge: Outcome) -> str:

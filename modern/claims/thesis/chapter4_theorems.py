@@ -91,6 +91,7 @@ def distance_by_cosines(kind: str = "") -> CheckResult:
     for p, q, x in random_triples():
         u, w = minus(q, p), minus(q, x)
         square = dot(u, u)
+        # Page 42: the distance of x from the line, by the three two-row determinants of w and u.
         rows = [(w[1], w[2], u[1], u[2]), (w[2], w[0], u[2], u[0]), (w[0], w[1], u[0], u[1])]
         d_squared = sum((Fraction(a * f - b * e) ** 2 / square for a, b, e, f in rows), Fraction(0))
         across = cross(u, minus(x, p))
@@ -160,6 +161,7 @@ def proof_of_4_4(part: str) -> CheckResult:
         c = _c_0((xa, ya), (xb, yb), (xk, yk))
         coefficient.append(c == (xb - xa) * (yk - ya) - (yb - ya) * (xk - xa))
         rest = 1 - share
+        # Page 46: the ten terms as printed, and the four that the substitution gives.
         printed = [xa * yb, -xa * yb * share, -xa * yb * rest, xa * yb * rest, xa * yb * share, -xa * yb]
         printed += [xa * ya * share, -xa * ya * share, xb * yb * rest, -xb * yb * rest]
         total.append(sum(printed) == 0 == c)
@@ -285,6 +287,7 @@ def gap_in_4_7() -> CheckResult:
     lines = [facet.plane for facet in exact_hull(square).facets]
     after = [facet.plane for facet in exact_hull([*square, (5, 2, 0)]).facets]
     new = [plane for plane in after if plane not in lines]
+    # Search a point outside at most one line of the square that is outside a new line and another one.
     point = next(
         (x, y, 0)
         for x in range(-9, 14)
@@ -304,14 +307,14 @@ def outside_unreplaced_line() -> CheckResult:
     sampled = SampledSet(tuple(points), convex_hull(points, history=True), exact_hull(points))
     before, after = sampled.stages()[:2]
     checked = sampled.hull.history[1].checked
-    stays = [
+    unreplaced = [
         (k + 1, point)
         for k, plane in enumerate(before.equations)
         for point in points
         if k + 1 != checked and plane_value(plane, point) > 0 and plane in after.equations
     ]
-    message = ", ".join(f"{point[:2]} is outside line {k}" for k, point in stays)
-    return fails_if(stays, f"{message}; the line replaced is line {checked}")
+    message = ", ".join(f"{point[:2]} is outside line {k}" for k, point in unreplaced)
+    return fails_if(unreplaced, f"{message}; the line replaced is line {checked}")
 
 
 def lines_of_figure_3(kind: str = "") -> CheckResult:

@@ -232,9 +232,9 @@ def programs_rejecting_data() -> CheckResult:
 def vertex_within_interval() -> CheckResult:
     """Check that e = 20 hides a vertex that is about a tenth above a plane."""
     points = [("0", "0", "0"), ("4", "0", "0"), ("0", "4", "0"), ("0", "0", "4"), ("1.4", "1.4", "1.4")]
-    without, with_e = convex_hull(points), convex_hull(points, epsilon="20")
+    exact, with_epsilon = convex_hull(points), convex_hull(points, epsilon="20")
     return holds_if(
-        4 in without.vertices and 4 not in with_e.vertices,
+        4 in exact.vertices and 4 not in with_epsilon.vertices,
         "(1.4, 1.4, 1.4) is a vertex in exact arithmetic, and not with e = 20",
     )
 
@@ -296,6 +296,7 @@ def orientation_by_constant_term(count: str = COUNT) -> CheckResult:
         added = sampled.hull.history[0].added
         x, y, z = total = _sum(sampled.points, added)
         moved = [tuple(len(added) * x - t for x, t in zip(point, total, strict=True)) for point in sampled.points]
+        # Compare the value at C, times the number of points, with the constant term after the translation.
         for defining in {*combinations(range(5), 3), *(d for stage in sampled.stages() for d in stage.defining)}:
             a, b, c, d = plane_through(*(sampled.points[k] for k in defining))
             there, constant = a * x + b * y + c * z + d * len(added), plane_through(*(moved[k] for k in defining))[3]  # type: ignore[arg-type]

@@ -114,6 +114,7 @@ def nearness(kind: str = "semidigital") -> CheckResult:
     if kind == "semidigital":
         for face in judge.facets:
             corners = [SOLID[k] for k in face.polygon]
+            # A coordinate that is constant on the whole face does not make a point semidigital.
             axes = [axis for axis in range(3) if len({corner[axis] for corner in corners}) > 1]
             for i, j in ((i, j) for i in range(3) for j in range(4)):
                 at = _of_triangle(corners, Fraction(i, 3), Fraction((3 - i) * j, 9))

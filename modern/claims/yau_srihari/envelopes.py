@@ -167,12 +167,12 @@ def smallest_convex_solid() -> CheckResult:
     passed &= (
         far and (octree_hull(array_of(path)).filled == array_of(path)).all() and not is_digitally_convex(array_of(path))
     )
-    more = [p for p in _GRID if p not in path and is_digitally_convex(array_of([*path, p]))]
+    completions = [p for p in _GRID if p not in path and is_digitally_convex(array_of([*path, p]))]
     message = (
         f"the hull of {hull.solid_voxels} connected voxels has {hull.voxels}; "
-        f"each of {len(more)} voxels makes the path convex"
+        f"each of {len(completions)} voxels makes the path convex"
     )
-    return holds_if(passed and len(more) > 1, message, conditional=True)
+    return holds_if(passed and len(completions) > 1, message, conditional=True)
 
 
 def floor_and_ceiling(kind: str = "") -> CheckResult:
@@ -258,12 +258,12 @@ def epigraph_at_inner_nodes() -> CheckResult:
     """
     tops = {(0, 0): 0, (0, 1): 1, (1, 0): 1, (1, 1): 1}
     tree = written(no_columns(2), {place: Leaf(top) for place, top in tops.items()})
-    by_letter = 8 if tree.low == 0 else 0
+    voxels_as_printed = 8 if tree.low == 0 else 0
     epigraph = count(graph_side(tree, above=True))
     columns = sum(z >= top for top in tops.values() for z in (0, 1))
-    passed = by_letter == 8 > epigraph == columns == 5 and tree.high == 1
+    passed = voxels_as_printed == 8 > epigraph == columns == 5 and tree.high == 1
     return holds_if(
-        passed, f"as printed the root has {by_letter} voxels, and the epigraph has {epigraph}", conditional=True
+        passed, f"as printed the root has {voxels_as_printed} voxels, and the epigraph has {epigraph}", conditional=True
     )
 
 
@@ -297,6 +297,7 @@ def queued_edges_reversed() -> CheckResult:
         hull = octree_hull(array_of([p for p in _GRID if random.random() < 0.6]))
         for step in (*hull.lower.steps, *hull.upper.steps):
             ring = step.face.vertices if step.face else ()
+            # Section 4.6: u1 u3 and u3 u2 are the printed directions of the edges entered.
             entries = {*zip((*ring[1:], *ring[:1]), ring, strict=True)}
             for p, q in step.removed:
                 same += (p, q) in entries
@@ -315,18 +316,19 @@ def row_and_column_steps() -> CheckResult:
     On random floors both sets contain all vertices of the floor's hull; the second is sometimes larger.
     """
     random = Random(29)
-    checks, more = [], 0
+    checks, larger = [], 0
     for _ in range(40):
         heights_ = {(x, y): random.randint(0, 3) for x in range(4) for y in range(4) if random.random() < 0.8}
         extreme_in_both = {place for place in heights_ if all(_extreme(place, axis, heights_) for axis in (0, 1))}
         tree = written(no_columns(4), {place: Leaf(z) for place, z in heights_.items()})
         after_steps = {*heights(reduced_tree(tree))}
         floor: list[Point] = [(x, y, z) for (x, y), z in heights_.items()]
+        # The lower hull of the floor: copies of all points far above leave its lower vertices unchanged.
         hull = exact_hull([*floor, *((x, y, z + 9) for x, y, z in floor)])
         checks.append({floor[k][:2] for k in hull.vertices if k < len(floor)} <= extreme_in_both <= after_steps)
-        more += extreme_in_both < after_steps
-    message = f"{len(checks)} floors; in {more} the second step keeps a point that is not extreme in its whole column"
-    return holds_if(all(checks) and more, message, conditional=True)
+        larger += extreme_in_both < after_steps
+    message = f"{len(checks)} floors; in {larger} the second step keeps a point that is not extreme in its whole column"
+    return holds_if(all(checks) and larger, message, conditional=True)
 
 
 def angle_counts() -> CheckResult:

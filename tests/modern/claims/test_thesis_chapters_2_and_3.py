@@ -181,7 +181,7 @@ def elimination_and_check_exchanged(original: Original) -> object:
         ("thesis.chapter3_steps.used_points_in_planes", "exact_hull", all_points_vertices),
         ("thesis.chapter3_steps.value_v", "moments", always((1, 0, 0))),
         ("thesis.chapter3_steps.visible_planes counts", "_shared", always(())),
-        ("thesis.chapter3_steps.visible_planes letter", "_separated", always(False)),
+        ("thesis.chapter3_steps.visible_planes as_worded", "_separated", always(False)),
         ("thesis.chapter3_steps.visible_planes order", "convex_hull", without_last_point),
         ("thesis.chapter3_steps.visible_planes pairs", "plane_value", always(1)),
         ("thesis.chapter3_steps.without_constant_term", "plane_value", always(1)),
@@ -194,7 +194,7 @@ def elimination_and_check_exchanged(original: Original) -> object:
             lambda original: (*original, ((0, 0, 3), (3, 1, 0), (1, 4, 1), (-2, 0, -1))),
         ),
         ("thesis.chapter3_wording.first_hull_against_extremes", "_volume", always(1)),
-        ("thesis.chapter3_wording.first_hull_against_extremes", "_six", identity),
+        ("thesis.chapter3_wording.first_hull_against_extremes", "_extreme_points", identity),
         ("thesis.chapter3_wording.last_equation_accepted 2", "convex_hull", netc_always_one),
         ("thesis.chapter3_wording.last_equation_accepted 3", "convex_hull", netc_always_one),
         ("thesis.chapter3_wording.last_equation_accepted 3", "stage_property", check_fails),
@@ -306,7 +306,7 @@ def test_plane_with_three_collinear_points_does_not_support(monkeypatch: pytest.
 
 def test_first_hull_is_often_larger_than_the_hull_of_the_extremes() -> None:
     """As the row says, it is larger in over a fifth of random sets whose six extreme points are not coplanar."""
-    measures = [wording._first_and_six(sampled.points, sampled) for sampled in sampled_sets(3, 120)]
+    measures = [wording._volumes_and_planes(sampled.points, sampled) for sampled in sampled_sets(3, 120)]
     assert sum(first[0] > six[0] > 0 for first, six in measures) > len(measures) / 5
 
 
