@@ -1,4 +1,4 @@
-"""Checks of the steps of chapter 3: the first points, projections, inside points, new planes and boundary points.
+"""Checks of the steps of chapter 3: the first points, inside points, new planes and boundary points.
 
 The steps are checked on small sets in a plane and in space (:mod:`modern.claims.sampled_sets`). Each step that fails as
 printed has a counterexample in ``transcripts/counterexamples``.
@@ -29,8 +29,14 @@ from modern.geometry.vectors import cross, dot, minus
 from modern.port import convex_hull
 from modern.port.formulas import moments
 
+_POINT_ON_A_SIDE: list[Point] = [(3, 0, 0), (4, 4, 0), (4, 2, 0), (4, 3, 0)]
+"""A triangle, and a point on one of its sides that the procedure uses."""
+PYRAMID: list[Point] = [(x, y, 0) for x in (0, 1, 2) for y in (0, 1, 2)] + [(1, 1, 2)]
+"""A pyramid over nine points of a square."""
 
-def _all(cases: Iterator[bool] | list[bool], message: str) -> CheckResult:
+
+def all_hold(cases: Iterator[bool] | list[bool], message: str) -> CheckResult:
+    """Return HOLDS if there are cases and all of them are true; the message starts with their number."""
     checks = list(cases)
     return holds_if(bool(checks) and all(checks), f"{sum(checks)} of {len(checks)} {message}")
 
@@ -47,7 +53,7 @@ def line_pairs(which: str) -> CheckResult:
 
 def third_point(count: str = COUNT) -> CheckResult:
     """Check that no point is farther from the line of the first two points than the third point of H_1."""
-    return _all(list(_farthest(flat_and_spatial_sets(count))), "sets")
+    return all_hold(list(_farthest(flat_and_spatial_sets(count))), "sets")
 
 
 def _farthest(sets: tuple[SampledSet, ...]) -> Iterator[bool]:
@@ -89,7 +95,7 @@ def coplanarity_test(count: str = COUNT) -> CheckResult:
     for sampled in flat_and_spatial_sets(count):
         first = plane_as_printed(*(sampled.points[k] for k in sampled.hull.history[0].added[:3]))
         checks.append(any(plane_value(first, point) for point in sampled.points) == (not sampled.flat))
-    return _all(checks, "sets")
+    return all_hold(checks, "sets")
 
 
 def common_first_steps(count: str = COUNT) -> CheckResult:
@@ -103,45 +109,7 @@ def common_first_steps(count: str = COUNT) -> CheckResult:
         hulls = [convex_hull(points, history=True) for points in (flat, [*flat, (x, y, z + 1)])]
         firsts = [[hull.points[k] for k in hull.history[0].added[:3]] for hull in hulls]
         checks.append([hull.dimension for hull in hulls] == [2, 3] and firsts[0] == firsts[1])
-    return _all(checks, "sets start with the same three points; the plane of these decides which case applies")
-
-
-def perpendicular_projection() -> CheckResult:
-    """Check that a triangle projects to a segment if and only if its plane is perpendicular to the coordinate plane."""
-    checks = [(_image_area(normal, axis) == 0) == (normal[axis] == 0) for normal in _normals() for axis in range(3)]
-    return _all(
-        checks,
-        ("pairs of a plane and a coordinate plane: the image is a segment if and only if they are perpendicular"),
-    )
-
-
-def _normals() -> list[Point]:
-    return [(a, b, c) for a in (-1, 0, 2) for b in (-1, 0, 2) for c in (-1, 0, 2) if (a, b, c) != (0, 0, 0)]
-
-
-def _image_area(normal: Point, axis: int) -> int:
-    """Return twice the area of the image of a triangle with the given normal if one coordinate is set to 0."""
-    first_side = cross(normal, (1, 0, 0)) if any(normal[1:]) else cross(normal, (0, 1, 0))
-    second_side = cross(normal, first_side)
-    u, v = (tuple(0 if k == axis else x for k, x in enumerate(side)) for side in (first_side, second_side))
-    return cross(u, v)[axis]  # type: ignore[arg-type]
-
-
-def projection_along_axis() -> CheckResult:
-    """Check that setting one coordinate to 0 gives the foot of the perpendicular on the coordinate plane."""
-    checks = []
-    for point in (p for triple in random_triples() for p in triple):
-        for axis in range(3):
-            foot = tuple(0 if k == axis else x for k, x in enumerate(point))
-            unit = tuple(int(k == axis) for k in range(3))
-            checks.append(not any(cross(minus(point, foot), unit)))  # type: ignore[arg-type]
-    return _all(checks, "feet: the line from the point to its foot is perpendicular to the plane")
-
-
-def choice_of_projection() -> CheckResult:
-    """Check that a triangle keeps a positive area on the coordinate plane that the rule chooses."""
-    chosen = [(normal, 0 if normal[0] else 1 if normal[1] else 2) for normal in _normals()]
-    return _all([_image_area(normal, axis) != 0 for normal, axis in chosen], "normals: the image is not a segment")
+    return all_hold(checks, "sets start with the same three points; the plane of these decides which case applies")
 
 
 def classification_by_signs(count: str = COUNT) -> CheckResult:
@@ -168,7 +136,7 @@ def mean_of_first_hull(count: str = COUNT) -> CheckResult:
         vertex_count = len(first.vertices)
         checks.append({reduced_plane(plane) for plane in first.equations} == {f.plane for f in judge.facets})
         checks += [dot(f.plane[:3], (x, y, z)) + vertex_count * f.plane[3] < 0 for f in judge.facets]
-    return _all(checks, "equations are exact and negative at C")
+    return all_hold(checks, "equations are exact and negative at C")
 
 
 def outside_convention() -> CheckResult:
@@ -201,7 +169,7 @@ def remaining_points(dimension: str) -> CheckResult:
 
 def used_boundary_point() -> CheckResult:
     """Check four points, one of which is used for a hull although it lies between two others."""
-    points = [(3, 0, 0), (4, 4, 0), (4, 2, 0), (4, 3, 0)]
+    points = _POINT_ON_A_SIDE
     hull = convex_hull(points, history=True)
     used = {k for stage in hull.history for k in stage.added}
     boundary_used = used & {*hull.boundary}
@@ -220,7 +188,7 @@ def between_by_distances() -> CheckResult:
     for a, b, c in ((0, 5, 2), (0, 2, 5), (5, 0, -3), (1, 0, 2)):
         between = _between(a, b, c, *(5 * abs(p - q) for p, q in ((b, a), (a, c), (b, c))))
         checks.append(between == sorted((a, b, c))[1])
-    return _all(checks, "cases of points (3t, 4t) are decided correctly")
+    return all_hold(checks, "cases of points (3t, 4t) are decided correctly")
 
 
 def _between(a: int, b: int, c: int, ab: int, ac: int, bc: int) -> int:
@@ -230,7 +198,7 @@ def _between(a: int, b: int, c: int, ab: int, ac: int, bc: int) -> int:
 
 def duplicate_lines() -> CheckResult:
     """Check that a side with three used points has two equations before duplicates are removed."""
-    points = [(3, 0, 0), (4, 4, 0), (4, 2, 0), (4, 3, 0)]
+    points = _POINT_ON_A_SIDE
     hull = convex_hull(points, history=True)
     last = hull.history[-1].equations
     used = {k for stage in hull.history for k in stage.added}
@@ -290,7 +258,7 @@ def visible_planes(kind: str, count: str = COUNT) -> CheckResult:
         return CheckResult(CONDITION if same_places < pairs else HOLDS, message)
     if kind == "as_worded":
         return holds_if(all(checks), f"{len(checks)} pairs of planes i and m", conditional=True)
-    return _all(checks, "stages" if kind == "counts" else "pairs")
+    return all_hold(checks, "stages" if kind == "counts" else "pairs")
 
 
 def _shared(before: Approximation, visible: list[int]) -> Iterator[tuple[int, int, set[int]]]:
@@ -333,8 +301,7 @@ def without_constant_term() -> CheckResult:
 
 def duplicate_planes() -> CheckResult:
     """Check that a pyramid over nine points of a square keeps one equation of each plane."""
-    points = [(x, y, 0) for x in (0, 1, 2) for y in (0, 1, 2)] + [(1, 1, 2)]
-    hull = convex_hull(points, history=True)
+    hull = convex_hull(PYRAMID, history=True)
     equation_count = len(hull.history[-1].equations)
     return holds_if(
         len(hull.faces) == 5 < equation_count,
@@ -345,8 +312,7 @@ def duplicate_planes() -> CheckResult:
 def planes_at_vertex(kind: str = "", count: str = COUNT) -> CheckResult:
     """Check how many planes of the exact hull contain each point."""
     checks = []
-    pyramid = [(x, y, 0) for x in (0, 1, 2) for y in (0, 1, 2)] + [(1, 1, 2)]
-    for points in (*(sampled.points for sampled in sampled_sets(3, int(count))), tuple(pyramid)):
+    for points in (*(sampled.points for sampled in sampled_sets(3, int(count))), tuple(PYRAMID)):
         judge = exact_hull(points)
         for k, point in enumerate(points):
             on = sum(not plane_value(facet.plane, point) for facet in judge.facets)
@@ -361,7 +327,7 @@ def planes_at_vertex(kind: str = "", count: str = COUNT) -> CheckResult:
 
 def duplicates_removed() -> CheckResult:
     """Check a triangle with a used point on a side: three of four vertices and of four equations remain."""
-    hull = convex_hull([(3, 0, 0), (4, 4, 0), (4, 2, 0), (4, 3, 0)], history=True)
+    hull = convex_hull(_POINT_ON_A_SIDE, history=True)
     used = [k for stage in hull.history for k in stage.added]
     equation_count, kept_equations = len(hull.history[-1].equations), [face.lowest for face in hull.faces]
     passed = len(used) > len(hull.vertices) == 3 == len(set(kept_equations)) == len(kept_equations) < equation_count

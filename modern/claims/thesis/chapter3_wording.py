@@ -24,7 +24,7 @@ from modern.claims.sampled_sets import (
     sampled_sets,
 )
 from modern.claims.thesis.chapter3_stages import stage_property
-from modern.claims.thesis.chapter3_steps import fourth_point_by_largest, visible_planes
+from modern.claims.thesis.chapter3_steps import PYRAMID, fourth_point_by_largest, visible_planes
 from modern.claims.thesis.chapter4_examples import EXTREMES_IN_A_PLANE
 from modern.edition import programs
 from modern.edition.chapter6 import input_deck
@@ -90,9 +90,8 @@ def _indices_on_line(points: Sequence[Point], a: int, b: int) -> list[int]:
 def plane_duplicates_as_printed(count: str = COUNT) -> CheckResult:
     """Check the removal of duplicate planes. Page 34 keeps the last equation of each plane; the listing keeps the
     first."""
-    pyramid = [(x, y, 0) for x in (0, 1, 2) for y in (0, 1, 2)] + [(1, 1, 2)]
     checks, differing = [], 0
-    for points in (pyramid, *(list(sampled.points) for sampled in sampled_sets(3, int(count)))):
+    for points in (PYRAMID, *(list(sampled.points) for sampled in sampled_sets(3, int(count)))):
         last = convex_hull(points, history=True).history[-1].equations
         planes = [plane_through(points[a], points[b], points[c]) for a, b, c in last]
         # Page 34 removes plane j if a later plane i contains its three points.

@@ -24,6 +24,7 @@ from modern.claims.sampled_sets import (
 from modern.claims.thesis.chapter3_stages import stage_property
 from modern.claims.thesis.chapter3_steps import value_v
 from modern.claims.thesis.chapter4_examples import ADDED, theorem_of
+from modern.claims.thesis.projections import theorem_4_4
 from modern.edition.chapter4 import load_theorems
 from modern.exact_hull import exact_hull
 from modern.geometry.vectors import cross, dot, minus
@@ -114,32 +115,6 @@ def sign_e() -> CheckResult:
     first = next(k for k in (q[2] - p[2], q[1] - p[1], q[0] - p[0]) if k)
     e = 1 if first > 0 else -1
     return fails_if(e == -1 and e * e == 1, f"e is {e} if z decreases from P1 to P2; its square is 1")
-
-
-def theorem_4_4(count: str = COUNT) -> CheckResult:
-    """Check that projections of flat sets along a coordinate that their plane is not parallel to keep the vertices."""
-    checks = []
-    for sampled in sampled_sets(2, int(count)):
-        plane = sampled.judge.plane
-        assert plane is not None
-        for k in range(3):
-            if plane[k]:
-                projected = [tuple(0 if axis == k else x for axis, x in enumerate(point)) for point in sampled.points]
-                checks.append(exact_hull(projected).vertices == sampled.judge.vertices)
-    return holds_if(bool(checks) and all(checks), f"{sum(checks)} of {len(checks)} projections keep the vertices")
-
-
-def constant_term_of_4_4() -> CheckResult:
-    """Check the constant terms of the coordinate planes, and of planes parallel to two of them."""
-    units = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
-    constants = {plane_through((0, 0, 0), p, q)[3] for p, q in combinations(units, 2)}
-    plane_x, plane_z = plane_through((1, 0, 0), (1, 1, 0), (1, 0, 1)), plane_through((0, 0, 1), (1, 0, 1), (0, 1, 1))
-    passed = constants == {0} and dot(plane_x[:3], plane_z[:3]) == 0 != plane_x[3] * plane_z[3]
-    message = (
-        "D_C is 0 for a coordinate plane; the planes x = 1 and z = 1 are perpendicular although the product "
-        "of their D is not 0"
-    )
-    return holds_if(passed, message, conditional=True)
 
 
 def proof_of_4_4(part: str) -> CheckResult:

@@ -207,7 +207,7 @@ def test_unknown_claim_or_result_is_named() -> None:
         "chapter3_steps.mean_of_first_hull",
         "chapter3_steps.visible_planes counts",
         "chapter3_steps.visible_planes pairs",
-        "chapter4_theorems.theorem_4_4",
+        "projections.theorem_4_4",
         "chapter4_theorems.theorem_4_5",
         "chapter4_theorems.theorem_4_7",
         "chapter7.orientation_by_c",

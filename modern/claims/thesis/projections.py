@@ -1,12 +1,13 @@
-"""Checks of projections, of the coordinate planes, and of points inside a polyhedron that is not convex."""
+"""Checks of chapters 3 and 4 on projections and coordinate planes, and on points inside a nonconvex polyhedron."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import product
+from itertools import combinations, product
 
 from modern.claims.register import CheckResult, holds_if
 from modern.claims.sampled_sets import COUNT, Point, plane_through, plane_value, random_triples, sampled_sets
+from modern.claims.thesis.chapter3_steps import all_hold
 from modern.claims.thesis.chapter4_examples import theorem_of
 from modern.exact_hull import ExactHull, exact_hull
 from modern.geometry.vectors import cross, dot, minus
@@ -84,3 +85,67 @@ def _goes_through(start: Point, face: Sequence[Point]) -> bool:
     turns = [dot(_RAY, cross(p, q)) > 0 for p, q in ((a, b), (b, c), (c, a))]
     normal = cross(minus(b, a), minus(c, a))
     return len({*turns}) == 1 and (dot(normal, a) > 0) == (dot(normal, _RAY) > 0)
+
+
+def perpendicular_projection() -> CheckResult:
+    """Check that a triangle projects to a segment if and only if its plane is perpendicular to the coordinate plane."""
+    checks = [(_image_area(normal, axis) == 0) == (normal[axis] == 0) for normal in _normals() for axis in range(3)]
+    return all_hold(
+        checks,
+        ("pairs of a plane and a coordinate plane: the image is a segment if and only if they are perpendicular"),
+    )
+
+
+def _normals() -> list[Point]:
+    return [(a, b, c) for a in (-1, 0, 2) for b in (-1, 0, 2) for c in (-1, 0, 2) if (a, b, c) != (0, 0, 0)]
+
+
+def _image_area(normal: Point, axis: int) -> int:
+    """Return twice the area of the image of a triangle with the given normal if one coordinate is set to 0."""
+    first_side = cross(normal, (1, 0, 0)) if any(normal[1:]) else cross(normal, (0, 1, 0))
+    second_side = cross(normal, first_side)
+    u, v = (tuple(0 if k == axis else x for k, x in enumerate(side)) for side in (first_side, second_side))
+    return cross(u, v)[axis]  # type: ignore[arg-type]
+
+
+def projection_along_axis() -> CheckResult:
+    """Check that setting one coordinate to 0 gives the foot of the perpendicular on the coordinate plane."""
+    checks = []
+    for point in (p for triple in random_triples() for p in triple):
+        for axis in range(3):
+            foot = tuple(0 if k == axis else x for k, x in enumerate(point))
+            unit = tuple(int(k == axis) for k in range(3))
+            checks.append(not any(cross(minus(point, foot), unit)))  # type: ignore[arg-type]
+    return all_hold(checks, "feet: the line from the point to its foot is perpendicular to the plane")
+
+
+def choice_of_projection() -> CheckResult:
+    """Check that a triangle keeps a positive area on the coordinate plane that the rule chooses."""
+    chosen = [(normal, 0 if normal[0] else 1 if normal[1] else 2) for normal in _normals()]
+    return all_hold([_image_area(normal, axis) != 0 for normal, axis in chosen], "normals: the image is not a segment")
+
+
+def theorem_4_4(count: str = COUNT) -> CheckResult:
+    """Check that projections of flat sets along a coordinate that their plane is not parallel to keep the vertices."""
+    checks = []
+    for sampled in sampled_sets(2, int(count)):
+        plane = sampled.judge.plane
+        assert plane is not None
+        for k in range(3):
+            if plane[k]:
+                projected = [tuple(0 if axis == k else x for axis, x in enumerate(point)) for point in sampled.points]
+                checks.append(exact_hull(projected).vertices == sampled.judge.vertices)
+    return holds_if(bool(checks) and all(checks), f"{sum(checks)} of {len(checks)} projections keep the vertices")
+
+
+def constant_term_of_4_4() -> CheckResult:
+    """Check the constant terms of the coordinate planes, and of planes parallel to two of them."""
+    units = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
+    constants = {plane_through((0, 0, 0), p, q)[3] for p, q in combinations(units, 2)}
+    plane_x, plane_z = plane_through((1, 0, 0), (1, 1, 0), (1, 0, 1)), plane_through((0, 0, 1), (1, 0, 1), (0, 1, 1))
+    passed = constants == {0} and dot(plane_x[:3], plane_z[:3]) == 0 != plane_x[3] * plane_z[3]
+    message = (
+        "D_C is 0 for a coordinate plane; the planes x = 1 and z = 1 are perpendicular although the product "
+        "of their D is not 0"
+    )
+    return holds_if(passed, message, conditional=True)
