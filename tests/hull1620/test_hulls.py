@@ -1,4 +1,4 @@
-"""A hull for a Python program: one result of both routes, numpy arrays, exact measures, pictures and files."""
+"""The hulls of the public interface: arrays, exact measures, drawings and files."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ sets = st.lists(st.tuples(small, small, small), min_size=1, max_size=14)
 
 
 def parts(hull: Hull) -> tuple[object, ...]:
-    """What a hull says, whatever its order."""
+    """Return the content of a hull, independent of its order."""
     faces = {(face.lowest, frozenset(face.polygon), frozenset(face.on)) for face in hull.faces}
     groups = [frozenset(group.tolist()) for group in (hull.vertices, hull.boundary, hull.inside)]
     return hull.dimension, *groups, faces, hull.volume, hull.area, hull.duplicates
@@ -50,7 +50,7 @@ def parts(hull: Hull) -> tuple[object, ...]:
 
 @settings(deadline=None, max_examples=150)
 @given(sets)
-def test_both_routes_have_one_result(points: list[tuple[int, int, int]]) -> None:
+def test_the_procedure_and_the_judge_have_the_same_hull(points: list[tuple[int, int, int]]) -> None:
     ours, judged = convex_hull(points), exact_hull(points)
     if len(set(points)) > 3 or ours.dimension < 2:
         assert parts(ours) == parts(judged)
@@ -64,12 +64,12 @@ def test_both_routes_have_one_result(points: list[tuple[int, int, int]]) -> None
 @pytest.mark.parametrize(
     "kind", [np.int8, np.uint16, np.int64, np.float16, np.float32, np.float64, np.longdouble, object, str]
 )
-def test_arrays_of_any_real_type_are_taken_exactly(hull_of: Any, kind: Any) -> None:
+def test_arrays_of_all_real_types_are_exact(hull_of: Any, kind: Any) -> None:
     assert parts(hull_of(np.array(CUBE).astype(kind))) == parts(hull_of(CUBE))
 
 
 @pytest.mark.parametrize("hull_of", BOTH)
-def test_a_coordinate_is_a_number_of_any_type(hull_of: Any) -> None:
+def test_coordinates_may_have_any_real_type(hull_of: Any) -> None:
     for half in (0.5, "0.5", "1/2", Fraction(1, 2), Decimal("0.5"), np.float32(0.5), np.float16(0.5)):
         assert hull_of([(half, 0, 0), (0, 1, 0), (0, 0, 1), (0, 0, 0)]).volume == Fraction(1, 12)
     tenth = hull_of([(np.float64(0.1), 0, 0), (0, 1, 0), (0, 0, 1), (0, 0, 0)])
@@ -78,20 +78,20 @@ def test_a_coordinate_is_a_number_of_any_type(hull_of: Any) -> None:
 
 @pytest.mark.parametrize("hull_of", BOTH)
 @pytest.mark.parametrize("nothing", [[], (), iter([]), np.empty((0, 3)), np.empty(0), np.empty((0, 3), int)])
-def test_no_points_are_refused_in_one_way(hull_of: Any, nothing: Any) -> None:
+def test_no_points_always_raise_the_same_error(hull_of: Any, nothing: Any) -> None:
     with pytest.raises(PointsError, match=r"^there are no points$"):
         hull_of(nothing)
 
 
 @pytest.mark.parametrize("hull_of", [digital_hull, voxel_hull])
 @pytest.mark.parametrize("nothing", [np.zeros((2, 2, 2)), np.empty((0, 3, 3)), np.zeros((3, 3, 3), bool)])
-def test_no_voxels_are_refused_as_no_points_are(hull_of: Any, nothing: Any) -> None:
+def test_no_voxels_raise_the_same_error_as_no_points(hull_of: Any, nothing: Any) -> None:
     with pytest.raises(PointsError, match=r"^there are no points$"):
         hull_of(nothing)
 
 
 @pytest.mark.parametrize("hull_of", BOTH)
-def test_arrays_are_those_of_qhull(hull_of: Any) -> None:
+def test_arrays_have_the_content_of_those_of_qhull(hull_of: Any) -> None:
     hull, other = hull_of(DOUBLES), ConvexHull(DOUBLES)
     assert sorted(hull.vertices) == sorted(other.vertices)
     assert {frozenset(row) for row in hull.simplices.tolist()} == {frozenset(row) for row in other.simplices.tolist()}
@@ -107,7 +107,7 @@ def test_arrays_are_those_of_qhull(hull_of: Any) -> None:
     assert float(hull.area) == pytest.approx(other.area, rel=1e-13)
 
 
-def test_arrays_cannot_be_written_to() -> None:
+def test_arrays_are_read_only() -> None:
     hull = exact_hull(CUBE)
     for array in (hull.points, hull.vertices, hull.boundary, hull.inside, hull.simplices, hull.equations):
         with pytest.raises(ValueError, match="read-only"):
@@ -132,7 +132,7 @@ def test_volume_and_area_are_exact(hull_of: Any) -> None:
         assert (hull.volume, hull.area, hull.simplices.shape, hull.equations.shape) == (0, 0, (0, 3), (0, 4))
 
 
-def test_ordinary_doubles_in_doubles_are_refused_with_what_was_found() -> None:
+def test_a_refusal_has_the_incomplete_result() -> None:
     with pytest.raises(HullRefused, match=r"^no hull in float64: DATA NOT ACCEPTABLE, decided at") as caught:
         convex_hull(DOUBLES, "float64")
     returned = convex_hull(DOUBLES, "float64", on_refusal="return")
@@ -150,7 +150,7 @@ def test_ordinary_doubles_in_doubles_are_refused_with_what_was_found() -> None:
 
 
 def test_faces_that_do_not_close_have_no_volume() -> None:
-    """With a wide interval faces are taken for one another."""
+    """With a wide interval, different faces count as the same."""
     points = np.random.default_rng(4).integers(-9, 10, (30, 3))
     found = [convex_hull(points, "float64", epsilon=e, on_refusal="return") for e in range(0, 400, 20)]
     refused = 0
@@ -164,13 +164,13 @@ def test_faces_that_do_not_close_have_no_volume() -> None:
     assert 0 < refused < len(found)
 
 
-def test_a_hull_says_briefly_what_it_is() -> None:
+def test_the_repr_of_a_hull_is_a_summary() -> None:
     assert repr(exact_hull(CUBE)) == "<hull: polyhedron, 8 vertices, 6 faces; 8 points, exact>"
     assert repr(convex_hull(SQUARE)) == "<hull: polygon, 4 vertices, 4 lines; 6 points, exact>"
     assert repr(exact_hull([(0, 0, 0)])) == "<hull: point, 1 vertex; 1 points, exact>"
 
 
-def test_a_picture_is_the_same_from_all_of_them() -> None:
+def test_all_functions_draw_the_same_picture() -> None:
     hull = exact_hull(CUBE)
     assert hull._repr_svg_() == hull.draw() == draw(CUBE) == draw(hull)
     assert hull.draw().startswith("<svg ")
@@ -179,7 +179,7 @@ def test_a_picture_is_the_same_from_all_of_them() -> None:
         hull.draw(eye=(1, 2))
 
 
-def test_a_picture_shows_what_is_asked_for() -> None:
+def test_the_options_determine_the_content_of_a_picture() -> None:
     points = [*CUBE, (1, 1, 1)]
     whole, without = draw(points), draw(points, labels="none", hidden=False, others=False)
     assert ('class="inside"' in whole, 'class="inside"' in without) == (True, False)
@@ -187,7 +187,7 @@ def test_a_picture_shows_what_is_asked_for() -> None:
     assert exact_hull(points).draw(width=900).startswith('<svg xmlns="http://www.w3.org/2000/svg" width="900"')
 
 
-def test_the_text_of_chapter_3_may_be_followed() -> None:
+def test_the_variant_of_the_text_has_the_same_volume() -> None:
     points = np.random.default_rng(7).integers(-9, 10, (14, 3))
     hull = convex_hull(points, text=True)
     assert hull.volume == exact_hull(points).volume
@@ -195,7 +195,7 @@ def test_the_text_of_chapter_3_may_be_followed() -> None:
 
 
 @pytest.mark.parametrize("ending", ["off", "obj", "ply", "stl", "json", "svg"])
-def test_a_hull_is_saved_by_the_ending_of_the_name(ending: str, tmp_path: Path) -> None:
+def test_the_extension_determines_the_saved_format(ending: str, tmp_path: Path) -> None:
     path = tmp_path / f"cube.{ending}"
     exact_hull(CUBE).save(path)
     first = path.read_text(encoding="ascii")
@@ -206,7 +206,7 @@ def test_a_hull_is_saved_by_the_ending_of_the_name(ending: str, tmp_path: Path) 
     assert [found.name for found in tmp_path.iterdir()] == [path.name]
 
 
-def test_the_record_of_an_exact_hull_is_whole(tmp_path: Path) -> None:
+def test_the_record_of_an_exact_hull_is_complete(tmp_path: Path) -> None:
     save(SQUARE, tmp_path / "square.json")
     held = json.loads((tmp_path / "square.json").read_text(encoding="ascii"))
     assert (held["status"], held["plane"], held["inside"]) == ("determined", ["0", "0", "1", "-1"], [4])
@@ -218,7 +218,7 @@ def test_the_record_of_an_exact_hull_is_whole(tmp_path: Path) -> None:
     }
 
 
-def test_points_go_to_cards_and_the_hull_comes_back(tmp_path: Path) -> None:
+def test_points_become_cards_and_punched_cards_become_a_hull(tmp_path: Path) -> None:
     path = tmp_path / "points.csv"
     path.write_text("0,0,0\n4,0,0\n0,4,0\n0,0,4\n1,1,1\n.5,1,1\n", encoding="ascii")
     points = read_points(path)

@@ -1,4 +1,4 @@
-"""Hulls made wrong on purpose, which their proof must refuse: single changes, faces exchanged, a vertex too many."""
+"""Corrupted hulls, which the certificate must refuse: single changes, exchanged faces, an extra vertex."""
 
 from __future__ import annotations
 
@@ -18,8 +18,10 @@ BIG = [tuple(10**30 * number + 1 for number in point) for point in GRID]
 
 
 def mutations(value: object) -> Iterator[object]:
-    """Every tree that differs from ``value`` in one number by 1 or in sign, or in one member dropped, doubled or
-    exchanged with the next."""
+    """Yield every tree that differs from ``value`` in a single place.
+
+    A number changes by 1 or in sign.  A member is dropped, doubled or exchanged with the next one.
+    """
     if isinstance(value, Facet):
         for plane in mutations(value.plane):
             yield Facet(plane, value.polygon)
@@ -56,7 +58,7 @@ def refused(points, hull: ExactHull, message: str) -> None:
 
 
 def promoted(hull: ExactHull, index: int) -> ExactHull:
-    """The hull with one more vertex, not yet in any polygon."""
+    """Return the hull with an additional vertex that no polygon has."""
     return replace(
         hull,
         vertices=tuple(sorted((*hull.vertices, index))),
@@ -71,7 +73,7 @@ def ball(count: int, seed: int) -> list[tuple[int, ...]]:
 
 
 def one_vertex_short() -> Iterator[tuple[list[tuple[int, ...]], ExactHull]]:
-    """Points, and the hull of all but one vertex, faultless in itself; the vertex is called inside, or boundary."""
+    """Yield points and the hull of all except one vertex, which is called inside or boundary."""
     points: list[tuple[int, ...]] = [(0, 0, 0), (9, 0, 0), (0, 9, 0), (0, 0, 9), (5, 5, 5)]
     hull = exact_hull(points[:4])
     for name in ("inside", "boundary"):

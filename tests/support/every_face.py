@@ -1,7 +1,7 @@
-"""Kovalevsky and Schulz's procedure as literally as it goes: every point is tried against the plane of every face.
+"""A literal version of Kovalevsky and Schulz's procedure, which compares every point with the plane of every face.
 
-The route by which :mod:`modern.papers.kovalevsky_schulz.polyhedron` is judged: other data, other ways to a first face,
-the same decisions.
+The tests compare :mod:`modern.papers.kovalevsky_schulz.polyhedron` with it.  It has other data structures and finds the
+first visible face in another way, but makes the same decisions.
 """
 
 from __future__ import annotations
@@ -17,16 +17,16 @@ from modern.papers.kovalevsky_schulz.cells import CellList, Edge, Face, IntPoint
 from modern.papers.kovalevsky_schulz.polyhedron import INVISIBLE, Coplanar, independent
 
 _HIDDEN = (0, 0, 0, -1)
-"""A plane that no point sees, in the places of removed faces."""
+"""A plane that no point sees, for the rows of removed faces."""
 
 
 def assembled(
     points: Mapping[int, IntPoint], ends: Mapping[int, tuple[int, int]], cycles: Iterable[Sequence[int]]
 ) -> CellList:
-    """A cell list from faces as cycles of signed edges: everything is numbered anew, without gaps and in order.
+    """Return a cell list of faces that are cycles of signed edges, numbered again in order and without gaps.
 
-    points: coordinates by vertex; ends: start and end by edge; cycles: of each face its edges as ``Face.pairs`` has
-    them.  A face's first pair becomes that of its vertex of lowest number.
+    points: the coordinates of each vertex.  ends: start and end of each edge.  cycles: the edges of each face as in
+    ``Face.pairs``.  The first pair of a face becomes that of its vertex with the lowest number.
     """
     vertex_numbers = {old: new for new, old in enumerate(sorted(points), 1)}
     edge_numbers = {old: new for new, old in enumerate(sorted(ends), 1)}
@@ -53,14 +53,14 @@ def assembled(
 
 
 class Planes:
-    """The planes of the faces as rows of an array, so that one product tells which faces a point sees."""
+    """The planes of the faces as rows of an array, so that one product shows which faces a point sees."""
 
     def __init__(self, points: Sequence[IntPoint]) -> None:
         columns = list(zip(*points, strict=True))
         self.low = [min(column) for column in columns]
         reach = max(max(column) - least for column, least in zip(columns, self.low, strict=True))
-        # Seen from the lowest corner of the points' box, a normal's components are at most 2 reach^2 and each of the
-        # four terms of a plane's value at most 6 reach^3.
+        # Relative to the lowest corner of the bounding box, the components of a normal are at most 2 reach^2, and each
+        # of the four terms of a plane's value at most 6 reach^3.
         self.dtype: Any = np.int64 if 24 * reach**3 < 2**63 else object
         self.rows: NDArray[Any] = np.empty((64, 4), dtype=self.dtype)
         self.rows[:] = _HIDDEN
@@ -68,7 +68,7 @@ class Planes:
         self.free: list[int] = []
 
     def add(self, face: int, p: IntPoint, q: IntPoint, r: IntPoint) -> int:
-        """Keep the plane of a face, three points counterclockwise seen from outside; returns its row."""
+        """Add the plane of three points, counterclockwise seen from outside, and return its row."""
         normal = cross(minus(q, p), minus(r, p))
         if self.free:
             row = self.free.pop()
@@ -77,9 +77,9 @@ class Planes:
             row = len(self.faces)
             self.faces.append(face)
             if row == len(self.rows):
-                more = np.empty_like(self.rows)
-                more[:] = _HIDDEN
-                self.rows = np.concatenate((self.rows, more))
+                extension = np.empty_like(self.rows)
+                extension[:] = _HIDDEN
+                self.rows = np.concatenate((self.rows, extension))
         self.rows[row] = (*normal, -dot(normal, self._moved(p)))
         return row
 
@@ -87,8 +87,11 @@ class Planes:
         self.rows[row] = _HIDDEN
         self.free.append(row)
 
-    def seen(self, p: IntPoint, coplanar: Coplanar) -> list[int]:
-        """The numbers of the faces visible from ``p`` (Definition VI), in order; coplanar ones as one is told."""
+    def visible(self, p: IntPoint, coplanar: Coplanar) -> list[int]:
+        """Return the numbers of the faces visible from ``p`` (Definition VI), sorted.
+
+        ``coplanar`` determines whether a face whose plane contains ``p`` is visible.
+        """
         values = self.rows @ np.array((*self._moved(p), 1), dtype=self.dtype)
         visible = values > 0 if coplanar == INVISIBLE else values >= 0
         return sorted(self.faces[row] for row in np.flatnonzero(visible).tolist())
@@ -98,15 +101,15 @@ class Planes:
 
 
 class CurrentPolyhedron:
-    """The paper's CP: vertices, edges and triangles by number, changed in place.
+    """The paper's CP, a polyhedron that changes in place: vertices, edges and triangles by number.
 
-    points: all that may become vertices, a vertex's number is its place from 0.  around: the edges at a vertex.
-    ends: start and end of an edge.  sides: the face on the left of edge e is sides[e], on its right sides[-e].
-    cycles: of a face its signed edges.
+    points: all points; the number of a vertex is its index.  around: the edges at each vertex.  ends: start and end of
+    each edge.  sides: the face on the left of edge e is sides[e], that on its right sides[-e].  cycles: the signed edges
+    of each face.
     """
 
     def __init__(self, points: Sequence[IntPoint], simplex: Sequence[int]) -> None:
-        """The tetrahedron of four points that lie in no plane."""
+        """Begin with the tetrahedron of four points that are not coplanar."""
         self.points = points
         self.planes = Planes(points)
         self.around: dict[int, set[int]] = {}
@@ -124,12 +127,12 @@ class CurrentPolyhedron:
         self._cone(d, (-first, -second, -third))
 
     def extend(self, number: int, coplanar: Coplanar) -> bool:
-        """Take a further point in, if it sees a face; returns whether it became a vertex.
+        """Insert a point if it sees a face, and return True if it became a vertex.
 
-        The visible faces go, with the edges between two of them and the vertices that have no other face; every edge
-        of their boundary is joined to the point by a triangle.
+        Remove the visible faces, the edges between two of them and the vertices that have no other face.  Join every
+        edge of their boundary to the point by a triangle.
         """
-        visible = self.planes.seen(self.points[number], coplanar)
+        visible = self.planes.visible(self.points[number], coplanar)
         if not visible:
             return False
         going = set(visible)
@@ -153,7 +156,7 @@ class CurrentPolyhedron:
         return True
 
     def cell_list(self) -> CellList:
-        """The cell list of the surface as it is: vertices in the order of the points, edges and faces as made."""
+        """Return the cell list of the current surface, with vertices in the order of the points."""
         return assembled(
             {vertex: self.points[vertex] for vertex in self.around},
             self.ends,
@@ -161,7 +164,7 @@ class CurrentPolyhedron:
         )
 
     def _cone(self, top: int, boundary: Iterable[int]) -> None:
-        """A triangle from ``top`` over every signed edge, each in the sense in which its new face follows it."""
+        """Add a triangle from ``top`` over every signed edge, in the direction in which the new face traverses it."""
         spokes: dict[int, int] = {}
         for edge in boundary:
             near, far = self.ends[abs(edge)][:: 1 if edge > 0 else -1]
@@ -189,7 +192,7 @@ class CurrentPolyhedron:
 
 
 def by_search(points: Iterable[Sequence[int]], coplanar: Coplanar) -> CellList | None:
-    """The cell list of triangles of points inserted in the order given; None for points in one plane."""
+    """Return the cell list of triangles of points inserted in their order, or None if all are coplanar."""
     distinct = list(dict.fromkeys((int(x), int(y), int(z)) for x, y, z in points))
     simplex = independent(distinct)
     if len(simplex) < 4:

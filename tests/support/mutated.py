@@ -1,6 +1,6 @@
-"""Files damaged at random, each in one of fifty ways that the seed chooses: bytes, words, lines, numbers, ends.
+"""Damage files at random in fifty ways that depend on the seed: bytes, tokens, lines, numbers, ends.
 
-``codes_of`` gives a command many of them: a result, or one line and exit code 2, and no file half written.
+``codes_of`` runs a command on many such files and checks that it ends with a result or with one line and exit code 2.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from tests.support.commands import call
 
 WAYS = 50
 FILES = int(os.environ.get("HULL1620_FUZZ", "3"))
-"""How many files of each reader are damaged."""
+"""The number of files for each reader that are damaged."""
 Make = Callable[[random.Random], bytes]
 
 _WORDS = (
@@ -32,7 +32,7 @@ _PIECES = (b"\0", b"\r", b"\n", b"\r\n", b"\xff", b"\xef\xbb\xbf", b" ", b"\t", 
 
 
 def damaged(data: bytes, way: int, seed: str) -> bytes:
-    """The file with one to three mutations; ``way`` is below ``WAYS``, and the same seed gives the same bytes."""
+    """Return the data with one to three mutations, which ``way`` (below ``WAYS``) and ``seed`` determine."""
     draw = random.Random(f"{seed}:{way}")
     for _ in range(1 + way % 3):
         data = _MUTATIONS[(way + draw.randrange(2)) % len(_MUTATIONS)](data, draw)
@@ -120,19 +120,19 @@ def codes_of(
     capsys: pytest.CaptureFixture[str],
     files: int = FILES,
 ) -> set[int]:
-    """The exit codes of a command over damaged files of one kind, in a folder of its own, which is the current one.
+    """Return the exit codes of a command for damaged files, in ``folder``, which is the current one.
 
-    Raises AssertionError where no whole file is taken, for a traceback, for an exit code other than 0, 1 and 2, for bad
-    input told in more than one line (but for ``check``, which lists its findings), and for a file written beside it.
+    Raise AssertionError if no intact file is accepted, for a traceback, for an exit code other than 0, 1 and 2, for an
+    error of more than one line (except from ``check``, which lists its findings), and for any other file in the folder.
     """
-    codes, taken = set(), set()
+    codes, intact_codes = set(), set()
     for number in range(files):
         whole = make(random.Random(f"{name}:{number}"))
         Path(path).write_bytes(whole)
-        taken.add(call(capsys, *words)[0])
+        intact_codes.add(call(capsys, *words)[0])
         for way in range(WAYS):
-            for left in folder.iterdir():
-                left.unlink()
+            for remaining in folder.iterdir():
+                remaining.unlink()
             data = damaged(whole, way, f"{name}:{number}")
             Path(path).write_bytes(data)
             try:
@@ -140,24 +140,28 @@ def codes_of(
             except BaseException as error:
                 raise AssertionError(f"file {number}, way {way}: {type(error).__name__}: {data[:200]!r}") from error
             codes.add(code)
-            there = {left.name for left in folder.iterdir()} - {path}
+            other_files = {file.name for file in folder.iterdir()} - {path}
             assert code in (0, 1, 2), (number, way)
             assert "Traceback" not in err
             if code == 2 and words[0] != "check":
-                assert (err.count("\n"), err.startswith("hull1620: "), there) == (1, True, set()), (number, way, err)
-    assert taken - {2}, "every whole file is refused"
-    return codes | taken
+                assert (err.count("\n"), err.startswith("hull1620: "), other_files) == (1, True, set()), (
+                    number,
+                    way,
+                    err,
+                )
+    assert intact_codes - {2}, "every intact file is rejected"
+    return codes | intact_codes
 
 
 def saved(array: np.ndarray) -> bytes:
-    """An array as the bytes of an NPY file."""
+    """Return an array as the bytes of an NPY file."""
     file = io.BytesIO()
     np.save(file, array)
     return file.getvalue()
 
 
 def solid(draw: random.Random) -> np.ndarray:
-    """A few voxels of any of three types of number, the first of them set."""
+    """Return a few voxels of one of three number types, the first one set."""
     shape = tuple(draw.randrange(2, 5) for _ in range(3))
     array = np.array([draw.random() < 0.6 for _ in range(shape[0] * shape[1] * shape[2])]).reshape(shape)
     array[0, 0, 0] = True

@@ -1,4 +1,4 @@
-"""``hull1620 diff``: routes compared with the judge, and disagreements that are seen."""
+"""The comparison of routes with the exact hull, and ``hull1620 diff``."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ def changed(outcome: Outcome, **changes: object) -> Outcome:
     return Outcome(**{**fields, **changes})  # type: ignore[arg-type]
 
 
-def test_the_judge_agrees_with_itself() -> None:
+def test_an_exact_hull_does_not_differ_from_itself() -> None:
     judge = judge_of(TETRAHEDRON)
     found = disagreement(judge, judge, vectors(TETRAHEDRON))
     assert found.agrees
     assert (found.error, found.excluded, found.points) == (0, 0, ())
 
 
-def test_every_kind_of_disagreement_is_seen() -> None:
+def test_every_kind_of_difference_is_detected() -> None:
     judge, points = judge_of(TETRAHEDRON), vectors(TETRAHEDRON)
     missed = disagreement(changed(judge, vertices=judge.vertices - {3}), judge, points)
     assert (missed.missed, missed.agrees) == (frozenset({3}), False)
@@ -55,7 +55,7 @@ def test_every_kind_of_disagreement_is_seen() -> None:
     assert (extra.planes_extra, extra.agrees) == (1, False)
 
 
-def test_a_small_error_of_a_coefficient_is_measured_not_counted() -> None:
+def test_a_small_error_of_a_coefficient_is_measured_but_is_no_difference() -> None:
     judge, points = judge_of(TETRAHEDRON), vectors(TETRAHEDRON)
     a, b, c, d = judge.equations[0]
     off = (a, b, c, d + max(abs(a), abs(b), abs(c)) / 10**6)
@@ -77,12 +77,14 @@ def test_a_small_error_of_a_coefficient_is_measured_not_counted() -> None:
         ("39_prism_n10", 1, "endless"),
     ],
 )
-def test_the_machine_runs(capsys: pytest.CaptureFixture[str], run: str, code: int, words: str) -> None:
+def test_diff_of_the_machine_runs_has_the_known_result(
+    capsys: pytest.CaptureFixture[str], run: str, code: int, words: str
+) -> None:
     assert main(["diff", str(RUNS / run / "deck.cards")]) == code
     assert words in capsys.readouterr().out
 
 
-def test_json_and_points_beyond_the_cards(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_output_covers_points_that_no_card_holds(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "p.csv"
     path.write_text("0,0,0\n1,0,0\n0,1,0\n0,0,1.0000000001\n")
     assert main(["diff", str(path), "--json", str(tmp_path / "d.json")]) == 0
@@ -94,8 +96,8 @@ def test_json_and_points_beyond_the_cards(tmp_path: Path, capsys: pytest.Capture
     capsys.readouterr()
 
 
-def test_an_epsilon_lets_three_decimals_through(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """Refused with DATA NOT ACCEPTABLE as listed; with e the programs and the port agree with the judge."""
+def test_an_epsilon_makes_three_decimals_agree(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The listing refuses the set; with e the programs and the port agree with the exact hull."""
     deck, out = str(RUNS / "18_dec3_n6" / "deck.cards"), str(tmp_path / "d.json")
 
     def statuses(epsilon: str) -> dict[str, tuple[str, bool]]:
@@ -112,7 +114,7 @@ def test_an_epsilon_lets_three_decimals_through(tmp_path: Path, capsys: pytest.C
     capsys.readouterr()
 
 
-def test_bad_input(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_diff_rejects_bad_input_in_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "p.csv"
     path.write_text("0,0,x\n")
     assert main(["diff", str(path)]) == 2

@@ -1,4 +1,4 @@
-"""The proof of large polyhedra by their convexity refuses what the proof by every plane refuses, and its own cases."""
+"""The proof by local convexity refuses the same corruptions as the proof by all planes, and some special ones."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def _by_convexity(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.parametrize("name", SETS)
-def test_no_single_change_to_a_hull_passes(name: str) -> None:
+def test_every_single_change_of_a_hull_is_refused(name: str) -> None:
     points = SETS[name]
     hull = exact_hull(points)
     assert certify(points, hull) == hull.certificate
@@ -66,8 +66,8 @@ def test_no_single_change_to_a_hull_passes(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", SETS)
-def test_no_single_coordinate_may_change(name: str) -> None:
-    """In the points alone, or in points and result alike unless the hull stays what it is."""
+def test_every_change_of_a_coordinate_is_refused(name: str) -> None:
+    """The change is made in the points alone, or in points and result if that changes the hull."""
     points = SETS[name]
     hull = exact_hull(points)
     for index, axis, step in itertools.product(range(len(points)), range(3), (-1, 1)):
@@ -84,7 +84,7 @@ def test_no_single_coordinate_may_change(name: str) -> None:
 
 
 def surface(points, triangles) -> ExactHull:
-    """Triangles called the hull of the points."""
+    """Return triangles as if they were the hull of the points."""
     facets = [Facet(lowest_terms(plane_through(*(points[k] for k in t))), rotated(t)) for t in triangles]
     corners = sorted({index for t in triangles for index in t})
     others = tuple(sorted(set(range(len(points))) - set(corners)))
@@ -98,23 +98,23 @@ def rotated(triangle):
 
 
 def double_pyramid(step: int) -> ExactHull:
-    """A pentagon between two apexes, its corners joined in order, or as a pentagram (step 2)."""
+    """A pentagon between two apexes, with its corners joined in order, or as a pentagram (step 2)."""
     ring = [(4000, 0), (1236, 3804), (-3236, 2351), (-3236, -2351), (1236, -3804)]
     points = [(x, y, 0) for x, y in ring] + [(0, 0, 3000), (0, 0, -3000)]
     around = [(k * step % 5, (k + 1) * step % 5) for k in range(5)]
     return surface(points, [(a, b, 5) for a, b in around] + [(b, a, 6) for a, b in around])
 
 
-def test_a_surface_that_goes_around_twice() -> None:
-    """Closed, convex at every edge, the middle within all planes, and Euler's relation holds: only the ray tells."""
+def test_a_surface_that_goes_around_twice_is_refused() -> None:
+    """The surface passes all other checks, and only the ray shows that it is not convex."""
     hull = double_pyramid(1)
     assert certify(hull.scaled, hull).facets == 10
     hull = double_pyramid(2)
     refused(hull.scaled, hull, "a ray meets the facets")
 
 
-def test_a_surface_with_a_dent() -> None:
-    """A face of the octahedron with a point above it, and the same triangles with that point below it."""
+def test_a_surface_with_a_dent_is_refused() -> None:
+    """The triangles of a point above a face of the octahedron, with the point moved below it."""
     points = [*((9 * x, 9 * y, 9 * z) for x, y, z in OCTAHEDRON), (4, 4, 4)]
     triangles = [facet.polygon for facet in exact_hull(points).facets]
     assert len(triangles) == 10
@@ -125,7 +125,7 @@ def test_a_surface_with_a_dent() -> None:
     refused(points, surface(points, triangles), "a plane occurs twice")
 
 
-def test_a_surface_inside_out(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_surface_turned_inside_out_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     hull = exact_hull(OCTAHEDRON)
     facets = [Facet(tuple(-n for n in facet.plane), rotated(facet.polygon[::-1])) for facet in hull.facets]
     facets.sort(key=lambda facet: facet.plane)
@@ -136,23 +136,23 @@ def test_a_surface_inside_out(monkeypatch: pytest.MonkeyPatch) -> None:
     refused(OCTAHEDRON, corrupt, "is outside of facet")
 
 
-def test_a_facet_seen_from_inside() -> None:
-    """A triangle whose plane is right and whose corners run the other way."""
+def test_a_facet_in_the_order_seen_from_inside_is_refused() -> None:
+    """The plane of the triangle is right, but its corners have the opposite order."""
     hull = exact_hull(OCTAHEDRON)
     refused(OCTAHEDRON, exchanged(hull, 0, Facet(hull.facets[0].plane, rotated(hull.facets[0].polygon[::-1]))), "edge")
     every = [Facet(facet.plane, rotated(facet.polygon[::-1])) for facet in hull.facets]
     refused(OCTAHEDRON, replace(hull, facets=tuple(every)), "no left turn|outside of facet")
 
 
-def test_a_face_left_out_and_a_face_twice() -> None:
+def test_a_missing_or_repeated_face_is_refused() -> None:
     hull = exact_hull(GRID)
     refused(GRID, exchanged(hull, 0), "has only one facet")
     refused(GRID, replace(hull, facets=(*hull.facets, hull.facets[-1])), "same direction")
     refused(GRID, replace(hull, facets=()), "there are no facets")
 
 
-def test_two_surfaces() -> None:
-    """One beside the other, each faultless."""
+def test_two_surfaces_are_refused() -> None:
+    """Each surface is valid on its own."""
     points = [*OCTAHEDRON, *((x + 9, y, z) for x, y, z in OCTAHEDRON)]
     one = exact_hull(OCTAHEDRON)
     shifted = exact_hull(points[6:])
@@ -161,14 +161,14 @@ def test_two_surfaces() -> None:
     refused(points, replace(one, scaled=tuple(points), vertices=tuple(range(12)), facets=tuple(facets)), "Euler")
 
 
-def test_a_pentagram() -> None:
+def test_a_pentagram_is_refused() -> None:
     hull = exact_hull(PRISM)
     number = next(k for k, facet in enumerate(hull.facets) if facet.plane == (0, 0, 1, -3))
     a, b, c, d, e = hull.facets[number].polygon
     refused(PRISM, exchanged(hull, number, Facet((0, 0, 1, -3), (a, c, e, b, d))), "has only one facet")
 
 
-def test_polygons_of_no_points() -> None:
+def test_polygons_of_invalid_indices_are_refused() -> None:
     hull = exact_hull(OCTAHEDRON)
     polygon = hull.facets[0].polygon
     for wrong in ((*polygon[:2], 17), (*polygon[:2], -1), (*polygon[:2], 1.0 * polygon[2]), polygon[:2], ()):
@@ -179,18 +179,18 @@ def test_polygons_of_no_points() -> None:
         )
 
 
-def test_a_point_inside_called_a_vertex() -> None:
+def test_an_interior_point_is_refused_as_a_vertex() -> None:
     refused(GRID, promoted(exact_hull(GRID), 13), "point 13 is called a vertex, but no facet has it")
 
 
-def test_the_hull_of_all_points_but_one_vertex() -> None:
+def test_the_hull_of_all_points_except_one_vertex_is_refused() -> None:
     for points, hull in one_vertex_short():
         refused(points, hull, "point 4 is outside of facet")
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_a_hull_of_some_points_is_refused_for_each_of_the_others(seed: int) -> None:
-    """The hull of all points but one vertex, the vertex called inside or boundary."""
+def test_the_hull_of_all_points_except_any_vertex_is_refused(seed: int) -> None:
+    """The missing vertex is called inside or boundary."""
     points = ball(40, 10 + seed)
     for index in exact_hull(points).vertices:
         rest = [point for k, point in enumerate(points) if k != index]
@@ -213,8 +213,8 @@ def test_a_hull_of_some_points_is_refused_for_each_of_the_others(seed: int) -> N
 
 
 @pytest.mark.parametrize("name", SETS)
-def test_every_point_is_decided_in_its_cone_as_in_every_plane(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The classes by cones alone, and by every plane alone (no triangle found for any point)."""
+def test_cones_and_all_planes_classify_every_point_equally(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The classes are determined by cones only, and by all planes only (no triangle is found for any point)."""
     points = SETS[name]
     hull = exact_hull(points)
     cones = certify(points, hull)
@@ -229,15 +229,15 @@ def test_every_point_is_decided_in_its_cone_as_in_every_plane(name: str, monkeyp
 
 
 @pytest.mark.parametrize("name", SETS)
-def test_a_point_on_an_edge_is_put_into_one_plane_alone(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_point_on_an_edge_is_evaluated_in_one_plane(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     points = SETS[name]
     hull = exact_hull(points)
     monkeypatch.setattr(convexity._Proof, "_in_every_plane", None)
     assert certify(points, hull).facets == len(hull.facets)
 
 
-def test_no_wrong_cone_is_believed() -> None:
-    """Points beyond a wall by less than the bound are in doubt; others are found in the cone they are in."""
+def test_only_doubtful_points_are_located_in_a_wrong_cone() -> None:
+    """Points within the bound of a wall are in doubt; the cone of every other point contains it."""
     points = ball(60, 21)
     hull = exact_hull(points)
     sides = polygons(hull)
@@ -261,8 +261,8 @@ def test_no_wrong_cone_is_believed() -> None:
 
 
 @pytest.mark.parametrize(("digits", "long"), [(2, 0), (8, 0), (16, 0), (40, 0), (400, 0), (2, 90), (2, 1200)])
-def test_the_images_are_as_near_as_stated(digits: int, long: int) -> None:
-    """Images of points and normals, and planes' values at points, differ from the exact by less than the bound."""
+def test_the_errors_of_images_are_within_the_stated_bounds(digits: int, long: int) -> None:
+    """Images of points and normals, and the values of planes, differ from the exact ones by less than the bound."""
     rng = random.Random(digits)
     points = [tuple(rng.randrange(10**digits) // 10 ** rng.randrange(2) for _ in range(3)) for _ in range(12)]
     points = [(x << long, y, z) for x, y, z in points]
@@ -288,7 +288,7 @@ def test_the_images_are_as_near_as_stated(digits: int, long: int) -> None:
         assert abs(Fraction(float(row @ (images.places[q] - images.places[p]))) - true) < BOUND
 
 
-def test_a_place_with_an_image_is_known_exactly() -> None:
+def test_the_point_of_an_image_is_exact() -> None:
     images = images_of([(3, -7, 10**40), (20, 9, 10**40 + 12345), (4, 4, 10**40 + 5)])
     (x, y, z), weight = images.exactly(np.array([0.3, 0.125, 2.0**-70]))
     assert Fraction(x, weight) == 3 + 32 * Fraction(0.3)
@@ -297,7 +297,7 @@ def test_a_place_with_an_image_is_known_exactly() -> None:
 
 
 def test_signs_in_doubt_are_decided_in_integers() -> None:
-    """Points a unit off a face of a wide cube, and on it, in each of its cones."""
+    """Points on a face of a wide cube and one unit from it, in each of its cones."""
     side = 10**17
     corners = list(itertools.product((0, side), repeat=3))
     rng = random.Random(9)

@@ -1,4 +1,4 @@
-"""Families of points that defeat floating point, most of them those of Qhull's rbox, with answers known beforehand."""
+"""Families of points that are difficult in floating point, mostly those of Qhull's rbox, with known hulls."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ assert SKEW[0][0] * (SKEW[1][1] * SKEW[2][2] - SKEW[1][2] * SKEW[2][1]) != 0
 
 
 def skewed(points):
-    """A map without reflection onto coordinates that neither float64 nor int64 products can hold."""
+    """Map points, without reflection, to coordinates whose products exceed float64 and int64."""
     return [tuple(sum(a * b for a, b in zip(row, point, strict=True)) for row in SKEW) for point in points]
 
 
@@ -25,28 +25,28 @@ def counts(hull: ExactHull) -> tuple[int, ...]:
 
 
 def both(points) -> ExactHull:
-    """The hull, after comparing it with the hull of the skewed points: same faces, same classes."""
+    """Return the hull, after checking that the mapped points have the same faces and classes."""
     hull, other = exact_hull(points), exact_hull(skewed(points))
     assert {facet.polygon for facet in hull.facets} == {facet.polygon for facet in other.facets}
     assert (hull.vertices, hull.boundary, hull.inside) == (other.vertices, other.boundary, other.inside)
     return hull
 
 
-def test_the_skew_map_keeps_the_sense() -> None:
+def test_the_skew_map_preserves_orientation() -> None:
     (a, b, c), (d, e, f), (g, h, i) = SKEW
     assert a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g) > 0
 
 
 @pytest.mark.parametrize("n", [2, 3, 4, 7])
-def test_cubic_grid(n: int) -> None:
+def test_a_cubic_grid_has_six_faces(n: int) -> None:
     hull = both(list(itertools.product(range(n), repeat=3)))
     inside = (n - 2) ** 3
     assert counts(hull) == (3, 8, 12, 6, n**3 - 8 - inside, inside)
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_cube_with_points_on_its_faces(seed: int) -> None:
-    """rbox W0: 300 points on the surface of a cube with 8-digit coordinates."""
+def test_points_on_the_faces_of_a_cube_are_boundary_points(seed: int) -> None:
+    """As rbox W0: 300 points on the surface of a cube with 8-digit coordinates."""
     rng, side = random.Random(seed), 10**8
     points = list(itertools.product((0, side), repeat=3))
     for _ in range(300):
@@ -57,8 +57,8 @@ def test_cube_with_points_on_its_faces(seed: int) -> None:
     assert counts(both(points)) == (3, 8, 12, 6, 300, 0)
 
 
-def test_octahedral_ball_of_the_grid() -> None:
-    """|x| + |y| + |z| <= 4: an octahedron."""
+def test_an_octahedral_ball_of_the_grid_has_eight_faces() -> None:
+    """The points with |x| + |y| + |z| <= 4 form an octahedron."""
     points = [p for p in itertools.product(range(-4, 5), repeat=3) if sum(map(abs, p)) <= 4]
     hull = both(points)
     assert counts(hull)[:4] == (3, 6, 12, 8)
@@ -66,8 +66,8 @@ def test_octahedral_ball_of_the_grid() -> None:
 
 
 @pytest.mark.parametrize("square", [14, 41, 89, 314, 1001])
-def test_grid_points_on_a_sphere(square: int) -> None:
-    """rbox s, exactly: every point of a sphere is a vertex; the centre is not."""
+def test_all_grid_points_on_a_sphere_are_vertices(square: int) -> None:
+    """As rbox s, but exact: every point of a sphere is a vertex, and the centre is not."""
     radius = math.isqrt(square)
     points = [p for p in itertools.product(range(-radius, radius + 1), repeat=3) if sum(n * n for n in p) == square]
     hull = both([*points, (0, 0, 0)])
@@ -77,8 +77,8 @@ def test_grid_points_on_a_sphere(square: int) -> None:
     assert any(len(facet.polygon) > 3 for facet in hull.facets)
 
 
-def test_rational_points_on_the_unit_sphere() -> None:
-    """Stereographic images of fractions: the common scale has more than 100 digits."""
+def test_all_rational_points_on_the_unit_sphere_are_vertices() -> None:
+    """The points are stereographic images of fractions, whose common scale has more than 100 digits."""
     rng = random.Random(8)
     points = []
     for _ in range(60):
@@ -93,12 +93,12 @@ def test_rational_points_on_the_unit_sphere() -> None:
 
 
 def rational_circle(count: int) -> list[tuple[int, int, int]]:
-    """Points (x, y, r), x/r and y/r on the unit circle, by Pythagorean triples."""
+    """Return Pythagorean triples (x, y, r), so that (x/r, y/r) is on the unit circle."""
     return [(a * a - b * b, 2 * a * b, a * a + b * b) for a, b in ((k + 2, k + 1) for k in range(count))]
 
 
 @pytest.mark.parametrize("n", [3, 4, 5, 40])
-def test_prism_and_pyramid(n: int) -> None:
+def test_a_prism_and_a_pyramid_have_the_known_faces(n: int) -> None:
     circle = [(Fraction(x, r), Fraction(y, r)) for x, y, r in rational_circle(n)]
     prism = exact_hull([(x, y, z) for x, y in circle for z in (0, 1)])
     assert counts(prism) == (3, 2 * n, 3 * n, n + 2, 0, 0)
@@ -109,8 +109,8 @@ def test_prism_and_pyramid(n: int) -> None:
 
 
 @pytest.mark.parametrize("power", [1, 12, 27])
-def test_pairs_of_neighbours(power: int) -> None:
-    """Every corner of a cube of side 10**power doubled one unit further in along an edge: 12 or 20 digits apart."""
+def test_pairs_of_close_points_are_told_apart(power: int) -> None:
+    """Every corner of a cube of side 10**power has a copy one unit further in along an edge."""
     side = 10**power
     corners = list(itertools.product((-side, side), repeat=3))
     inner = [(x - (1 if x > 0 else -1), y, z) for x, y, z in corners]
@@ -124,8 +124,8 @@ def test_pairs_of_neighbours(power: int) -> None:
 
 
 @pytest.mark.parametrize("height", [1, 5, 10**4])
-def test_narrow_lens(height: int) -> None:
-    """rbox L: two shallow caps over a disc of radius 10**8, with many points in common planes when it is thin."""
+def test_all_points_of_a_narrow_lens_are_classified(height: int) -> None:
+    """As rbox L: two shallow caps over a disc of radius 10**8, with many coplanar points if it is thin."""
     rng = random.Random(height)
     points = []
     for _ in range(400):
@@ -141,8 +141,8 @@ def test_narrow_lens(height: int) -> None:
 
 
 @pytest.mark.parametrize("m", [2, 3, 10])
-def test_grid_lifted_to_a_paraboloid(m: int) -> None:
-    """Every point a vertex; one face for every cell of the grid, four walls and a lid."""
+def test_a_grid_on_a_paraboloid_has_one_face_for_each_cell(m: int) -> None:
+    """Every point is a vertex; there is one face for each cell of the grid, four walls and a lid."""
     points = [(i, j, i * i + j * j - (m - 1) * (i + j)) for i in range(m) for j in range(m)]
     hull = both(points)
     cells = (m - 1) ** 2
@@ -152,15 +152,15 @@ def test_grid_lifted_to_a_paraboloid(m: int) -> None:
         assert counts(hull) == (3, m * m, m * m + cells + 5 - 2, cells + 5, 0, 0)
 
 
-def test_moment_curve() -> None:
-    """A cyclic polytope: 2n - 4 triangles, no four points in a plane, coordinates of very different size."""
+def test_points_on_the_moment_curve_form_a_cyclic_polytope() -> None:
+    """It has 2n - 4 triangles, no four coplanar points, and coordinates of very different sizes."""
     n = 80
     hull = both([(t, t * t, t**3) for t in range(-n // 2, n // 2)])
     assert counts(hull) == (3, n, 3 * n - 6, 2 * n - 4, 0, 0)
 
 
-def test_points_that_lie_in_no_plane_by_one_unit() -> None:
-    """A 30-digit square whose fourth corner is one unit above, on and below the plane of the others."""
+def test_one_unit_decides_whether_a_square_is_flat() -> None:
+    """The fourth corner of a 30-digit square is one unit above, on and below the plane of the others."""
     a, b, c = (10**29 + 7, 1, 3), (5, 10**29 + 3, 10), (1, 10**28, 10**29 + 9)
     fourth = tuple(q + r - p for p, q, r in zip(a, b, c, strict=True))
     assert exact_hull([a, b, c, fourth]).dimension == 2
@@ -170,8 +170,8 @@ def test_points_that_lie_in_no_plane_by_one_unit() -> None:
 
 
 @pytest.mark.parametrize("digits", [8, 12, 16, 20, 30])
-def test_many_digits_in_general_position(digits: int) -> None:
-    """The two ways of the certificate agree with the way the answer must scale."""
+def test_both_certificates_agree_on_coordinates_of_many_digits(digits: int) -> None:
+    """Both proofs accept the scaled hull."""
     rng = random.Random(digits)
     small = [tuple(rng.randrange(1000) for _ in range(3)) for _ in range(60)]
     hull = exact_hull(small)
@@ -181,7 +181,7 @@ def test_many_digits_in_general_position(digits: int) -> None:
     assert (large.vertices, large.boundary, large.inside) == (hull.vertices, hull.boundary, hull.inside)
 
 
-def test_collinear_and_coplanar_points_with_many_digits() -> None:
+def test_collinear_and_coplanar_points_with_many_digits_are_recognised() -> None:
     line = skewed([(k, 2 * k, -3 * k) for k in (3, -1, 4, 1, 5, 9, -2, 6)])
     hull = exact_hull(line)
     assert (counts(hull), hull.vertices) == ((1, 2, 1, 2, 0, 6), (5, 6))
@@ -192,7 +192,7 @@ def test_collinear_and_coplanar_points_with_many_digits() -> None:
     assert all(a * x + b * y + c * z + d == 0 for x, y, z in plane)
 
 
-def test_ten_thousand_points() -> None:
+def test_ten_thousand_points_are_proved() -> None:
     rng = random.Random(10)
     points = [tuple(rng.randrange(10**8) for _ in range(3)) for _ in range(10**4)]
     hull = exact_hull(points)

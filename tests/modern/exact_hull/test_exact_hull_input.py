@@ -1,4 +1,4 @@
-"""What points may be, exactly, and what is refused; the result's small readings; the filter's bound."""
+"""Valid and invalid points, small hulls, and the error bounds of the floating-point filters."""
 
 from __future__ import annotations
 
@@ -35,24 +35,24 @@ LAW = settings(deadline=None, max_examples=300)
         ("1E-9999", Fraction(1, 10**9999)),
     ],
 )
-def test_decimal_strings(text: str, number: Fraction) -> None:
+def test_decimal_strings_have_their_exact_values(text: str, number: Fraction) -> None:
     assert decimal(text) == number
 
 
 @pytest.mark.parametrize(
     "text", ["", " ", ".", "-", "1,5", "1/0", "1/x", "0x10", "nan", "inf", "1e", "1 2", "١", "1e10000"]
 )
-def test_texts_that_are_no_decimal_number(text: str) -> None:
+def test_texts_that_are_not_decimal_numbers_are_rejected(text: str) -> None:
     with pytest.raises(PointsError, match="point 1, coordinate z: "):
         exact_hull([(0, 0, 0), (0, 0, text)])
 
 
-def test_too_many_digits() -> None:
+def test_too_many_digits_are_rejected() -> None:
     with pytest.raises(PointsError, match="point 0, coordinate x: 4001 digits; at most 4000 are read"):
         exact_hull([("1" * 4001, 0, 0)])
 
 
-def test_every_way_to_say_a_coordinate_gives_the_same_hull() -> None:
+def test_all_types_of_coordinates_give_the_same_hull() -> None:
     numbers = [(0, 0, 0), (3, 0, 0), (0, 5, 0), (0, 0, 7), (1, 1, 1), (3, 0, 0)]
     expected = exact_hull(numbers)
     assert expected.scale == 1
@@ -72,7 +72,7 @@ def test_every_way_to_say_a_coordinate_gives_the_same_hull() -> None:
     assert exact_hull([[f"{n}.0" for n in p] for p in numbers]) == expected
 
 
-def test_a_float_is_the_binary_number_it_holds() -> None:
+def test_a_float_has_the_binary_value_it_stores() -> None:
     assert exact_hull([(0.1, 0, 0)]).scale == 2**55
     assert exact_hull([("0.1", 0, 0)]).scale == 10
     line = [(0.1, 0, 0), (0.2, 0, 0), (0.3, 0, 0), (0, "0.1", 0)]
@@ -122,18 +122,18 @@ def test_numpy_integers_do_not_overflow() -> None:
         (np.zeros((4, 2), dtype=int), "point 0: expected three coordinates, found 2"),
     ],
 )
-def test_what_is_refused(points, message: str) -> None:
+def test_invalid_points_are_rejected_with_their_index(points, message: str) -> None:
     with pytest.raises(PointsError, match=message):
         exact_hull(points)
 
 
-def test_a_point() -> None:
+def test_equal_points_form_a_hull_of_dimension_0() -> None:
     hull = exact_hull([("1.5", 2, 3)] * 3)
     assert (hull.dimension, hull.scale, hull.scaled[0]) == (0, 2, (3, 4, 6))
     assert (hull.vertices, hull.facets, hull.duplicates, hull.edges()) == ((0,), (), ((1, 0), (2, 0)), ())
 
 
-def test_a_segment() -> None:
+def test_collinear_points_form_a_hull_of_dimension_1() -> None:
     hull = exact_hull([(1, 1, 1), ("0.5", "0.5", "0.5"), (3, 3, 3), (1, 1, 1)])
     assert (hull.dimension, hull.vertices, hull.inside, hull.boundary) == (1, (1, 2), (0,), ())
     assert [(facet.plane, facet.polygon) for facet in hull.facets] == [((-1, -1, -1, 3), (1,)), ((1, 1, 1, -18), (2,))]
@@ -141,7 +141,7 @@ def test_a_segment() -> None:
     assert hull.edges() == ((1, 2),)
 
 
-def test_a_polygon() -> None:
+def test_coplanar_points_form_a_hull_of_dimension_2() -> None:
     points = [(0, 0, "0.5"), (2, 0, "0.5"), (2, 2, "0.5"), (0, 2, "0.5"), (1, 0, "0.5"), (1, 1, "0.5")]
     hull = exact_hull(points)
     assert (hull.dimension, hull.plane, hull.polygon) == (2, (0, 0, 1, -1), (0, 1, 2, 3))
@@ -156,7 +156,7 @@ def test_a_polygon() -> None:
     assert hull.edges() == ((0, 1), (0, 3), (1, 2), (2, 3))
 
 
-def test_a_tetrahedron() -> None:
+def test_points_in_space_form_a_hull_of_dimension_3() -> None:
     hull = exact_hull([(0, 0, 0), (3, 0, 0), (0, 3, 0), (0, 0, 3), (1, 1, 1), (1, 1, "0.5")])
     assert [(facet.plane, facet.polygon) for facet in hull.facets] == [
         ((-1, 0, 0, 0), (0, 3, 2)),
@@ -171,8 +171,8 @@ def test_a_tetrahedron() -> None:
 
 
 @pytest.mark.parametrize("exponent", [308, 400, 9999])
-def test_coordinates_beyond_every_float(exponent: int) -> None:
-    """A large and a tiny unit together: no image may overflow, no message may print the numbers."""
+def test_coordinates_beyond_the_range_of_floats_are_exact(exponent: int) -> None:
+    """With a large and a tiny unit together, no image overflows and no message prints the numbers."""
     big, tiny = f"1E{exponent}", f"1E-{exponent}"
     points = [(0, 0, 0), (big, 0, 0), (0, big, 0), (0, 0, tiny), (tiny, tiny, 0), (tiny, tiny, tiny), (tiny, 0, tiny)]
     hull = exact_hull(points)
@@ -189,8 +189,8 @@ triples = st.tuples(coordinate, coordinate, coordinate)
 
 @LAW
 @given(st.lists(triples, min_size=4, max_size=8))
-def test_the_bound_of_the_construction(points) -> None:
-    """The image of every value is within the bound of the true quotient; with bound 0 it is that number."""
+def test_errors_in_the_construction_are_within_the_bound(points) -> None:
+    """The image of every value is within the bound of the exact quotient, or equal to it if the bound is 0."""
     space = frame(points)
     for k in range(len(points) - 2):
         plane = plane_through(*space.integers[k : k + 3])
@@ -206,16 +206,16 @@ def test_the_bound_of_the_construction(points) -> None:
                 assert computed == true
 
 
-def test_when_floats_are_exact() -> None:
-    """48 X Y Z < 2**53: half a side of 57250, not of 57251."""
+def test_the_bound_is_zero_only_if_floats_are_exact() -> None:
+    """48 X Y Z < 2**53 holds for X = Y = Z = 57250, but not for 57251."""
     assert 48 * 57250**3 < 2**53 < 48 * 57251**3
     for half, bound in ((57250, 0), (57251, BOUND)):
         assert frame([(0, 0, 0), (2 * half, 0, 0), (0, 2 * half, 0), (0, 0, 2 * half)]).bound == bound
 
 
 @pytest.mark.parametrize("size", [1, 10**5, 10**12, 10**40])
-def test_a_point_outside_by_one_unit(size: int) -> None:
-    """The least an integer value can be above 0, in a plane with coefficients of any size."""
+def test_a_point_one_unit_outside_is_detected(size: int) -> None:
+    """The value is 1, the smallest positive integer, for coefficients of any size."""
     plane = (size, size + 1, 1, 0)
     on, above, below = (size + 1, -size, 0), (size + 1, -size, 1), (size + 1, -size, -1)
     found = incidences([plane], [on, below])
@@ -226,7 +226,7 @@ def test_a_point_outside_by_one_unit(size: int) -> None:
 
 @LAW
 @given(st.lists(triples, min_size=4, max_size=8, unique=True), triples)
-def test_the_bound_of_the_certificate(points, normal) -> None:
+def test_errors_in_the_certificate_are_within_the_bound(points, normal) -> None:
     if not any(normal):
         return
     plane = lowest_terms(plane_at(normal, points[0]))
@@ -240,8 +240,8 @@ def test_the_bound_of_the_certificate(points, normal) -> None:
 
 @LAW
 @given(st.lists(st.tuples(*[st.integers(-9, 9)] * 3), min_size=4, max_size=12, unique=True))
-def test_both_ways_of_the_certificate_agree(points) -> None:
-    """int64 and float64 with integers find the same incidences, on every plane that has all points on one side."""
+def test_both_arithmetics_of_the_certificate_agree(points) -> None:
+    """int64, and float64 with integers, find the same incidences for all supporting planes."""
     planes = []
     for k in range(len(points) - 2):
         plane = plane_through(*points[k : k + 3])

@@ -1,4 +1,4 @@
-"""What is proposed: the hull of the points rounded to a grid, found in rounds; and what becomes of a wrong one."""
+"""The hull that is proposed for points rounded to a grid, and the treatment of a wrong proposal."""
 
 from __future__ import annotations
 
@@ -49,20 +49,20 @@ SETS = {
 
 @pytest.fixture
 def _proposed(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Proposed for however few points, and not built."""
+    """Propose hulls also for few points, and prevent the exact construction."""
     monkeypatch.setattr(build_module, "MANY", 4)
     monkeypatch.setattr(build_module, "_polyhedron", None)
 
 
 def built(points, monkeypatch: pytest.MonkeyPatch) -> ExactHull:
-    """The hull without a proposal."""
+    """Return the hull without a proposal."""
     monkeypatch.setattr(build_module, "MANY", math.inf)
     return exact_hull(points)
 
 
 @pytest.mark.parametrize("name", SETS)
 @pytest.mark.usefixtures("_proposed")
-def test_the_proposal_is_the_hull(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_proposed_hull_is_the_exact_hull(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     points = SETS[name]
     hull = exact_hull(points)
     monkeypatch.undo()
@@ -70,8 +70,8 @@ def test_the_proposal_is_the_hull(name: str, monkeypatch: pytest.MonkeyPatch) ->
 
 
 @pytest.mark.parametrize("name", SETS)
-def test_the_kernel_proposes_the_same_polytope(name: str) -> None:
-    """As Python, and compiled where numba is there: the same planes, all corners and all points on them named."""
+def test_the_kernel_and_numpy_propose_the_same_polytope(name: str) -> None:
+    """The kernel runs in Python, and compiled if numba is installed."""
     points = SETS[name]
     hull = exact_hull(points)
     grid, exact = on_grid(points)
@@ -88,7 +88,7 @@ def test_the_kernel_proposes_the_same_polytope(name: str) -> None:
         assert named >= {*hull.vertices, *hull.boundary}
 
 
-def test_the_kernel_is_refused_where_it_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_missing_kernel_raises_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
     load.cache_clear()
     monkeypatch.setattr(build_module, "MANY", 4)
     monkeypatch.setitem(sys.modules, "numba", None)
@@ -100,8 +100,8 @@ def test_the_kernel_is_refused_where_it_is_missing(monkeypatch: pytest.MonkeyPat
 
 
 @pytest.mark.usefixtures("_proposed")
-def test_few_points_of_a_small_grid() -> None:
-    """Many in one plane, in one line, and twice."""
+def test_few_points_of_a_small_grid_have_the_exact_hull() -> None:
+    """Many points are coplanar, collinear or equal."""
     rng = random.Random(12)
     solids = 0
     for _ in range(300):
@@ -115,7 +115,7 @@ def test_few_points_of_a_small_grid() -> None:
 
 @given(st.lists(st.tuples(WIDE, WIDE, WIDE, STEP, STEP, STEP), min_size=1, max_size=20))
 @LAW
-def test_signs_of_long_products(rows: list[tuple[int, ...]]) -> None:
+def test_signs_of_long_products_are_exact(rows: list[tuple[int, ...]]) -> None:
     normals, steps = np.array(rows, np.int64).reshape(-1, 6)[:, :3], np.array(rows, np.int64).reshape(-1, 6)[:, 3:]
     true = [sum(a * b for a, b in zip(row[:3], row[3:], strict=True)) for row in rows]
     assert exact_signs(normals, steps).tolist() == [(value > 0) - (value < 0) for value in true]
@@ -123,13 +123,13 @@ def test_signs_of_long_products(rows: list[tuple[int, ...]]) -> None:
 
 @given(STEP, STEP, STEP, st.integers(-3, 3))
 @LAW
-def test_signs_next_to_zero(a: int, b: int, c: int, off: int) -> None:
-    """Products of 60 digits that cancel but for a few units."""
+def test_signs_close_to_zero_are_exact(a: int, b: int, c: int, off: int) -> None:
+    """Products of 60 digits cancel except for a few units."""
     normal = np.array([[a * b, -a * c, off]], np.int64)
     assert exact_signs(normal, np.array([[c, b, 1]], np.int64))[0] == np.sign(off)
 
 
-def test_points_on_the_grid() -> None:
+def test_points_are_rounded_to_the_grid() -> None:
     near, exact = on_grid([(5, -7, 2**29), (6, 9, -(2**29) + 1)])
     assert exact
     assert near.tolist() == [[0, 0, 2**30 - 1], [1, 16, 0]]
@@ -142,15 +142,15 @@ def test_points_on_the_grid() -> None:
         assert [column.tolist() for column in columns] == [[limit, 1], [0, 2], [-limit, 3]]
 
 
-def test_flat_on_the_grid() -> None:
-    """Points that are not in one plane until they are rounded: nothing is proposed, and the hull is found."""
+def test_points_that_are_coplanar_after_rounding_have_no_proposal() -> None:
+    """The points become coplanar when they are rounded, so the hull is constructed without a proposal."""
     points = [(x << 45, y << 45, (x + y << 45) + x * y % 3) for x in range(20) for y in range(20)]
     assert propose(points) is None
     assert exact_hull(points).dimension == 3
 
 
 def dropped(count: int):
-    """A proposal that leaves out ``count`` points."""
+    """Return a proposal without ``count`` of the points."""
 
     def wrong(points, fast) -> Proposal | None:
         found = propose(points[count:], fast)
@@ -175,14 +175,14 @@ def pinched(points, fast) -> Proposal | None:
 
 
 def unaware(points, fast) -> Proposal | None:
-    """Of no points that may lie on the surface."""
+    """The proposal names no points that may lie on the surface."""
     found = propose(points, fast)
     return found and Proposal(found.triangles, found.near[:0])
 
 
 @pytest.mark.parametrize("wrong", [dropped(1), dropped(9), turned, torn, pinched, unaware, lambda points, fast: None])
 @pytest.mark.parametrize("name", ["cube", "ball", "sphere", "octahedral ball"])
-def test_a_wrong_proposal_is_refused_and_the_hull_built(wrong, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_after_a_wrong_proposal_the_hull_is_constructed(wrong, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     points = SETS[name]
     expected = built(points, monkeypatch)
     monkeypatch.setattr(build_module, "MANY", 4)
@@ -190,7 +190,7 @@ def test_a_wrong_proposal_is_refused_and_the_hull_built(wrong, name: str, monkey
     assert exact_hull(points) == expected
 
 
-def test_what_is_built_after_a_refusal_is_proved_too(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_hull_constructed_after_a_refusal_is_proved_too(monkeypatch: pytest.MonkeyPatch) -> None:
     points = SETS["sphere"]
     monkeypatch.setattr(build_module, "propose", dropped(2))
     monkeypatch.setattr(build_module, "insertion_order", lambda count, simplex: [])
@@ -198,8 +198,8 @@ def test_what_is_built_after_a_refusal_is_proved_too(monkeypatch: pytest.MonkeyP
         exact_hull(points)
 
 
-def test_planes_and_faces_of_triangles() -> None:
-    """Beside the same by one integer at a time: coordinates below and beyond 2**30, faces of several triangles."""
+def test_vectorised_planes_equal_those_of_single_triangles() -> None:
+    """The coordinates are below and above 2**30, and some faces have several triangles."""
     for points in (CUBE, BIG[:27], ball(40, 8), [tuple(10**9 * n for n in p) for p in CUBE]):
         triangles = propose(points).triangles
         for plane, (a, b, c) in zip(planes_of(triangles, points), triangles.tolist(), strict=True):

@@ -1,4 +1,4 @@
-"""Hulls written as OFF, OBJ, PLY, STL and JSON, read back by small readers of this file's own."""
+"""Hulls written as OFF, OBJ, PLY, STL and JSON, and read back by small separate readers."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from modern.formats.export import export_text, format_of, to_trimesh, write_hull
+from modern.formats.export import export_text, format_of, mesh_text, to_trimesh, write_hull
 from modern.formats.off import parse_off
 from modern.geometry.hull import Face, Hull, Stage
-from modern.geometry.mesh import ExportError, mesh
+from modern.geometry.mesh import ExportError, Mesh, mesh
 from modern.geometry.numbers import decimal_text, finite_decimal, integer_text, number
 from modern.port import convex_hull
 
@@ -88,7 +88,7 @@ READERS = {"off": tiny_off, "obj": tiny_obj, "ply": tiny_ply}
 
 
 def expected(hull: Hull) -> Shape:
-    """Vertices and faces straight from the result of a polyhedron."""
+    """Return vertices and faces of a polyhedron directly from the hull."""
     places = {index: place for place, index in enumerate(hull.vertices)}
     points = [exact(hull.points[index]) for index in hull.vertices]
     return points, [tuple(places[index] for index in face.polygon) for face in hull.faces]
@@ -113,7 +113,7 @@ def scaled(points: Sequence[tuple[int, int, int]], unit: str) -> list[tuple[str,
 
 
 @given(_CLOUDS, _UNITS)
-def test_every_format_gives_back_the_points_and_polygons(points: list[tuple[int, int, int]], unit: str) -> None:
+def test_written_files_have_the_points_and_polygons_of_the_hull(points: list[tuple[int, int, int]], unit: str) -> None:
     hull = convex_hull(scaled(points, unit))
     if hull.dimension < 3:
         return
@@ -153,7 +153,7 @@ def test_stl_is_closed_and_has_the_volume_of_the_faces(points: list[tuple[int, i
         assert triple((Fraction(normal[0]), Fraction(normal[1]), Fraction(normal[2])), u, v) > 0
 
 
-def test_a_cube_keeps_its_squares() -> None:
+def test_the_faces_of_a_cube_remain_squares() -> None:
     hull = convex_hull([*CUBE, (1, 1, 1), (0, 1, 1)])
     _, faces = tiny_off(export_text(hull, "off"))
     assert [len(face) for face in faces] == [4] * 6
@@ -164,7 +164,7 @@ def test_a_cube_keeps_its_squares() -> None:
 @pytest.mark.parametrize(
     "text", ["1.50", "-.25E-3", "1e90", "0.10000000000000000000000000000000000000001", "-0", "12345678901234567890.5"]
 )
-def test_a_decimal_is_written_as_it_was_given(text: str) -> None:
+def test_decimal_text_is_written_unchanged(text: str) -> None:
     hull = replace(convex_hull(CUBE), points=((text, "0", "0"), *convex_hull(CUBE).points[1:]))
     assert f"{text} 0 0" in export_text(hull, "off").splitlines()
     assert f"v {text} 0 0" in export_text(hull, "obj").splitlines()
@@ -175,7 +175,7 @@ def test_a_decimal_is_written_as_it_was_given(text: str) -> None:
 THIRDS = [(Fraction(x, 3), y, Fraction(z, 8)) for x, y, z in CUBE]
 
 
-def test_a_fraction_without_finite_decimal_is_refused_or_rounded_as_told() -> None:
+def test_a_fraction_without_finite_decimal_is_rejected_or_rounded() -> None:
     hull = convex_hull(THIRDS)
     place = next(k for k, index in enumerate(hull.vertices, 1) if "/" in hull.points[index][0])
     for form in ("off", "obj", "ply", "stl"):
@@ -195,7 +195,7 @@ def test_a_fraction_without_finite_decimal_is_refused_or_rounded_as_told() -> No
 
 
 @given(st.fractions())
-def test_finite_decimals(value: Fraction) -> None:
+def test_a_finite_decimal_exists_only_for_powers_of_2_and_5(value: Fraction) -> None:
     rest = value.denominator
     while rest % 2 == 0 or rest % 5 == 0:
         rest //= 2 if rest % 2 == 0 else 5
@@ -220,15 +220,15 @@ def test_finite_decimals(value: Fraction) -> None:
         (Fraction(0), "0"),
     ],
 )
-def test_how_finite_decimals_look(value: Fraction, text: str) -> None:
+def test_finite_decimals_have_an_exponent_only_if_they_are_long(value: Fraction, text: str) -> None:
     assert finite_decimal(value) == text
 
 
-def test_integers_of_more_digits_than_python_prints() -> None:
+def test_integers_of_more_than_4300_digits_have_text() -> None:
     assert integer_text(-(10**5000)) == "-1" + "0" * 5000
 
 
-def test_a_polygon_is_one_face_seen_from_where_its_plane_points_to() -> None:
+def test_a_polygon_is_one_face_in_the_orientation_of_its_plane() -> None:
     hull = convex_hull(SQUARE)
     for form, reader in READERS.items():
         points, faces = reader(export_text(hull, form))
@@ -241,14 +241,15 @@ def test_a_polygon_is_one_face_seen_from_where_its_plane_points_to() -> None:
     assert mesh(turned).faces[0][1:] == mesh(hull).faces[0][:0:-1]
 
 
-def test_a_face_too_large_for_a_ply_count_of_one_byte() -> None:
-    curve = [(k, k * k, 0) for k in range(256)]
-    assert "property list int int vertex_indices" in export_text(convex_hull(curve), "ply").splitlines()
-    assert "property list uchar int vertex_indices" in export_text(convex_hull(curve[1:]), "ply").splitlines()
-    assert len(tiny_ply(export_text(convex_hull(curve), "ply"))[1][0]) == 256
+def test_a_ply_face_of_more_than_255_vertices_has_an_int_count() -> None:
+    for corners, size in ((255, "uchar"), (256, "int")):
+        points = tuple((str(k), str(k * k), "0") for k in range(corners))
+        text = mesh_text(Mesh(2, points, (tuple(range(corners)),)), "ply")
+        assert f"property list {size} int vertex_indices" in text.splitlines()
+        assert len(tiny_ply(text)[1][0]) == corners
 
 
-def test_a_triangle_with_and_without_its_lines() -> None:
+def test_a_triangle_without_supporting_lines_has_the_same_mesh() -> None:
     """Example 1 of the thesis: program 1 punches the planes of three points and no supporting lines."""
     hull = convex_hull([(2, -5, 20), (200, -4, -50), (-30, 80, 4)])
     bare = mesh(replace(hull, faces=()))
@@ -256,7 +257,7 @@ def test_a_triangle_with_and_without_its_lines() -> None:
     assert bare == mesh(hull)
 
 
-def test_a_segment_and_a_point() -> None:
+def test_a_segment_and_a_point_are_written_without_faces() -> None:
     segment, point = convex_hull(SEGMENT), convex_hull(POINT)
     a, b = (" ".join(segment.points[index]) for index in segment.vertices)
     assert export_text(segment, "off") == f"OFF\n2 0 1\n{a}\n{b}\n"
@@ -275,7 +276,7 @@ def test_a_segment_and_a_point() -> None:
 
 
 @pytest.mark.parametrize("points", [THIRDS, [*CUBE, (1, 1, 1), (1, 1, 0), (0, 0, 0)], SQUARE, SEGMENT, POINT])
-def test_json_holds_the_whole_result(points: list[tuple[int, int, int]]) -> None:
+def test_json_holds_all_data_of_the_hull(points: list[tuple[int, int, int]]) -> None:
     hull = convex_hull(points, history=True)
     read = json.loads(export_text(hull, "json"))
 
@@ -298,7 +299,7 @@ def test_json_holds_the_whole_result(points: list[tuple[int, int, int]]) -> None
     assert all(isinstance(n, str) for f in read["faces"] for n in f["lowest"])
 
 
-def test_a_hull_that_was_not_determined() -> None:
+def test_a_refused_hull_is_written_only_as_json() -> None:
     hull = replace(convex_hull(CUBE), status="ERROR IN PROGRAM")
     for form in ("off", "obj", "ply", "stl"):
         with pytest.raises(ExportError, match=r"^there is no hull: ERROR IN PROGRAM$"):
@@ -306,7 +307,7 @@ def test_a_hull_that_was_not_determined() -> None:
     assert json.loads(export_text(hull, "json"))["status"] == "ERROR IN PROGRAM"
 
 
-def test_hulls_that_do_not_fit_together() -> None:
+def test_inconsistent_hulls_have_no_mesh() -> None:
     cube, square = convex_hull(CUBE), convex_hull(SQUARE)
     face = cube.faces[0]
     with pytest.raises(ExportError, match=r"^face 1 names point 8, which is not a vertex$"):
@@ -323,7 +324,7 @@ def test_hulls_that_do_not_fit_together() -> None:
         mesh(replace(cube, dimension=1))
 
 
-def test_format_of_a_name() -> None:
+def test_the_extension_determines_the_format() -> None:
     assert [format_of(f"a.b/c.{form}") for form in ("off", "OBJ", "ply", "Stl", "json")] == [
         "off",
         "obj",
@@ -338,7 +339,7 @@ def test_format_of_a_name() -> None:
         export_text(convex_hull(CUBE), "dxf")
 
 
-def test_a_file_is_written_whole_or_not_at_all(tmp_path: Path) -> None:
+def test_a_failed_export_leaves_the_existing_file(tmp_path: Path) -> None:
     path = tmp_path / "hull.off"
     path.write_text("before")
     with pytest.raises(ExportError):
@@ -349,7 +350,7 @@ def test_a_file_is_written_whole_or_not_at_all(tmp_path: Path) -> None:
     assert tiny_off(path.read_text()) == expected(convex_hull(CUBE))
 
 
-def test_trimesh_takes_the_vertices_as_they_stand() -> None:
+def test_a_trimesh_has_the_vertices_of_the_hull_in_their_order() -> None:
     pytest.importorskip("trimesh")
     hull = convex_hull(THIRDS)
     found = to_trimesh(hull)
@@ -363,7 +364,7 @@ def test_trimesh_takes_the_vertices_as_they_stand() -> None:
     assert len(to_trimesh(convex_hull(SQUARE)).faces) == 2
 
 
-def test_what_trimesh_cannot_hold(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_to_trimesh_rejects_hulls_that_it_cannot_hold(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(ExportError, match="the hull has dimension 1 and no area"):
         to_trimesh(convex_hull(SEGMENT))
     monkeypatch.setitem(sys.modules, "trimesh", None)
@@ -373,12 +374,3 @@ def test_what_trimesh_cannot_hold(monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("trimesh")
     with pytest.raises(ExportError, match="too large for a binary float"):
         to_trimesh(convex_hull([(f"{x}E400", y, z) for x, y, z in CUBE]))
-
-
-def test_a_solid_for_trimesh() -> None:
-    trimesh = pytest.importorskip("trimesh")
-    hull = convex_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
-    solid = to_trimesh(hull)
-    assert isinstance(solid, trimesh.Trimesh)
-    assert solid.is_watertight
-    assert abs(solid.volume - 1 / 6) < 1e-12

@@ -1,4 +1,4 @@
-"""OFF files read: their many spellings, and each way one can be wrong."""
+"""Valid variants of OFF files, and one file for each way in which they can be invalid."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ GOOD_OFF = [
 
 
 @pytest.mark.parametrize("text", [g[1] for g in GOOD_OFF], ids=[g[0] for g in GOOD_OFF])
-def test_off_in_its_many_spellings(text: str) -> None:
+def test_all_variants_of_plain_off_have_the_same_mesh(text: str) -> None:
     read = parse_off(text, "a.off")
     assert (read.points, read.faces) == ((("0", "0", "0"), ("1", "0", "0"), ("0", "1", "0")), ((0, 1, 2),))
     assert [text.splitlines()[line - 1].split("#")[0].split() for line in read.lines] == [list(p) for p in read.points]
@@ -64,7 +64,7 @@ BAD_OFF = [
 
 
 @pytest.mark.parametrize(("text", "words"), [b[1:] for b in BAD_OFF], ids=[b[0] for b in BAD_OFF])
-def test_bad_off(text: str, words: str) -> None:
+def test_an_invalid_off_file_is_rejected_in_one_line(text: str, words: str) -> None:
     with pytest.raises(FileError) as refused:
         parse_off(text, "a.off")
     message = str(refused.value)

@@ -1,4 +1,4 @@
-"""Points from decks, CSV and OFF files, and the subcommands that take them: what is read, what is refused, how."""
+"""Points read from decks, CSV and OFF files, invalid files, and the commands ``export`` and ``draw``."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def numbers(found: Input) -> list[tuple[Fraction, ...]]:
         (OFF, "off", ("line 3", "line 4")),
     ],
 )
-def test_three_kinds_of_file_with_the_same_points(text: str, kind: str, places: tuple[str, ...]) -> None:
+def test_a_deck_a_list_and_an_off_file_have_the_same_points(text: str, kind: str, places: tuple[str, ...]) -> None:
     found = parse_input(text, "points")
     assert numbers(found) == [
         (1, Fraction(-5, 2), Fraction(3, 10**6)),
@@ -54,7 +54,7 @@ def test_three_kinds_of_file_with_the_same_points(text: str, kind: str, places: 
     assert (found.kind, found.places, found.notes) == (kind, places, ())
 
 
-def test_text_is_kept_where_it_is_decimal_already() -> None:
+def test_decimal_text_is_preserved() -> None:
     assert parse_input(CSV, "points").points == (("1", "-2.50", "3e-6"), ("12.345678", "0", ".9E91"))
     assert parse_input(OFF, "points").points == (("1", "-2.50", "3e-6"), ("12.345678", "0", ".9E91"))
     assert parse_input(DECK, "points").points == (("1", "-2.5", "0.000003"), ("12.345678", "0", "9E+90"))
@@ -71,19 +71,19 @@ def test_text_is_kept_where_it_is_decimal_already() -> None:
         (".99999999E+99 ", "9.9999999E+98"),
     ],
 )
-def test_all_digits_of_a_card_are_taken(field: str, value: str) -> None:
-    """Without a point E14.8 sets it before the eighth digit from the right."""
+def test_all_digits_of_a_card_are_read(field: str, value: str) -> None:
+    """In a field without a decimal point, E14.8 assumes it before the eighth digit from the right."""
     found = parse_input(f" 1\n{field}{'0.':<14}{'0.':<14}\n", "a.deck")
     assert found.points == ((value, "0", "0"),)
 
 
-def test_the_first_of_several_data_sets_is_taken_with_a_note() -> None:
+def test_only_the_first_of_several_data_sets_is_read_with_a_note() -> None:
     found = parse_input(DECK + " 1\n" + CARD + " 1\n 2.\n", "a.deck")
     assert len(found.points) == 2
     assert found.notes == ("a.deck: 3 data sets; only the first one is read",)
 
 
-def test_what_a_deck_warns_of_is_noted() -> None:
+def test_warnings_about_a_deck_become_notes() -> None:
     found = parse_input(" 1\n 2.\n", "a.deck")
     assert found.points == (("2", "0", "0"),)
     assert found.notes == (
@@ -93,7 +93,7 @@ def test_what_a_deck_warns_of_is_noted() -> None:
 
 
 @pytest.mark.parametrize("example", [1, 2, 3, 4, 5, 6])
-def test_every_deck_of_chapter_6(example: int) -> None:
+def test_every_deck_of_chapter_6_is_read_exactly(example: int) -> None:
     deck = resources.files("transcripts") / "chapter6" / f"example{example}" / "program1.deck"
     text = deck.read_text("ascii")
     found = parse_input(text, deck.name)
@@ -117,11 +117,11 @@ def test_every_deck_of_chapter_6(example: int) -> None:
         (" 3 points\n", "a.deck", "deck"),
     ],
 )
-def test_recognising(text: str, source: str, kind: str) -> None:
+def test_the_first_line_and_the_extension_determine_the_format(text: str, source: str, kind: str) -> None:
     assert recognise(text, source) == kind
 
 
-def test_standard_input(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_points_are_read_from_standard_input(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(b"\xef\xbb\xbf" + CSV.encode()), encoding="utf-8"))
     found = read_input("-")
     assert (found.source, found.kind, len(found.points)) == ("standard input", "csv", 2)
@@ -161,7 +161,7 @@ BAD = [
 
 @pytest.mark.parametrize("command", ["export", "draw"])
 @pytest.mark.parametrize(("data", "name", "words"), [b[1:] for b in BAD], ids=[b[0] for b in BAD])
-def test_bad_points(
+def test_invalid_points_are_one_line_and_leave_no_file(
     command: str,
     data: str | bytes,
     name: str,
@@ -185,13 +185,13 @@ def test_bad_points(
 
 @pytest.fixture
 def room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """An empty folder to be in, with one tetrahedron."""
+    """Change to a folder that holds only a tetrahedron."""
     monkeypatch.chdir(tmp_path)
     Path("t.csv").write_text(TETRA, encoding="utf-8")
     return tmp_path
 
 
-def test_export_to_every_format(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_export_writes_every_format(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for form in ("off", "obj", "ply", "stl", "json"):
         code, out, err = call(capsys, "export", "t.csv", "-o", f"t.{form}")
         assert (code, out, err) == (0, "", "note: t.csv: line 6: the point of line 1 again\n")
@@ -207,7 +207,7 @@ def test_export_to_every_format(room: Path, capsys: pytest.CaptureFixture[str]) 
     assert set(parse_off(Path("again.off").read_text(encoding="utf-8"), "").points) == set(read.points)
 
 
-def test_draw(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_draw_writes_an_svg_file(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = call(capsys, "draw", "t.csv", "-o", "t.svg", "--eye=-1,2,-3.5")
     assert (code, out, err) == (0, "", "note: t.csv: line 6: the point of line 1 again\n")
     root = ElementTree.parse("t.svg").getroot()
@@ -233,7 +233,9 @@ BAD_ARGUMENTS = [
 
 
 @pytest.mark.parametrize(("arguments", "words"), BAD_ARGUMENTS, ids=[" ".join(b[0]) for b in BAD_ARGUMENTS])
-def test_bad_arguments(room: Path, capsys: pytest.CaptureFixture[str], arguments: tuple[str, ...], words: str) -> None:
+def test_invalid_arguments_are_one_line_and_leave_no_file(
+    room: Path, capsys: pytest.CaptureFixture[str], arguments: tuple[str, ...], words: str
+) -> None:
     Path("s.csv").write_text("0,0,0\n1,1,1\n", encoding="utf-8")
     before = sorted(path.name for path in room.iterdir())
     code, out, err = call(capsys, *arguments)
@@ -242,7 +244,9 @@ def test_bad_arguments(room: Path, capsys: pytest.CaptureFixture[str], arguments
     assert sorted(path.name for path in room.iterdir()) == before
 
 
-def test_a_mesh_is_the_judges_hull_and_json_the_procedures(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_meshes_are_exact_hulls_and_json_is_the_hull_of_the_procedure(
+    room: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     points = [(3, 4, 8), (6, -3, 7), (1, 2, -5), (4, 2, -3), (4, 2, 4), (1, 2, 7), (-2, 2, 0), (2, 2, 2)]
     Path("e.csv").write_text("".join(f"{x},{y},{z}\n" for x, y, z in points), encoding="utf-8")
     made, judged = convex_hull(points), as_hull(exact_hull(points))
@@ -254,10 +258,10 @@ def test_a_mesh_is_the_judges_hull_and_json_the_procedures(room: Path, capsys: p
     assert found["centre"] is not None
 
 
-def test_a_hull_that_was_not_determined(
+def test_export_reports_a_hull_that_was_not_determined(
     room: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Exact arithmetic gives none by itself, so the hull is made here."""
+    """Exact arithmetic determines every hull, so this one is made by hand."""
     broken = Hull("exact", ERROR, 3, (("0", "0", "0"),), (), (), ())
     monkeypatch.setattr(export_command, "exact_hull_of", lambda *_, **__: (broken, []))
     monkeypatch.setattr("modern.cli.draw.exact_hull_of", lambda *_, **__: (broken, []))
@@ -268,7 +272,7 @@ def test_a_hull_that_was_not_determined(
     assert (code, json.loads(out)["status"]) == (1, ERROR)
 
 
-def test_every_error_is_the_emulators() -> None:
+def test_invalid_points_raise_an_emulator_error() -> None:
     with pytest.raises(EmulatorError):
         parse_input("1 2", "a")
 
@@ -287,11 +291,11 @@ def test_every_error_is_the_emulators() -> None:
         ("0e12345", "+.00000000E+00"),
     ],
 )
-def test_a_coordinate_on_a_card(text: str, field: str) -> None:
+def test_a_coordinate_has_the_field_of_the_data_sheet(text: str, field: str) -> None:
     assert coordinate_field(text) == field
 
 
-def test_what_no_card_holds() -> None:
+def test_coordinates_that_no_card_holds_are_rejected() -> None:
     assert coordinate_field("1.23456789", truncate=True) == "+.12345678E+01"
     for text, words in (
         ("1.23456789", "9 significant digits; a card holds 8"),
@@ -308,7 +312,7 @@ def test_what_no_card_holds() -> None:
         data_deck([("1", "2", "3")] * 100, "d")
 
 
-def test_a_deck_made_and_read_again() -> None:
+def test_a_deck_made_of_points_has_these_points() -> None:
     points = (("1", "-2.5", "0.000003"), ("12.345678", "0", "9E+90"))
     deck = with_epsilon(data_deck(points, "d"), ".5")
     assert deck.cards[0].text == " 2+.50000000E+00"

@@ -1,4 +1,4 @@
-"""Points from lists, OBJ, PLY, STL, JSON and NPY: what is read, that what is written is read, what is refused."""
+"""Points read from lists, OBJ, PLY, STL, JSON and NPY files, and invalid files."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def numbers(found: Input) -> list[tuple[Fraction, ...]]:
 
 @pytest.mark.parametrize("separator", [",", ", ", ";", " ; ", "\t", " ", "   ", " \t "])
 @pytest.mark.parametrize("heading", ["", "x y z", "x1 y1 z1", "X Y Z[mm]", "# x y z", "# a comment\n\n# and another"])
-def test_lists_of_every_separator_with_or_without_a_heading(separator: str, heading: str) -> None:
+def test_lists_are_read_with_every_separator_and_heading(separator: str, heading: str) -> None:
     head = heading if heading.startswith("#") else separator.join(heading.split(" "))
     text = "\n".join([head, *(separator.join(point) for point in POINTS), ""])
     found = read(text)
@@ -43,7 +43,7 @@ def test_lists_of_every_separator_with_or_without_a_heading(separator: str, head
 
 
 @pytest.mark.parametrize("text", ["nan,nan,nan\n1,2,3\n", "x,1,2\n1,2,3\n", "inf inf inf\n1 2 3\n", "1,5;2,5;3,5\n"])
-def test_a_row_that_is_no_heading_is_not_dropped(text: str) -> None:
+def test_an_invalid_first_row_is_not_taken_for_a_heading(text: str) -> None:
     with pytest.raises(EmulatorError, match=r"line 1, field 1: .* is not a decimal number"):
         read(text)
 
@@ -51,7 +51,7 @@ def test_a_row_that_is_no_heading_is_not_dropped(text: str) -> None:
 @pytest.mark.parametrize("form", ["off", "obj", "ply", "stl", "json"])
 @settings(deadline=None, max_examples=40)
 @given(points=st.lists(st.tuples(*[st.decimals(-99, 99, places=3).map(str)] * 3), min_size=4, max_size=12))
-def test_what_is_written_is_read(form: str, points: list[tuple[str, str, str]]) -> None:
+def test_written_files_are_read_exactly(form: str, points: list[tuple[str, str, str]]) -> None:
     hull = convex_hull(points)
     if hull.dimension < 2:
         return
@@ -108,7 +108,7 @@ def test_binary_stl_is_read_exactly_and_each_point_once() -> None:
         '{"a": 1, "vertices": [[1,2,3],[5e-1,0,0.010]]}',
     ],
 )
-def test_json_of_others_is_read(text: str) -> None:
+def test_json_of_other_programs_is_read(text: str) -> None:
     assert numbers(read(text)) == [(1, 2, 3), (Fraction(1, 2), 0, Fraction(1, 100))]
 
 
@@ -135,7 +135,7 @@ def test_json_of_others_is_read(text: str) -> None:
         (b"\x93NUMPY\x01\0\xff", "not an NPY array of numbers"),
     ],
 )
-def test_what_is_damaged_is_one_line(data: str | bytes, words: str) -> None:
+def test_a_damaged_file_is_rejected_in_one_line(data: str | bytes, words: str) -> None:
     with pytest.raises(EmulatorError) as caught:
         read(data, "a")
     assert str(caught.value).startswith("a: ")
@@ -144,14 +144,14 @@ def test_what_is_damaged_is_one_line(data: str | bytes, words: str) -> None:
 
 
 @pytest.mark.parametrize("shape", [(3,), (2, 4), (1, 3, 1)])
-def test_an_array_of_another_shape_is_refused(shape: tuple[int, ...]) -> None:
+def test_an_array_of_another_shape_is_rejected(shape: tuple[int, ...]) -> None:
     file = io.BytesIO()
     np.save(file, np.zeros(shape))
     with pytest.raises(EmulatorError, match="expected an array of numbers of shape"):
         read(file.getvalue())
 
 
-def test_every_command_of_points_takes_them(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_export_and_cards_read_every_format(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for form in ("off", "obj", "ply", "stl", "json"):
         (tmp_path / f"a.{form}").write_text(export_text(convex_hull(CUBE), form), encoding="ascii")
     np.save(tmp_path / "a.npy", np.array(CUBE, np.float32))

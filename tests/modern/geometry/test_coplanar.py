@@ -1,4 +1,4 @@
-"""Faces read as one within a distance: what is joined, how far off it is, what is refused, and that the hull stays."""
+"""Joining faces that are coplanar to within a distance."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def test_a_dodecahedron_in_doubles_has_twelve_faces() -> None:
     assert hull == exact(points)
 
 
-def test_by_itself_nothing_is_joined() -> None:
+def test_a_distance_of_zero_joins_nothing() -> None:
     hull = exact(dodecahedron())
     found, joined = coplanar(hull, 0)
     assert joined is not None
@@ -77,8 +77,8 @@ noise = st.integers(-(10**3), 10**3)
 
 @settings(deadline=None, max_examples=40)
 @given(st.integers(3, 9), st.integers(0, 10**6))
-def test_a_disturbed_prism_has_the_faces_it_had(sides_: int, seed: int) -> None:
-    """Independent: the faces are those of the prism before every coordinate was moved by at most a billionth."""
+def test_a_perturbed_prism_gets_its_original_faces_back(sides_: int, seed: int) -> None:
+    """The faces are those of the prism before every coordinate was moved by at most a billionth."""
     draw = random.Random(seed)
     base = [(math.cos(2 * math.pi * k / sides_), math.sin(2 * math.pi * k / sides_)) for k in range(sides_)]
     points = [
@@ -96,7 +96,7 @@ def test_a_disturbed_prism_has_the_faces_it_had(sides_: int, seed: int) -> None:
 
 @settings(deadline=None, max_examples=60)
 @given(st.integers(0, 10**6), st.sampled_from(("0.3", "1", "2", "7/3")))
-def test_what_is_joined_is_what_the_rule_says(seed: int, within: str) -> None:
+def test_the_joined_faces_follow_the_definition(seed: int, within: str) -> None:
     draw = random.Random(seed)
     points = [tuple(draw.randrange(-9, 10) for _ in range(3)) for _ in range(draw.randrange(5, 14))]
     hull = exact(points)
@@ -119,7 +119,7 @@ def test_what_is_joined_is_what_the_rule_says(seed: int, within: str) -> None:
     assert set(joined.left_out) == set(range(len(hull.vertices))) - kept
 
 
-def test_the_distance_from_which_on_more_is_joined() -> None:
+def test_the_next_distance_joins_one_more_face() -> None:
     hull = exact([(0, 0, 0), (8, 0, 0), (0, 9, 0), (8, 9, 1), (3, 4, 12)])
     _, first = coplanar(hull, 0)
     assert first is not None
@@ -168,14 +168,14 @@ CROOKED = [(8, 1, -9), (-7, 7, 0), (3, -6, 7), (-6, 4, 5), (-9, 9, -3), (-3, 2, 
         ),
     ],
 )
-def test_refusals(points: Points, within: object, message: str) -> None:
+def test_unsuitable_distances_are_rejected(points: Points, within: object, message: str) -> None:
     with pytest.raises(CoplanarError) as caught:
         coplanar(exact(points), within)
     assert str(caught.value).startswith(message)
 
 
-def test_a_polygon_with_a_hole_is_refused() -> None:
-    """Of a surface that is not convex: the top of a box around a pit whose walls stand upright."""
+def test_a_joined_face_with_a_hole_is_rejected() -> None:
+    """The surface is not convex: it is the top of a box around a pit with vertical walls."""
 
     def ring(half: int, z: int) -> list[tuple[int, int, int]]:
         return [(-half, -half, z), (half, -half, z), (half, half, z), (-half, half, z)]
@@ -202,7 +202,7 @@ def test_a_root_is_rounded_up_to_three_digits(value: Fraction) -> None:
     assert Fraction(text) ** 2 <= value * Fraction(1022, 1000)
 
 
-def test_distances() -> None:
+def test_distances_are_read_and_written() -> None:
     assert [distance_text(Fraction(value)) for value in (0.001, 1e-9, "1/3", "0.25", 5, "1/1000003")] == [
         *("0.001", "1e-9", "1/3", "0.25", "5", "1/1000003"),
     ]
@@ -211,7 +211,7 @@ def test_distances() -> None:
     assert parse_distance(np.float32(0.5)) == parse_distance("1/2") == Fraction(1, 2)
 
 
-def test_the_reading_from_python() -> None:
+def test_the_public_hull_has_joined_faces() -> None:
     hull = hull1620.exact_hull(dodecahedron())
     found = hull.coplanar(within=1e-9)
     assert repr(found) == "<hull: polyhedron, 20 vertices, 12 faces; 20 points, exact, coplanar within 1e-9>"
@@ -231,7 +231,7 @@ def test_the_reading_from_python() -> None:
         hull.coplanar(9)
 
 
-def test_every_format_holds_the_reading() -> None:
+def test_every_format_has_the_joined_faces() -> None:
     found, _ = read(dodecahedron(), "1e-9")
     sizes = [line.split()[0] for line in export_text(found, "off").splitlines()[22:]]
     assert sizes == ["5"] * 12

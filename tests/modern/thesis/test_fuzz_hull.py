@@ -1,4 +1,4 @@
-"""Random decks through ``hull1620 hull``: an exit code and at most warnings, never a traceback."""
+"""Random decks for ``hull1620 hull``, which never end in a traceback."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ card_text = st.text(st.sampled_from(sorted(CHARACTERS)), max_size=80)
 
 
 def run(text: str, *options: str) -> tuple[int, str]:
-    """Exit code and standard error of ``hull`` on a deck."""
+    """Return the exit code and the standard error of ``hull`` for a deck."""
     with tempfile.TemporaryDirectory() as room:
         path = Path(room) / "d"
         path.write_text(text)
@@ -40,7 +40,7 @@ def run(text: str, *options: str) -> tuple[int, str]:
     st.sampled_from(["strict", "core"]),
     st.sampled_from(["listing", "examples"]),
 )
-def test_any_points(points: list[tuple[str, str, str]], bounds: str, programs: str) -> None:
+def test_any_points_end_with_exit_code_0_or_1(points: list[tuple[str, str, str]], bounds: str, programs: str) -> None:
     cards = ["".join(coordinate_field(x) for x in p) for p in points]
     code, err = run("\n".join([f"{len(points):2d}", *cards]), "--bounds", bounds, "--programs", programs)
     assert code in (0, 1), err
@@ -48,7 +48,7 @@ def test_any_points(points: list[tuple[str, str, str]], bounds: str, programs: s
 
 @settings(deadline=None, max_examples=40)
 @given(st.lists(card_text, max_size=6))
-def test_any_cards(cards: list[str]) -> None:
+def test_any_cards_end_with_an_exit_code_and_one_line(cards: list[str]) -> None:
     code, err = run("\n".join(cards))
     assert code in (0, 1, 2)
     if code == 2:

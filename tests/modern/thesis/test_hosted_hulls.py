@@ -1,4 +1,4 @@
-"""The hull programs over other numbers: the decks run in 1963's way, the examples, and the judge."""
+"""The hull programs in exact, binary and multiple-precision numbers, compared with eight digits and the exact hull."""
 
 from __future__ import annotations
 
@@ -26,9 +26,8 @@ from tests.support.paths import MACHINE_RUNS
 
 RUNS = MACHINE_RUNS
 FOLDERS = sorted(path for path in RUNS.iterdir() if path.is_dir())
-DECIMAL = {"18_dec3_n6", "23_dec2_n15"}
-"""Decks whose points are not whole."""
-
+INTEGERS = [folder for folder in FOLDERS if folder.name not in ("18_dec3_n6", "23_dec2_n15")]
+"""Decks whose points are integers."""
 
 LIMIT = 60_000
 
@@ -42,12 +41,10 @@ def deck_of_folder(folder: Path) -> Deck:
     return read_deck(str(folder / "deck.cards"))
 
 
-@pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
+@pytest.mark.parametrize("folder", INTEGERS, ids=lambda folder: folder.name)
 @pytest.mark.parametrize("name", ["exact", "float64", "mp:120"])
-def test_the_decks_of_whole_numbers(folder: Path, name: str) -> None:
-    """On whole coordinates of two digits eight decimal digits decide as exact numbers do: same points, planes, end."""
-    if folder.name in DECIMAL:
-        pytest.skip("not whole")
+def test_decks_of_integers_have_the_same_run_in_other_numbers(folder: Path, name: str) -> None:
+    """For two-digit integers, eight decimal digits lead to the same decisions as exact numbers."""
     plain = hull(deck_of_folder(folder))
     endless = plain.final.result.ending.kind == "limit"
     other = hull(deck_of_folder(folder), name, limit=LIMIT if endless else 100 * LIMIT)
@@ -61,9 +58,9 @@ def test_the_decks_of_whole_numbers(folder: Path, name: str) -> None:
 
 
 def after_statements(step: Step, name: str, statements: int) -> Result:
-    """What a step has done after so many statements, with the ending of a run whose limit that is.
+    """Return the result of a step after the given number of statements, as if that were the limit of the run.
 
-    A limit of work would stop it elsewhere: what costs more than a statement of eight digits counts for more.
+    The limit of the options counts costly statements more than once, so it would stop the run elsewhere.
     """
     session = Session(step.program, step.deck, replace(OPTIONS, limit=100 * statements, numbers=numbers(name)))
     assert until(session, statements - LOOP_WINDOW) is None
@@ -73,7 +70,7 @@ def after_statements(step: Step, name: str, statements: int) -> Result:
 
 
 @pytest.mark.parametrize("example", chapter6.EXAMPLES)
-def test_the_examples_exactly(example: int) -> None:
+def test_the_examples_in_exact_numbers_have_the_exact_hull(example: int) -> None:
     """Exact numbers give the thesis's six examples as the exact judge has them."""
     deck = chapter6.input_deck(example)
     points = [
@@ -90,9 +87,9 @@ def test_the_examples_exactly(example: int) -> None:
     assert not found.added
 
 
-def test_whole_points_exactly_and_corrected() -> None:
-    """Exact numbers and the layer ``corrected``: what the judge says, on sets of every family."""
-    for name, points in sets(60, 7):
+def test_integers_in_exact_numbers_with_the_corrections_are_right() -> None:
+    """The sets come from every family."""
+    for name, points in sets(30, 7):
         if len(points) > 17:
             continue
         run = run_hull(
@@ -104,7 +101,7 @@ def test_whole_points_exactly_and_corrected() -> None:
 
 
 def decimals(seed: int) -> list[tuple[str, ...]]:
-    """Points with up to seven decimals: coefficients have more digits than a card holds."""
+    """Return points with up to seven decimals, whose coefficients have more digits than a card holds."""
     r = random.Random(seed)
     places = r.choice((1, 3, 5, 7))
     return [
@@ -113,10 +110,10 @@ def decimals(seed: int) -> list[tuple[str, ...]]:
     ]
 
 
-def test_decimals_exactly_and_uncut() -> None:
-    """With numbers uncut between the programs exact runs are right; through the cards most are refused."""
+def test_decimals_in_exact_numbers_are_right_if_uncut() -> None:
+    """If the numbers pass through cards between the programs, most sets are refused."""
     refused = 0
-    for seed in range(40):
+    for seed in range(20):
         points = decimals(seed)
         deck, given = deck_of(points), [tuple(Fraction(x) for x in p) for p in points]
         run = hull(deck, "exact", ("corrected",), uncut=True)
@@ -125,11 +122,11 @@ def test_decimals_exactly_and_uncut() -> None:
         outcome = from_cards("exact", run, given)
         assert (outcome.vertices, outcome.inside) == (judge.vertices, judge.inside), seed
         refused += not hull(deck, "exact", ("corrected",)).complete
-    assert refused > 10
+    assert refused > 5
 
 
-def test_where_eight_digits_decide_otherwise() -> None:
-    """Program 3 on the cards of a deck of decimals: a plane's own point is not on it, and exactly it is."""
+def test_diverge_names_the_first_value_that_eight_digits_get_wrong() -> None:
+    """In program 3 a defining point does not satisfy its plane in eight digits, but does so exactly."""
     points = [("0", "0", "0"), ("1", "0", "0"), ("0", "1", "0"), ("0.1234567", "0.7654321", "1.3333333")]
     points += [("0.1010101", "0.3333333", "-1.7777777"), ("0.9999999", "0.8888888", "0.0123456")]
     deck = deck_of(points)
@@ -141,14 +138,14 @@ def test_where_eight_digits_decide_otherwise() -> None:
     assert any(loss.worst > 3 for loss in found.losses)
 
 
-def test_program_2_decides_its_roots_exactly() -> None:
-    """AL+CL-BL of points in line is zero exactly, whatever the lengths, and eight digits miss some of the zeros.
+def test_program_2_compares_square_roots_exactly() -> None:
+    """For collinear points AL+CL-BL is exactly zero, and eight digits miss some of these zeros.
 
-    The last of the points with the least x is taken for a vertex first, though it lies between two others.
+    The last of the points with the least x is first taken for a vertex, although it lies between two others.
     """
     r = random.Random(5)
     missed = 0
-    for _ in range(80):
+    for _ in range(40):
         x, low, high, t = r.randint(-9, 0), r.randint(-20, 0), r.randint(1, 20), r.randint(1, 7)
         between = Fraction(low * (8 - t) + high * t, 8)
         corners = [(x, low), (x + r.randint(1, 9), r.randint(-9, 9)), (x, high), (x, float(between))]

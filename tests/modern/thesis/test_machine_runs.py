@@ -1,4 +1,4 @@
-"""The fourteen decks run by two compilers of the time (tests/data/machine_runs/README.md), card for card."""
+"""The decks that two compilers of the time ran (tests/data/machine_runs/README.md), compared card for card."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ FOLDERS = sorted(path for path in RUNS.iterdir() if path.is_dir())
 
 
 def lines(path: Path) -> list[str]:
-    """A file's lines without the blank ones at its end, which the record of the runs dropped."""
+    """Return the lines of a file without blank lines at its end, which the record of the runs omits."""
     found = [line.rstrip() for line in path.read_text(encoding="utf-8").split("\n")]
     return trimmed(found)
 
@@ -32,12 +32,8 @@ def run(folder: Path) -> HullRun:
     return run_hull(read_deck(str(folder / "deck.cards")), programs.program, Options(limit=200_000))
 
 
-def test_there_are_fourteen() -> None:
-    assert len(FOLDERS) == 14
-
-
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: folder.name)
-def test_every_card_and_typed_line(folder: Path) -> None:
+def test_every_card_and_typed_line_is_that_of_the_machine(folder: Path) -> None:
     steps = {step.name: step.result for step in run(folder).steps}
     expected = {path.name for path in folder.iterdir()} - {"deck.cards"}
     assert {name.partition(".")[0] for name in expected} == set(steps)

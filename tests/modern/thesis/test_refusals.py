@@ -1,4 +1,4 @@
-"""Why a run came to no hull: the known faults on their decks, and a point that misses its own plane."""
+"""The causes of runs without a hull: known faults, and points that do not satisfy their own plane."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def cause_of(deck: Deck, layers: tuple[str, ...] = (), limit: int = 400_000) -> 
         ("zeroplane", "zeros", 4, "IF(E(I))135,133,134"),
     ],
 )
-def test_a_known_fault_is_known_by_its_number(name: str, kind: str, fault: int, text: str) -> None:
+def test_a_known_fault_is_identified_by_its_number(name: str, kind: str, fault: int, text: str) -> None:
     found = cause_of(ground(name))
     assert (found.program, found.kind, found.fault) == (3, kind, fault)
     assert found.decision is not None
@@ -64,26 +64,28 @@ def test_a_known_fault_is_known_by_its_number(name: str, kind: str, fault: int, 
 
 
 @pytest.mark.parametrize(("name", "fault"), [("table", 5), ("polygon51", 16)])
-def test_a_table_without_room_is_known(name: str, fault: int) -> None:
+def test_a_full_table_is_identified(name: str, fault: int) -> None:
     found = cause_of(ground(name), limit=5_000_000)
     assert (found.kind, found.fault, found.message) == ("room", fault, "")
 
 
 @pytest.mark.parametrize("name", ["lastpair", "lastplane", "throughc"])
-def test_what_is_said_to_correct_a_fault_does(name: str) -> None:
+def test_the_named_correction_removes_the_fault(name: str) -> None:
     assert cause_of(ground(name)).fault in CORRECTED
     corrected = programs.loader(("corrected",))
     assert explain_run(partial(run_hull, ground(name), corrected, Options(core=60_000)))[1] is None
 
 
-def test_a_long_search_cut_short_is_no_fault() -> None:
+def test_a_long_search_stopped_by_the_limit_is_not_a_fault() -> None:
     found = cause_of(ground("table"), limit=100_000)
     assert (found.kind, found.fault) == ("endless", 0)
 
 
 @pytest.mark.parametrize(("points", "program"), [(SOLID, 3), (FLAT, 2)])
-def test_the_point_that_misses_its_own_equation_is_named(points: list[tuple[str, str, str]], program: int) -> None:
-    """The equation that program 1 punched gives the same there in the port's eight digits, and it is not zero."""
+def test_the_point_that_does_not_satisfy_its_equation_is_named(
+    points: list[tuple[str, str, str]], program: int
+) -> None:
+    """In the port's eight digits the equation that program 1 punched has the same nonzero value at the point."""
     deck = data_deck(points, "points")
     found = cause_of(deck)
     assert (found.program, found.kind, found.fault, found.message) == (program, "miss", 6, "DATA NOT ACCEPTABLE")
@@ -100,7 +102,7 @@ def test_the_point_that_misses_its_own_equation_is_named(points: list[tuple[str,
         assert eight.exact(a * x + b * y + c * z + d, 3) == Fraction(found.value)
 
 
-def test_four_points_none_of_which_satisfies_its_planes() -> None:
+def test_points_that_satisfy_no_three_equations_are_identified() -> None:
     found = cause_of(data_deck(FOUR, "points"))
     assert (found.program, found.kind, found.fault, found.message) == (3, "unmet", 6, "ERROR IN PROGRAM")
 
