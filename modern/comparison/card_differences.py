@@ -1,4 +1,4 @@
-"""How punched cards differ from the exact hull, by point and by face, for a drawing of both."""
+"""The differences between punched cards and the exact hull, by point and by face, for a drawing of both."""
 
 from __future__ import annotations
 

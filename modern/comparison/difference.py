@@ -17,7 +17,7 @@ NEAR = Fraction(1, 1000)
 
 @dataclass(frozen=True, slots=True)
 class Disagreement:
-    """How an outcome differs from that of the exact hull.  Points are indices into the input.
+    """The differences between an outcome and that of the exact hull.  Points are indices into the input.
 
     missed, added: vertices that the outcome lacks, and points that it wrongly calls vertices.
     misfiled: points with a wrong class, boundary or inside.

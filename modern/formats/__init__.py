@@ -21,7 +21,7 @@ function that returns a ``FileMesh`` (``tokens.py``), and add it to ``SURFACES``
 
 A format of voxels belongs to ``modern/digital/volumes.py`` (``nrrd.py`` there is an example).
 
-Tests: ``tests/modern/formats/test_export.py`` reads written files back with a reader of its own; ``test_points.py``
+Tests: ``tests/modern/formats/test_export.py`` reads written files back with separate readers; ``test_points.py``
 has one row for each valid file and for each way in which a file can be invalid; ``tests/modern/cli/
 test_fuzz_readers.py`` damages files at random.  Documentation: ``docs/reference/files.md``.
 """

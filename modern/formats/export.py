@@ -38,7 +38,7 @@ def mesh_text(surface: Mesh, form: str, digits: int | None = None) -> str:
 
 
 def format_of(path: str) -> str:
-    """Return the format for the extension of a file.  Raise ExportError if there is none."""
+    """Return the format for the extension of a file.  Raise ExportError if it has no format."""
     extension = path.rpartition(".")[2].lower() if "." in path else ""
     if extension not in HULLS:
         raise ExportError(f"{path}: the name must end with one of {', '.join('.' + form for form in HULLS)}")

@@ -52,7 +52,7 @@ def _member(value: Any) -> str:
 
 
 def _face(face: Face) -> dict[str, Any]:
-    # dataclasses.asdict would copy every number of what may be thousands of faces.
+    # dataclasses.asdict would copy every number, which is slow for thousands of faces.
     return {
         "coefficients": list(face.coefficients),
         "lowest": [integer_text(number) for number in face.lowest],

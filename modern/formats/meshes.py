@@ -1,7 +1,7 @@
 """Surfaces read from OFF, OBJ and STL files (ASCII or binary), recognised as in ``modern.formats.points``.
 
 The result holds the points and faces of the file.  The caller decides whether the faces close and what they enclose.
-Equal corners of an STL file are one point; every vertex of OFF and OBJ is a point of its own.
+Equal corners of an STL file are one point; every vertex of OFF and OBJ is a separate point.
 """
 
 from __future__ import annotations

@@ -117,12 +117,12 @@ class Stage:
 
 @dataclass(frozen=True, slots=True)
 class Coplanar:
-    """How the faces of a hull were joined (``modern.geometry.coplanar``); all distances are decimals.
+    """A description of joined faces (``modern.geometry.coplanar``); all distances are decimals.
 
     within: the distance E.
     faces: the number of faces of the hull before joining.
     deviation: the largest distance of a vertex from the plane of its joined face, to three digits, rounded up.
-    beyond: the smallest distance that would join one more face, to three digits, rounded up; None if there is none.
+    beyond: the smallest distance that would join one more face, to three digits, rounded up; or None.
     """
 
     within: str

@@ -122,7 +122,7 @@ def integer_text(value: int) -> str:
 def decimal_text(text: str, digits: int | None = None) -> str:
     """Return a decimal with the value of ``text``: the text itself, without a plus sign, if it is a decimal.
 
-    A fraction p/q becomes its finite decimal.  If there is none, it is rounded to ``digits`` significant digits, or
+    A fraction p/q becomes its finite decimal.  Otherwise it is rounded to ``digits`` significant digits, or
     raises ValueError if ``digits`` is None.
     """
     stripped = text.strip()

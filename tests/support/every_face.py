@@ -104,8 +104,8 @@ class CurrentPolyhedron:
     """The paper's CP, a polyhedron that changes in place: vertices, edges and triangles by number.
 
     points: all points; the number of a vertex is its index.  around: the edges at each vertex.  ends: start and end of
-    each edge.  sides: the face on the left of edge e is sides[e], that on its right sides[-e].  cycles: the signed edges
-    of each face.
+    each edge.  sides: the face on the left of edge e is sides[e], that on its right sides[-e].  cycles: the signed
+    edges of each face.
     """
 
     def __init__(self, points: Sequence[IntPoint], simplex: Sequence[int]) -> None:
