@@ -153,12 +153,12 @@ def _parsed(data: bytes, source: str, stated: Stated) -> Scan:
         return _of_array(parse_npz(data, source, stated.array), source)
     if data.startswith(MAGIC):
         return parse_nrrd(data, source)
-    if b"\0" in data[:_EXAMINED]:
-        raise VolumeError(f"{source}: not NPY, NRRD or UTF-8 text; raw data need --shape NX,NY,NZ")
     try:
-        text = data.decode("utf-8-sig")
+        text = None if b"\0" in data[:_EXAMINED] else data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        raise VolumeError(f"{source}: not NPY, NRRD or UTF-8 text; raw data need --shape NX,NY,NZ") from None
+        text = None
+    if text is None:
+        raise VolumeError(f"{source}: not NPY, NRRD or UTF-8 text; raw data need --shape NX,NY,NZ")
     return _scan(_listed(text, source))
 
 

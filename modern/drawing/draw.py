@@ -7,7 +7,7 @@ numbers only choose the positions of labels.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Literal
@@ -16,7 +16,7 @@ from modern.drawing import svg
 from modern.drawing.labels import HEIGHT, Label, place_labels
 from modern.drawing.layout import Layout, Pixel, lay_out
 from modern.drawing.legend import band, band_height, caption
-from modern.drawing.scene import Mark, Scene, scene
+from modern.drawing.scene import Scene, scene
 from modern.geometry.hull import Hull
 from modern.geometry.mesh import ExportError
 
@@ -104,15 +104,37 @@ def _points(picture: Scene) -> int:
 def scene_items(hull: Hull, picture: Scene, layout: Layout) -> list[str]:
     """Return faces, edges and marks, the hidden ones first."""
     small = _points(picture) > _MANY
+
+    def edges(style: svg.Style, hidden: bool) -> list[str]:
+        ends = ((edge.start, edge.end) for edge in picture.edges if edge.hidden == hidden)
+        corners = layout.vertices
+        lines = (svg.line(corners[a], corners[b], f'data-vertices="{a + 1} {b + 1}"') for a, b in ends)
+        return svg.group(style.key, style.attributes, lines)
+
+    def dots(style: svg.Style, points: Iterable[tuple[Pixel, int, str]]) -> list[str]:
+        titled = ((at, f"{name}: point {index + 1} ({', '.join(hull.points[index])})") for at, index, name in points)
+        marks = (svg.point_mark(style, at, title, small=small) for at, title in titled)
+        return svg.group(style.key, style.attributes, marks)
+
+    def vertices(hidden: bool) -> Iterator[tuple[Pixel, int, str]]:
+        for k, index in enumerate(hull.vertices):
+            if picture.hidden[k] == hidden:
+                yield layout.vertices[k], index, f"vertex {k + 1}"
+
+    def boundary(hidden: bool) -> Iterator[tuple[Pixel, int, str]]:
+        both = zip(picture.boundary, layout.boundary, strict=True)
+        return ((at, mark.index, "boundary point") for mark, at in both if mark.hidden == hidden)
+
+    inside = zip(picture.inside, layout.inside, strict=True)
     return [
         *_faces(picture, layout),
-        *(_edges(picture, layout, hidden=True) if picture.behind else ()),
-        *_marks(hull, picture.inside, layout.inside, svg.INSIDE, "inside point", small),
-        *_marks(hull, picture.boundary, layout.boundary, svg.BOUNDARY_HIDDEN, "boundary point", small, hidden=True),
-        *(_vertices(hull, picture, layout, small, hidden=True) if picture.behind else ()),
-        *_edges(picture, layout, hidden=False),
-        *_marks(hull, picture.boundary, layout.boundary, svg.BOUNDARY, "boundary point", small),
-        *_vertices(hull, picture, layout, small, hidden=False),
+        *(edges(svg.HIDDEN, True) if picture.behind else ()),
+        *dots(svg.INSIDE, ((at, mark.index, "inside point") for mark, at in inside)),
+        *dots(svg.BOUNDARY_HIDDEN, boundary(True)),
+        *(dots(svg.VERTEX_HIDDEN, vertices(True)) if picture.behind else ()),
+        *edges(svg.VISIBLE, False),
+        *dots(svg.BOUNDARY, boundary(False)),
+        *dots(svg.VERTEX, vertices(False)),
     ]
 
 
@@ -123,60 +145,6 @@ def _faces(picture: Scene, layout: Layout) -> list[str]:
             yield svg.polygon((layout.vertices[place] for place in pane.corners), f'fill="#{level * 3}"')
 
     return svg.group("faces", "", items())
-
-
-def _edges(picture: Scene, layout: Layout, hidden: bool) -> list[str]:
-    style = svg.HIDDEN if hidden else svg.VISIBLE
-    return svg.group(
-        style.key,
-        style.attributes,
-        (
-            svg.line(
-                layout.vertices[edge.start],
-                layout.vertices[edge.end],
-                f'data-vertices="{edge.start + 1} {edge.end + 1}"',
-            )
-            for edge in picture.edges
-            if edge.hidden == hidden
-        ),
-    )
-
-
-def _vertices(hull: Hull, picture: Scene, layout: Layout, small: bool, hidden: bool) -> list[str]:
-    style = svg.VERTEX_HIDDEN if hidden else svg.VERTEX
-    return svg.group(
-        style.key,
-        style.attributes,
-        (
-            svg.point_mark(style, layout.vertices[place], _title(hull, index, f"vertex {place + 1}"), small=small)
-            for place, index in enumerate(hull.vertices)
-            if picture.hidden[place] == hidden
-        ),
-    )
-
-
-def _marks(
-    hull: Hull,
-    points: Sequence[Mark],
-    places: Sequence[Pixel],
-    style: svg.Style,
-    name: str,
-    small: bool,
-    hidden: bool = False,
-) -> list[str]:
-    return svg.group(
-        style.key,
-        style.attributes,
-        (
-            svg.point_mark(style, place, _title(hull, mark.index, name), small=small)
-            for mark, place in zip(points, places, strict=True)
-            if mark.hidden == hidden
-        ),
-    )
-
-
-def _title(hull: Hull, index: int, name: str) -> str:
-    return f"{name}: point {index + 1} ({', '.join(hull.points[index])})"
 
 
 def number_items(hull: Hull, picture: Scene, layout: Layout, which: Labels) -> list[str]:

@@ -46,7 +46,7 @@ def test_statements_are_printed_in_free_form() -> None:
 
 
 def test_a_do_becomes_explicit_jumps() -> None:
-    """A loop runs at least once and reads its limit at each pass. Of two that end together the inner ends first."""
+    """A loop runs at least once and reads its limit at each pass. Two loops that end together end inner first."""
     assert fortran("DO 5 I=1,N", "DO 5 J=I,9,2", "5 K=K+1", "END") == [
         "I = 1",
         "90002 continue",
