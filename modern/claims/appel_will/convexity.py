@@ -118,7 +118,9 @@ def jarvis_deletions(kind: str = "") -> CheckResult:
         for k, point in enumerate(sampled.points):
             if k not in some and 3 not in exact_hull([*corners, point]).vertices:
                 checks.append(k not in sampled.judge.vertices)
-    return holds_if(all(checks), f"{len(checks)} points lie within triangles of vertices", conditional=kind)
+    return holds_if(
+        all(checks), f"points within triangles of vertices, none of them a vertex: {len(checks)}", conditional=kind
+    )
 
 
 def polyhedron_property(number: str) -> CheckResult:

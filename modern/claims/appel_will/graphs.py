@@ -79,7 +79,7 @@ def coplanar_loops(count: str = COUNT) -> CheckResult:
             if len(three) == len(first_edge) + 1:
                 checks.append(sum(three <= {*facet.polygon} for facet in judge.facets) <= 1)
         checks.append(len({facet.plane for facet in judge.facets}) == len(judge.facets))
-    return holds_if(all(checks), f"{len(checks)} pairs of edges and hulls")
+    return holds_if(all(checks), f"true for {len(checks)} pairs of edges and hulls")
 
 
 def list_of_points(count: str = COUNT) -> CheckResult:

@@ -121,7 +121,7 @@ def subcomplex() -> CheckResult:
         after = {a: {d for c, d in pairs if c == a} for a, _ in pairs}
         checks.append(all(dimension(a) < dimension(b) and (b, a) not in pairs and a != b for a, b in pairs))
         checks.append(all(after.get(b, set()) <= after[a] for a, b in pairs))
-    return holds_if(all(checks), f"{len(checks) // 3} subsets of the {len(SPACE)} cells of eight voxels")
+    return holds_if(all(checks), f"true for {len(checks) // 3} subsets of the {len(SPACE)} cells of eight voxels")
 
 
 def sides_of_cell() -> CheckResult:
@@ -156,7 +156,7 @@ def smallest_neighbourhood() -> CheckResult:
     inner = star([(2, 2, 2)])
     return holds_if(
         all(checks) and len(inner) == 27,
-        f"{len(checks)} cells; the neighbourhood of the middle corner has {len(inner)} cells",
+        f"true for {len(checks)} cells; the neighbourhood of the middle corner has {len(inner)} cells",
     )
 
 
@@ -168,7 +168,9 @@ def smallest_closed_subset() -> CheckResult:
         checks.append(_closed(whole) and all(not _closed(whole - {c}) for c in whole if c not in voxels))
         corners = {c for c in whole if dimension(c) == 0}
         checks.append(all(corners >= {c for c in sides(v) if dimension(c) == 0} for v in voxels))
-    return holds_if(all(checks), f"{len(checks) // 2} sets of voxels, whose closures contain all their corners")
+    return holds_if(
+        all(checks), f"true for {len(checks) // 2} sets of voxels, whose closures contain all their corners"
+    )
 
 
 def greatest_open_subset() -> CheckResult:
@@ -180,7 +182,9 @@ def greatest_open_subset() -> CheckResult:
         checks.append(_open(inside) and inside == SPACE - closure(SPACE - cells))
         checks.append(all(not star([cell]) <= cells for cell in cells - inside))
     two = {c for c in interior(closure([(1, 1, 1), (3, 1, 1)])) if dimension(c) == 3}
-    return holds_if(all(checks) and two == {(1, 1, 1), (3, 1, 1)}, f"the interiors of {len(checks) // 2} subsets")
+    return holds_if(
+        all(checks) and two == {(1, 1, 1), (3, 1, 1)}, f"true for the interiors of {len(checks) // 2} subsets"
+    )
 
 
 def boundary() -> CheckResult:
@@ -200,7 +204,7 @@ def boundary() -> CheckResult:
     passed &= corner_neighbours == sides((1, 1, 1)) | sides((3, 3, 3)) and all(
         map(_closed, (single_voxel, face_neighbours, corner_neighbours))
     )
-    return holds_if(passed, "one voxel, two voxels with a common face, and two voxels with a common corner")
+    return holds_if(passed, "true for one voxel, two voxels with a common face, and two voxels with a common corner")
 
 
 def manifold(kind: str = "") -> CheckResult:
@@ -220,7 +224,7 @@ def manifold(kind: str = "") -> CheckResult:
             rows += row
             closed = len(around) == faces and {*around.values()} == {2}
             checks.append((row if kind and vertex in rim else closed) and bool(faces))
-    message = f"{len(checks)} vertices"
+    message = f"true for {len(checks)} vertices"
     return holds_if(
         all(checks) and bool(kind) == (rows > 0),
         f"{message}, {rows} of them at the rim of a patch" if kind else message,
@@ -282,7 +286,7 @@ def half_space() -> CheckResult:
         outside = VOXELS - region
         rest = all(any(_incident(cell, voxel) for voxel in outside) for cell in SPACE - region)
         checks.append(_open(region) and len(_components(region)) == 1 and rest and region & VOXELS == voxels)
-    return holds_if(all(checks), f"{len(checks)} half-spaces of the block")
+    return holds_if(all(checks), f"{len(checks)} half-spaces of the block are open, connected and solid")
 
 
 def topological_line() -> CheckResult:

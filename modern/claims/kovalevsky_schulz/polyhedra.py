@@ -275,7 +275,8 @@ def cells_removed() -> CheckResult:
             remaining_edges = {e for e in judge.edges() if any({*e} <= h for h in hidden)}
             checks.append({e for e in after.edges() if len(points) not in e} == remaining_edges)
     return holds_if(
-        bool(checks) and all(checks), f"{len(checks) // 3} points outside a hull and in the plane of no face"
+        bool(checks) and all(checks),
+        f"checked for {len(checks) // 3} points outside a hull and in the plane of no face",
     )
 
 

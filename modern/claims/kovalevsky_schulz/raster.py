@@ -81,7 +81,10 @@ def corner_of_single_voxel() -> CheckResult:
         if array[x : x + 2, y : y + 2, z : z + 2].sum() == 1
     }
     wrong = single - corners
-    return fails_if(wrong and corners <= single, f"{', '.join(map(str, sorted(wrong)))} bounds only one voxel")
+    return fails_if(
+        wrong and corners <= single,
+        f"corners that bound one voxel and are not local: {', '.join(map(str, sorted(wrong)))}",
+    )
 
 
 def farthest_voxel_of_corner(kind: str = "") -> CheckResult:
@@ -119,7 +122,9 @@ def additional_labels() -> CheckResult:
             behind = {(x - i, y - j, z - k) for i, j, k in STEPS} & voxels
             checks.append(((x, y, z) in labelled) == bool(behind))
         labelled_count += len(labelled)
-    return holds_if(all(checks), f"{labelled_count} elements, each behind a voxel as seen from the origin")
+    return holds_if(
+        all(checks), f"{labelled_count} elements become labelled, each behind a voxel as seen from the origin"
+    )
 
 
 def edges_at_corner() -> CheckResult:
@@ -157,7 +162,7 @@ def corners_of_eight_voxels(kind: str) -> CheckResult:
             checks += [len(voxels) > 1] if any(opposite) else []
         else:
             checks += [not any(opposite)] if len(voxels) == 1 else []
-    return holds_if(all(checks), f"{len(checks)} of the 256 subsets")
+    return holds_if(all(checks), f"true for {len(checks)} of the 256 subsets of eight voxels")
 
 
 def _neighbours(voxel: tuple[int, ...]) -> list[tuple[int, ...]]:

@@ -131,7 +131,7 @@ def correlations(kind: str = "") -> CheckResult:
             checks.append(sum(relations.values()) == 1)
             counts = {name: n + relations.get(name, False) for name, n in counts.items()}
     passed = all(checks) and some_unrelated and all(counts.values())
-    message = ", ".join(f"{name} {number}" for name, number in counts.items())
+    message = "pairs: " + ", ".join(f"{name} {number}" for name, number in counts.items())
     return holds_if(passed, message, conditional=not kind)
 
 
@@ -225,8 +225,8 @@ def table_properties(number: str) -> CheckResult:
             checks += property_checks
             touching |= touches
     if not all(checks) or not checks:
-        return CheckResult(FAILS, f"{sum(checks)} of {len(checks)} cases")
-    return CheckResult(CONDITION if touching else HOLDS, f"{len(checks)} cases")
+        return CheckResult(FAILS, f"true for {sum(checks)} of {len(checks)} pairs of polygons and lines")
+    return CheckResult(CONDITION if touching else HOLDS, f"true for {len(checks)} pairs of polygons and lines")
 
 
 def _property(

@@ -91,7 +91,7 @@ def first_two_points() -> CheckResult:
 def equation(number: str) -> CheckResult:
     """Check an equation as printed on random points."""
     passed = all(_EQUATIONS[number](p, q, r) for p, q, r in random_triples())
-    return holds_if(passed, "it agrees exactly for six triples of points")
+    return holds_if(passed, "the equation agrees exactly for six triples of points")
 
 
 def _three_point_one(p: Point, q: Point, _: Point) -> bool:

@@ -43,7 +43,7 @@ def stage_property(kind: str, count: str = COUNT) -> CheckResult:
         for right in _PROPERTIES[kind](sampled):
             cases += 1
             passing += right
-    message = f"{passing} of {cases} cases in the construction of {len(sets)} sets"
+    message = f"true in {passing} of {cases} cases in the construction of {len(sets)} sets"
     if passing < cases or not cases:
         return CheckResult(FAILS, message)
     return CheckResult(CONDITION if kind in _WITH_CONDITION else HOLDS, message)

@@ -53,7 +53,7 @@ def line_pairs(which: str) -> CheckResult:
 
 def third_point(count: str = COUNT) -> CheckResult:
     """Check that no point is farther from the line of the first two points than the third point of H_1."""
-    return all_hold(list(_farthest(flat_and_spatial_sets(count))), "sets")
+    return all_hold(list(_farthest(flat_and_spatial_sets(count))), "sets: no point is farther than the third of H_1")
 
 
 def _farthest(sets: tuple[SampledSet, ...]) -> Iterator[bool]:
@@ -95,7 +95,7 @@ def coplanarity_test(count: str = COUNT) -> CheckResult:
     for sampled in flat_and_spatial_sets(count):
         first = plane_as_printed(*(sampled.points[k] for k in sampled.hull.history[0].added[:3]))
         checks.append(any(plane_value(first, point) for point in sampled.points) == (not sampled.flat))
-    return all_hold(checks, "sets")
+    return all_hold(checks, "sets: all values of (3.4) are 0 if and only if the set is flat")
 
 
 def common_first_steps(count: str = COUNT) -> CheckResult:
@@ -173,9 +173,7 @@ def used_boundary_point() -> CheckResult:
     hull = convex_hull(points, history=True)
     used = {k for stage in hull.history for k in stage.added}
     boundary_used = used & {*hull.boundary}
-    message = (
-        f"the points {', '.join(str(points[k]) for k in sorted(boundary_used))} were used and lie on one line only"
-    )
+    message = f"points used that lie on one line only: {', '.join(str(points[k]) for k in sorted(boundary_used))}"
     return holds_if(bool(boundary_used), message)
 
 
@@ -257,8 +255,13 @@ def visible_planes(kind: str, count: str = COUNT) -> CheckResult:
         message = f"in {same_places} of {pairs} pairs the two common points have the same positions among MM, NN and KK"
         return CheckResult(CONDITION if same_places < pairs else HOLDS, message)
     if kind == "as_worded":
-        return holds_if(all(checks), f"{len(checks)} pairs of planes i and m", conditional=True)
-    return all_hold(checks, "stages" if kind == "counts" else "pairs")
+        return holds_if(all(checks), f"{len(checks)} pairs of planes i and m agree", conditional=True)
+    return all_hold(
+        checks,
+        "stages have the expected number of planes"
+        if kind == "counts"
+        else "pairs: the third points are on opposite sides",
+    )
 
 
 def _shared(before: Approximation, visible: list[int]) -> Iterator[tuple[int, int, set[int]]]:
@@ -348,7 +351,7 @@ def used_points_in_planes() -> CheckResult:
     used = {k for stage in hull.history for k in stage.added} - {*judge.vertices}
     planes = {_TWO_PLANES[k]: sum(not plane_value(f.plane, _TWO_PLANES[k]) for f in judge.facets) for k in sorted(used)}
     passed = bool(planes) and {*planes.values()} <= {1, 2} and {*hull.vertices} == {*judge.vertices}
-    return holds_if(passed, ", ".join(f"{point} is in {n} planes" for point, n in planes.items()))
+    return holds_if(passed, ", ".join(f"{point} is in planes of the last hull: {n}" for point, n in planes.items()))
 
 
 def boundary_points_on_edges() -> CheckResult:

@@ -84,7 +84,7 @@ def number_of_extremes(claim: str) -> CheckResult:
 def _equations(theorem: Theorem) -> CheckResult:
     """Check that the printed equations are 0 at the points that they contain according to the text."""
     faults = theorem_faults(theorem, load_text())
-    return holds_if(not faults, faults[0] if faults else "exactly")
+    return holds_if(not faults, faults[0] if faults else "the printed equations are 0 at the named points")
 
 
 def _signs(theorem: Theorem) -> CheckResult:

@@ -56,7 +56,7 @@ def programs_compile(kind: str = "") -> CheckResult:
     """Check that the decks of the listing compile."""
     cards = {name: len(programs.deck(name).cards) for name in THREE}
     compiled = all(programs.program(name).code for name in THREE)
-    message = ", ".join(f"{name}: {n} cards" for name, n in cards.items())
+    message = "the decks compile: " + ", ".join(f"{name} with {n} cards" for name, n in cards.items())
     return holds_if(compiled, message, conditional=kind)
 
 
@@ -144,7 +144,7 @@ def notation() -> CheckResult:
     names_of_chapter_3 = ("NETC", "NE", "NV", "MM", "NN", "KK")
     return holds_if(
         {"MM", "NN", "KK"} <= names and all(f"{name}=" in text or name in names for name in names_of_chapter_3),
-        ", ".join(names_of_chapter_3),
+        f"the listings use {', '.join(names_of_chapter_3)}",
     )
 
 
@@ -361,4 +361,7 @@ def data_sheet(part: str) -> CheckResult:
             passed, f"{printed} has {len(printed)} characters, and a field has {len(whole)}", conditional=True
         )
     numbers = {"12": "+.12000000E+02", ".0146": "+.14600000E-01", ".0261": "+.26100000E-01", "6": "+.60000000E+01"}
-    return holds_if(all(coordinate_field(value) == field for value, field in numbers.items()), ", ".join(numbers))
+    return holds_if(
+        all(coordinate_field(value) == field for value, field in numbers.items()),
+        f"read as printed: {', '.join(numbers)}",
+    )

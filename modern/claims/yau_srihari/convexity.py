@@ -43,7 +43,9 @@ def midpoint_convexity() -> CheckResult:
     """Check covers of one to eight voxels, and that a row with a gap is not convex."""
     sizes = [len(midpoint_cover((0, 0, 0), voxel)) for voxel in ((2, 2, 2), (1, 2, 2), (1, 1, 2), (1, 1, 1))]
     gap = is_midpoint_convex(array_of([(0, 0, 0), (2, 0, 0)]))
-    return holds_if(sizes == [1, 2, 4, 8] and not gap, f"covers of {', '.join(map(str, sizes))} voxels")
+    return holds_if(
+        sizes == [1, 2, 4, 8] and not gap, f"four pairs of voxels have covers of {', '.join(map(str, sizes))} voxels"
+    )
 
 
 def midpoint_covers() -> CheckResult:

@@ -74,7 +74,7 @@ def envelopes_against_judge(kind: str = "") -> CheckResult:
         checks.append(faces == expected)
     inside = {p for p in _GRID if max(plane_value(f.plane, p) for f in judge.facets) <= 0}
     checks.append({*map(tuple, np.argwhere(_hull().filled).tolist())} == inside)
-    message = f"{len(SOLID)} voxels; the hull has {len(inside)}"
+    message = f"a solid of {len(SOLID)} voxels, whose hull has {len(inside)} voxels"
     if kind:
         return holds_if(all(checks) and disconnected_hull().verdict == FAILS, message, conditional=True)
     return holds_if(all(checks), message)
@@ -86,7 +86,7 @@ def deficiency_of_solid() -> CheckResult:
     missing = convex_deficiency(array)
     return holds_if(
         bool((_hull().filled & ~missing == array).all()),
-        f"{int(missing.sum())} voxels of the hull are not in the solid",
+        f"voxels of the hull that are not in the solid: {int(missing.sum())}",
     )
 
 
