@@ -17,6 +17,7 @@ from modern.cli.shared.console import DIFFERS, OK, UsageError, counted, say
 from modern.cli.shared.inputs import read_given
 from modern.drawing.scene import eye_of
 from modern.formats import off
+from modern.formats.columns import aligned
 from modern.formats.off import parse_off
 from modern.formats.points import Input, parse_bytes
 from modern.geometry.coplanar import (
@@ -284,10 +285,7 @@ def _false_edges(found: Input, hull: Assembled) -> Iterator[str]:
 
 
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[str]:
-    cells = [head, *rows]
-    widths = [max(len(row[k]) for row in cells) for k in range(len(head))]
-    for row in cells:
-        yield "  ".join(text.rjust(width) for text, width in zip(row, widths, strict=True))
+    return aligned([head, *rows], right=True)
 
 
 def _points(indices: Iterable[int]) -> str:

@@ -21,6 +21,7 @@ from modern.comparison.difference import Disagreement, disagreement
 from modern.comparison.outcome import Outcome, Vector, from_cards, from_hull, from_judge
 from modern.edition import programs
 from modern.exact_hull import exact_hull
+from modern.formats.columns import aligned
 from modern.formats.deck import MAX_POINTS, UnfitPoint, data_deck, with_epsilon
 from modern.formats.points import Input
 from modern.port import convex_hull
@@ -123,10 +124,7 @@ def _table(routes: list[Route], judge: Outcome, found: Input) -> Iterator[str]:
         f"the judge: a {kinds[judge.dimension]} of {len(judge.vertices)} vertices, {len(judge.equations)} {faces}, "
         f"{len(judge.boundary)} boundary and {len(judge.inside)} inside points"
     )
-    cells = [_HEAD, *map(_cells, routes)]
-    widths = [max(len(cell[k]) for cell in cells) for k in range(len(_HEAD))]
-    for cell in cells:
-        yield "  ".join(text.ljust(width) for text, width in zip(cell, widths, strict=True)).rstrip()
+    yield from aligned([_HEAD, *map(_cells, routes)])
     for route in routes:
         for note in _notes(route.outcome):
             yield f"{route.outcome.name}: {note}"

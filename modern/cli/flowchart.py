@@ -7,6 +7,7 @@ import argparse
 from emulator.files import write_text
 from modern.cli.shared.console import OK, UsageError
 from modern.cli.shared.machine import layers_of, load_program
+from modern.formats.columns import aligned
 from modern.publication.chart import chart
 from modern.publication.chart_svg import chart_svg
 from modern.publication.flow import flow
@@ -17,8 +18,7 @@ def main(args: argparse.Namespace) -> int:
     found = flow(load_program(args.program, layers_of(args), args.upcase))
     if args.table:
         rows = (("from", "taken for", "to"), *found.table())
-        first, second = (max(len(row[k]) for row in rows) + 2 for k in range(2))
-        write_text(args.output, "".join(f"{a:<{first}}{b:<{second}}{c}\n" for a, b, c in rows))
+        write_text(args.output, "".join(f"{line}\n" for line in aligned(rows)))
         return OK
     drawn = chart(found)
     if args.page is not None and not 1 <= args.page <= len(drawn.pages):

@@ -19,7 +19,7 @@ def main(args: argparse.Namespace) -> int:
     from modern.study.measures import MEASURES
     from modern.study.plan import SEED, PlanError
     from modern.study.registry import entries, names, study
-    from modern.study.report import spoken
+    from modern.study.report import terminal_text
     from modern.study.run import check_plan, cut_lines, run_study
     from modern.study.tomlplan import is_plan_file, read_plan
 
@@ -71,9 +71,9 @@ def main(args: argparse.Namespace) -> int:
             plan = found.plan(args.samples or found.SAMPLES, SEED if args.seed is None else args.seed)
             report = run_study(plan, args.out or plan.name, found.report, **options)
     except KeyboardInterrupt:
-        print("hull1620: interrupted; what is done is kept, --resume goes on", file=sys.stderr)
+        print("hull1620: interrupted; finished work is kept, --resume continues the study", file=sys.stderr)
         return 130
-    print(spoken(report), end="")
+    print(terminal_text(report), end="")
     return OK
 
 

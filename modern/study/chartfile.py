@@ -1,7 +1,7 @@
-"""``charts.json``: the charts of a report as data, from which ``study --redraw`` draws them anew without the rows.
+"""``charts.json``: the charts of a report as data, from which ``study --redraw`` draws them without the rows.
 
-A list; each chart has kind (``bars`` or ``lines``), the fields of :class:`modern.study.report.Bars` or ``Lines``, and
-series with points ``[place, value, low, high]``, where null stands for no limit.
+The file is a list.  Each chart has a kind (``bars`` or ``lines``), the fields of :class:`modern.study.report.Bars` or
+``Lines``, marks, and series with points ``[position, value, low, high]``.  A limit that is null is infinite.
 """
 
 from __future__ import annotations
@@ -21,21 +21,22 @@ from modern.study.store import put
 
 NAME = "charts.json"
 _KINDS: dict[str, type[Chart]] = {"bars": Bars, "lines": Lines}
+_PARTS = ("kind", "marks", "series")
+_TYPES: dict[str, type] = {"str": str, "bool": bool}
 _FILE_NAME = re.compile(r"[A-Za-z0-9][\w-]*")
 
 
 def write_charts(folder: Path, charts: Iterable[Chart]) -> None:
-    """The charts to a study's folder.  Raises StudyFileError."""
+    """Write the charts to the folder of a study.  Raise StudyFileError if that fails."""
     texts = ",\n ".join(_text(chart) for chart in charts)
     put(folder / NAME, f"[{texts}]\n")
 
 
 def read_charts(folder: Path) -> tuple[Chart, ...]:
-    """The charts of a study's folder.  Raises StudyFileError where there are none that can be read."""
+    """Read the charts from the folder of a study.  Raise StudyFileError if the file is absent or not of this format."""
     path = folder / NAME
     try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-        return tuple(_chart(one) for one in found)
+        return tuple(_chart(data) for data in json.loads(path.read_text(encoding="utf-8")))
     except OSError as error:
         raise StudyFileError(f"{path}: {(error.strerror or str(error)).lower()}") from None
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError, OverflowError):
@@ -43,50 +44,47 @@ def read_charts(folder: Path) -> tuple[Chart, ...]:
 
 
 def _text(chart: Chart) -> str:
-    """A chart as JSON: a line for its words, a line for each series."""
-    (kind,) = (kind for kind, made in _KINDS.items() if type(chart) is made)
-    data = {f.name: getattr(chart, f.name) for f in fields(chart) if f.name not in ("series", "marks")}
-    marks = [{f.name: getattr(mark, f.name) for f in fields(mark)} for mark in chart.marks]
+    """Return a chart as JSON: a line for its labels and one for each series."""
+    (kind,) = (kind for kind, chart_type in _KINDS.items() if type(chart) is chart_type)
+    labels = {f.name: getattr(chart, f.name) for f in fields(chart) if f.name not in ("series", "marks")}
+    marks = [{"at": mark.at, "words": mark.label, "upright": mark.upright} for mark in chart.marks]
+    head = json.dumps({"kind": kind, **labels, "marks": marks}, ensure_ascii=False)
     series = [
-        {"name": one.name, "points": [[place, e.value, _bound(e.low), _bound(e.high)] for place, e in one.points]}
+        {"name": one.name, "points": [[x, e.value, _limit(e.low), _limit(e.high)] for x, e in one.points]}
         for one in chart.series
     ]
-    words = json.dumps({"kind": kind, **data, "marks": marks}, ensure_ascii=False)
     lines = ",\n  ".join(json.dumps(one, ensure_ascii=False, allow_nan=False) for one in series)
-    return f'{words[:-1]}, "series": [\n  {lines}]}}'
+    return f'{head[:-1]}, "series": [\n  {lines}]}}'
 
 
-def _bound(value: float) -> float | None:
+def _limit(value: float) -> float | None:
     return value if isfinite(value) else None
 
 
 def _chart(data: dict[str, Any]) -> Chart:
-    """Raises ValueError, TypeError or KeyError where the data is not a chart's."""
-    made = _KINDS[data["kind"]]
-    kinds = {f.name: f.type for f in fields(made)}
-    plain = {name: _plain(value, str(kinds[name])) for name, value in data.items() if name not in _PARTS}
-    if not _FILE_NAME.fullmatch(plain["name"]):
+    """Return the chart of JSON data.  Raise ValueError, TypeError or KeyError if the data does not describe one."""
+    chart_type = _KINDS[data["kind"]]
+    types = {f.name: str(f.type) for f in fields(chart_type)}
+    labels = {name: _checked(value, types[name]) for name, value in data.items() if name not in _PARTS}
+    if not _FILE_NAME.fullmatch(labels["name"]):
         raise ValueError
     marks = tuple(
-        Mark(float(mark["at"]), _plain(mark["words"], "str"), _plain(mark["upright"], "bool")) for mark in data["marks"]
+        Mark(float(mark["at"]), _checked(mark["words"], "str"), _checked(mark["upright"], "bool"))
+        for mark in data["marks"]
     )
     series = tuple(
-        Series(_plain(one["name"], "str"), tuple(_point(made, *point) for point in one["points"]))
+        Series(_checked(one["name"], "str"), tuple(_point(chart_type, *point) for point in one["points"]))
         for one in data["series"]
     )
-    return made(series=series, marks=marks, **plain)
+    return chart_type(series=series, marks=marks, **labels)
 
 
-_PARTS = ("kind", "marks", "series")
-_TYPES: dict[str, type] = {"str": str, "bool": bool}
-
-
-def _plain(value: Any, kind: str) -> Any:
-    if type(value) is not _TYPES[kind]:
+def _checked(value: Any, type_name: str) -> Any:
+    if type(value) is not _TYPES[type_name]:
         raise TypeError
     return value
 
 
-def _point(made: type[Chart], place: Any, value: float, low: float | None, high: float | None) -> Any:
-    where = float(place) if made is Lines else _plain(place, "str")
-    return where, Interval(float(value), -inf if low is None else float(low), inf if high is None else float(high))
+def _point(chart_type: type[Chart], x: Any, value: float, low: float | None, high: float | None) -> Any:
+    position = float(x) if chart_type is Lines else _checked(x, "str")
+    return position, Interval(float(value), -inf if low is None else float(low), inf if high is None else float(high))

@@ -1,8 +1,9 @@
-"""The sqlite index of a study: what tables are computed from, made from the rows, again where it is in doubt.
+"""The SQLite index of a study, from which reports are computed.  It is made from the rows and made again if damaged.
 
-Two tables.  ``samples``: cell, place (the sample's index), n, dimension, vertices, planes, boundary, inside, tags
-(JSON).  ``runs``: cell, place, route, outcome, detail, figures (JSON).  ``chunks`` names the files that are in.
-One connection writes, and holds the file: a second run in the same folder finds it locked.
+The table ``samples`` has the columns cell, place (the index of the sample), n, dimension, vertices, planes, boundary,
+inside and tags (JSON); the table ``runs`` has cell, place, route, outcome, detail and figures (JSON).  The table
+``chunks`` names the files whose rows have been entered.  One connection writes and locks the file, so a second run in
+the same folder fails.
 """
 
 from __future__ import annotations
@@ -28,11 +29,11 @@ CREATE TABLE IF NOT EXISTS runs (
 ) WITHOUT ROWID;
 """
 JUDGE = ("n", "dimension", "vertices", "planes", "boundary", "inside")
-"""What the judge says of a sample's size and of its hull's."""
+"""The columns that describe the size of a sample and of its exact hull."""
 
 
 class RouteRow(TypedDict):
-    """One route's answer to a sample, in a row."""
+    """The answer of one route to a sample, as part of a row."""
 
     outcome: str
     detail: str
@@ -40,7 +41,7 @@ class RouteRow(TypedDict):
 
 
 class Row(TypedDict):
-    """A line of a file of rows: a sample, what the judge says of it, and each route's answer by its name."""
+    """A line of a file of rows: a sample, the figures of its exact hull, and the answers by route."""
 
     cell: int
     index: int
@@ -52,9 +53,9 @@ class Row(TypedDict):
 
 
 def open_index(folder: Path) -> sqlite3.Connection:
-    """The folder's index, locked for this run; made anew where the file there is not one.
+    """Open the index of a folder and lock it for this run.  A damaged index is replaced by an empty one.
 
-    Raises StudyFileError where another run holds it, or it cannot be written.
+    Raise StudyFileError if another run has locked it or it cannot be written.
     """
     path = folder / NAME
     try:
@@ -63,13 +64,13 @@ def open_index(folder: Path) -> sqlite3.Connection:
         except sqlite3.DatabaseError as error:
             if isinstance(error, sqlite3.OperationalError):
                 raise
-            for old in folder.glob(f"{NAME}*"):
-                old.unlink()
+            for damaged in folder.glob(f"{NAME}*"):
+                damaged.unlink()
             return _opened(path)
     except sqlite3.Error as error:
         busy = error.sqlite_errorcode in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED)
-        words = "another run is at work in this folder" if busy else str(error)
-        raise StudyFileError(f"{path}: {words}") from None
+        reason = "another run is using this folder" if busy else str(error)
+        raise StudyFileError(f"{path}: {reason}") from None
     except OSError as error:
         raise StudyFileError(f"{path}: {(error.strerror or str(error)).lower()}") from None
 
@@ -78,7 +79,7 @@ def _opened(path: Path) -> sqlite3.Connection:
     connection = sqlite3.connect(path, timeout=0.5, isolation_level=None)
     try:
         connection.execute("PRAGMA locking_mode = EXCLUSIVE")
-        # What a crash of the machine may lose is in the rows' files; a crash of the program loses nothing.
+        # A crash of the machine can lose entries, which the files of rows still hold.  A crash of the program cannot.
         connection.execute("PRAGMA synchronous = OFF")
         connection.execute("BEGIN EXCLUSIVE")
         for statement in _SCHEMA.split(";"):
@@ -93,12 +94,12 @@ def _opened(path: Path) -> sqlite3.Connection:
 
 
 def known_chunks(index: sqlite3.Connection) -> set[str]:
-    """The names of the chunks whose rows are in."""
+    """Return the names of the chunks whose rows have been entered."""
     return {name for (name,) in index.execute("SELECT name FROM chunks")}
 
 
 def clear(index: sqlite3.Connection) -> None:
-    """Take out every row."""
+    """Delete all entries."""
     index.execute("BEGIN")
     for table in ("chunks", "samples", "runs"):
         index.execute(f"DELETE FROM {table}")
@@ -106,7 +107,7 @@ def clear(index: sqlite3.Connection) -> None:
 
 
 def enter(index: sqlite3.Connection, name: str, rows: Iterable[Row]) -> None:
-    """Put a chunk's rows in, all or none.  Raises StudyFileError."""
+    """Enter the rows of a chunk, all or none.  Raise StudyFileError if that fails."""
     samples, runs = [], []
     for row in rows:
         key = (row["cell"], row["index"])

@@ -1,119 +1,118 @@
-"""How a chart is laid out, before anything draws it: how far series stand apart, and whether each needs a panel.
+"""The layout of a chart, computed before it is drawn: the offsets of its series, and whether each needs a panel.
 
-Series with the same values would hide each other.  They are drawn side by side, some points of print beside their
-place, or, where places lie too close for that, each in a panel of its own.
+Series with equal values would hide one another.  They are drawn side by side, shifted by a few typographic points, or,
+if their x values are too close for that, each in a separate panel.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from itertools import combinations, pairwise
 from math import log
 
 from modern.study.report import Bars, Chart, Lines
 
 WIDTH, HEIGHT = 430.0, 220.0
-"""The axes of a chart without panels, in points of print, about."""
+"""The approximate size of the axes of a chart without panels, in typographic points."""
 APART = 3.4
-"""Points of print that the middles of two marks lie apart where both can be told."""
+"""The least distance, in points, at which two markers can be distinguished."""
 _WIDEST = 5.5
-"""Points of print from one series to the next at one place, at most."""
+"""The greatest shift, in points, from one series to the next at the same x."""
 _FILLED = 0.8
-"""The part of the room between two places that the marks at one of them may take."""
+"""The share of the distance between two x values that the markers at one of them may occupy."""
 _HIDDEN = 1 / 3
-"""A series is hidden where more than this part of its marks is."""
+"""A series counts as hidden if more than this share of its markers is hidden."""
 _MANY_BARS = 48
-"""Bars that a chart has room for side by side."""
+"""The greatest number of bars side by side in one chart."""
 _RAISED = str.maketrans("0123456789-+k", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺ᵏ")
 
 
 def typeset(text: str) -> str:
-    """Text with the signs of print: ``10^-3`` and ``1E-3`` become 10⁻³, and a minus sign (U+2212) a hyphen before a
-    number."""
+    """Return text with typographic characters: 10⁻³ for ``10^-3`` and ``1E-3``, and a minus sign (U+2212) for a hyphen
+    before a number."""
     text = re.sub(r"(?<![\w.])(\d+\.?\d*)E([+-]?\d+)\b", _power, text)
-    text = re.sub(r"(?<=\d)\^([+-]?\d+|k\b)", lambda found: found[1].translate(_RAISED), text)
+    text = re.sub(r"(?<=\d)\^([+-]?\d+|k\b)", lambda match: match[1].translate(_RAISED), text)
     return re.sub(r"(?<![\w.)-])-(?=\.?\d)", "\N{MINUS SIGN}", text)
 
 
-def _power(found: re.Match[str]) -> str:
-    factor = "" if found[1] == "1" else f"{found[1]} \N{MULTIPLICATION SIGN} "
-    return f"{factor}10^{found[2]}"
+def _power(match: re.Match[str]) -> str:
+    factor = "" if match[1] == "1" else f"{match[1]} \N{MULTIPLICATION SIGN} "
+    return f"{factor}10^{match[2]}"
 
 
 def number(value: float, percent: bool = False, power: bool = False) -> str:
-    """A number at an axis: ``−1.5``, ``35 %`` of .35, with ``power`` 10⁻³ of -3; no digits but those it needs."""
+    """Format a number at an axis without superfluous digits: ``−1.5``; .35 as ``35 %``; with ``power``, -3 as 10⁻³."""
     text = f"10^{value:.10g}" if power else f"{100 * value:.10g} %" if percent else f"{value:.10g}"
     return typeset(text)
 
 
 def names(chart: Chart) -> list[str]:
-    """The places of bars, in their order."""
-    return [str(place) for place in dict.fromkeys(place for series in chart.series for place, _ in series.points)]
+    """Return the names of the groups of bars, in their order."""
+    return [str(name) for name in dict.fromkeys(name for series in chart.series for name, _ in series.points)]
 
 
 def panels(chart: Chart) -> bool:
-    """Whether each series needs axes of its own."""
+    """Return True if each series needs separate axes."""
     if isinstance(chart, Bars):
         return len(chart.series) * len(names(chart)) > _MANY_BARS
     return isinstance(chart, Lines) and any(part > _HIDDEN for part in hidden(chart))
 
 
 def steps(chart: Lines) -> tuple[float, ...]:
-    """How far beside its place each series is drawn, in points of print: as far apart as there is room for."""
+    """Return the shift of each series to the right of its x values, in points; as large as the x values permit."""
     count = len(chart.series)
-    places = sorted({float(place) for series in chart.series for place, _ in series.points})
-    room = min((b - a for a, b in pairwise(_scaled(places, WIDTH, chart.log_x))), default=WIDTH)
-    step = min(_WIDEST, _FILLED * room / count) if count and _nearest(chart) < APART else 0.0
+    positions = sorted({float(x) for series in chart.series for x, _ in series.points})
+    gap = min((b - a for a, b in pairwise(_scaled(positions, WIDTH, chart.log_x))), default=WIDTH)
+    step = min(_WIDEST, _FILLED * gap / count) if count and _nearest(chart) < APART else 0.0
     return tuple((k - (count - 1) / 2) * step for k in range(count))
 
 
 def hidden(chart: Lines) -> tuple[float, ...]:
-    """The part of each series' marks that those of another would hide, side by side as they are drawn."""
-    beside = steps(chart)
+    """Return for each series the share of its markers that markers of other series hide when drawn side by side."""
+    shifts = steps(chart)
     heights = _heights(chart)
-    found = []
-    for k, one in enumerate(heights):
+    shares = []
+    for k, own in enumerate(heights):
         covered = [
             any(
-                place in other and ((beside[k] - beside[j]) ** 2 + (one[place] - other[place]) ** 2) ** 0.5 < APART
-                for j, other in enumerate(heights)
+                x in others and ((shifts[k] - shifts[j]) ** 2 + (own[x] - others[x]) ** 2) ** 0.5 < APART
+                for j, others in enumerate(heights)
                 if j != k
             )
-            for place in one
+            for x in own
         ]
-        found.append(sum(covered) / len(covered) if covered else 0.0)
-    return tuple(found)
+        shares.append(sum(covered) / len(covered) if covered else 0.0)
+    return tuple(shares)
 
 
 def values(chart: Chart) -> list[float]:
-    """Every value that the axis of y has to hold, marks' and intervals' limits with them."""
+    """Return every value that the y axis has to show, including horizontal marks and the limits of intervals."""
     points = [e for series in chart.series for _, e in series.points]
     level = [mark.at for mark in chart.marks if not mark.upright]
     return [*level, *(value for e in points for value in (e.low, e.value, e.high))]
 
 
 def _nearest(chart: Lines) -> float:
-    """How near two marks at one place come, in points of print."""
+    """Return the least distance of two markers at the same x, in points."""
     pairs = combinations(_heights(chart), 2)
-    return min((abs(a[place] - b[place]) for a, b in pairs for place in a.keys() & b.keys()), default=HEIGHT)
+    return min((abs(a[x] - b[x]) for a, b in pairs for x in a.keys() & b.keys()), default=HEIGHT)
 
 
 def _heights(chart: Lines) -> list[dict[float, float]]:
-    """Of each series, how high its marks stand at their places, in points of print."""
-    everything = sorted(set(values(chart)))
-    high = dict(zip(everything, _scaled(everything, HEIGHT, chart.log_y), strict=True))
-    return [{float(place): high[e.value] for place, e in series.points} for series in chart.series]
+    """Return for each series the heights of its markers by x, in points."""
+    ascending = sorted(set(values(chart)))
+    height_of = dict(zip(ascending, _scaled(ascending, HEIGHT, chart.log_y), strict=True))
+    return [{float(x): height_of[e.value] for x, e in series.points} for series in chart.series]
 
 
-def _scaled(rising: Sequence[float], size: float, logarithmic: bool) -> list[float]:
-    """Rising numbers along an axis of that size."""
-    along = _logarithms(rising) if logarithmic else list(rising)
-    span = along[-1] - along[0] if along else 0.0
-    return [(value - along[0]) / span * size if span else 0.0 for value in along]
+def _scaled(ascending: Sequence[float], size: float, logarithmic: bool) -> list[float]:
+    """Return the positions of ascending numbers along an axis of that size."""
+    scaled = _logarithms(ascending) if logarithmic else list(ascending)
+    span = scaled[-1] - scaled[0] if scaled else 0.0
+    return [(value - scaled[0]) / span * size if span else 0.0 for value in scaled]
 
 
-def _logarithms(rising: Iterable[float]) -> list[float]:
-    numbers = list(rising)
+def _logarithms(numbers: Sequence[float]) -> list[float]:
     least = min((value for value in numbers if value > 0), default=1.0)
     return [log(max(value, least)) for value in numbers]

@@ -1,4 +1,4 @@
-"""The manifest: what a study is, with what it was made, and the sums that prove a repetition equal."""
+"""The manifest of a study: its plan, the versions and code it ran with, and hashes to compare a repetition with."""
 
 from __future__ import annotations
 
@@ -18,65 +18,65 @@ from modern.study.store import put
 
 NAME = "manifest.json"
 _PACKAGES = ("hull1620", "numpy", "numba")
-_PARTS = ("plan", "versions", "programs_sha256")
-_ROLES = ("program2", "program3")
+_REQUIRED = ("plan", "versions", "programs_sha256")
+_LATER_PROGRAMS = ("program2", "program3")
 
 
 def versions() -> dict[str, str]:
-    """The versions a study is made with; an empty text for a package that is not there."""
-    found = {"python": platform.python_version()}
+    """Return the versions of Python and of the packages a study depends on; empty for a package not installed."""
+    installed = {"python": platform.python_version()}
     for package in _PACKAGES:
         try:
-            found[package] = version(package)
+            installed[package] = version(package)
         except PackageNotFoundError:
-            found[package] = ""
-    return found
+            installed[package] = ""
+    return installed
 
 
-_ROOMS = (
+_HASHED_PACKAGES = (
     *("emulator", "modern/geometry", "modern/formats", "modern/exact_hull", "modern/port", "modern/thesis"),
     *("modern/comparison", "modern/edition", "modern/study"),
 )
-"""What can change a row."""
+"""The packages whose code can change a row."""
 
 
 def code_sums(plan: Plan) -> dict[str, str]:
-    """SHA-256 of the code rows come from: hull1620's, and each module a family or measure of one's own is in."""
-    own = {cell.family for cell in plan.cells}
-    own |= {name for cell in plan.cells for route in cell.routes for name in route.measures}
-    modules = sorted({name.partition(":")[0] for name in own if ":" in name})
-    return {"hull1620": _own_sum()} | {name: _module_sum(name) for name in modules}
+    """Return the SHA-256 of the code that makes the rows: that of hull1620 and of each user-defined module."""
+    names = {cell.family for cell in plan.cells}
+    names |= {name for cell in plan.cells for route in cell.routes for name in route.measures}
+    modules = sorted({name.partition(":")[0] for name in names if ":" in name})
+    return {"hull1620": _hull1620_sum()} | {name: _module_sum(name) for name in modules}
 
 
 @cache
-def _own_sum() -> str:
+def _hull1620_sum() -> str:
     digest = hashlib.sha256()
     root = Path(__file__).parents[2]
-    for room in _ROOMS:
-        for path in sorted((root / room).rglob("*")):
+    for package in _HASHED_PACKAGES:
+        for path in sorted((root / package).rglob("*")):
             if path.suffix in (".py", ".lark"):
                 digest.update(f"{path.relative_to(root).as_posix()}\n".encode() + path.read_bytes())
     return digest.hexdigest()
 
 
 def _module_sum(name: str) -> str:
-    """The sum of a module's file; empty where it has none that can be read."""
-    found = find_spec(name)
+    """Return the SHA-256 of a module's file; empty if it has no readable file."""
+    spec = find_spec(name)
     try:
-        return hashlib.sha256(Path(found.origin).read_bytes()).hexdigest() if found and found.origin else ""
+        return hashlib.sha256(Path(spec.origin).read_bytes()).hexdigest() if spec and spec.origin else ""
     except OSError:
         return ""
 
 
-def manifest(plan: Plan, command: Sequence[str], made: Mapping[str, str]) -> dict[str, Any]:
-    """The manifest of a study that begins."""
+def manifest(plan: Plan, command: Sequence[str], installed: Mapping[str, str]) -> dict[str, Any]:
+    """Return the manifest of a new study; ``installed`` is the result of :func:`versions`."""
     programs = {
         route.name: _programs(route) for cell in plan.cells for route in cell.routes if isinstance(route, Programs)
     }
     return {
         "study": plan.name,
         "command": list(command),
-        "versions": dict(made),
+        "versions": dict(installed),
         "plan": plan.document(),
         "programs_sha256": programs,
         "code_sha256": code_sums(plan),
@@ -86,56 +86,59 @@ def manifest(plan: Plan, command: Sequence[str], made: Mapping[str, str]) -> dic
 
 
 def write_manifest(folder: Path, document: Mapping[str, Any]) -> None:
-    """Raises StudyFileError."""
+    """Write ``manifest.json``.  Raise StudyFileError if that fails."""
     put(folder / NAME, json.dumps(document, indent=1) + "\n")
 
 
 def read_manifest(folder: Path) -> dict[str, Any]:
-    """Raises StudyFileError where there is none that can be read."""
+    """Return the manifest of a study's folder.  Raise StudyFileError if it cannot be read."""
     path = folder / NAME
     try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-        if not isinstance(found, dict) or not all(isinstance(found.get(name), dict) for name in _PARTS):
+        document = json.loads(path.read_text(encoding="utf-8"))
+        if not isinstance(document, dict) or not all(isinstance(document.get(name), dict) for name in _REQUIRED):
             raise ValueError
     except OSError as error:
         raise StudyFileError(f"{path}: {(error.strerror or str(error)).lower()}") from None
     except ValueError:
-        raise StudyFileError(f"{path}: not a manifest of a study") from None
-    return found
+        raise StudyFileError(f"{path}: not the manifest of a study") from None
+    return document
 
 
-def differences(there: Mapping[str, Any], here: Mapping[str, Any]) -> str:
-    """The first thing in which a study begun differs from the one to be resumed; empty where nothing does."""
-    was, now = there["plan"], here["plan"]
-    if was.get("name") != now["name"]:
-        return f"it is of the study {was.get('name')}, not {now['name']}"
-    if was.get("seed") != now["seed"]:
-        return f"its seed is {was.get('seed')}, not {now['seed']}"
-    if there.get("samples") != here["samples"]:
-        return f"it has {there.get('samples')} samples, not {here['samples']}; give the --samples it was begun with"
-    if was != now:
-        return "its plan is another"
-    for package, wanted in here["versions"].items():
-        other = there["versions"].get(package, "")
-        if other != wanted:
-            return f"it was begun with {package} {other or '(not installed)'}, not {wanted or '(not installed)'}"
-    if there["programs_sha256"] != here["programs_sha256"]:
-        return "its programs are others: the listings or their apparatus have changed"
-    if "code_sha256" not in there:
-        return "it does not say with what code it was begun"
-    for name, wanted in here["code_sha256"].items():
-        if there["code_sha256"].get(name) != wanted:
-            return "hull1620's own code has changed" if name == "hull1620" else f"the module {name} has changed"
+def first_difference(earlier: Mapping[str, Any], current: Mapping[str, Any]) -> str:
+    """Describe the first difference between the manifest in the folder and the current one; empty if there is none."""
+    plan, current_plan = earlier["plan"], current["plan"]
+    if plan.get("name") != current_plan["name"]:
+        return f"the folder holds the study {plan.get('name')}, not {current_plan['name']}"
+    if plan.get("seed") != current_plan["seed"]:
+        return f"its seed is {plan.get('seed')}, not {current_plan['seed']}"
+    if earlier.get("samples") != current["samples"]:
+        return (
+            f"it has {earlier.get('samples')} samples, not {current['samples']}; "
+            "repeat the --samples of the command that began it"
+        )
+    if plan != current_plan:
+        return "its plan is different"
+    for package, installed in current["versions"].items():
+        before = earlier["versions"].get(package, "")
+        if before != installed:
+            return f"it was begun with {package} {before or '(not installed)'}, not {installed or '(not installed)'}"
+    if earlier["programs_sha256"] != current["programs_sha256"]:
+        return "its programs are different: the listings or their apparatus have changed"
+    if "code_sha256" not in earlier:
+        return "its manifest does not record the code it was begun with"
+    for name, digest in current["code_sha256"].items():
+        if earlier["code_sha256"].get(name) != digest:
+            return "the code of hull1620 has changed" if name == "hull1620" else f"the module {name} has changed"
     return ""
 
 
 def _programs(route: Programs) -> dict[str, str]:
-    """SHA-256 of the statements of each program of a route, card by card."""
+    """Return the SHA-256 of the statements and FORMATs of each program of a route."""
     first, load = programs_of(route)
     sums = {}
-    for name in (first, *_ROLES):
+    for name in (first, *_LATER_PROGRAMS):
         program = load(name)
-        words = "".join(f"{line.place.card} {line.label} {line.text}\n" for line in program.statements)
+        statements = "".join(f"{line.place.card} {line.label} {line.text}\n" for line in program.statements)
         formats = "".join(f"{number} {spec}\n" for number, spec in program.formats)
-        sums[name] = hashlib.sha256((words + formats).encode("ascii")).hexdigest()
+        sums[name] = hashlib.sha256((statements + formats).encode("ascii")).hexdigest()
     return sums

@@ -1,8 +1,8 @@
-"""Further figures of a run, by name: what a route asks for with ``measures``.
+"""Measures: further figures of a run, which a route requests by name.
 
-A measure is a function of a sample and of its run, a :class:`modern.thesis.job.HullRun` of the programs or a
-:class:`modern.geometry.hull.Hull` of the port, that gives figures: whole numbers, or decimals as text.
-``module:function`` names one of a user's own.
+A measure is a function of a sample and its run, a :class:`modern.thesis.job.HullRun` of the programs or a
+:class:`modern.geometry.hull.Hull` of the port.  It returns figures: integers, or decimals as text.  ``module:function``
+names a user-defined measure.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from emulator.machine.result import DEFAULT_LIMIT, Options
 from emulator.machine.timing import measure
 from emulator.numbers import numbers
 from modern.geometry.hull import Hull
-from modern.study.outcomes import Figures, place
+from modern.study.outcomes import Figures, position
 from modern.study.plan import named
 from modern.study.sample import Sample
 from modern.thesis.cards import planes_hold, read_intermediate
@@ -29,7 +29,7 @@ _MILLISECOND = Decimal("0.001")
 
 
 def machine_time(sample: Sample, run: Run) -> Figures:
-    """Seconds on a 1620 of all programs run, processor, reader, punch and typewriter apart
+    """Seconds that all programs take on a 1620, separately for processor, reader, punch and typewriter
     (emulator/machine/timing.py)."""
     if not isinstance(run, HullRun):
         return {}
@@ -41,7 +41,7 @@ def machine_time(sample: Sample, run: Run) -> Figures:
 
 
 def operations(sample: Sample, run: Run) -> Figures:
-    """Floating-point operations of all programs run: additions (and subtractions), products, quotients."""
+    """Floating-point operations of all programs: additions (with subtractions), products and quotients."""
     if not isinstance(run, HullRun):
         return {}
     counts: Counter[str] = Counter()
@@ -55,38 +55,39 @@ def operations(sample: Sample, run: Run) -> Figures:
 
 
 def plane_table(sample: Sample, run: Run) -> Figures:
-    """The most places of program 3's table of planes in use at once; of a port's run with its history.
+    """The largest number of entries of program 3's plane table in use at once, from the history of a run of the port.
 
-    Three planes are put after the others before the one they replace is struck, so a stage that begins with L planes
-    and replaces m of them reaches L + 2m + 1 (thesis p. 32, statements 126 to 140).
+    New planes are appended before the planes they replace are deleted, so a stage that begins with L planes and
+    replaces m of them reaches L + 2m + 1 entries (thesis p. 32, statements 126 to 140).
     """
     if not isinstance(run, Hull) or run.dimension < 3 or not run.history:
         return {}
     stages = run.history
-    grown = (len(a.equations) + 2 * b.outside + 1 for a, b in pairwise(stages))
-    return {"planes_at_once": max(grown, default=len(stages[0].equations))}
+    peaks = (len(before.equations) + 2 * after.outside + 1 for before, after in pairwise(stages))
+    return {"planes_at_once": max(peaks, default=len(stages[0].equations))}
 
 
 def divergence(sample: Sample, run: Run) -> Figures:
-    """Where a run in the programs' own arithmetic first decides otherwise than exact numbers would, on its cards.
+    """The first statement at which eight-digit and exact arithmetic decide differently on the same cards.
 
-    ``diverges`` is program and statement; ``cards to program3`` where no decision of program 1 differs but a plane it
-    punched, of eight digits, misses its own points, which no arithmetic of the next program can correct; empty where
-    every decision is the same.  ``undecided`` says so where exact numbers cannot follow.
+    ``diverges`` names program and statement.  It is ``cards to program3`` if all decisions of program 1 agree but a
+    plane that it punched with eight digits misses its own points, which no arithmetic of the next program can correct.
+    It is empty if all decisions agree.  ``undecided`` gives the reason if exact arithmetic cannot follow the run.
     """
     if not isinstance(run, HullRun):
         return {}
     studied, exact = numbers("truncating"), numbers("exact")
     for step in run.steps:
-        middle = read_intermediate([card.text for card in step.deck.cards]) if step is not run.steps[0] else None
-        if middle is not None and not planes_hold(middle):
+        # The cards between two programs can already be wrong, before the next program decides anything.
+        intermediate = read_intermediate([card.text for card in step.deck.cards]) if step is not run.steps[0] else None
+        if intermediate is not None and not planes_hold(intermediate):
             return {"diverges": f"cards to {step.name}"}
         options = Options(core=60_000, limit=DEFAULT_LIMIT)
-        found = diverge(step.program, step.deck, studied, exact, options, values=False)
-        if found.first_decision is not None:
-            return {"diverges": f"{step.name} {place(step.program, found.first_decision.line)}"}
-        if found.apart:
-            return {"diverges": "", "undecided": found.apart}
+        comparison = diverge(step.program, step.deck, studied, exact, options, values=False)
+        if comparison.first_decision is not None:
+            return {"diverges": f"{step.name} {position(step.program, comparison.first_decision.line)}"}
+        if comparison.apart:
+            return {"diverges": "", "undecided": comparison.apart}
     return {"diverges": ""}
 
 
@@ -99,5 +100,5 @@ MEASURES: Mapping[str, Measure] = {
 
 
 def measure_of(name: str) -> Measure:
-    """The measure of that name, or the function ``module:function``.  Raises PlanError."""
+    """Return the measure of that name, or the function ``module:function``.  Raise PlanError if there is none."""
     return named("measure", name, MEASURES)

@@ -1,26 +1,26 @@
-"""Every sample of every route has exactly one outcome, with a detail that says where or what.
+"""The outcome of a sample on a route: exactly one of eleven, with a detail that says where or what.
 
 =====================  ============================================================================================
-outcome                what it says (detail)
+outcome                meaning (detail)
 =====================  ============================================================================================
-right                  the judge's vertices, boundary and inside points, and each of its planes once
-reordered              right, but vertices or planes stand in another order than the cell's reference route has them
-doubled plane          right, but a plane stands more than once
-DATA NOT ACCEPTABLE    typed (program and statement)
-ERROR IN PROGRAM       typed (program and the statement that decided it)
-endless                stopped at the statement limit (program and the loop's statements)
-table full             an element of program 3's table of planes past its last (which)
-out of bounds          another subscript out of bounds (which)
-undefined value        computed with or put out (program and statement)
-wrong hull             the first of these that holds: dimension wrong, coordinates changed, vertex missed, vertex
+right                  the vertices, boundary and inside points of the exact hull, and each of its planes once
+reordered              right, but vertices or planes are in a different order from that of the reference route
+doubled plane          right, but a plane occurs more than once
+DATA NOT ACCEPTABLE    the program typed this message (program and statement)
+ERROR IN PROGRAM       the program typed this message (program and the statement that decided it)
+endless                the run reached the statement limit (program and the statements of the loop)
+table full             program 3 used an element beyond the end of its plane table (the element)
+out of bounds          a program used another subscript out of bounds (the element)
+undefined value        a program used or printed an undefined value (program and statement)
+wrong hull             the first fault that applies: dimension wrong, coordinates changed, vertex missed, vertex
                        too many, plane missed, plane too many, point misfiled, equations wrong, vertices of a plane
                        wrong
-stopped otherwise      any other ending (its kind, program and statement), or a number out of the arithmetic's range
+stopped otherwise      any other ending (its kind, program and statement), or a number outside the arithmetic's range
 =====================  ============================================================================================
 
-Of a line the programs punch the ends only, and of three points or fewer no inside points; equations of the judge and
-of a route are the same plane within :data:`modern.comparison.difference.NEAR`, the error of coefficients being a
-figure.
+For collinear points the programs punch only the ends of the segment, and for three points or fewer no inside points.
+Two equations describe the same plane if their coefficients agree within :data:`modern.comparison.difference.NEAR`; the
+error of the coefficients is recorded as a figure.
 """
 
 from __future__ import annotations
@@ -69,13 +69,13 @@ Fault = Literal[
 
 OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
 DETERMINED: tuple[Outcome, ...] = ("right", "reordered", "doubled plane")
-"""The outcomes that give the hull."""
+"""The outcomes with the right hull."""
 TABLE: Outcome = "table full"
 WRONG: Outcome = "wrong hull"
 OTHERWISE: Outcome = "stopped otherwise"
 _REFUSED: Mapping[str, Outcome] = {NOT_ACCEPTABLE: "DATA NOT ACCEPTABLE", ERROR: "ERROR IN PROGRAM"}
 _PLANE_TABLE = frozenset({"A", "B", "C", "D", "E", "MM", "NN", "KK"})
-"""The arrays of program 3 that hold a number a plane (thesis p. 88)."""
+"""The arrays of program 3 that hold one number for each plane (thesis p. 88)."""
 
 Figures = Mapping[str, int | str]
 _SHOWN = Context(prec=6)
@@ -83,7 +83,7 @@ _SHOWN = Context(prec=6)
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """What a route made of a sample: outcome, detail, figures; of a right hull the order of vertices and planes."""
+    """The answer of a route to a sample; ``order`` holds the order of the vertices and planes of a right hull."""
 
     outcome: Outcome
     detail: str = ""
@@ -92,7 +92,7 @@ class Answer:
 
 
 def answer_of_run(run: HullRun, sample: Sample, options: Options) -> Answer:
-    """The answer of a run of the programs with these options."""
+    """Return the answer of a run of the programs with these options."""
     for step in run.steps:
         message = refusal(step.result)
         if message:
@@ -115,50 +115,53 @@ def answer_of_run(run: HullRun, sample: Sample, options: Options) -> Answer:
 
 
 def answer_of_hull(hull: Hull, sample: Sample) -> Answer:
-    """The answer of a run of the port."""
+    """Return the answer of a run of the port."""
     if hull.determined:
         return _determined(compared.from_hull(hull.arithmetic, hull), sample, hull)
     return Answer(TABLE if hull.status == TABLE_FULL else _REFUSED[hull.status], hull.statement)
 
 
 def reordered(answer: Answer, reference: Answer) -> Answer:
-    """The answer as reordered where it and the reference are right and their orders differ."""
+    """Return the answer, marked as reordered if it and the reference are right and their orders differ."""
     differs = answer.outcome == reference.outcome == "right" and answer.order != reference.order
     return replace(answer, outcome="reordered") if differs else answer
 
 
-def place(program: Program, line: Line) -> str:
-    """A statement's place as the apparatus names cards: its number, ``147``, or the number before it and how many
-    statements after that it stands, ``132+3``; before the first number, ``+3``."""
-    for after, other in enumerate(reversed(program.statements[: line.index + 1])):
-        if other.label:
-            return f"{other.label}+{after}" if after else str(other.label)
+def position(program: Program, line: Line) -> str:
+    """Return the position of a statement in the notation of the apparatus.
+
+    This is its statement number, ``147``; or the last number before it and the statements since, ``132+3``; or, before
+    the first number, ``+3``.
+    """
+    for distance, earlier in enumerate(reversed(program.statements[: line.index + 1])):
+        if earlier.label:
+            return f"{earlier.label}+{distance}" if distance else str(earlier.label)
     return f"+{line.index}"
 
 
 def _refused_at(step: Step, message: str) -> str:
-    """Where a program was that typed DATA NOT ACCEPTABLE or ERROR IN PROGRAM: ``program3 119``.
+    """Return where a program was when it typed DATA NOT ACCEPTABLE or ERROR IN PROGRAM: ``program3 119``.
 
-    All errors of a program are typed by one statement; of them the decision before it is named.
+    A program types all its errors with one statement, so for an error the last decision before it is returned.
     """
     typed = next(event for event in reversed(step.result.events) if event.what == "type" and event.text == message)
     line = typed.decision if message == ERROR and typed.decision else typed.line
-    return f"{step.name} {place(step.program, line)}" if line else step.name
+    return f"{step.name} {position(step.program, line)}" if line else step.name
 
 
 def _looping_at(step: Step) -> str:
-    """The span of numbered statements an endless run was in: ``program3 142-160``."""
+    """Return the range of numbered statements in which an endless run was: ``program3 142-160``."""
     span = step.result.ending.span
     if span is None:
         return step.name
     within = [line for line in step.program.statements if span[0] <= line.place.card <= span[1]]
     labels = [line.label for line in within if line.label]
-    start = f"{step.name} {place(step.program, within[0])}"
+    start = f"{step.name} {position(step.program, within[0])}"
     return f"{start}-{labels[-1]}" if labels else start
 
 
 def _reached(step: Step) -> str:
-    """The element that was reached for, ``program3 A(99)``, or where a subscript reached outside the data."""
+    """Return the element with the subscript out of bounds, ``program3 A(99)``, or the statement that used it."""
     ending = step.result.ending
     if not ending.name:
         return _stopped_at(step)
@@ -166,82 +169,85 @@ def _reached(step: Step) -> str:
 
 
 def _stopped_at(step: Step) -> str:
-    """Where a run stopped that reached for an undefined value, or for another reason."""
+    """Return the statement at which a run stopped."""
     line = step.result.ending.line
-    return f"{step.name} {place(step.program, line)}" if line else step.name
+    return f"{step.name} {position(step.program, line)}" if line else step.name
 
 
 def number_text(value: Fraction) -> str:
-    """A figure as text: six significant digits, correctly rounded."""
+    """Return a figure as text with six significant digits, correctly rounded."""
     return str(_SHOWN.divide(Decimal(value.numerator), Decimal(value.denominator)).normalize(_SHOWN))
 
 
 def _determined(outcome: compared.Outcome, sample: Sample, hull: CardHull | Hull) -> Answer:
-    """The answer that a hull is."""
-    found = disagreement(outcome, sample.outcome, sample.points)
-    figures = {"coefficient_error": number_text(found.error), "excluded": number_text(found.excluded)}
-    fault = _fault(outcome, sample, found, hull)
+    """Return the answer of a run that gave a hull."""
+    difference = disagreement(outcome, sample.outcome, sample.points)
+    figures = {"coefficient_error": number_text(difference.error), "excluded": number_text(difference.excluded)}
+    fault = _fault(outcome, sample, difference, hull)
     if fault:
         return Answer(WRONG, fault, figures)
-    if found.planes_doubled:
-        return Answer("doubled plane", f"{found.planes_doubled}", figures)
-    return Answer("right", "", figures, (_order(outcome, sample, hull), found.places))
+    if difference.planes_doubled:
+        return Answer("doubled plane", f"{difference.planes_doubled}", figures)
+    return Answer("right", "", figures, (_order(outcome, sample, hull), difference.places))
 
 
-def _fault(outcome: compared.Outcome, sample: Sample, found: Disagreement, hull: CardHull | Hull) -> Fault | None:
-    """What is wrong with a hull, in the order of the table above; None where nothing is."""
+def _fault(outcome: compared.Outcome, sample: Sample, difference: Disagreement, hull: CardHull | Hull) -> Fault | None:
+    """Return the first fault of a hull in the order of the table above; None if it has none."""
     faults: tuple[tuple[object, Fault], ...] = (
         (outcome.dimension != sample.hull.dimension, "dimension wrong"),
         (outcome.strange, "coordinates changed"),
-        (found.missed, "vertex missed"),
-        (found.added, "vertex too many"),
-        (found.planes_missing, "plane missed"),
-        (found.planes_extra, "plane too many"),
-        (found.misfiled, "point misfiled"),
+        (difference.missed, "vertex missed"),
+        (difference.added, "vertex too many"),
+        (difference.planes_missing, "plane missed"),
+        (difference.planes_extra, "plane too many"),
+        (difference.misfiled, "point misfiled"),
     )
-    fault = next((name for holds, name in faults if holds), None)
+    fault = next((name for applies, name in faults if applies), None)
     if fault:
         return fault
-    if outcome.faulty or not _plane_right(hull, sample):
+    if outcome.faulty or not _plane_is_right(hull, sample):
         return "equations wrong"
-    return None if _numbers_right(hull, sample, found) else "vertices of a plane wrong"
+    return None if _incidences_are_right(hull, sample, difference) else "vertices of a plane wrong"
 
 
-def _plane_right(hull: CardHull | Hull, sample: Sample) -> bool:
-    """Whether the plane of coplanar points, where the route gives it, is the judge's."""
+def _plane_is_right(hull: CardHull | Hull, sample: Sample) -> bool:
+    """Return True if the plane of coplanar points is that of the exact hull, or the route gives none."""
     if sample.hull.plane is None or not isinstance(hull, CardHull) or not hull.plane:
         return True
-    right = sample.hull.plane_of(sample.hull.plane)
-    best = max(range(3), key=lambda k: abs(right[k]))
+    exact = sample.hull.plane_of(sample.hull.plane)
+    largest = max(range(3), key=lambda k: abs(exact[k]))
     for plane in hull.plane:
-        if not plane[best]:
+        if not plane[largest]:
             return False
-        ratio = Fraction(right[best]) / plane[best]
-        size = [abs(ratio * c - r) / abs(right[best]) for c, r in zip(plane, right, strict=True)]
-        if max(size[:3]) > NEAR or size[3] > NEAR * max(Fraction(1), Fraction(abs(right[3]), abs(right[best]))):
+        # Scale the plane to the exact one by its largest coefficient and compare relative to that coefficient.  The
+        # constant term may be larger; its own size then bounds its error.
+        ratio = Fraction(exact[largest]) / plane[largest]
+        errors = [abs(ratio * c - e) / abs(exact[largest]) for c, e in zip(plane, exact, strict=True)]
+        if max(errors[:3]) > NEAR or errors[3] > NEAR * max(Fraction(1), Fraction(abs(exact[3]), abs(exact[largest]))):
             return False
     return True
 
 
-def _numbers_right(hull: CardHull | Hull, sample: Sample, found: Disagreement) -> bool:
-    """Whether the vertices said to satisfy each equation are those that do."""
-    if not found.places:
+def _incidences_are_right(hull: CardHull | Hull, sample: Sample, difference: Disagreement) -> bool:
+    """Return True if the vertices listed for each equation are exactly those that satisfy it."""
+    if not difference.places:
         return True
-    said: list[set[int]] = [set() for _ in found.places]
+    listed: list[set[int]] = [set() for _ in difference.places]
     if isinstance(hull, Hull):
-        said = [set(face.polygon) for face in hull.faces]
+        listed = [set(face.polygon) for face in hull.faces]
     else:
-        where = {point: index for index, point in enumerate(sample.points)}
+        # Cards number the vertices in the order in which they were punched.
+        index_of = {point: index for index, point in enumerate(sample.points)}
         for numbers, equation in hull.satisfied:
-            if not 1 <= equation <= len(said) or max(numbers, default=1) > len(hull.vertices):
+            if not 1 <= equation <= len(listed) or max(numbers, default=1) > len(hull.vertices):
                 return False
-            said[equation - 1].update(where.get(hull.vertices[k - 1], -1) for k in numbers)
-    return all(sample.on[place] == one for place, one in zip(found.places, said, strict=True))
+            listed[equation - 1].update(index_of.get(hull.vertices[k - 1], -1) for k in numbers)
+    return all(sample.on[place] == vertices for place, vertices in zip(difference.places, listed, strict=True))
 
 
 def _order(outcome: compared.Outcome, sample: Sample, hull: CardHull | Hull) -> tuple[int, ...]:
-    """The vertices in the order given, by place in the input."""
+    """Return the vertices in the order of the hull, by their indices in the input."""
     if isinstance(hull, Hull):
         return hull.vertices
-    where = {point: index for index, point in enumerate(sample.points)}
-    return tuple(where.get(point, -1) for point in hull.vertices)
+    index_of = {point: index for index, point in enumerate(sample.points)}
+    return tuple(index_of.get(point, -1) for point in hull.vertices)

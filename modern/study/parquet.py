@@ -1,8 +1,8 @@
-"""``rows.parquet``: a study's answers as one flat table, a row an answer, for pandas, DuckDB and their kin.
+"""``rows.parquet``: the answers of a study as one flat table, one row per answer, for pandas, DuckDB and the like.
 
-The cell's key, a set's tags and a run's figures are columns of their own, ``key_n``, ``tag_kind``,
-``figure_statements``; a cell, set or route without one has none there.  A column is of whole numbers where all its
-values are, of doubles where the others are decimals as text, else of text.
+The key of the cell, the tags of a set and the figures of a run have separate columns, such as ``key_n``, ``tag_kind``
+and ``figure_statements``, which are null for a cell, set or route without them.  A column contains integers if all its
+values are integers, doubles if the other values are decimals as text, and text otherwise.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ from modern.study.store import Store, placing
 
 NAME = "rows.parquet"
 _BATCH = 10_000
-"""Answers that are written at once."""
+"""The number of answers written at once."""
 Type = Literal["whole", "double", "text"]
 _ORDER: tuple[Type, ...] = ("whole", "double", "text")
 
 
 def write_parquet(folder: Path, plan: Plan, store: Store) -> None:
-    """Write the table; nothing where pyarrow is not installed.  Raises StudyFileError."""
+    """Write the table, unless pyarrow is not installed.  Raise StudyFileError if that fails."""
     try:
         import pyarrow
         from pyarrow import parquet
@@ -40,7 +40,7 @@ def write_parquet(folder: Path, plan: Plan, store: Store) -> None:
 
 
 def column_types(plan: Plan, rows: Callable[[], Iterator[Row]]) -> dict[str, Type]:
-    """The columns in order, and what each holds."""
+    """Return the columns in order, with their types."""
     keys: dict[str, Type] = {}
     for cell in plan.cells:
         _widen(keys, "key_", cell.key, decimals=False)
@@ -66,7 +66,7 @@ def column_types(plan: Plan, rows: Callable[[], Iterator[Row]]) -> dict[str, Typ
 
 
 def _widen(types: dict[str, Type], lead: str, values: Mapping[str, Value], decimals: bool) -> None:
-    """Enter columns, each as wide as these values and those before need."""
+    """Enter the columns of these values, each with a type wide enough for them and for the earlier values."""
     for name, value in values.items():
         kind = _type(value, decimals)
         types[lead + name] = max(types.get(lead + name, "whole"), kind, key=_ORDER.index)

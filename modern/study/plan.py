@@ -1,8 +1,19 @@
-"""A study as data: what is drawn, what each sample is sent through, and how often.
+"""The plan of a study: its cells, the samples they draw, and the routes through which every sample is sent.
 
-Nothing here runs anything.  A plan becomes JSON (:meth:`Plan.document`) for the manifest, and its cells give every
-sample a seed of its own, so that a sample depends on the study's seed, its cell's key and its index alone, and on no
-worker count or order.
+sample
+    A set of points, drawn from a seed or given, together with its exact hull.
+route (:class:`Programs`, :class:`Port`)
+    One way to compute a hull: the 1620 programs with certain layers and arithmetic, or the modern port.  Reports also
+    call it a treatment or a way.
+cell (:class:`Cell`)
+    Samples of one kind: one family of point sets with fixed parameters.  Every sample of a cell goes through all its
+    routes, so routes are compared on the same point sets.
+chunk (:class:`Chunk`)
+    Consecutive samples of a cell that are worked on and stored together, about a second's work.
+
+Nothing in this module runs anything.  A plan becomes JSON (:meth:`Plan.document`) for the manifest.  The seed of a
+sample depends only on the seed of the study, the key of the cell and the index of the sample, and not on the number of
+workers or the order of the work.
 """
 
 from __future__ import annotations
@@ -25,30 +36,31 @@ from emulator.machine.result import DEFAULT_CORE, DEFAULT_LIMIT
 F = TypeVar("F", bound=Callable[..., object])
 Value = str | int
 SEED = 1963
-"""The seed of a study that is given none."""
+"""The default seed of a study."""
 CHUNK = 200
-"""Samples a chunk by default: about a second's work of small sets."""
+"""The default number of samples in a chunk: about a second's work for small sets."""
 
 
 class PlanError(EmulatorError):
-    """A study that cannot be carried out as it is written; one line."""
+    """A study that cannot be carried out as it is written, with a one-line message."""
 
 
 class StudyFileError(PlanError):
-    """A file of a study that cannot be written or read; one line that says what to do."""
+    """A file of a study that cannot be written or read, with a one-line message that says what to do."""
 
 
 @dataclass(frozen=True, slots=True)
 class Programs:
-    """A route through the emulated programs: program 1, then 2 or 3 as it types.
+    """A route through the emulated programs: program 1, then program 2 or 3, whichever program 1 asks for.
 
-    name: what tables call it.  state: of program 1, ``listing`` or ``examples``.  layers: of the apparatus, added
-    to the three programs.  rows: single rows of the apparatus, added without the rest of their layer.
-    arithmetic: of the emulator, ``truncating``, ``ibm1962``, ``truncating:P``, ``guarded:P``, ``rounding:P``, or
-    ``float64``, ``float32``, ``mp:BITS``, ``exact`` (:func:`emulator.numbers.numbers`).
-    epsilon: chapter 7's e, punched after N; it needs the layer ``epsilon``.  limit: statements a program may run
-    before it counts as endless.  core, bounds: as :class:`emulator.machine.result.Options` has them.  measures: names
-    of further figures (:mod:`modern.study.measures`).
+    name: the name in tables.  state: the version of program 1, ``listing`` or ``examples``.  layers: the layers of the
+    apparatus (the register of corrections to the printed listings) that are added to the three programs.  rows: single
+    rows of the apparatus, added without the rest of their layer.  arithmetic: the emulator's arithmetic,
+    ``truncating``, ``ibm1962``, ``truncating:P``, ``guarded:P``, ``rounding:P``, ``float64``, ``float32``, ``mp:BITS``
+    or ``exact`` (:func:`emulator.numbers.numbers`).  epsilon: the e of chapter 7, punched after N; it requires the
+    layer ``epsilon``.  limit: the number of statements after which a run counts as endless.  core, bounds: as in
+    :class:`emulator.machine.result.Options`.  uncut: keep all digits of the numbers that pass from one program to the
+    next.  measures: the names of measures to compute (:mod:`modern.study.measures`).
     """
 
     name: str
@@ -66,9 +78,9 @@ class Programs:
 
 @dataclass(frozen=True, slots=True)
 class Port:
-    """A route through the modern port (:func:`modern.port.convex_hull`), with that function's parameters.
+    """A route through the modern port, with the parameters of :func:`modern.port.convex_hull`.
 
-    ``history`` keeps the construction H_1, H_2, ... for the measures.
+    ``history`` keeps the stages H_1, H_2, ... of the construction for the measures.
     """
 
     name: str
@@ -84,12 +96,12 @@ Route = Programs | Port
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """Samples of one kind: one family with fixed parameters, every sample sent through every route.
+    """Samples of one kind: one family with fixed parameters, with every sample sent through every route.
 
-    key: the parameters a table shows, in order; no two cells of a plan have the same.  family: a name of
-    :data:`modern.study.families.FAMILIES`, or ``module:function``; parameters: its keyword arguments.  reference:
-    the route whose order of cards counts as the order (default: the first).  chunk: samples worked on at once, about
-    a second's work; rows do not depend on it.
+    key: the parameters that tables show, in order; it is unique in a plan.  family: a name in
+    :data:`modern.study.families.FAMILIES`, or ``module:function``.  parameters: the keyword arguments of the family.
+    reference: the route whose order of vertices and planes the other routes are compared with (default: the first).
+    chunk: the number of samples in a chunk; rows do not depend on it.
     """
 
     key: Mapping[str, Value]
@@ -102,49 +114,52 @@ class Cell:
 
     @property
     def name(self) -> str:
-        """The key as text: ``digits=3 n=20``."""
+        """Return the key as text: ``digits=3 n=20``."""
         return " ".join(f"{name}={value}" for name, value in self.key.items())
 
     def seed(self, study: int, index: int) -> str:
-        """The seed of a sample: 32 hexadecimal digits of SHA-256 of study seed, key and index."""
+        """Return the seed of a sample: 32 hexadecimal digits of the SHA-256 of study seed, key and index."""
         text = json.dumps([study, list(self.key.items()), index])
         return hashlib.sha256(text.encode("ascii")).hexdigest()[:32]
 
 
-def named(what: str, name: str, known: Mapping[str, F]) -> F:
-    """The function of that name, or ``module:function`` of a user's own.  Raises PlanError."""
+def named(kind: str, name: str, known: Mapping[str, F]) -> F:
+    """Return the known function of that name, or the user-defined ``module:function``.
+
+    ``kind`` is ``family`` or ``measure``.  Raise PlanError if there is no such function.
+    """
     if name in known:
         return known[name]
     module, colon, function = name.partition(":")
     if not colon:
-        raise PlanError(f"no {what} is called {name!r}; there are {', '.join(known)} and module:function")
+        raise PlanError(f"no {kind} is called {name!r}; expected {', '.join(known)} or module:function")
     if not all(part.isidentifier() for part in module.split(".")):
-        raise PlanError(f"{what} {name}: {module!r} is not a module's name")
-    with own_code(f"{what} {name}", module):
+        raise PlanError(f"{kind} {name}: {module!r} is not a module name")
+    with user_code(f"{kind} {name}", module):
         loaded = import_module(module)
-    found: F | None = getattr(loaded, function, None)
-    if not callable(found):
-        raise PlanError(f"{what} {name}: {module} has no function {function!r}")
-    return found
+    user_function: F | None = getattr(loaded, function, None)
+    if not callable(user_function):
+        raise PlanError(f"{kind} {name}: {module} has no function {function!r}")
+    return user_function
 
 
 @contextmanager
-def own_code(where: str, module: str) -> Iterator[None]:
-    """A user's module at work: what goes wrong in it becomes a PlanError with its file and line.
+def user_code(where: str, module: str) -> Iterator[None]:
+    """Run code of a user's module: turn an exception into a PlanError with file and line.
 
-    Errors of this project pass; they are one line already.
+    Errors of this project pass unchanged, because their messages already are one line.
     """
     try:
         yield
     except EmulatorError:
         raise
     except Exception as error:
-        raise PlanError(f"{where}: {_words(error, module)}") from error
+        raise PlanError(f"{where}: {_user_error(error, module)}") from error
 
 
-def _words(error: Exception, module: str) -> str:
+def _user_error(error: Exception, module: str) -> str:
     if isinstance(error, ModuleNotFoundError) and error.name in (module, module.partition(".")[0]):
-        return f"no module is called {module!r}, beside the plan or where Python looks for modules"
+        return f"no module is called {module!r} next to the plan or on Python's module path"
     if isinstance(error, SyntaxError):
         return f"{Path(error.filename or module).name}, line {error.lineno}: {error.msg}"
     try:
@@ -152,19 +167,19 @@ def _words(error: Exception, module: str) -> str:
     except (ImportError, ValueError):  # a name that no module can have
         spec = None
     lines = [frame.lineno for frame in extract_tb(error.__traceback__) if spec and frame.filename == spec.origin]
-    place = f"{Path(spec.origin or module).name}, line {lines[-1]}: " if spec and lines else ""
-    text = str(error).splitlines()
-    return f"{place}{type(error).__name__}{': ' + text[0] if text else ''}"
+    location = f"{Path(spec.origin or module).name}, line {lines[-1]}: " if spec and lines else ""
+    message = str(error).splitlines()
+    return f"{location}{type(error).__name__}{': ' + message[0] if message else ''}"
 
 
 def random_of(seed: str) -> Random:
-    """The generator a sample is drawn with."""
+    """Return the random generator of the sample with this seed."""
     return Random(int(seed, 16))
 
 
 @dataclass(frozen=True, slots=True)
 class Chunk:
-    """Samples ``start`` to ``stop`` (not included) of a cell, worked on at once; ``cell`` counts from 0."""
+    """The samples ``start`` to ``stop`` (excluded) of the cell with number ``cell``, counted from 0."""
 
     cell: int
     start: int
@@ -172,7 +187,7 @@ class Chunk:
 
     @property
     def name(self) -> str:
-        """The name of its file, in the order of the cells and samples."""
+        """Return the name of its file; the names sort in the order of cells and samples."""
         return f"{self.cell:04d}-{self.start:09d}.jsonl"
 
 
@@ -180,7 +195,7 @@ class Chunk:
 class Plan:
     """A study: its name, its question, its seed and its cells.
 
-    notes: what a reader of the manifest should know, such as why the parameters are what they are.
+    notes: explanations for readers of the manifest, such as the reasons for the parameters.
     """
 
     name: str
@@ -192,17 +207,17 @@ class Plan:
 
     @property
     def samples(self) -> int:
-        """Samples in all."""
+        """Return the number of samples in all cells."""
         return sum(cell.samples for cell in self.cells)
 
     def chunks(self) -> Iterator[Chunk]:
-        """All the work, in order."""
+        """Yield all chunks in order."""
         for number, cell in enumerate(self.cells):
             for start in range(0, cell.samples, cell.chunk):
                 yield Chunk(number, start, min(start + cell.chunk, cell.samples))
 
     def document(self) -> dict[str, object]:
-        """The plan as JSON data: equal exactly for equal plans."""
+        """Return the plan as JSON data, which is equal exactly for equal plans."""
         data = asdict(self)
         data["cells"] = [
             {**asdict(cell), "key": list(map(list, cell.key.items())), "routes": [document(r) for r in cell.routes]}
@@ -212,7 +227,7 @@ class Plan:
 
 
 def document(route: Route) -> dict[str, object]:
-    """A route as JSON data, with the kind it is; ``uncut`` stands there where it is asked for."""
+    """Return a route as JSON data with its kind; ``uncut`` is included only if it is true."""
     data = {"kind": "programs" if isinstance(route, Programs) else "port", **asdict(route)}
     if not data.get("uncut"):
         data.pop("uncut", None)

@@ -1,4 +1,4 @@
-"""Studies by name: those built in, or a user's plan file."""
+"""The built-in studies by name.  Each module of :mod:`modern.study.builtin` is one."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from modern.study.store import Store
 
 
 class Study(Protocol):
-    """What a module of :mod:`modern.study.builtin` has.
+    """The interface of a module of :mod:`modern.study.builtin`.
 
-    TITLE: one line for ``--list``.  SAMPLES: the default of ``--samples``.  plan: the plan with so many samples, of
-    which the module says what they count.  report: the report from the finished rows.
+    TITLE: one line for ``--list``.  SAMPLES: the default of ``--samples``; the module says what they count.  plan:
+    makes the plan with the given number of samples.  report: makes the report from the finished rows.
     """
 
     TITLE: str
@@ -31,7 +31,7 @@ class Study(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """A built-in study as a list shows it: its default of ``--samples``, and how many sets and cells that makes."""
+    """A built-in study as a list shows it: its default of ``--samples``, and the resulting number of sets and cells."""
 
     name: str
     title: str
@@ -41,12 +41,12 @@ class Entry:
 
 
 def names() -> tuple[str, ...]:
-    """The names of the studies built in."""
+    """Return the names of the built-in studies."""
     return tuple(sorted(module.name.replace("_", "-") for module in iter_modules(builtin.__path__)))
 
 
 def study(name: str) -> Study:
-    """The study built in of that name.  Raises KeyError."""
+    """Return the built-in study of that name.  Raise KeyError if there is none."""
     if name not in names():
         raise KeyError(name)
     module: Study = import_module(f"{builtin.__name__}.{name.replace('-', '_')}")
@@ -54,8 +54,8 @@ def study(name: str) -> Study:
 
 
 def entries() -> Iterator[Entry]:
-    """All studies built in."""
+    """Yield the entries of all built-in studies."""
     for name in names():
-        found = study(name)
-        plan = found.plan(found.SAMPLES, SEED)
-        yield Entry(name, found.TITLE, found.SAMPLES, plan.samples, len(plan.cells))
+        module = study(name)
+        plan = module.plan(module.SAMPLES, SEED)
+        yield Entry(name, module.TITLE, module.SAMPLES, plan.samples, len(plan.cells))

@@ -1,4 +1,4 @@
-"""A sample with what the judge says of it: the deck, its numbers as the cards hold them, and the exact hull."""
+"""A sample, its deck with the numbers as the cards hold them, and its exact hull."""
 
 from __future__ import annotations
 
@@ -19,10 +19,11 @@ CARD_DIGITS = 8
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """A sample and the judge's hull of it.
+    """A sample and its exact hull, with which the hulls of all routes are compared.
 
-    ``points`` are the exact coordinates (x, y, z) that stand on ``deck``'s cards; ``on`` holds, for each equation of
-    the judge's outcome, its vertices.
+    drawn: the points as a family drew them.  deck: the data deck.  points: the exact coordinates (x, y, z) on the
+    cards of the deck.  hull, outcome: the exact hull, and the same hull in the form that comparisons use.  on: the
+    vertices on each equation of ``outcome``.
     """
 
     drawn: Drawn
@@ -33,7 +34,7 @@ class Sample:
     on: tuple[frozenset[int], ...]
 
     def figures(self) -> dict[str, int]:
-        """The size of the set and of its hull."""
+        """Return the size of the set and of its hull."""
         hull = self.hull
         return {
             "n": len(self.points),
@@ -45,7 +46,7 @@ class Sample:
         }
 
     def points_read(self, rules: Rules) -> Sequence[Vector]:
-        """The points as an arithmetic of these rules reads them from the cards; below eight digits it cuts them."""
+        """Return the points as an arithmetic reads them from the cards; fewer than eight digits truncate them."""
         if rules.digits >= CARD_DIGITS:
             return self.points
         points = []
@@ -56,7 +57,7 @@ class Sample:
 
 
 def judge(drawn: Drawn, name: str) -> Sample:
-    """The deck of a set drawn, and its exact hull.  Raises ValueError where the points do not fit a deck."""
+    """Return the sample of a drawn set.  Raise ValueError if the points do not fit on the cards of a deck."""
     deck = data_deck(drawn.points, name)
     points = tuple(tuple(map(Fraction, point)) for point in drawn.points)
     hull = exact_hull(drawn.points)
@@ -65,7 +66,7 @@ def judge(drawn: Drawn, name: str) -> Sample:
 
 
 def _on(hull: ExactHull) -> tuple[frozenset[int], ...]:
-    """The vertices on each equation, in the order :func:`modern.comparison.outcome.from_judge` gives them."""
+    """Return the vertices on each equation, in the order of :func:`modern.comparison.outcome.from_judge`."""
     if hull.dimension == 3:
         return tuple(frozenset(facet.polygon) for facet in hull.facets)
     ring = hull.polygon

@@ -1,7 +1,7 @@
-"""A study's folder: manifest, rows by chunk, index; and what reports ask of it.
+"""The folder of a study: its rows, their index, and the queries of reports.
 
-``rows/`` is the record: a file a chunk, JSONL, a line a sample.  A chunk's file is there whole or not at all, so
-that counting the files is counting the work done.  ``index.sqlite`` is made from them.
+``rows/`` holds one JSONL file for each finished chunk, with one line per sample.  A file is either complete or absent,
+so the files that exist show which chunks are finished.  ``index.sqlite`` is made from them.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def sweep(folder: Path) -> None:
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """One route's answer to one sample, as reports read it."""
+    """The answer of one route to one sample, as reports read it."""
 
     cell: int
     index: int
@@ -63,9 +63,9 @@ class Run:
 
 @dataclass
 class Store:
-    """The rows of a study on disk, for writing while it runs and for reading when it is done.
+    """The rows of a study on disk, written while it runs and read when it is finished.
 
-    Reading methods give rows in the order of cells and samples and hold one at a time.
+    The reading methods yield rows in the order of cells and samples and hold one at a time in memory.
     """
 
     folder: Path
@@ -74,7 +74,7 @@ class Store:
 
     @classmethod
     def open(cls, folder: Path, plan: Plan) -> Store:
-        """The store in a folder that exists.  Raises StudyFileError."""
+        """Open the store in an existing folder.  Raise StudyFileError if that fails."""
         try:
             (folder / ROWS).mkdir(exist_ok=True)
         except OSError as error:
@@ -88,13 +88,14 @@ class Store:
         self.database.close()
 
     def missing(self) -> list[Chunk]:
-        """The chunks whose rows are not there, after the index was brought in step with the files."""
+        """Return the chunks that have no file of rows, after bringing the index into agreement with the files."""
         chunks = {chunk.name: chunk for chunk in self.plan.chunks()}
         present = {path.name for path in (self.folder / ROWS).glob("*.jsonl")}
-        strange = present - chunks.keys()
-        if strange:
-            raise StudyFileError(f"{self.folder / ROWS}: {min(strange)} is not a chunk of this study")
+        foreign = present - chunks.keys()
+        if foreign:
+            raise StudyFileError(f"{self.folder / ROWS}: {min(foreign)} is not a chunk of this study")
         known = known_chunks(self.database)
+        # A file of rows was removed: its entries cannot be told from the others, so the index is filled again.
         if not known <= present:
             clear(self.database)
             known = set()
@@ -103,56 +104,56 @@ class Store:
         return [chunk for name, chunk in chunks.items() if name not in present]
 
     def add(self, chunk: Chunk, text: str) -> None:
-        """Keep a chunk's rows.  Raises StudyFileError where they cannot be written; nothing is kept then."""
+        """Store the rows of a chunk.  Raise StudyFileError if they cannot be written; then nothing is stored."""
         put(self.folder / ROWS / chunk.name, text)
         enter(self.database, chunk.name, map(json.loads, text.splitlines()))
 
     def rows(self) -> Iterator[Row]:
-        """Every row, as the files have it.  Raises StudyFileError where a file does not hold its chunk's rows."""
+        """Yield every row from the files.  Raise StudyFileError if a file does not hold the rows of its chunk."""
         for chunk in self.plan.chunks():
             yield from self._chunk_rows(chunk)
 
     def decks_sha256(self) -> str:
-        """SHA-256 of all decks, card by card, in order."""
+        """Return the SHA-256 of all decks, card by card, in order."""
         digest = hashlib.sha256()
         for row in self.rows():
             digest.update("".join(card + "\n" for card in row["deck"]).encode("ascii"))
         return digest.hexdigest()
 
     def runs(self, cell: int | None = None, route: str | None = None) -> Iterator[Run]:
-        """Answers, of one cell or route or of all."""
+        """Yield the answers of one cell or route, or of all."""
         where, values = _where(cell, route)
-        asked = self.database.execute(
+        answers = self.database.execute(
             "SELECT runs.cell, runs.place, n, dimension, tags, route, outcome, detail, figures FROM runs "
             "JOIN samples ON samples.cell = runs.cell AND samples.place = runs.place "
             f"{where} ORDER BY runs.cell, runs.place, route",
             values,
         )
-        for c, place, n, dimension, tags, name, outcome, detail, figures in asked:
+        for c, place, n, dimension, tags, name, outcome, detail, figures in answers:
             yield Run(c, place, n, dimension, json.loads(tags), name, outcome, detail, json.loads(figures))
 
     def counts(self, *columns: str, cell: int | None = None, route: str | None = None) -> dict[tuple[Any, ...], int]:
-        """How many answers there are of each combination of columns, sorted.
+        """Return the number of answers for each combination of values of the columns, sorted.
 
-        Columns are those of the index (cell, route, outcome, detail, n, dimension, vertices, planes) and tags, as
-        ``tags.kind``.
+        The columns are those of the index (cell, route, outcome, detail, n, dimension, vertices, planes) and tags,
+        such as ``tags.kind``.
         """
         names = [_column(name) for name in columns]
         where, values = _where(cell, route)
-        asked = self.database.execute(
+        answers = self.database.execute(
             f"SELECT {', '.join(names)}, COUNT(*) FROM runs "
             "JOIN samples ON samples.cell = runs.cell AND samples.place = runs.place "
             f"{where} GROUP BY {', '.join(names)} ORDER BY {', '.join(names)}",
             values,
         )
-        return {tuple(row[:-1]): row[-1] for row in asked}
+        return {tuple(row[:-1]): row[-1] for row in answers}
 
     def query(self, sql: str, values: Sequence[Any] = ()) -> Iterator[tuple[Any, ...]]:
-        """A query of one's own over the tables ``samples`` and ``runs`` (modern/study/index.py)."""
+        """Execute an SQL query over the tables ``samples`` and ``runs`` (modern/study/index.py)."""
         return self.database.execute(sql, values)
 
     def _chunk_rows(self, chunk: Chunk) -> Iterator[Row]:
-        """The rows of a chunk's file, each its sample's, none missing."""
+        """Yield the rows of a chunk from its file, checking that each belongs to its sample and none is missing."""
         path = self.folder / ROWS / chunk.name
         try:
             lines = path.read_bytes().splitlines()
@@ -163,26 +164,26 @@ class Store:
             row = _row(line or b"")
             if not row or (row["cell"], row["index"], set(row["runs"])) != (chunk.cell, index, routes):
                 raise StudyFileError(
-                    f"{path}: line {number} is damaged; take the file away, and --resume makes it anew"
+                    f"{path}: line {number} is damaged; delete the file, and --resume computes it again"
                 )
             yield row
 
 
 def _row(line: bytes) -> Row | None:
-    """A line of a chunk's file as data; None where it is not a row."""
+    """Parse a line of a file of rows; return None if it is not a row."""
     try:
-        found: Row = json.loads(line)
+        row: Row = json.loads(line)
     except ValueError:
         return None
-    whole = isinstance(found, dict) and {"cell", "index", "deck", "judge"} <= found.keys()
-    return found if whole and isinstance(found.get("runs"), dict) else None
+    is_complete = isinstance(row, dict) and {"cell", "index", "deck", "judge"} <= row.keys()
+    return row if is_complete and isinstance(row.get("runs"), dict) else None
 
 
 def _where(cell: int | None, route: str | None) -> tuple[str, list[int | str]]:
-    """The condition for one cell or route, and its values; empty for all."""
-    wanted = {name: value for name, value in (("cell", cell), ("route", route)) if value is not None}
-    condition = " AND ".join(f"runs.{name} = ?" for name in wanted)
-    return f"WHERE {condition}" if wanted else "", list(wanted.values())
+    """Return the SQL condition for one cell or route, and its values; empty for all."""
+    selected = {name: value for name, value in (("cell", cell), ("route", route)) if value is not None}
+    condition = " AND ".join(f"runs.{name} = ?" for name in selected)
+    return f"WHERE {condition}" if selected else "", list(selected.values())
 
 
 def _column(name: str) -> str:

@@ -1,14 +1,14 @@
-"""A plan from a TOML file: a study without a line of Python.
+"""Read a plan from a TOML file, which describes a study without Python code.
 
 ::
 
     name = "mine"
     title = "What three digits do"
     question = "How often do the programs refuse them?"
-    samples = 200                    # of each cell that does not say otherwise
+    samples = 200                    # the default for each cell
 
     [[route]]
-    name = "as listed"               # kind = "programs" where it does not say "port"
+    name = "as listed"               # kind = "programs" is the default
 
     [[route]]
     name = "float64"
@@ -20,12 +20,12 @@
     parameters = { digits = 3, n = [4, 20] }
 
     [[cell]]
-    family = "file"                  # the points of a deck, CSV or OFF file, beside the plan
+    family = "file"                  # the points of a deck, CSV or OFF file next to the plan
     parameters = { path = "mine.csv", shuffle = true }
 
-Every route serves every cell that does not name its own (``routes = ["float64"]``).  A cell without ``key`` has its
-family and parameters for one.  ``family = "mine:points"`` is the function ``points`` of ``mine.py`` beside the plan, or
-wherever Python looks for modules; so it is with ``measures = ["mine:spread"]``.
+A cell uses all routes unless it lists some (``routes = ["float64"]``).  The default key of a cell is its family and
+parameters.  ``family = "mine:points"`` is the function ``points`` of ``mine.py`` next to the plan or on
+Python's module path; ``measures = ["mine:spread"]`` works the same way.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ from modern.study.plan import SEED, Cell, Plan, PlanError, Port, Programs, Route
 _SAMPLES = 1000
 _HEAD = ("name", "title", "question", "samples", "seed", "notes", "route", "cell")
 _CELL = ("key", "family", "parameters", "routes", "samples", "reference", "chunk")
-_KINDS: tuple[tuple[str, type, str], ...] = (
+_TYPES: tuple[tuple[str, type, str], ...] = (
     ("key", dict, "{ name = value }"),
     ("family", str, "text"),
     ("parameters", dict, "{ name = value }"),
@@ -54,12 +54,12 @@ _KINDS: tuple[tuple[str, type, str], ...] = (
 
 
 def is_plan_file(name: str) -> bool:
-    """Whether a study's name on the command line is a file's."""
+    """Return True if the name of a study on the command line is the name of a file."""
     return name.endswith(".toml")
 
 
 def read_plan(path: str, samples: int | None = None, seed: int | None = None) -> Plan:
-    """The plan of a file; ``samples`` and ``seed`` go before the file's own.  Raises FileError, PlanError."""
+    """Read the plan of a file; ``samples`` and ``seed`` override those of the file.  Raise FileError or PlanError."""
     text = read_text(path)
     try:
         data = tomllib.loads(text)
@@ -67,30 +67,30 @@ def read_plan(path: str, samples: int | None = None, seed: int | None = None) ->
         raise PlanError(f"{path}: nested too deeply") from None
     except tomllib.TOMLDecodeError as error:
         raise PlanError(f"{path}: {str(error).splitlines()[0]}") from None
-    _find_beside(data, Path(path).resolve().parent)
+    _add_to_module_path(data, Path(path).resolve().parent)
     try:
         return _plan(data, Path(path), samples, seed)
     except (TypeError, AttributeError) as error:
-        raise PlanError(f"{path}: something is of a wrong kind: {error}") from None
+        raise PlanError(f"{path}: a value has the wrong type: {error}") from None
 
 
-def _find_beside(data: Mapping[str, Any], folder: Path) -> None:
-    """Have Python look beside the plan too for the module of a family or measure of one's own."""
-    parts = [part for name in ("cell", "route") for part in _listed(data.get(name)) if isinstance(part, dict)]
-    names = [name for part in parts for name in (part.get("family"), *_listed(part.get("measures")))]
+def _add_to_module_path(data: Mapping[str, Any], folder: Path) -> None:
+    """Add the folder of the plan to the module path if it contains the module of a user-defined family or measure."""
+    sections = [section for name in ("cell", "route") for section in _list(data.get(name)) if isinstance(section, dict)]
+    names = [name for section in sections for name in (section.get("family"), *_list(section.get("measures")))]
     modules = {name.partition(":")[0] for name in names if isinstance(name, str) and ":" in name}
     if any((folder / f"{module.partition('.')[0]}.py").exists() for module in modules) and str(folder) not in sys.path:
         sys.path.append(str(folder))
 
 
-def _listed(value: Any) -> list[Any]:
+def _list(value: Any) -> list[Any]:
     return value if isinstance(value, list) else []
 
 
 def _plan(data: Mapping[str, Any], path: Path, samples: int | None, seed: int | None) -> Plan:
-    _known(data, _HEAD, f"{path}")
-    for name, kind, words in (("notes", list, "a list"), ("route", list, "[[route]]"), ("cell", list, "[[cell]]")):
-        _of_kind(data, name, kind, words, f"{path}")
+    _check_names(data, _HEAD, f"{path}")
+    for name, expected in (("notes", "a list"), ("route", "[[route]]"), ("cell", "[[cell]]")):
+        _check_type(data, name, list, expected, f"{path}")
     routes: dict[str, Route] = {}
     for number, raw in enumerate(data.get("route", ()), 1):
         route = _route(raw, f"{path}: route {number}")
@@ -102,19 +102,19 @@ def _plan(data: Mapping[str, Any], path: Path, samples: int | None, seed: int | 
     cells = []
     for number, raw in enumerate(data.get("cell", ()), 1):
         where = f"{path}: cell {number}"
-        _known(raw, _CELL, where)
+        _check_names(raw, _CELL, where)
         size = samples or raw.get("samples", data.get("samples", _SAMPLES))
         cells.append(_cell(raw, routes, size, path.parent, where))
     name = str(data.get("name", path.stem))
-    chosen = data.get("seed", SEED) if seed is None else seed
-    if type(chosen) is not int:
-        raise PlanError(f"{path}: the seed is a whole number")
+    plan_seed = data.get("seed", SEED) if seed is None else seed
+    if type(plan_seed) is not int:
+        raise PlanError(f"{path}: the seed must be an integer")
     return Plan(
         name,
         str(data.get("title", name)),
         str(data.get("question", "")),
         tuple(cells),
-        chosen,
+        plan_seed,
         tuple(map(str, data.get("notes", ()))),
     )
 
@@ -123,53 +123,52 @@ def _route(raw: Mapping[str, Any], where: str) -> Route:
     values = {name: tuple(value) if isinstance(value, list) else value for name, value in raw.items()}
     kind = values.pop("kind", "programs")
     if kind not in ("programs", "port"):
-        raise PlanError(f"{where}: kind is programs or port, not {kind!r}")
-    made: type[Any] = Programs if kind == "programs" else Port
-    types = {field.name: field for field in fields(made)}
-    _known(values, tuple(types), where)
+        raise PlanError(f"{where}: expected kind programs or port, found {kind!r}")
+    route_type: type[Any] = Programs if kind == "programs" else Port
+    _check_names(values, tuple(field.name for field in fields(route_type)), where)
     if not isinstance(values.get("name"), str):
         raise PlanError(f"{where}: it has no name")
-    sample = made("")
+    default = route_type("")
     for name, value in values.items():
-        of_text = not isinstance(value, tuple) or all(isinstance(item, str) for item in value)
-        if type(value) is not type(getattr(sample, name)) or not of_text:
-            raise PlanError(f"{where}: {name} = {value!r} is of a wrong kind")
-    route: Route = made(**values)
+        has_only_text = not isinstance(value, tuple) or all(isinstance(element, str) for element in value)
+        if type(value) is not type(getattr(default, name)) or not has_only_text:
+            raise PlanError(f"{where}: {name} = {value!r} has the wrong type")
+    route: Route = route_type(**values)
     return route
 
 
 def _cell(raw: Mapping[str, Any], routes: Mapping[str, Route], samples: int, folder: Path, where: str) -> Cell:
     if "family" not in raw:
         raise PlanError(f"{where}: it has no family")
-    for name, kind, words in _KINDS:
-        _of_kind(raw, name, kind, words, where)
-    named = raw.get("routes", list(routes))
-    missing = [name for name in named if name not in routes]
+    for name, kind, expected in _TYPES:
+        _check_type(raw, name, kind, expected, where)
+    route_names = raw.get("routes", list(routes))
+    missing = [name for name in route_names if name not in routes]
     if missing:
         raise PlanError(f"{where}: there is no route {missing[0]!r}")
     family, parameters = str(raw["family"]), dict(raw.get("parameters", {}))
-    shown = {name: str(value) for name, value in parameters.items()}
+    default_key = {"family": family, **{name: str(value) for name, value in parameters.items()}}
     if family == "file":
         if not isinstance(parameters.get("path"), str):
             raise PlanError(f"{where}: the family file needs a path")
-        family, place = "points", folder / parameters.pop("path")
-        parameters["points"] = file_points(str(place))
+        family, path = "points", folder / parameters.pop("path")
+        parameters["points"] = file_points(str(path))
     if type(samples) is not int or type(raw.get("chunk", 1)) is not int:
-        raise PlanError(f"{where}: samples and chunk are whole numbers")
-    key = dict(raw.get("key", {"family": str(raw["family"]), **shown}))
+        raise PlanError(f"{where}: samples and chunk must be integers")
+    key = dict(raw.get("key", default_key))
     if not all(isinstance(value, str | int) for value in key.values()):
-        raise PlanError(f"{where}: the values of its key are text or whole numbers")
-    chosen = tuple(routes[name] for name in named)
-    extra = {name: raw[name] for name in ("reference", "chunk") if name in raw}
-    return Cell(key, family, parameters, chosen, samples, **extra)
+        raise PlanError(f"{where}: the values of its key must be text or integers")
+    cell_routes = tuple(routes[name] for name in route_names)
+    optional = {name: raw[name] for name in ("reference", "chunk") if name in raw}
+    return Cell(key, family, parameters, cell_routes, samples, **optional)
 
 
-def _of_kind(data: Mapping[str, Any], name: str, kind: type, words: str, where: str) -> None:
+def _check_type(data: Mapping[str, Any], name: str, kind: type, expected: str, where: str) -> None:
     if name in data and not isinstance(data[name], kind):
-        raise PlanError(f"{where}: {name} is {words}, not {data[name]!r}")
+        raise PlanError(f"{where}: expected {name} to be {expected}, found {data[name]!r}")
 
 
-def _known(data: Mapping[str, Any], names: tuple[str, ...], where: str) -> None:
+def _check_names(data: Mapping[str, Any], names: tuple[str, ...], where: str) -> None:
     unknown = [name for name in data if name not in names]
     if unknown:
-        raise PlanError(f"{where}: there is no {unknown[0]!r}; there are {', '.join(names)}")
+        raise PlanError(f"{where}: unknown name {unknown[0]!r}; expected {', '.join(names)}")

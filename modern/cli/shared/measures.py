@@ -15,6 +15,7 @@ from fractions import Fraction
 from modern.cli.shared.volumes import printable
 from modern.digital.hull import DigitalHull
 from modern.digital.measures import Measures
+from modern.formats.columns import aligned
 from modern.geometry.numbers import AREA_DIGITS, finite_decimal
 
 SHOWN = 12
@@ -78,9 +79,7 @@ def table(rows: Sequence[Row], unit: str) -> Iterator[str]:
     """The rows under their headings, in columns; numbers to twelve digits."""
     cells = [[column.name.replace("_", " ") for column in rows[0]]]
     cells += [[_shown(column.number) for column in row] for row in rows]
-    widths = [max(len(line[k]) for line in cells) for k in range(len(cells[0]))]
-    for line in cells:
-        yield "  ".join(f"{cell:>{width}}" for cell, width in zip(line, widths, strict=True))
+    yield from aligned(cells, right=True)
     plural = "s" if unit == "voxel" else ""
     lengths = f"lengths in {printable(unit)}{plural}" if unit else "unit of lengths not stated"
     yield f"{lengths}; numbers to {SHOWN} digits, with --csv to {AREA_DIGITS} and exact"

@@ -1,1 +1,1 @@
-"""The studies that come with hull1620, a module each: ``plan(samples, seed)``, ``report(plan, store)``, SAMPLES."""
+"""The built-in studies, one module each.  :class:`modern.study.registry.Study` describes what a module defines."""

@@ -124,7 +124,7 @@ def _by_working(found: Summary, cells: Cells) -> Table:
 
 
 def _outcomes(found: Summary, cells: Cells) -> Table:
-    seen = found.seen()
+    seen = found.outcomes()
     rows = tuple(
         (str(d), route, *(str(found.hits(cell, route, (outcome,))) for outcome in seen))
         for cell, d in cells

@@ -1,8 +1,17 @@
-"""Families of point sets: a name, parameters and a generator give points a card can hold, exactly.
+"""Families of point sets, from which the samples of a study are drawn.
 
-A family is a function ``family(draw, **parameters) -> Drawn``.  All of them draw by integers only, so that the same
-seed gives the same points on every machine, and give distinct points as decimal text of at most eight significant
-digits.  FAMILIES names those that come with hull1620; ``module:function`` names one of a user's own.
+A family is a function ``family(draw, **parameters) -> Drawn``.  It returns distinct points as decimal text of at most
+eight significant digits, which a card holds exactly.  It draws integers only, so that a seed gives the same points on
+every machine.  :data:`FAMILIES` names the built-in families; ``module:function`` names a user-defined one.
+
+To add a family:
+
+1. Write the function in ``scattered.py`` (points drawn one by one), ``solids.py`` (prisms, pyramids, nearly flat sets),
+   ``thesis.py`` (sets like those of the thesis) or ``given.py`` (sets that are not drawn).  ``draws.py`` has the random
+   numbers.  ``hull1620 study --families`` prints the docstring.
+2. Enter it in :data:`FAMILIES`.
+3. Describe its parameters in a row of ``docs/how-to/own-study.md``, and add parameters for the tests to ``DRAWN`` in
+   ``tests/modern/study/test_study_families.py``.
 """
 
 from __future__ import annotations
@@ -12,7 +21,7 @@ from collections.abc import Callable, Mapping
 from modern.formats.deck import coordinate_field
 from modern.study.families import given, scattered, solids, thesis
 from modern.study.families.draws import Draw, Drawn, FamilyError
-from modern.study.plan import Cell, PlanError, named, own_code, random_of
+from modern.study.plan import Cell, PlanError, named, random_of, user_code
 
 Family = Callable[..., Drawn]
 
@@ -33,14 +42,14 @@ FAMILIES: Mapping[str, Family] = {
 
 
 def family_of(name: str) -> Family:
-    """The family of that name, or the function ``module:function``.  Raises PlanError."""
+    """Return the family of that name, or the function ``module:function``.  Raise PlanError if there is none."""
     return named("family", name, FAMILIES)
 
 
 def draw_sample(cell: Cell, study: int, index: int) -> Drawn:
-    """A cell's sample of that index.
+    """Draw the sample of a cell with that index; ``study`` is the seed of the study.
 
-    Raises PlanError for parameters the family does not take, FamilyError where they give no such points.
+    Raise PlanError if the family does not accept the parameters, FamilyError if no such points exist.
     """
     family = family_of(cell.family)
     draw = Draw(random_of(cell.seed(study, index)), index)
@@ -48,7 +57,7 @@ def draw_sample(cell: Cell, study: int, index: int) -> Drawn:
         if cell.family in FAMILIES:
             drawn = family(draw, **_keywords(cell.parameters))
         else:
-            with own_code(f"cell {cell.name}: family {cell.family}", cell.family.partition(":")[0]):
+            with user_code(f"cell {cell.name}: family {cell.family}", cell.family.partition(":")[0]):
                 drawn = family(draw, **_keywords(cell.parameters))
     except (TypeError, ValueError) as error:
         raise PlanError(f"cell {cell.name}: family {cell.family}: {error}") from None
@@ -56,15 +65,15 @@ def draw_sample(cell: Cell, study: int, index: int) -> Drawn:
         raise FamilyError(f"cell {cell.name}: family {cell.family}: {error}") from None
     if not isinstance(drawn, Drawn):
         raise PlanError(
-            f"cell {cell.name}: family {cell.family}: it gives {type(drawn).__name__}, not Drawn; "
-            "modern.study.drawn(points) makes it of whole numbers, modern.study.Drawn(points) of decimals as text"
+            f"cell {cell.name}: family {cell.family}: expected Drawn, found {type(drawn).__name__}; "
+            "modern.study.drawn(points) makes it from integers, modern.study.Drawn(points) from decimals as text"
         )
     check_points(drawn, f"cell {cell.name}: family {cell.family}: sample {index}")
     return drawn
 
 
 def check_points(drawn: Drawn, where: str) -> None:
-    """Raises FamilyError where points are none, are not distinct or do not fit a card (eight digits of E14.8)."""
+    """Raise FamilyError if there are no points, two are equal, or one does not fit a card (eight digits of E14.8)."""
     cards = set()
     for number, point in enumerate(drawn.points, 1):
         try:
@@ -74,7 +83,7 @@ def check_points(drawn: Drawn, where: str) -> None:
     if not cards:
         raise FamilyError(f"{where}: there are no points")
     if len(cards) < len(drawn.points):
-        raise FamilyError(f"{where}: two points are the same; the thesis takes distinct points")
+        raise FamilyError(f"{where}: two points are equal; the programs of the thesis require distinct points")
 
 
 def _keywords(parameters: Mapping[str, object]) -> dict[str, object]:

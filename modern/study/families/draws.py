@@ -1,4 +1,4 @@
-"""What every family draws its random numbers with: a generator, distinct points, decimals from whole numbers."""
+"""Random numbers for the families: a generator, distinct points, and decimals made from integers."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ T = TypeVar("T")
 Point = tuple[str, str, str]
 Whole = tuple[int, int, int]
 Count = int | Sequence[int]
-"""A number of points, or the least and the greatest between which it is drawn."""
+"""A number of points, or the least and the greatest number, between which it is drawn."""
 
 DIGITS = 8
 MOST = 51
@@ -22,49 +22,51 @@ _TRIES = 200
 
 
 class FamilyError(EmulatorError):
-    """Parameters that give no such points, or points no card holds; one line."""
+    """Parameters for which no points exist, or points that no card holds; with a one-line message."""
 
 
 @dataclass(frozen=True, slots=True)
 class Draw:
-    """What a sample is drawn with: its generator, and its index within the cell."""
+    """The random generator of a sample, and the index of the sample in its cell."""
 
     random: Random
     index: int = 0
 
     def whole(self, low: int, high: int) -> int:
-        """A whole number from low to high, both included."""
+        """Return a random integer from low to high, both included."""
         return self.random.randint(low, high)
 
     def count(self, n: Count) -> int:
-        """A number of points.  Raises FamilyError where it is not within 1 to 51."""
+        """Return a number of points.  Raise FamilyError unless it lies in 1 to 51."""
         low, high = whole_range(n, "n")
         if not 1 <= low <= high <= MOST:
-            raise FamilyError(f"n is {low}{'' if low == high else f' to {high}'}; the programs take 1 to {MOST} points")
+            raise FamilyError(
+                f"n is {low}{'' if low == high else f' to {high}'}; the programs accept 1 to {MOST} points"
+            )
         return self.whole(low, high)
 
     def distinct(self, count: int, point: Callable[[], T]) -> list[T]:
-        """``count`` distinct points.  Raises FamilyError where so many are hardly to be found."""
-        found: dict[T, None] = {}
+        """Return ``count`` distinct points.  Raise FamilyError if too many draws repeat earlier points."""
+        points: dict[T, None] = {}
         for _ in range(_TRIES * count):
-            if len(found) == count:
+            if len(points) == count:
                 break
-            found[point()] = None
-        if len(found) < count:
-            raise FamilyError(f"{count} distinct points were not found in {_TRIES * count} tries")
-        return list(found)
+            points[point()] = None
+        if len(points) < count:
+            raise FamilyError(f"{_TRIES * count} draws gave only {len(points)} of {count} distinct points")
+        return list(points)
 
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """A drawn set: points as decimal text, and what a table may group by (``kind``)."""
+    """A drawn set: its points as decimal text, and tags by which tables may group, such as ``kind``."""
 
     points: tuple[Point, ...]
     tags: Mapping[str, str | int] = field(default_factory=dict)
 
 
 def drawn(points: Sequence[Whole], places: int = 0, **tags: str | int) -> Drawn:
-    """Whole numbers times 10**-places, as decimals."""
+    """Return a set of points whose coordinates are integers times 10**-places."""
     return Drawn(tuple((_text(x, places), _text(y, places), _text(z, places)) for x, y, z in points), tags)
 
 
@@ -73,15 +75,15 @@ def _text(number: int, places: int) -> str:
 
 
 def whole_range(value: Count, name: str) -> tuple[int, int]:
-    """A parameter that is a whole number, or the least and the greatest.  Raises FamilyError."""
+    """Return a parameter as the least and the greatest integer; a single integer is both.  Raise FamilyError."""
     ends = (value, value) if isinstance(value, int) else value
     if not isinstance(ends, list | tuple) or len(ends) != 2 or not all(isinstance(end, int) for end in ends):
-        raise FamilyError(f"{name} is {value!r}; it is a whole number, or the least and the greatest as [4, 20]")
+        raise FamilyError(f"{name}: expected an integer, or the least and the greatest as [4, 20], found {value!r}")
     return ends[0], ends[1]
 
 
 def size_of(digits: int) -> int:
-    """The largest whole number of so many digits.  Raises FamilyError."""
+    """Return the largest integer of the given number of digits.  Raise FamilyError if no card holds it."""
     if not isinstance(digits, int) or not 1 <= digits <= DIGITS:
-        raise FamilyError(f"digits is {digits}; a card holds 1 to {DIGITS}")
+        raise FamilyError(f"digits: expected 1 to {DIGITS}, which a card holds, found {digits}")
     return int(10**digits - 1)

@@ -1,4 +1,4 @@
-"""Sets that are given and not drawn: those the thesis prints, and a user's own."""
+"""Point sets that are given and not drawn: those that the thesis prints, and those of a user."""
 
 from __future__ import annotations
 
@@ -14,59 +14,61 @@ from modern.study.families.draws import MOST, Count, Draw, Drawn, FamilyError, P
 
 @cache
 def published_sets() -> dict[str, tuple[Point, ...]]:
-    """The sets of chapter 6 and of chapter 4's theorems, by name (thesis p. 37-57, 103-115)."""
-    found = {}
+    """Return the sets of chapter 6 and of the theorems of chapter 4, by name (thesis p. 37-57, 103-115)."""
+    sets = {}
     for number in chapter6.EXAMPLES:
-        found[f"example {number}"] = parse_input(chapter6.input_deck(number).text(), f"example {number}").points
+        sets[f"example {number}"] = parse_input(chapter6.input_deck(number).text(), f"example {number}").points
     for theorem in load_theorems():
         texts = [
             (finite_decimal(x), finite_decimal(y), finite_decimal(z)) for x, y, z in (p.at for p in theorem.points)
         ]
-        found[f"theorem {theorem.id}"] = tuple((x, y, z) for x, y, z in texts if x and y and z)
-        if len(found[f"theorem {theorem.id}"]) < len(texts):
-            del found[f"theorem {theorem.id}"]
-    return found
+        # A theorem whose points have coordinates without a finite decimal expansion cannot be punched.
+        points = tuple((x, y, z) for x, y, z in texts if x and y and z)
+        if len(points) == len(texts):
+            sets[f"theorem {theorem.id}"] = points
+    return sets
 
 
 def published(draw: Draw, sets: Sequence[str] = (), shuffle: bool = False) -> Drawn:
-    """Sample k is the k-th of the sets named, or of all, beginning again after the last; in shuffled order if asked."""
+    """Sample k is the k-th of the named sets, or of all, starting again after the last; ``shuffle`` changes the order
+    of the points at random."""
     known = published_sets()
     names = list(sets) or list(known)
     name = names[draw.index % len(names)]
     if name not in known:
-        raise FamilyError(f"no published set is called {name!r}; there are {', '.join(known)}")
+        raise FamilyError(f"no published set is called {name!r}; expected one of {', '.join(known)}")
     return _order(draw, known[name], shuffle, name)
 
 
 def points(draw: Draw, points: Sequence[Sequence[str]], n: Count = 0, shuffle: bool = False, name: str = "") -> Drawn:
-    """The points given, all of them or ``n`` drawn from them, in shuffled order if asked."""
-    given = [(str(x), str(y), str(z)) for x, y, z in points]
+    """The points of the plan, all of them or ``n`` drawn from them; ``shuffle`` changes their order at random."""
+    in_plan = [(str(x), str(y), str(z)) for x, y, z in points]
     if n:
         count = draw.count(n)
-        if count > len(given):
-            raise FamilyError(f"n is {count}; there are {len(given)} points")
-        chosen = draw.random.sample(range(len(given)), count)
-        given = [given[i] for i in (chosen if shuffle else sorted(chosen))]
-    elif len(given) > MOST:
-        raise FamilyError(f"{len(given)} points; the programs take {MOST} (n draws fewer)")
-    return _order(draw, given, shuffle and not n, name)
+        if count > len(in_plan):
+            raise FamilyError(f"n is {count}, but there are only {len(in_plan)} points")
+        drawn_indices = draw.random.sample(range(len(in_plan)), count)
+        in_plan = [in_plan[i] for i in (drawn_indices if shuffle else sorted(drawn_indices))]
+    elif len(in_plan) > MOST:
+        raise FamilyError(f"{len(in_plan)} points, but the programs accept at most {MOST}; the parameter n draws fewer")
+    return _order(draw, in_plan, shuffle and not n, name)
 
 
 def file_family(draw: Draw, path: str, n: Count = 0, shuffle: bool = False, name: str = "") -> Drawn:
-    """The points of a file beside the plan, as ``points`` takes them; the plan that is carried out holds the points."""
+    """The points of a file next to the plan, with the parameters of ``points``.  The manifest holds the points."""
     return points(draw, file_points(path), n, shuffle, name)
 
 
 def file_points(path: str) -> list[list[str]]:
-    """The points of a file (deck, CSV or OFF) for the parameter ``points``: a plan holds them, not the file's name.
+    """Return the points of a file (deck, CSV or OFF) for the parameter ``points``; a plan does not hold file names.
 
-    Raises EmulatorError (one line).
+    Raise EmulatorError with a one-line message if the file cannot be read.
     """
     return [list(point) for point in read_input(path).points]
 
 
-def _order(draw: Draw, given: Sequence[Point], shuffle: bool, name: str) -> Drawn:
-    order = list(given)
+def _order(draw: Draw, points: Sequence[Point], shuffle: bool, name: str) -> Drawn:
+    order = list(points)
     if shuffle:
         draw.random.shuffle(order)
     return Drawn(tuple(order), {"kind": name} if name else {})

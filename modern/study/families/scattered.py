@@ -1,6 +1,6 @@
 """Points drawn one by one: in a cube or box, in a ball, on a sphere or on the surface of a cube.
 
-All are drawn by integers alone: whole numbers, or decimals as whole numbers times a power of ten.
+Only integers are drawn; a decimal is an integer times a power of ten.
 """
 
 from __future__ import annotations
@@ -11,11 +11,11 @@ from modern.geometry.numbers import scaled_decimal
 from modern.study.families.draws import DIGITS, Count, Draw, Drawn, FamilyError, Whole, drawn, size_of, whole_range
 
 FINE = 10**12
-"""The radius of the grid a direction is drawn on before it is rounded."""
+"""The radius of the grid on which a direction is drawn before it is rounded."""
 
 
 def integers(draw: Draw, digits: int, n: Count) -> Drawn:
-    """Whole numbers from -(10**digits - 1) to 10**digits - 1, each coordinate uniform."""
+    """Integers from -(10**digits - 1) to 10**digits - 1, each coordinate uniformly distributed."""
     size = size_of(digits)
 
     def point() -> Whole:
@@ -25,9 +25,9 @@ def integers(draw: Draw, digits: int, n: Count) -> Drawn:
 
 
 def box(draw: Draw, most: int, n: Count, centre: int = 0) -> Drawn:
-    """Whole numbers from centre - most to centre + most, each coordinate uniform."""
+    """Integers from centre - most to centre + most, each coordinate uniformly distributed."""
     if not isinstance(most, int) or not isinstance(centre, int) or most < 1 or abs(centre) + most > size_of(DIGITS):
-        raise FamilyError(f"most is {most}, centre {centre}; a card holds whole numbers of {DIGITS} digits")
+        raise FamilyError(f"most is {most}, centre {centre}; a card holds integers of {DIGITS} digits")
 
     def point() -> Whole:
         x, y, z = (draw.whole(centre - most, centre + most) for _ in range(3))
@@ -39,12 +39,12 @@ def box(draw: Draw, most: int, n: Count, centre: int = 0) -> Drawn:
 def decimals(draw: Draw, digits: int, n: Count, exponent: Count = (0, 1)) -> Drawn:
     """Decimals of exactly ``digits`` significant digits and either sign, as .12345 times a power of ten.
 
-    exponent: the power, or the least and the greatest it is drawn from, for each coordinate anew: with more than
-    one the digits of two coordinates do not stand one under the other, and a difference of them has more.
+    exponent: the power, or the least and the greatest power, from which it is drawn for each coordinate separately.
+    Coordinates with different powers have digits in different decimal places, so their difference has more digits.
     """
     low, high = whole_range(exponent, "exponent")
     if not -20 <= low <= high <= 20:
-        raise FamilyError(f"exponent is {low} to {high}; it is from -20 to 20")
+        raise FamilyError(f"exponent: expected -20 to 20, found {low} to {high}")
     least, most = 10 ** (digits - 1), size_of(digits)
 
     def coordinate() -> str:
@@ -57,31 +57,31 @@ def decimals(draw: Draw, digits: int, n: Count, exponent: Count = (0, 1)) -> Dra
 
 
 def ball(draw: Draw, digits: int, n: Count) -> Drawn:
-    """Uniform among the grid points of the ball of radius 10**digits - 1."""
+    """Integer points uniformly distributed in the ball of radius 10**digits - 1."""
     size = size_of(digits)
     return drawn(draw.distinct(draw.count(n), lambda: in_ball(draw, size)))
 
 
 def sphere(draw: Draw, digits: int, n: Count) -> Drawn:
-    """Directions uniform on the sphere of radius 10**digits - 1, each rounded to the nearest grid point."""
+    """Points uniformly distributed on the sphere of radius 10**digits - 1, rounded to the nearest integer point."""
     size = size_of(digits)
     return drawn(draw.distinct(draw.count(n), lambda: on_sphere(draw, size)))
 
 
 def cube(draw: Draw, digits: int, n: Count) -> Drawn:
-    """Uniform on the six faces of the cube from -(10**digits - 1) to 10**digits - 1."""
+    """Integer points uniformly distributed on the six faces of the cube from -(10**digits - 1) to 10**digits - 1."""
     size = size_of(digits)
 
     def point() -> Whole:
-        place = [draw.whole(-size, size) for _ in range(3)]
-        place[draw.whole(0, 2)] = size * (1 - 2 * draw.whole(0, 1))
-        return place[0], place[1], place[2]
+        coordinates = [draw.whole(-size, size) for _ in range(3)]
+        coordinates[draw.whole(0, 2)] = size * (1 - 2 * draw.whole(0, 1))
+        return coordinates[0], coordinates[1], coordinates[2]
 
     return drawn(draw.distinct(draw.count(n), point))
 
 
 def in_ball(draw: Draw, size: int) -> Whole:
-    """A grid point of the ball of that radius, the centre too."""
+    """Return a random integer point of the ball with radius ``size``; it may be the centre."""
     while True:
         x, y, z = (draw.whole(-size, size) for _ in range(3))
         if x * x + y * y + z * z <= size * size:
@@ -89,7 +89,7 @@ def in_ball(draw: Draw, size: int) -> Whole:
 
 
 def on_sphere(draw: Draw, size: int) -> Whole:
-    """The grid point nearest to a point of the sphere of that radius."""
+    """Return the integer point nearest to a random point of the sphere with radius ``size``."""
     x, y, z = in_ball(draw, FINE)
     while not (x or y or z):
         x, y, z = in_ball(draw, FINE)
@@ -98,6 +98,6 @@ def on_sphere(draw: Draw, size: int) -> Whole:
 
 
 def nearest(number: int, divisor: int) -> int:
-    """The whole number nearest to number/divisor, halves away from zero."""
+    """Return the integer nearest to number/divisor; halves are rounded away from zero."""
     size = (2 * abs(number) + divisor) // (2 * divisor)
     return size if number >= 0 else -size

@@ -1,4 +1,4 @@
-"""Prisms and pyramids, whose faces hold many points, and points that are nearly in one plane."""
+"""Prisms and pyramids, whose faces contain many points, and points that lie nearly in one plane."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from modern.study.families.scattered import FINE, nearest
 
 
 def prism(draw: Draw, digits: int, n: Count) -> Drawn:
-    """A polygon and its copy moved along an axis: an even number of points, 6 at least, in shuffled order.
+    """A polygon and its copy moved along an axis: an even number of points, at least 6, in random order.
 
-    The base has coordinates up to 10**digits - 1, its points rounded from a circle; so does the height.
+    The points of the polygon are rounded from a circle.  All coordinates have absolute values up to 10**digits - 1.
     """
     size = size_of(digits)
     half = max(3, draw.count(n) // 2)
@@ -21,7 +21,7 @@ def prism(draw: Draw, digits: int, n: Count) -> Drawn:
 
 
 def pyramid(draw: Draw, digits: int, n: Count) -> Drawn:
-    """A polygon and an apex, 4 points at least, in shuffled order; coordinates up to 10**digits - 1."""
+    """A polygon and an apex, at least 4 points, in random order, with coordinates up to 10**digits - 1."""
     size = size_of(digits)
     base = _base(draw, max(3, draw.count(n) - 1), size)
     apex = draw.whole(-size, size), draw.whole(-size, size), draw.whole(1, size)
@@ -29,14 +29,15 @@ def pyramid(draw: Draw, digits: int, n: Count) -> Drawn:
 
 
 def near_coplanar(draw: Draw, digits: int, n: Count, gap: int) -> Drawn:
-    """Points of a plane, about a third of them lifted or lowered by 10**-gap.
+    """Points of a plane, about a third of them raised or lowered by 10**-gap.
 
-    x and y are whole numbers of up to ``digits`` digits, z = p x + q y + (-1, 0 or 1) 10**-gap with p and q of -1,
-    0, 1; 4 points at least and one at least off the plane.  Raises FamilyError where z has more than eight digits.
+    x and y are integers of up to ``digits`` digits, and z = p x + q y + s 10**-gap with p, q and s among -1, 0 and 1.
+    There are at least 4 points, and at least one lies off the plane.  If z has more than eight digits, no card holds
+    the point, and the plan is rejected.
     """
     size, unit = size_of(digits), 10**gap
     if not isinstance(gap, int) or gap < 0:
-        raise FamilyError(f"gap is {gap}; it is 0 or more, for 10**-gap")
+        raise FamilyError(f"gap: expected 0 or more, for 10**-gap, found {gap}")
     p, q = draw.whole(-1, 1), draw.whole(-1, 1)
     base = draw.distinct(max(4, draw.count(n)), lambda: (draw.whole(-size, size), draw.whole(-size, size), 0))
     lifts = [draw.random.choice((0, 0, 0, 0, 1, -1)) for _ in base]
@@ -57,7 +58,7 @@ def _base(draw: Draw, count: int, size: int) -> list[tuple[int, int]]:
 
 
 def _turned(draw: Draw, points: list[Whole], kind: str) -> Drawn:
-    """The points shuffled, their axes exchanged at random."""
+    """Shuffle the points and exchange their axes at random."""
     axes = [0, 1, 2]
     draw.random.shuffle(axes)
     draw.random.shuffle(points)

@@ -1,27 +1,27 @@
-"""Sets like those the thesis shows: small, of small whole numbers, many of them in one plane or line.
+"""Sets like those of the thesis: few points with small integer coordinates, often in one plane or line.
 
-The thesis says that its programs were tested on approximately 70 examples, of which all but two came out, and
-nothing of what they were (chapter 1).  What is left of them are the six of chapter 6 (p. 103-115), one for each kind of
-output; so each kind here is modelled on one of the six, and all are equally likely:
+The thesis says that its programs were tested on approximately 70 examples and that two of them failed, but does not
+describe the examples (chapter 1).  It prints six of them (chapter 6, p. 103-115), one for each kind of output.
+Each kind here is modelled on one of the six, and all are equally likely:
 
 =================  =======  =====================================================================================
 kind               example  as printed, and as drawn here
 =================  =======  =====================================================================================
-three points       1        coordinates to 200: whole numbers from -200 to 200, not in line
-line               2        9 points, from -600 to 6502: a small whole direction, multiples from -3000 to 3000
-one point          3        1, 2, 3: whole numbers from -9 to 9
-plane              4        8 points with y = 2, others from -5 to 7: a plane of whole points, from -9 to 9 in it
+three points       1        coordinates to 200: integers from -200 to 200, not collinear
+line               2        9 points, from -600 to 6502: an integer direction, multiples from -3000 to 3000
+one point          3        1, 2, 3: integers from -9 to 9
+plane              4        8 points with y = 2, others from -5 to 7: a plane with integer points, from -9 to 9
 slab               5        15 points, y from 1 to 4, others from -12 to 19: -20 to 20, one coordinate from 1 to 4
 plane and points   6        example 4 and two points off its plane
 =================  =======  =====================================================================================
 
-The four larger examples have 9, 8, 15 and 10 points; here the number is drawn from 4 to 17, whose mean is theirs,
-10.5.  Points are in the order drawn.
+The four larger examples have 9, 8, 15 and 10 points.  Here the number is drawn from 4 to 17, which has the same mean,
+10.5.  Points keep the order in which they were drawn.
 
-Chapter 5 prints one more set, in part: of the data sheet (p. 58-59) the first point, 12, 3, .0146, and the last of 8,
-0, .0261, 6.  Two of its six coordinates are decimals of three figures below .1, which no example of chapter 6 has.  The
-kind ``data sheet`` is modelled on it and is drawn only where it is asked for: 8 points of whole numbers from -12 to 12,
-of whose coordinates a share is such decimals, from .0100 to .0999.
+Chapter 5 prints part of another set, the data sheet (p. 58-59): its first point, 12, 3, .0146, and the last of its 8
+points, 0, .0261, 6.  Two of these six coordinates are decimals of three figures below .1, which no example of chapter 6
+has.  The kind ``data sheet`` is modelled on it and is drawn only on request: 8 points with integer coordinates from -12
+to 12, of which a given share is replaced by such decimals, from .0100 to .0999.
 """
 
 from __future__ import annotations
@@ -40,19 +40,20 @@ _SHEET_N, _SHEET_SIZE, _PLACES, _UNIT = 8, 12, 4, 10_000
 def thesis(
     draw: Draw, kinds: Mapping[str, int] | None = None, n: Count = N, decimals: int = 0, form: str = "alone"
 ) -> Drawn:
-    """A set of a kind drawn by weight (default: chapter 6's, all alike), of ``n`` points where the kind does not say.
+    """A set whose kind is drawn by weight (default: the kinds of chapter 6, equally likely).
 
-    decimals: of the data sheet, how many of 1,000 coordinates are decimals.  form: ``alone``, such a decimal stands in
-    the place of a whole number, as printed; ``added``, it is added to the whole number (12.0146).
+    n: the number of points, for kinds without a fixed number.  decimals: how many of 1,000 coordinates of a data sheet
+    are decimals.  form: ``alone`` replaces an integer by the decimal, as printed; ``added`` adds the decimal to the
+    integer (12.0146).
     """
     weights = dict.fromkeys(KINDS, 1) if kinds is None else dict(kinds)
     unknown = [kind for kind in weights if kind not in (*KINDS, SHEET)]
     if unknown or not weights or min(weights.values()) < 0 or not any(weights.values()):
-        raise FamilyError(f"kinds are {', '.join((*KINDS, SHEET))}, each with a weight of 0 or more")
+        raise FamilyError(f"kinds: expected {', '.join((*KINDS, SHEET))}, each with a weight of 0 or more")
     if not isinstance(decimals, int) or not 0 <= decimals <= 1000:
-        raise FamilyError(f"decimals is {decimals}; it is a whole number of thousandths, 0 to 1000")
+        raise FamilyError(f"decimals: expected an integer number of thousandths, 0 to 1000, found {decimals}")
     if form not in FORMS:
-        raise FamilyError(f"form is {form!r}; it is {' or '.join(FORMS)}")
+        raise FamilyError(f"form: expected {' or '.join(FORMS)}, found {form!r}")
     pick = draw.whole(1, sum(weights.values()))
     for kind, weight in weights.items():
         pick -= weight
@@ -64,7 +65,7 @@ def thesis(
 
 
 def data_sheet(draw: Draw, decimals: int, form: str) -> list[Whole]:
-    """Eight points like those of the data sheet, times 10^4."""
+    """Return eight points like those of the data sheet, with coordinates multiplied by 10^4."""
 
     def coordinate() -> int:
         whole = draw.whole(-_SHEET_SIZE, _SHEET_SIZE) * _UNIT
@@ -95,7 +96,7 @@ def one_point(draw: Draw, _: int) -> list[Whole]:
 
 
 def plane(draw: Draw, count: int) -> list[Whole]:
-    """Half of the planes at right angles to an axis, as example 4's, half spanned by two small directions."""
+    """Return points of a plane, which is perpendicular to an axis, as in example 4, or oblique, equally often."""
     if draw.whole(0, 1):
         axis, height = draw.whole(0, 2), draw.whole(-_SMALL, _SMALL)
         return draw.distinct(count, lambda: _replaced(_in_box(draw, _SMALL), axis, height))
@@ -115,7 +116,7 @@ def slab(draw: Draw, count: int) -> list[Whole]:
 
 
 def plane_and_points(draw: Draw, count: int) -> list[Whole]:
-    """Two points of the box before a plane's others, as example 6 puts its two before example 4's eight."""
+    """Return two other points, then points of a plane, as example 6 puts two points before those of example 4."""
     inner = plane(draw, max(count - 2, 2))
     outer = [p for p in draw.distinct(len(inner) + 2, lambda: _in_box(draw, _SMALL)) if p not in inner][:2]
     return [*outer, *inner]

@@ -71,7 +71,7 @@ def seventies(folder: Path, failures: Sequence[int], slabs: int = 0, mended: int
         return (WRONG if index % 70 < failing else RIGHT), {"statements": 1}
 
     return " ".join(
-        reported(folder, plan, seventy, answer, lambda index: "slab" if index < slabs else "one point").words
+        reported(folder, plan, seventy, answer, lambda index: "slab" if index < slabs else "one point").conclusions
     )
 
 
@@ -214,12 +214,12 @@ def test_divergence_gives_shares_of_all_sets_and_of_those_of_a_statement(twenty:
 
 def test_divergence_counts_faults_of_the_digits_apart_from_the_programs_own(twenty: Report) -> None:
     """3 of 7 misled sets end right (.099 to .816); 3 of 13 fail unmisled (.050 to .538)."""
-    assert "those that still end in the right hull: 3 of 7, 42.9 (9.9 to 81.6) %." in twenty.words[1]
-    assert "those that fail, by the programs' own faults: 3 of 13, 23.1 (5.0 to 53.8) %." in twenty.words[1]
+    assert "those that still end in the right hull: 3 of 7, 42.9 (9.9 to 81.6) %." in twenty.conclusions[1]
+    assert "those that fail, by the programs' own faults: 3 of 13, 23.1 (5.0 to 53.8) %." in twenty.conclusions[1]
 
 
 def test_divergence_counts_the_runs_exact_numbers_could_not_follow(twenty: Report) -> None:
-    assert "could not follow to a decision that differs: 2." in twenty.words[2]
+    assert "could not follow to a decision that differs: 2." in twenty.conclusions[2]
 
 
 def diverging(*lines: str, card: str) -> Figures:

@@ -92,7 +92,7 @@ def test_a_cluster_that_goes_away_is_said_in_a_line(tmp_path: Path) -> None:
         thread = threading.Thread(target=close)
         thread.start()
         plan = replace(PLAN, cells=tuple(replace(cell, samples=4_000) for cell in PLAN.cells))
-        with pytest.raises(PlanError, match=r"--dask: .*--resume goes on") as lost:
+        with pytest.raises(PlanError, match=r"--dask: .*--resume continues the study") as lost:
             run_study(plan, folder, dask=short.scheduler_address, quiet=True)
         thread.join()
     assert "\n" not in str(lost.value)

@@ -120,9 +120,9 @@ def test_digits_follows_the_rows(digits_study: tuple[Plan, Path, Report]) -> Non
         after = digits.report(plan, store)
         assert digits.least(summary(store), 1) == 21
     assert after.tables[0].rows[1][4] == "21"
-    assert before.words[2].startswith("Lengths d for which the least P is 3d + 1, with which every test for zero")
-    assert "is exact: 3 of 3." in before.words[2]
-    assert "is exact: 2 of 3." in after.words[2]
+    assert before.conclusions[2].startswith("Lengths d for which the least P is 3d + 1, with which every test for zero")
+    assert "is exact: 3 of 3." in before.conclusions[2]
+    assert "is exact: 2 of 3." in after.conclusions[2]
 
 
 def test_capacity_reports_the_most_places_of_its_rows(tmp_path: Path) -> None:
@@ -136,9 +136,9 @@ def test_capacity_reports_the_most_places_of_its_rows(tmp_path: Path) -> None:
     assert again == report
     assert max(int(row[4]) for row in report.tables[0].rows) == max(figures) > capacity.PLACES
     assert [row[1] for row in report.tables[0].rows] == ["-", "51"]
-    assert report.words[0].startswith(f"Most places seen in use at once: {max(figures)}; ")
-    assert report.words[0].endswith("no set needed more than 98: 8.")
-    assert report.words[1].startswith("Sets tried at that N: 4. ")
+    assert report.conclusions[0].startswith(f"Most places seen in use at once: {max(figures)}; ")
+    assert report.conclusions[0].endswith("no set needed more than 98: 8.")
+    assert report.conclusions[1].startswith("Sets tried at that N: 4. ")
     assert report.tables[2].rows[0][1:] == ("98", str(capacity.positions(98)), "40000")
 
 
@@ -174,7 +174,7 @@ def test_machine_time_counts_only_sets_whose_hull_was_found(tmp_path: Path) -> N
         store.query("UPDATE runs SET outcome = 'wrong hull' WHERE place = 0")
         assert machine_time.report(plan, store).tables[1].rows[0][2] == "1"
         store.query("UPDATE runs SET outcome = 'wrong hull'")
-        assert machine_time.report(plan, store).words == ("No set was determined, so nothing was timed.",)
+        assert machine_time.report(plan, store).conclusions == ("No set was determined, so nothing was timed.",)
 
 
 def test_divergence_names_where_and_follows_the_rows(tmp_path: Path) -> None:
@@ -183,19 +183,19 @@ def test_divergence_names_where_and_follows_the_rows(tmp_path: Path) -> None:
     plan = Plan(whole.name, whole.title, whole.question, tuple(wanted), whole.seed)
     report = _finished(plan, tmp_path / "out", divergence)
     assert sum(int(row[1]) for row in report.tables[0].rows) == 6
-    assert report.words[0].endswith("Families of which every set does: whole, 2 digits.")
+    assert report.conclusions[0].endswith("Families of which every set does: whole, 2 digits.")
     with closing(Store.open(tmp_path / "out", plan)) as store:
         store.query("UPDATE runs SET outcome = 'right'")
-        assert "by the programs' own faults: 0 of 3," in divergence.report(plan, store).words[1]
+        assert "by the programs' own faults: 0 of 3," in divergence.report(plan, store).conclusions[1]
         store.query("UPDATE runs SET outcome = 'endless' WHERE place = 0")
-        once = divergence.report(plan, store).words[1]
+        once = divergence.report(plan, store).conclusions[1]
         assert once.startswith("Of the other sets, those that still end in the right hull: 2 of 3,")
         assert "by the programs' own faults: 1 of 3," in once
         store.query("UPDATE runs SET figures = json_set(figures, '$.diverges', 'program3 116')")
         after = divergence.report(plan, store)
     assert after.tables[0].rows[0][:2] == ("program3 116", "6")
-    assert after.words[0].endswith("Families of which every set does: none.")
-    assert after.words[1].endswith("by the programs' own faults: 0 of 0.")
+    assert after.conclusions[0].endswith("Families of which every set does: none.")
+    assert after.conclusions[1].endswith("by the programs' own faults: 0 of 0.")
 
 
 @pytest.mark.parametrize("module", [digits, capacity, machine_time, divergence])

@@ -21,7 +21,7 @@ from modern.formats.points import parse_input
 from modern.study import Cell, Port, Programs, Route
 from modern.study.families import draw_sample
 from modern.study.families.draws import Drawn
-from modern.study.outcomes import OUTCOMES, Answer, answer_of_run, number_text, place, reordered
+from modern.study.outcomes import OUTCOMES, Answer, answer_of_run, number_text, position, reordered
 from modern.study.routes import carry_out, options_of, programs_of
 from modern.study.sample import Sample, judge
 from modern.thesis.batch import Runs, run_hulls
@@ -184,7 +184,7 @@ def test_other_endings_say_where_they_were() -> None:
     """No deck has reached an undefined value (OPEN-QUESTIONS 22); the ending is put in the place of a run's own."""
     run, one = run_of("example5")
     line = next(line for line in run.final.program.statements if line.place.card == 99)
-    where = f"program3 {place(run.final.program, line)}"
+    where = f"program3 {position(run.final.program, line)}"
 
     def ended(ending: Ending) -> tuple[str, str]:
         last = replace(run.final, result=replace(run.final.result, ending=ending))
@@ -199,7 +199,7 @@ def test_other_endings_say_where_they_were() -> None:
     assert ended(replace(below, name="X", subscripts=(99,))) == ("out of bounds", "program3 X(99)")
     assert ended(replace(below, name="XY", shape=(3, 9), subscripts=(4, 1))) == ("out of bounds", "program3 XY(4,1)")
     loop = tuple(line for line in run.final.program.statements if 100 <= line.place.card <= 110)
-    first, last = place(run.final.program, loop[0]), [line.label for line in loop if line.label][-1]
+    first, last = position(run.final.program, loop[0]), [line.label for line in loop if line.label][-1]
     assert ended(Ending("limit", count=9, loop=loop, repeats=True)) == ("endless", f"program3 {first}-{last}")
 
 
@@ -246,7 +246,7 @@ def test_the_statement_that_decided_is_the_one_a_trace_shows() -> None:
         machine.tracer = lambda line, _, lines=lines: lines.append(line)  # type: ignore[misc]
         machine.run()
         typed = max(k for k, line in enumerate(lines) if line.text.startswith("PRINT"))
-        assert told == f"{step.name} {place(step.program, lines[typed - 1])}"
+        assert told == f"{step.name} {position(step.program, lines[typed - 1])}"
         seen.add(told)
     assert len(seen) > 1
 

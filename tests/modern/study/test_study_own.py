@@ -73,8 +73,8 @@ def test_worker_processes_find_them_too(module: str) -> None:
         ),
         ("def spread", "def other", "has no function 'spread'"),
         ('{"spread": 5}', '{"spread": 5 / sample.nothing}', "line 9: AttributeError: 'Sample' object has no"),
-        ('{"spread": 5}', '{"spread": 0.5}', "the figure spread is not a whole number or text"),
-        ("    return Drawn(tuple(", "    return list(tuple(", "it gives list, not Drawn"),
+        ('{"spread": 5}', '{"spread": 0.5}', "the figure spread is not an integer or text"),
+        ("    return Drawn(tuple(", "    return list(tuple(", "expected Drawn, found list"),
         ("def line(draw, n)", "def line(draw)", "unexpected keyword argument 'n'"),
     ],
 )
@@ -94,7 +94,7 @@ def test_a_mistake_there_is_one_line_with_file_and_line(
 def test_a_module_that_is_nowhere_is_named(module: str, capsys: pytest.CaptureFixture[str]) -> None:
     (Path("plans") / f"{module}.py").unlink()
     assert main(["study", "plans/own.toml", "--workers", "1", "--quiet"]) == 2
-    assert f"no module is called '{module}', beside the plan or where Python looks" in capsys.readouterr().err
+    assert f"no module is called '{module}' next to the plan or on Python's module path" in capsys.readouterr().err
 
 
 def test_a_module_that_has_changed_is_not_resumed(module: str) -> None:

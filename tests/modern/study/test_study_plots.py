@@ -78,7 +78,7 @@ def test_names_and_notes_stand_off_the_curves(chart: Chart) -> None:
     page = figure.bbox
     assert all(page.x0 <= box.x0 and box.x1 <= page.x1 for box in (*legends, *texts))
     assert {text.get_text() for legend in figure.legends for text in legend.get_texts()} >= {
-        mark.words for mark in chart.marks
+        mark.label for mark in chart.marks
     }
 
 
@@ -114,7 +114,7 @@ def test_series_with_room_stand_side_by_side_and_those_without_in_panels() -> No
 @NEEDS_MATPLOTLIB
 def test_series_side_by_side_are_said_to_be_so() -> None:
     said = [[text.get_text() for text in laid_out(lines(2, 6, apart)).texts] for apart in (0.0, 1.0)]
-    assert said == [["Lines", "marks stand side by side about their place"], ["Lines"]]
+    assert said == [["Lines", "markers at the same x are shifted sideways"], ["Lines"]]
 
 
 @NEEDS_MATPLOTLIB

@@ -88,7 +88,7 @@ def check_form(report: Report) -> None:
             assert one.points
             assert all(e.low <= e.value <= e.high for _, e in one.points)
             assert isinstance(chart, Bars) == isinstance(one.points[0][0], str)
-    for paragraph in report.words:
+    for paragraph in report.conclusions:
         assert paragraph.endswith(".")
         assert not SLIPS.search(paragraph), SLIPS.search(paragraph)
 
@@ -121,7 +121,7 @@ def test_reports_of_small_runs_are_true_to_the_rows(name: str, tmp_path: Path) -
     plan = small(name)
     with stored(plan, tmp_path / "rows", lambda c: chunk_text(plan.cells[c.cell], plan.seed, c)) as store:
         report, found = STUDIES[name].report(plan, store), summary(store)
-        assert set(found.seen()) <= set(OUTCOMES)
+        assert set(found.outcomes()) <= set(OUTCOMES)
         for number, cell in enumerate(plan.cells):
             assert all(found.of(number, route.name) == cell.samples for route in cell.routes)
         # That a sum, and not a share, is shown: the counts of a row of the table add up to its sets.
@@ -166,10 +166,13 @@ def test_rounding_tells_a_way_that_is_better(tmp_path: Path) -> None:
     assert largest["guard digit"] == "9999"
     assert largest["truncating"] == "-"
     lost = (len(rounding.WAYS) - 1) * tested // 2
-    assert f"all ways together: {lost:,}. Of these ended in a wrong hull that looks right: {lost:,};" in report.words[0]
+    assert (
+        f"all ways together: {lost:,}. Of these ended in a wrong hull that looks right: {lost:,};"
+        in report.conclusions[0]
+    )
     assert {row[1:] for row in table_of(report, "widths").rows} == {("none", "none", "10^-6 to 10^-1", *["none"] * 3)}
     fair = report_of("rounding", plan, tmp_path / "b", all_right)
-    assert fair.words[0].startswith("Failures with the exact test, all ways together: 0.")
+    assert fair.conclusions[0].startswith("Failures with the exact test, all ways together: 0.")
     assert {row[4] for row in table_of(fair, "pairs").rows} == {"no difference"}
 
 
@@ -180,7 +183,7 @@ def test_rounding_says_what_decimals_need(tmp_path: Path) -> None:
     def outcome(cell: int, route: str, index: int) -> tuple[str, str]:
         return ("DATA NOT ACCEPTABLE", "") if cell == tenths and route == "float64" else ("right", "")
 
-    words = report_of("rounding", plan, tmp_path / "a", outcome).words[1]
+    words = report_of("rounding", plan, tmp_path / "a", outcome).conclusions[1]
     assert "by truncation to eight digits 100.0 (83.2 to 100.0) %; by float64" in words
     assert words.endswith("cannot hold a tenth, 0.0 (0.0 to 16.8) %.")
 
@@ -225,11 +228,11 @@ def test_epsilon_tells_where_no_e_does(tmp_path: Path) -> None:
 def test_translation_tells_whether_it_saves(tmp_path: Path) -> None:
     plan = translation.plan(3, 1963)
     report = report_of("translation", plan, tmp_path / "a", all_right)
-    assert "saves time (1 to 1.5)" in report.words[0]
-    assert "on the mean. Moving the origin" in report.words[0]
+    assert "saves time (1 to 1.5)" in report.conclusions[0]
+    assert "on the mean. Moving the origin" in report.conclusions[0]
     assert (
         "loses hulls of: none; gains hulls of: none; makes no difference that can be told for: numbers to 9;"
-        in (report.words[1])
+        in (report.conclusions[1])
     )
     # The whole time goes from 135 to 125 seconds; additions from 100 to 110.
     assert all(row[4].startswith("-10.0") and row[8].startswith("7.4") for row in report.tables[0].rows)
@@ -238,9 +241,9 @@ def test_translation_tells_whether_it_saves(tmp_path: Path) -> None:
         return ("ERROR IN PROGRAM", "program3 119") if route.startswith(translation.MOVED) else ("right", "")
 
     lost = report_of("translation", plan, tmp_path / "b", refused)
-    assert lost.words[0] == "No set was determined both ways, so no time can be compared."
-    assert "from some P on with it kept: numbers to 9; numbers to 9 about 100;" in lost.words[1]
-    assert lost.words[1].endswith("gains hulls of: none; makes no difference that can be told for: none.")
+    assert lost.conclusions[0] == "No set was determined both ways, so no time can be compared."
+    assert "from some P on with it kept: numbers to 9; numbers to 9 about 100;" in lost.conclusions[1]
+    assert lost.conclusions[1].endswith("gains hulls of: none; makes no difference that can be told for: none.")
     assert all(row[3] == "-" for row in lost.tables[2].rows)
 
 

@@ -1,4 +1,4 @@
-"""A study in its folder: the same rows whatever the workers, interruptions and failures."""
+"""A study in its folder gives the same rows whatever the workers, interruptions and failures."""
 
 from __future__ import annotations
 
@@ -6,11 +6,14 @@ import errno
 import json
 import os
 import random
+import shutil
 import signal
 import sqlite3
 import subprocess
 import sys
+import threading
 import time
+from concurrent.futures import process as process_pool
 from dataclasses import replace
 from pathlib import Path
 
@@ -18,18 +21,25 @@ import pytest
 
 from emulator.files import UNFINISHED
 from modern.study import Plan, PlanError, Port, Programs, run_study
+from modern.study import run as study_run
 from modern.study.index import NAME as INDEX
 from modern.study.store import Store, StudyFileError
+from modern.study.tomlplan import read_plan
+from modern.study.workers import in_processes
 from tests.support.paths import ROOT
 from tests.support.studied import PLAN, ROUTES
 
-SCRIPT = """
-import sys
-from modern.study import run_study
-from tests.support.studied import PLAN
-
-if __name__ == "__main__":
-    run_study(PLAN, sys.argv[1], workers=2, resume=True, quiet=True)
+PLAN_FILE = """
+name = "long"
+samples = 1000
+[[route]]
+name = "exact"
+kind = "port"
+[[cell]]
+key = { n = 4 }
+family = "integers"
+parameters = { digits = 1, n = 4 }
+chunk = 20
 """
 WORKER = """
 import multiprocessing
@@ -43,15 +53,15 @@ pool.submit(input).result()
 
 
 def contents(folder: Path) -> dict[str, bytes]:
-    """All files but the index (whose bytes are sqlite's own business) and the manifest's command."""
-    found = {
+    """Return all files except the index, whose bytes may differ, and the command in the manifest."""
+    files = {
         str(path.relative_to(folder)): path.read_bytes()
         for path in sorted(folder.rglob("*"))
         if path.is_file() and not path.name.startswith(INDEX)
     }
-    manifest = json.loads(found.pop("manifest.json"))
+    manifest = json.loads(files.pop("manifest.json"))
     manifest.pop("command")
-    return {**found, "manifest.json": json.dumps(manifest).encode()}
+    return {**files, "manifest.json": json.dumps(manifest).encode()}
 
 
 @pytest.fixture(scope="module")
@@ -61,17 +71,24 @@ def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def start(folder: Path) -> subprocess.Popen[bytes]:
-    """The study with two workers, in a process of its own."""
-    script = folder.parent / "start.py"
-    script.write_text(SCRIPT)
-    paths = {**os.environ, "PYTHONPATH": str(ROOT)}
-    with (folder.parent / "errors").open("ab") as errors:
-        return subprocess.Popen([sys.executable, str(script), str(folder)], env=paths, cwd=folder.parent, stderr=errors)
+@pytest.fixture
+def copied(finished: Path, tmp_path: Path) -> Path:
+    """A copy of the finished study, to be damaged."""
+    return Path(shutil.copytree(finished, tmp_path / "copied"))
+
+
+@pytest.fixture
+def _without_plots(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Charts are drawn after the rows are complete, and take longer than they do."""
+    monkeypatch.setattr(study_run, "draw", lambda chart, folder: None)
+
+
+def contents_without_plots(folder: Path) -> dict[str, bytes]:
+    return {name: data for name, data in contents(folder).items() if not name.endswith((".svg", ".png"))}
 
 
 def forked(folder: Path) -> int:
-    """The study begun or resumed in a copy of this process; its number."""
+    """Begin or resume the study in a copy of this process and return its process number."""
     child = os.fork()
     if child:
         return child
@@ -82,7 +99,7 @@ def forked(folder: Path) -> int:
         os._exit(1)
 
 
-def test_rows_hold_what_they_are_to_hold(finished: Path) -> None:
+def test_rows_and_manifest_describe_the_study(finished: Path) -> None:
     lines = (finished / "rows" / "0001-000000004.jsonl").read_text().splitlines()
     row = json.loads(lines[0])
     assert (row["cell"], row["index"], len(lines)) == (1, 4, 4)
@@ -97,14 +114,15 @@ def test_rows_hold_what_they_are_to_hold(finished: Path) -> None:
     assert {"python", "numpy", "numba", "hull1620"} == set(manifest["versions"])
 
 
-def test_another_seed_gives_other_decks(finished: Path, tmp_path: Path) -> None:
+@pytest.mark.usefixtures("_without_plots")
+def test_different_seeds_give_different_decks(finished: Path, tmp_path: Path) -> None:
     run_study(replace(PLAN, seed=6), tmp_path / "six", workers=1, quiet=True)
     name = "rows/0000-000000000.jsonl"
     assert contents(tmp_path / "six")[name] != contents(finished)[name]
 
 
-def test_workers_end_with_the_process_that_began_them() -> None:
-    """Killed, it can tell them nothing; the pipe they share closes when the last of them has gone."""
+def test_workers_end_when_their_parent_process_is_killed() -> None:
+    """The pipe that they share closes when the last of them has ended."""
     command = [sys.executable, "-c", WORKER]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, env={**os.environ, "PYTHONPATH": str(ROOT)})
     assert process.stdout is not None
@@ -114,7 +132,8 @@ def test_workers_end_with_the_process_that_began_them() -> None:
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
-def test_killed_at_ten_random_moments_it_resumes_to_the_same_files(finished: Path, tmp_path: Path) -> None:
+@pytest.mark.usefixtures("_without_plots")
+def test_study_killed_at_random_moments_resumes_to_the_same_files(finished: Path, tmp_path: Path) -> None:
     begun = time.monotonic()
     run_study(PLAN, tmp_path / "timed", workers=1, quiet=True)
     seconds = time.monotonic() - begun
@@ -125,69 +144,101 @@ def test_killed_at_ten_random_moments_it_resumes_to_the_same_files(finished: Pat
         os.kill(child, signal.SIGKILL)
         os.waitpid(child, 0)
     assert os.waitpid(forked(folder), 0)[1] == 0
-    assert contents(folder) == contents(finished)
+    assert contents_without_plots(folder) == contents_without_plots(finished)
     with sqlite3.connect(folder / INDEX) as index:
         assert index.execute("SELECT COUNT(*) FROM runs").fetchone() == (2 * PLAN.samples,)
 
 
-def test_two_workers_stopped_by_ctrl_c_and_resumed_give_the_same_files(finished: Path, tmp_path: Path) -> None:
-    folder = tmp_path / "two"
-    process = start(folder)
-    while process.poll() is None and not list(folder.glob("rows/*.jsonl")):
-        time.sleep(0.02)
-    process.send_signal(signal.SIGINT)
-    process.wait()
-    assert "Broken" not in (tmp_path / "errors").read_text()
-    assert start(folder).wait() == 0
-    assert contents(folder) == contents(finished)
+@pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX signals")
+def test_ctrl_c_stops_two_workers_at_once_and_the_study_resumes_to_the_same_rows(tmp_path: Path) -> None:
+    (tmp_path / "long.toml").write_text(PLAN_FILE)
+    command = [sys.executable, "-m", "hull1620", "study", "long.toml", "--workers", "2"]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    process = subprocess.Popen(
+        command,
+        cwd=tmp_path,
+        env=environment,
+        stderr=subprocess.PIPE,
+        text=True,
+        # A shell that runs the tests in the background makes every process it starts ignore Ctrl-C.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )
+    folder = tmp_path / "long"
+    try:
+        while process.poll() is None and len(list(folder.glob("rows/0*.jsonl"))) < 3:
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        _, err = process.communicate(timeout=20)
+    finally:
+        process.kill()
+    assert process.returncode == 130
+    assert err.splitlines()[-1] == "hull1620: interrupted; finished work is kept, --resume continues the study"
+    assert "Traceback" not in err
+    plan = read_plan(str(tmp_path / "long.toml"))
+    early = {path: path.read_bytes() for path in folder.glob("rows/0*.jsonl")}
+    assert 3 <= len(early) < len(list(plan.chunks()))
+    run_study(plan, folder, workers=1, quiet=True, resume=True)
+    run_study(plan, tmp_path / "whole", workers=1, quiet=True)
+    assert all(path.read_bytes() == rows for path, rows in early.items())
+    assert contents(folder) == contents(tmp_path / "whole")
 
 
-def test_what_is_stopped_between_file_and_index_is_counted_once(finished: Path, tmp_path: Path) -> None:
-    """Interrupted after every chunk in turn, before the index has it."""
-    folder = tmp_path / "between"
+def test_ctrl_c_during_the_start_of_a_worker_pool_raises_keyboard_interrupt(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The pool's own thread has been made but not started, so the pool cannot wait for it."""
+
+    def pressed(thread: threading.Thread) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(process_pool, "_ExecutorManagerThread", type("Begun", (threading.Thread,), {"start": pressed}))
+    monkeypatch.setattr(
+        process_pool._ExecutorManagerThread, "__init__", lambda one, pool: threading.Thread.__init__(one)
+    )
+    with pytest.raises(KeyboardInterrupt):
+        list(in_processes(PLAN, list(PLAN.chunks()), 2))
+
+
+@pytest.mark.usefixtures("_without_plots")
+def test_chunk_written_but_not_yet_indexed_is_counted_once(finished: Path, copied: Path) -> None:
+    """Every third chunk lacks its index entries; another chunk's file is half written."""
     chunks = list(PLAN.chunks())
-    run_study(replace(PLAN), folder, workers=1, quiet=True, resume=True)
     for chunk in chunks[::3]:
-        with sqlite3.connect(folder / INDEX) as index:
+        with sqlite3.connect(copied / INDEX) as index:
             index.execute("DELETE FROM chunks WHERE name = ?", (chunk.name,))
-            index.execute(
-                "DELETE FROM samples WHERE cell = ? AND place BETWEEN ? AND ?",
-                (chunk.cell, chunk.start, chunk.stop - 1),
-            )
-            index.execute(
-                "DELETE FROM runs WHERE cell = ? AND place BETWEEN ? AND ?", (chunk.cell, chunk.start, chunk.stop - 1)
-            )
-    (folder / "rows" / chunks[1].name).unlink()
-    (folder / "rows" / f"{UNFINISHED}{chunks[1].name}").write_text("half a li")
-    run_study(PLAN, folder, workers=1, quiet=True, resume=True)
-    assert contents(folder) == contents(finished)
+            for table in ("samples", "runs"):
+                index.execute(
+                    f"DELETE FROM {table} WHERE cell = ? AND place BETWEEN ? AND ?",
+                    (chunk.cell, chunk.start, chunk.stop - 1),
+                )
+    (copied / "rows" / chunks[1].name).unlink()
+    (copied / "rows" / f"{UNFINISHED}{chunks[1].name}").write_text("half a li")
+    run_study(PLAN, copied, workers=1, quiet=True, resume=True)
+    assert contents(copied) == contents(finished)
 
 
-@pytest.mark.parametrize("damage", ["gone", "text", "cut", "zeros"])
-def test_a_damaged_index_is_made_anew(finished: Path, tmp_path: Path, damage: str) -> None:
-    folder = tmp_path / "damaged"
-    run_study(PLAN, folder, workers=1, quiet=True)
-    index = folder / INDEX
-    whole = index.read_bytes()
-    if damage == "gone":
+@pytest.mark.parametrize("damage", ["absent", "text", "truncated", "zeros"])
+@pytest.mark.usefixtures("_without_plots")
+def test_damaged_index_is_rebuilt(finished: Path, copied: Path, damage: str) -> None:
+    index = copied / INDEX
+    intact = index.read_bytes()
+    if damage == "absent":
         index.unlink()
     else:
-        index.write_bytes(
-            {"text": b"this is no database" * 99, "cut": whole[: len(whole) // 2], "zeros": bytes(len(whole))}[damage]
-        )
-    run_study(PLAN, folder, workers=1, quiet=True, resume=True)
-    assert contents(folder) == contents(finished)
+        damaged = {"text": b"this is no database" * 99, "truncated": intact[: len(intact) // 2]}
+        index.write_bytes(damaged.get(damage, bytes(len(intact))))
+    run_study(PLAN, copied, workers=1, quiet=True, resume=True)
+    assert contents(copied) == contents(finished)
 
 
-@pytest.mark.parametrize("writes", [1, 2, 5, 9, 12])
-def test_a_full_disk_is_said_in_a_line_and_resumed_from(
+@pytest.mark.parametrize("writes", [1, 2, 9, 12])
+@pytest.mark.usefixtures("_without_plots")
+def test_full_disk_gives_a_one_line_error_and_the_study_can_be_resumed(
     finished: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, writes: int
 ) -> None:
-    folder, left = tmp_path / "full", [writes]
+    folder, writes_left = tmp_path / "full", [writes]
 
     def fsync(_: int) -> None:
-        left[0] -= 1
-        if left[0] < 0:
+        writes_left[0] -= 1
+        if writes_left[0] < 0:
             raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr("emulator.files.os.fsync", fsync)
@@ -195,12 +246,14 @@ def test_a_full_disk_is_said_in_a_line_and_resumed_from(
         run_study(PLAN, folder, workers=1, quiet=True)
     assert "\n" not in str(full.value)
     assert not list(folder.rglob(f"{UNFINISHED}*"))
-    left[0] = 10**6
+    writes_left[0] = 10**6
     run_study(PLAN, folder, workers=1, quiet=True, resume=True)
-    assert contents(folder) == contents(finished)
+    assert contents_without_plots(folder) == contents_without_plots(finished)
 
 
-def test_a_full_disk_of_the_index_too(finished: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_study_can_be_resumed_after_the_index_filled_the_disk(
+    finished: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     folder = tmp_path / "index"
     original = Store.open.__func__  # type: ignore[attr-defined]
 
@@ -218,18 +271,18 @@ def test_a_full_disk_of_the_index_too(finished: Path, tmp_path: Path, monkeypatc
     assert contents(folder) == contents(finished)
 
 
-def test_a_study_is_not_overwritten_and_another_not_resumed(finished: Path, tmp_path: Path) -> None:
+def test_study_is_not_overwritten_and_a_different_one_not_resumed(finished: Path, tmp_path: Path) -> None:
     before = contents(finished)
-    with pytest.raises(PlanError, match="holds a study; --resume"):
+    with pytest.raises(PlanError, match="already holds a study; --resume"):
         run_study(PLAN, finished, workers=1, quiet=True)
-    others = {
+    different = {
         "its seed is 5, not 7": replace(PLAN, seed=7),
         "it has 44 samples, not 45": replace(PLAN, cells=(replace(PLAN.cells[0], samples=25), PLAN.cells[1])),
-        "it is of the study small, not other": replace(PLAN, name="other"),
-        "its plan is another": replace(PLAN, cells=(replace(PLAN.cells[0], chunk=6), PLAN.cells[1])),
+        "the folder holds the study small, not other": replace(PLAN, name="other"),
+        "its plan is different": replace(PLAN, cells=(replace(PLAN.cells[0], chunk=6), PLAN.cells[1])),
     }
-    for words, plan in others.items():
-        with pytest.raises(PlanError, match=words):
+    for message, plan in different.items():
+        with pytest.raises(PlanError, match=message):
             run_study(plan, finished, workers=1, quiet=True, resume=True)
     assert contents(finished) == before
     (tmp_path / "mine").mkdir()
@@ -239,38 +292,38 @@ def test_a_study_is_not_overwritten_and_another_not_resumed(finished: Path, tmp_
             run_study(PLAN, tmp_path / "mine", workers=1, quiet=True, resume=resume)
 
 
-def test_another_version_or_program_is_not_resumed(tmp_path: Path) -> None:
+def test_study_of_different_versions_or_programs_is_not_resumed(tmp_path: Path) -> None:
     folder = tmp_path / "old"
     plan = replace(PLAN, cells=(replace(PLAN.cells[0], samples=2),))
     run_study(plan, folder, workers=1, quiet=True)
     path = folder / "manifest.json"
     whole = json.loads(path.read_text())
-    for change, words in (
-        ({"plan": {}}, "it is of the study None"),
+    for change, message in (
+        ({"plan": {}}, "the folder holds the study None"),
         ({"versions": {**whole["versions"], "numpy": "0.1"}}, "begun with numpy 0.1"),
-        ({"programs_sha256": {}}, "its programs are others"),
-        ({"code_sha256": {}}, "hull1620's own code has changed"),
+        ({"programs_sha256": {}}, "its programs are different"),
+        ({"code_sha256": {}}, "the code of hull1620 has changed"),
     ):
         path.write_text(json.dumps({**whole, **change}))
-        with pytest.raises(PlanError, match=words):
+        with pytest.raises(PlanError, match=message):
             run_study(plan, folder, workers=1, quiet=True, resume=True)
     for text in ("{}", "no json", "[]", '{"plan": 3, "versions": {}, "programs_sha256": {}}'):
         path.write_text(text)
-        with pytest.raises(PlanError, match="not a manifest of a study"):
+        with pytest.raises(PlanError, match="not the manifest of a study"):
             run_study(plan, folder, workers=1, quiet=True, resume=True)
 
 
-def test_two_runs_in_one_folder_are_one_too_many(finished: Path) -> None:
+def test_second_run_in_the_same_folder_fails(finished: Path) -> None:
     held = Store.open(finished, PLAN)
     try:
-        with pytest.raises(StudyFileError, match="another run is at work"):
+        with pytest.raises(StudyFileError, match="another run is using this folder"):
             run_study(PLAN, finished, workers=1, quiet=True, resume=True)
     finally:
         held.close()
 
 
 @pytest.mark.parametrize(
-    ("plan", "words"),
+    ("plan", "message"),
     [
         (replace(PLAN, name="a/b"), "letters, digits"),
         (replace(PLAN, cells=()), "no cells"),
@@ -278,23 +331,23 @@ def test_two_runs_in_one_folder_are_one_too_many(finished: Path) -> None:
         (replace(PLAN, cells=(replace(PLAN.cells[0], samples=0),)), "samples and chunk"),
         (replace(PLAN, cells=(replace(PLAN.cells[0], routes=()),)), "no routes"),
         (replace(PLAN, cells=(replace(PLAN.cells[0], routes=(ROUTES[0], ROUTES[0])),)), "two routes have the name"),
-        (replace(PLAN, cells=(replace(PLAN.cells[0], reference="x"),)), "no route is called 'x'"),
+        (replace(PLAN, cells=(replace(PLAN.cells[0], reference="x"),)), "the reference 'x' is not one of its routes"),
         (replace(PLAN, cells=(replace(PLAN.cells[0], family="x"),)), "no family is called 'x'"),
     ],
 )
-def test_a_plan_that_cannot_be_carried_out_is_refused_before_it_begins(plan: Plan, words: str, tmp_path: Path) -> None:
-    with pytest.raises(PlanError, match=words):
+def test_invalid_plan_is_rejected_before_anything_is_written(plan: Plan, message: str, tmp_path: Path) -> None:
+    with pytest.raises(PlanError, match=message):
         run_study(plan, tmp_path / "no", quiet=True)
     assert not (tmp_path / "no").exists()
 
 
 @pytest.mark.parametrize(
-    ("route", "words"),
+    ("route", "message"),
     [
         (Programs("r", arithmetic="roman"), "no arithmetic is called 'roman'"),
         (Programs("r", layers=("gold",)), "layer 'gold'"),
         (Programs("r", rows=("P9-001",)), "no row 'P9-001'"),
-        (Programs("r", rows=("P3-029",)), "do not stand without others"),
+        (Programs("r", rows=("P3-029",)), "depend on other rows"),
         (Programs("r", layers=("epsilon",)), "an epsilon needs the layer"),
         (Programs("r", epsilon="1"), "an epsilon needs the layer"),
         (Programs("r", layers=("epsilon",), epsilon="one"), "epsilon: 'one' is not a decimal"),
@@ -305,17 +358,17 @@ def test_a_plan_that_cannot_be_carried_out_is_refused_before_it_begins(plan: Pla
         (Port("r", epsilon="-1"), "epsilon"),
     ],
 )
-def test_a_route_that_cannot_be_gone_is_refused_before_it_begins(
-    route: Programs | Port, words: str, tmp_path: Path
+def test_invalid_route_is_rejected_before_anything_is_written(
+    route: Programs | Port, message: str, tmp_path: Path
 ) -> None:
     plan = replace(PLAN, cells=(replace(PLAN.cells[0], routes=(route,)),))
-    with pytest.raises(Exception, match=words) as refused:
+    with pytest.raises(Exception, match=message) as rejection:
         run_study(plan, tmp_path / "no", quiet=True)
-    assert "\n" not in str(refused.value)
+    assert "\n" not in str(rejection.value)
     assert not (tmp_path / "no").exists()
 
 
-def test_reading_the_store(finished: Path) -> None:
+def test_store_answers_the_queries_of_reports(finished: Path) -> None:
     store = Store.open(finished, PLAN)
     try:
         runs = list(store.runs(cell=1, route="listed"))
@@ -327,44 +380,41 @@ def test_reading_the_store(finished: Path) -> None:
         assert sum(store.counts("cell", "route").values()) == 2 * PLAN.samples
         assert next(iter(store.query("SELECT COUNT(*) FROM samples"))) == (PLAN.samples,)
         assert [row["index"] for row in store.rows()] == [*range(24), *range(20)]
-        for bad in ("rowid", "tags.a b", "tags.x') --"):
+        for invalid in ("rowid", "tags.a b", "tags.x') --"):
             with pytest.raises(ValueError, match=r"is not a tag|is not a column"):
-                store.counts(bad)
+                store.counts(invalid)
     finally:
         store.close()
 
 
-def test_a_row_file_that_is_none_of_the_plan_is_named(tmp_path: Path) -> None:
-    plan = replace(PLAN, cells=(replace(PLAN.cells[0], samples=2),))
-    run_study(plan, tmp_path / "s", workers=1, quiet=True)
-    (tmp_path / "s/rows/0009-000000000.jsonl").write_text("{}\n")
+def test_file_of_rows_that_is_not_of_the_plan_is_named(copied: Path) -> None:
+    (copied / "rows/0009-000000000.jsonl").write_text("{}\n")
     with pytest.raises(StudyFileError, match=r"0009-000000000.jsonl is not a chunk of this study"):
-        run_study(plan, tmp_path / "s", workers=1, quiet=True, resume=True)
+        run_study(PLAN, copied, workers=1, quiet=True, resume=True)
 
 
-@pytest.mark.parametrize("damage", ["empty", "short", "cut", "noise", "other", "long", "list"])
-def test_a_damaged_row_file_is_named_and_not_counted(finished: Path, tmp_path: Path, damage: str) -> None:
-    folder = tmp_path / "damaged"
-    run_study(PLAN, folder, workers=1, quiet=True)
-    path = folder / "rows/0000-000000005.jsonl"
-    whole = path.read_bytes()
-    lines = whole.splitlines(keepends=True)
+@pytest.mark.parametrize("damage", ["empty", "short", "truncated", "noise", "different", "long", "list"])
+@pytest.mark.usefixtures("_without_plots")
+def test_damaged_file_of_rows_is_named_and_not_counted(finished: Path, copied: Path, damage: str) -> None:
+    path = copied / "rows/0000-000000005.jsonl"
+    intact = path.read_bytes()
+    lines = intact.splitlines(keepends=True)
     path.write_bytes(
         {
             "empty": b"",
             "short": b"".join(lines[:-1]),
-            "cut": whole[:-9],
+            "truncated": intact[:-9],
             "noise": b"\xff\x00" * 400,
-            "other": (folder / "rows/0000-000000010.jsonl").read_bytes(),
-            "long": whole + lines[0],
+            "different": (copied / "rows/0000-000000010.jsonl").read_bytes(),
+            "long": intact + lines[0],
             "list": b"[1]\n" * 5,
         }[damage]
     )
-    for index in folder.glob(f"{INDEX}*"):
+    for index in copied.glob(f"{INDEX}*"):
         index.unlink()
-    with pytest.raises(StudyFileError, match=r"0000-000000005.jsonl: line \d is damaged") as refused:
-        run_study(PLAN, folder, workers=1, quiet=True, resume=True)
-    assert "\n" not in str(refused.value)
+    with pytest.raises(StudyFileError, match=r"0000-000000005.jsonl: line \d is damaged") as rejection:
+        run_study(PLAN, copied, workers=1, quiet=True, resume=True)
+    assert "\n" not in str(rejection.value)
     path.unlink()
-    run_study(PLAN, folder, workers=1, quiet=True, resume=True)
-    assert contents(folder) == contents(finished)
+    run_study(PLAN, copied, workers=1, quiet=True, resume=True)
+    assert contents(copied) == contents(finished)

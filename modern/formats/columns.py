@@ -1,0 +1,21 @@
+"""Text in aligned columns, for tables on a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+
+
+def aligned(rows: Iterable[Sequence[str]], right: Sequence[bool] | bool = False) -> Iterator[str]:
+    """Yield the rows as lines whose columns have equal widths, two blanks apart, without trailing blanks.
+
+    ``right`` tells which columns are aligned to the right, or whether all of them are.
+    """
+    cells = list(rows)
+    columns = range(len(cells[0]) if cells else 0)
+    widths = [max(len(row[k]) for row in cells) for k in columns]
+    to_right = [right] * len(widths) if isinstance(right, bool) else right
+    for row in cells:
+        yield "  ".join(
+            text.rjust(width) if is_right else text.ljust(width)
+            for text, width, is_right in zip(row, widths, to_right, strict=True)
+        ).rstrip()
