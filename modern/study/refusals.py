@@ -1,8 +1,9 @@
-"""Data sheets with decimals: how often the programs refuse them, and what share of them two refusals in seventy need.
+"""Data sheets with decimals: how often the programs reject them, and what share of them explains two rejections in 70.
 
-The thesis explains its two failures by the limits of the machine: eight digits, for which its programs have a message,
-DATA NOT ACCEPTABLE.  Sets like the data sheet of chapter 5 (:func:`modern.study.families.thesis.data_sheet`) are
-refused the more often the more of their coordinates are decimals; the share of decimals is the variable here.
+The thesis explains its two failures by the limits of the machine, its eight digits, for which the programs have a
+message, DATA NOT ACCEPTABLE.  They reject sets like the data sheet of chapter 5
+(:func:`modern.study.families.thesis.data_sheet`) more often the more of the coordinates are decimals.  The share of
+decimals is the variable here.
 """
 
 from __future__ import annotations
@@ -20,12 +21,12 @@ from modern.study.store import Store
 
 SEVENTY, TWO = 70, 2
 SHARES = (0, 2, 5, 10, 20, 50, 100, 250, 333)
-"""Decimals in a thousand coordinates; 333 is the share on the data sheet."""
+"""Numbers of decimals in a thousand coordinates; 333 is the share on the data sheet."""
 FORMS = {"alone": "as on the sheet (.0146)", "added": "added to a whole number (12.0146)"}
 
 
 def cells(samples: int, route: Programs) -> tuple[Cell, ...]:
-    """A cell for each share and form of decimals, through one route."""
+    """Return a cell for each share and form of decimals, with one route."""
     return tuple(
         Cell(
             {"decimals": share, "form": form},
@@ -42,7 +43,7 @@ def cells(samples: int, route: Programs) -> tuple[Cell, ...]:
 
 @dataclass(frozen=True, slots=True)
 class Sheets:
-    """Data sheets with one share of decimals, drawn in one form: how many, refused, and failed otherwise."""
+    """Data sheets with one share and form of decimals: sets drawn, sets rejected, and sets that fail otherwise."""
 
     share: int
     form: str
@@ -52,17 +53,17 @@ class Sheets:
 
     @property
     def rate(self) -> Interval:
-        """How often such a set is refused."""
+        """Return the share of these sets that are rejected."""
         return exact(self.refused, self.sets)
 
 
 TWO_LIKELIEST = (TWO / (SEVENTY + 1), (TWO + 1) / (SEVENTY + 1))
-"""Of how often a set is refused, the range in which two is the most probable number of seventy (binomial mode)."""
+"""The range of the probability of rejection in which two of seventy is the most probable number (binomial mode)."""
 
 
 def measured(plan: Plan, store: Store) -> tuple[Sheets, ...]:
-    """What the rows say of each cell of data sheets."""
-    found = []
+    """Return the counts of each cell of data sheets."""
+    sheets = []
     for number, cell in enumerate(plan.cells):
         if "decimals" not in cell.key:
             continue
@@ -70,12 +71,12 @@ def measured(plan: Plan, store: Store) -> tuple[Sheets, ...]:
         refused = counts.get(NOT_ACCEPTABLE, 0)
         otherwise = sum(n for outcome, n in counts.items() if outcome not in (*DETERMINED, NOT_ACCEPTABLE))
         key = cell.key
-        found.append(Sheets(int(key["decimals"]), str(key["form"]), cell.samples, refused, otherwise))
-    return tuple(found)
+        sheets.append(Sheets(int(key["decimals"]), str(key["form"]), cell.samples, refused, otherwise))
+    return tuple(sheets)
 
 
 def table(sheets: tuple[Sheets, ...]) -> Table:
-    """A row for each share and form."""
+    """Return a table with a row for each share and form."""
     head = ("decimals", "drawn", "sets", "refused", "of seventy", "failed otherwise", "sheets in 70 for two")
     rows = tuple(
         (
@@ -90,15 +91,15 @@ def table(sheets: tuple[Sheets, ...]) -> Table:
         for s in sheets
     )
     notes = (
-        "refused: DATA NOT ACCEPTABLE.  sheets in 70 for two: how many of seventy sets have to be such sheets, the "
-        "others never refused, so that two is the most probable number of refusals.",
+        "Refused: DATA NOT ACCEPTABLE. Sheets in 70 for two: the number of such sheets among seventy sets that makes "
+        "two the most probable number of rejections, if the other sets are never rejected.",
         *INTERVALS,
     )
     return Table("decimals", "Data sheets with decimals, as listed", head, rows, notes)
 
 
 def needed(sheets: Sheets) -> str:
-    """How many of seventy: from two refusals' lower to its upper bound of probability; more than 70: not possible."""
+    """Return the range of the number of such sheets that makes two rejections most probable; ``-`` if it exceeds 70."""
     if not sheets.refused:
         return "-"
     low, high = (SEVENTY * bound / sheets.rate.value for bound in TWO_LIKELIEST)
@@ -106,52 +107,53 @@ def needed(sheets: Sheets) -> str:
 
 
 def likely_shares(rates: tuple[tuple[int, float], ...]) -> tuple[float, float] | None:
-    """The shares of decimals, in thousandths, between which two refusals of seventy are the most probable number, if
-    all seventy sets have that share: where the measured frequencies, joined by straight lines, first pass the bounds.
+    """Return the shares of decimals, in thousandths, between which two rejections in seventy are most probable.
 
-    rates: (share, frequency of refusal), shares rising.  None where the frequencies do not pass both.
+    All seventy sets are assumed to have that share.  ``rates`` holds (share, frequency of rejection) with ascending
+    shares; the frequencies are interpolated linearly.  Return None if they do not reach both bounds.
     """
-    found = []
+    crossings = []
     for bound in TWO_LIKELIEST:
         for (x, low), (y, high) in pairwise(rates):
             if low < bound <= high:
-                found.append(x + (y - x) * (bound - low) / (high - low))
+                crossings.append(x + (y - x) * (bound - low) / (high - low))
                 break
-    return (found[0], found[1]) if len(found) == len(TWO_LIKELIEST) else None
+    return (crossings[0], crossings[1]) if len(crossings) == len(TWO_LIKELIEST) else None
 
 
 def chart(sheets: tuple[Sheets, ...]) -> Bars:
-    """Refusals against the share of decimals."""
+    """Return the chart of rejections against the share of decimals."""
     series = tuple(
-        Series(words, tuple((f"{s.share / 10:g}", s.rate) for s in sheets if s.form == form or not s.share))
-        for form, words in FORMS.items()
+        Series(description, tuple((f"{s.share / 10:g}", s.rate) for s in sheets if s.form == form or not s.share))
+        for form, description in FORMS.items()
     )
     return Bars(
         "decimals",
-        "Data sheets refused",
+        "Data sheets rejected",
         "decimals, % of coordinates",
-        "DATA NOT ACCEPTABLE, share of the sets",
+        "share of sets with DATA NOT ACCEPTABLE",
         series,
         percent=True,
         note=f"{sheets[0].sets:,} sets of 8 points each; bars: exact 95 % intervals",
     )
 
 
-def words(sheets: tuple[Sheets, ...]) -> tuple[str, ...]:
-    """Two sentences: what each way of drawing the decimals needs."""
-    said = []
+def conclusions(sheets: tuple[Sheets, ...]) -> tuple[str, ...]:
+    """Return a paragraph about each form of decimals."""
+    paragraphs = []
     for form, drawn in FORMS.items():
         of_form = [s for s in sheets if s.form == form or not s.share]
         shares = likely_shares(tuple((s.share, s.rate.value) for s in of_form))
         printed = of_form[-1]
-        said.append(
-            f"Decimals {drawn}: with the sheet's third of decimals {percent(printed.rate)} are refused"
-            + f"; {needed(printed)} such sheets among seventy make two refusals the most probable number"
+        paragraphs.append(
+            f"Decimals {drawn}: with a third of decimals, as on the sheet, {percent(printed.rate)} are rejected."
+            + f" Two rejections are the most probable number if {needed(printed)} of seventy sets are such sheets"
             * bool(printed.refused)
             + (
-                f", or a share of decimals from {shares[0] / 10:.2f} to {shares[1] / 10:.2f} % in all seventy."
+                f", or if all seventy have a share of decimals from {shares[0] / 10:.2f} to {shares[1] / 10:.2f} %."
                 if shares
-                else "; from which share on in all seventy two are the most probable number is not to be told."
+                else "." * bool(printed.refused) + " The share of decimals in all seventy sets that would make two "
+                "rejections most probable cannot be determined."
             )
         )
-    return tuple(said)
+    return tuple(paragraphs)

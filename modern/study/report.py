@@ -17,7 +17,7 @@ from modern.study.store import Store, put
 from modern.study.summary import summary
 
 _NUMERIC = frozenset("0123456789.+-%eE to(),")
-INTERVALS = ("In brackets: exact 95 % intervals of proportions (Clopper and Pearson).",)
+INTERVALS = ("In parentheses: exact 95 % intervals of proportions (Clopper and Pearson).",)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,8 @@
-"""Whether N = 51 was ever true: how many places of the table of planes N points need.
+"""Study whether program 3 can really handle N = 51: how many entries of its plane table N points need.
 
-The construction over exact numbers tells the most places in use at once; the programs as listed, with two-digit
-coordinates, which eight digits bear, tell what 98 places come to.  ``samples`` counts the sets of each family and N.
+The construction in exact arithmetic gives the largest number of entries in use at once.  The programs as listed show
+what the 98-entry table is large enough for.  Coordinates have two digits, for which eight-digit arithmetic is
+sufficient.  ``samples`` counts the sets of each family and N.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from modern.study.statistics import Interval, exact, mean_of
 from modern.study.store import Store
 from modern.study.summary import Summary, cells, summary, values
 
-TITLE = "places in the table of planes against the number of points"
+TITLE = "entries of the plane table against the number of points"
 SAMPLES = 100
 FAMILIES = ("ball", "integers", "cube", "prism", "sphere")
 POINTS = (8, 12, 16, 20, 24, 28, 32, 36, 40, 44, 46, 48, 50, 51)
@@ -26,13 +27,14 @@ PLACES = 98
 CORE = (20_000, 40_000, 60_000)
 LISTED, EXACT = "as listed", "exact"
 _INTERVALS = (
-    "In brackets: 95 % intervals, of means by Student's t, cut at 0 places, of proportions exact (Clopper and Pearson)."
+    "In parentheses: 95 % intervals, Student's for means, truncated at 0, exact (Clopper and Pearson) for proportions. "
+    "Places: entries of the plane table in use."
 )
 _NAMES = {"integers": "cube, solid", "cube": "cube, surface"}
 
 
 def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
-    """The plan for ``samples`` sets of each family and N."""
+    """Return the plan for ``samples`` sets of each family and N."""
     routes = (Programs(LISTED), Port(EXACT, history=True, measures=("plane_table",)))
     grid = tuple(
         Cell({"sets": _NAMES.get(family, family), "n": n}, family, {"digits": 2, "n": n}, routes, samples, chunk=20)
@@ -43,28 +45,29 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
     return Plan(
         "capacity",
         TITLE[0].upper() + TITLE[1:],
-        "The thesis gives 51 as the most points for 40,000 positions, with 98 = 2N - 4 places for planes. But a vertex "
-        "taken in makes new planes before the old ones are struck: how many places are in use at once?",
+        "The thesis gives 51 as the largest number of points for 40,000 positions of core, with 98 = 2N - 4 entries in "
+        "the plane table. But a new vertex adds planes before the old planes are deleted. How many entries are in use "
+        "at once?",
         grid,
         seed,
         (
-            "Coordinates have two digits, which eight digits of arithmetic bear (study digits), so that it is the "
-            "table that limits the programs. A hull of N vertices has 2N - 4 planes where no four vertices share one; "
-            "a prism's do, and most points of a ball are inside.",
+            "Coordinates have two digits, for which eight-digit arithmetic is sufficient (study digits), so that the "
+            "plane table limits the programs. A hull of N vertices has 2N - 4 planes if no four vertices share a "
+            "plane. Those of a prism do, and most points of a ball are inside.",
         ),
     )
 
 
 @dataclass(frozen=True, slots=True)
 class _Peak:
-    """Places in use at once: the mean with its interval, and the greatest."""
+    """Entries in use at once: the mean with its interval, and the greatest number."""
 
     mean: Interval
     most: int
 
 
 def _peaks(plan: Plan, store: Store) -> dict[int, _Peak]:
-    asked = store.query(
+    measured = store.query(
         "SELECT cell, COUNT(*), AVG(places), SUM(places * places), MAX(places) FROM "
         "(SELECT cell, CAST(json_extract(figures, '$.planes_at_once') AS INTEGER) AS places FROM runs "
         "WHERE route = ? AND json_extract(figures, '$.planes_at_once') IS NOT NULL) GROUP BY cell ORDER BY cell",
@@ -72,28 +75,28 @@ def _peaks(plan: Plan, store: Store) -> dict[int, _Peak]:
     )
     return {
         cell: _Peak(mean_of(count, average, max(0.0, squares - count * average * average), least=0.0), most)
-        for cell, count, average, squares, most in asked
+        for cell, count, average, squares, most in measured
     }
 
 
 def positions(places: int) -> int:
-    """Positions of core program 3 needs with so many places for planes, the machine's own part included."""
+    """Return the positions of core of program 3 with a plane table of that many entries, including subroutines."""
     program = programs.program("program3")
     longer = sum(places - PLACES for entry in program.storage.arrays() if entry.size == PLACES)
     return OBJECT_PROGRAM + FUNCTION_NAMES + code_positions(program) + (program.storage.fields + longer) * FIELD
 
 
 def report(plan: Plan, store: Store) -> Report:
-    """Tables, charts and words."""
-    found, peaks = summary(store), _peaks(plan, store)
+    """Return the tables, charts and conclusions."""
+    counts, peaks = summary(store), _peaks(plan, store)
     return Report(
-        (_main(plan, found, peaks), _sizes(plan, found, peaks), _core(peaks)),
-        (_chart(plan, peaks), _full(plan, found)),
-        _words(plan, found, peaks),
+        (_main(plan, counts, peaks), _sizes(plan, counts, peaks), _core(peaks)),
+        (_chart(plan, peaks), _full(plan, counts)),
+        _conclusions(plan, counts, peaks),
     )
 
 
-def _main(plan: Plan, found: Summary, peaks: dict[int, _Peak]) -> Table:
+def _main(plan: Plan, counts: Summary, peaks: dict[int, _Peak]) -> Table:
     rows = []
     for name in values(plan, "sets"):
         along = _along(plan, name)
@@ -108,34 +111,34 @@ def _main(plan: Plan, found: Summary, peaks: dict[int, _Peak]) -> Table:
                 str(int(n)),
                 with_interval(peaks[last].mean, 1),
                 str(peaks[last].most),
-                percent(found.share(last, LISTED, (TABLE,))),
+                percent(counts.share(last, LISTED, (TABLE,))),
             )
         )
     head = ("sets", "more than 98 from N =", "largest N", "places there, mean", "most", "table full, as listed")
-    return Table("table", "Places in use at once, of 98", head, tuple(rows), (_INTERVALS,))
+    return Table("table", "Entries of the 98-entry plane table in use at once", head, tuple(rows), (_INTERVALS,))
 
 
-def _sizes(plan: Plan, found: Summary, peaks: dict[int, _Peak]) -> Table:
+def _sizes(plan: Plan, counts: Summary, peaks: dict[int, _Peak]) -> Table:
     rows = tuple(
         (
             str(cell.key["sets"]),
             str(cell.key["n"]),
-            str(found.of(k, LISTED)),
+            str(counts.of(k, LISTED)),
             with_interval(peaks[k].mean, 1),
             str(peaks[k].most),
-            percent(found.share(k, LISTED, (TABLE,))),
-            percent(found.share(k, LISTED)),
+            percent(counts.share(k, LISTED, (TABLE,))),
+            percent(counts.share(k, LISTED)),
         )
         for k, cell in enumerate(plan.cells)
         if k in peaks
     )
     head = ("sets", "N", "number", "places at once, mean", "most", "table full, as listed", "hull found, as listed")
-    return Table("sizes", "The same at each N", head, rows, (_INTERVALS,))
+    return Table("sizes", "Entries in use at once at each N", head, rows, (_INTERVALS,))
 
 
 def _core(peaks: dict[int, _Peak]) -> Table:
     most = max((peak.most for peak in peaks.values()), default=PLACES)
-    wanted = (("as listed", PLACES), ("most places seen", most), ("never full: 4N - 11 at N = 51", 4 * POINTS[-1] - 11))
+    sizes = (("as listed", PLACES), ("most places seen", most), ("never full: 4N - 11 at N = 51", 4 * POINTS[-1] - 11))
     rows = tuple(
         (
             name,
@@ -143,18 +146,18 @@ def _core(peaks: dict[int, _Peak]) -> Table:
             str(positions(places)),
             next((str(core) for core in CORE if positions(places) <= core), "none"),
         )
-        for name, places in wanted
+        for name, places in sizes
     )
     head = ("table", "places", "positions, about", "smallest core")
     notes = (
-        "Program 3 as listed with longer arrays; the length of its object code is an estimate "
-        "(docs/reference/machine.md).",
+        "Program 3 as listed with longer arrays. Places: entries of its plane table. The length of its object code is "
+        "an estimate (docs/reference/machine.md).",
     )
-    return Table("storage", "Positions of core for so many places", head, rows, notes)
+    return Table("storage", "Positions of core needed by program 3", head, rows, notes)
 
 
 def _along(plan: Plan, name: Value) -> list[tuple[int, float]]:
-    """The cells of a kind of set: number, and N for a chart."""
+    """Return the number and the N of each cell of a kind of set."""
     return [(k, float(cell.key["n"])) for k, cell in cells(plan, sets=name)]
 
 
@@ -162,47 +165,47 @@ def _chart(plan: Plan, peaks: dict[int, _Peak]) -> Lines:
     series = []
     for name in values(plan, "sets"):
         points = [(n, peaks[k]) for k, n in _along(plan, name) if k in peaks]
-        # From the mean up to the greatest: a table must hold the greatest.
+        # The bar extends from the mean to the greatest number, for which a table must be large enough.
         series.append(Series(str(name), tuple((n, Interval(p.mean.value, p.mean.value, p.most)) for n, p in points)))
     return Lines(
         "places",
-        "Places in use at once in the table of planes",
+        "Entries of the plane table in use at once",
         "points N",
-        "places",
+        "entries",
         tuple(series),
-        marks=(Mark(PLACES, "98 places, as listed"),),
-        note=f"{plan.cells[0].samples} sets at each point; marks: means, bars: up to the most seen",
+        marks=(Mark(PLACES, "98 entries, as listed"),),
+        note=f"{plan.cells[0].samples} sets at each point; markers: means; bars: up to the greatest number observed",
     )
 
 
-def _full(plan: Plan, found: Summary) -> Lines:
+def _full(plan: Plan, counts: Summary) -> Lines:
     series = tuple(
-        Series(str(name), tuple((n, found.share(k, LISTED, (TABLE,))) for k, n in _along(plan, name)))
+        Series(str(name), tuple((n, counts.share(k, LISTED, (TABLE,))) for k, n in _along(plan, name)))
         for name in values(plan, "sets")
     )
     return Lines(
         "full",
-        "Sets for which the table of planes as listed is too short",
+        "Sets for which the plane table as listed is too short",
         "points N",
-        "table full, of all sets",
+        "share of sets with a full table",
         series,
         percent=True,
         note=f"{plan.cells[0].samples} sets at each point; bars: exact 95 % intervals",
     )
 
 
-def _words(plan: Plan, found: Summary, peaks: dict[int, _Peak]) -> tuple[str, ...]:
+def _conclusions(plan: Plan, counts: Summary, peaks: dict[int, _Peak]) -> tuple[str, ...]:
     tried = [(int(cell.key["n"]), peaks[k].most) for k, cell in enumerate(plan.cells) if k in peaks]
-    bears = max((n for n, _ in tried if all(most <= PLACES for m, most in tried if m <= n)), default=0)
+    sufficient = max((n for n, _ in tried if all(most <= PLACES for m, most in tried if m <= n)), default=0)
     most = max((peak.most for peak in peaks.values()), default=0)
-    words = [
-        f"Most places seen in use at once: {most}; the table as listed holds {PLACES}. Largest N tried at which, as at "
-        f"every smaller one, no set needed more than {PLACES}: {bears or 'none'}."
+    conclusions = [
+        f"Largest number of entries in use at once: {most}. The table as listed has {PLACES} entries. Largest N up to "
+        f"which no set needed more than {PLACES}: {sufficient or 'none'}."
     ]
-    if bears:
-        number = sum(found.of(k, LISTED) for k, cell in enumerate(plan.cells) if cell.key["n"] == bears)
-        words.append(
-            f"Sets tried at that N: {number}. With none above {PLACES}, up to {100 * exact(0, number).high:.2f} % of "
-            "such sets could need more (95 %, exact)."
+    if sufficient:
+        number = sum(counts.of(k, LISTED) for k, cell in enumerate(plan.cells) if cell.key["n"] == sufficient)
+        conclusions.append(
+            f"Sets tried at that N: {number}. As none of them needed more than {PLACES}, up to "
+            f"{100 * exact(0, number).high:.2f} % of such sets could need more (exact 95 % interval)."
         )
-    return tuple(words)
+    return tuple(conclusions)

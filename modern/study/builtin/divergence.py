@@ -1,10 +1,9 @@
-"""Where eight digits first decide otherwise than exact numbers, statement by statement.
+"""Study the first branch on which eight-digit and exact arithmetic disagree.
 
-Each set goes through the programs as listed; then every program runs again over exact numbers in step with that run,
-on the same cards, up to the first IF, computed GO TO or end of a DO that goes two ways
-(emulator/machine/divergence.py).
-Between two programs the planes on the cards, cut to eight digits, may already miss the points they go through.
-``samples`` counts the sets of each family.
+Each set goes through the programs as listed.  Then every program runs again in exact arithmetic on the same cards, in
+step with the first run, up to the first IF, computed GO TO or end of a DO at which the two runs diverge
+(emulator/machine/divergence.py).  The planes on the cards between two programs, truncated to eight digits, may already
+miss their own points.  ``samples`` counts the sets of each family.
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ from modern.study.report import INTERVALS, Bars, Report, Series, Table, listed, 
 from modern.study.statistics import exact
 from modern.study.store import Store
 
-TITLE = "the statement that first decides otherwise than exact numbers"
+TITLE = "the first statement at which eight-digit and exact arithmetic disagree"
 SAMPLES = 600
 POINTS = 10
 ROUTE = "as listed"
@@ -33,7 +32,7 @@ _BARS = 6
 
 
 def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
-    """The plan for ``samples`` sets of each family."""
+    """Return the plan for ``samples`` sets of each family."""
     route = Programs(ROUTE, measures=("divergence",), limit=200_000)
     cells = tuple(
         Cell({"sets": name}, family, parameters, (route,), samples, chunk=20) for name, family, parameters in FAMILIES
@@ -41,130 +40,133 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
     return Plan(
         "divergence",
         TITLE[0].upper() + TITLE[1:],
-        "Which statement of the programs is the first that eight digits mislead, and does it matter?",
+        "At which statement of the programs does eight-digit arithmetic first decide differently from exact "
+        "arithmetic, and does it matter?",
         cells,
         seed,
         (
-            "Exact numbers run on the cards each program reads, so program 2 or 3 starts from the same cards of eight "
-            "digits in both arithmetics. Where a plane on them misses its own points, that is counted as such.",
-            f"Sets have {POINTS} points but for the thesis's kind, which has its own numbers of points.",
+            "Both arithmetics read the same cards, so program 2 or 3 starts from the same eight-digit numbers in both. "
+            "If a plane on the cards misses its own points, that is counted separately.",
+            f"Sets have {POINTS} points, except those of the thesis's kind, whose numbers of points vary.",
         ),
     )
 
 
 @dataclass(frozen=True, slots=True)
-class _Place:
-    """A statement that was first to decide otherwise, by cell, with how its sets ended."""
+class _Divergences:
+    """Counts of sets by cell and first statement that decided differently, and of those with the right hull."""
 
     counts: Counter[tuple[int, str]]
-    found: Counter[tuple[int, str]]
+    right: Counter[tuple[int, str]]
     undecided: int
 
     def total(self, place: str) -> int:
         return sum(n for (_, name), n in self.counts.items() if name == place)
 
-    def ended_well(self, place: str) -> int:
-        return sum(n for (_, name), n in self.found.items() if name == place)
+    def with_hull(self, place: str) -> int:
+        return sum(n for (_, name), n in self.right.items() if name == place)
 
     def of(self, cell: int) -> int:
         return sum(n for (number, _), n in self.counts.items() if number == cell)
 
     @property
     def places(self) -> tuple[str, ...]:
-        """Statements, the most frequent first; of equals by name."""
+        """Return the statements, the most frequent first, equally frequent ones by name."""
         names = {name for _, name in self.counts if name != NOWHERE}
         return tuple(sorted(names, key=lambda name: (-self.total(name), name)))
 
 
-def _places(store: Store) -> _Place:
+def _divergences(store: Store) -> _Divergences:
     counts: Counter[tuple[int, str]] = Counter()
-    found: Counter[tuple[int, str]] = Counter()
+    right: Counter[tuple[int, str]] = Counter()
     undecided = 0
-    asked = store.query(
+    counted = store.query(
         "SELECT cell, outcome, json_extract(figures, '$.diverges'), json_extract(figures, '$.undecided'), COUNT(*) "
         "FROM runs GROUP BY 1, 2, 3, 4 ORDER BY 1, 2, 3, 4"
     )
-    for cell, outcome, place, why, n in asked:
+    for cell, outcome, place, why_undecided, n in counted:
         key = (cell, place or NOWHERE)
         counts[key] += n
-        undecided += n if why else 0
+        undecided += n if why_undecided else 0
         if outcome in DETERMINED:
-            found[key] += n
-    return _Place(counts, found, undecided)
+            right[key] += n
+    return _Divergences(counts, right, undecided)
 
 
 def report(plan: Plan, store: Store) -> Report:
-    """Tables, chart and words."""
-    seen = _places(store)
-    return Report((_main(seen), _by_family(plan, seen)), (_chart(plan, seen),), _words(plan, seen))
+    """Return the tables, the chart and the conclusions."""
+    counts = _divergences(store)
+    return Report((_main(counts), _by_family(plan, counts)), (_chart(plan, counts),), _conclusions(plan, counts))
 
 
-def _main(seen: _Place) -> Table:
-    everything = sum(seen.counts.values())
+def _main(counts: _Divergences) -> Table:
+    everything = sum(counts.counts.values())
     rows = tuple(
         (
             name,
-            str(seen.total(name)),
-            percent(exact(seen.total(name), everything)),
-            str(seen.ended_well(name)),
-            percent(exact(seen.ended_well(name), seen.total(name))),
+            str(counts.total(name)),
+            percent(exact(counts.total(name), everything)),
+            str(counts.with_hull(name)),
+            percent(exact(counts.with_hull(name), counts.total(name))),
         )
-        for name in (*seen.places, NOWHERE)
-        if seen.total(name)
+        for name in (*counts.places, NOWHERE)
+        if counts.total(name)
     )
     head = ("first other decision", "sets", "of all sets", "hull found all the same", "of these sets")
     notes = (
         *INTERVALS,
-        "Statements by number: 196+2 is the second after statement 196. Cards: a plane on the cards program 1 "
-        "punched, of eight digits, misses its own points. Families count alike.",
+        "Statements are named by number: 196+2 is the second after statement 196. Cards: a plane that program 1 "
+        "punched with eight digits misses its own points. All families have the same number of sets.",
     )
-    return Table("table", "The statement that first decides otherwise", head, rows, notes)
+    return Table("table", "The first statement that decides differently", head, rows, notes)
 
 
-def _by_family(plan: Plan, seen: _Place) -> Table:
-    names = (*seen.places, NOWHERE)
+def _by_family(plan: Plan, counts: _Divergences) -> Table:
+    names = (*counts.places, NOWHERE)
     rows = tuple(
-        (str(cell.key["sets"]), str(seen.of(number)), *(str(seen.counts[number, name]) for name in names))
+        (str(cell.key["sets"]), str(counts.of(number)), *(str(counts.counts[number, name]) for name in names))
         for number, cell in enumerate(plan.cells)
     )
-    return Table("families", "The same by family", ("sets", "number", *names), rows)
+    return Table(
+        "families", "The first statement that decides differently, by family", ("sets", "number", *names), rows
+    )
 
 
-def _chart(plan: Plan, seen: _Place) -> Bars:
-    shown = (NOWHERE, *seen.places[: _BARS - 1])
+def _chart(plan: Plan, counts: _Divergences) -> Bars:
+    shown = (NOWHERE, *counts.places[: _BARS - 1])
     series = tuple(
         Series(
             name,
             tuple(
-                (str(cell.key["sets"]), exact(seen.counts[number, name], seen.of(number)))
+                (str(cell.key["sets"]), exact(counts.counts[number, name], counts.of(number)))
                 for number, cell in enumerate(plan.cells)
             ),
         )
         for name in shown
     )
-    rest = len(seen.places) - (len(shown) - 1)
-    more = f"; {rest} rarer statement{'s' * (rest > 1)} not shown" if rest > 0 else ""
+    rest = len(counts.places) - (len(shown) - 1)
+    more = f"; {rest} rarer statement{'s' * (rest > 1)} omitted" if rest > 0 else ""
     return Bars(
         "first",
-        "Where eight digits first decide otherwise than exact numbers",
+        "The first statement at which eight-digit and exact arithmetic disagree",
         "",
         "share of the family's sets",
         series,
         percent=True,
-        note=f"{seen.of(0)} sets of each family{more}; bars: exact 95 % intervals",
+        note=f"{counts.of(0)} sets of each family{more}; bars: exact 95 % intervals",
     )
 
 
-def _words(plan: Plan, seen: _Place) -> tuple[str, ...]:
-    everything, same = sum(seen.counts.values()), seen.total(NOWHERE)
-    never = [str(cell.key["sets"]) for k, cell in enumerate(plan.cells) if seen.counts[k, NOWHERE] == seen.of(k)]
-    saved = sum(seen.ended_well(name) for name in seen.places)
-    lost = same - seen.ended_well(NOWHERE)
+def _conclusions(plan: Plan, counts: _Divergences) -> tuple[str, ...]:
+    everything, same = sum(counts.counts.values()), counts.total(NOWHERE)
+    never = [str(cell.key["sets"]) for k, cell in enumerate(plan.cells) if counts.counts[k, NOWHERE] == counts.of(k)]
+    saved = sum(counts.with_hull(name) for name in counts.places)
+    lost = same - counts.with_hull(NOWHERE)
     return (
-        f"Sets that go through every decision as exact numbers would: {share_of(same, everything)}. Families of which "
-        f"every set does: {listed(never)}.",
-        f"Of the other sets, those that still end in the right hull: {share_of(saved, everything - same)}. Of the sets "
-        "that follow exact numbers throughout, those that fail, by the programs' own faults: "
+        f"Sets for which all decisions agree with exact arithmetic: {share_of(same, everything)}. Families in which "
+        f"all sets do: {listed(never)}.",
+        f"Other sets that still give the right hull: {share_of(saved, everything - same)}. Sets for which all "
+        "decisions agree but which fail because of faults of the programs: "
         f"{share_of(lost, same)}.",
-        f"Runs that exact numbers could not follow to a decision that differs: {seen.undecided}.",
+        f"Runs that exact arithmetic could not follow as far as a different decision: {counts.undecided}.",
     )

@@ -1,8 +1,8 @@
-"""Chapter 7's e: which e makes sets acceptable, which makes hulls wrong, and whether one e does for all.
+"""Study chapter 7's e: which e makes sets acceptable, which makes hulls wrong, and whether one e works for all sets.
 
-The thesis (p. 117-118) would count a value from -e to +e as zero, and fears that a point is then taken to be on a
-plane when it is not, so that a vertex is not recognized.  The programs with the layers ``epsilon`` and ``corrected``
-take e as it is; the port takes it so too, and scaled to each equation.  ``samples`` counts the sets of a cell.
+The thesis (p. 117-118) proposes to count a value from -e to +e as zero, and warns that a point off a plane may then
+count as on it, so that a vertex is not recognized.  The programs with the layers ``epsilon`` and ``corrected`` use an
+absolute e.  The port uses an absolute e too, and an e scaled to each equation.  ``samples`` counts the sets of a cell.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from modern.study.statistics import Interval, exact
 from modern.study.store import Store
 from modern.study.summary import Summary, summary
 
-TITLE = "chapter 7's e: acceptance, wrong hulls, vertices swallowed, by size of e"
+TITLE = "chapter 7's e: accepted sets, wrong hulls and lost vertices, by size of e"
 SAMPLES = 200
 POINTS = 10
 ABSOLUTE = tuple(range(-3, 10))
@@ -37,24 +37,24 @@ SETS: Mapping[str, tuple[str, Mapping[str, int]]] = {
 }
 _CHARTED = ("integers of 1 digit", "integers of 2 digits", "integers of 3 digits", "integers of 4 digits", "gap of .01")
 SWALLOWED = ("vertex missed", "dimension wrong")
-"""The details of a swallowed vertex: a hull without one of its vertices, or a body taken for flat or for a line."""
+"""The details of a swallowed vertex: a hull lacks one of its vertices, or a body counts as flat or as a line."""
 
 Name = Callable[[int], str]
 _MARKS = ", ".join("?" * len(DETERMINED))
 
 
 def taken(power: int) -> str:
-    """The route through the programs with e = 10**power."""
+    """Return the name of the route through the programs with e = 10**power."""
     return f"e = 10^{power}"
 
 
 def ported(power: int) -> str:
-    """The same e in the port."""
+    """Return the name of the route through the port with the same e."""
     return f"port, e = 10^{power}"
 
 
 def scaled(power: int) -> str:
-    """The port with e = 10**power times the equation's largest coefficient A, B or C."""
+    """Return the name of the route through the port with e = 10**power times the largest coefficient A, B or C."""
     return f"scaled e = 10^{power}"
 
 
@@ -62,7 +62,7 @@ _WAYS: tuple[tuple[str, Name, tuple[int, ...]], ...] = (("as it is", taken, ABSO
 
 
 def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
-    """The plan for ``samples`` sets of each kind."""
+    """Return the plan for ``samples`` sets of each kind."""
     routes: tuple[Route, ...] = (
         _programs(WITHOUT, "0"),
         *(_programs(taken(k), f"1E{k}") for k in ABSOLUTE),
@@ -72,20 +72,20 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
     return Plan(
         "epsilon",
         TITLE[0].upper() + TITLE[1:],
-        "Chapter 7 would count values from -e to +e as zero, with e small enough. Which e makes sets acceptable, which "
-        "makes hulls wrong, does any do for all sets, and where does a true vertex begin to be swallowed?",
+        "Chapter 7 proposes to count values from -e to +e as zero, with e small enough. Which e makes sets acceptable, "
+        "which makes hulls wrong, does one work for all sets, and from which e on is a true vertex lost (swallowed)?",
         tuple(
             Cell({"sets": name}, family, {**parameters, "n": POINTS}, routes, samples, chunk=5)
             for name, (family, parameters) in SETS.items()
         ),
         seed,
         (
-            "A value of an equation grows with the cube of the coordinates: of whole numbers of 4 digits it reaches "
-            "10^13, and of eight digits that are kept the error is some 10^5. So e goes from 10^-3 to 10^9.",
+            "A value of an equation grows with the cube of the coordinates. For integers of 4 digits it reaches 10^13, "
+            "and its error in eight-digit arithmetic is about 10^5. So e ranges from 10^-3 to 10^9.",
             "A scaled e is a distance: a point within e (times at most the square root of 3) of a plane counts as on "
-            "it. It goes from 10^-7 to 10^1, where coordinates are of 1 to 4 digits.",
-            "Sets called by a gap are points of a plane, whole numbers of 2 digits, some lifted or lowered by the gap: "
-            "of them a true vertex stands nearest to a plane it is not on.",
+            "it. It ranges from 10^-7 to 10^1, for coordinates of 1 to 4 digits.",
+            "Sets named after a gap are points of a plane, integers of 2 digits, some of them raised or lowered by the "
+            "gap. In these sets a true vertex is nearest to a plane that it is not on.",
             f"All sets have {POINTS} points and go through every e.",
         ),
     )
@@ -97,23 +97,23 @@ def _programs(name: str, epsilon: str) -> Programs:
 
 @dataclass(frozen=True, slots=True)
 class _Rows:
-    """The rows counted: outcomes, and swallowed vertices by cell and route."""
+    """Counts of the rows: outcomes, and sets with a swallowed vertex by cell and route."""
 
-    found: Summary
+    counts: Summary
     swallowed: Mapping[tuple[int, str], int]
 
     def swallows(self, cell: int, route: str) -> Interval:
-        """The share of sets of which a vertex was swallowed."""
-        return exact(self.swallowed.get((cell, route), 0), self.found.of(cell, route))
+        """Return the share of sets with a swallowed vertex."""
+        return exact(self.swallowed.get((cell, route), 0), self.counts.of(cell, route))
 
     def clean(self, cell: int, name: Name, tried: tuple[int, ...]) -> list[int]:
-        """The powers at which no set failed."""
-        return [k for k in tried if not self.found.failed(cell, name(k))]
+        """Return the powers at which no set failed."""
+        return [k for k in tried if not self.counts.failed(cell, name(k))]
 
     def begins(self, cell: int, name: Name, tried: tuple[int, ...]) -> int | None:
-        """The least power from which on every greater one swallowed a vertex of some set; None where not even the last.
+        """Return the least power from which on every power swallows a vertex of some set; None if the last does not.
 
-        A vertex missed at a small e, before others at which none is, is the arithmetic's fault and not e's.
+        A vertex missed only at a smaller e is missed because of the arithmetic and not because of e.
         """
         least = None
         for k in reversed(tried):
@@ -124,7 +124,7 @@ class _Rows:
 
 
 def report(plan: Plan, store: Store) -> Report:
-    """Tables, charts and words."""
+    """Return the tables, charts and conclusions."""
     swallowed: dict[tuple[int, str], int] = {}
     for (cell, route, _, detail), n in store.counts("cell", "route", "outcome", "detail").items():
         if detail in SWALLOWED:
@@ -133,24 +133,24 @@ def report(plan: Plan, store: Store) -> Report:
     return Report(
         (
             _main(plan, rows),
-            _each(plan, rows, "absolute", "The programs with e as it is", (WITHOUT, *map(taken, ABSOLUTE))),
+            _each(plan, rows, "absolute", "The programs with an absolute e", (WITHOUT, *map(taken, ABSOLUTE))),
             _each(plan, rows, "scaled", "The port with e scaled to the equation", tuple(map(scaled, SCALED))),
             _best(plan, rows),
             _price(plan, rows, store),
         ),
         (
-            _chart(plan, rows, "found", "Sets whose hull is found, with e as it is", taken, ABSOLUTE),
+            _chart(plan, rows, "found", "Sets whose hull is found, with an absolute e", taken, ABSOLUTE),
             _chart(plan, rows, "scaled", "Sets whose hull is found, with e scaled to the equation", scaled, SCALED),
-            _chart(plan, rows, "swallowed", "Sets of which e swallows a vertex", taken, ABSOLUTE, swallows=True),
+            _chart(plan, rows, "swallowed", "Sets with a vertex swallowed by e", taken, ABSOLUTE, swallows=True),
         ),
-        _words(plan, rows, store),
+        _conclusions(plan, rows, store),
     )
 
 
 def _main(plan: Plan, rows: _Rows) -> Table:
     lines = []
     for number, cell in enumerate(plan.cells):
-        texts = [str(cell.key["sets"]), str(cell.samples), percent(rows.found.share(number, WITHOUT))]
+        texts = [str(cell.key["sets"]), str(cell.samples), percent(rows.counts.share(number, WITHOUT))]
         for _, name, tried in _WAYS:
             begins = rows.begins(number, name, tried)
             texts += [powers(rows.clean(number, name, tried)), "-" if begins is None else f"10^{begins}"]
@@ -166,10 +166,10 @@ def _main(plan: Plan, rows: _Rows) -> Table:
     )
     notes = (
         *INTERVALS,
-        "Swallows from: the least e from which on every greater one tried lost a true vertex of some set, or took a "
-        "body for flat.",
+        "Swallows from: the least e from which on every e tried lost a true vertex of some set, or counted a body as "
+        "flat.",
     )
-    return Table("table", "Which e does", head, tuple(lines), notes)
+    return Table("table", "Which e works", head, tuple(lines), notes)
 
 
 def _each(plan: Plan, rows: _Rows, name: str, title: str, routes: tuple[str, ...]) -> Table:
@@ -177,13 +177,13 @@ def _each(plan: Plan, rows: _Rows, name: str, title: str, routes: tuple[str, ...
         (
             str(cell.key["sets"]),
             route,
-            str(rows.found.of(number, route)),
-            str(rows.found.hits(number, route)),
-            str(rows.found.hits(number, route, (WRONG,))),
+            str(rows.counts.of(number, route)),
+            str(rows.counts.hits(number, route)),
+            str(rows.counts.hits(number, route, (WRONG,))),
             str(rows.swallowed.get((number, route), 0)),
-            str(rows.found.failed(number, route) - rows.found.hits(number, route, (WRONG,))),
-            percent(rows.found.share(number, route)),
-            percent(rows.found.share(number, route, (WRONG,))),
+            str(rows.counts.failed(number, route) - rows.counts.hits(number, route, (WRONG,))),
+            percent(rows.counts.share(number, route)),
+            percent(rows.counts.share(number, route, (WRONG,))),
         )
         for number, cell in enumerate(plan.cells)
         for route in routes
@@ -196,12 +196,12 @@ def _each(plan: Plan, rows: _Rows, name: str, title: str, routes: tuple[str, ...
 def _chart(
     plan: Plan, rows: _Rows, file: str, title: str, name: Name, tried: tuple[int, ...], swallows: bool = False
 ) -> Lines:
-    shares = rows.swallows if swallows else rows.found.share
+    shares = rows.swallows if swallows else rows.counts.share
     return Lines(
         file,
         title,
         "e",
-        "vertex swallowed, of all sets" if swallows else "hull found, of all sets",
+        "share of sets with a swallowed vertex" if swallows else "share of sets whose hull is found",
         tuple(
             Series(str(cell.key["sets"]), tuple((float(k), shares(number, name(k))) for k in tried))
             for number, cell in enumerate(plan.cells)
@@ -214,17 +214,17 @@ def _chart(
 
 
 def _best(plan: Plan, rows: _Rows) -> Table:
-    """Whether one e does for all sets; and if none, which does best, and for which kinds."""
+    """Return the table that shows whether one e works for all sets, which is best, and for which kinds."""
     of = sum(cell.samples for cell in plan.cells)
     lines = []
     for how, name, tried in _WAYS:
         clean = [rows.clean(number, name, tried) for number in range(len(plan.cells))]
-        hits = {k: sum(rows.found.hits(number, name(k)) for number in range(len(plan.cells))) for k in tried}
+        hits = {k: sum(rows.counts.hits(number, name(k)) for number in range(len(plan.cells))) for k in tried}
         best = max(tried, key=lambda k: hits[k])
         lines.append(
             (
                 how,
-                powers(k for k in tried if all(k in one for one in clean)),
+                powers(k for k in tried if all(k in powers_of_kind for powers_of_kind in clean)),
                 f"10^{best}",
                 percent(exact(hits[best], of)),
                 listed(cell.key["sets"] for number, cell in enumerate(plan.cells) if best not in clean[number]),
@@ -237,37 +237,39 @@ def _best(plan: Plan, rows: _Rows) -> Table:
 
 def _price(plan: Plan, rows: _Rows, store: Store) -> Table:
     lines = []
-    for words, below in (("smaller", True), ("greater", False)):
-        wrong, of = _wrong_beside(plan, rows, store, below)
-        lines.append((words, str(of), str(wrong), percent(exact(wrong, of)) if of else "-"))
+    for comparison, below in (("smaller", True), ("greater", False)):
+        wrong, of = _wrong_outside(plan, rows, store, below)
+        lines.append((comparison, str(of), str(wrong), percent(exact(wrong, of)) if of else "-"))
     notes = (
         *INTERVALS,
-        "Smaller, greater: than those at which no set of the kind failed; a set counts once, whatever the e.",
+        "Smaller, greater: compared with the values of e at which no set of the kind failed. A set counts once.",
     )
     head = ("e, as it is", "sets", "wrong hull", "of these sets")
-    return Table("price", "Wrong hulls that look right, with an e too small or too great", head, tuple(lines), notes)
+    return Table(
+        "price", "Plausible but wrong hulls, with an e that is too small or too great", head, tuple(lines), notes
+    )
 
 
-def _words(plan: Plan, rows: _Rows, store: Store) -> tuple[str, ...]:
+def _conclusions(plan: Plan, rows: _Rows, store: Store) -> tuple[str, ...]:
     saved = [
         listed(
             cell.key["sets"]
             for number, cell in enumerate(plan.cells)
-            if rows.found.failed(number, WITHOUT) and rows.clean(number, name, tried)
+            if rows.counts.failed(number, WITHOUT) and rows.clean(number, name, tried)
         )
         for _, name, tried in _WAYS
     ]
     lost = [cell.key["sets"] for number, cell in enumerate(plan.cells) if rows.swallowed.get((number, WITHOUT), 0)]
     same, of = _same_as_port(store)
     return (
-        f"Kinds of which sets fail without e and some e saves every set: taken as it is: {saved[0]}; scaled: "
-        f"{saved[1]}. Kinds of which a vertex is lost at e = 0 too: {listed(lost)}.",
-        f"Runs in which the port with the same e ends as the programs do: {same:,} of {of:,}.",
+        f"Kinds with sets that fail without e, but none at some absolute e: {saved[0]}. The same with a scaled e: "
+        f"{saved[1]}. Kinds that lose a vertex even at e = 0: {listed(lost)}.",
+        f"Runs in which the port with the same e gives the outcome of the programs: {same:,} of {of:,}.",
     )
 
 
 def _same_as_port(store: Store) -> tuple[int, int]:
-    """In how many runs, and of how many, programs and port with the same e end alike; found is found in any order."""
+    """Return in how many runs programs and port with the same e agree, and of how many; the order may differ."""
     same = of = 0
     for k in ABSOLUTE:
         alike, runs = next(
@@ -281,8 +283,8 @@ def _same_as_port(store: Store) -> tuple[int, int]:
     return same, of
 
 
-def _wrong_beside(plan: Plan, rows: _Rows, store: Store, below: bool) -> tuple[int, int]:
-    """How many sets of how many got a wrong hull at an e below, or above, those at which none of their kind failed."""
+def _wrong_outside(plan: Plan, rows: _Rows, store: Store, below: bool) -> tuple[int, int]:
+    """Return the number of sets with a wrong hull at an e below (or above) those without failures, and the total."""
     wrong = of = 0
     for number, cell in enumerate(plan.cells):
         clean = rows.clean(number, taken, ABSOLUTE)
@@ -290,10 +292,10 @@ def _wrong_beside(plan: Plan, rows: _Rows, store: Store, below: bool) -> tuple[i
             continue
         tried = [taken(k) for k in ABSOLUTE if (k < clean[0] if below else k > clean[-1])]
         if tried:
-            asked = store.query(
+            distinct = store.query(
                 "SELECT COUNT(DISTINCT place) FROM runs WHERE cell = ? AND outcome = ? "
                 f"AND route IN ({', '.join('?' * len(tried))})",
                 (number, WRONG, *tried),
             )
-            wrong, of = wrong + next(asked)[0], of + cell.samples
+            wrong, of = wrong + next(distinct)[0], of + cell.samples
     return wrong, of

@@ -1,7 +1,8 @@
-"""Hours on the 1620: reader, punch, typewriter and processor against the number of points.
+"""Study the time on a 1620, for reader, punch, typewriter and processor, against the number of points.
 
-The corrected programs, which lose no set to the listing's faults; the times of emulator/machine/timing.py, which were
-measured and in part estimated (docs/reference/machine.md).  ``samples`` counts the sets of each family and N.
+The corrected programs are used, so that no set fails because of faults of the listing.  The times come from
+emulator/machine/timing.py; they were measured and in part estimated (docs/reference/machine.md).  ``samples`` counts
+the sets of each family and N.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ _HOUR, _MINUTE = 3600, 60
 
 
 def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
-    """The plan for ``samples`` sets of each family and N."""
+    """Return the plan for ``samples`` sets of each family and N."""
     route = Programs(ROUTE, layers=("corrected",), core=60_000, measures=("machine_time", "operations"))
     grid = tuple(
         Cell({"sets": _NAMES.get(family, family), "n": n}, family, {"digits": 2, "n": n}, (route,), samples, chunk=20)
@@ -40,17 +41,17 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
         grid,
         seed,
         (
-            "Coordinates have two digits, which eight digits bear; only runs that give the hull are timed. The layer "
-            "corrected is used so that the listing's faults lose no set; its cards change the time little.",
-            "Programs are in core: loading the program decks and the operator's hands are not counted. Reader and "
-            "punch are buffered and may run beside the processor, so that the sum is the most a run takes.",
+            "Coordinates have two digits, for which eight-digit arithmetic is sufficient. Only runs that give the hull "
+            "are timed. The layer corrected removes faults of the listing; its cards change the time little.",
+            "The programs are in core: loading them and the work of the operator are not counted. Reader and punch are "
+            "buffered and may run at the same time as the processor, so the sum is an upper bound for a run.",
         ),
     )
 
 
 @dataclass(frozen=True, slots=True)
 class _Time:
-    """A cell's times in seconds, by part and in all; ``sets`` is how many were timed, ``longest`` the longest run."""
+    """The times of a cell in seconds, by part and in total, the number of sets timed, and the longest run."""
 
     sets: int
     parts: dict[str, Interval]
@@ -64,28 +65,28 @@ def _times(store: Store) -> dict[int, _Time]:
     sums = [*figures, " + ".join(figures)]
     moments = ", ".join(f"AVG({s}), SUM(({s}) * ({s}))" for s in sums)
     counted = " + ".join(f"json_extract(figures, '$.{name}')" for name in ("additions", "products", "quotients"))
-    asked = store.query(
+    timed = store.query(
         f"SELECT cell, COUNT(*), MAX({sums[-1]}), AVG({counted}), {moments} FROM runs "
         f"WHERE outcome IN ({', '.join('?' * len(DETERMINED))}) GROUP BY cell ORDER BY cell",
         DETERMINED,
     )
-    found = {}
-    for cell, count, longest, operations, *numbers in asked:
+    times = {}
+    for cell, count, longest, operations, *numbers in timed:
         pairs = zip(numbers[::2], numbers[1::2], strict=True)
         means = [
             mean_of(count, average, max(0.0, squares - count * average**2), least=0.0) for average, squares in pairs
         ]
-        found[cell] = _Time(count, dict(zip(PARTS, means, strict=False)), means[-1], longest, operations)
-    return found
+        times[cell] = _Time(count, dict(zip(PARTS, means, strict=False)), means[-1], longest, operations)
+    return times
 
 
 def report(plan: Plan, store: Store) -> Report:
-    """Tables, charts and words."""
+    """Return the tables, charts and conclusions."""
     times = _times(store)
     return Report(
         (_main(plan, times), _sizes(plan, times)),
         (_chart(plan, times), _parts(plan, times)),
-        _words(plan, times),
+        _conclusions(plan, times),
     )
 
 
@@ -94,7 +95,7 @@ def _in_minutes(seconds: Interval) -> Interval:
 
 
 def _along(plan: Plan, times: dict[int, _Time], name: Value) -> list[tuple[float, _Time]]:
-    """N and the times of a kind of set, where any was timed."""
+    """Return N and the times for a kind of set, without the N for which no set was timed."""
     return [(float(cell.key["n"]), times[k]) for k, cell in cells(plan, sets=name) if k in times]
 
 
@@ -115,9 +116,9 @@ def _row(name: Value, n: float, time: _Time) -> tuple[str, ...]:
 
 _HEAD = ("sets", "N", "timed", "minutes", "longest", *PARTS, "operations", "ms an operation")
 _NOTES = (
-    "In brackets: 95 % intervals of the mean by Student's t, cut at 0 minutes. Processor, reader, punch and "
+    "In parentheses: Student's 95 % intervals of the mean, truncated at 0 minutes. Processor, reader, punch and "
     "typewriter: mean minutes.",
-    "Operations: floating-point additions, products and quotients; the last column is the processor's time for one.",
+    "Operations: floating-point additions, products and quotients. The last column is the processor time of one.",
 )
 
 
@@ -145,7 +146,7 @@ def _chart(plan: Plan, times: dict[int, _Time]) -> Lines:
         log_x=True,
         log_y=True,
         marks=(Mark(60, "one hour"),),
-        note=f"{plan.cells[0].samples} sets at each point; bars: 95 % intervals of the mean (Student)",
+        note=f"{plan.cells[0].samples} sets at each point; bars: 95 % intervals of the mean (Student's)",
     )
 
 
@@ -155,20 +156,20 @@ def _parts(plan: Plan, times: dict[int, _Time]) -> Lines:
     series = tuple(Series(part, tuple((n, _in_minutes(time.parts[part])) for n, time in along)) for part in PARTS)
     return Lines(
         "parts",
-        f"What the machine does meanwhile: sets on a {name}",
+        f"Time of each part of the machine: sets on a {name}",
         "points N",
         "minutes",
         series if along else (),
         log_x=True,
         log_y=True,
-        note=f"{plan.cells[0].samples} sets at each point; bars: 95 % intervals of the mean (Student)",
+        note=f"{plan.cells[0].samples} sets at each point; bars: 95 % intervals of the mean (Student's)",
     )
 
 
-def _words(plan: Plan, times: dict[int, _Time]) -> tuple[str, ...]:
+def _conclusions(plan: Plan, times: dict[int, _Time]) -> tuple[str, ...]:
     timed = [entry for name in values(plan, "sets") for entry in _along(plan, times, name)]
     if not timed:
-        return ("No set was determined, so nothing was timed.",)
+        return ("No run gave a hull, so nothing was timed.",)
     shares = []
     for number in (POINTS[1], max(n for n, _ in timed)):
         there = [time for n, time in timed if n == number]
@@ -176,5 +177,5 @@ def _words(plan: Plan, times: dict[int, _Time]) -> tuple[str, ...]:
             share = sum(t.parts["processor"].value for t in there) / sum(t.total.value for t in there)
             shares.append(f"{100 * share:.0f} % at N = {number:.0f}")
     return (
-        f"The processor's part of the time, over all kinds of sets: {listed(shares)}; the rest is cards and typing.",
+        f"Share of the processor in the time, over all kinds of sets: {listed(shares)}. The rest is cards and typing.",
     )

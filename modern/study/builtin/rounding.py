@@ -1,8 +1,9 @@
-"""What each way of rounding buys: truncation, IBM's rounded product, a guard digit, rounding everywhere, floats.
+"""Study the benefit of different roundings: truncation, IBM's rounded product, a guard digit, rounding, binary floats.
 
-Two tests are tried.  With the exact one, the thesis's, the three points of a plane must give zero in its equation;
-decimal ways go through the programs with the layer ``corrected``, binary ones through the port.  With chapter 7's
-interval (thesis p. 117), scaled to the equation, all go through the port.  ``samples`` counts the sets of a cell.
+Two tests are compared.  The exact test of the thesis requires that the three points of a plane give zero in its
+equation.  With it, decimal arithmetics run in the programs with the layer ``corrected`` and binary ones in the port.
+With the interval of chapter 7 (thesis p. 117), scaled to the equation, all run in the port.  ``samples`` counts the
+sets of a cell.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from modern.study.statistics import exact
 from modern.study.store import Store
 from modern.study.summary import Summary, cells, summary
 
-TITLE = "what ways of rounding buy: truncation, rounded products, a guard digit, floats"
+TITLE = "the benefit of rounding: truncation, rounded products, a guard digit, floats"
 SAMPLES = 300
 POINTS = 10
 TRUNCATING = "truncating"
@@ -31,7 +32,7 @@ BINARY = ("float32", "float64")
 WAYS = (*DECIMAL, *BINARY)
 SIZES = (9, 99, 150, 200, 250, 300, 350, 400, 500, 999, 9999)
 WIDTHS = tuple(range(-6, 0))
-"""Half the width of the interval is 10 to these powers, times the equation's largest coefficient A, B or C."""
+"""Exponents of ten: half the width of the interval, divided by the largest coefficient A, B or C of the equation."""
 BOXES = "whole numbers"
 TENTHS = "near a plane with a gap of .1"
 _EXACT: Mapping[str, tuple[str, Mapping[str, int]]] = {
@@ -51,12 +52,12 @@ _SHOWN = "whole numbers of 4 digits"
 
 
 def within(way: str, power: int) -> str:
-    """The name of the route with the interval of that width."""
+    """Return the name of the route with the interval of that width."""
     return f"{way}, e = 10^{power}"
 
 
 def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
-    """The plan for ``samples`` sets of each kind and size."""
+    """Return the plan for ``samples`` sets of each kind and size."""
     tested: tuple[Route, ...] = (
         *(Programs(way, layers=("corrected",), arithmetic=a, core=60_000, limit=200_000) for way, a in DECIMAL.items()),
         *(Port(way, way) for way in BINARY),
@@ -65,8 +66,8 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
     return Plan(
         "rounding",
         TITLE[0].upper() + TITLE[1:],
-        "The thesis's machine truncates. What would rounded products, a guard digit, rounding everywhere, or a present "
-        "computer's floats have bought, and how often is a hull silently wrong?",
+        "The machine of the thesis truncates. What difference would rounded products, a guard digit, rounding "
+        "everywhere or the floats of a present computer have made, and how often is a hull silently wrong?",
         (
             *(
                 Cell({"test": "exact", "sets": BOXES, "to": m}, "box", {"most": m, "n": POINTS}, tested, samples)
@@ -83,64 +84,64 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
         ),
         seed,
         (
-            "The products A x, B y, C z are at most four times the cube of the largest coordinate each: their sum has "
-            "8 digits at most up to coordinates of about 200, 24 bits up to about 110, 53 bits up to about 80,000. So "
-            "most sizes of whole numbers lie from 150 to 500, where eight digits begin to fail; 9, 99, 999 and 9999 "
-            "are the whole numbers of 1 to 4 digits.",
+            "Each of the products A x, B y, C z is at most four times the cube of the largest coordinate. Their sum "
+            "has at most 8 digits for coordinates up to about 200, 24 bits up to about 110 and 53 bits up to about "
+            "80,000. So most sizes of integers lie from 150 to 500, where eight digits begin to fail; 9, 99, 999 and "
+            "9999 are the integers of 1 to 4 digits.",
             "The interval is scaled: a point within e (times at most the square root of 3) of a plane counts as on "
-            "it. The sets it is tried on are those the exact test refuses.",
-            f"All sets have {POINTS} points and go through every way, so that ways are compared set by set.",
+            "it. It is applied to kinds of sets that the exact test rejects.",
+            f"All sets have {POINTS} points and go through every arithmetic, so arithmetics are compared set by set.",
         ),
     )
 
 
 @dataclass(frozen=True, slots=True)
 class _Pairs:
-    """A way compared with truncation on the same sets: where it does better, and where worse."""
+    """An arithmetic compared with truncation on the same sets: the number of sets it does better on, and worse."""
 
     better: int
     worse: int
 
     @property
     def verdict(self) -> str:
-        """What the sets tell, by the exact interval of the share that is better."""
+        """Return the conclusion, by the exact interval of the share of sets that are better."""
         if self.better + self.worse == 0:
             return "no difference"
         share = exact(self.better, self.better + self.worse)
-        return "better" if share.low > 0.5 else "worse" if share.high < 0.5 else "no difference that can be told"
+        return "better" if share.low > 0.5 else "worse" if share.high < 0.5 else "no significant difference"
 
 
 def report(plan: Plan, store: Store) -> Report:
-    """Tables, charts and words."""
-    found = summary(store)
+    """Return the tables, charts and conclusions."""
+    counts = summary(store)
     tested = {way: _compared(plan, store, way, "exact") for way in WAYS[1:]}
     widened = {way: _compared(plan, store, way, "interval") for way in WAYS[1:]}
     return Report(
         (
-            _main(plan, found, tested, widened),
-            _sizes(plan, found),
-            _widths(plan, found),
+            _main(plan, counts, tested, widened),
+            _sizes(plan, counts),
+            _widths(plan, counts),
             _verdicts(tested, widened),
-            _sound_widths(plan, found),
-            _silent(plan, found),
+            _sound_widths(plan, counts),
+            _silent(plan, counts),
         ),
-        (_size_chart(plan, found), _width_chart(plan, found), _wrong_chart(plan, found)),
-        _words(plan, found),
+        (_size_chart(plan, counts), _width_chart(plan, counts), _wrong_chart(plan, counts)),
+        _conclusions(plan, counts),
     )
 
 
 def _compared(plan: Plan, store: Store, way: str, test: str) -> _Pairs:
-    """Set by set: whether the hull is found or, with the interval, at how many widths."""
+    """Compare set by set whether the hull is found or, with the interval, at how many widths."""
     better = worse = 0
     names = {way: (way, *(within(way, k) for k in WIDTHS)) for way in (way, TRUNCATING)}
     way_of = {route: way for way, routes in names.items() for route in routes}
     for number, cell in cells(plan, test=test):
         hits: dict[str, list[int]] = {way: [0] * cell.samples, TRUNCATING: [0] * cell.samples}
-        asked = store.query(
+        with_hull = store.query(
             f"SELECT route, place FROM runs WHERE cell = ? AND outcome IN ({', '.join('?' * len(DETERMINED))})",
             (number, *DETERMINED),
         )
-        for route, place in asked:
+        for route, place in with_hull:
             if route in way_of:
                 hits[way_of[route]][place] += 1
         pairs = list(zip(hits[way], hits[TRUNCATING], strict=True))
@@ -149,19 +150,19 @@ def _compared(plan: Plan, store: Store, way: str, test: str) -> _Pairs:
     return _Pairs(better, worse)
 
 
-def _pooled(plan: Plan, found: Summary, test: str, route: str, outcomes: tuple[str, ...]) -> tuple[int, int]:
-    """How many sets of all kinds have these outcomes, and of how many."""
+def _pooled(plan: Plan, counts: Summary, test: str, route: str, outcomes: tuple[str, ...]) -> tuple[int, int]:
+    """Return how many sets of all kinds have these outcomes, and the total."""
     numbers = [number for number, _ in cells(plan, test=test)]
-    return sum(found.hits(k, route, outcomes) for k in numbers), sum(found.of(k, route) for k in numbers)
+    return sum(counts.hits(k, route, outcomes) for k in numbers), sum(counts.of(k, route) for k in numbers)
 
 
-def _main(plan: Plan, found: Summary, tested: Mapping[str, _Pairs], widened: Mapping[str, _Pairs]) -> Table:
+def _main(plan: Plan, counts: Summary, tested: Mapping[str, _Pairs], widened: Mapping[str, _Pairs]) -> Table:
     rows = []
     for way in WAYS:
-        right, of = _pooled(plan, found, "exact", way, DETERMINED)
-        wrong, _ = _pooled(plan, found, "exact", way, (WRONG,))
+        right, of = _pooled(plan, counts, "exact", way, DETERMINED)
+        wrong, _ = _pooled(plan, counts, "exact", way, (WRONG,))
         pairs = [f"{one.better} / {one.worse}" if one else "-" for one in (tested.get(way), widened.get(way))]
-        largest = str(_largest(plan, found, way) or "-")
+        largest = str(_largest(plan, counts, way) or "-")
         share = percent(exact(wrong, of - right)) if right < of else "-"
         rows.append((way, largest, str(of), str(of - right), str(wrong), share, *pairs))
     head = (
@@ -175,77 +176,77 @@ def _main(plan: Plan, found: Summary, tested: Mapping[str, _Pairs], widened: Map
         "with the interval",
     )
     notes = (
-        "In brackets: exact 95 % intervals (Clopper and Pearson).",
-        "Sets, failed and wrong hulls: with the exact test. Whole numbers up to: the largest size tried with which, "
-        "and with all smaller ones, no set failed. Against truncating: sets it finds and truncating does not / the "
-        "other way round. With the interval: sets whose hull it finds at more / at fewer widths than truncating.",
+        "In parentheses: exact 95 % intervals (Clopper and Pearson).",
+        "Sets, failed and wrong hulls: with the exact test. Whole numbers up to: the largest size up to which no set "
+        "failed. Against truncating: sets whose hull is found by this arithmetic but not by truncation / the reverse. "
+        "With the interval: sets whose hull is found at more / at fewer widths than by truncation.",
     )
-    return Table("table", "Ways of rounding, all sets", head, tuple(rows), notes)
+    return Table("table", "Arithmetics compared, all sets", head, tuple(rows), notes)
 
 
-def _sizes(plan: Plan, found: Summary) -> Table:
+def _sizes(plan: Plan, counts: Summary) -> Table:
     rows = []
     for number, cell in cells(plan, test="exact"):
         sets = " to ".join(str(value) for name, value in cell.key.items() if name != "test")
-        wrong = [str(found.hits(number, way, (WRONG,))) for way in WAYS]
-        rows.append((sets, str(cell.samples), *(percent(found.share(number, way)) for way in WAYS), " ".join(wrong)))
+        wrong = [str(counts.hits(number, way, (WRONG,))) for way in WAYS]
+        rows.append((sets, str(cell.samples), *(percent(counts.share(number, way)) for way in WAYS), " ".join(wrong)))
     head = ("sets", "of each", *WAYS, "wrong hulls")
-    notes = (*INTERVALS, "Wrong hulls: how many, in the order of the columns.")
+    notes = (*INTERVALS, "Wrong hulls: their numbers, in the order of the columns.")
     return Table("exact", "Hull found with the exact test", head, tuple(rows), notes)
 
 
-def _widths(plan: Plan, found: Summary) -> Table:
+def _widths(plan: Plan, counts: Summary) -> Table:
     rows = []
     for number, cell in cells(plan, test="interval"):
         for k in WIDTHS:
             routes = [within(way, k) for way in WAYS]
-            wrong = [str(found.hits(number, route, (WRONG,))) for route in routes]
-            shares = [percent(found.share(number, route)) for route in routes]
+            wrong = [str(counts.hits(number, route, (WRONG,))) for route in routes]
+            shares = [percent(counts.share(number, route)) for route in routes]
             rows.append((str(cell.key["sets"]), f"10^{k}", str(cell.samples), *shares, " ".join(wrong)))
     head = ("sets", "e", "of each", *WAYS, "wrong hulls")
-    notes = (*INTERVALS, "Wrong hulls: how many, in the order of the columns.")
+    notes = (*INTERVALS, "Wrong hulls: their numbers, in the order of the columns.")
     return Table("interval", "Hull found with the scaled interval", head, tuple(rows), notes)
 
 
-def _size_chart(plan: Plan, found: Summary) -> Lines:
+def _size_chart(plan: Plan, counts: Summary) -> Lines:
     shown = [(k, c) for k, c in cells(plan, sets=BOXES) if 99 <= int(c.key["to"]) <= 999]
     return Lines(
         "sizes",
         "The exact test: sets whose hull is found",
-        "largest coordinate (whole numbers)",
-        "hull found, of all sets",
-        tuple(Series(way, tuple((float(c.key["to"]), found.share(k, way)) for k, c in shown)) for way in WAYS),
+        "largest coordinate (integers)",
+        "share of sets whose hull is found",
+        tuple(Series(way, tuple((float(c.key["to"]), counts.share(k, way)) for k, c in shown)) for way in WAYS),
         percent=True,
         log_x=True,
-        note=f"{shown[0][1].samples} sets of {POINTS} points at each size, the same for all ways; "
+        note=f"{shown[0][1].samples} sets of {POINTS} points at each size, the same for all arithmetics; "
         "bars: exact 95 % intervals",
     )
 
 
-def _width_chart(plan: Plan, found: Summary) -> Lines:
+def _width_chart(plan: Plan, counts: Summary) -> Lines:
     ((number, cell),) = cells(plan, test="interval", sets=_SHOWN)
     return Lines(
         "interval",
         f"Chapter 7's interval, scaled: {_SHOWN}",
-        "e, the distance from a plane that counts as on it",
-        "hull found, of all sets",
-        tuple(Series(way, tuple((float(k), found.share(number, within(way, k))) for k in WIDTHS)) for way in WAYS),
+        "e, the distance within which a point counts as on a plane",
+        "share of sets whose hull is found",
+        tuple(Series(way, tuple((float(k), counts.share(number, within(way, k))) for k in WIDTHS)) for way in WAYS),
         percent=True,
         powers=True,
         note=f"{cell.samples} sets of {POINTS} points; bars: exact 95 % intervals",
     )
 
 
-def _wrong_chart(plan: Plan, found: Summary) -> Bars:
+def _wrong_chart(plan: Plan, counts: Summary) -> Bars:
     return Bars(
         "wrong",
-        "Wrong hulls that look right, with the scaled interval",
+        "Plausible but wrong hulls, with the scaled interval",
         "e",
-        "wrong hull, of all sets",
+        "share of sets with a wrong hull",
         tuple(
             Series(
                 way,
-                tuple((f"10^{k}", exact(*_pooled(plan, found, "interval", within(way, k), (WRONG,)))) for k in WIDTHS),
+                tuple((f"10^{k}", exact(*_pooled(plan, counts, "interval", within(way, k), (WRONG,)))) for k in WIDTHS),
             )
             for way in WAYS
         ),
@@ -255,11 +256,11 @@ def _wrong_chart(plan: Plan, found: Summary) -> Bars:
     )
 
 
-def _largest(plan: Plan, found: Summary, way: str) -> int | None:
-    """The largest size with which, and with all smaller ones, no set failed."""
+def _largest(plan: Plan, counts: Summary, way: str) -> int | None:
+    """Return the largest size up to which no set failed."""
     best = None
     for number, cell in cells(plan, sets=BOXES):
-        if found.failed(number, way):
+        if counts.failed(number, way):
             break
         best = int(cell.key["to"])
     return best
@@ -272,45 +273,45 @@ def _verdicts(tested: Mapping[str, _Pairs], widened: Mapping[str, _Pairs]) -> Ta
         for way, one in pairs.items()
     )
     notes = (
-        "Better, worse: with the exact test, sets whose hull the way finds and truncating does not, and the other way "
-        "round; with the interval, sets whose hull it finds at more, and at fewer, of the widths. Verdict: by the "
-        "exact 95 % interval (Clopper and Pearson) of the share that is better.",
+        "Better, worse: with the exact test, sets whose hull is found by the arithmetic but not by truncation, and the "
+        "reverse; with the interval, sets whose hull is found at more, and at fewer, widths. Verdict: by the exact 95 "
+        "% interval (Clopper and Pearson) of the share that is better.",
     )
     return Table(
-        "pairs", "Compared with truncating, set by set", ("way", "test", "better", "worse", "verdict"), rows, notes
+        "pairs", "Compared with truncation, set by set", ("way", "test", "better", "worse", "verdict"), rows, notes
     )
 
 
-def _sound_widths(plan: Plan, found: Summary) -> Table:
+def _sound_widths(plan: Plan, counts: Summary) -> Table:
     rows = tuple(
         (
             str(cell.key["sets"]),
-            *(powers(k for k in WIDTHS if not found.failed(number, within(way, k))) for way in WAYS),
+            *(powers(k for k in WIDTHS if not counts.failed(number, within(way, k))) for way in WAYS),
         )
         for number, cell in cells(plan, test="interval")
     )
     return Table("widths", "Widths e of the interval at which no set failed", ("sets", *WAYS), rows)
 
 
-def _silent(plan: Plan, found: Summary) -> Table:
+def _silent(plan: Plan, counts: Summary) -> Table:
     rows = tuple(
-        (f"10^{k}", *(percent(exact(*_pooled(plan, found, "interval", within(way, k), (WRONG,)))) for way in WAYS))
+        (f"10^{k}", *(percent(exact(*_pooled(plan, counts, "interval", within(way, k), (WRONG,)))) for way in WAYS))
         for k in WIDTHS
     )
-    return Table("silent", "Wrong hulls that look right, with the interval", ("e", *WAYS), rows, INTERVALS)
+    return Table("silent", "Plausible but wrong hulls, with the interval", ("e", *WAYS), rows, INTERVALS)
 
 
-def _words(plan: Plan, found: Summary) -> tuple[str, ...]:
+def _conclusions(plan: Plan, counts: Summary) -> tuple[str, ...]:
     right, wrong, of = 0, 0, 0
     for way in WAYS:
-        hits, sets = _pooled(plan, found, "exact", way, DETERMINED)
+        hits, sets = _pooled(plan, counts, "exact", way, DETERMINED)
         right, of = right + hits, of + sets
-        wrong += _pooled(plan, found, "exact", way, (WRONG,))[0]
+        wrong += _pooled(plan, counts, "exact", way, (WRONG,))[0]
     ((number, cell),) = cells(plan, sets=TENTHS)
-    eight, binary = found.share(number, TRUNCATING), found.share(number, "float64")
+    eight, binary = counts.share(number, TRUNCATING), counts.share(number, "float64")
     return (
-        f"Failures with the exact test, all ways together: {of - right:,}. Of these ended in a wrong hull that looks "
-        f"right: {wrong:,}; were refused or did not end: {of - right - wrong:,}.",
-        f"Hulls found of the sets {cell.key['sets']}: by truncation to eight digits {percent(eight)}; by float64, "
-        f"which cannot hold a tenth, {percent(binary)}.",
+        f"Failures with the exact test, all arithmetics together: {of - right:,}. Plausible but wrong hulls among "
+        f"them: {wrong:,}. Rejected sets and runs that did not end: {of - right - wrong:,}.",
+        f"Hulls found for the sets {cell.key['sets']}: {percent(eight)} by truncation to eight digits; "
+        f"{percent(binary)} by float64, which cannot represent a tenth.",
     )

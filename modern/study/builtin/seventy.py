@@ -1,12 +1,12 @@
-"""Two failures in about seventy examples: what the thesis may have seen.
+"""Study the two failures in about seventy examples that the thesis reports.
 
-Sets like the thesis's (:mod:`modern.study.families.thesis`), seventy at a time, are sent through its programs as
-listed, and with the one card that corrects the last pair of inside planes (row P3-025, KNOWN-FAULTS 1).  A set fails
-where the programs do not give its hull.  ``samples`` counts sets and is a multiple of seventy.
+Sets like those of the thesis (:mod:`modern.study.families.thesis`), in groups of seventy, go through its programs as
+listed, and with the one card that corrects the last pair of inside planes (row P3-025, KNOWN-FAULTS 1).  A set fails if
+the programs do not give its hull.  ``samples`` counts the sets and is a multiple of seventy.
 
-Those sets are of whole numbers, which eight digits bear, so none of them is refused as DATA NOT ACCEPTABLE.  The data
-sheet of chapter 5 (p. 58-59) has decimals: sets like it, ``samples`` / 70 for each share of decimals, are sent through
-the listing too.
+These sets have integer coordinates, for which eight digits are sufficient, so none is rejected as DATA NOT ACCEPTABLE.
+The data sheet of chapter 5 (p. 58-59) has decimals.  So sets like it, ``samples`` / 70 for each share of decimals, go
+through the listing too.
 """
 
 from __future__ import annotations
@@ -23,28 +23,28 @@ from modern.study.report import INTERVALS, Bars, Mark, Report, Series, Table, li
 from modern.study.statistics import Interval, count, exact
 from modern.study.store import Store
 
-TITLE = "failures in seventy examples, with and without the mend of the last pair"
+TITLE = "failures in seventy examples, with and without the correction of the last pair"
 SEVENTY = 70
 SAMPLES = 2_000 * SEVENTY
 THESIS = 2
 LISTED, MENDED = "as listed", "last pair mended"
 _LIMIT = 200_000
 _RARE = 0.05
-"""What happens to a smaller share of the seventies is called unusual."""
+"""An event that occurs in a smaller share of the groups of seventy is called unusual."""
 _IN_SPACE = ("slab", "plane and points")
 _EXAMPLES = 0
-"""The cell of the sets modelled on chapter 6; the data sheets are in those after it."""
+"""The number of the cell with the sets modelled on chapter 6; the following cells hold the data sheets."""
 
 
 def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
-    """The plan for ``samples`` sets.  Raises PlanError where that is not a multiple of seventy."""
+    """Return the plan for ``samples`` sets.  Raise PlanError unless that is a multiple of seventy."""
     if samples < SEVENTY or samples % SEVENTY:
-        raise PlanError(f"seventy: {samples} samples are no multiple of {SEVENTY}")
+        raise PlanError(f"seventy: the number of samples must be a multiple of {SEVENTY}, found {samples}")
     routes = (Programs(LISTED, limit=_LIMIT), Programs(MENDED, rows=("P3-025",), limit=_LIMIT))
     return Plan(
         "seventy",
         TITLE[0].upper() + TITLE[1:],
-        "The thesis reports two failures in about seventy examples and puts them down to the limits of the computer. "
+        "The thesis reports two failures in about seventy examples and attributes them to the limits of the computer. "
         "How many failures do seventy such sets have, and of what kind?",
         (
             Cell({}, "thesis", {}, routes, samples, chunk=3 * SEVENTY),
@@ -52,14 +52,14 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
         ),
         seed,
         (
-            "The thesis does not say what its seventy examples were. Chapter 6 prints six, one for each kind of output "
-            "but two of points in space: three points, a line, one point, a plane, and two sets in space, one of "
-            "them a plane with points off it. Each kind is modelled on one of the six and all are equally likely; "
-            "modern/study/families/thesis.py says with what coordinates. How often each kind fails is given too, so "
-            "that the failures of seventy sets of any other composition can be reckoned.",
-            "The two points of chapter 5's data sheet have two decimals among six coordinates, chapter 6 has none "
-            "among its 138. What share of decimals the seventy examples had is not known; so it is the variable, in "
-            "two ways of drawing them, and the shares at which two refusals are the most probable number are given.",
+            "The thesis does not describe its seventy examples. Chapter 6 prints six of them, one for each kind of "
+            "output and two for points in space: three points, a line, one point, a plane, and two sets in space, one "
+            "of them a plane with points off it. Each kind is modelled on one of the six, and all are equally likely; "
+            "modern/study/families/thesis.py describes the coordinates. The report also gives the failures of each "
+            "kind, from which those of seventy sets of any other composition can be computed.",
+            "The two points printed from the data sheet of chapter 5 have two decimals among six coordinates; chapter "
+            "6 has none among its 138. The share of decimals in the seventy examples is not known. So it is varied, "
+            "with two ways of drawing decimals, and the report gives the shares that make two rejections likeliest.",
             f"A run of more than {_LIMIT} statements counts as endless.",
         ),
     )
@@ -67,7 +67,7 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 
 @dataclass(frozen=True, slots=True)
 class _Route:
-    """What the rows say of one route: failures of each seventy, in order, and how often each cause was."""
+    """The results of one route: the failures of each group of seventy, in order, and the number of each cause."""
 
     name: str
     failures: tuple[int, ...]
@@ -83,16 +83,16 @@ class _Route:
 
     @property
     def mean(self) -> Interval:
-        """Failures of seventy sets, from all sets: each is drawn by itself, so that their number is binomial."""
+        """Return the failures to expect in seventy sets.  Sets are independent, so their number is binomial."""
         return count(self.failed, self.sets, SEVENTY)
 
     def groups(self, least: int, most: int = SEVENTY) -> Interval:
-        """The share of the seventies with so many failures."""
+        """Return the share of the groups of seventy with ``least`` to ``most`` failures."""
         return exact(sum(least <= n <= most for n in self.failures), len(self.failures))
 
 
 def report(plan: Plan, store: Store) -> Report:
-    """Tables, the two charts and the words."""
+    """Return the tables, charts and conclusions."""
     as_listed, mended = _route(store, LISTED), _route(store, MENDED)
     kinds = store.counts("tags.kind", "route", "outcome", cell=_EXAMPLES)
     sheets = refusals.measured(plan, store)
@@ -105,17 +105,21 @@ def report(plan: Plan, store: Store) -> Report:
             refusals.table(sheets),
         ),
         (_chart(as_listed, mended), _kind_chart(kinds), refusals.chart(sheets)),
-        (*_words(as_listed, mended, kinds, _longest(store)), *refusals.words(sheets), _weighed(as_listed, sheets)),
+        (
+            *_conclusions(as_listed, mended, kinds, _longest(store)),
+            *refusals.conclusions(sheets),
+            _comparison(as_listed, sheets),
+        ),
     )
 
 
 def _route(store: Store, name: str) -> _Route:
-    asked = store.query(
+    groups = store.query(
         f"SELECT SUM(outcome NOT IN ({', '.join('?' * len(DETERMINED))})) FROM runs WHERE cell = ? "
         f"AND route = ? GROUP BY place / {SEVENTY} ORDER BY place / {SEVENTY}",
         (*DETERMINED, _EXAMPLES, name),
     )
-    failures = tuple(failed for (failed,) in asked)
+    failures = tuple(failed for (failed,) in groups)
     causes = Counter(
         {
             key: n
@@ -127,13 +131,13 @@ def _route(store: Store, name: str) -> _Route:
 
 
 def _longest(store: Store) -> int:
-    """Statements of the longest run that gave a hull."""
-    asked = store.query(
+    """Return the number of statements of the longest run that gave a hull."""
+    longest = store.query(
         "SELECT MAX(json_extract(figures, '$.statements')) FROM runs "
         f"WHERE cell = ? AND outcome IN ({', '.join('?' * len(DETERMINED))})",
         (_EXAMPLES, *DETERMINED),
     )
-    return int(next(iter(asked))[0] or 0)
+    return int(next(iter(longest))[0] or 0)
 
 
 def _main(*routes: _Route) -> Table:
@@ -151,8 +155,8 @@ def _main(*routes: _Route) -> Table:
         for route in routes
     )
     notes = (
-        "In brackets: exact 95 % intervals (Clopper and Pearson); that of failures in 70 is seventy times that of all "
-        "sets, as each set is drawn by itself.",
+        "In parentheses: exact 95 % intervals (Clopper and Pearson). The interval of failures in 70 is seventy times "
+        "that of all sets, because sets are drawn independently. 70s: groups of seventy sets.",
     )
     return Table("table", "Failures in seventy examples", head, rows, notes)
 
@@ -169,7 +173,7 @@ def _distribution(*routes: _Route) -> Table:
         )
         for k in range(most + 1)
     )
-    return Table("distribution", "How many seventies have how many failures", head, rows, INTERVALS)
+    return Table("distribution", "Failures per group of seventy sets", head, rows, INTERVALS)
 
 
 def _by_kind(kinds: dict[tuple[str, ...], int]) -> Table:
@@ -203,7 +207,7 @@ def _chart(*routes: _Route) -> Bars:
         "seventy",
         "Failures in seventy sets like the thesis's",
         "failures in 70 sets",
-        "share of the seventies",
+        "share of the groups of seventy",
         series,
         percent=True,
         marks=(Mark(THESIS, "the thesis: 2 in about 70", upright=True),),
@@ -218,9 +222,9 @@ def _kind_chart(kinds: dict[tuple[str, ...], int]) -> Bars:
     )
     return Bars(
         "kinds",
-        "Which sets fail",
+        "Failures by kind of set",
         "",
-        "failed, of all sets of the kind",
+        "share of sets that fail",
         series,
         percent=True,
         note="bars: exact 95 % intervals",
@@ -228,7 +232,7 @@ def _kind_chart(kinds: dict[tuple[str, ...], int]) -> Bars:
 
 
 def _names(kinds: dict[tuple[str, ...], int]) -> list[str]:
-    """The kinds that were drawn, in the thesis's order."""
+    """Return the kinds that were drawn, in the order of the thesis."""
     return [kind for kind in KINDS if any(key[0] == kind for key in kinds)]
 
 
@@ -237,67 +241,72 @@ def _of(kinds: dict[tuple[str, ...], int], names: tuple[str, ...], route: str = 
 
 
 def _share(kinds: dict[tuple[str, ...], int], names: tuple[str, ...], route: str) -> Interval:
-    """How often sets of these kinds fail."""
+    """Return the share of sets of these kinds that fail."""
     return exact(*_failed(kinds, names, route))
 
 
 def _failed(kinds: dict[tuple[str, ...], int], names: tuple[str, ...], route: str) -> tuple[int, int]:
-    """How many sets of these kinds fail, and of how many."""
+    """Return how many sets of these kinds fail, and their number."""
     failed = sum(n for key, n in kinds.items() if key[0] in names and key[1] == route and key[2] not in DETERMINED)
     return failed, _of(kinds, names, route)
 
 
-def _words(as_listed: _Route, mended: _Route, kinds: dict[tuple[str, ...], int], longest: int) -> tuple[str, ...]:
+def _conclusions(as_listed: _Route, mended: _Route, kinds: dict[tuple[str, ...], int], longest: int) -> tuple[str, ...]:
     causes = as_listed.causes
     digits, wrong = (
-        sum(n for (outcome, _), n in causes.items() if outcome == named) for named in (NOT_ACCEPTABLE, WRONG)
+        sum(n for (outcome, _), n in causes.items() if outcome == counted) for counted in (NOT_ACCEPTABLE, WRONG)
     )
     frequent = (f"{outcome} {where}, {share_of(n, as_listed.failed)}" for (outcome, where), n in causes.most_common(3))
-    words = [
-        f"Failures of seventy such sets as listed: {with_interval(as_listed.mean)}, "
-        f"{_beside_two(as_listed.mean)}. Seventies with exactly two: "
+    conclusions = [
+        f"Failures in seventy such sets with the programs as listed: {with_interval(as_listed.mean)}, "
+        f"{_compared_with_two(as_listed.mean)}. Groups of seventy with exactly two failures: "
         f"{percent(as_listed.groups(THESIS, THESIS))}; with two or more: {percent(as_listed.groups(THESIS))}. "
         f"Two failures in seventy are {_unusual(as_listed.groups(THESIS))}.",
-        f"Most frequent failures as listed: {listed(frequent)}. DATA NOT ACCEPTABLE, the programs' message for too few "
-        f"digits: {share_of(digits, as_listed.failed)}. Wrong hulls that look right: "
+        f"Most frequent failures as listed: {listed(frequent)}. DATA NOT ACCEPTABLE, the message for too few "
+        f"digits: {share_of(digits, as_listed.failed)}. Plausible but wrong hulls: "
         f"{share_of(wrong, as_listed.failed)}.",
-        f"Failures of seventy with the one card of row P3-025: {with_interval(mended.mean)}; the difference: "
+        f"Failures in seventy sets with the one card of row P3-025: {with_interval(mended.mean)}. Difference: "
         f"{as_listed.mean.value - mended.mean.value:.2f}.",
-        f"The longest run that gave a hull took {longest:,} statements; {_LIMIT:,} count as endless.",
+        f"The longest run that gave a hull took {longest:,} statements; runs of {_LIMIT:,} count as endless.",
     ]
     space = tuple(name for name in _names(kinds) if name in _IN_SPACE)
     if space:
         failed = _failed(kinds, space, LISTED)
         share, seventy = exact(*failed), count(*failed, SEVENTY)
-        words[2] += (
-            f" Sets in space that fail as listed: {percent(share)}; of seventy such sets: {with_interval(seventy, 1)}."
+        conclusions[2] += (
+            f" Sets in space that fail as listed: {percent(share)}; failures in seventy such sets: "
+            f"{with_interval(seventy, 1)}."
         )
-    return tuple(words)
+    return tuple(conclusions)
 
 
-def _beside_two(often: Interval) -> str:
-    """A mean number of failures beside the thesis's two, as a verdict."""
-    if often.high < THESIS:
-        return "fewer than the thesis's two"
-    return "more than the thesis's two" if often.low > THESIS else "not to be told from the thesis's two"
+def _compared_with_two(failures: Interval) -> str:
+    """Compare a mean number of failures with the two of the thesis."""
+    if failures.high < THESIS:
+        return "fewer than the two of the thesis"
+    return (
+        "more than the two of the thesis"
+        if failures.low > THESIS
+        else "not significantly different from the two of the thesis"
+    )
 
 
 def _unusual(share: Interval) -> str:
-    """How often seventies have two failures or more, as a verdict."""
+    """Describe how unusual it is that a group of seventy has two failures or more."""
     if share.low > _RARE:
-        return "nothing unusual for such sets"
-    return "unusual for such sets" if share.high < _RARE else "not to be judged from so few seventies"
+        return "not unusual for such sets"
+    return "unusual for such sets" if share.high < _RARE else "possibly unusual; there are too few groups to decide"
 
 
-def _weighed(as_listed: _Route, sheets: tuple[refusals.Sheets, ...]) -> str:
-    """The two explanations side by side."""
+def _comparison(as_listed: _Route, sheets: tuple[refusals.Sheets, ...]) -> str:
+    """Compare the two explanations of the failures."""
     printed = [s for s in sheets if s.share == max(other.share for other in sheets)]
     needed = " or ".join(refusals.needed(s) for s in printed)
     return (
-        f"Both explanations weighed. Limits of the machine, as the thesis says: {needed} of seventy like its own data "
-        "sheet are enough, and a refusal says by itself what it is; but of the six sets it prints in full none has a "
-        "decimal. Faults of the programs: small whole numbers are enough, and "
-        f"{percent(as_listed.groups(THESIS))} of the seventies have two failures or more by them alone; but these end "
-        "in ERROR IN PROGRAM, in a loop or in a wrong hull, which are not easily taken for too few digits. The print "
-        "does not decide it; of the two, one may be of each kind."
+        f"Two explanations are possible. Limits of the machine, as the thesis says: {needed} of seventy sets like its "
+        "data sheet are enough, and the message of a rejection names the cause. But none of the six sets that it "
+        "prints in full has a decimal. Faults of the programs: sets of small integers are enough, and "
+        f"{percent(as_listed.groups(THESIS))} of the groups of seventy have two or more failures from this cause "
+        "alone. But these runs end in ERROR IN PROGRAM, in a loop or in a wrong hull, which the author would hardly "
+        "have attributed to too few digits. The thesis does not settle the question; the failures may differ in cause."
     )

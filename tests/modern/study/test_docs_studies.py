@@ -1,4 +1,4 @@
-"""The committed results of the built-in studies belong to the studies as they stand, at their default size."""
+"""The committed results of the built-in studies belong to their current plans, at the default size."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ DOCS = ROOT / "docs" / "studies"
 
 
 @pytest.mark.parametrize("name", names())
-def test_the_manifest_is_that_of_the_default_plan(name: str) -> None:
+def test_committed_manifest_agrees_with_the_default_plan(name: str) -> None:
     manifest = json.loads((DOCS / name / "manifest.json").read_text(encoding="utf-8"))
-    found = study(name)
+    module = study(name)
     assert manifest["complete"] is True
-    assert manifest["plan"] == found.plan(found.SAMPLES, 1963).document()
+    assert manifest["plan"] == module.plan(module.SAMPLES, 1963).document()
 
 
 @pytest.mark.parametrize("name", names())
-def test_every_picture_and_table_of_the_report_is_there(name: str) -> None:
+def test_pictures_and_main_table_of_a_report_exist(name: str) -> None:
     report = (DOCS / name / "report.md").read_text(encoding="utf-8")
     pictures = re.findall(r"!\[[^]]*\]\(([^)]+)\)", report)
     assert pictures
@@ -38,16 +38,16 @@ def test_every_picture_and_table_of_the_report_is_there(name: str) -> None:
     assert (DOCS / name / "table.csv").is_file()
 
 
-def test_the_readme_shows_pictures_of_two_studies() -> None:
+def test_readme_shows_pictures_of_two_studies() -> None:
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    shown = set(re.findall(r"\(docs/studies/([\w-]+)/[\w-]+\.svg\)", readme))
-    assert len(shown) == 2
+    pictures = set(re.findall(r"\(docs/studies/([\w-]+)/[\w-]+\.svg\)", readme))
+    assert len(pictures) == 2
     for path in re.findall(r"\((docs/[\w/.-]+)\)", readme):
         assert (ROOT / path).exists(), path
 
 
 def cell(study: str, table: str, row: str, column: str) -> str:
-    """A cell of a committed table, by the first column's text and the head."""
+    """Return a cell of a committed table, by the text of the first column and the head."""
     with open(DOCS / study / f"{table}.csv", encoding="utf-8", newline="") as file:
         return next(line[column] for line in csv.DictReader(file) if next(iter(line.values())) == row)
 
@@ -63,8 +63,8 @@ def table_rows(study: str, table: str) -> list[dict[str, str]]:
 
 
 def quoted() -> list[tuple[str, str]]:
-    """Sentences of docs/explanation with their figures taken from the tables, by section."""
-    lost = sum(int(n) for n in column("seventy", "causes", "as listed"))
+    """Return sentences of docs/explanation by section, with figures taken from the tables."""
+    failures = sum(int(n) for n in column("seventy", "causes", "as listed"))
     refused = sum(
         int(n)
         for outcome, n in zip(
@@ -86,31 +86,37 @@ def quoted() -> list[tuple[str, str]]:
     most = cell("capacity", "storage", "most places seen", "places")
     return [
         ("seventy", f"seventy such sets have {cell('seventy', 'table', 'as listed', 'failures in 70')} failures"),
-        ("seventy", f"and {cell('seventy', 'table', 'as listed', '70s with 2 or more')} of the seventies have two or"),
+        (
+            "seventy",
+            f"and {cell('seventy', 'table', 'as listed', '70s with 2 or more')} of the groups of seventy have two or",
+        ),
         ("seventy", f"P3-025 there are {cell('seventy', 'table', 'last pair mended', 'failures in 70')}."),
-        ("seventy", f"Of the {lost} failures none is DATA NOT ACCEPTABLE."),
-        ("seventy", f"with the sheet's third {third['refused']} are, or {added['refused']}"),
+        ("seventy", f"Of the {failures} failures none is DATA NOT ACCEPTABLE."),
+        ("seventy", f"as on the sheet, {third['refused']} are rejected, or {added['refused']}"),
         ("seventy", f"if {third['sheets in 70 for two']} of the seventy are such sheets"),
         ("seventy", f"fail otherwise ({third['failed otherwise']} of {third['sets']})"),
-        ("rounding", f"up to {decimal} failed in any decimal way, up to {sizes['float32']} with float32"),
+        ("rounding", f"up to {decimal} failed in any decimal arithmetic, up to {sizes['float32']} with float32"),
         ("rounding", f"and up to {sizes['float64']} with float64."),
-        ("rounding", f"of .1 truncation finds {cell('rounding', 'exact', tenth, 'truncating')} of the hulls"),
-        ("rounding", f"cannot hold a tenth, {cell('rounding', 'exact', tenth, 'float64')}."),
+        ("rounding", f"of .1, truncation finds {cell('rounding', 'exact', tenth, 'truncating')} of the hulls"),
+        ("rounding", f"cannot represent a tenth, finds {cell('rounding', 'exact', tenth, 'float64')}."),
         ("epsilon", f"The best, {cell('epsilon', 'best', 'as it is', 'best e')}, finds "),
-        ("epsilon", f"finds {cell('epsilon', 'best', 'as it is', 'hulls found with it')} of the hulls;"),
-        ("epsilon", f"scaled it is {cell('epsilon', 'best', 'scaled', 'best e')}, with "),
-        ("epsilon", f"with {cell('epsilon', 'best', 'scaled', 'hulls found with it')}. Of the sets"),
-        ("epsilon", f"failed, {cell('epsilon', 'price', 'greater', 'of these sets')} end in a wrong hull"),
-        ("translation", f"from {cell('translation', 'ratio', 'less than 0.5', 'processor time saved')} for hulls"),
+        ("epsilon", f"finds {cell('epsilon', 'best', 'as it is', 'hulls found with it')} of the hulls."),
+        ("epsilon", f"The best scaled e is {cell('epsilon', 'best', 'scaled', 'best e')}, with "),
+        ("epsilon", f"with {cell('epsilon', 'best', 'scaled', 'hulls found with it')}. With an e"),
+        (
+            "epsilon",
+            f"failed, {cell('epsilon', 'price', 'greater', 'of these sets')} of the sets end in a plausible but wrong",
+        ),
+        ("translation", f"from {cell('translation', 'ratio', 'less than 0.5', 'processor time saved')} for hulls with"),
         ("translation", f"to {cell('translation', 'ratio', '1.5 and more', 'processor time saved')} for those"),
-        ("translation", f"find {kept} of the hulls with eight digits, and {moved} with the origin moved."),
+        ("translation", f"find {kept} of the hulls, and with the origin moved only {moved}."),
         (
             three,
-            f"more than 98 places, from N = {spheres[0]} on; the most seen is {most},",
+            f"more than 98 entries, from N = {spheres[0]} on. The largest number observed is {most},",
         ),
         (
             three,
-            f"takes about {cell('capacity', 'storage', 'most places seen', 'positions, about')} positions and wants a "
+            f"takes about {cell('capacity', 'storage', 'most places seen', 'positions, about')} positions and needs a "
             f"machine of {cell('capacity', 'storage', 'most places seen', 'smallest core')}.",
         ),
         (
@@ -120,7 +126,7 @@ def quoted() -> list[tuple[str, str]]:
         (
             three,
             f"is program1 196+2, in {cell('divergence', 'table', 'program1 196+2', 'of all sets')} of the sets; "
-            f"{cell('divergence', 'table', 'nowhere', 'of all sets')} go through every decision",
+            f"in {cell('divergence', 'table', 'nowhere', 'of all sets')} all decisions agree.",
         ),
         (
             "How many digits are always enough",
@@ -129,22 +135,22 @@ def quoted() -> list[tuple[str, str]]:
     ]
 
 
-@pytest.mark.parametrize(("section", "words"), quoted())
-def test_every_figure_quoted_is_that_of_a_table(section: str, words: str) -> None:
+@pytest.mark.parametrize(("section", "sentence"), quoted())
+def test_figures_quoted_in_the_documents_are_those_of_the_tables(section: str, sentence: str) -> None:
     pages = ("studies.md", "eight-digits.md")
     text = "\n".join((ROOT / "docs" / "explanation" / page).read_text(encoding="utf-8") for page in pages)
-    (found,) = [part for part in text.split("\n## ") if part.startswith(f"{section}\n")]
-    assert words in " ".join(found.split())
+    (paragraphs,) = [part for part in text.split("\n## ") if part.startswith(f"{section}\n")]
+    assert sentence in " ".join(paragraphs.split())
 
 
-def test_the_first_statement_of_the_table_is_the_most_frequent() -> None:
+def test_statements_are_sorted_by_frequency() -> None:
     assert column("divergence", "table", "first other decision")[0] == "program1 196+2"
     sets = [int(n) for n in column("divergence", "table", "sets")[:-1]]
     assert sets == sorted(sets, reverse=True)
 
 
 @pytest.mark.parametrize("name", names())
-def test_the_report_holds_every_table(name: str) -> None:
+def test_report_contains_every_table(name: str) -> None:
     report = (DOCS / name / "report.md").read_text(encoding="utf-8")
     for path in (DOCS / name).glob("*.csv"):
         with open(path, encoding="utf-8", newline="") as file:
@@ -156,7 +162,7 @@ HOW_TO = (ROOT / "docs" / "how-to" / "own-study.md").read_text(encoding="utf-8")
 
 
 def rows_of(head: str) -> set[str]:
-    """The names in the first column of the table with that head."""
+    """Return the names in the first column of the table with that head."""
     (table,) = re.findall(rf"^\| {re.escape(head)} .*\n\|[-|]+\n((?:\|.*\n)+)", HOW_TO, re.MULTILINE)
     return {name for line in table.splitlines() for name in re.findall(r"`(\w[\w-]*)`", line.split("|")[1])}
 
@@ -171,18 +177,18 @@ def rows_of(head: str) -> set[str]:
         ("measure", {*MEASURES}),
     ],
 )
-def test_the_how_to_has_every_key_family_and_measure(head: str, names: set[str]) -> None:
+def test_how_to_describes_every_key_family_and_measure(head: str, names: set[str]) -> None:
     assert rows_of(head) == names
 
 
-def test_the_how_to_has_every_parameter_of_a_family() -> None:
+def test_how_to_describes_every_parameter_of_a_family() -> None:
     for name, family in FAMILIES.items():
         (line,) = re.findall(rf"^\| `{name}` \| (.*?) \|", HOW_TO, re.MULTILINE)
-        taken = [one for one in signature(family).parameters if one != "draw"]
-        assert sorted(re.findall(r"`(\w+)`", line)) == sorted(taken), name
+        parameters = [parameter for parameter in signature(family).parameters if parameter != "draw"]
+        assert sorted(re.findall(r"`(\w+)`", line)) == sorted(parameters), name
 
 
-def test_the_how_to_has_what_a_route_is_without_a_key() -> None:
+def test_how_to_states_the_defaults_of_a_route() -> None:
     for made in (Programs, Port):
         for field in fields(made):
             if field.name in ("limit", "core", "arithmetic", "state", "bounds"):

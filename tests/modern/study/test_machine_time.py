@@ -1,4 +1,4 @@
-"""Machine time against the runs of another compiler's code in a simulator, within a factor of two."""
+"""Machine time agrees, within a factor of two, with another compiler's code in a simulator."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ MEASURED = [
 
 
 @pytest.mark.parametrize(("example", "number", "seconds", "cards"), MEASURED)
-def test_processor_time(example: int, number: int, seconds: float, cards: int) -> None:
+def test_processor_time_agrees_with_the_simulator(example: int, number: int, seconds: float, cards: int) -> None:
     if number == 1:
         deck = chapter6.input_deck(example)
     else:

@@ -1,4 +1,4 @@
-"""Measures of a run: each is tried, and its figures are those of the run."""
+"""Every measure returns the figures of a run."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ MEASURED: dict[str, tuple[Programs | Port, set[str]]] = {
     "plane_table": (Port("exact", history=True), {"planes_at_once"}),
     "divergence": (LISTED, {"diverges"}),
 }
-"""Every measure: a route whose run it takes, and the figures it gives."""
+"""A route for each measure, and the figures it returns."""
 
 
-def test_every_measure_is_tried() -> None:
+def test_every_measure_has_a_case() -> None:
     assert MEASURED.keys() == MEASURES.keys()
 
 
 @pytest.mark.parametrize("name", sorted(MEASURED))
-def test_a_measure_gives_its_figures(name: str, tmp_path: Path) -> None:
-    """Of a run it takes; of one of the other kind none."""
+def test_measure_returns_its_figures(name: str, tmp_path: Path) -> None:
+    """It returns none for a run of the other kind."""
     route, keys = MEASURED[name]
     other = Port("exact") if isinstance(route, Programs) else LISTED
     routes = replace(route, name="taken", measures=(name,)), replace(other, name="other", measures=(name,))
@@ -42,7 +42,7 @@ def test_a_measure_gives_its_figures(name: str, tmp_path: Path) -> None:
         assert not keys & runs["other"]["figures"].keys()
 
 
-def test_measures_become_figures(tmp_path: Path) -> None:
+def test_measures_become_figures_of_the_row(tmp_path: Path) -> None:
     route = Programs("listed", measures=("machine_time", "operations", "modern.study.measures:operations"))
     plan = replace(PLAN, cells=(replace(PLAN.cells[0], routes=(route,), samples=2),))
     run_study(plan, tmp_path / "m", workers=1, quiet=True)
@@ -50,7 +50,7 @@ def test_measures_become_figures(tmp_path: Path) -> None:
     assert {"seconds_processor", "seconds_reader", "additions", "products"} <= figures["figures"].keys()
 
 
-def test_a_measure_that_cannot_take_a_run_is_one_line(tmp_path: Path) -> None:
+def test_failing_measure_gives_a_one_line_error(tmp_path: Path) -> None:
     route = Programs("listed", measures=("os:getpid",))
     plan = replace(PLAN, cells=(replace(PLAN.cells[0], routes=(route,), samples=1),))
     with pytest.raises(PlanError, match=r"route listed: measure os:getpid: .* takes no arguments"):

@@ -1,4 +1,4 @@
-"""A study on a dask.distributed cluster: the same files, also when a worker is killed in mid-run."""
+"""A study on a dask.distributed cluster writes the same files, even if a worker is killed."""
 
 from __future__ import annotations
 
@@ -26,19 +26,19 @@ pytestmark = [pytest.mark.filterwarnings("ignore")]
 def cluster() -> Iterator[Any]:
     with distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=50
-    ) as found:
-        yield found
+    ) as local_cluster:
+        yield local_cluster
 
 
 def killing(plan: Plan, folder: Path, cluster: Any) -> list[int]:
-    """Kill a worker as soon as the first rows are there; the numbers of those killed."""
+    """Run the study, kill a worker as soon as the first rows exist, and return the killed process numbers."""
     killed: list[int] = []
 
     def kill() -> None:
-        while not list(folder.glob("rows/*.jsonl")) and not over.is_set():
+        while not list(folder.glob("rows/0*.jsonl")) and not over.is_set():
             time.sleep(0.01)
-        kept = len(list(folder.glob("rows/*.jsonl")))
-        if kept < len(list(plan.chunks())):
+        finished = len(list(folder.glob("rows/0*.jsonl")))
+        if finished < len(list(plan.chunks())):
             worker = next(iter(cluster.workers.values()))
             killed.append(worker.pid)
             os.kill(worker.pid, signal.SIGKILL)
@@ -54,38 +54,40 @@ def killing(plan: Plan, folder: Path, cluster: Any) -> list[int]:
     return killed
 
 
-def test_a_worker_killed_in_mid_run_changes_nothing(cluster: Any, tmp_path: Path) -> None:
+def test_killed_worker_does_not_change_the_files(cluster: Any, tmp_path: Path) -> None:
     run_study(PLAN, tmp_path / "here", workers=1, quiet=True)
     assert killing(PLAN, tmp_path / "dask", cluster)
     assert contents(tmp_path / "dask") == contents(tmp_path / "here")
 
 
-def test_a_worker_of_another_version_is_refused(cluster: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_worker_with_different_versions_is_rejected(
+    cluster: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     own = study_workers.versions()
     monkeypatch.setattr(study_workers, "versions", lambda: {**own, "numpy": "0.1"})
     with pytest.raises(PlanError, match=rf"a worker has numpy {own['numpy']}, this process 0.1"):
         run_study(PLAN, tmp_path / "old", dask=cluster.scheduler_address, quiet=True)
 
 
-def test_a_worker_without_hull1620_is_refused(cluster: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_worker_without_hull1620_is_rejected(cluster: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def missing() -> None:
         raise ModuleNotFoundError("No module named 'modern'")
 
     monkeypatch.setattr(study_workers, "_loaded", missing)
-    with pytest.raises(PlanError, match=r"a worker cannot load hull1620: .*No module named 'modern'") as refused:
+    with pytest.raises(PlanError, match=r"a worker cannot load hull1620: .*No module named 'modern'") as rejection:
         run_study(PLAN, tmp_path / "none", dask=cluster.scheduler_address, quiet=True)
-    assert "\n" not in str(refused.value)
+    assert "\n" not in str(rejection.value)
 
 
-def test_a_cluster_that_goes_away_is_said_in_a_line(tmp_path: Path) -> None:
-    """Its rows are kept; the study ends elsewhere."""
+def test_lost_cluster_gives_a_one_line_error(tmp_path: Path) -> None:
+    """The rows are kept, so that the study can be continued elsewhere."""
     folder = tmp_path / "gone"
     with distributed.LocalCluster(
         n_workers=1, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=50
     ) as short:
 
         def close() -> None:
-            while not list(folder.glob("rows/*.jsonl")):
+            while not list(folder.glob("rows/0*.jsonl")):
                 time.sleep(0.01)
             short.close()
 
@@ -99,10 +101,10 @@ def test_a_cluster_that_goes_away_is_said_in_a_line(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("address", ["nonsense", "tcp://", "tcp://127.0.0.1:1"])
-def test_no_cluster_there(address: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_address_without_a_cluster_is_rejected(address: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(study_workers, "TIMEOUT", 1)
-    with pytest.raises(PlanError) as refused:
+    with pytest.raises(PlanError) as rejection:
         run_study(PLAN, tmp_path / "no", dask=address, quiet=True)
-    assert str(refused.value).startswith(f"--dask {address}: ")
-    assert "\n" not in str(refused.value)
+    assert str(rejection.value).startswith(f"--dask {address}: ")
+    assert "\n" not in str(rejection.value)
     assert not (tmp_path / "no").exists()

@@ -1,4 +1,4 @@
-"""The studies digits, capacity, machine-time and divergence: what they measure; reports follow the rows."""
+"""The studies digits, capacity, machine-time and divergence, and the agreement of their reports with the rows."""
 
 from __future__ import annotations
 
@@ -39,20 +39,20 @@ def _finished(plan: Plan, folder: Path, module: object) -> Report:
 
 
 def _table_places(machine: Machine) -> int:
-    """The greatest index of program 3's array A that anything was stored in."""
+    """Return the greatest index of program 3's array A to which a value was assigned."""
     storage = machine.program.storage
     names = [storage.name_of(a) for a in range(storage.fields) if machine.state.kinds[a] != UNDEFINED]
     return max(int(name[2:-1]) for name in names if re.fullmatch(r"A\(\d+\)", name))
 
 
 @pytest.mark.parametrize("family", ["ball", "sphere", "cube", "prism"])
-def test_places_of_the_port_are_those_the_corrected_program_uses(family: str) -> None:
+def test_port_and_corrected_program_use_the_same_number_of_table_entries(family: str) -> None:
     for index in range(3):
         sample = _sample(family, index, digits=2, n=14)
         machines: list[Machine] = []
 
-        def watch(_: Program, machine: Machine, seen: list[Machine] = machines) -> None:
-            seen.append(machine)
+        def watch(_: Program, machine: Machine, started: list[Machine] = machines) -> None:
+            started.append(machine)
 
         run = run_hull(sample.deck, lambda name: programs.with_layers(name, ("corrected",)), OPTIONS, watch=watch)
         assert run.final.name == "program3"
@@ -60,7 +60,7 @@ def test_places_of_the_port_are_those_the_corrected_program_uses(family: str) ->
         assert plane_table(sample, hull) == {"planes_at_once": _table_places(machines[-1])}
 
 
-def test_no_places_without_a_history_or_in_the_plane() -> None:
+def test_plane_table_has_no_figure_without_a_history_or_for_flat_sets() -> None:
     sample = _sample("ball", 0, digits=2, n=8)
     assert plane_table(sample, convex_hull(sample.drawn.points)) == {}
     flat = [["0", "0", "0"], ["5", "0", "0"], ["0", "5", "0"], ["5", "5", "0"]]
@@ -71,7 +71,7 @@ def _run(sample: Sample) -> HullRun:
     return run_hull(sample.deck, programs.program)
 
 
-def test_two_digit_sets_decide_as_exact_numbers_and_three_digit_sets_do_not() -> None:
+def test_decisions_agree_with_exact_arithmetic_for_two_digits_and_not_for_three() -> None:
     for index in range(3):
         small = _sample("integers", index, digits=2, n=10)
         assert divergence_of(small, _run(small)) == {"diverges": ""}
@@ -79,15 +79,15 @@ def test_two_digit_sets_decide_as_exact_numbers_and_three_digit_sets_do_not() ->
         assert divergence_of(large, _run(large))["diverges"] != ""
 
 
-def test_cards_whose_planes_miss_their_points_are_named() -> None:
-    """D of a plane of three-digit points may have nine digits; program 1 punches eight."""
+def test_divergence_names_cards_whose_planes_miss_their_points() -> None:
+    """The D of a plane of three-digit points can have nine digits, of which program 1 punches eight."""
     samples = [_sample("integers", index, digits=3, n=10) for index in range(8)]
     places = {str(divergence_of(sample, _run(sample))["diverges"]) for sample in samples}
     assert "cards to program3" in places
 
 
-def test_the_greatest_intermediate_of_the_formulas_is_within_the_digits_derived() -> None:
-    """docs/explanation/eight-digits.md: with 3d + 1 digits every test for zero at whole points of d digits is exact."""
+def test_greatest_intermediate_value_has_the_derived_number_of_digits() -> None:
+    """docs/explanation/eight-digits.md: with 3d + 1 digits every test for zero is exact for integers of d digits."""
     size = 10**3 - 1
     assert 8 * size**3 < 10 ** digits.exact_zeros(3)
     assert 4 * (16 * size**3) < 10 ** digits.enough(3)
@@ -101,7 +101,7 @@ def digits_study(tmp_path_factory: pytest.TempPathFactory) -> tuple[Plan, Path, 
     return plan, folder, _finished(plan, folder, digits)
 
 
-def test_digits_needs_3d_plus_1_for_plain_sets(digits_study: tuple[Plan, Path, Report]) -> None:
+def test_digits_finds_3d_plus_1_for_random_sets(digits_study: tuple[Plan, Path, Report]) -> None:
     _, _, report = digits_study
     assert [row[4] for row in report.tables[0].rows] == ["4", "7", "10"]
     assert report.tables[0].rows[0][5] == "4"
@@ -113,22 +113,22 @@ def test_digits_counts_every_set_once(digits_study: tuple[Plan, Path, Report]) -
         assert sum(map(int, row[2:])) == plan.cells[0].samples
 
 
-def test_digits_follows_the_rows(digits_study: tuple[Plan, Path, Report]) -> None:
+def test_digits_report_follows_changed_rows(digits_study: tuple[Plan, Path, Report]) -> None:
     plan, folder, before = digits_study
     with closing(Store.open(folder, plan)) as store:
         store.query("UPDATE runs SET outcome = 'wrong hull' WHERE cell = 1 AND route = 'P=20'")
         after = digits.report(plan, store)
         assert digits.least(summary(store), 1) == 21
     assert after.tables[0].rows[1][4] == "21"
-    assert before.conclusions[2].startswith("Lengths d for which the least P is 3d + 1, with which every test for zero")
-    assert "is exact: 3 of 3." in before.conclusions[2]
-    assert "is exact: 2 of 3." in after.conclusions[2]
+    assert before.conclusions[2].startswith("The least P is 3d + 1, with which every test for zero")
+    assert "is exact, for 3 of 3 numbers" in before.conclusions[2]
+    assert "is exact, for 2 of 3 numbers" in after.conclusions[2]
 
 
-def test_capacity_reports_the_most_places_of_its_rows(tmp_path: Path) -> None:
+def test_capacity_reports_the_greatest_number_of_entries_of_its_rows(tmp_path: Path) -> None:
     whole = capacity.plan(2, 3)
-    wanted = [cell for cell in whole.cells if cell.key["sets"] in ("ball", "sphere") and cell.key["n"] in (8, 51)]
-    plan = Plan(whole.name, whole.title, whole.question, tuple(wanted), whole.seed)
+    selected = [cell for cell in whole.cells if cell.key["sets"] in ("ball", "sphere") and cell.key["n"] in (8, 51)]
+    plan = Plan(whole.name, whole.title, whole.question, tuple(selected), whole.seed)
     report = _finished(plan, tmp_path / "out", capacity)
     with closing(Store.open(tmp_path / "out", plan)) as store:
         figures = [run.figures["planes_at_once"] for run in store.runs(route=capacity.EXACT) if run.n == 51]
@@ -136,21 +136,21 @@ def test_capacity_reports_the_most_places_of_its_rows(tmp_path: Path) -> None:
     assert again == report
     assert max(int(row[4]) for row in report.tables[0].rows) == max(figures) > capacity.PLACES
     assert [row[1] for row in report.tables[0].rows] == ["-", "51"]
-    assert report.conclusions[0].startswith(f"Most places seen in use at once: {max(figures)}; ")
+    assert report.conclusions[0].startswith(f"Largest number of entries in use at once: {max(figures)}. ")
     assert report.conclusions[0].endswith("no set needed more than 98: 8.")
     assert report.conclusions[1].startswith("Sets tried at that N: 4. ")
     assert report.tables[2].rows[0][1:] == ("98", str(capacity.positions(98)), "40000")
 
 
-def test_98_places_are_what_the_program_holds() -> None:
-    """Ten positions a place in each of the eight arrays that hold a number a plane (thesis p. 88)."""
+def test_each_table_entry_takes_eighty_positions_of_core() -> None:
+    """An entry takes ten positions in each of the eight arrays with one number per plane (thesis p. 88)."""
     assert capacity.positions(99) - capacity.positions(98) == 8 * 10
 
 
-def test_machine_time_adds_up(tmp_path: Path) -> None:
+def test_machine_time_is_the_sum_of_its_parts(tmp_path: Path) -> None:
     whole = machine_time.plan(2, 3)
-    wanted = [cell for cell in whole.cells if cell.key["n"] in (4, 12)]
-    plan = Plan(whole.name, whole.title, whole.question, tuple(wanted), whole.seed)
+    selected = [cell for cell in whole.cells if cell.key["n"] in (4, 12)]
+    plan = Plan(whole.name, whole.title, whole.question, tuple(selected), whole.seed)
     report = _finished(plan, tmp_path / "out", machine_time)
     with closing(Store.open(tmp_path / "out", plan)) as store:
         longest = {
@@ -166,7 +166,7 @@ def test_machine_time_adds_up(tmp_path: Path) -> None:
     assert [place for place, _ in chart.series[0].points] == [4.0, 12.0]
 
 
-def test_machine_time_counts_only_sets_whose_hull_was_found(tmp_path: Path) -> None:
+def test_machine_time_counts_only_sets_with_the_right_hull(tmp_path: Path) -> None:
     whole = machine_time.plan(2, 3)
     plan = Plan(whole.name, whole.title, whole.question, whole.cells[:1], whole.seed)
     _finished(plan, tmp_path / "out", machine_time)
@@ -174,64 +174,64 @@ def test_machine_time_counts_only_sets_whose_hull_was_found(tmp_path: Path) -> N
         store.query("UPDATE runs SET outcome = 'wrong hull' WHERE place = 0")
         assert machine_time.report(plan, store).tables[1].rows[0][2] == "1"
         store.query("UPDATE runs SET outcome = 'wrong hull'")
-        assert machine_time.report(plan, store).conclusions == ("No set was determined, so nothing was timed.",)
+        assert machine_time.report(plan, store).conclusions == ("No run gave a hull, so nothing was timed.",)
 
 
-def test_divergence_names_where_and_follows_the_rows(tmp_path: Path) -> None:
+def test_divergence_report_follows_changed_rows(tmp_path: Path) -> None:
     whole = divergence.plan(3, 3)
-    wanted = [cell for cell in whole.cells if cell.key["sets"] in ("whole, 2 digits", "whole, 6 digits")]
-    plan = Plan(whole.name, whole.title, whole.question, tuple(wanted), whole.seed)
+    selected = [cell for cell in whole.cells if cell.key["sets"] in ("whole, 2 digits", "whole, 6 digits")]
+    plan = Plan(whole.name, whole.title, whole.question, tuple(selected), whole.seed)
     report = _finished(plan, tmp_path / "out", divergence)
     assert sum(int(row[1]) for row in report.tables[0].rows) == 6
-    assert report.conclusions[0].endswith("Families of which every set does: whole, 2 digits.")
+    assert report.conclusions[0].endswith("Families in which all sets do: whole, 2 digits.")
     with closing(Store.open(tmp_path / "out", plan)) as store:
         store.query("UPDATE runs SET outcome = 'right'")
-        assert "by the programs' own faults: 0 of 3," in divergence.report(plan, store).conclusions[1]
+        assert "because of faults of the programs: 0 of 3," in divergence.report(plan, store).conclusions[1]
         store.query("UPDATE runs SET outcome = 'endless' WHERE place = 0")
         once = divergence.report(plan, store).conclusions[1]
-        assert once.startswith("Of the other sets, those that still end in the right hull: 2 of 3,")
-        assert "by the programs' own faults: 1 of 3," in once
+        assert once.startswith("Other sets that still give the right hull: 2 of 3,")
+        assert "because of faults of the programs: 1 of 3," in once
         store.query("UPDATE runs SET figures = json_set(figures, '$.diverges', 'program3 116')")
         after = divergence.report(plan, store)
     assert after.tables[0].rows[0][:2] == ("program3 116", "6")
-    assert after.conclusions[0].endswith("Families of which every set does: none.")
-    assert after.conclusions[1].endswith("by the programs' own faults: 0 of 0.")
+    assert after.conclusions[0].endswith("Families in which all sets do: none.")
+    assert after.conclusions[1].endswith("because of faults of the programs: 0 of 0.")
 
 
 @pytest.mark.parametrize("module", [digits, capacity, machine_time, divergence])
-def test_plans_have_distinct_cells_and_repeat(module: object) -> None:
+def test_plans_have_distinct_cells_and_are_reproducible(module: object) -> None:
     plan = module.plan(module.SAMPLES, 1963)  # type: ignore[attr-defined]
     assert len({cell.name for cell in plan.cells}) == len(plan.cells)
     assert plan.document() == module.plan(module.SAMPLES, 1963).document()  # type: ignore[attr-defined]
     assert plan.document() != module.plan(module.SAMPLES, 1964).document()  # type: ignore[attr-defined]
 
 
-def test_cells_by_their_keys() -> None:
+def test_cells_are_selected_by_their_keys() -> None:
     plan = capacity.plan(1, 1)
     assert values(plan, "sets") == ("ball", "cube, solid", "cube, surface", "prism", "sphere")
     assert [cell.key["n"] for _, cell in cells(plan, sets="prism")] == [n for n in capacity.POINTS if n % 2 == 0]
     assert cells(plan, sets="nothing") == ()
 
 
-def test_no_failure_among_so_many_bounds_the_share() -> None:
-    """The rule of three: none of n leaves about 3.7/n at 95 % with two tails (Clopper and Pearson 1934)."""
+def test_absence_of_failures_bounds_their_share() -> None:
+    """0 in n leaves about 3.7/n at 95 % with two tails (Clopper and Pearson 1934)."""
     assert exact(0, 300).high == pytest.approx(1 - 0.025 ** (1 / 300), rel=1e-9)
 
 
 @pytest.mark.parametrize("d", [1, 2, 3])
-def test_3d_plus_4_digits_are_enough_for_nearly_flat_sets_too(d: int) -> None:
-    """docs/explanation, digits: sets a unit off a plane have the least values at C that whole numbers can have."""
+def test_3d_plus_4_digits_are_enough_for_nearly_flat_sets(d: int) -> None:
+    """Sets a unit off a plane have the least values at C that integers can have (docs/explanation/eight-digits.md)."""
     source = random.Random(d)
     size = 10**d - 1
-    for _ in range(60):
+    for _ in range(40):
         a, b = source.choice((-1, 0, 1)), source.choice((-1, 0, 1))
-        found: set[tuple[int, int, int]] = set()
-        while len(found) < 8:
+        drawn: set[tuple[int, int, int]] = set()
+        while len(drawn) < 8:
             x, y = source.randint(-size, size), source.randint(-size, size)
             z = a * x + b * y + source.randint(-1, 1)
             if abs(z) <= size:
-                found.add((x, y, z))
-        points = [[str(c) for c in point] for point in sorted(found)]
+                drawn.add((x, y, z))
+        points = [[str(c) for c in point] for point in sorted(drawn)]
         judged, hull = exact_hull(points), convex_hull(points, f"truncating:{digits.enough(d)}")
         assert hull.determined
         assert set(hull.vertices) == set(judged.vertices)

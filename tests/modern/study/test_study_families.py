@@ -1,4 +1,4 @@
-"""Families: points that fit a card, distinct, the same for the same seed, and what each family promises."""
+"""Families return distinct points that fit a card, reproducibly, with the properties of each family."""
 
 from __future__ import annotations
 
@@ -44,12 +44,12 @@ def numbers(drawn: Drawn) -> list[tuple[Fraction, ...]]:
     return [tuple(map(Fraction, point)) for point in drawn.points]
 
 
-def test_every_family_is_tried() -> None:
+def test_every_family_has_a_case() -> None:
     assert DRAWN.keys() == FAMILIES.keys()
 
 
 @given(st.sampled_from(sorted(DRAWN)), seeds, st.integers(0, 40))
-def test_points_are_distinct_fit_a_card_and_come_again(family: str, seed: int, index: int) -> None:
+def test_points_are_distinct_fit_a_card_and_are_reproducible(family: str, seed: int, index: int) -> None:
     drawn = draw(family, seed, index)
     assert drawn == draw(family, seed, index)
     points = numbers(drawn)
@@ -60,31 +60,31 @@ def test_points_are_distinct_fit_a_card_and_come_again(family: str, seed: int, i
 
 
 @given(seeds, st.integers(1, 8))
-def test_integers_have_at_most_their_digits(seed: int, digits: int) -> None:
+def test_integers_have_at_most_the_given_digits(seed: int, digits: int) -> None:
     for point in numbers(draw("integers", seed, digits=digits, n=8)):
         assert all(c.denominator == 1 and abs(c) < 10**digits for c in point)
 
 
 @given(seeds, st.integers(3, 10**6), st.integers(-(10**6), 10**6))
-def test_a_box_is_about_its_centre(seed: int, most: int, centre: int) -> None:
+def test_points_of_a_box_are_around_its_centre(seed: int, most: int, centre: int) -> None:
     for point in numbers(draw("box", seed, most=most, n=8, centre=centre)):
         assert all(c.denominator == 1 and abs(c - centre) <= most for c in point)
 
 
 @pytest.mark.parametrize("parameters", [{"most": 0}, {"most": 10**8}, {"most": 1, "centre": 99_999_999}])
-def test_a_box_that_no_card_holds(parameters: dict[str, int]) -> None:
+def test_box_with_coordinates_too_long_for_a_card_is_rejected(parameters: dict[str, int]) -> None:
     with pytest.raises(FamilyError, match="family box: most is"):
         draw("box", 1, n=4, **parameters)
 
 
 @given(seeds, st.integers(1, 8))
-def test_decimals_have_exactly_their_digits(seed: int, digits: int) -> None:
+def test_decimals_have_exactly_the_given_digits(seed: int, digits: int) -> None:
     for point in draw("decimals", seed, digits=digits, n=8).points:
         assert all(len(coordinate_field(text)[2:10].rstrip("0")) == digits for text in point)
 
 
 @given(seeds)
-def test_ball_sphere_and_cube(seed: int) -> None:
+def test_points_of_ball_sphere_and_cube_are_in_place(seed: int) -> None:
     for x, y, z in numbers(draw("ball", seed)):
         assert x * x + y * y + z * z <= 99 * 99
     for x, y, z in numbers(draw("sphere", seed)):
@@ -121,7 +121,7 @@ def test_near_coplanar_points_are_within_the_gap_of_a_plane_and_not_all_in_it(se
 
 
 @given(seeds)
-def test_kinds_of_the_thesis_are_what_they_are_called(seed: int) -> None:
+def test_kinds_of_the_thesis_have_their_dimensions(seed: int) -> None:
     dimensions = {"three points": {2}, "line": {1}, "one point": {0}, "plane": {1, 2}, "slab": {1, 2, 3}}
     for kind, possible in dimensions.items():
         drawn = draw("thesis", seed, kinds={kind: 1})
@@ -131,14 +131,14 @@ def test_kinds_of_the_thesis_are_what_they_are_called(seed: int) -> None:
     assert any(all(1 <= p[k] <= 4 for p in slab) for k in range(3))
 
 
-def test_kinds_are_drawn_alike() -> None:
+def test_kinds_are_equally_frequent() -> None:
     seen = [str(draw("thesis", 1, index).tags["kind"]) for index in range(1200)]
     # Each is binomial of 1200 and 1/6: 200 with a standard deviation of 13.
     assert all(abs(seen.count(kind) - 200) < 6 * 13 for kind in KINDS)
 
 
 @given(seeds, st.integers(0, 1000))
-def test_a_data_sheet_has_eight_points_of_whole_numbers_and_decimals(seed: int, share: int) -> None:
+def test_data_sheet_has_eight_points_of_integers_and_decimals(seed: int, share: int) -> None:
     parameters = {"kinds": {SHEET: 1}, "decimals": share}
     alone, added = (numbers(draw("thesis", seed, **parameters, form=form)) for form in ("alone", "added"))
     assert len(alone) == len(added) == 8
@@ -156,7 +156,7 @@ def test_a_third_of_a_data_sheets_coordinates_are_decimals() -> None:
     assert abs(sum(x.denominator > 1 for x in found) - 1598) < 6 * 33
 
 
-def test_published_sets_are_those_of_the_thesis_in_turn() -> None:
+def test_published_sets_follow_one_another() -> None:
     names = list(published_sets())
     assert names[:6] == [f"example {k}" for k in range(1, 7)]
     assert [draw("published", 0, k).tags["kind"] for k in range(len(names) + 1)] == [*names, names[0]]
@@ -165,61 +165,71 @@ def test_published_sets_are_those_of_the_thesis_in_turn() -> None:
 
 
 @pytest.mark.parametrize(
-    ("family", "parameters", "words"),
+    ("family", "parameters", "message"),
     [
-        ("integers", {"digits": 9, "n": 5}, "digits is 9"),
+        ("integers", {"digits": 9, "n": 5}, "which a card holds, found 9"),
         ("integers", {"digits": 1, "n": 52}, "n is 52"),
         ("integers", {"digits": 1, "n": 0}, "n is 0"),
         ("integers", {"digits": 1, "n": [9, 3]}, "n is 9 to 3"),
         ("integers", {"digits": 1}, "missing"),
         ("integers", {"digits": 1, "n": 3, "x": 1}, "unexpected"),
-        ("integers", {"digits": 1.5, "n": 3}, "digits is 1.5"),
-        ("integers", {"digits": "x", "n": 3}, "digits is x"),
-        ("integers", {"digits": 1, "n": [9]}, "n is [9]; it is a whole number"),
-        ("integers", {"digits": 1, "n": "ab"}, "n is 'ab'; it is a whole number"),
-        ("integers", {"digits": 1, "n": [3, 4.5]}, "n is [3, 4.5]; it is a whole number"),
-        ("decimals", {"digits": 3, "n": 5, "exponent": "x"}, "exponent is 'x'; it is a whole number"),
+        ("integers", {"digits": 1.5, "n": 3}, "which a card holds, found 1.5"),
+        ("integers", {"digits": "x", "n": 3}, "which a card holds, found x"),
+        (
+            "integers",
+            {"digits": 1, "n": [9]},
+            "n: expected an integer, or the least and the greatest as [4, 20], found [9]",
+        ),
+        (
+            "integers",
+            {"digits": 1, "n": "ab"},
+            "n: expected an integer, or the least and the greatest as [4, 20], found 'ab'",
+        ),
+        ("integers", {"digits": 1, "n": [3, 4.5]}, "as [4, 20], found [3, 4.5]"),
+        (
+            "decimals",
+            {"digits": 3, "n": 5, "exponent": "x"},
+            "exponent: expected an integer, or the least and the greatest as [4, 20], found 'x'",
+        ),
         ("box", {"most": 1.5, "n": 5}, "most is 1.5"),
-        ("near-coplanar", {"digits": 2, "n": 5, "gap": 1.5}, "gap is 1.5"),
-        ("decimals", {"digits": 3, "n": 5, "exponent": 40}, "exponent is 40"),
+        ("near-coplanar", {"digits": 2, "n": 5, "gap": 1.5}, "for 10**-gap, found 1.5"),
+        ("decimals", {"digits": 3, "n": 5, "exponent": 40}, "exponent: expected -20 to 20, found 40"),
         ("near-coplanar", {"digits": 5, "n": 5, "gap": 6}, "significant digits"),
-        ("near-coplanar", {"digits": 2, "n": 5, "gap": -1}, "gap is -1"),
-        ("thesis", {"kinds": {"star": 1}}, "kinds are"),
-        ("thesis", {"kinds": {"line": 0}}, "kinds are"),
-        ("thesis", {"decimals": 1001}, "decimals is 1001"),
-        ("thesis", {"decimals": -1}, "decimals is -1"),
-        ("thesis", {"decimals": 0.5}, "decimals is 0.5"),
-        ("thesis", {"form": "both"}, "form is 'both'"),
+        ("near-coplanar", {"digits": 2, "n": 5, "gap": -1}, "for 10**-gap, found -1"),
+        ("thesis", {"kinds": {"star": 1}}, "kinds: expected three points"),
+        ("thesis", {"kinds": {"line": 0}}, "kinds: expected three points"),
+        ("thesis", {"decimals": 1001}, "0 to 1000, found 1001"),
+        ("thesis", {"decimals": -1}, "0 to 1000, found -1"),
+        ("thesis", {"decimals": 0.5}, "0 to 1000, found 0.5"),
+        ("thesis", {"form": "both"}, "form: expected alone or added, found 'both'"),
         ("published", {"sets": ["example 9"]}, "'example 9'"),
         ("points", {"points": [["1", "2", "x"]]}, "'x' is not a decimal number"),
         ("points", {"points": [["1", "2", "3.123456789"]]}, "significant digits"),
-        ("points", {"points": [["1", "2", "3"], ["1.0", "2", "3"]]}, "the same"),
-        ("points", {"points": [["0", "2", "3"], ["-0", "2", "3"]]}, "the same"),
-        ("points", {"points": [["1", "2", "3"]], "n": 2}, "there are 1 points"),
+        ("points", {"points": [["1", "2", "3"], ["1.0", "2", "3"]]}, "two points are equal"),
+        ("points", {"points": [["0", "2", "3"], ["-0", "2", "3"]]}, "two points are equal"),
+        ("points", {"points": [["1", "2", "3"]], "n": 2}, "there are only 1 points"),
         ("points", {"points": []}, "there are no points"),
         ("points", {"points": [["1", "2", str(k)] for k in range(52)]}, "52 points"),
         ("nowhere", {}, "no family is called 'nowhere'"),
         ("os:nothing", {}, "nothing"),
     ],
 )
-def test_parameters_that_give_no_such_points_are_refused_in_a_line(
-    family: str, parameters: dict[str, Any], words: str
-) -> None:
+def test_impossible_parameters_give_a_one_line_error(family: str, parameters: dict[str, Any], message: str) -> None:
     def drawn() -> list[Drawn]:
         return [draw_sample(Cell({"f": family}, family, parameters, (), 1), 1, index) for index in range(20)]
 
-    with pytest.raises(EmulatorError) as refused:
+    with pytest.raises(EmulatorError) as rejection:
         drawn()
-    assert words in str(refused.value)
-    assert "\n" not in str(refused.value)
+    assert message in str(rejection.value)
+    assert "\n" not in str(rejection.value)
 
 
-def test_a_family_that_has_too_few_points_says_so() -> None:
+def test_family_with_too_few_distinct_points_raises_family_error() -> None:
     with pytest.raises(FamilyError, match="distinct points"):
         Draw(random_of("ab")).distinct(3, lambda: (0, 0, 0))
 
 
-def test_a_family_of_ones_own() -> None:
+def test_family_can_be_a_user_defined_function() -> None:
     assert draw("modern.study.families.scattered:integers", 3, digits=2, n=4).points
     with pytest.raises(PlanError):
         draw("modern.study.families.scattered:nothing", 3, n=4)

@@ -1,4 +1,4 @@
-"""One deck for every outcome, from KNOWN-FAULTS and its grounds; batches equal to single runs; causes."""
+"""Every outcome has a deck, from KNOWN-FAULTS and its grounds, and batches agree with single runs."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ DATA = MACHINE_RUNS
 
 
 def points_of(name: str) -> tuple[tuple[str, str, str], ...]:
-    """The points of a ground, an example, or one of the fourteen machine runs."""
+    """Return the points of a ground, an example, or one of the fourteen machine runs."""
     ground = ground_deck(name)
     text = ground.text() if ground else (DATA / name / "deck.cards").read_text(encoding="ascii")
     return parse_input(text, name).points
@@ -84,20 +84,22 @@ CASES = [
 
 
 @pytest.mark.parametrize(("points", "route", "outcome", "detail"), CASES)
-def test_every_outcome(points: Sequence[Sequence[int | str]] | str, route: Route, outcome: str, detail: str) -> None:
+def test_deck_has_the_expected_outcome(
+    points: Sequence[Sequence[int | str]] | str, route: Route, outcome: str, detail: str
+) -> None:
     found = answer(points, route)
     assert (found.outcome, found.detail) == (outcome, detail)
 
 
-def test_the_plane_table_is_full() -> None:
-    """KNOWN-FAULTS 5: with the mend of the last pair the 28 points of the ground come to its end."""
+def test_plane_table_overflows() -> None:
+    """KNOWN-FAULTS 5: with the last pair corrected, the 28 points of the ground reach the end of the table."""
     found = answer("table", Programs("one mend", rows=("P3-025",)))
     assert (found.outcome, found.detail) == ("table full", "program3 MM(99)")
     assert answer("table", MENDED).outcome == "right"
 
 
-def test_another_order_is_seen_against_the_reference_only() -> None:
-    """The examples' state of program 1 orders points otherwise than the listing does."""
+def test_order_is_compared_only_with_the_reference() -> None:
+    """The examples' state of program 1 orders points differently from the listing."""
     listed, examples = answer("example5"), answer("example5", Programs("examples", state="examples"))
     assert listed.outcome == examples.outcome == "right"
     assert reordered(examples, listed).outcome == "reordered"
@@ -129,8 +131,8 @@ def answered(run: HullRun, one: Sample) -> tuple[str, str]:
     return found.outcome, found.detail
 
 
-def test_changed_cards_are_what_they_say() -> None:
-    """What no deck of ours brings about: a plane twice, a vertex, a plane or a point too many."""
+def test_altered_cards_have_the_expected_fault() -> None:
+    """Faults that no deck causes: a doubled plane, or a vertex, plane or point too many."""
     run, one = run_of("example5")
     cards = list(run.final.result.punched)
     equations = next(k for k, card in enumerate(cards) if card.startswith("EQUATIONS"))
@@ -170,8 +172,8 @@ def test_changed_cards_are_what_they_say() -> None:
         (".00000000E-99   .45000000E+02   .00000000E-99  -.91000000E+02", "wrong hull"),
     ],
 )
-def test_the_plane_of_coplanar_points_is_judged_too(printed: str, outcome: str) -> None:
-    """Example 4 lies in y = 2: its plane turned or moved is wrong, any multiple of it right."""
+def test_plane_of_coplanar_points_is_checked(printed: str, outcome: str) -> None:
+    """Example 4 lies in y = 2.  Its plane is wrong if rotated or moved, and right if multiplied."""
     run, one = run_of("example4")
     cards = list(run.final.result.punched)
     title = next(k for k, card in enumerate(cards) if card.startswith("COEFFICIENTS OF AN EQUATION"))
@@ -180,8 +182,8 @@ def test_the_plane_of_coplanar_points_is_judged_too(printed: str, outcome: str) 
     assert answered(punched_otherwise(run, cards), one) == (outcome, "" if outcome == "right" else "equations wrong")
 
 
-def test_other_endings_say_where_they_were() -> None:
-    """No deck has reached an undefined value (OPEN-QUESTIONS 22); the ending is put in the place of a run's own."""
+def test_detail_of_other_endings_names_the_statement() -> None:
+    """No deck has reached an undefined value (OPEN-QUESTIONS 22); the ending of a run is replaced."""
     run, one = run_of("example5")
     line = next(line for line in run.final.program.statements if line.place.card == 99)
     where = f"program3 {position(run.final.program, line)}"
@@ -212,7 +214,7 @@ def test_every_outcome_has_a_case() -> None:
     } == set(OUTCOMES)
 
 
-def test_a_batch_gives_the_runs_of_single_decks() -> None:
+def test_batch_agrees_with_runs_of_single_decks() -> None:
     sets = [points for _, points in shared.sets(40, 5) if len(points) < 20]
     sets += [points_of(f"example{k}") for k in range(1, 7)] + [points_of("lastpair"), points_of("39_prism_n10")]
     data = [shared.deck_of(points) for points in sets]
@@ -222,7 +224,7 @@ def test_a_batch_gives_the_runs_of_single_decks() -> None:
         assert batch == [run_hull(deck, programs.loader(()), options, first) for deck in data]
 
 
-def test_a_deck_that_cannot_be_read_stops_no_other() -> None:
+def test_unreadable_deck_does_not_stop_the_others() -> None:
     good, bad = shared.deck_of([(0, 0, 0)]), shared.deck_of([(0, 0, 0), (1, 0, 0)])
     bad = replace(bad, cards=bad.cards[:2])
     batch = run_hulls([good, bad, good], programs.loader(()))
@@ -230,8 +232,8 @@ def test_a_deck_that_cannot_be_read_stops_no_other() -> None:
     assert batch[0] == batch[2] == run_hull(good, programs.loader(()))
 
 
-def test_the_statement_that_decided_is_the_one_a_trace_shows() -> None:
-    """Compared with a trace of the run: the last IF before the message."""
+def test_deciding_statement_agrees_with_a_trace() -> None:
+    """It is the last IF before the message in a trace of the run."""
     seen = set()
     for points in small_sets(90):
         one = sample(points)
@@ -268,16 +270,16 @@ def test_single_rows_are_added_without_the_rest_of_their_layer() -> None:
     assert all(one.detail not in last_pair for one in after)
 
 
-def test_fewer_digits_than_a_card_are_taken_as_the_program_takes_them() -> None:
-    """Points of five digits in four: the programs punch them cut, and the vertices are known all the same."""
+def test_points_are_compared_as_a_program_with_fewer_digits_reads_them() -> None:
+    """Programs with four digits punch truncated points of five digits, whose vertices are still identified."""
     corners = [("10001", "0", "0"), ("0", "10001", "0"), ("0", "0", "10001"), ("-10001", "-10001", "-10001")]
     found = answer(corners, replace(LISTED, arithmetic="truncating:4"))
     assert found.outcome in ("right", "wrong hull")
     assert found.detail != "coordinates changed"
 
 
-def test_errors_are_sized() -> None:
-    """Planes of three digits with an e: the error is what exact arithmetic gives for the cards punched."""
+def test_coefficient_error_is_measured() -> None:
+    """For planes of three digits with an e, the error is that of the punched cards in exact arithmetic."""
     route = replace(MENDED, layers=("epsilon", "corrected"), epsilon="1000")
     rng, sized = random.Random(4), 0
     ones = [sample([[rng.randint(-2000, 2000) for _ in range(3)] for _ in range(4)]) for _ in range(30)]
@@ -305,12 +307,12 @@ def test_errors_are_sized() -> None:
     ("value", "text"),
     [(Fraction(0), "0"), (Fraction(1, 3), "0.333333"), (Fraction(2, 3), "0.666667"), (Fraction(25, 10**12), "2.5E-11")],
 )
-def test_figures_have_six_digits(value: Fraction, text: str) -> None:
+def test_figures_are_rounded_to_six_digits(value: Fraction, text: str) -> None:
     assert number_text(value) == text
 
 
-def test_a_doubled_equation_and_a_near_one_are_told_apart() -> None:
-    """The comparison's places: the judge's equation each one found was taken for, and -1 beyond NEAR."""
+def test_doubled_equation_and_similar_equation_are_distinguished() -> None:
+    """``places`` holds the exact equation to which each equation of the run belongs, or -1 beyond NEAR."""
     one = sample("example5")
     right = one.outcome
     a, b, c, d = right.equations[1]

@@ -1,4 +1,4 @@
-"""Families and measures of one's own, and arithmetics of more digits than a card: found, named, explained."""
+"""User-defined families and measures, and arithmetics with more digits than a card."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def spread(sample, run):
 
 @pytest.fixture
 def module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
-    """A plan in a folder of its own with a module beside it; the module's name, which no other test has."""
+    """Write a plan and a module next to it in an empty folder; return the unique name of the module."""
     name = "own_" + tmp_path.name
     (tmp_path / "plans").mkdir()
     (tmp_path / "plans" / f"{name}.py").write_text(MODULE)
@@ -50,15 +50,15 @@ def module(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
     return name
 
 
-def test_they_are_found_beside_the_plan(module: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_module_next_to_the_plan_is_found(module: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["study", "plans/own.toml", "--workers", "1", "--quiet"]) == 0
     text = next(Path("own/rows").iterdir()).read_text()
     assert '"spread":5' in text
     assert capsys.readouterr().err == ""
 
 
-def test_worker_processes_find_them_too(module: str) -> None:
-    assert main(["study", "plans/own.toml", "--samples", "500", "--workers", "2", "--quiet"]) == 0
+def test_worker_processes_find_the_module(module: str) -> None:
+    assert main(["study", "plans/own.toml", "--samples", "201", "--workers", "2", "--quiet"]) == 0
 
 
 @pytest.mark.parametrize(
@@ -78,7 +78,7 @@ def test_worker_processes_find_them_too(module: str) -> None:
         ("def line(draw, n)", "def line(draw)", "unexpected keyword argument 'n'"),
     ],
 )
-def test_a_mistake_there_is_one_line_with_file_and_line(
+def test_error_in_the_module_gives_one_line_with_file_and_line_number(
     was: str, now: str, words: str, module: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = Path("plans") / f"{module}.py"
@@ -91,13 +91,13 @@ def test_a_mistake_there_is_one_line_with_file_and_line(
         assert f"{module}.py, line" in err
 
 
-def test_a_module_that_is_nowhere_is_named(module: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_missing_module_is_named(module: str, capsys: pytest.CaptureFixture[str]) -> None:
     (Path("plans") / f"{module}.py").unlink()
     assert main(["study", "plans/own.toml", "--workers", "1", "--quiet"]) == 2
     assert f"no module is called '{module}' next to the plan or on Python's module path" in capsys.readouterr().err
 
 
-def test_a_module_that_has_changed_is_not_resumed(module: str) -> None:
+def test_study_is_not_resumed_after_its_module_has_changed(module: str) -> None:
     plan = read_plan("plans/own.toml")
     run_study(plan, "own", workers=1, quiet=True)
     run_study(plan, "own", workers=1, quiet=True, resume=True)
@@ -107,7 +107,7 @@ def test_a_module_that_has_changed_is_not_resumed(module: str) -> None:
         run_study(plan, "own", workers=1, quiet=True, resume=True)
 
 
-def test_a_folder_that_is_not_there_is_not_resumed(module: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_study_is_not_resumed_in_a_missing_folder(module: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["study", "plans/own.toml", "--resume", "--out", "other"]) == 2
     assert "--resume: there is no study in other, as there is no such folder" in capsys.readouterr().err
     assert not Path("other").exists()
@@ -136,10 +136,10 @@ parameters = { digits = 3, n = 12 }
 """
 
 
-def test_digits_beyond_the_cards_are_kept_uncut_and_lost_with_a_word(
+def test_digits_beyond_the_cards_are_kept_with_uncut_and_otherwise_lost_with_a_note(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Twelve digits hold what coordinates of three need; cards of eight between the programs do not."""
+    """Twelve digits are enough for coordinates of three digits; the eight of the cards between the programs are not."""
     monkeypatch.chdir(tmp_path)
     Path("digits.toml").write_text(DIGITS, encoding="utf-8")
     assert main(["study", "digits.toml", "--workers", "1"]) == 0
@@ -153,7 +153,7 @@ def test_digits_beyond_the_cards_are_kept_uncut_and_lost_with_a_word(
     assert found["cut"] != ["6", "6"], lines
 
 
-def test_no_word_where_the_cards_hold_all_digits() -> None:
+def test_no_note_if_the_cards_hold_all_digits() -> None:
     plan = read_plan_of(Programs("eight"), Programs("four", arithmetic="truncating:4"))
     assert cut_lines(plan) == ()
     assert len(cut_lines(read_plan_of(Programs("doubles", arithmetic="float64")))) == 1

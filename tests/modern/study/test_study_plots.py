@@ -1,4 +1,4 @@
-"""Charts: nothing lies on the curves, no series hides another, signs are those of print, and grey tells as much."""
+"""Charts are legible: no overlaps, no hidden series, typographic signs, and a style that works in grey."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from modern.cli.main import main
@@ -26,7 +26,7 @@ NEEDS_MATPLOTLIB = pytest.mark.skipif(bool(plots.can_plot()), reason="needs matp
 
 
 def lines(count: int, places: int, apart: float = 0.0, **more: Any) -> Lines:
-    """Series of one value each, ``apart`` from one another, at places 1, 2, ..."""
+    """Return a chart of constant series, ``apart`` from one another, at x = 1, 2 and so on."""
     series = tuple(
         Series(
             f"series {k}", tuple((float(n + 1), Interval(k * apart, k * apart, k * apart + 0.1)) for n in range(places))
@@ -53,7 +53,7 @@ CHARTS: dict[str, Chart] = {
 
 
 def laid_out(chart: Chart) -> Any:
-    """The chart's figure, with everything in its place."""
+    """Return the figure of the chart after its layout."""
     import matplotlib
 
     with matplotlib.rc_context(plots._STYLE):
@@ -64,14 +64,14 @@ def laid_out(chart: Chart) -> Any:
 
 @NEEDS_MATPLOTLIB
 @pytest.mark.parametrize("chart", CHARTS.values(), ids=CHARTS)
-def test_names_and_notes_stand_off_the_curves(chart: Chart) -> None:
+def test_legends_and_notes_do_not_overlap_the_axes(chart: Chart) -> None:
     figure = laid_out(chart)
     legends = [legend.get_window_extent() for legend in figure.legends]
     texts = [text.get_window_extent() for text in figure.texts]
     boxes = [axes.get_window_extent() for axes in figure.axes if axes.axison]
     assert not any(box.overlaps(other) for box in boxes for other in (*legends, *texts))
     assert not any(box.overlaps(other) for box, other in combinations((*legends, *texts), 2))
-    # Nor on the numbers and the words of an axis.
+    # The legend does not overlap the numbers and labels of an axis either.
     around = [axes.get_tightbbox() for axes in figure.axes if axes.axison]
     assert not any(box.overlaps(other) for box in around for other in legends)
     assert not any(axes.texts or axes.get_legend() for axes in figure.axes)
@@ -85,14 +85,14 @@ def test_names_and_notes_stand_off_the_curves(chart: Chart) -> None:
 @NEEDS_MATPLOTLIB
 @pytest.mark.parametrize("chart", [lines(3, 6), lines(5, 13), lines(6, 25), lines(6, 6, 0.01)])
 def test_no_series_hides_another(chart: Lines) -> None:
-    """Marks at one place are 3.4 points of print apart, or each series has axes on which it alone has marks."""
+    """Markers at the same x are 3.4 points apart, or each series has separate axes."""
     figure = laid_out(chart)
     alone = [axes for axes in figure.axes if axes.axison]
     marked = [[line for line in axes.lines if line.get_marker() not in ("", "None", None)] for axes in alone]
-    # The caps of the intervals are lines with marks too, of a hair's breadth.
-    marked = [[line for line in found if line.get_linestyle() not in ("None", "")] for found in marked]
+    # The caps of error bars are lines with markers too, but without a line style.
+    marked = [[line for line in marks if line.get_linestyle() not in ("None", "")] for marks in marked]
     if len(alone) > 1:
-        assert [len(found) for found in marked] == [1] * len(chart.series)
+        assert [len(marks) for marks in marked] == [1] * len(chart.series)
         return
     assert len(marked[0]) == len(chart.series)
     points = [line.get_transform().transform(line.get_xydata()) * 72 / figure.dpi for line in marked[0]]
@@ -101,7 +101,7 @@ def test_no_series_hides_another(chart: Lines) -> None:
             assert ((a - b) ** 2).sum() ** 0.5 > 0.9 * layout.APART
 
 
-def test_series_with_room_stand_side_by_side_and_those_without_in_panels() -> None:
+def test_series_are_side_by_side_if_possible_and_otherwise_in_panels() -> None:
     assert layout.steps(lines(3, 6)) == (-5.5, 0.0, 5.5)
     assert layout.steps(lines(2, 6, apart=1.0)) == (0.0, 0.0)
     assert not layout.panels(lines(3, 6))
@@ -112,13 +112,13 @@ def test_series_with_room_stand_side_by_side_and_those_without_in_panels() -> No
 
 
 @NEEDS_MATPLOTLIB
-def test_series_side_by_side_are_said_to_be_so() -> None:
-    said = [[text.get_text() for text in laid_out(lines(2, 6, apart)).texts] for apart in (0.0, 1.0)]
-    assert said == [["Lines", "markers at the same x are shifted sideways"], ["Lines"]]
+def test_note_mentions_shifted_markers() -> None:
+    notes = [[text.get_text() for text in laid_out(lines(2, 6, apart)).texts] for apart in (0.0, 1.0)]
+    assert notes == [["Lines", "markers at the same x are shifted sideways"], ["Lines"]]
 
 
 @NEEDS_MATPLOTLIB
-def test_numbers_have_the_signs_of_print() -> None:
+def test_numbers_at_the_axes_are_typeset() -> None:
     points = tuple((float(k), Interval(k / 10, k / 10, k / 10)) for k in range(-6, 3))
     chart = Lines("x", "e", "e", "of all", (Series("1E-3", points),), percent=True, powers=True)
     (axes,) = laid_out(chart).axes
@@ -142,7 +142,7 @@ def test_numbers_have_the_signs_of_print() -> None:
         ("example1E5", "example1E5"),
     ],
 )
-def test_text_has_the_signs_of_print(text: str, printed: str) -> None:
+def test_text_is_typeset(text: str, printed: str) -> None:
     assert layout.typeset(text) == printed
 
 
@@ -155,7 +155,7 @@ def lightness(colour: str) -> float:
 
 
 def test_series_differ_without_hue() -> None:
-    """Lines in lightness, mark and pattern; bars in lightness or hatching; neighbours more than others."""
+    """Lines differ in lightness, marker and pattern, bars in lightness or hatching, neighbours most."""
     dark = [lightness(colour) for colour in plots.COLOURS]
     assert min(abs(a - b) for a, b in combinations(dark, 2)) > 8
     assert min(abs(a - b) for a, b in pairwise(dark)) > 20
@@ -169,8 +169,9 @@ NUMBERS = st.floats(allow_nan=False, allow_infinity=False)
 INTERVALS = st.builds(Interval, NUMBERS, NUMBERS | st.just(-inf), NUMBERS | st.just(inf))
 
 
+@settings(max_examples=40)
 @given(st.lists(st.tuples(NUMBERS, INTERVALS)), st.text(st.characters(codec="utf-8")), st.booleans())
-def test_charts_are_read_as_they_were_written(
+def test_charts_are_unchanged_by_writing_and_reading(
     tmp_path_factory: pytest.TempPathFactory, points: list[tuple[float, Interval]], words: str, log: bool
 ) -> None:
     folder = tmp_path_factory.mktemp("charts")
@@ -203,7 +204,7 @@ def test_charts_are_read_as_they_were_written(
         ),
     ],
 )
-def test_a_damaged_file_of_charts_is_said_in_a_line(
+def test_damaged_file_of_charts_gives_a_one_line_error(
     tmp_path: Path, text: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "charts.json").write_text(text)
@@ -215,28 +216,29 @@ def test_a_damaged_file_of_charts_is_said_in_a_line(
     assert [path.name for path in tmp_path.iterdir()] == ["charts.json"]
 
 
-def test_a_folder_without_charts_is_said_in_a_line(tmp_path: Path) -> None:
+def test_folder_without_charts_gives_a_one_line_error(tmp_path: Path) -> None:
     with pytest.raises(StudyFileError, match=r"charts\.json: no such file"):
         read_charts(tmp_path)
 
 
 @NEEDS_MATPLOTLIB
-def test_charts_are_drawn_anew_as_they_were(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_redrawn_charts_equal_the_original_ones(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     first, again = tmp_path / "first", tmp_path / "again"
+    charts = (CHARTS["logarithmic"], CHARTS["bars"])
     for folder in (first, again):
         folder.mkdir()
-        write_charts(folder, CHARTS.values())
-    for chart in CHARTS.values():
+        write_charts(folder, charts)
+    for chart in charts:
         plots.draw(chart, first)
     assert main(["study", "--redraw", str(again)]) == 0
-    assert capsys.readouterr().out.count("\n") == len(CHARTS)
+    assert capsys.readouterr().out.count("\n") == len(charts)
     assert {path.name: path.read_bytes() for path in first.iterdir()} == {
         path.name: path.read_bytes() for path in again.iterdir()
     }
 
 
 @pytest.mark.parametrize("name", studies())
-def test_the_committed_charts_are_those_of_the_report_and_hide_nothing(name: str) -> None:
+def test_committed_charts_belong_to_the_report_and_hide_no_series(name: str) -> None:
     folder = ROOT / "docs" / "studies" / name
     charts = read_charts(folder)
     assert {f"{chart.name}.svg" for chart in charts} == {path.name for path in folder.glob("*.svg")}

@@ -1,6 +1,6 @@
-"""What studies claim follows the intervals of their figures: rows made up, limits worked out by hand.
+"""The conclusions of reports agree with the intervals of their figures, for invented rows with limits computed by hand.
 
-All intervals are Clopper and Pearson's; of none in n it ends at 1 - .025**(1/n), of n in n it begins at .025**(1/n).
+All intervals are Clopper and Pearson's.  That of 0 in n ends at 1 - .025**(1/n), that of n in n begins at .025**(1/n).
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ Answer = tuple[str, dict[str, Any]]
 def reported(
     folder: Path, plan: Plan, module: Any, answer: Callable[[int, int, str], Answer], kind: Callable[[int], str]
 ) -> Report:
-    """The report on rows made up: ``answer`` of cell, sample and route, ``kind`` of sample."""
+    """Return the report on invented rows; ``answer`` has the arguments cell, sample and route, ``kind`` the sample."""
     with closing(Store.open(folder, plan)) as store:
         for number, cell in enumerate(plan.cells):
             rows = [
@@ -63,7 +63,7 @@ def _run(outcome: str, figures: dict[str, Any]) -> dict[str, Any]:
 
 
 def seventies(folder: Path, failures: Sequence[int], slabs: int = 0, mended: int = 0) -> str:
-    """The words where the seventies have so many failures; all with the card ``mended``; the first sets are slabs."""
+    """Return the conclusions for groups with these failures, ``mended`` with the card; the first sets are slabs."""
     plan = seventy.plan(70 * len(failures), 1)
 
     def answer(cell: int, index: int, route: str) -> Answer:
@@ -78,16 +78,16 @@ def seventies(folder: Path, failures: Sequence[int], slabs: int = 0, mended: int
 @pytest.mark.parametrize(
     ("failures", "claim"),
     [
-        ([1] * 10, "fewer than the thesis's two"),
-        ([1] * 9 + [2], "fewer than the thesis's two"),
-        ([1] * 8 + [2] * 2, "not to be told from the thesis's two"),
-        ([2, 0, 0, 0], "fewer than the thesis's two"),
-        ([2, 1, 0, 0], "not to be told from the thesis's two"),
-        ([2] * 10, "not to be told from the thesis's two"),
-        ([3] * 9 + [2], "not to be told from the thesis's two"),
-        ([3] * 10, "more than the thesis's two"),
-        ([3, 3, 4, 4], "not to be told from the thesis's two"),
-        ([3, 4, 4, 4], "more than the thesis's two"),
+        ([1] * 10, "fewer than the two of the thesis"),
+        ([1] * 9 + [2], "fewer than the two of the thesis"),
+        ([1] * 8 + [2] * 2, "not significantly different from the two of the thesis"),
+        ([2, 0, 0, 0], "fewer than the two of the thesis"),
+        ([2, 1, 0, 0], "not significantly different from the two of the thesis"),
+        ([2] * 10, "not significantly different from the two of the thesis"),
+        ([3] * 9 + [2], "not significantly different from the two of the thesis"),
+        ([3] * 10, "more than the two of the thesis"),
+        ([3, 3, 4, 4], "not significantly different from the two of the thesis"),
+        ([3, 4, 4, 4], "more than the two of the thesis"),
     ],
     ids=[
         "to 1.83",
@@ -102,15 +102,15 @@ def seventies(folder: Path, failures: Sequence[int], slabs: int = 0, mended: int
         "from 2.12",
     ],
 )
-def test_seventy_compares_with_two_where_the_whole_interval_is_on_one_side(
+def test_seventy_differs_from_the_thesis_only_if_the_whole_interval_does(
     tmp_path: Path, failures: list[int], claim: str
 ) -> None:
-    """Seventy times the limits of 10, 11, 12, 20, 29 and 30 of 700 and of 2, 3, 14 and 15 of 280 (scipy's beta.ppf)."""
+    """The limits for 10, 11, 12, 20, 29 and 30 in 700 and for 2, 3, 14 and 15 in 280 are from scipy (beta.ppf)."""
     assert claim in seventies(tmp_path, failures)
 
 
-UNUSUAL, USUAL = "Two failures in seventy are unusual", "Two failures in seventy are nothing unusual"
-UNTOLD = "not to be judged from so few seventies"
+UNUSUAL, USUAL = "Two failures in seventy are unusual", "Two failures in seventy are not unusual"
+UNDECIDED = "possibly unusual; there are too few groups to decide"
 
 
 @pytest.mark.parametrize(
@@ -119,12 +119,12 @@ UNTOLD = "not to be judged from so few seventies"
         ([0] * 73, UNUSUAL),
         ([0] * 72, UNUSUAL),
         ([1] * 73, UNUSUAL),
-        ([0] * 71, UNTOLD),
-        ([2, 0, 0, 0], UNTOLD),
+        ([0] * 71, UNDECIDED),
+        ([2, 0, 0, 0], UNDECIDED),
         ([2, 2, 0, 0], USUAL),
         ([3, 3, 0, 0], USUAL),
         ([2, 2, 0, 0, 0], USUAL),
-        ([2, 2, 0, 0, 0, 0], UNTOLD),
+        ([2, 2, 0, 0, 0, 0], UNDECIDED),
     ],
     ids=[
         "to .0493",
@@ -138,40 +138,42 @@ UNTOLD = "not to be judged from so few seventies"
         "from .043",
     ],
 )
-def test_seventy_calls_two_unusual_where_the_whole_interval_is_below_a_twentieth(
+def test_seventy_calls_two_unusual_only_if_the_whole_interval_is_below_a_twentieth(
     tmp_path: Path, failures: list[int], claim: str
 ) -> None:
-    """Two or more in a twentieth of the seventies is the limit; 1 of 4 is from .0063 to .806."""
-    words = seventies(tmp_path, failures)
-    assert [text in words for text in (UNUSUAL, USUAL, UNTOLD)] == [claim == t for t in (UNUSUAL, USUAL, UNTOLD)]
+    """The limit is a twentieth of the groups; the interval of 1 in 4 is .0063 to .806."""
+    conclusions = seventies(tmp_path, failures)
+    assert [text in conclusions for text in (UNUSUAL, USUAL, UNDECIDED)] == [
+        claim == t for t in (UNUSUAL, USUAL, UNDECIDED)
+    ]
 
 
 @pytest.mark.parametrize(
     ("failures", "slabs", "claim"),
     [
-        ([5, 0, 0, 0], 20, "of seventy such sets: 17.5 (6.1 to 34.4)."),
-        ([0, 0], 131, "of seventy such sets: 0.0 (0.0 to 1.9)."),
-        ([1, 0], 70, "of seventy such sets: 1.0 (0.0 to 5.4)."),
-        ([2, 0], 70, "of seventy such sets: 2.0 (0.2 to 7.0)."),
+        ([5, 0, 0, 0], 20, "failures in seventy such sets: 17.5 (6.1 to 34.4)."),
+        ([0, 0], 131, "failures in seventy such sets: 0.0 (0.0 to 1.9)."),
+        ([1, 0], 70, "failures in seventy such sets: 1.0 (0.0 to 5.4)."),
+        ([2, 0], 70, "failures in seventy such sets: 2.0 (0.2 to 7.0)."),
     ],
 )
-def test_seventy_says_of_sets_in_space_what_their_interval_allows(
+def test_seventy_reports_the_interval_of_sets_in_space(
     tmp_path: Path, failures: list[int], slabs: int, claim: str
 ) -> None:
-    """None of 131 ends at 1 - .025**(1/131), 1.944 of seventy.
+    """The interval of 0 in 131 ends at 1 - .025**(1/131), 1.944 in seventy.
 
-    5 of 20 is .087 to .491, 1 of 70 .00036 to .077, 2 of 70 .0035 to .099.
+    5 in 20 is .087 to .491, 1 in 70 .00036 to .077, 2 in 70 .0035 to .099.
     """
     assert claim in seventies(tmp_path, failures, slabs)
 
 
-def test_seventy_counts_what_the_card_saves_by_the_means(tmp_path: Path) -> None:
-    """3, 4, 3 and 4 failures as listed and one with the card: 3.5 less 1."""
-    assert "the difference: 2.50." in seventies(tmp_path, [3, 4, 3, 4], mended=1)
+def test_seventy_reports_the_difference_of_the_means(tmp_path: Path) -> None:
+    """3, 4, 3 and 4 failures as listed and one with the card: 3.5 - 1."""
+    assert "Difference: 2.50." in seventies(tmp_path, [3, 4, 3, 4], mended=1)
 
 
-def test_seventy_takes_the_sets_in_space_as_listed(tmp_path: Path) -> None:
-    """Both slabs fail as listed, none does with the card; .158 is the root of .025."""
+def test_seventy_counts_failures_of_sets_in_space_with_the_listed_programs(tmp_path: Path) -> None:
+    """Both slabs fail as listed and none with the card; .158 is the square root of .025."""
     assert "Sets in space that fail as listed: 100.0 (15.8 to 100.0) %" in seventies(tmp_path, [2, 2], slabs=2)
 
 
@@ -183,15 +185,17 @@ TWENTY = {
     "program1 127": [WRONG],
     divergence.NOWHERE: [RIGHT] * 10 + [WRONG] * 3,
 }
-"""How the sets ended that first decide otherwise at a statement, ten in each of two families."""
+"""The outcomes of the sets by the first statement that decides differently, ten in each of two families."""
 
 
 @pytest.fixture
 def twenty(tmp_path: Path) -> Report:
-    """The report on them; of two of the sets that follow exact numbers those could not be followed to the end."""
+    """The report on these sets; exact arithmetic could not follow two of the runs without a difference."""
     plan = divergence.plan(10, 1)
     plan = replace(plan, cells=plan.cells[:2])
-    ends = [("" if place == divergence.NOWHERE else place, end) for place, found in TWENTY.items() for end in found]
+    ends = [
+        ("" if place == divergence.NOWHERE else place, end) for place, outcomes in TWENTY.items() for end in outcomes
+    ]
 
     def answer(cell: int, index: int, route: str) -> Answer:
         place, outcome = ends[10 * cell + index]
@@ -201,8 +205,8 @@ def twenty(tmp_path: Path) -> Report:
     return reported(tmp_path, plan, divergence, answer, lambda _: "")
 
 
-def test_divergence_gives_shares_of_all_sets_and_of_those_of_a_statement(twenty: Report) -> None:
-    """The most frequent first, of equals by name, nowhere last."""
+def test_divergence_sorts_statements_by_frequency_and_gives_their_shares(twenty: Report) -> None:
+    """Equally frequent statements are sorted by name; nowhere is last."""
     assert [row[:4] for row in twenty.tables[0].rows] == [
         ("program3 116", "5", "25.0 (8.7 to 49.1) %", "2"),
         ("program1 127", "1", "5.0 (0.1 to 24.9) %", "0"),
@@ -212,18 +216,18 @@ def test_divergence_gives_shares_of_all_sets_and_of_those_of_a_statement(twenty:
     assert twenty.tables[0].rows[0][4] == "40.0 (5.3 to 85.3) %"
 
 
-def test_divergence_counts_faults_of_the_digits_apart_from_the_programs_own(twenty: Report) -> None:
-    """3 of 7 misled sets end right (.099 to .816); 3 of 13 fail unmisled (.050 to .538)."""
-    assert "those that still end in the right hull: 3 of 7, 42.9 (9.9 to 81.6) %." in twenty.conclusions[1]
-    assert "those that fail, by the programs' own faults: 3 of 13, 23.1 (5.0 to 53.8) %." in twenty.conclusions[1]
+def test_divergence_separates_faults_of_the_arithmetic_from_faults_of_the_programs(twenty: Report) -> None:
+    """3 of 7 sets with a difference are right (.099 to .816); 3 of 13 without one fail (.050 to .538)."""
+    assert "Other sets that still give the right hull: 3 of 7, 42.9 (9.9 to 81.6) %." in twenty.conclusions[1]
+    assert "which fail because of faults of the programs: 3 of 13, 23.1 (5.0 to 53.8) %." in twenty.conclusions[1]
 
 
-def test_divergence_counts_the_runs_exact_numbers_could_not_follow(twenty: Report) -> None:
-    assert "could not follow to a decision that differs: 2." in twenty.conclusions[2]
+def test_divergence_counts_runs_that_exact_arithmetic_cannot_follow(twenty: Report) -> None:
+    assert "could not follow as far as a different decision: 2." in twenty.conclusions[2]
 
 
 def diverging(*lines: str, card: str) -> Figures:
-    """The measure ``divergence`` of one program of these lines, run in its own arithmetic on one card."""
+    """Return the measure ``divergence`` of a program with these lines, run on one card."""
     program = compile_deck(deck_from_lines("p", [*lines, "8 A=0.", "9 STOP", "6 FORMAT(F14.8)", "END"]))
     deck = deck_from_lines("d", [card])
     result = Machine(program, deck, Options()).run()
@@ -241,13 +245,15 @@ def diverging(*lines: str, card: str) -> Figures:
     ],
     ids=["thirds", "whole thirds", "eight digits", "nine digits"],
 )
-def test_the_measure_compares_eight_digits_with_exact_numbers(lines: list[str], card: str, place: str) -> None:
-    """.33333333 * 3 is less than 1, however many digits a third is cut to; an eighth digit is read, a ninth is not."""
+def test_measure_finds_the_first_decision_that_differs_from_exact_arithmetic(
+    lines: list[str], card: str, place: str
+) -> None:
+    """A truncated third times 3 is less than 1.  The eighth digit of a card is read, the ninth is not."""
     assert diverging(*lines, card=card) == {"diverges": place}
 
 
-def test_the_measure_says_where_exact_numbers_cannot_follow() -> None:
-    """They have no sine of 1."""
-    found = diverging("READ 6,A", "7 IF(SIN(A))8,9,8", card="1.")
-    assert found["diverges"] == ""
-    assert "SIN of 1" in str(found["undecided"])
+def test_measure_reports_a_function_without_exact_values() -> None:
+    """Exact arithmetic has no sine of 1."""
+    figures = diverging("READ 6,A", "7 IF(SIN(A))8,9,8", card="1.")
+    assert figures["diverges"] == ""
+    assert "SIN of 1" in str(figures["undecided"])
