@@ -49,11 +49,14 @@ def _text(chart: Chart) -> str:
     labels = {f.name: getattr(chart, f.name) for f in fields(chart) if f.name not in ("series", "marks")}
     marks = [{"at": mark.at, "words": mark.label, "upright": mark.upright} for mark in chart.marks]
     head = json.dumps({"kind": kind, **labels, "marks": marks}, ensure_ascii=False)
-    series = [
-        {"name": one.name, "points": [[x, e.value, _limit(e.low), _limit(e.high)] for x, e in one.points]}
-        for one in chart.series
-    ]
-    lines = ",\n  ".join(json.dumps(one, ensure_ascii=False, allow_nan=False) for one in series)
+    lines = ",\n  ".join(
+        json.dumps(
+            {"name": series.name, "points": [[x, e.value, _limit(e.low), _limit(e.high)] for x, e in series.points]},
+            ensure_ascii=False,
+            allow_nan=False,
+        )
+        for series in chart.series
+    )
     return f'{head[:-1]}, "series": [\n  {lines}]}}'
 
 
@@ -73,8 +76,8 @@ def _chart(data: dict[str, Any]) -> Chart:
         for mark in data["marks"]
     )
     series = tuple(
-        Series(_checked(one["name"], "str"), tuple(_point(chart_type, *point) for point in one["points"]))
-        for one in data["series"]
+        Series(_checked(entry["name"], "str"), tuple(_point(chart_type, *point) for point in entry["points"]))
+        for entry in data["series"]
     )
     return chart_type(series=series, marks=marks, **labels)
 

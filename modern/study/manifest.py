@@ -105,7 +105,7 @@ def read_manifest(folder: Path) -> dict[str, Any]:
 
 
 def first_difference(earlier: Mapping[str, Any], current: Mapping[str, Any]) -> str:
-    """Describe the first difference between the manifest in the folder and the current one; empty if there is none."""
+    """Describe the first difference between the manifest in the folder and the current one; empty if they agree."""
     plan, current_plan = earlier["plan"], current["plan"]
     if plan.get("name") != current_plan["name"]:
         return f"the folder holds the study {plan.get('name')}, not {current_plan['name']}"

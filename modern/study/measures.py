@@ -100,5 +100,5 @@ MEASURES: Mapping[str, Measure] = {
 
 
 def measure_of(name: str) -> Measure:
-    """Return the measure of that name, or the function ``module:function``.  Raise PlanError if there is none."""
+    """Return the measure of that name, or the function ``module:function``.  Raise PlanError if it is unknown."""
     return named("measure", name, MEASURES)

@@ -138,7 +138,7 @@ def _panels(figure: Any, chart: Chart) -> None:
         _marks(axes, chart, turned=isinstance(chart, Bars))
         axes.set_title(typeset(chart.series[k].name), loc="left", fontsize=9)
         if isinstance(chart, Lines):
-            for series in (one for one in chart.series if one is not chart.series[k]):
+            for series in chart.series[:k] + chart.series[k + 1 :]:
                 _pale(axes, series)
             _line(axes, chart, k, 0.0)
             _scales(axes, chart)

@@ -46,7 +46,7 @@ def names() -> tuple[str, ...]:
 
 
 def study(name: str) -> Study:
-    """Return the built-in study of that name.  Raise KeyError if there is none."""
+    """Return the built-in study of that name.  Raise KeyError if it is unknown."""
     if name not in names():
         raise KeyError(name)
     module: Study = import_module(f"{builtin.__name__}.{name.replace('-', '_')}")

@@ -169,8 +169,8 @@ def outcome_report(plan: Plan, store: Store) -> Report:
     for number, cell in enumerate(plan.cells):
         for route in cell.routes:
             share = counts.share(number, route.name)
-            each = [str(counts.hits(number, route.name, (outcome,))) for outcome in outcomes]
-            rows.append((cell.name, route.name, str(counts.of(number, route.name)), *each, percent(share)))
+            numbers = [str(counts.hits(number, route.name, (outcome,))) for outcome in outcomes]
+            rows.append((cell.name, route.name, str(counts.of(number, route.name)), *numbers, percent(share)))
             series.setdefault(route.name, []).append((cell.name or "all", share))
     table = Table("table", plan.title, ("cell", "route", "sets", *outcomes, "hull found"), tuple(rows), INTERVALS)
     chart = Bars(

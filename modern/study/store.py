@@ -26,7 +26,7 @@ ROWS = "rows"
 
 @contextmanager
 def placing(path: Path) -> Iterator[BinaryIO]:
-    """Open a file for writing and put it in place when all of it is on disk.  Raise StudyFileError."""
+    """Open a file for writing and rename it into place when it is on disk.  Raise StudyFileError if that fails."""
     try:
         with writing_bytes(str(path), durable=True) as file:
             yield file
@@ -35,13 +35,13 @@ def placing(path: Path) -> Iterator[BinaryIO]:
 
 
 def put(path: Path, data: bytes | str) -> None:
-    """Write a file whole or not at all.  Raises StudyFileError."""
+    """Write a complete file, or none if that fails.  Raise StudyFileError."""
     with placing(path) as file:
         file.write(data.encode("utf-8") if isinstance(data, str) else data)
 
 
 def sweep(folder: Path) -> None:
-    """Remove files that an interrupted run left unfinished."""
+    """Remove the unfinished files of an interrupted run."""
     for path in folder.glob(f"{UNFINISHED}*"):
         path.unlink(missing_ok=True)
 

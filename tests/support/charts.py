@@ -1,4 +1,4 @@
-"""What a flow chart must keep: every way once, no line through a box, no two jumps on one line, connectors clear."""
+"""Check flow charts: every branch is drawn once, lines avoid boxes and one another, and connectors do not overlap."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ Segment = tuple[int, int, int, int]
 
 
 def ways(program: Program) -> Counter[tuple[int, str, int]]:
-    """Every choice and GO TO of the object code: card it stands on, what it is taken for, card gone to.
+    """Count every decision and GO TO of the object code: its card, the value it is taken for, and the target card.
 
-    Read off the instructions alone.
+    Only the instructions are read.
     """
     card = {}
-    begins = 0
+    first_card = 0
     for pc, instruction in enumerate(program.code):
         if instruction.operation == op.COUNT:
             counter = program.counters[instruction.address]
-            begins = program.statements[counter.statement].place.card
-        card[pc] = begins
-    found: Counter[tuple[int, str, int]] = Counter()
+            first_card = program.statements[counter.statement].place.card
+        card[pc] = first_card
+    branches: Counter[tuple[int, str, int]] = Counter()
     for pc, instruction in enumerate(program.code):
         operation = instruction.operation
         if operation in (op.IF, op.IFX):
@@ -34,43 +34,44 @@ def ways(program: Program) -> Counter[tuple[int, str, int]]:
         elif operation == op.SWITCH:
             targets = dict(zip(("on", "off"), program.branches[instruction.address], strict=True))
         elif operation == op.SELECT:
-            among = program.branches[instruction.second]
+            choices = program.branches[instruction.second]
             targets = {
-                ", ".join(str(k) for k, other in enumerate(among, 1) if other == target): target for target in among
+                ", ".join(str(k) for k, choice in enumerate(choices, 1) if choice == target): target
+                for target in choices
             }
         elif operation == op.BRANCH:
             targets = {"": program.branches[instruction.address][0]}
         else:
             continue
         for taken, target in targets.items():
-            found[card[pc], taken, card[target]] += 1
-    return found
+            branches[card[pc], taken, card[target]] += 1
+    return branches
 
 
 def drawn_ways(flow: Flow) -> Counter[tuple[int, str, int]]:
-    """The same of a flow's boxes; of the closing of a DO only what goes on by a GO TO, its second card."""
-    found: Counter[tuple[int, str, int]] = Counter()
+    """Count the same for the boxes of a flow; the end of a DO counts only if a GO TO, its second card, follows."""
+    branches: Counter[tuple[int, str, int]] = Counter()
     for box in flow.boxes:
         for way in box.exits:
             closing = way.taken in ("again", "done")
             if not closing or (way.taken == "done" and len(box.cards) > 1):
-                found[box.cards[-1], "" if closing else way.taken, flow.boxes[way.target].cards[0]] += 1
-    return found
+                branches[box.cards[-1], "" if closing else way.taken, flow.boxes[way.target].cards[0]] += 1
+    return branches
 
 
 def faults(chart: Chart) -> list[str]:
-    """What is wrong with a chart; nothing if it is right."""
-    wrong = []
+    """Return the faults of a chart."""
+    messages = []
     drawn = Counter((path.box, path.way) for page in chart.pages for path in page.paths)
-    wanted = Counter((place, k) for place, box in enumerate(chart.flow.boxes) for k in range(len(box.exits)))
-    if drawn != wanted:
-        wrong.append(f"ways drawn more than once or not at all: {(drawn - wanted) + (wanted - drawn)}")
+    expected = Counter((place, k) for place, box in enumerate(chart.flow.boxes) for k in range(len(box.exits)))
+    if drawn != expected:
+        messages.append(f"branches drawn more than once or not at all: {(drawn - expected) + (expected - drawn)}")
     placed = [box.box for page in chart.pages for box in page.boxes]
     if placed != list(range(len(chart.flow.boxes))):
-        wrong.append("boxes are missing, doubled or out of order")
+        messages.append("boxes are missing, doubled or out of order")
     for number, page in enumerate(chart.pages, 1):
-        wrong += [f"page {number}: {fault}" for fault in _page_faults(chart.flow, page)]
-    return wrong
+        messages += [f"page {number}: {fault}" for fault in _page_faults(chart.flow, page)]
+    return messages
 
 
 def _page_faults(flow: Flow, page: Page) -> Iterator[str]:
@@ -85,18 +86,19 @@ def _page_faults(flow: Flow, page: Page) -> Iterator[str]:
                     slanted = flow.boxes[box.box].kind == "decision" and y1 == y2 and min(x1, x2) > LEFT + BOX // 2
                     if not (slanted and name.startswith(f"way {box.box}.")):
                         yield f"{name} runs through box {box.box}"
-    for (one, to, name), (two, other_to, other) in combinations(lines, 2):
-        if to != other_to and any(_overlap(a, b) for a in _segments(one) for b in _segments(two)):
-            yield f"{name} and {other} lie on one line"
+    # Two jumps to the same box may share a line; two jumps to different boxes may not.
+    for (corners, target, name), (corners2, target2, name2) in combinations(lines, 2):
+        if target != target2 and any(_overlap(a, b) for a in _segments(corners) for b in _segments(corners2)):
+            yield f"{name} and {name2} lie on one line"
     circles = [(path.connector, f"way {path.box}.{path.way}") for path in page.paths if path.connector]
     circles += [(landing.centre, f"landing at {landing.box}") for landing in page.landings]
-    for (a, name), (b, other) in combinations(circles, 2):
+    for (a, name), (b, name2) in combinations(circles, 2):
         if (a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2 < 4 * RADIUS**2:
-            yield f"the connectors of {name} and {other} touch"
+            yield f"the connectors of {name} and {name2} touch"
     for (x, y), name in circles:
-        for corners, _, other in lines:
-            if other != name and any(_near(x, y, segment) for segment in _segments(corners)):
-                yield f"{other} runs through the connector of {name}"
+        for corners, _, line_name in lines:
+            if line_name != name and any(_near(x, y, segment) for segment in _segments(corners)):
+                yield f"{line_name} runs through the connector of {name}"
     for box in page.boxes:
         if any(len(line) * LETTER > BOX - 16 for line in box.lines):
             yield f"a line is too long for box {box.box}"
@@ -110,7 +112,7 @@ def _segments(corners: Sequence[tuple[int, int]]) -> list[Segment]:
 
 
 def _overlap(a: Segment, b: Segment) -> bool:
-    """Whether two upright or level segments share more than a point."""
+    """Return True if two vertical or horizontal segments share more than a point."""
     for x, y in ((0, 1), (1, 0)):
         if a[x] == a[x + 2] == b[x] == b[x + 2]:
             low = max(min(a[y], a[y + 2]), min(b[y], b[y + 2]))

@@ -1,4 +1,4 @@
-"""A small study, for tests that run it in processes of its own."""
+"""A small study for tests that run it, some of them in other processes."""
 
 from __future__ import annotations
 

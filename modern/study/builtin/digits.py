@@ -125,13 +125,13 @@ def _by_working(counts: Summary, cells: Cells) -> Table:
 
 
 def _outcomes(counts: Summary, cells: Cells) -> Table:
-    seen = counts.outcomes()
+    outcomes = counts.outcomes()
     rows = tuple(
-        (str(d), route, *(str(counts.hits(cell, route, (outcome,))) for outcome in seen))
+        (str(d), route, *(str(counts.hits(cell, route, (outcome,))) for outcome in outcomes))
         for cell, d in cells
         for route in (LISTED, CORRECTED)
     )
-    return Table("outcomes", "Outcomes in eight-digit arithmetic", ("digits d", "programs", *seen), rows)
+    return Table("outcomes", "Outcomes in eight-digit arithmetic", ("digits d", "programs", *outcomes), rows)
 
 
 def _growth(counts: Summary, cells: Cells) -> Lines:

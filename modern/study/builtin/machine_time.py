@@ -101,7 +101,7 @@ def _along(plan: Plan, times: dict[int, _Time], name: Value) -> list[tuple[float
 
 def _row(name: Value, n: float, time: _Time) -> tuple[str, ...]:
     parts = [f"{time.parts[part].value / _MINUTE:.2f}" for part in PARTS]
-    each = 1000 * time.parts["processor"].value / time.operations if time.operations else 0.0
+    milliseconds = 1000 * time.parts["processor"].value / time.operations if time.operations else 0.0
     return (
         str(name),
         str(int(n)),
@@ -110,7 +110,7 @@ def _row(name: Value, n: float, time: _Time) -> tuple[str, ...]:
         f"{time.longest / _MINUTE:.2f}",
         *parts,
         f"{time.operations:.0f}",
-        f"{each:.0f}",
+        f"{milliseconds:.0f}",
     )
 
 
@@ -142,7 +142,7 @@ def _chart(plan: Plan, times: dict[int, _Time]) -> Lines:
         "Time on the 1620, by number of points",
         "points N",
         "minutes",
-        tuple(one for one in series if one.points),
+        tuple(line for line in series if line.points),
         log_x=True,
         log_y=True,
         marks=(Mark(60, "one hour"),),

@@ -268,9 +268,9 @@ def _largest(plan: Plan, counts: Summary, way: str) -> int | None:
 
 def _verdicts(tested: Mapping[str, _Pairs], widened: Mapping[str, _Pairs]) -> Table:
     rows = tuple(
-        (way, test, str(one.better), str(one.worse), one.verdict)
+        (way, test, str(compared.better), str(compared.worse), compared.verdict)
         for test, pairs in (("exact", tested), ("interval", widened))
-        for way, one in pairs.items()
+        for way, compared in pairs.items()
     )
     notes = (
         "Better, worse: with the exact test, sets whose hull is found by the arithmetic but not by truncation, and the "

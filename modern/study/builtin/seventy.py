@@ -300,7 +300,7 @@ def _unusual(share: Interval) -> str:
 
 def _comparison(as_listed: _Route, sheets: tuple[refusals.Sheets, ...]) -> str:
     """Compare the two explanations of the failures."""
-    printed = [s for s in sheets if s.share == max(other.share for other in sheets)]
+    printed = [s for s in sheets if s.share == max(sheet.share for sheet in sheets)]
     needed = " or ".join(refusals.needed(s) for s in printed)
     return (
         f"Two explanations are possible. Limits of the machine, as the thesis says: {needed} of seventy sets like its "

@@ -318,11 +318,11 @@ def _digit_chart(plan: Plan, counts: Summary) -> Lines:
 def _time_conclusion(pairs: list[_Pair]) -> str:
     if not pairs:
         return "No set gave a hull both ways, so no times can be compared."
-    each = [pair.saved("seconds_processor") for pair in pairs]
+    savings = [pair.saved("seconds_processor") for pair in pairs]
     whole = mean((pair.saved_in_all for pair in pairs), most=1.0)
     return (
-        f"Sets timed both ways: {len(pairs)}. Processor time saved: at most {100 * max(each):.1f} %, at least "
-        f"{100 * min(each):.1f} %. Share of the total time saved, including cards and typing, on average: "
+        f"Sets timed both ways: {len(pairs)}. Processor time saved: at most {100 * max(savings):.1f} %, at least "
+        f"{100 * min(savings):.1f} %. Share of the total time saved, including cards and typing, on average: "
         f"{_share(whole)}. Effect of moving the origin, by planes of the hull per point: "
         f"{listed(f'{_verdict(_saved(here))} ({name})' for name, here in _classes(pairs))}."
     )
@@ -340,8 +340,8 @@ def _digit_conclusion(plan: Plan, counts: Summary) -> str:
         name = str(cell.key["sets"])
         if _least(counts, number, PLAIN) is not None and _least(counts, number, MOVED) is None:
             never.append(name)
-        kept, moved = counts.share(number, PLAIN), counts.share(number, MOVED)
-        verdicts["loses" if kept.low > moved.high else "gains" if moved.low > kept.high else "same"].append(name)
+        plain, moved = counts.share(number, PLAIN), counts.share(number, MOVED)
+        verdicts["loses" if plain.low > moved.high else "gains" if moved.low > plain.high else "same"].append(name)
     return (
         "Kinds for which some set fails at every P tried with the origin moved, but none from some P on with the "
         f"origin kept: {listed(never)}. In the programs with eight digits, moving the origin loses hulls for these "

@@ -42,7 +42,7 @@ FAMILIES: Mapping[str, Family] = {
 
 
 def family_of(name: str) -> Family:
-    """Return the family of that name, or the function ``module:function``.  Raise PlanError if there is none."""
+    """Return the family of that name, or the function ``module:function``.  Raise PlanError if it is unknown."""
     return named("family", name, FAMILIES)
 
 

@@ -91,7 +91,7 @@ def quoted() -> list[tuple[str, str]]:
             f"and {cell('seventy', 'table', 'as listed', '70s with 2 or more')} of the groups of seventy have two or",
         ),
         ("seventy", f"P3-025 there are {cell('seventy', 'table', 'last pair mended', 'failures in 70')}."),
-        ("seventy", f"Of the {failures} failures none is DATA NOT ACCEPTABLE."),
+        ("seventy", f"None of the {failures} failures is DATA NOT ACCEPTABLE."),
         ("seventy", f"as on the sheet, {third['refused']} are rejected, or {added['refused']}"),
         ("seventy", f"if {third['sheets in 70 for two']} of the seventy are such sheets"),
         ("seventy", f"fail otherwise ({third['failed otherwise']} of {third['sets']})"),

@@ -144,8 +144,8 @@ def test_digits_beyond_the_cards_are_kept_with_uncut_and_otherwise_lost_with_a_n
     Path("digits.toml").write_text(DIGITS, encoding="utf-8")
     assert main(["study", "digits.toml", "--workers", "1"]) == 0
     err = capsys.readouterr().err
-    said = "route cut: the cards between the programs hold 8 digits of a number; uncut = true keeps them all"
-    assert err.count(said) == 1
+    note = "route cut: the cards between the programs hold 8 digits of a number; uncut = true keeps all digits"
+    assert err.count(note) == 1
     assert "route whole: the cards" not in err
     lines = Path("digits/table.csv").read_text(encoding="utf-8").splitlines()
     found = {row.split(",")[1]: row.split(",")[2:4] for row in lines[1:]}
