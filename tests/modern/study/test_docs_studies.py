@@ -38,10 +38,8 @@ def test_pictures_and_main_table_of_a_report_exist(name: str) -> None:
     assert (DOCS / name / "table.csv").is_file()
 
 
-def test_readme_shows_pictures_of_two_studies() -> None:
+def test_pages_and_pictures_linked_in_the_readme_exist() -> None:
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    pictures = set(re.findall(r"\(docs/studies/([\w-]+)/[\w-]+\.svg\)", readme))
-    assert len(pictures) == 2
     for path in re.findall(r"\((docs/[\w/.-]+)\)", readme):
         assert (ROOT / path).exists(), path
 
