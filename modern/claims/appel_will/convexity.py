@@ -118,9 +118,8 @@ def jarvis_deletions(kind: str = "") -> CheckResult:
         for k, point in enumerate(sampled.points):
             if k not in some and 3 not in exact_hull([*corners, point]).vertices:
                 checks.append(k not in sampled.judge.vertices)
-    return holds_if(
-        all(checks), f"points within triangles of vertices, none of them a vertex: {len(checks)}", conditional=kind
-    )
+    message = f"points within triangles of vertices, none of them a vertex: {len(checks)}"
+    return holds_if(all(checks), message, conditional=kind)
 
 
 def polyhedron_property(number: str) -> CheckResult:
@@ -223,11 +222,8 @@ def numbers_of_combinations(kind: str) -> CheckResult:
         )
         return holds_if(passed, "the number is N! / (r! (N - r)!)", conditional=True)
     fewer = [n for n, (two, three) in pairs.items() if two < three]
-    return holds_if(
-        fewer == list(range(6, 13)),
-        "pairs and triples: 6 and 4 of four, 10 and 10 of five, 15 and 20 of six",
-        conditional=True,
-    )
+    message = "pairs and triples: 6 and 4 of four, 10 and 10 of five, 15 and 20 of six"
+    return holds_if(fewer == list(range(6, 13)), message, conditional=True)
 
 
 def edge_by_star_test() -> CheckResult:
@@ -270,9 +266,8 @@ def star_as_captioned() -> CheckResult:
     """Check the star test on a cube as the caption of Fig. 12 describes it."""
     cube = counterexample_points("cube.csv")
     edges = appel_will(cube, method=Method(star=as_printed)).edges
-    return fails_if(
-        len(edges) > 12, f"the test finds {len(edges)} edges of a cube, which has {len(exact_hull(cube).edges())}"
-    )
+    message = f"the test finds {len(edges)} edges of a cube, which has {len(exact_hull(cube).edges())}"
+    return fails_if(len(edges) > 12, message)
 
 
 def step_as_printed(step: str) -> CheckResult:

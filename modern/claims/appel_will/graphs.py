@@ -108,7 +108,5 @@ def list_of_points(count: str = COUNT) -> CheckResult:
                 taken.append(chosen)
                 match = sum(hull.edges[chosen]) - match
             before = loop.uses
-    return holds_if(
-        all(checks) and asked > 0,
-        f"step 7 has already computed the {asked} values that step 10 needs; {len(checks)} cases agree",
-    )
+    message = f"step 7 has already computed the {asked} values that step 10 needs; {len(checks)} cases agree"
+    return holds_if(all(checks) and asked > 0, message)

@@ -133,11 +133,8 @@ def minimum_data() -> CheckResult:
     without = {frozenset(edge) for edge in exact_hull(solid.points).edges()}
     cube = exact_hull(CUBE)
     passed = {*shared} == mapped != without and (len(cube.vertices), len(cube.facets)) == (8, 6)
-    return holds_if(
-        passed,
-        f"{len(sets)} surfaces determine {len(mapped)} lines; a cube is determined by its points",
-        conditional=True,
-    )
+    message = f"{len(sets)} surfaces determine {len(mapped)} lines; a cube is determined by its points"
+    return holds_if(passed, message, conditional=True)
 
 
 def hulls_of_surfaces(kind: str) -> CheckResult:
@@ -180,9 +177,8 @@ def vertex_without_supporting_surface() -> CheckResult:
         supporting += max(values) <= 0 or min(values) >= 0
     passed = supporting == 0 and exact_hull(solid.points).vertices == (0, 1, 2, 3)
     passed &= len({*planes.values()}) == len(solid.surfaces) == 12
-    return holds_if(
-        passed, f"{supporting} of {len({*planes.values()})} planes of surfaces support, but the hull has four vertices"
-    )
+    message = f"{supporting} of {len({*planes.values()})} planes of surfaces support, but the hull has four vertices"
+    return holds_if(passed, message)
 
 
 def objects_with_same_hull() -> CheckResult:
@@ -191,9 +187,8 @@ def objects_with_same_hull() -> CheckResult:
         exact_hull([*((4 * x, 4 * y, 4 * z) for x, y, z in CUBE), *((k, k, 1) for k in range(1, 1 + n))])
         for n in (1, 2, 3)
     ]
-    return holds_if(
-        all(h.vertices == tuple(range(8)) and len(h.facets) == 6 for h in hulls), "three objects have the same hull"
-    )
+    message = "three objects have the same hull"
+    return holds_if(all(h.vertices == tuple(range(8)) and len(h.facets) == 6 for h in hulls), message)
 
 
 def direction(p: Whole, q: Whole) -> tuple[Fraction, Fraction, Fraction, int]:
@@ -311,6 +306,5 @@ def simple_hull_of_complex_object() -> CheckResult:
     cube = [(8 * x, 8 * y, 8 * z) for x, y, z in CUBE]
     pit = [(x, y, 7 - (x + y) % 3) for x in range(1, 8, 1) for y in range(1, 8, 2)][:27]
     hull = exact_hull([*cube, *pit])
-    return holds_if(
-        hull.vertices == tuple(range(8)) and len(hull.facets) == 6, f"the hull of {8 + len(pit)} points has 8 vertices"
-    )
+    message = f"the hull of {8 + len(pit)} points has 8 vertices"
+    return holds_if(hull.vertices == tuple(range(8)) and len(hull.facets) == 6, message)

@@ -127,9 +127,8 @@ def subcomplex() -> CheckResult:
 def sides_of_cell() -> CheckResult:
     """Count the sides of a voxel and of a corner by dimension."""
     counts = Counter(dimension(c) for c in sides((1, 1, 1)))
-    return holds_if(
-        counts == {0: 8, 1: 12, 2: 6} and not sides((2, 2, 2)), "a voxel has 26 sides, and a corner has none"
-    )
+    message = "a voxel has 26 sides, and a corner has none"
+    return holds_if(counts == {0: 8, 1: 12, 2: 6} and not sides((2, 2, 2)), message)
 
 
 def open_and_closed() -> CheckResult:
@@ -141,10 +140,8 @@ def open_and_closed() -> CheckResult:
         neither += not _open(cells) and not _closed(cells)
     for first, second in combinations(map(star, _subsets(4)), 2):
         checks += [_open(first | second), _open(first & second)]
-    return holds_if(
-        all(checks) and neither > 0,
-        f"{len(checks)} cases hold; {neither} of the random subsets are neither open nor closed",
-    )
+    message = f"{len(checks)} cases hold; {neither} of the random subsets are neither open nor closed"
+    return holds_if(all(checks) and neither > 0, message)
 
 
 def smallest_neighbourhood() -> CheckResult:
@@ -154,10 +151,8 @@ def smallest_neighbourhood() -> CheckResult:
         near = star([cell])
         checks.append(_open(near) and all(not _open(near - {neighbour}) for neighbour in near if neighbour != cell))
     inner = star([(2, 2, 2)])
-    return holds_if(
-        all(checks) and len(inner) == 27,
-        f"true for {len(checks)} cells; the neighbourhood of the middle corner has {len(inner)} cells",
-    )
+    message = f"true for {len(checks)} cells; the neighbourhood of the middle corner has {len(inner)} cells"
+    return holds_if(all(checks) and len(inner) == 27, message)
 
 
 def smallest_closed_subset() -> CheckResult:
@@ -168,9 +163,8 @@ def smallest_closed_subset() -> CheckResult:
         checks.append(_closed(whole) and all(not _closed(whole - {c}) for c in whole if c not in voxels))
         corners = {c for c in whole if dimension(c) == 0}
         checks.append(all(corners >= {c for c in sides(v) if dimension(c) == 0} for v in voxels))
-    return holds_if(
-        all(checks), f"true for {len(checks) // 2} sets of voxels, whose closures contain all their corners"
-    )
+    message = f"true for {len(checks) // 2} sets of voxels, whose closures contain all their corners"
+    return holds_if(all(checks), message)
 
 
 def greatest_open_subset() -> CheckResult:
@@ -182,9 +176,8 @@ def greatest_open_subset() -> CheckResult:
         checks.append(_open(inside) and inside == SPACE - closure(SPACE - cells))
         checks.append(all(not star([cell]) <= cells for cell in cells - inside))
     two = {c for c in interior(closure([(1, 1, 1), (3, 1, 1)])) if dimension(c) == 3}
-    return holds_if(
-        all(checks) and two == {(1, 1, 1), (3, 1, 1)}, f"true for the interiors of {len(checks) // 2} subsets"
-    )
+    message = f"true for the interiors of {len(checks) // 2} subsets"
+    return holds_if(all(checks) and two == {(1, 1, 1), (3, 1, 1)}, message)
 
 
 def boundary() -> CheckResult:
@@ -225,10 +218,8 @@ def manifold(kind: str = "") -> CheckResult:
             closed = len(around) == faces and {*around.values()} == {2}
             checks.append((row if kind and vertex in rim else closed) and bool(faces))
     message = f"true for {len(checks)} vertices"
-    return holds_if(
-        all(checks) and bool(kind) == (rows > 0),
-        f"{message}, {rows} of them at the rim of a patch" if kind else message,
-    )
+    message = f"{message}, {rows} of them at the rim of a patch" if kind else message
+    return holds_if(all(checks) and bool(kind) == (rows > 0), message)
 
 
 def _beside(ring: tuple[int, ...], vertex: int) -> tuple[int, int]:
@@ -299,9 +290,8 @@ def topological_line() -> CheckResult:
     passed = sorted(map(len, near.values())) == [1, 1] + [2] * (len(line) - 2)
     passed &= all(near[x] == [x - 1, x + 1] for x in line[1:-1])
     passed &= product_pairs == {(a, b) for b in SPACE for a in sides(b) & SPACE}
-    return holds_if(
-        passed, f"a line has {len(line)} cells; the product of three lines has {len(product_pairs)} bounding pairs"
-    )
+    message = f"a line has {len(line)} cells; the product of three lines has {len(product_pairs)} bounding pairs"
+    return holds_if(passed, message)
 
 
 def _in_line(x: int, y: int) -> bool:
@@ -320,9 +310,8 @@ def raster(kind: str) -> CheckResult:
         array = np.zeros((2 * SIDE + 1,) * 3, dtype=np.int64)
         for number, cell in enumerate(sorted(SPACE), 1):
             array[cell] = number
-        return holds_if(
-            len({*array.ravel().tolist()}) == array.size == len(SPACE), f"{array.size} elements for {len(SPACE)} cells"
-        )
+        message = f"{array.size} elements for {len(SPACE)} cells"
+        return holds_if(len({*array.ravel().tolist()}) == array.size == len(SPACE), message)
     if kind == "incident":
         checks = []
         for cell in SPACE:
@@ -330,9 +319,8 @@ def raster(kind: str) -> CheckResult:
             incident = {c for c in near if all(_in_line(x, y) for x, y in zip(c, cell, strict=True))}
             incident |= {c for c in near if all(_in_line(y, x) for x, y in zip(c, cell, strict=True))}
             checks.append(incident == {c for c in SPACE if _incident(c, cell)})
-        return holds_if(
-            all(checks), f"for {len(checks)} cells the incident cells by coordinates are those found by a search"
-        )
+        message = f"for {len(checks)} cells the incident cells by coordinates are those found by a search"
+        return holds_if(all(checks), message)
     held: dict[Point, list[int]] = {}
     for cell in SPACE:
         farthest = max(star([cell]) & VOXELS, default=None, key=sum)

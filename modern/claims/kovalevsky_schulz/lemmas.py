@@ -34,11 +34,8 @@ def combination_of_three() -> CheckResult:
     points: list[Point] = [(0, 0, 0), (3, 0, 0), (0, 3, 0), (1, 1, 0)]
     two = [1 for p, q in combinations(points[:3], 2) if not any(cross(minus(q, p), minus(points[3], p)))]
     passed = not two and 3 not in exact_hull(points).vertices
-    return holds_if(
-        passed,
-        "(1, 1) in the triangle (0, 0), (3, 0), (0, 3) is a combination of three points and not of two",
-        conditional=True,
-    )
+    message = "(1, 1) in the triangle (0, 0), (3, 0), (0, 3) is a combination of three points and not of two"
+    return holds_if(passed, message, conditional=True)
 
 
 def lemma_ch() -> CheckResult:
@@ -88,10 +85,8 @@ def third_condition() -> CheckResult:
     cells = convex_polyhedron(corners)
     assert isinstance(cells, CellList)
     hull_vertices = {v.point for v in cells.vertices}
-    return holds_if(
-        hull_vertices <= {*map(tuple, corners.tolist())},
-        f"all {len(hull_vertices)} vertices are among {len(corners)} local corners",
-    )
+    message = f"all {len(hull_vertices)} vertices are among {len(corners)} local corners"
+    return holds_if(hull_vertices <= {*map(tuple, corners.tolist())}, message)
 
 
 def complex_of_polyhedron() -> CheckResult:

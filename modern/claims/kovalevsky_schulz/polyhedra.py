@@ -139,9 +139,8 @@ def cube_visible_from_corner() -> CheckResult:
     visible = [f for f in judge.facets if plane_value(f.plane, (3, 3, 3)) > 0]
     edges = [e for e in judge.edges() if sum({*e} <= {*f.polygon} for f in visible) == 2]
     gone = set(judge.vertices) - set(after.vertices)
-    return holds_if(
-        (len(visible), len(edges), len(gone)) == (3, 3, 1), "three faces, three edges and one vertex are removed"
-    )
+    message = "three faces, three edges and one vertex are removed"
+    return holds_if((len(visible), len(edges), len(gone)) == (3, 3, 1), message)
 
 
 def coplanar_triangles() -> CheckResult:
@@ -155,9 +154,8 @@ def extended_faces(kind: str = "") -> CheckResult:
     """Check that extending faces to coplanar points gives the exact faces, and makes fewer new ones than triangles."""
     if kind:
         hull = coplanar_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (2, 0, 0)], EXTENDED)
-        return holds_if(
-            hull.extended == 2, f"{hull.extended} faces are extended, and {hull.straightened} edges become collinear"
-        )
+        message = f"{hull.extended} faces are extended, and {hull.straightened} edges become collinear"
+        return holds_if(hull.extended == 2, message)
     extended, quadrangles_hull = coplanar_hull(GRID, EXTENDED), coplanar_hull(GRID, QUADRANGLES)
     right = list(extended.faces) == sorted(f.polygon for f in exact_hull(GRID).facets)
     return holds_if(
@@ -170,9 +168,8 @@ def extended_faces(kind: str = "") -> CheckResult:
 def quadrangles() -> CheckResult:
     """Check a point in the plane of a pyramid's square that sees two of its sides."""
     hull = coplanar_hull([*PYRAMID, (3, 3, 0)], QUADRANGLES)
-    return holds_if(
-        hull.larger == 1 and hull.merged > 0, f"{hull.larger} new face with four corners is merged with the square"
-    )
+    message = f"{hull.larger} new face with four corners is merged with the square"
+    return holds_if(hull.larger == 1 and hull.merged > 0, message)
 
 
 def formula_5() -> CheckResult:
@@ -184,9 +181,8 @@ def formula_5() -> CheckResult:
         corners, triangles = len(cells.vertices), len(cells.faces)
         checks.append(triangles == 2 * corners - 4)
         checks.append(3 * corners + 3 * triangles == triangulation_size(triangles) + 6)
-    return holds_if(
-        all(checks), f"{len(checks) // 2} hulls of triangles need 6 integers more than by (5)", conditional=True
-    )
+    message = f"{len(checks) // 2} hulls of triangles need 6 integers more than by (5)"
+    return holds_if(all(checks), message, conditional=True)
 
 
 def integers_per_face() -> CheckResult:
@@ -274,10 +270,8 @@ def cells_removed() -> CheckResult:
             checks.append({*after.vertices} == {v for h in hidden for v in h} | {len(points)})
             remaining_edges = {e for e in judge.edges() if any({*e} <= h for h in hidden)}
             checks.append({e for e in after.edges() if len(points) not in e} == remaining_edges)
-    return holds_if(
-        bool(checks) and all(checks),
-        f"checked for {len(checks) // 3} points outside a hull and in the plane of no face",
-    )
+    message = f"checked for {len(checks) // 3} points outside a hull and in the plane of no face"
+    return holds_if(bool(checks) and all(checks), message)
 
 
 def collinear_edges(treatment: Treatment = EXTENDED) -> CheckResult:
@@ -320,10 +314,8 @@ def symmetry() -> CheckResult:
                     for places in (_moved(points, order, signs), _moved(points))
                 )
                 checks.append(turned == stays)
-    return holds_if(
-        all(checks) and numbers == [8, 4, 2],
-        f"{', '.join(map(str, numbers))} symmetries of three bodies are symmetries of their hulls",
-    )
+    message = f"{', '.join(map(str, numbers))} symmetries of three bodies are symmetries of their hulls"
+    return holds_if(all(checks) and numbers == [8, 4, 2], message)
 
 
 def _moved(points: list[Point], order: tuple[int, ...] = (0, 1, 2), signs: tuple[int, ...] = (1, 1, 1)) -> list[Point]:

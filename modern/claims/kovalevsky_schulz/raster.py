@@ -81,10 +81,8 @@ def corner_of_single_voxel() -> CheckResult:
         if array[x : x + 2, y : y + 2, z : z + 2].sum() == 1
     }
     wrong = single - corners
-    return fails_if(
-        wrong and corners <= single,
-        f"corners that bound one voxel and are not local: {', '.join(map(str, sorted(wrong)))}",
-    )
+    message = f"corners that bound one voxel and are not local: {', '.join(map(str, sorted(wrong)))}"
+    return fails_if(wrong and corners <= single, message)
 
 
 def farthest_voxel_of_corner(kind: str = "") -> CheckResult:
@@ -104,10 +102,8 @@ def farthest_voxel_of_corner(kind: str = "") -> CheckResult:
     border = [voxel for corner, voxel in named.items() if size in corner]
     passed = all(corner == voxel for corner, voxel in within.items()) and {*within.values()} == raster
     passed &= len(within) == len(raster) and {*border} <= raster and len(border) == (7 if flat else 37)
-    return holds_if(
-        passed,
-        f"{len(within)} corners have their own voxels; {len(border)} corners at the border of the space share one",
-    )
+    message = f"{len(within)} corners have their own voxels; {len(border)} corners at the border of the space share one"
+    return holds_if(passed, message)
 
 
 def additional_labels() -> CheckResult:
@@ -122,9 +118,8 @@ def additional_labels() -> CheckResult:
             behind = {(x - i, y - j, z - k) for i, j, k in STEPS} & voxels
             checks.append(((x, y, z) in labelled) == bool(behind))
         labelled_count += len(labelled)
-    return holds_if(
-        all(checks), f"{labelled_count} elements become labelled, each behind a voxel as seen from the origin"
-    )
+    message = f"{labelled_count} elements become labelled, each behind a voxel as seen from the origin"
+    return holds_if(all(checks), message)
 
 
 def edges_at_corner() -> CheckResult:
@@ -134,9 +129,8 @@ def edges_at_corner() -> CheckResult:
         cells = [*product(range(5), repeat=dimensions)]
         corners = [c for c in cells if not any(x % 2 for x in c)]
         numbers[dimensions] = max(sum(ends_at(edge, corner) for edge in cells) for corner in corners)
-    return holds_if(
-        numbers == {2: 4, 3: 6}, f"{numbers[2]} edges in the plane and {numbers[3]} in space", conditional=True
-    )
+    message = f"{numbers[2]} edges in the plane and {numbers[3]} in space"
+    return holds_if(numbers == {2: 4, 3: 6}, message, conditional=True)
 
 
 def ends_at(edge: tuple[int, ...], corner: tuple[int, ...]) -> bool:

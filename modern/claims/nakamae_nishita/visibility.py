@@ -76,11 +76,8 @@ def _hidden(drawing: Drawing, kind: str) -> int:
 
 def three_collinear_points() -> CheckResult:
     """Check formula (1) for three collinear corners."""
-    return holds_if(
-        value(line_through((0, 0, 1), (1, 1, 1)), (2, 2, 1)) == 0,
-        "the formula gives 0 for three collinear points",
-        conditional=True,
-    )
+    message = "the formula gives 0 for three collinear points"
+    return holds_if(value(line_through((0, 0, 1), (1, 1, 1)), (2, 2, 1)) == 0, message, conditional=True)
 
 
 def indices(kind: str = "") -> CheckResult:
@@ -140,9 +137,8 @@ def three_conditions() -> CheckResult:
             if passage.marks:
                 index_patterns.add(tuple(index for _, index in passage.marks))
     passed = index_patterns == {(1,), (-1,), (2, -2)} and touching > 0
-    return holds_if(
-        passed, f"segments enter, leave, or enter and leave; {touching} only touch a corner", conditional=True
-    )
+    message = f"segments enter, leave, or enter and leave; {touching} only touch a corner"
+    return holds_if(passed, message, conditional=True)
 
 
 def sense_of_intersection() -> CheckResult:
@@ -151,9 +147,8 @@ def sense_of_intersection() -> CheckResult:
     printed = (p[0] - q[0]) * (a[1] - b[1]) - (p[1] - q[1]) * (a[0] - b[0])
     six = (q[0] - p[0]) * (a[1] - b[1]) - (q[1] - p[1]) * (a[0] - b[0])
     goes_in = value(line_through((*p, 1), (*q, 1)), (*a, 1)) < 0 < value(line_through((*p, 1), (*q, 1)), (*b, 1))
-    return fails_if(
-        goes_in and printed < 0 < six, f"for an entering segment the printed product is {printed}, and (6) gives {six}"
-    )
+    message = f"for an entering segment the printed product is {printed}, and (6) gives {six}"
+    return fails_if(goes_in and printed < 0 < six, message)
 
 
 def edges_wholly_behind() -> CheckResult:

@@ -72,9 +72,8 @@ def _supporting(sets: tuple[SampledSet, ...], dimension: int) -> CheckResult:
             cases += 1
             supporting += max(values) == 0 and exact_hull(on).dimension == dimension - 1
     message = {2: "two distinct points", 3: "three noncollinear points"}[dimension]
-    return holds_if(
-        supporting == cases > 0, f"{supporting} of {cases} facets contain {message}, and no point lies beyond them"
-    )
+    message = f"{supporting} of {cases} facets contain {message}, and no point lies beyond them"
+    return holds_if(supporting == cases > 0, message)
 
 
 def vertex_formula_with_minus() -> CheckResult:
@@ -141,9 +140,8 @@ def gift_wrapping(kind: str, count: str = COUNT) -> CheckResult:
     for sampled in sampled_sets(2 if kind == "lines" else 3, int(count)):
         expected = {_on(sampled.points, facet.plane) for facet in sampled.judge.facets}
         checks.append((_turned_lines(sampled) if kind == "lines" else _turned_planes(sampled.points)) == expected)
-    return holds_if(
-        all(checks), f"in {sum(checks)} of {len(checks)} sets turning finds all supporting {kind} and nothing else"
-    )
+    message = f"in {sum(checks)} of {len(checks)} sets turning finds all supporting {kind} and nothing else"
+    return holds_if(all(checks), message)
 
 
 def _on(points: Sequence[Point], plane: Plane) -> frozenset[int]:

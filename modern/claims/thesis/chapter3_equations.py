@@ -32,9 +32,8 @@ def procedure_against_judge(count: str = COUNT) -> CheckResult:
             {*sampled.judge.inside},
             len(sampled.judge.facets),
         )
-    return holds_if(
-        right == sets, f"in exact arithmetic {right} of {sets} sets agree with the exact hull", conditional=True
-    )
+    message = f"in exact arithmetic {right} of {sets} sets agree with the exact hull"
+    return holds_if(right == sets, message, conditional=True)
 
 
 def reversed_order(count: str = COUNT) -> CheckResult:
@@ -63,9 +62,8 @@ def few_points() -> CheckResult:
     """Check the hulls of one, two and three points."""
     hulls = [convex_hull([(1, 2, 3), (4, 0, 1), (0, 5, 5)][:n]) for n in (1, 2, 3)]
     outcomes = [(h.status, h.dimension, len(h.vertices)) for h in hulls]
-    return holds_if(
-        outcomes == [("determined", k, k + 1) for k in range(3)], "the hulls are a point, a segment and a triangle"
-    )
+    message = "the hulls are a point, a segment and a triangle"
+    return holds_if(outcomes == [("determined", k, k + 1) for k in range(3)], message)
 
 
 def first_two_points() -> CheckResult:
@@ -83,9 +81,8 @@ def first_two_points() -> CheckResult:
         values = [point[axis] for point in points]
         checks.append((points[first][axis], points[second][axis]) == (max(values), min(values)))
         checks.append(max(values) > min(values))
-    return holds_if(
-        all(checks), "the first two points are extreme in x, in y if all x are equal, or in z if all y are equal too"
-    )
+    message = "the first two points are extreme in x, in y if all x are equal, or in z if all y are equal too"
+    return holds_if(all(checks), message)
 
 
 def equation(number: str) -> CheckResult:

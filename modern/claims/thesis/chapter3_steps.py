@@ -120,10 +120,8 @@ def classification_by_signs(count: str = COUNT) -> CheckResult:
         for k, point in enumerate(sampled.points):
             largest = max(plane_value(facet.plane, point) for facet in sampled.judge.facets)
             checks.append(largest <= 0 and (largest == 0) == (k not in sampled.judge.inside))
-    return holds_if(
-        all(checks) and some_boundary,
-        (f"{sum(checks)} of {len(checks)} points are classified correctly; the midpoint of a side is not a vertex"),
-    )
+    message = f"{sum(checks)} of {len(checks)} points are classified correctly; the midpoint of a side is not a vertex"
+    return holds_if(all(checks) and some_boundary, message)
 
 
 def mean_of_first_hull(count: str = COUNT) -> CheckResult:
@@ -142,9 +140,8 @@ def mean_of_first_hull(count: str = COUNT) -> CheckResult:
 def outside_convention() -> CheckResult:
     """Check a point that is inside the line x = 0 and by the printed definition also outside it."""
     ((x, _, _),) = counterexample_points("both_sides.csv")
-    return fails_if(
-        x < 0, f"at the point x is {x}: by the printed definition it is both inside and outside the line x = 0"
-    )
+    message = f"at the point x is {x}: by the printed definition it is both inside and outside the line x = 0"
+    return fails_if(x < 0, message)
 
 
 def remaining_points(dimension: str) -> CheckResult:
@@ -161,10 +158,8 @@ def remaining_points(dimension: str) -> CheckResult:
         and eliminated == {*judge.inside}
         and {*judge.vertices} <= used
     )
-    return holds_if(
-        passed,
-        (f"{len(remaining)} of {len(points)} points remain; all of them are on the boundary and none is a vertex"),
-    )
+    message = f"{len(remaining)} of {len(points)} points remain; all of them are on the boundary and none is a vertex"
+    return holds_if(passed, message)
 
 
 def used_boundary_point() -> CheckResult:
@@ -203,10 +198,8 @@ def duplicate_lines() -> CheckResult:
     sides = [{k for k in used if _on_side(points, face.polygon, k)} for face in hull.faces]
     counted = [(len(side), sum(set(ends) <= side for ends in last)) for side in sides]
     passed = all(equations >= 2 for used_count, equations in counted if used_count >= 3)
-    return holds_if(
-        passed and any(used_count >= 3 for used_count, _ in counted),
-        f"numbers of used points and of equations for each side: {counted}",
-    )
+    message = f"numbers of used points and of equations for each side: {counted}"
+    return holds_if(passed and any(used_count >= 3 for used_count, _ in counted), message)
 
 
 def _on_side(points: list[Point], ends: tuple[int, ...], k: int) -> bool:
@@ -306,10 +299,8 @@ def duplicate_planes() -> CheckResult:
     """Check that a pyramid over nine points of a square keeps one equation of each plane."""
     hull = convex_hull(PYRAMID, history=True)
     equation_count = len(hull.history[-1].equations)
-    return holds_if(
-        len(hull.faces) == 5 < equation_count,
-        f"{equation_count} equations were made, and {len(hull.faces)} planes remain",
-    )
+    message = f"{equation_count} equations were made, and {len(hull.faces)} planes remain"
+    return holds_if(len(hull.faces) == 5 < equation_count, message)
 
 
 def planes_at_vertex(kind: str = "", count: str = COUNT) -> CheckResult:

@@ -150,9 +150,8 @@ def program3_against_program2() -> CheckResult:
     two, three = (programs.deck(f"program{k}").text() for k in (2, 3))
     code = [code_positions(programs.program(f"program{k}")) for k in (2, 3)]
     passed = code[0] < code[1] and "ELIMINATING INSIDE PLANES" in three and "ELIMINATING INSIDE" not in two
-    return holds_if(
-        passed, f"the code of program 2 takes about {code[0]:,} positions, that of program 3 about {code[1]:,}"
-    )
+    message = f"the code of program 2 takes about {code[0]:} positions, that of program 3 about {code[1]:}"
+    return holds_if(passed, message)
 
 
 def substitution_counts() -> CheckResult:
@@ -181,11 +180,8 @@ def consecutive_hulls(count: str = COUNT) -> CheckResult:
         sizes = [len(stage.vertices) for stage in sampled.stages()]
         larger = sum(a < b for a, b in pairwise(sizes))
         checks.append(larger == len(sizes) - 1 and sampled.hull.history[0].number == 1)
-    return holds_if(
-        all(checks),
-        f"in {sum(checks)} of {len(checks)} sets H_2 is the first hull that has a predecessor",
-        conditional=True,
-    )
+    message = f"in {sum(checks)} of {len(checks)} sets H_2 is the first hull that has a predecessor"
+    return holds_if(all(checks), message, conditional=True)
 
 
 def order_of_elimination() -> CheckResult:

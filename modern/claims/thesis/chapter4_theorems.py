@@ -36,16 +36,14 @@ def eight_theorems() -> CheckResult:
     examples = {theorem.id for theorem in load_theorems()}
     proofs = {"4.3": theorem_4_3, "4.4": theorem_4_4, "4.5": theorem_4_5, "4.6": theorem_4_6, "4.7": theorem_4_7}
     passed = examples | proofs.keys() == {f"4.{k}" for k in range(1, 9)} and gap_in_4_7().verdict == CONDITION
-    return holds_if(
-        passed, "theorems 4.1 to 4.8 are all checked; one step of the proof of 4.7 does not follow", conditional=True
-    )
+    message = "theorems 4.1 to 4.8 are all checked; one step of the proof of 4.7 does not follow"
+    return holds_if(passed, message, conditional=True)
 
 
 def three_points_coplanar() -> CheckResult:
     """Check that three random points lie in a plane."""
-    return holds_if(
-        all(exact_hull(three).dimension < 3 for three in random_triples()), "six triples of points lie in a plane"
-    )
+    message = "six triples of points lie in a plane"
+    return holds_if(all(exact_hull(three).dimension < 3 for three in random_triples()), message)
 
 
 def extremes_4_2() -> CheckResult:
@@ -101,11 +99,8 @@ def distance_by_cosines(kind: str = "") -> CheckResult:
         as_text.append(Fraction(garbled, square) == d_squared)
     if kind:
         passed = all(checks) and not any(as_text)
-        return holds_if(
-            passed,
-            "the formula agrees exactly for six triples of points; the display in our text agrees for none",
-            conditional=True,
-        )
+        message = "the formula agrees exactly for six triples of points; the display in our text agrees for none"
+        return holds_if(passed, message, conditional=True)
     return holds_if(all(checks), "the formula agrees exactly for six triples of points")
 
 
@@ -124,9 +119,8 @@ def proof_of_4_4(part: str) -> CheckResult:
     must be 0.
     """
     if part == "letters":
-        return holds_if(
-            all(_letters(*three) for three in random_triples()), "the formulas give -B and -A for six triples of points"
-        )
+        message = "the formulas give -B and -A for six triples of points"
+        return holds_if(all(_letters(*three) for three in random_triples()), message)
     random = Random(44)
     coefficient, total, terms = [], [], []
     for _ in range(6):
@@ -144,11 +138,8 @@ def proof_of_4_4(part: str) -> CheckResult:
         terms.append(sorted(printed) == sorted([xa * yb, *substituted]))
     if part == "coefficient":
         return holds_if(all(coefficient), "they agree exactly in six cases")
-    return holds_if(
-        all(total) and not any(terms),
-        "both sums are 0, but their terms differ from those of the substitution",
-        conditional=True,
-    )
+    message = "both sums are 0, but their terms differ from those of the substitution"
+    return holds_if(all(total) and not any(terms), message, conditional=True)
 
 
 def _c_0(a: tuple[Fraction, ...], b: tuple[Fraction, ...], k: tuple[Fraction, ...]) -> Fraction:
@@ -178,10 +169,8 @@ def theorem_4_5(count: str = COUNT) -> CheckResult:
                 len(stage.equations) == len(stage.vertices) and _touches(sampled, stage.equations, stage.vertices)
             )
             checks.append(len({*judge.vertices}) <= len(stage.vertices))
-    return holds_if(
-        all(checks),
-        f"in {len(checks) // 2} stages no vertex is beyond a line, and each line contains at least two vertices",
-    )
+    message = f"in {len(checks) // 2} stages no vertex is beyond a line, and each line contains at least two vertices"
+    return holds_if(all(checks), message)
 
 
 def _touches(sampled: SampledSet, equations: Sequence[tuple[int, int, int, int]], vertices: Sequence[int]) -> bool:
@@ -342,10 +331,8 @@ def single_point_outside() -> CheckResult:
     hull = exact_hull(eight)
     planes = [hull.plane_of(facet) for facet in hull.facets]
     beyond = {p.name for p in theorem.points if any(_at(plane, p.at) > 0 for plane in planes)}
-    return holds_if(
-        beyond == {"Q9"} and len(hull.vertices) == len(eight) == 8,
-        "only Q9 is outside; the other eight points are the vertices of H_5",
-    )
+    message = "only Q9 is outside; the other eight points are the vertices of H_5"
+    return holds_if(beyond == {"Q9"} and len(hull.vertices) == len(eight) == 8, message)
 
 
 def _at(plane: Sequence[Fraction | int], point: Sequence[Fraction]) -> Fraction:
@@ -366,10 +353,8 @@ def _figure_1() -> CheckResult:
     v, e, f = len(theorem.points), len(sides), len(theorem.planes)
     closed = set(sides.values()) == {2} and v - e + f == 2
     beyond = sum(any(plane.at(p) > 0 for p in theorem.points) for plane in theorem.planes)
-    return holds_if(
-        closed and beyond > 0,
-        f"{v} vertices, {e} edges and {f} faces form a closed surface; {beyond} faces have a vertex beyond them",
-    )
+    message = f"{v} vertices, {e} edges and {f} faces form a closed surface; {beyond} faces have a vertex beyond them"
+    return holds_if(closed and beyond > 0, message)
 
 
 def _added_triangle() -> CheckResult:

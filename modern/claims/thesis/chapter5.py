@@ -60,11 +60,8 @@ def points_are_coplanar() -> CheckResult:
     """Check that points in space are reported as coplanar if their squared differences underflow."""
     typed_coplanar = [COPLANAR in _first_run(exponent).steps[0].result.typed for exponent in ("E+01", "E-16", "E-17")]
     passed = typed_coplanar == [False, False, True] and exact_hull(_SPACE).dimension == 3
-    return holds_if(
-        passed,
-        "POINTS ARE COPLANAR is typed for five points that are not, if their coordinates are about 1E-18",
-        conditional=True,
-    )
+    message = "POINTS ARE COPLANAR is typed for five points that are not, if their coordinates are about 1E-18"
+    return holds_if(passed, message, conditional=True)
 
 
 def underflow() -> CheckResult:
@@ -75,9 +72,8 @@ def underflow() -> CheckResult:
     hulls = [_first_run(exponent) for exponent in ("E+01", "E-17")]
     names = [run.final.name for run in hulls]
     passed = names == ["program3", "program2"]
-    return holds_if(
-        passed, f"the same five points lead to {names[0]}, and multiplied by 1E-18 to {names[1]}", conditional=True
-    )
+    message = f"the same five points lead to {names[0]}, and multiplied by 1E-18 to {names[1]}"
+    return holds_if(passed, message, conditional=True)
 
 
 def ninth_digit_of_product() -> CheckResult:
@@ -148,11 +144,8 @@ def possible_output() -> CheckResult:
             lacking |= {heading for heading in headings if not any(heading in card for card in cards)}
     typed_only = {"ERROR IN PROGRAM", "DATA NOT ACCEPTABLE", "POINTS ARE COPLANAR", "POINTS ARE NOT COPLANAR"}
     passed = not missing["PUNCH"] and missing["PRINT"] == typed_only
-    return holds_if(
-        passed,
-        f"all punched headings are printed; the typed messages {', '.join(sorted(missing['PRINT']))} are not",
-        conditional=True,
-    )
+    message = f"all punched headings are printed; the typed messages {', '.join(sorted(missing['PRINT']))} are not"
+    return holds_if(passed, message, conditional=True)
 
 
 def _punched(result: Print) -> tuple[str, ...]:

@@ -68,9 +68,8 @@ def _positions(name: str) -> int:
 def program_sizes() -> CheckResult:
     """Check that each program and its data fit 40,000 positions, and not 20,000, by the estimated size of the code."""
     sizes = [_positions(name) for name in THREE]
-    return holds_if(
-        SMALLER_CORE < max(sizes) <= CORE, f"the programs take about {', '.join(f'{n:,}' for n in sizes)} positions"
-    )
+    message = f"the programs take about {', '.join(f'{n:}' for n in sizes)} positions"
+    return holds_if(SMALLER_CORE < max(sizes) <= CORE, message)
 
 
 def three_programs_needed() -> CheckResult:
@@ -78,11 +77,8 @@ def three_programs_needed() -> CheckResult:
     code = sum(code_positions(programs.program(name)) for name in THREE)
     data = max(programs.program(name).storage.fields * FIELD for name in THREE)
     total = OBJECT_PROGRAM + FUNCTION_NAMES + code + data
-    return holds_if(
-        total > CORE,
-        f"the code of all three programs and the largest data take about {total:,} positions",
-        conditional=True,
-    )
+    message = f"the code of all three programs and the largest data take about {total:} positions"
+    return holds_if(total > CORE, message, conditional=True)
 
 
 def fifty_one_points() -> CheckResult:
@@ -110,9 +106,8 @@ def plane_through_c() -> CheckResult:
     points = [[*map(Fraction, point)] for point in exact_points(deck_of("throughc.deck"))[0].values()]
     judge = exact_hull(points)
     passed = message.endswith("ERROR IN PROGRAM") and judge.dimension == 3
-    return fails_if(
-        passed, f"typed: {message}; the exact hull has {len(judge.vertices)} vertices and {len(judge.facets)} planes"
-    )
+    message = f"typed: {message}; the exact hull has {len(judge.vertices)} vertices and {len(judge.facets)} planes"
+    return fails_if(passed, message)
 
 
 def truncated_roots() -> CheckResult:
@@ -217,10 +212,8 @@ def fourth_point_off_plane() -> CheckResult:
     exactly = not any(
         sum(a * x for a, x in zip(plane_through(*_FOURTH[:3]), (*_FOURTH[3], 1), strict=True)) for _ in (0,)
     )
-    return holds_if(
-        exactly and _misses(_FOURTH) == [3],
-        f"{_FOURTH[3]} lies exactly in the plane of the other three points, but misses it in eight digits",
-    )
+    message = f"{_FOURTH[3]} lies exactly in the plane of the other three points, but misses it in eight digits"
+    return holds_if(exactly and _misses(_FOURTH) == [3], message)
 
 
 def programs_rejecting_data() -> CheckResult:
@@ -233,10 +226,8 @@ def vertex_within_interval() -> CheckResult:
     """Check that e = 20 hides a vertex that is about a tenth above a plane."""
     points = [("0", "0", "0"), ("4", "0", "0"), ("0", "4", "0"), ("0", "0", "4"), ("1.4", "1.4", "1.4")]
     exact, with_epsilon = convex_hull(points), convex_hull(points, epsilon="20")
-    return holds_if(
-        4 in exact.vertices and 4 not in with_epsilon.vertices,
-        "(1.4, 1.4, 1.4) is a vertex in exact arithmetic, and not with e = 20",
-    )
+    message = "(1.4, 1.4, 1.4) is a vertex in exact arithmetic, and not with e = 20"
+    return holds_if(4 in exact.vertices and 4 not in with_epsilon.vertices, message)
 
 
 def interval_instead_of_rejection() -> CheckResult:
@@ -263,9 +254,8 @@ def value_against_distance() -> CheckResult:
     a, b, c, d = plane(p, q, r)  # type: ignore[arg-type]
     value = at((a, b, c, d), x)
     distance = value * value / (a * a + b * b + c * c)
-    return holds_if(
-        distance == 1 and abs(value) == Fraction(1, 100), "the value is 1/100 at the distance 1", conditional=True
-    )
+    message = "the value is 1/100 at the distance 1"
+    return holds_if(distance == 1 and abs(value) == Fraction(1, 100), message, conditional=True)
 
 
 def orientation_by_c(count: str = COUNT) -> CheckResult:
@@ -301,11 +291,8 @@ def orientation_by_constant_term(count: str = COUNT) -> CheckResult:
             a, b, c, d = plane_through(*(sampled.points[k] for k in defining))
             there, constant = a * x + b * y + c * z + d * len(added), plane_through(*(moved[k] for k in defining))[3]  # type: ignore[arg-type]
             checks.append((constant > 0, constant < 0) == (there > 0, there < 0))
-    return holds_if(
-        all(checks) and plane_through_c().verdict == FAILS,
-        f"{len(checks)} constant terms have the sign of the value at C",
-        conditional=True,
-    )
+    message = f"{len(checks)} constant terms have the sign of the value at C"
+    return holds_if(all(checks) and plane_through_c().verdict == FAILS, message, conditional=True)
 
 
 def _equations_made(sampled: SampledSet) -> int:
@@ -329,19 +316,16 @@ def cost_of_orientation() -> CheckResult:
 
     at(tuple(map(Counted, (1, -2, 3, -4))), tuple(map(Counted, (5, 6, 7))))
     products, sums = operations.count("product"), operations.count("sum")
-    return holds_if(
-        products > 0 < sums, f"{products} products and {sums} sums for each equation, and none with the origin at C"
-    )
+    message = f"{products} products and {sums} sums for each equation, and none with the origin at C"
+    return holds_if(products > 0 < sums, message)
 
 
 def cost_of_translation(count: str = COUNT) -> CheckResult:
     """Compare the sums saved, three for each equation, with the sums of the translation, six for each point."""
     few = [3 * _equations_made(sampled) - 6 * len(sampled.points) for sampled in sampled_sets(3, int(count))]
     many = 3 * 4 - 6 * 51
-    return holds_if(
-        max(few) > 0 > many,
-        f"balance of sums saved: {', '.join(map(str, few))}; for 51 points with a tetrahedron as hull {many}",
-    )
+    message = f"balance of sums saved: {', '.join(map(str, few))}; for 51 points with a tetrahedron as hull {many}"
+    return holds_if(max(few) > 0 > many, message)
 
 
 def data_sheet(part: str) -> CheckResult:
@@ -357,11 +341,8 @@ def data_sheet(part: str) -> CheckResult:
         printed = "+.3000000E+01"
         whole = coordinate_field("3")
         passed = len(printed) == len(whole) - 1 and printed.replace("E", "0E") == whole
-        return holds_if(
-            passed, f"{printed} has {len(printed)} characters, and a field has {len(whole)}", conditional=True
-        )
+        message = f"{printed} has {len(printed)} characters, and a field has {len(whole)}"
+        return holds_if(passed, message, conditional=True)
     numbers = {"12": "+.12000000E+02", ".0146": "+.14600000E-01", ".0261": "+.26100000E-01", "6": "+.60000000E+01"}
-    return holds_if(
-        all(coordinate_field(value) == field for value, field in numbers.items()),
-        f"read as printed: {', '.join(numbers)}",
-    )
+    message = f"read as printed: {', '.join(numbers)}"
+    return holds_if(all(coordinate_field(value) == field for value, field in numbers.items()), message)

@@ -33,19 +33,16 @@ def definitions_differ() -> CheckResult:
         array_of([(0, 0, 0), (1, 0, 0), (2, 0, 0), (2, 1, 0), (2, 2, 0)]),
     )
     definitions = [(is_midpoint_convex(a), is_digitally_convex(a)) for a in (corner, bend)]
-    return holds_if(
-        definitions[0] == (True, False) and not definitions[1][1],
-        "two voxels with a common corner are convex by 3.2.2 and not by 3.2.3",
-    )
+    message = "two voxels with a common corner are convex by 3.2.2 and not by 3.2.3"
+    return holds_if(definitions[0] == (True, False) and not definitions[1][1], message)
 
 
 def midpoint_convexity() -> CheckResult:
     """Check covers of one to eight voxels, and that a row with a gap is not convex."""
     sizes = [len(midpoint_cover((0, 0, 0), voxel)) for voxel in ((2, 2, 2), (1, 2, 2), (1, 1, 2), (1, 1, 1))]
     gap = is_midpoint_convex(array_of([(0, 0, 0), (2, 0, 0)]))
-    return holds_if(
-        sizes == [1, 2, 4, 8] and not gap, f"four pairs of voxels have covers of {', '.join(map(str, sizes))} voxels"
-    )
+    message = f"four pairs of voxels have covers of {', '.join(map(str, sizes))} voxels"
+    return holds_if(sizes == [1, 2, 4, 8] and not gap, message)
 
 
 def midpoint_covers() -> CheckResult:
@@ -99,9 +96,8 @@ def simple_with_a_tunnel() -> CheckResult:
     for x, y, z in np.argwhere(array).tolist():
         cells.update((2 * x + i, 2 * y + j, 2 * z + k) for i, j, k in product(range(3), repeat=3))
     euler = sum((-1) ** sum(c % 2 for c in cell) for cell in cells)
-    return fails_if(
-        is_simple(array) and euler == 0, f"the solid is simple, but its Euler number is {euler}, and a ball has 1"
-    )
+    message = f"the solid is simple, but its Euler number is {euler}, and a ball has 1"
+    return fails_if(is_simple(array) and euler == 0, message)
 
 
 def nearness(kind: str = "semidigital") -> CheckResult:
@@ -123,9 +119,8 @@ def nearness(kind: str = "semidigital") -> CheckResult:
                 on = any(_on_segment(at, *ends) for ends in segments)
                 checks.append(on or all(at[axis].denominator > 1 for axis in axes))
                 checks.append(not on or any(c.denominator == 1 for c in at))
-        return holds_if(
-            all(checks) and segments != [], f"{len(checks) // 2} points of faces and {len(segments)} segments agree"
-        )
+        message = f"{len(checks) // 2} points of faces and {len(segments)} segments agree"
+        return holds_if(all(checks) and segments != [], message)
     for (start, end), voxel in product(segments, SOLID):
         span = near_span(start, end, voxel)
         for t in (Fraction(k, 4) for k in range(5)):

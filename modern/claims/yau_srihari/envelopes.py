@@ -47,9 +47,8 @@ def algorithm_as_printed(name: str) -> CheckResult:
     array = array_of(counterexample_points(f"yau_{name}.csv"))
     wrong, right = octree_hull(array, Printed.only(name)).filled, octree_hull(array).filled
     missing, more = int((right & ~wrong).sum()), int((wrong & ~right).sum())
-    return fails_if(
-        missing or more, f"of {int(right.sum())} voxels {missing} are missing, and {more} voxels are too many"
-    )
+    message = f"of {int(right.sum())} voxels {missing} are missing, and {more} voxels are too many"
+    return fails_if(missing or more, message)
 
 
 def minimum_not_unique() -> CheckResult:
@@ -84,10 +83,8 @@ def deficiency_of_solid() -> CheckResult:
     """Check that the hull without the convex deficiency is the solid."""
     array = array_of(SOLID)
     missing = convex_deficiency(array)
-    return holds_if(
-        bool((_hull().filled & ~missing == array).all()),
-        f"voxels of the hull that are not in the solid: {int(missing.sum())}",
-    )
+    message = f"voxels of the hull that are not in the solid: {int(missing.sum())}"
+    return holds_if(bool((_hull().filled & ~missing == array).all()), message)
 
 
 def euclidean_convexity() -> CheckResult:
@@ -118,9 +115,8 @@ def light_cap(kind: str = "") -> CheckResult:
     if kind:
         bounds = [len(sampled.judge.edges()) <= 3 * len(sampled.points) - 6 for sampled in sampled_sets(3, 2)]
         return holds_if(all(bounds), "a hull of n points has at most 3n - 6 edges")
-    return holds_if(
-        closed, f"{len(light)} light faces are surrounded by {len(rim)} edges, and two of these meet at each end"
-    )
+    message = f"{len(light)} light faces are surrounded by {len(rim)} edges, and two of these meet at each end"
+    return holds_if(closed, message)
 
 
 def voxels_fill_space() -> CheckResult:
@@ -190,19 +186,16 @@ def ceiling_by_negation() -> CheckResult:
     judge = exact_hull(SOLID)
     envelope_points = {(x, y, -z) for face in _hull().upper.faces for x, y, z in face.vertices}
     upper = {SOLID[k] for f in judge.facets if f.plane[2] > 0 for k in f.polygon}
-    return holds_if(
-        envelope_points == upper, f"{len(envelope_points)} vertices agree with negated heights", conditional=True
-    )
+    message = f"{len(envelope_points)} vertices agree with negated heights"
+    return holds_if(envelope_points == upper, message, conditional=True)
 
 
 def extreme_points() -> CheckResult:
     """Check that the vertices of the lower envelope are points of the floor and of the reduced set."""
     floor = {(x, y, z) for (x, y), z in _hull().floor.items()}
     vertices = {v for face in _hull().lower.faces for v in face.vertices}
-    return holds_if(
-        vertices <= floor and vertices <= {*_hull().lower.reduced},
-        f"{len(vertices)} vertices are among the points of {len(floor)} columns",
-    )
+    message = f"{len(vertices)} vertices are among the points of {len(floor)} columns"
+    return holds_if(vertices <= floor and vertices <= {*_hull().lower.reduced}, message)
 
 
 def integer_normals() -> CheckResult:
@@ -215,9 +208,8 @@ def integer_normals() -> CheckResult:
         for normal, (first, *others) in normals:
             checks.append(any(normal) and all(type(n) is int for n in normal))
             checks += [dot(normal, minus(vertex, first)) == 0 for vertex in others]
-    return holds_if(
-        upright > 0 and all(checks), f"{len(checks)} conditions hold; {upright} normals belong to starting faces"
-    )
+    message = f"{len(checks)} conditions hold; {upright} normals belong to starting faces"
+    return holds_if(upright > 0 and all(checks), message)
 
 
 def supporting_triangle() -> CheckResult:
@@ -262,17 +254,15 @@ def epigraph_at_inner_nodes() -> CheckResult:
     epigraph = count(graph_side(tree, above=True))
     columns = sum(z >= top for top in tops.values() for z in (0, 1))
     passed = voxels_as_printed == 8 > epigraph == columns == 5 and tree.high == 1
-    return holds_if(
-        passed, f"as printed the root has {voxels_as_printed} voxels, and the epigraph has {epigraph}", conditional=True
-    )
+    message = f"as printed the root has {voxels_as_printed} voxels, and the epigraph has {epigraph}"
+    return holds_if(passed, message, conditional=True)
 
 
 def pairs_of_points() -> CheckResult:
     """Count the segments between n points for n up to 12."""
     counts = {n: len([*combinations(range(n), 2)]) for n in range(2, 13)}
-    return holds_if(
-        all(2 * count == n * (n - 1) for n, count in counts.items()), "the number is n (n - 1) / 2 for n from 2 to 12"
-    )
+    message = "the number is n (n - 1) / 2 for n from 2 to 12"
+    return holds_if(all(2 * count == n * (n - 1) for n, count in counts.items()), message)
 
 
 def outward_normals() -> CheckResult:
