@@ -6,10 +6,10 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import gcd, isqrt, lcm
+from math import isqrt, lcm
 from typing import NamedTuple
 
-from modern.comparison.outcome import Equation, Outcome, Vector
+from modern.comparison.outcome import Equation, Outcome, Vector, integers_of
 
 NEAR = Fraction(1, 1000)
 """The largest difference of a coefficient at which two equations count as the same face with a numerical error."""
@@ -102,11 +102,11 @@ def _match(equations: Sequence[Equation], exact: Sequence[Equation]) -> list[_Ma
     """Match each equation with the nearest exact one, the first of equally near ones."""
     by_integers: dict[tuple[int, ...], int] = {}
     for place, equation in enumerate(exact):
-        by_integers.setdefault(_integers(equation), place)
+        by_integers.setdefault(integers_of(equation), place)
     scaled_exact: list[Equation] = []
     matches = []
     for equation in equations:
-        place = by_integers.get(_integers(equation), -1)
+        place = by_integers.get(integers_of(equation), -1)
         if place >= 0 and any(equation[:3]):
             matches.append(_Match(place, Fraction(0)))
             continue
@@ -118,14 +118,6 @@ def _match(equations: Sequence[Equation], exact: Sequence[Equation]) -> list[_Ma
         near = best >= 0 and errors[best] <= NEAR
         matches.append(_Match(best if near else -1, errors[best] if near else Fraction(0)))
     return matches
-
-
-def _integers(numbers: Sequence[Fraction]) -> tuple[int, ...]:
-    """Return a positive multiple of the numbers as integers without a common divisor."""
-    scale = lcm(*(c.denominator for c in numbers))
-    integers = [c.numerator * (scale // c.denominator) for c in numbers]
-    divisor = gcd(*integers) or 1
-    return tuple(c // divisor for c in integers)
 
 
 def _scaled(equation: Equation) -> Equation:
@@ -148,7 +140,7 @@ def _excluded(equations: Sequence[Equation], points: Sequence[Vector]) -> tuple[
     scaled_points = [tuple(c.numerator * (scale // c.denominator) for c in point) for point in points]
     for equation in equations:
         # The distance is the same for any positive multiple of the equation.
-        a, b, c, d = _integers(equation)
+        a, b, c, d = integers_of(equation)
         square = a * a + b * b + c * c
         if not square:
             continue

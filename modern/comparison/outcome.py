@@ -137,7 +137,7 @@ def as_hull(judged: ExactHull) -> Hull:
     else:
         polygons = [*zip(judged.polygon, judged.polygon[1:] + judged.polygon[:1], strict=True)]
     equations = from_judge(judged, points).equations
-    reduced = [_integers(equation) for equation in equations]
+    reduced = [integers_of(equation) for equation in equations]
     faces = tuple(
         Face(_texts(equation), integers, polygon[:3], polygon, on)
         for equation, integers, polygon, on in zip(equations, reduced, polygons, _on(judged, reduced), strict=True)
@@ -168,8 +168,8 @@ def _on(judged: ExactHull, planes: Sequence[Sequence[int]]) -> list[tuple[int, .
     return on_planes
 
 
-def _integers(equation: Equation) -> tuple[int, int, int, int]:
-    """Return the equation as integers without a common divisor."""
+def integers_of(equation: Equation) -> tuple[int, int, int, int]:
+    """Return a positive multiple of an equation as integers without a common divisor."""
     common = lcm(*(number.denominator for number in equation))
     a, b, c, d = (number.numerator * (common // number.denominator) for number in equation)
     divisor = gcd(a, b, c, d) or 1
