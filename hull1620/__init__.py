@@ -32,7 +32,8 @@ if TYPE_CHECKING:
     from emulator.machine.timing import Timing, measure
     from emulator.numbers import Numbers, numbers
     from emulator.numbers.arithmetic import Profile, profile
-    from hull1620.hulls import Hull, convex_hull, data_deck, draw, exact_hull, read_points, reproduce, run_hull, save
+    from hull1620.hull import Hull
+    from hull1620.hulls import convex_hull, data_deck, draw, exact_hull, read_points, reproduce, run_hull, save
     from hull1620.voxels import voxel_hull
     from modern.digital.hull import DigitalHull, digital_hull
     from modern.digital.solids import NoVoxels, Volume, VolumeError
@@ -60,8 +61,16 @@ _HOMES = {
     "emulator.machine.timing": ("Timing", "measure"),
     "emulator.numbers": ("Numbers", "numbers"),
     "emulator.numbers.arithmetic": ("Profile", "profile"),
+    "hull1620.hull": ("Hull",),
     "hull1620.hulls": (
-        *("Hull", "convex_hull", "data_deck", "draw", "exact_hull", "read_points", "reproduce", "run_hull", "save"),
+        "convex_hull",
+        "data_deck",
+        "draw",
+        "exact_hull",
+        "read_points",
+        "reproduce",
+        "run_hull",
+        "save",
     ),
     "hull1620.voxels": ("voxel_hull",),
     "modern.digital.hull": ("DigitalHull", "digital_hull"),

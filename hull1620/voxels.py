@@ -7,7 +7,8 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from hull1620.hulls import Hull, exact_hull
+from hull1620.hull import Hull
+from hull1620.hulls import exact_hull
 from modern.digital.hull import placed
 from modern.digital.solids import Volume
 from modern.papers import kovalevsky_schulz as voxels

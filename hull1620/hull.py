@@ -1,0 +1,328 @@
+"""The class Hull: a convex hull with numpy arrays, exact volume and area, drawings and files."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from decimal import Decimal
+from fractions import Fraction
+from functools import cached_property
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from emulator.files import write_text
+from modern.drawing.draw import Labels, Show, draw_svg
+from modern.exact_hull.result import Certificate
+from modern.formats.export import to_trimesh, write_hull
+from modern.geometry.coplanar import coplanar, distance_text
+from modern.geometry.hull import Face, Stage, as_tuple
+from modern.geometry.hull import Hull as Record
+from modern.geometry.mesh import ExportError, Mesh, mesh
+from modern.geometry.numbers import AREA_DIGITS, coordinates, real, sum_of_roots
+from modern.geometry.vectors import Vector, six_volumes
+from modern.port.outcome import PointTexts
+
+_KINDS = ("point", "segment", "polygon", "polyhedron")
+
+Path = str | os.PathLike[str]
+Floats = NDArray[np.float64]
+Indices = NDArray[np.intp]
+Array = TypeVar("Array", bound=NDArray[Any])
+
+
+@dataclass(frozen=True, repr=False)
+class Hull:
+    """A convex hull, the result of ``convex_hull``, ``exact_hull`` and ``voxel_hull``.
+
+    Points are identified by their index in the input, from 0.  Arrays hold the nearest doubles and are read-only.
+
+    Attributes
+    ----------
+    record : modern.geometry.hull.Hull
+        All data of the hull as exact text.  The other attributes are derived from it.
+    certificate : Certificate or None
+        The counts of the proof, from ``exact_hull`` only.
+    """
+
+    record: Record
+    certificate: Certificate | None = None
+
+    @property
+    def arithmetic(self) -> str:
+        """The name of the arithmetic in which the hull was computed."""
+        return self.record.arithmetic
+
+    @property
+    def status(self) -> str:
+        """``determined``, or the message with which the programs end."""
+        return self.record.status
+
+    @property
+    def determined(self) -> bool:
+        """True if the procedure found a hull."""
+        return self.record.determined
+
+    @property
+    def statement(self) -> str:
+        """Program and label of the statement in the listing that decided the status; empty from ``exact_hull``."""
+        return self.record.statement
+
+    @property
+    def dimension(self) -> int:
+        """0 for a point, 1 for a segment, 2 for a polygon, 3 for a polyhedron."""
+        return self.record.dimension
+
+    @property
+    def faces(self) -> tuple[Face, ...]:
+        """The faces of a polyhedron or the lines of a polygon, with exact equations and the points on them."""
+        return as_tuple(self.record.faces)
+
+    @property
+    def duplicates(self) -> tuple[tuple[int, int], ...]:
+        """Pairs of a point and the first point with the same coordinates."""
+        return self.record.duplicates
+
+    @property
+    def history(self) -> tuple[Stage, ...]:
+        """The approximations H1, H2, ..., if ``convex_hull`` was called with ``history=True``."""
+        return as_tuple(self.record.history)
+
+    @property
+    def corrected(self) -> tuple[str, ...]:
+        """Rows of the layer ``corrected`` whose branch differed from that of the listing."""
+        return self.record.corrected
+
+    @cached_property
+    def points(self) -> Floats:
+        """The points as numbers of the arithmetic, shape (n, 3)."""
+        points = self.record.points
+        if isinstance(points, PointTexts):
+            return _read_only(points.floats())
+        return _read_only(np.array([[_float(text) for text in point] for point in points], np.float64).reshape(-1, 3))
+
+    @property
+    def exact_points(self) -> tuple[Vector, ...]:
+        """The points as fractions."""
+        return tuple(coordinates(point) for point in self.record.points)
+
+    @cached_property
+    def vertices(self) -> Indices:
+        """The vertices, in the order in which the procedure found them; sorted from ``exact_hull``."""
+        return _read_only(np.array(self.record.vertices, np.intp))
+
+    @cached_property
+    def boundary(self) -> Indices:
+        """The points on the surface of the hull that are not vertices."""
+        return _read_only(np.array(self.record.boundary, np.intp))
+
+    @cached_property
+    def inside(self) -> Indices:
+        """The points in the interior of the hull; for a polygon within its plane, for a segment between its ends."""
+        return _read_only(np.array(self.record.inside, np.intp))
+
+    @cached_property
+    def simplices(self) -> Indices:
+        """The faces split into triangles, shape (m, 3), counterclockwise seen from outside, as in scipy's ConvexHull.
+
+        A polygon has the triangles of its one face, a segment or a point none.
+
+        Raises
+        ------
+        ExportError
+            The procedure found no hull.
+        """
+        triangles = np.array(self._mesh.triangles(), np.intp).reshape(-1, 3)
+        return _read_only(self.vertices[triangles])
+
+    @cached_property
+    def equations(self) -> Floats:
+        """The outward unit normal and the offset of each of ``simplices``, shape (m, 4), as in scipy's ConvexHull.
+
+        Inside the hull normal @ x + offset <= 0.  The equations in ``faces`` are exact.
+
+        Raises
+        ------
+        ExportError
+            The procedure found no hull.
+        """
+        rows: list[Floats] = []
+        for (a, b, c, d), polygon in zip(self._mesh.planes(self.record), self._mesh.faces, strict=True):
+            # Exact division by the largest coefficient first, so that no product of doubles can overflow.
+            largest = max(abs(a), abs(b), abs(c)) or Fraction(1)
+            row = np.array([float(number / largest) for number in (a, b, c, d)])
+            rows += [row / (np.linalg.norm(row[:3]) or 1.0)] * (len(polygon) - 2)
+        return _read_only(np.array(rows, np.float64).reshape(-1, 4))
+
+    @cached_property
+    def volume(self) -> Fraction:
+        """The exact volume; 0 for a flat hull.
+
+        Raises
+        ------
+        ExportError
+            The procedure found no hull, or its faces do not close because numbers were rounded.
+        """
+        surface = self._closed
+        return six_volumes(surface.numbers(), surface.faces) / 6 if self.dimension == 3 else Fraction(0)
+
+    @cached_property
+    def area(self) -> Decimal:
+        """The area of the surface to 50 significant digits; for a polygon the area of one side.
+
+        The area is a sum of square roots.  It is exact if the area of every face is a decimal of at most 50 digits;
+        ``squared_areas`` are always exact.
+
+        Raises
+        ------
+        ExportError
+            The procedure found no hull, or its faces do not close because numbers were rounded.
+        """
+        return sum_of_roots(self.squared_areas, AREA_DIGITS)
+
+    @cached_property
+    def squared_areas(self) -> tuple[Fraction, ...]:
+        """The exact square of each face's area, in the order of ``faces``; for a polygon one number."""
+        return self._closed.squared_areas()
+
+    def coplanar(self, within: Any) -> Hull:
+        """Return a hull in which faces that are coplanar to within a distance are joined.
+
+        Parameters
+        ----------
+        within : real number or str
+            The distance, also as decimal text or a fraction ``"p/q"``.
+
+        Returns
+        -------
+        Hull
+            A new hull; this one stays as it is.  A joined face has the equation of its largest face.  ``volume`` and
+            ``area`` are those of the joined faces split into triangles.  A flat hull is returned unchanged.
+
+        Raises
+        ------
+        ExportError
+            The distance is invalid or too large for this solid.
+
+        Notes
+        -----
+        ``modern.geometry.coplanar`` defines which faces are joined.  ``record.coplanar`` of the result has the number
+        of faces before joining, the largest distance of a vertex from its plane, and the next distance that would join
+        more faces.
+        """
+        return Hull(coplanar(self.record, within)[0])
+
+    def draw(
+        self,
+        eye: Sequence[Any] | None = None,
+        title: str = "",
+        width: int | None = None,
+        labels: Labels = "programs",
+        hidden: bool = True,
+        others: bool = True,
+    ) -> str:
+        """Return a drawing as the text of an SVG file, with hidden edges dashed.
+
+        Parameters
+        ----------
+        eye : sequence of 3 numbers, optional
+            The direction to the eye.
+        title : str, optional
+            The title of the drawing.
+        width : int, optional
+            The width in pixels.
+        labels : {"programs", "input", "none"}, optional
+            Number the vertices as the programs do, by their index in the input, or not at all.
+        hidden : bool, optional
+            Draw hidden edges.
+        others : bool, optional
+            Draw the points that are not vertices.
+
+        Raises
+        ------
+        ExportError
+            The hull cannot be drawn, or ``eye`` does not have three numbers.
+        ValueError
+            ``eye`` contains something that is not a number.
+
+        See Also
+        --------
+        modern.drawing.draw.draw_svg
+        """
+        direction = None if eye is None else [Fraction(real(number)) for number in eye]
+        if direction is not None and len(direction) != 3:
+            raise ExportError(f"the direction of view has three numbers, not {len(direction)}")
+        return draw_svg(self.record, direction, title, width, Show(labels, hidden, others))
+
+    def save(self, path: Path, digits: int | None = None) -> None:
+        """Write the hull to a file in the format of its extension.
+
+        Parameters
+        ----------
+        path : str or path-like
+            A name that ends with .off, .obj, .ply, .stl, .json, .html or, for a drawing, .svg.
+        digits : int, optional
+            The number of significant digits to which coordinates without a finite decimal expansion are rounded.
+            Without it such a coordinate raises ExportError.
+
+        Raises
+        ------
+        ExportError
+            The format is unknown or cannot hold the hull.
+        FileError
+            The file cannot be written.
+        """
+        name = os.fspath(path)
+        if name.lower().endswith(".svg"):
+            write_text(name, self.draw())
+        else:
+            write_hull(self.record, name, digits=digits)
+
+    def to_trimesh(self) -> Any:
+        """Return the hull as a ``trimesh.Trimesh`` (needs the extra ``mesh``).
+
+        Raises
+        ------
+        ExportError
+            trimesh is not installed, or it cannot hold the hull.
+        """
+        return to_trimesh(self.record)
+
+    def __repr__(self) -> str:
+        count, arithmetic = len(self.record.points), self.arithmetic
+        if not self.determined:
+            return f"<no hull: {self.status} at {self.statement}; {count} points, {arithmetic}>"
+        faces = f", {len(self.faces)} {'faces' if self.dimension == 3 else 'lines'}" if self.faces else ""
+        vertices = f"{len(self.record.vertices)} {'vertices' if self.dimension else 'vertex'}"
+        joined = self.record.coplanar
+        within = "" if joined is None else f", coplanar within {distance_text(Fraction(joined.within))}"
+        return f"<hull: {_KINDS[self.dimension]}, {vertices}{faces}; {count} points, {arithmetic}{within}>"
+
+    def _repr_svg_(self) -> str | None:
+        return self.draw() if self.determined else None
+
+    @cached_property
+    def _mesh(self) -> Mesh:
+        return mesh(self.record)
+
+    @cached_property
+    def _closed(self) -> Mesh:
+        """The mesh.  Raise ExportError if a polyhedron has an edge that does not belong to two faces."""
+        if self.dimension == 3 and not self._mesh.closed:
+            raise ExportError(f"the faces determined in {self.arithmetic} do not close to a surface")
+        return self._mesh
+
+
+def _float(text: str) -> float:
+    """Return the nearest double, or an infinity beyond the largest one."""
+    try:
+        return float(Fraction(text)) if "/" in text else float(text)
+    except OverflowError:
+        return float("-inf") if text.startswith("-") else float("inf")
+
+
+def _read_only(array: Array) -> Array:
+    array.setflags(write=False)
+    return array
