@@ -25,6 +25,6 @@ To add a document:
    ``transcripts/statements/NAME.toml`` and its package of checks ``modern/claims/NAME/``.
 2. If it prints results, add a witness, an apparatus and ``results.toml`` to a folder of ``transcripts/``, a module with
    a function ``produced`` to ``modern/papers/``, and a :class:`~modern.claims.published.Paper` to ``PAPERS``.
-3. Describe the document and its text in ``sources.toml``, which :mod:`modern.edition.sources` reads.
+3. Describe the document and its text in ``fortran_src/SOURCES.toml``, which :mod:`modern.edition.sources` reads.
 4. Add a page ``docs/statements/NAME.md`` and name it in ``docs/statements.md``.
 """
