@@ -1,8 +1,8 @@
-"""The near plane of a perspective: what lies beyond it is drawn, what it cuts is cut exactly, the rest is left out.
+"""The near plane of a perspective: polyhedra beyond it are drawn, those it intersects are clipped, others are omitted.
 
-The plane stands at right angles to the direction of view, at a distance from the eye.  That distance is measured in
-fractions, within 1/10^15 of what was said; where edges meet the plane is then exact, and a cut polyhedron is convex
-again, with a face in the plane.
+The plane is perpendicular to the direction of view, at a distance from the eye that is a fraction within 1/10^15 of the
+requested one. The intersections of edges with this plane are exact, so a clipped polyhedron is convex again and has a
+face in the plane.
 """
 
 from __future__ import annotations
@@ -18,38 +18,38 @@ from modern.papers.nakamae_nishita.projection import Observer
 
 
 @dataclass(frozen=True, slots=True)
-class Kept:
-    """Polyhedra beyond the near plane, and the names of those it cuts and of those behind it."""
+class Clipped:
+    """The polyhedra beyond the near plane, and the names of those that it clips and of those behind it."""
 
     polyhedra: tuple[Polyhedron, ...]
     cut: tuple[str, ...] = ()
     behind: tuple[str, ...] = ()
 
 
-def beyond_near(polyhedra: Sequence[Polyhedron], observer: Observer) -> Kept:
-    """The polyhedra as far as they lie beyond the near plane; all of them where the observer has none.
+def beyond_near(polyhedra: Sequence[Polyhedron], observer: Observer) -> Clipped:
+    """Return the parts of polyhedra beyond the near plane, or all of them if the observer has no near plane.
 
-    Raises SceneError where nothing is left.
+    Raise SceneError if nothing remains.
     """
     if observer.near is None or observer.point is None:
-        return Kept(tuple(polyhedra))
-    kept, cut, behind = [], [], []
+        return Clipped(tuple(polyhedra))
+    remaining, cut, behind = [], [], []
     for polyhedron in polyhedra:
         depths = [_depth(point, observer) for point in polyhedron.vertices]
         if min(depths) >= 0:
-            kept.append(polyhedron)
+            remaining.append(polyhedron)
         elif max(depths) <= 0:
             behind.append(polyhedron.name)
         else:
-            kept.append(_clipped(polyhedron, depths, observer))
+            remaining.append(_clipped(polyhedron, depths, observer))
             cut.append(polyhedron.name)
-    if polyhedra and not kept:
+    if polyhedra and not remaining:
         raise SceneError("everything lies behind the near plane")
-    return Kept(tuple(kept), tuple(cut), tuple(behind))
+    return Clipped(tuple(remaining), tuple(cut), tuple(behind))
 
 
 def _depth(point: Vector, observer: Observer) -> Fraction:
-    """How far beyond the near plane a point lies, times the length of ``observer.eye``; behind it negative."""
+    """Return the distance of a point beyond the near plane, times the length of ``observer.eye``."""
     assert observer.point is not None
     assert observer.near is not None
     x, y, z = minus(observer.point, point)
@@ -58,7 +58,7 @@ def _depth(point: Vector, observer: Observer) -> Fraction:
 
 
 def _clipped(polyhedron: Polyhedron, depths: Sequence[Fraction], observer: Observer) -> Polyhedron:
-    """The part of a polyhedron beyond the plane, which cuts it; the last face is the cut's, which a plate has not."""
+    """Return the part of a polyhedron beyond the plane. Its last face is the section, which a plate does not have."""
     points = list(polyhedron.vertices)
     cuts: dict[tuple[int, int], int] = {}
 
@@ -73,14 +73,15 @@ def _clipped(polyhedron: Polyhedron, depths: Sequence[Fraction], observer: Obser
     for order, face in enumerate(polyhedron.faces):
         if max(depths[place] for place in face) <= 0:
             continue
-        found: list[int] = []
+        clipped_face: list[int] = []
         for a, b in sides(face):
             if depths[a] >= 0:
-                found.append(a)
+                clipped_face.append(a)
             if depths[a] * depths[b] < 0:
-                found.append(crossing(a, b))
-        faces.append(tuple(found))
+                clipped_face.append(crossing(a, b))
+        faces.append(tuple(clipped_face))
         orders.append(order)
+    # The edges with only one face are in the plane. Followed in reverse, they are the boundary of the section.
     edges = {edge for face in faces for edge in sides(face)}
     ahead = {b: a for a, b in edges if (b, a) not in edges}
     groups = [polyhedron.joined[order] for order in orders] if polyhedron.joined else []
@@ -106,19 +107,19 @@ def _clipped(polyhedron: Polyhedron, depths: Sequence[Fraction], observer: Obser
 
 
 def _cut(corners: Sequence[Vector], observer: Observer) -> tuple[Vector, ...]:
-    """The part of a figure beyond the plane, closed along the cut (Sutherland and Hodgman, CACM 17 (1974))."""
+    """Clip a figure and close it along the plane (Sutherland and Hodgman, CACM 17 (1974))."""
     depths = [_depth(point, observer) for point in corners]
-    found = []
+    clipped_corners = []
     for a, b in sides(range(len(corners))):
         if depths[a] >= 0:
-            found.append(corners[a])
+            clipped_corners.append(corners[a])
         if depths[a] * depths[b] < 0:
-            found.append(_between(corners[a], corners[b], depths[a], depths[b]))
-    return tuple(found) if max(depths) > 0 else ()
+            clipped_corners.append(_between(corners[a], corners[b], depths[a], depths[b]))
+    return tuple(clipped_corners) if max(depths) > 0 else ()
 
 
 def _between(p: Vector, q: Vector, at_p: Fraction, at_q: Fraction) -> Vector:
-    """The point from p to q where a linear function with these values at p and q, of opposite signs, is 0."""
+    """Return the point between p and q where a linear function with these values of opposite signs is 0."""
     share = at_p / (at_p - at_q)
     x, y, z = (a + share * (b - a) for a, b in zip(p, q, strict=True))
     return x, y, z

@@ -1,11 +1,11 @@
-"""Pairs of contour lines: which may overlap, and the PL and LP tables of those that do (section 3.2).
+"""Pairs of contours: the pairs that may overlap, and their PL and LP tables (section 3.2).
 
-Pairs whose bounding boxes overlap are found on a grid of cells.  Boxes are in floating point, widened by more than its
-rounding, so that no pair is lost; a pair too many costs a table.
+Pairs with overlapping bounding boxes are found on a grid of cells. The boxes are in floating point and widened by more
+than the rounding error, so no pair is lost. A superfluous pair only costs a table.
 
-The tables are those of formulas (2) and (3), with properties 1 to 4.  V has the vertices P_i, V' the vertices P_j, both
-clockwise.  ``PL[j][i]`` is the side of the segment from P_i to P_(i+1) on which P_j lies, ``LP[j][i]`` that of the
-segment from P_j to P_(j+1) on which P_i lies; 1 is the inner side.
+The tables are those of formulas (2) and (3), with properties 1 to 4. V has the vertices P_i, V' the vertices P_j, both
+clockwise. ``PL[j][i]`` is the side of the segment from P_i to P_(i+1) on which P_j lies, ``LP[j][i]`` the side of the
+segment from P_j to P_(j+1) on which P_i lies. 1 is the inner side.
 """
 
 from __future__ import annotations
@@ -19,64 +19,64 @@ from modern.papers.nakamae_nishita.projection import Homogeneous
 
 Box = tuple[float, float, float, float]
 
-_ROOM = 2.0**-50
+_MARGIN = 2.0**-50
 _CELLS = 1 << 12
 
 
 def boxes(contours: Sequence[Sequence[Homogeneous]]) -> list[Box | None]:
-    """The box of each contour, left, right, low, high, within -1 to 1; None of an empty one.
+    """Return the box (left, right, low, high) of each contour, scaled into -1 to 1, or None for an empty contour.
 
-    All images are divided by one power of two that brings them within -1 to 1.  Integers divided by integers are
-    rounded correctly at any length, so an end is off by 2**-54 at the most, and is moved outward by 2**-50.
+    All images are divided by one power of two that brings them into -1 to 1. Python rounds quotients of integers
+    correctly, so an end has an error of at most 2**-54. It is moved outward by 2**-50.
     """
     shift = max(
         (max(abs(x), abs(y)).bit_length() - w.bit_length() + 1 for contour in contours for x, y, _, w in contour),
         default=0,
     )
     up, down = max(shift, 0), max(-shift, 0)
-    found: list[Box | None] = []
+    all_boxes: list[Box | None] = []
     for contour in contours:
         if not contour:
-            found.append(None)
+            all_boxes.append(None)
             continue
         xs = [(x << down) / (w << up) for x, _, _, w in contour]
         ys = [(y << down) / (w << up) for _, y, _, w in contour]
-        found.append((min(xs) - _ROOM, max(xs) + _ROOM, min(ys) - _ROOM, max(ys) + _ROOM))
-    return found
+        all_boxes.append((min(xs) - _MARGIN, max(xs) + _MARGIN, min(ys) - _MARGIN, max(ys) + _MARGIN))
+    return all_boxes
 
 
-def overlapping(found: Sequence[Box | None]) -> Iterator[tuple[int, int]]:
-    """The pairs of places, the smaller first, sorted, whose boxes overlap.
+def overlapping(all_boxes: Sequence[Box | None]) -> Iterator[tuple[int, int]]:
+    """Yield the sorted pairs of indices, the smaller first, whose boxes overlap.
 
-    The grid has about one cell for each box, so that boxes of like size which lie apart cost a fixed time each.
+    The grid has about one cell per box, so disjoint boxes of similar size take constant time each.
     """
-    kept = [(place, box) for place, box in enumerate(found) if box is not None]
-    if len(kept) < 2:
+    nonempty = [(index, box) for index, box in enumerate(all_boxes) if box is not None]
+    if len(nonempty) < 2:
         return
-    left, right = min(box[0] for _, box in kept), max(box[1] for _, box in kept)
-    low, high = min(box[2] for _, box in kept), max(box[3] for _, box in kept)
-    many = min(math.isqrt(len(kept)) + 1, _CELLS)
-    across, upward = many / (right - left), many / (high - low)
+    left, right = min(box[0] for _, box in nonempty), max(box[1] for _, box in nonempty)
+    low, high = min(box[2] for _, box in nonempty), max(box[3] for _, box in nonempty)
+    resolution = min(math.isqrt(len(nonempty)) + 1, _CELLS)
+    per_x, per_y = resolution / (right - left), resolution / (high - low)
     cells: dict[tuple[int, int], list[tuple[int, Box, int, int]]] = defaultdict(list)
-    for place, box in kept:
-        first, lowest = int((box[0] - left) * across), int((box[2] - low) * upward)
-        for column in range(first, int((box[1] - left) * across) + 1):
-            for row in range(lowest, int((box[3] - low) * upward) + 1):
-                cells[column, row].append((place, box, first, lowest))
+    for index, box in nonempty:
+        first_column, first_row = int((box[0] - left) * per_x), int((box[2] - low) * per_y)
+        for column in range(first_column, int((box[1] - left) * per_x) + 1):
+            for row in range(first_row, int((box[3] - low) * per_y) + 1):
+                cells[column, row].append((index, box, first_column, first_row))
     pairs = []
     for (column, row), group in cells.items():
-        for order, (place, a, first, lowest) in enumerate(group):
-            for other, b, second, second_low in group[:order]:
-                # Two boxes share several cells; the pair is taken in the first of them.
+        for order, (index_a, a, column_a, row_a) in enumerate(group):
+            for index_b, b, column_b, row_b in group[:order]:
+                # Two boxes may share several cells. The pair is reported in the first of them only.
                 if (
-                    max(first, second) == column
-                    and max(lowest, second_low) == row
+                    max(column_a, column_b) == column
+                    and max(row_a, row_b) == row
                     and a[0] <= b[1]
                     and b[0] <= a[1]
                     and a[2] <= b[3]
                     and b[2] <= a[3]
                 ):
-                    pairs.append((other, place))
+                    pairs.append((index_b, index_a))
     yield from sorted(pairs)
 
 
@@ -85,61 +85,62 @@ Line = tuple[int, int, int]
 Values = list[list[int]]
 
 CROSSING = -4
-"""The number d of formula (3) where two segments intersect."""
+"""The number d of formula (3) if two segments intersect."""
 
 
 def values(lines: Sequence[Line], points: Sequence[tuple[int, int, int, int]]) -> Values | None:
-    """Formula (1) of every point for every line, a list for each line; None where a line has no point on its right.
+    """Evaluate formula (1) for every line (outer lists) and point. Return None if all points are outside of a line.
 
-    That is property 1: a column of PL, or a row of LP, without a 1, and the contours do not overlap.
+    This is property 1: if a column of PL or a row of LP has no 1, the contours do not overlap.
     """
-    found = []
+    columns = []
     for a, b, c in lines:
         column = [a * x + b * y + c * w for x, y, _, w in points]
         if max(column) <= 0:
             return None
-        found.append(column)
-    return found
+        columns.append(column)
+    return columns
 
 
 @dataclass(frozen=True, slots=True)
 class Tables:
-    """The two tables, rows for the vertices of V' and columns for those of V, as the paper sets them out."""
+    """The two tables with rows for the vertices of V' and columns for those of V, as in the paper."""
 
     pl: tuple[Row, ...]
     lp: tuple[Row, ...]
 
     def crossing_number(self, i: int, j: int) -> int:
-        """d of formula (3): -4 the segments intersect, -2 a vertex lies on a segment, -1 on a vertex, 0 neither.
+        """Return d of formula (3) for segments i and j.
 
-        Segments that overlap in a line have 0 as well.
+        It is -4 if they intersect, -2 if a vertex lies on a segment, -1 if a vertex lies on a vertex, and 0 otherwise,
+        also if they overlap in a line.
         """
         after_i, after_j = (i + 1) % len(self.pl[0]), (j + 1) % len(self.pl)
         return (self.lp[j][after_i] - self.lp[j][i]) * (self.pl[after_j][i] - self.pl[j][i])
 
     def crossings(self) -> Iterator[tuple[int, int]]:
-        """The pairs i, j of segments that intersect."""
+        """Yield the pairs i, j of segments that intersect."""
         pl, lp = self.pl, self.lp
         nexts = range(1, len(pl[0]))
         for j, (row, after) in enumerate(zip(pl, (*pl[1:], pl[0]), strict=True)):
             sides = lp[j]
             for i, k in enumerate((*nexts, 0)):
-                # A product of -4: both differences are 2, of either sign.
+                # The product is -4 only if both differences are 2 in absolute value and have opposite signs.
                 if (sides[k] - sides[i]) * (after[i] - row[i]) == CROSSING:
                     yield i, j
 
     @property
     def encloses(self) -> bool:
-        """Property 2: V encloses V'."""
+        """Property 2: True if V encloses V'."""
         return not any(-1 in row for row in self.pl)
 
     @property
     def enclosed(self) -> bool:
-        """Property 2 of LP: V' encloses V."""
+        """Property 2 of LP: True if V' encloses V."""
         return not any(-1 in row for row in self.lp)
 
 
 def tables(of_near: Values, of_far: Values) -> Tables:
-    """The tables from the values of V's segments at the P_j, and of those of V' at the P_i."""
+    """Compute the tables from formula (1) of V's segments at the P_j, and of the segments of V' at the P_i."""
     signs = [[(f > 0) - (f < 0) for f in column] for column in of_near]
     return Tables(tuple(zip(*signs, strict=True)), tuple(tuple((f > 0) - (f < 0) for f in row) for row in of_far))

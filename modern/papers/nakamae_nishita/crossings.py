@@ -1,7 +1,7 @@
-"""Where a segment goes in behind a contour and where it comes out (sections 3.4 and 3.5, formula (6)).
+"""The points at which a segment passes behind a contour and emerges from it (sections 3.4 and 3.5, formula (6)).
 
-A place on a segment from P_A to P_B is the fraction s of the way, in space.  An index is +k where the segment goes in
-and -k where it comes out, k being the number of its intersections with the contour.
+A point on a segment from P_A to P_B is given by the fraction s of the segment before it, in space. Its index is +k if
+the segment enters the contour there and -k if it leaves, where k is the number of intersections with the contour.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ Mark = tuple[Fraction, int]
 
 @dataclass(frozen=True, slots=True)
 class Passage:
-    """How a segment runs behind one contour: its intersections with their indices I_0, from P_A on.
+    """The course of a segment behind one contour: its intersections with their indices I_0, in order from P_A.
 
-    ``enclosed``: all of it lies within the contour, without an intersection.
+    ``enclosed`` is True if the whole segment lies within the contour, without an intersection.
     """
 
     marks: tuple[Mark, ...]
@@ -29,7 +29,7 @@ class Passage:
 
     @property
     def order(self) -> int:
-        """What the contour adds to the order of invisibility of P_A by the paper's count: the number of -1."""
+        """The contribution of the contour to the order of invisibility of P_A: the number of indices -1."""
         return sum(index == -1 for _, index in self.marks)
 
 
@@ -38,11 +38,14 @@ ENCLOSED = Passage((), True)
 
 
 def clipped(values: Values, first: int, last: int) -> Passage:
-    """The passage of the segment between two points behind a contour, ends on the contour included.
+    """Return the passage of the segment between two points behind a contour, including ends on the contour.
 
-    values: formula (1) of each contour segment at the points.  The segment is clipped to the inner side of each line,
-    so a part is hidden only where it has a length strictly within the contour.
+    ``values`` holds formula (1) of each contour segment at all points. The segment is clipped to the inner side of each
+    line, so only a part of positive length strictly within the contour is hidden.
     """
+    # The hidden part is from enter_up / enter_down to leave_up / leave_down. Formula (1) is linear along the segment,
+    # from a at P_A to b at P_B, and the greatest entry and the least exit over all lines bound the part inside. The
+    # fractions are compared by cross multiplication, because this loop runs for every segment and contour line.
     enter_up, enter_down, leave_up, leave_down = 0, 1, 1, 1
     for column in values:
         a, b = column[first], column[last]
@@ -60,12 +63,12 @@ def clipped(values: Values, first: int, last: int) -> Passage:
             return CLEAR
     if enter_up * leave_down >= leave_up * enter_down:
         return CLEAR
-    goes_in, comes_out = enter_up > 0, leave_up < leave_down
-    if not (goes_in or comes_out):
+    enters, leaves = enter_up > 0, leave_up < leave_down
+    if not (enters or leaves):
         return ENCLOSED
-    k = goes_in + comes_out
-    marks = [(Fraction(enter_up, enter_down), k)] if goes_in else []
-    if comes_out:
+    k = enters + leaves
+    marks = [(Fraction(enter_up, enter_down), k)] if enters else []
+    if leaves:
         marks.append((Fraction(leave_up, leave_down), -k))
     return Passage(tuple(marks))
 
@@ -73,9 +76,9 @@ def clipped(values: Values, first: int, last: int) -> Passage:
 def as_printed(
     values: Values, first: int, last: int, ends: tuple[Homogeneous, Homogeneous], contour: Sequence[Homogeneous]
 ) -> Passage:
-    """The passage as the paper prints it: only intersections with d = -4 of formula (3) count.
+    """Return the passage as the paper prints it: only intersections with d = -4 of formula (3) count.
 
-    A segment that ends on the contour, or runs through its corner, loses that intersection.
+    A segment that ends on the contour or runs through one of its vertices loses that intersection.
     """
     a, b, c = line_through(_flat(ends[0]), _flat(ends[1]))
     sides = [sign(a * x + b * y + c * w) for x, y, _, w in contour]

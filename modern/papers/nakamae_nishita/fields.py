@@ -12,7 +12,7 @@ from modern.papers.nakamae_nishita.polyhedron import SceneError
 
 
 class Fields:
-    """The fields of a table, taken out one by one; what is left over at the end is refused."""
+    """The fields of a table, which are read one by one. Fields that remain at the end are rejected."""
 
     def __init__(self, data: Mapping[str, Any], place: str) -> None:
         self.place = place
@@ -22,105 +22,105 @@ class Fields:
         return key in self._data
 
     def take(self, key: str) -> Any:
-        """A value as it stands, None where there is none."""
+        """Remove a field and return its unchecked value, or None if it does not exist."""
         return self._data.pop(key, None)
 
-    def wrong(self, key: str, what: str) -> SceneError:
-        """The error for a field."""
-        return SceneError(f"{self.place}: {key}: {what}")
+    def wrong(self, key: str, message: str) -> SceneError:
+        """Return the error for a field."""
+        return SceneError(f"{self.place}: {key}: {message}")
 
     def text(self, key: str, default: str) -> str:
-        found = self.take(key)
-        if found is not None and not isinstance(found, str):
-            raise self.wrong(key, "a text is due")
-        return default if found is None else found
+        raw = self.take(key)
+        if raw is not None and not isinstance(raw, str):
+            raise self.wrong(key, "expected a string")
+        return default if raw is None else raw
 
     def flag(self, key: str) -> bool:
-        found = self.take(key)
-        if found is not None and not isinstance(found, bool):
-            raise self.wrong(key, "true or false is due")
-        return bool(found)
+        raw = self.take(key)
+        if raw is not None and not isinstance(raw, bool):
+            raise self.wrong(key, "expected true or false")
+        return bool(raw)
 
     def table(self, key: str) -> Mapping[str, Any]:
-        found = self.take(key)
-        if found is not None and not isinstance(found, dict):
-            raise self.wrong(key, "a table is due")
-        return found or {}
+        raw = self.take(key)
+        if raw is not None and not isinstance(raw, dict):
+            raise self.wrong(key, "expected a table")
+        return raw or {}
 
     def tables(self, key: str) -> list[Mapping[str, Any]]:
-        found = self.take(key) or []
-        if not isinstance(found, list) or not all(isinstance(item, dict) for item in found):
-            raise self.wrong(key, f"tables [[{key}]] are due")
-        return found
+        raw = self.take(key) or []
+        if not isinstance(raw, list) or not all(isinstance(item, dict) for item in raw):
+            raise self.wrong(key, f"expected tables [[{key}]]")
+        return raw
 
     def number(self, key: str) -> Fraction | None:
-        found = self.take(key)
-        return None if found is None else self._fraction(key, found)
+        raw = self.take(key)
+        return None if raw is None else self._fraction(key, raw)
 
     def count(self, key: str) -> int | None:
-        found = self.take(key)
-        if found is None:
+        raw = self.take(key)
+        if raw is None:
             return None
-        if type(found) is not int:
-            raise self.wrong(key, "a whole number is due")
-        return int(found)
+        if type(raw) is not int:
+            raise self.wrong(key, "expected an integer")
+        return int(raw)
 
-    def whole(self, key: str, many: int) -> tuple[int, ...] | None:
-        """A list of so many whole numbers."""
-        found = self.take(key)
-        if found is None:
+    def whole(self, key: str, length: int) -> tuple[int, ...] | None:
+        """Return a list of ``length`` integers."""
+        raw = self.take(key)
+        if raw is None:
             return None
-        if not isinstance(found, list) or len(found) != many or not all(type(k) is int for k in found):
-            raise self.wrong(key, f"{many} whole numbers in brackets are due")
-        return tuple(found)
+        if not isinstance(raw, list) or len(raw) != length or not all(type(k) is int for k in raw):
+            raise self.wrong(key, f"expected {length} integers in brackets")
+        return tuple(raw)
 
     def vector(self, key: str) -> Vector | None:
-        found = self.take(key)
-        return None if found is None else self._vector(key, found)
+        raw = self.take(key)
+        return None if raw is None else self._vector(key, raw)
 
     def vectors(self, key: str, flat: bool = False) -> tuple[Vector, ...] | None:
-        """A list of points; with ``flat`` also of two numbers each, in the plane z = 0."""
+        """Return a list of points. With ``flat``, points of two numbers lie in the plane z = 0."""
         if key not in self:
             return None
-        return tuple(self._vector(key, item, flat) for item in self._list(key, "a list of points is due"))
+        return tuple(self._vector(key, item, flat) for item in self._list(key, "expected a list of points"))
 
     def polygons(self, key: str) -> tuple[tuple[Vector, ...], ...]:
-        """A list of lists of points."""
-        found = self._list(key, "a list of lists of points is due")
-        if not all(isinstance(item, list) for item in found):
-            raise self.wrong(key, "a list of lists of points is due")
-        return tuple(tuple(self._vector(key, point) for point in item) for item in found)
+        """Return a list of lists of points."""
+        raw = self._list(key, "expected a list of lists of points")
+        if not all(isinstance(item, list) for item in raw):
+            raise self.wrong(key, "expected a list of lists of points")
+        return tuple(tuple(self._vector(key, point) for point in item) for item in raw)
 
     def counts(self, key: str) -> tuple[tuple[int, ...], ...]:
-        """A list of lists of whole numbers."""
-        found = self._list(key, "a list of lists of whole numbers is due")
-        if not all(isinstance(item, list) and all(type(k) is int for k in item) for item in found):
-            raise self.wrong(key, "a list of lists of whole numbers is due")
-        return tuple(tuple(item) for item in found)
+        """Return a list of lists of integers."""
+        raw = self._list(key, "expected a list of lists of integers")
+        if not all(isinstance(item, list) and all(type(k) is int for k in item) for item in raw):
+            raise self.wrong(key, "expected a list of lists of integers")
+        return tuple(tuple(item) for item in raw)
 
     def done(self) -> None:
-        """Refuse what nobody asked for."""
+        """Raise SceneError if a field remains that was not read."""
         for key in self._data:
-            raise SceneError(f"{self.place}: {quoted(key)} is no field of this place")
+            raise SceneError(f"{self.place}: {quoted(key)} is not a field of this table")
 
-    def _list(self, key: str, due: str) -> list[Any]:
-        found = self.take(key)
-        if found is not None and not isinstance(found, list):
-            raise self.wrong(key, due)
-        return found or []
+    def _list(self, key: str, message: str) -> list[Any]:
+        raw = self.take(key)
+        if raw is not None and not isinstance(raw, list):
+            raise self.wrong(key, message)
+        return raw or []
 
-    def _vector(self, key: str, found: Any, flat: bool = False) -> Vector:
-        if not isinstance(found, list) or not (len(found) == 3 or (flat and len(found) == 2)):
-            raise self.wrong(key, "a point is three numbers in brackets")
-        numbers = [self._fraction(key, item) for item in found]
+    def _vector(self, key: str, raw: Any, flat: bool = False) -> Vector:
+        if not isinstance(raw, list) or not (len(raw) == 3 or (flat and len(raw) == 2)):
+            raise self.wrong(key, "expected a point, three numbers in brackets")
+        numbers = [self._fraction(key, item) for item in raw]
         return numbers[0], numbers[1], numbers[2] if len(numbers) > 2 else Fraction(0)
 
-    def _fraction(self, key: str, found: Any) -> Fraction:
-        if type(found) is int or isinstance(found, Fraction):
-            return Fraction(found)
-        if isinstance(found, str):
+    def _fraction(self, key: str, raw: Any) -> Fraction:
+        if type(raw) is int or isinstance(raw, Fraction):
+            return Fraction(raw)
+        if isinstance(raw, str):
             try:
-                return number(found)
+                return number(raw)
             except ValueError as error:
                 raise self.wrong(key, str(error)) from None
-        raise self.wrong(key, "a number is due")
+        raise self.wrong(key, "expected a number")

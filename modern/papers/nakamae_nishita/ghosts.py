@@ -1,7 +1,7 @@
 """Ghost lines: edges that only divide a plane face of an object between two of its parts (section 3.4).
 
-Two edges of one object whose images overlap, beside faces seen that lie in one plane, are not drawn as far as they
-overlap.  Edges on one line in one plane have a key in common, so no pair without one is looked at.
+Two edges of one object are not drawn where they overlap, if their front faces lie in one plane. Edges on one line in
+one plane share a key, so only edges with the same key are compared.
 """
 
 from __future__ import annotations
@@ -17,16 +17,15 @@ from modern.papers.nakamae_nishita.solids import Solid
 
 Span = tuple[Fraction, Fraction]
 Name = tuple[int, int, int]
-"""A solid by number and two of its vertices, the smaller place first."""
+"""The name of an edge: the number of a solid and the indices of two vertices, the smaller first."""
 
 _Key = tuple[object, ...]
 
 
-def ghosts(solids: Sequence[Solid], seen: int = 1) -> dict[Name, list[Span]]:
-    """The parts of edges that are ghosts, by edge, as fractions of the way.
+def ghosts(solids: Sequence[Solid], facing: int = 1) -> dict[Name, list[Span]]:
+    """Return the ghost parts of edges, by edge, as intervals of fractions of the edge.
 
-    seen: 1 for the faces seen, as the paper has it; -1 for those turned away, which matter only where hidden lines are
-    drawn too.
+    ``facing`` is 1 for front faces, as in the paper, or -1 for back faces, which matter only if hidden lines are drawn.
     """
     parts = Counter(solid.polyhedron.thing for solid in solids if solid.polyhedron.thing)
     lines: dict[_Key, list[Name]] = defaultdict(list)
@@ -38,30 +37,30 @@ def ghosts(solids: Sequence[Solid], seen: int = 1) -> dict[Name, list[Span]]:
                 continue
             a, b = solid.points[edge.start], solid.points[edge.end]
             for face in edge.faces:
-                if solid.signs[face] == seen:
+                if solid.signs[face] == facing:
                     line = line_through((a[0], a[1], a[3]), (b[0], b[1], b[3]))
                     key = (solid.polyhedron.thing, _plane_key(solid.planes[face]), _line_key(line))
                     lines[key].append((solid.number, edge.start, edge.end))
-    found: dict[Name, list[Span]] = defaultdict(list)
+    spans: dict[Name, list[Span]] = defaultdict(list)
     for group in lines.values():
         for name in group if len(group) > 1 else ():
-            for other in group:
-                span = _shared(solids, name, other) if name[0] != other[0] else None
+            for partner in group:
+                span = _shared(solids, name, partner) if name[0] != partner[0] else None
                 if span:
-                    found[name].append(span)
-    return dict(found)
+                    spans[name].append(span)
+    return dict(spans)
 
 
-def _shared(solids: Sequence[Solid], name: Name, other: Name) -> Span | None:
-    """The part of an edge that another on its line covers."""
+def _shared(solids: Sequence[Solid], name: Name, partner: Name) -> Span | None:
+    """Return the part of an edge that another edge on its line covers, if any."""
     a, b = (solids[name[0]].points[place] for place in name[1:])
-    ends = sorted(_fraction(a, b, solids[other[0]].points[place]) for place in other[1:])
+    ends = sorted(_fraction(a, b, solids[partner[0]].points[place]) for place in partner[1:])
     low, high = max(ends[0], Fraction(0)), min(ends[1], Fraction(1))
     return (low, high) if low < high else None
 
 
 def _fraction(a: Homogeneous, b: Homogeneous, c: Homogeneous) -> Fraction:
-    """Where c lies on the line from a to b, as a fraction of the way in space; see ``projection.project``."""
+    """Return the position of c on the line from a to b as a fraction in space; see ``projection.project``."""
     axis = 0 if a[0] * b[3] != b[0] * a[3] else 1
     at_a, at_b = a[axis] * c[3] - c[axis] * a[3], b[axis] * c[3] - c[axis] * b[3]
     return Fraction(at_a, at_a - at_b)

@@ -1,4 +1,4 @@
-"""Hidden lines of a scene: the third step of the paper (sections 3.2 to 3.5, time III), after its first two."""
+"""Hidden line elimination of a scene: the paper's third step (sections 3.2 to 3.5, time III) after its first two."""
 
 from __future__ import annotations
 
@@ -21,17 +21,20 @@ from modern.papers.nakamae_nishita.solids import Solid, solid
 
 ENCLOSED, TOUCHING, ENDS, GHOSTS = "enclosed", "touching", "ends", "ghosts"
 REFINEMENTS = (ENCLOSED, TOUCHING, ENDS, GHOSTS)
-"""What may be left out, to see what it is for.  Three close gaps of the paper: ``enclosed``, a segment wholly
-within a nearer contour has no intersection, so nothing in section 3.5 counts it as hidden; ``touching``, where
-polyhedra touch (4) and (5) may both be 0, and a separating plane decides; ``ends``, a segment that ends on a contour or
-runs through its corner has d = -2 or -1 there, which (6) does not cover.  ``ghosts`` is the paper's own section 3.4."""
+"""The refinements that can be switched off to show their effect. The first three close gaps of the paper.
+
+``enclosed``: a segment entirely within a nearer contour has no intersection, so section 3.5 does not count it.
+``touching``: formulas (4) and (5) may both be 0 for polyhedra that touch, and a separating plane decides.
+``ends``: d is -2 or -1 if a segment ends on a contour or runs through its vertex, which formula (6) does not cover.
+``ghosts``: the paper's own section 3.4.
+"""
 
 
 @dataclass(frozen=True, slots=True)
 class Relation:
-    """Two polyhedra whose contours overlap: V and V' by number, their tables, which is the nearer and by what.
+    """Two polyhedra whose contours overlap: V and V' by number, and their tables.
 
-    nearer: 1 V, -1 V', 0 neither.
+    ``nearer`` is 1 if V is nearer, -1 if V' is nearer, otherwise 0. ``by`` is the criterion that decided.
     """
 
     v: int
@@ -43,8 +46,11 @@ class Relation:
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """A part of an edge or figure: the polyhedron by number, the ends of the edge by place in ``Solid.points``, from
-    where to where as fractions of the way in space, and whether it is seen."""
+    """A part of an edge or of a figure's side.
+
+    ``solid`` is the number of the polyhedron, ``start`` and ``end`` are the ends of the edge as indices of
+    ``Solid.points``, and ``first`` and ``last`` bound the part as fractions of the edge in space.
+    """
 
     solid: int
     start: int
@@ -56,8 +62,10 @@ class Piece:
 
 @dataclass(frozen=True, slots=True)
 class Passages:
-    """How one segment runs: the polyhedron, the segment's place in ``Solid.segments``, its passage behind each nearer
-    polyhedron by number, and its parts that are ghosts."""
+    """The course of one segment, given by its polyhedron and its index in ``Solid.segments``.
+
+    ``behind`` lists its passage behind each nearer polyhedron by number, ``ghosts`` its ghost parts.
+    """
 
     solid: int
     segment: int
@@ -72,9 +80,10 @@ class Passages:
 
 @dataclass(frozen=True, slots=True)
 class Drawing:
-    """A scene without its hidden lines.  ``seconds``: of the paper's three steps, making, searching, eliminating.
+    """A scene after hidden line elimination.
 
-    cut, behind: the names of the polyhedra that the near plane cuts, and of those wholly behind it, which are left out.
+    ``seconds`` are the times of the paper's three steps: creating the polyhedra, classifying edges, eliminating hidden
+    lines. ``cut`` and ``behind`` name the polyhedra that the near plane clips and those behind it, which are omitted.
     """
 
     observer: Observer
@@ -88,13 +97,13 @@ class Drawing:
 
     @property
     def counts(self) -> tuple[int, int, int, int]:
-        """The columns of Table 1: convex polyhedra, vertices, faces, points of figures."""
-        found = [item.polyhedron for item in self.solids]
+        """The columns of Table 1: the numbers of convex polyhedra, vertices, faces and points of figures."""
+        polyhedra = [item.polyhedron for item in self.solids]
         return (
-            len(found),
-            sum(len(item.vertices) for item in found),
-            sum(len(item.faces) for item in found),
-            sum(len(figure.corners) for item in found for figure in item.figures),
+            len(polyhedra),
+            sum(len(item.vertices) for item in polyhedra),
+            sum(len(item.faces) for item in polyhedra),
+            sum(len(figure.corners) for item in polyhedra for figure in item.figures),
         )
 
 
@@ -105,24 +114,39 @@ def draw(
     hidden: bool = False,
     check: bool = True,
 ) -> Drawing:
-    """Draw convex polyhedra, or what a function makes, which is then timed as the first step.
+    """Draw convex polyhedra.
 
-    without: names from ``REFINEMENTS`` to leave out.  hidden: the hidden parts are pieces too, and edges of faces that
-    all turn away.  check: prove of every pair whose contours overlap that they do not intersect.
+    Parameters
+    ----------
+    made
+        The polyhedra, or a function that creates them, which is then timed as the first step.
+    observer
+        The viewpoint.
+    without
+        Names from ``REFINEMENTS`` to switch off.
+    hidden
+        Include hidden parts, and edges whose faces are all back faces, as pieces that are not seen.
+    check
+        Prove for every pair with overlapping contours that the polyhedra do not intersect.
 
-    Raises SceneError for polyhedra that intersect, one not wholly before the observation point where there is no near
-    plane, and a name that is none of these.
+    Raises
+    ------
+    SceneError
+        If polyhedra intersect, if one is not entirely in front of the observation point and there is no near plane, or
+        if a name in ``without`` is unknown.
     """
-    strange = sorted(set(without) - set(REFINEMENTS))
-    if strange:
-        raise SceneError(f"{strange[0]!r} is not one of {', '.join(REFINEMENTS)}")
+    unknown = sorted(set(without) - set(REFINEMENTS))
+    if unknown:
+        raise SceneError(f"{unknown[0]!r} is not one of {', '.join(REFINEMENTS)}")
     started = time.perf_counter()
-    given = made() if callable(made) else made
-    kept = beyond_near(given, observer)
-    polyhedra = kept.polyhedra
+    created = made() if callable(made) else made
+    clipped_scene = beyond_near(created, observer)
+    polyhedra = clipped_scene.polyhedra
+    # Time II: project the polyhedra and find their edges and contours.
     searched = time.perf_counter()
     origin = _origin(polyhedra)
     solids = tuple(solid(number, polyhedron, observer, origin) for number, polyhedron in enumerate(polyhedra))
+    # Time III: compare the contours in pairs. Segments of the farther polyhedron pass behind the nearer one.
     eliminated = time.perf_counter()
     behind: list[list[list[tuple[int, Passage]]]] = [[[] for _ in item.segments] for item in solids]
     relations = []
@@ -133,19 +157,30 @@ def draw(
             _pass(behind[w.number], w, v, of_v, without)
         elif relation.nearer < 0:
             _pass(behind[v.number], v, w, of_w, without)
-    apart: dict[Name, list[Span]] = {} if GHOSTS in without else ghosts(solids)
+    front_ghosts: dict[Name, list[Span]] = {} if GHOSTS in without else ghosts(solids)
     passages = tuple(
-        Passages(item.number, place, tuple(found), tuple(apart.get((item.number, segment.start, segment.end), ())))
+        Passages(
+            item.number, place, tuple(course), tuple(front_ghosts.get((item.number, segment.start, segment.end), ()))
+        )
         for item in solids
-        for place, (segment, found) in enumerate(zip(item.segments, behind[item.number], strict=True))
+        for place, (segment, course) in enumerate(zip(item.segments, behind[item.number], strict=True))
     )
-    turned = ghosts(solids, -1) if hidden and GHOSTS not in without else {}
-    pieces = [piece for passage in passages for piece in _pieces(solids, passage, turned, hidden)]
+    back_ghosts = ghosts(solids, -1) if hidden and GHOSTS not in without else {}
+    pieces = [piece for passage in passages for piece in _pieces(solids, passage, back_ghosts, hidden)]
     if hidden:
-        pieces += [piece for item in solids for piece in _backs(item, turned)]
+        pieces += [piece for item in solids for piece in _back_edges(item, back_ghosts)]
     ended = time.perf_counter()
     seconds = (searched - started, eliminated - searched, ended - eliminated)
-    return Drawing(observer, solids, tuple(relations), passages, tuple(pieces), seconds, kept.cut, kept.behind)
+    return Drawing(
+        observer,
+        solids,
+        tuple(relations),
+        passages,
+        tuple(pieces),
+        seconds,
+        clipped_scene.cut,
+        clipped_scene.behind,
+    )
 
 
 def _origin(polyhedra: Sequence[Polyhedron]) -> Vector:
@@ -158,7 +193,7 @@ def _origin(polyhedra: Sequence[Polyhedron]) -> Vector:
 def _relations(
     solids: Sequence[Solid], without: Collection[str], check: bool
 ) -> Iterator[tuple[Relation, Values, Values]]:
-    """Every pair whose contours overlap, with formula (1) of each one's contour at the other's points."""
+    """Yield every pair with overlapping contours, with formula (1) of each contour at the points of the other one."""
     contours = [item.images[: len(item.contour)] for item in solids]
     for first, second in overlapping(boxes(contours)):
         v, w = solids[first], solids[second]
@@ -167,39 +202,38 @@ def _relations(
         if of_v is None or of_w is None:
             continue
         m, n = len(v.contour), len(w.contour)
-        found = tables([column[:n] for column in of_v], [row[:m] for row in of_w])
-        nearer, by = by_formulas(v, w, found, of_v, of_w)
+        pair = tables([column[:n] for column in of_v], [row[:m] for row in of_w])
+        nearer, by = by_formulas(v, w, pair, of_v, of_w)
         if check or (by == UNDECIDED and TOUCHING not in without):
             side, plane = by_plane(v, w)
             if plane is None:
                 raise SceneError(f"{v.polyhedron.name} and {w.polyhedron.name} intersect")
             if by == UNDECIDED and TOUCHING not in without:
                 nearer, by = side, BY_PLANE
-        yield Relation(first, second, found, nearer, by), of_v, of_w
+        yield Relation(first, second, pair, nearer, by), of_v, of_w
 
 
 def _pass(
     behind: list[list[tuple[int, Passage]]], far: Solid, near: Solid, of_near: Values, without: Collection[str]
 ) -> None:
-    """Take down how the segments of the far polyhedron run behind the near one."""
+    """Record the passages of the far polyhedron's segments behind the near one."""
     contour = near.images[: len(near.contour)]
-    for found, segment in zip(behind, far.segments, strict=True):
+    for course, segment in zip(behind, far.segments, strict=True):
         if ENDS in without:
             ends = far.points[segment.start], far.points[segment.end]
             passage = as_printed(of_near, segment.first, segment.last, ends, contour)
         else:
             passage = clipped(of_near, segment.first, segment.last)
         if passage.marks or (passage.enclosed and ENCLOSED not in without):
-            found.append((near.number, passage))
+            course.append((near.number, passage))
 
 
 def _pieces(
-    solids: Sequence[Solid], passages: Passages, turned: dict[Name, list[Span]], hidden: bool
+    solids: Sequence[Solid], passages: Passages, back_ghosts: dict[Name, list[Span]], hidden: bool
 ) -> Iterator[Piece]:
-    """The parts of a segment, by counting the indices from P_A on; it is seen where the order is 0.
+    """Yield the parts of a segment by adding the indices from P_A on. It is visible where the sum, the order, is 0.
 
-    A ghost is left out of what is seen and of what is hidden; an edge that divides a face turned away, of what is
-    hidden.
+    Ghost parts are omitted from visible and hidden pieces, ghosts between back faces only from hidden pieces.
     """
     segment = solids[passages.solid].segments[passages.segment]
     if not passages.behind and not passages.ghosts:
@@ -209,30 +243,33 @@ def _pieces(
     marks += [(place, index, 0, 0) for _, passage in passages.behind for place, index in passage.marks]
     for low, high in passages.ghosts:
         marks += [(low, 0, 1, 0), (high, 0, -1, 0)]
-    for low, high in turned.get((passages.solid, segment.start, segment.end), ()):
+    for low, high in back_ghosts.get((passages.solid, segment.start, segment.end), ()):
         marks += [(low, 0, 0, 1), (high, 0, 0, -1)]
+    # Sweep along the segment. Three counters change at the marks: the order of invisibility, and the numbers of ghost
+    # parts between front faces and between back faces that cover the current point.
     order, ghost, back = passages.order, 0, 0
     last, drawn = _START, ""
     since = _START
-    for place, index, ghosted, turning in sorted(marks):
+    for place, index, ghost_change, back_change in sorted(marks):
         if place > last:
             state = "" if ghost or (order and (back or not hidden)) else "hidden" if order else "seen"
+            # Neighbouring intervals with the same state are one piece.
             if state != drawn:
                 if drawn:
                     yield Piece(passages.solid, segment.start, segment.end, since, last, drawn == "seen")
                 since, drawn = last, state
             last = place
-        order, ghost, back = order + index, ghost + ghosted, back + turning
+        order, ghost, back = order + index, ghost + ghost_change, back + back_change
     if drawn:
         yield Piece(passages.solid, segment.start, segment.end, since, _END, drawn == "seen")
 
 
-def _backs(item: Solid, turned: dict[Name, list[Span]]) -> Iterator[Piece]:
-    """The edges of faces that all turn away, but for ghosts."""
+def _back_edges(item: Solid, back_ghosts: dict[Name, list[Span]]) -> Iterator[Piece]:
+    """Yield the edges between back faces without their ghost parts."""
     for edge in item.edges:
         if edge.kind == BACK:
             since = _START
-            for low, high in sorted(turned.get((item.number, edge.start, edge.end), ())):
+            for low, high in sorted(back_ghosts.get((item.number, edge.start, edge.end), ())):
                 if low > since:
                     yield Piece(item.number, edge.start, edge.end, since, low, False)
                 since = max(since, high)

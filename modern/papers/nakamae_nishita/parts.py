@@ -1,4 +1,4 @@
-"""The parts of a scene file: standard shapes and solids from files, their placing, and the figures on their faces."""
+"""The parts of a scene file: standard shapes and solids from files, their placement, and figures on their faces."""
 
 from __future__ import annotations
 
@@ -31,16 +31,16 @@ from modern.papers.nakamae_nishita.shapes import (
 
 _ZERO: Vector = (Fraction(0), Fraction(0), Fraction(0))
 MOST = 20_000
-"""The most polyhedra one part may stand for."""
+"""The greatest number of polyhedra that one part may define."""
 
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """One shape, and where its copies stand.
+    """A shape and the placement of its copies.
 
-    build: makes the shape at the origin, under a name.  thing: the object all copies belong to.  figures: in the
-    shape's own coordinates.  scale: how many times its size, before ``turn``: degrees about the z axis, before the move
-    by ``at``.  count: copies along x, y and z, ``step`` apart.
+    ``build`` creates the shape at the origin under a given name. ``thing`` names the object that all copies belong to.
+    ``figures`` are in the coordinates of the shape. The shape is scaled, then rotated by ``turn`` degrees about the z
+    axis, then moved by ``at``. ``count`` is the number of copies along x, y and z, at distances ``step``.
     """
 
     place: str
@@ -56,8 +56,10 @@ class Part:
 
 @dataclass(frozen=True, slots=True)
 class Parts:
-    """What a table of a scene file stands for: a part, or one for each connected component of a file; the path of the
-    file, empty without one; and what the reader should know of it."""
+    """The parts that a table of a scene file defines: one, or one for each connected component of a file.
+
+    ``file`` is the path of that file, or empty. ``notes`` are remarks on it for the user.
+    """
 
     parts: tuple[Part, ...]
     file: str = ""
@@ -65,7 +67,7 @@ class Parts:
 
 
 def part(fields: Fields, folder: str = "") -> Parts:
-    """The parts of a table; a file is looked for from ``folder`` on.  Raises EmulatorError."""
+    """Read the parts of a table. Paths of files are relative to ``folder``. Raise EmulatorError."""
     name = fields.text("name", "")
     place = f"{fields.place} ({name})" if name else fields.place
     if "file" in fields:
@@ -79,23 +81,21 @@ def part(fields: Fields, folder: str = "") -> Parts:
         made = Parts((Part(place, _SHAPES[shape](fields)),))
     count = fields.whole("count", 3) or (1, 1, 1)
     if min(count) < 1 or count[0] * count[1] * count[2] * len(made.parts) > MOST:
-        raise fields.wrong("count", f"copies are 1 or more along each axis, and {MOST:,} at the most")
+        raise fields.wrong("count", f"expected at least 1 copy along each axis and at most {MOST:,} in all")
     step = fields.vector("step")
     if max(count) > 1 and step is None:
-        raise fields.wrong("step", "how far apart the copies stand is not said")
+        raise fields.wrong("step", "copies need the distance between them")
     scale = fields.number("scale")
     if scale is not None and scale <= 0:
-        raise fields.wrong("scale", "a size is a number greater than 0")
+        raise fields.wrong("scale", "expected a number greater than 0")
     figures = fields.polygons("figures")
     if figures and len(made.parts) > 1:
-        raise fields.wrong(
-            "figures", f"the file holds {len(made.parts)} connected components; a figure is on a face of one"
-        )
+        raise fields.wrong("figures", f"figures need one connected component, but the file has {len(made.parts)}")
     thing, turn, at = fields.text("object", ""), fields.number("turn"), fields.vector("at")
     fields.done()
-    found = (
+    placed_parts = (
         replace(
-            item,
+            one_part,
             thing=thing,
             figures=figures,
             scale=scale or Fraction(1),
@@ -104,27 +104,27 @@ def part(fields: Fields, folder: str = "") -> Parts:
             count=count,
             step=step or _ZERO,
         )
-        for item in made.parts
+        for one_part in made.parts
     )
-    return replace(made, parts=tuple(found))
+    return replace(made, parts=tuple(placed_parts))
 
 
 def _from_file(fields: Fields, folder: str, place: str) -> Parts:
-    """The connected components of a file of faces, or with ``hull = true`` the hull of a file of points."""
+    """Read the connected components of a file with faces, or with ``hull = true`` the hull of a file with points."""
     path = fields.text("file", "")
     within = fields.take("coplanar_within")
     hull = fields.flag("hull")
     try:
         limit = None if within is None else parse_distance(within)
-        named = os.path.join(folder, path) if path else path
-        found = read_bodies(read_bytes(named, path), path, Reading(hull, limit))
+        location = os.path.join(folder, path) if path else path
+        bodies = read_bodies(read_bytes(location, path), path, Reading(hull, limit))
     except EmulatorError as error:
         raise SceneError(f"{place}: file: {error}") from None
     parts = tuple(
         Part(f"{place}{polyhedron.name.removeprefix(path)}", partial(_named, polyhedron))
-        for polyhedron in found.polyhedra
+        for polyhedron in bodies.polyhedra
     )
-    return Parts(parts, named, tuple(f"{place}: {note}" for note in found.notes))
+    return Parts(parts, location, tuple(f"{place}: {note}" for note in bodies.notes))
 
 
 def _named(polyhedron: Polyhedron, name: str) -> Polyhedron:
@@ -132,7 +132,7 @@ def _named(polyhedron: Polyhedron, name: str) -> Polyhedron:
 
 
 def make(item: Part) -> Iterator[Polyhedron]:
-    """The copies of a part.  Raises SceneError."""
+    """Create the copies of a part. Raise SceneError for an invalid shape or figure."""
     shape = item.build(item.place)
     figures = tuple(_figure(item.place, shape, corners) for corners in item.figures)
     shape = replace(shape, thing=item.thing, figures=figures)
@@ -144,9 +144,9 @@ def make(item: Part) -> Iterator[Polyhedron]:
 
 
 def _figure(place: str, shape: Polyhedron, corners: tuple[Vector, ...]) -> Figure:
-    """A figure on the face that holds it; of a plate on the side from which its corners run clockwise."""
+    """Find the face that contains a figure. On a plate it is the side from which the corners run clockwise."""
     if len(corners) < 3:
-        raise SceneError(f"{place}: figures: a figure has three corners or more, not {len(corners)}")
+        raise SceneError(f"{place}: figures: expected at least 3 corners, found {len(corners)}")
     for order, face in enumerate(shape.faces):
         normal = outward(shape, face)
         points = [shape.vertices[k] for k in face]
@@ -157,20 +157,20 @@ def _figure(place: str, shape: Polyhedron, corners: tuple[Vector, ...]) -> Figur
             for corner in corners
         ):
             return Figure(order, corners)
-    raise SceneError(f"{place}: figures: no face holds all corners of a figure")
+    raise SceneError(f"{place}: figures: no face contains all corners of a figure")
 
 
 def _cuboid(fields: Fields) -> Callable[[str], Polyhedron]:
     size = fields.vector("size")
     if size is None:
-        raise fields.wrong("size", "the sides of the cuboid are not said")
+        raise fields.wrong("size", "a cuboid needs the lengths of its sides")
     return partial(cuboid, x=size[0], y=size[1], z=size[2])
 
 
 def _parallelepiped(fields: Fields) -> Callable[[str], Polyhedron]:
     edges = fields.vectors("edges") or ()
     if len(edges) != 3:
-        raise fields.wrong("edges", "a parallelepiped has three")
+        raise fields.wrong("edges", f"a parallelepiped has 3 edges, found {len(edges)}")
     return partial(parallelepiped, a=edges[0], b=edges[1], c=edges[2])
 
 
@@ -178,9 +178,9 @@ def _column(fields: Fields) -> Callable[[str], Polyhedron]:
     base, sides, radius = fields.vectors("base", flat=True), fields.count("sides"), fields.number("radius")
     along, height = fields.vector("along"), fields.number("height")
     if (base is None) == (sides is None) or (sides is None) != (radius is None):
-        raise fields.wrong("base", "a column has a base, or a number of sides and a radius")
+        raise fields.wrong("base", "a column needs either a base, or a number of sides and a radius")
     if (along is None) == (height is None):
-        raise fields.wrong("height", "a column has a height, or a vector along which it rises")
+        raise fields.wrong("height", "a column needs either a height, or the vector along which it rises")
     rise = along or (Fraction(0), Fraction(0), height or Fraction(0))
     if sides is not None and radius is not None:
         base = tuple(round_base(fields.place, sides, radius))
@@ -194,9 +194,9 @@ def _plate(fields: Fields) -> Callable[[str], Polyhedron]:
 def _polyhedron(fields: Fields) -> Callable[[str], Polyhedron]:
     vertices, faces = fields.vectors("vertices") or (), fields.counts("faces")
     if not all(1 <= place <= len(vertices) for face in faces for place in face):
-        raise fields.wrong("faces", f"vertices are counted from 1 to {len(vertices)}")
-    counted = tuple(tuple(place - 1 for place in face) for face in faces)
-    return lambda name: checked(Polyhedron(name, vertices, counted))
+        raise fields.wrong("faces", f"the vertices have the numbers 1 to {len(vertices)}")
+    from_zero = tuple(tuple(place - 1 for place in face) for face in faces)
+    return lambda name: checked(Polyhedron(name, vertices, from_zero))
 
 
 _SHAPES = {

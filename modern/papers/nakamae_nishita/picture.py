@@ -1,8 +1,8 @@
-"""A drawing on paper: SVG of nothing but lines, or HPGL for a plotter.
+"""A drawing as SVG or as HPGL for a plotter.
 
-HPGL is the language of Hewlett-Packard's plotters: pen up, pen down, absolute moves (instructions IN SP LT PU PD).
-What is drawn is straight strokes, each from one end of a visible piece to the other; where parts of objects touch, a
-line that belongs to both may be drawn twice.
+HPGL is the language of Hewlett-Packard's plotters: pen up, pen down and absolute moves (instructions IN SP LT PU PD).
+The drawing consists of straight strokes, one for each visible piece. Where parts of objects touch, a line that belongs
+to both may be drawn twice.
 """
 
 from __future__ import annotations
@@ -22,15 +22,15 @@ Point = tuple[int, int]
 Stroke = tuple[Point, Point]
 
 PLOT_WIDTH, PLOT_HEIGHT = 10_000, 7_200
-"""Plotter units, of 0.025 mm, that lie within a sheet of A4 on every such plotter."""
+"""The area, in plotter units of 0.025 mm, that fits a sheet of A4 on every such plotter."""
 
 SOLID, DASHED = "LT;", "LT2,2;"
 
 
 def plot(groups: Iterable[tuple[str, Iterable[Stroke]]]) -> str:
-    """The text of a plot: each group has a type of line and straight strokes, drawn in the order given.
+    """Return the text of a plot. Each group has a line type and straight strokes, drawn in the given order.
 
-    The pen stays down where a stroke begins at the end of the one before.
+    The pen stays down if a stroke begins at the end of the previous one.
     """
     lines = ["IN;", "SP1;"]
     for kind, strokes in groups:
@@ -54,16 +54,17 @@ _BAND = 24
 
 
 def ends(drawing: Drawing, piece: Piece) -> tuple[Homogeneous, Homogeneous]:
-    """The two ends of a piece, homogeneous."""
+    """Return the two ends of a piece in homogeneous coordinates."""
     points = drawing.solids[piece.solid].points
     a, b = points[piece.start], points[piece.end]
     return _between(a, b, piece.first), _between(a, b, piece.last)
 
 
 def as_svg(drawing: Drawing, title: str = "", width: int = 640) -> str:
-    """The text of an SVG file; ``data-edge`` of a line is its polyhedron and the two vertices of its edge, from 1.
+    """Return the text of an SVG file.
 
-    A corner of a figure is counted on from the vertices.  Raises SceneError for a width out of range.
+    The attribute ``data-edge`` of a line names its polyhedron and the two vertices of its edge, from 1. The numbers of
+    figures' corners follow those of the vertices. Raise SceneError for a width out of range.
     """
     if not _NARROWEST <= width <= _WIDEST:
         raise SceneError(f"a picture cannot be {width} pixels wide; the width is from {_NARROWEST} to {_WIDEST}")
@@ -89,7 +90,7 @@ def as_svg(drawing: Drawing, title: str = "", width: int = 640) -> str:
 
 
 def as_hpgl(drawing: Drawing) -> str:
-    """The text of a plot on a sheet of A4, hidden pieces dashed."""
+    """Return the text of a plot on a sheet of A4, with hidden pieces dashed."""
     pixel, height = fit(_extent(drawing), PLOT_WIDTH // 10, PLOT_HEIGHT // 10 - 2 * MARGIN)
 
     def strokes(seen: bool) -> Iterator[Stroke]:
@@ -105,7 +106,7 @@ def as_hpgl(drawing: Drawing) -> str:
 
 
 def _extent(drawing: Drawing) -> list[Flat]:
-    """The images of all vertices, so that the picture is in one place whatever is hidden."""
+    """Return the images of all vertices, so that the scale does not depend on which pieces are hidden."""
     return [image(point, drawing.observer) for item in drawing.solids for point in item.vertices]
 
 

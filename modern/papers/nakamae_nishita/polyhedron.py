@@ -1,7 +1,7 @@
-"""A convex polyhedron as the paper has it (section 2): vertices, and faces by vertex numbers, clockwise from outside.
+"""Convex polyhedra in the paper's form (section 2): vertices, and faces by vertex numbers, clockwise from outside.
 
-A plate is a polyhedron without thickness: one polygon as two faces, one for each side.  Polyhedra come from a
-scene, from files of faces (``bodies``) and from every hull of this project.
+A plate is a polyhedron without thickness: one polygon as two faces, one for each side. Polyhedra come from scenes, from
+files with faces (``bodies``) and from hulls.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ from modern.geometry.vectors import Vector, area_vector, cross, dot, lowest, min
 
 
 class SceneError(EmulatorError):
-    """A scene that cannot be drawn: no convex polyhedron, polyhedra that intersect, a file at fault; one line."""
+    """A scene that cannot be drawn, because a file, a shape or the arrangement is invalid. The message is one line."""
 
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """A closed figure on a face: its corners in space, and the face by place (section 1, merit 4)."""
+    """A closed figure on a face: its corners in space, and the index of the face (section 1, merit 4)."""
 
     face: int
     corners: tuple[Vector, ...]
@@ -34,10 +34,11 @@ class Figure:
 
 @dataclass(frozen=True, slots=True)
 class Polyhedron:
-    """A convex polyhedron.  ``thing``: the object it is a part of; lines that only divide an object are not drawn.
+    """A convex polyhedron.
 
-    joined: for every face a number that it shares with those it is read as one with (``modern.geometry.coplanar``),
-    between which no edge is drawn; empty: each face is its own.
+    ``thing`` names the object it is a part of; lines that only divide an object are not drawn. ``joined`` has a group
+    number for every face, and no edge is drawn between faces of one group (``modern.geometry.coplanar``). If it is
+    empty, no faces are merged.
     """
 
     name: str
@@ -49,23 +50,24 @@ class Polyhedron:
 
 
 def outward(polyhedron: Polyhedron, face: tuple[int, ...]) -> Vector:
-    """A vector at right angles to a face, outward: twice its area."""
+    """Return the outward normal of a face, twice as long as its area."""
     return area_vector(polyhedron.vertices, face[::-1])
 
 
 def checked(polyhedron: Polyhedron) -> Polyhedron:
-    """The polyhedron, proved closed and convex; faces all counterclockwise from outside are turned.
+    """Return the polyhedron after proving that it is closed and convex.
 
-    Raises SceneError, naming the polyhedron and a face or edge at fault, counted from 1.
+    If all faces run counterclockwise from outside, they are reversed. Raise SceneError with the name of the polyhedron
+    and the number, from 1, of an invalid face or of the vertices of an invalid edge.
     """
     name = polyhedron.name
     _check_closed(polyhedron)
-    turned = replace(polyhedron, faces=tuple(face[::-1] for face in polyhedron.faces))
-    faults = [next(_faults(candidate), "") for candidate in (polyhedron, turned)]
+    reversed_faces = replace(polyhedron, faces=tuple(face[::-1] for face in polyhedron.faces))
+    faults = [next(_faults(candidate), "") for candidate in (polyhedron, reversed_faces)]
     if not faults[0]:
         return polyhedron
     if not faults[1]:
-        return turned
+        return reversed_faces
     raise SceneError(f"{name}: {faults[0] if _volume(polyhedron) >= 0 else faults[1]}")
 
 
@@ -75,36 +77,36 @@ def _check_closed(polyhedron: Polyhedron) -> None:
     directed: Counter[tuple[int, int]] = Counter()
     for order, face in enumerate(polyhedron.faces, 1):
         if len(face) < 3 or len(set(face)) < len(face):
-            raise SceneError(f"{name}: face {order} is not of three or more different vertices")
+            raise SceneError(f"{name}: face {order} does not have at least three different vertices")
         used.update(face)
         directed.update(sides(face))
     if not polyhedron.faces:
         raise SceneError(f"{name}: there are no faces")
     for (a, b), times in sorted(directed.items()):
         if times > 1:
-            raise SceneError(f"{name}: two faces run the same way along vertices {a + 1} and {b + 1}")
+            raise SceneError(f"{name}: two faces run in the same direction along vertices {a + 1} and {b + 1}")
         if not directed[b, a]:
-            raise SceneError(f"{name}: not closed: one face only at vertices {a + 1} and {b + 1}")
+            raise SceneError(f"{name}: not closed: only one face at vertices {a + 1} and {b + 1}")
     first: dict[Vector, int] = {}
     for place, point in enumerate(polyhedron.vertices):
         if place not in used:
             raise SceneError(f"{name}: vertex {place + 1} belongs to no face")
         if first.setdefault(point, place) != place:
-            raise SceneError(f"{name}: vertices {first[point] + 1} and {place + 1} are one point")
+            raise SceneError(f"{name}: vertices {first[point] + 1} and {place + 1} are the same point")
 
 
 def _faults(polyhedron: Polyhedron) -> Iterator[str]:
-    """What keeps closed faces from being a convex solid, or a plate, clockwise from outside."""
+    """Yield the reasons why closed faces are not a convex solid or a plate with faces clockwise from outside."""
     points, faces = polyhedron.vertices, polyhedron.faces
-    whole = to_integers(points, common_scale(points))
+    integers = to_integers(points, common_scale(points))
     flat = True
     for order, face in enumerate(faces, 1):
         normal = outward(polyhedron, face)
         a, b, c = lowest(normal)
-        level = dot((a, b, c), whole[face[0]])
-        heights = [a * x + b * y + c * z - level for x, y, z in whole]
+        level = dot((a, b, c), integers[face[0]])
+        heights = [a * x + b * y + c * z - level for x, y, z in integers]
         if not any(normal):
-            yield f"face {order} is no polygon"
+            yield f"face {order} is not a polygon"
         if any(heights[place] for place in face):
             yield f"face {order} is not plane"
         if any(height > 0 for height in heights):
@@ -114,8 +116,8 @@ def _faults(polyhedron: Polyhedron) -> Iterator[str]:
         flat = flat and not any(heights)
     if flat and len(faces) != 2:
         yield "all vertices lie in one plane, and a plate has two faces"
-    # Every face lies on the boundary of the convex hull, which is a sphere: closed faces cover it once or more, and
-    # twice would show in the number of edges at a vertex.
+    # Every face lies on the boundary of the convex hull, a sphere, so closed faces cover it at least once. Euler's
+    # formula excludes that they cover it more than once.
     if len(points) - sum(map(len, faces)) // 2 + len(faces) != 2:
         yield "not one closed surface: vertices - edges + faces is not 2"
 
@@ -125,18 +127,18 @@ def _first(heights: Sequence[int]) -> int:
 
 
 def turns_once(points: Sequence[Vector], normal: Vector) -> bool:
-    """Whether a polygon in a plane is convex and runs counterclockwise once, seen from where ``normal`` points to."""
+    """Return True if a plane polygon is convex and runs counterclockwise once as seen from the side of ``normal``."""
     steps = [minus(q, p) for p, q in zip(points, [*points[1:], points[0]], strict=True)]
     bends = [dot(cross(u, v), normal) for u, v in zip(steps, [*steps[1:], steps[0]], strict=True)]
     if any(bend < 0 for bend in bends) or not all(map(any, steps)):
         return False
-    # A convex turn that runs around once has every corner on the left of every side; twice around has not.
+    # A polygon with left turns only may still run around twice. Then some corner is to the right of some side.
     lines = zip(points, steps, strict=True)
     return all(dot(cross(step, minus(q, p)), normal) >= 0 for p, step in lines for q in points)
 
 
 def _volume(polyhedron: Polyhedron) -> Fraction:
-    """Six times the volume; negative where the faces run counterclockwise from outside."""
+    """Return six times the volume, which is negative if the faces run counterclockwise from outside."""
     points = polyhedron.vertices
     return sum(
         (
@@ -149,14 +151,14 @@ def _volume(polyhedron: Polyhedron) -> Fraction:
 
 
 def polyhedron_of_hull(hull: Hull, name: str = "hull", joined: Joined | None = None) -> Polyhedron:
-    """The polyhedron of a hull; of a polygon a plate.
+    """Return the polyhedron of a hull, or the plate of a polygon, with the faces of ``joined`` merged.
 
-    joined: which of its faces are read as one.  Raises ExportError where there is no hull, SceneError for one of less
-    than two dimensions and for one whose faces, in rounded arithmetic, are not plane or not convex.
+    Raise ExportError if there is no hull. Raise SceneError for a hull of less than two dimensions, and for one whose
+    faces are not plane or not convex, which rounded arithmetic can cause.
     """
     surface = mesh(hull)
     if surface.dimension < 2:
-        raise SceneError(f"{name}: a {('point', 'segment')[surface.dimension]} is no polyhedron")
+        raise SceneError(f"{name}: a {('point', 'segment')[surface.dimension]} is not a polyhedron")
     faces = tuple(face[::-1] for face in surface.faces)
     if surface.dimension == 2:
         faces = (faces[0], surface.faces[0])

@@ -1,9 +1,9 @@
-"""The projection: from a direction, or from an observation point, in integers.
+"""Parallel and perspective projection in integers.
 
-Both are one map of homogeneous coordinates, (x, y, z, w) for the point (x/w, y/w, z/w), after which the eye is far
-away on the z axis and z grows towards it: in parallel projection w is the denominator of a polyhedron's coordinates;
-in perspective w grows with the distance from the eye's plane, and z/w is its inverse.  Planes and lines stay planes
-and lines and the sense of rotation stays, so formulas (1) to (6) of the paper hold for the mapped coordinates.
+Both are maps to homogeneous coordinates, (x, y, z, w) for the point (x/w, y/w, z/w), after which the eye is at infinity
+on the z axis and z grows towards it. In parallel projection w is the common denominator of a polyhedron's coordinates.
+In perspective w is proportional to the distance from the eye's plane, and z/w to its inverse. Both maps preserve
+planes, lines and the sense of rotation, so formulas (1) to (6) of the paper hold for the mapped coordinates.
 """
 
 from __future__ import annotations
@@ -22,20 +22,20 @@ Homogeneous = tuple[int, int, int, int]
 
 @dataclass(frozen=True, slots=True)
 class Observer:
-    """From where a scene is seen: ``eye`` the direction to the eye, ``point`` the eye itself, in perspective."""
+    """The viewpoint of a scene: ``eye`` is the direction to the eye, ``point`` the eye itself in perspective."""
 
     eye: Eye
     right: Eye
     up: Eye
     point: Vector | None = None
     stretch: Fraction = Fraction(1)
-    """x of the image times it is of the same scale as y: the length of ``eye``, to 15 decimals."""
+    """The factor that brings x of the image to the scale of y: the length of ``eye``, to 15 decimals."""
     near: Fraction | None = None
-    """In perspective, how far from the eye the near plane is, at right angles to the direction of view."""
+    """The distance of the near plane from the eye in perspective, along the direction of view."""
 
 
 def parallel(direction: Sequence[Fraction | int]) -> Observer:
-    """Seen from far away in a direction.  Raises SceneError for 0,0,0."""
+    """Return the observer at infinity in a direction. Raise SceneError for 0,0,0."""
     if not any(direction):
         raise SceneError("the direction of view is 0,0,0")
     sight = view(lowest([Fraction(number) for number in direction]))
@@ -43,9 +43,9 @@ def parallel(direction: Sequence[Fraction | int]) -> Observer:
 
 
 def perspective(point: Vector, towards: Vector, near: Fraction | None = None) -> Observer:
-    """Seen from a point towards another one, what lies beyond a near plane if one is given.
+    """Return the observer at a point who looks towards another point, with a near plane if one is given.
 
-    Raises SceneError where the points are the same.
+    Raise SceneError if the two points are the same.
     """
     if point == towards:
         raise SceneError("the observation point is the point looked at")
@@ -54,18 +54,19 @@ def perspective(point: Vector, towards: Vector, near: Fraction | None = None) ->
 
 
 def project(polyhedron: Polyhedron, observer: Observer, origin: Vector) -> list[Homogeneous]:
-    """The images of the vertices, then of the corners of the figures, all to one scale: a point that divides an edge
-    in space as s to 1 - s has the image (1 - s) A + s B.
+    """Return the images of the vertices, then of the corners of the figures, all in one scale.
 
-    origin: subtracted from all of a scene's points in parallel projection, to keep numbers short.
-    Raises SceneError where part of the polyhedron lies beside or behind the observation point.
+    A point at the fraction s of an edge in space has the image (1 - s) A + s B. In parallel projection ``origin`` is
+    subtracted from all points of a scene to keep the numbers short.
+
+    Raise SceneError if a part of the polyhedron lies next to or behind the observation point.
     """
     points = [*polyhedron.vertices, *(corner for figure in polyhedron.figures for corner in figure.corners)]
     centre = observer.point or origin
     scale = common_scale([*points, centre])
     *whole, c = to_integers([*points, centre], scale)
     right, up, eye = observer.right, observer.up, observer.eye
-    # Products written out: this is done for every vertex of a scene.
+    # The products are written out because this runs for every vertex of a scene.
     away = [(x - c[0], y - c[1], z - c[2]) for x, y, z in whole]
     flat = [
         (right[0] * x + right[1] * y + right[2] * z, up[0] * x + up[1] * y + up[2] * z, dot(eye, (x, y, z)))
@@ -74,10 +75,10 @@ def project(polyhedron: Polyhedron, observer: Observer, origin: Vector) -> list[
     if observer.point is None:
         return [(x, y, z, scale) for x, y, z in flat]
     if any(z >= 0 for _, _, z in flat):
-        raise SceneError(f"{polyhedron.name}: not wholly before the observation point; a near plane cuts it")
+        raise SceneError(f"{polyhedron.name}: not entirely in front of the observation point; a near plane can clip it")
     return [(x, y, scale, -z) for x, y, z in flat]
 
 
 def image(point: Homogeneous, observer: Observer) -> tuple[Fraction, Fraction]:
-    """Where a point is drawn, y upward, true to scale."""
+    """Return the position of a point in the picture, true to scale, with y upwards."""
     return Fraction(point[0], point[3]) * observer.stretch, Fraction(point[1], point[3])

@@ -1,4 +1,4 @@
-"""What the drawing was found from, as text: faces and edges, PL and LP tables with d, indices, and Table 1."""
+"""The intermediate results of a drawing as text: faces and edges, PL and LP tables with d, indices, and Table 1."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ def table1(drawing: Drawing) -> Iterator[str]:
 
 
 def tables(drawing: Drawing) -> Iterator[str]:
-    """Everything: polyhedra, then pairs whose contours overlap, then segments with something to hide them."""
+    """Yield all tables: the polyhedra, the pairs with overlapping contours, and the segments behind a contour."""
     for solid in drawing.solids:
         kinds = Counter(edge.kind for edge in solid.edges)
         yield f"{solid.number + 1}. {solid.polyhedron.name}"
-        yield "  front faces " + (" ".join(str(k) for k, seen in enumerate(solid.signs, 1) if seen > 0) or "none")
+        yield "  front faces " + (" ".join(str(k) for k, sign in enumerate(solid.signs, 1) if sign > 0) or "none")
         yield "  contour " + (" ".join(str(place + 1) for place in solid.contour) or "none")
         yield "  edges " + ", ".join(f"{kinds[kind]} {kind}" for kind in _KINDS if kinds[kind])
     for relation in drawing.relations:
@@ -37,14 +37,14 @@ def tables(drawing: Drawing) -> Iterator[str]:
 
 def _relation(drawing: Drawing, relation: Relation) -> Iterator[str]:
     v, w = drawing.solids[relation.v], drawing.solids[relation.w]
-    nearer = {1: f"V = {v.number + 1} is the nearer", -1: f"V' = {w.number + 1} is the nearer", 0: "neither hides"}
+    nearer = {1: f"V = {v.number + 1} is nearer", -1: f"V' = {w.number + 1} is nearer", 0: "neither hides the other"}
     yield f"V = {v.number + 1}, V' = {w.number + 1}: {nearer[relation.nearer]}, by {relation.by}"
     columns = [place + 1 for place in v.contour]
-    found = relation.tables
+    pair = relation.tables
     for title, rows in (
-        ("PL", found.pl),
-        ("LP", found.lp),
-        ("d", tuple(tuple(found.crossing_number(i, j) for i in range(len(columns))) for j in range(len(found.pl)))),
+        ("PL", pair.pl),
+        ("LP", pair.lp),
+        ("d", tuple(tuple(pair.crossing_number(i, j) for i in range(len(columns))) for j in range(len(pair.pl)))),
     ):
         yield f"  {title:4}" + "".join(f"{column:4d}" for column in columns)
         for place, row in zip(w.contour, rows, strict=True):

@@ -1,4 +1,4 @@
-"""The paper's published results, computed: what ``transcripts/nakamae_nishita_1972`` is compared with."""
+"""The computed lines of every published result of the paper."""
 
 from __future__ import annotations
 
@@ -20,30 +20,30 @@ _OTHER_SIDE = (-34, 37, 41)
 
 
 def produced(_: Lines) -> Lines:
-    """The lines of every result that can be computed, by its id; nothing of the print is needed."""
-    found: dict[str, Sequence[str]] = {}
-    found.update(_crossing_numbers())
+    """Compute the lines of every result that can be computed, by its id. The print is not needed for this."""
+    lines: dict[str, Sequence[str]] = {}
+    lines.update(_crossing_numbers())
     drawings = {name: drawing(name) for name in names()}
     most = max(
-        len(passage.marks) for item in drawings.values() for found in item.passages for _, passage in found.behind
+        len(passage.marks) for item in drawings.values() for course in item.passages for _, passage in course.behind
     )
-    found["intersections"] = [f"intersection between a contour line and a segment is no more than {_NUMBERS[most]}"]
-    found["sense"] = [f"{_contour_sense()} \\times (P_A - P_B)"]
-    found["table1-a"] = [_row("a", drawings["columns"])]
-    found["table1-b"] = [_row("b", drawing("columns", _OTHER_SIDE))]
-    found["table1-c"] = [_row("c", drawings["cuboids"])]
-    return found
+    lines["intersections"] = [f"intersection between a contour line and a segment is no more than {_NUMBERS[most]}"]
+    lines["sense"] = [f"{_contour_sense()} \\times (P_A - P_B)"]
+    lines["table1-a"] = [_row("a", drawings["columns"])]
+    lines["table1-b"] = [_row("b", drawing("columns", _OTHER_SIDE))]
+    lines["table1-c"] = [_row("c", drawings["cuboids"])]
+    return lines
 
 
 def drawing(name: str, eye: Sequence[int] | None = None) -> Drawing:
-    """A scene of the project drawn, from its own direction or from another."""
-    found = scene(name)
-    observer = found.sight.observer(found.make) if eye is None else parallel([Fraction(number) for number in eye])
-    return draw(found.make, observer)
+    """Draw a scene of the project from its own direction or from another one."""
+    file = scene(name)
+    observer = file.sight.observer(file.make) if eye is None else parallel([Fraction(number) for number in eye])
+    return draw(file.make, observer)
 
 
 def contour_tables(v: Sequence[Place], w: Sequence[Place]) -> Tables:
-    """The tables of two clockwise polygons that overlap."""
+    """Compute the tables of two clockwise polygons that overlap."""
     of_v, of_w = values(_lines(v), _points(w)), values(_lines(w), _points(v))
     assert of_v is not None
     assert of_w is not None
@@ -51,34 +51,34 @@ def contour_tables(v: Sequence[Place], w: Sequence[Place]) -> Tables:
 
 
 def _crossing_numbers() -> Iterator[tuple[str, Sequence[str]]]:
-    """d of a square's upper side, from (0, 4) to (4, 4), and the first side of a polygon that is as the words say."""
+    """Compute d of a square's upper side, from (0, 4) to (4, 4), and the first side of a polygon in each position."""
     upper = 1
-    for name, words, other in (
+    for name, meaning, polygon in (
         ("d-crossing", "means that $[P_i, P_{i+1}]$ intersects", ((2, 2), (2, 6), (6, 6), (6, 2))),
         ("d-on-segment", "means that a vertex lies on another line segment", ((2, 4), (3, 6), (6, 6), (3, 2))),
         ("d-on-vertex", "means that a vertex overlaps a vertex", ((4, 4), (6, 3), (2, 1))),
         ("d-apart", "means not to intersect", ((2, 2), (2, 3), (6, 3), (6, 2))),
     ):
-        yield name, [f"${contour_tables(_SQUARE, other).crossing_number(upper, 0)}$ {words}"]
+        yield name, [f"${contour_tables(_SQUARE, polygon).crossing_number(upper, 0)}$ {meaning}"]
 
 
 def _contour_sense() -> str:
-    """The difference along the contour whose product with P_A - P_B has the sign of the index of formula (6)."""
+    """Return the contour's difference vector whose product with P_A - P_B has the sign of the index of formula (6)."""
     start, end, a, b = (0, 0), (0, 4), (-1, 1), (1, 2)
     of_square = values(_lines(_SQUARE), _points((a, b)))
     assert of_square is not None
     ((_, index),) = clipped(of_square, 0, 1).marks
-    for words, (x, y) in (
+    for difference, (x, y) in (
         ("(P_i - P_{i+1})", (start[0] - end[0], start[1] - end[1])),
         ("(P_{i+1} - P_i)", (end[0] - start[0], end[1] - start[1])),
     ):
         if sign(x * (a[1] - b[1]) - y * (a[0] - b[0])) == sign(index):
-            return words
+            return difference
     raise AssertionError("one of two opposite products has the sign")
 
 
-def _row(letter: str, found: Drawing) -> str:
-    return " ".join((f"({letter})", *map(str, found.counts)))
+def _row(letter: str, scene_drawing: Drawing) -> str:
+    return " ".join((f"({letter})", *map(str, scene_drawing.counts)))
 
 
 def _points(places: Sequence[Place]) -> tuple[Homogeneous, ...]:

@@ -1,7 +1,7 @@
-"""Scenes as data: a TOML file of parts, each a standard shape and its placing (section 2 of the paper).
+"""Scene files: TOML files of parts, each a standard shape and its placement (section 2 of the paper).
 
-The numbers are exact: integers and decimals as they stand, and fractions as text, "1/3".  The format is described in
-``docs/papers/nakamae_nishita.md``; the project's own scenes are in the folder ``scenes`` and are known by name.
+All numbers are exact: integers, decimals, and fractions written as text, such as "1/3". The format is described in
+``docs/papers/nakamae_nishita.md``. The project's own scenes are in the folder ``scenes`` and are selected by name.
 """
 
 from __future__ import annotations
@@ -33,9 +33,11 @@ _AT = re.compile(r"(.*) \(at (?:line (\d+), column (\d+)|end of document)\)", re
 
 @dataclass(frozen=True, slots=True)
 class Sight:
-    """How a scene is looked at.  eye: the direction to the eye, or the observation point in perspective; towards: the
-    point looked at, in perspective; None is the middle of all; near: how far from the eye the near plane is, in
-    perspective; None is no such plane."""
+    """The view of a scene.
+
+    ``eye`` is the direction to the eye, or the observation point in perspective. In perspective, ``towards`` is the
+    point looked at (by default the centre of the scene) and ``near`` the distance of the near plane, if there is one.
+    """
 
     eye: Vector
     projection: Projection = PARALLEL
@@ -43,9 +45,9 @@ class Sight:
     near: Fraction | None = None
 
     def observer(self, make: Callable[[], Sequence[Polyhedron]]) -> Observer:
-        """The observer of the polyhedra that ``make`` makes, if their middle is wanted.
+        """Return the observer. ``make`` creates the polyhedra if the centre of the scene is needed.
 
-        Raises SceneError for a direction without a length.
+        Raise SceneError for the direction 0,0,0.
         """
         if self.projection == PARALLEL:
             return parallel(self.eye)
@@ -54,9 +56,9 @@ class Sight:
 
 @dataclass(frozen=True, slots=True)
 class SceneFile:
-    """A scene as it was read: its parts are made by ``make``, the first of the paper's three steps.
+    """A scene as read from a file. ``make`` creates its polyhedra, which is the first of the paper's three steps.
 
-    files: those its parts were read from.  notes: what was done to make convex polyhedra of them, a line each.
+    ``files`` lists the files of its parts, and ``notes`` describes how they were converted to convex polyhedra.
     """
 
     source: str
@@ -67,7 +69,7 @@ class SceneFile:
     notes: tuple[str, ...] = ()
 
     def make(self) -> tuple[Polyhedron, ...]:
-        """The polyhedra.  Raises SceneError for a part that is no convex polyhedron."""
+        """Create the polyhedra. Raise SceneError for a part that is not a convex polyhedron."""
         return tuple(polyhedron for part in self.parts for polyhedron in make(part))
 
 
@@ -75,29 +77,29 @@ DEFAULT_EYE: Vector = (Fraction(EYES[0][0]), Fraction(EYES[0][1]), Fraction(EYES
 
 
 def names() -> tuple[str, ...]:
-    """The names of the project's own scenes."""
+    """Return the names of the project's own scenes."""
     folder = files("modern.papers.nakamae_nishita").joinpath("scenes")
     return tuple(sorted(item.name[:-5] for item in folder.iterdir() if item.name.endswith(".toml")))
 
 
 def scene(name: str) -> SceneFile:
-    """A scene of the project by its name.  Raises SceneError where there is none."""
+    """Return a scene of the project by its name. Raise SceneError if it does not exist."""
     if name not in names():
-        raise SceneError(f"{quoted(name)} is not a scene of the project; there are {', '.join(names())}")
+        raise SceneError(f"{quoted(name)} is not a scene of the project; the scenes are {', '.join(names())}")
     text = files("modern.papers.nakamae_nishita").joinpath("scenes", f"{name}.toml").read_text(encoding="utf-8")
     return parse(text, name)
 
 
 def read(path: str) -> SceneFile:
-    """A scene from a file; the files of its parts are looked for from the scene's folder on.
+    """Read a scene from a file. Paths of its parts are relative to the folder of the scene.
 
-    Raises FileError, and SceneError naming line and column, or the part.
+    Raise FileError, or SceneError with line and column or with the part.
     """
     return parse(read_text(path), source_name(path), os.path.dirname(path))
 
 
 def of_polyhedra(polyhedra: Sequence[Polyhedron], title: str, notes: Sequence[str] = ()) -> SceneFile:
-    """A scene of polyhedra, seen from where their faces and vertices can be told apart."""
+    """Return a scene of polyhedra with a direction of view in which their faces and vertices are distinguishable."""
     # Two solids that touch may have a vertex in common.
     points = list(dict.fromkeys(point for polyhedron in polyhedra for point in polyhedron.vertices))
     eye = choose(points, [outward(polyhedron, face) for polyhedron in polyhedra for face in polyhedron.faces])
@@ -111,7 +113,7 @@ def _made(polyhedron: Polyhedron, _: str) -> Polyhedron:
 
 
 def parse(text: str, source: str, folder: str = "") -> SceneFile:
-    """A scene from its text, the files of its parts from ``folder`` on.  Raises SceneError."""
+    """Read a scene from its text. Paths of its parts are relative to ``folder``. Raise SceneError."""
     try:
         data = tomllib.loads(text, parse_float=_decimal)
     except tomllib.TOMLDecodeError as error:
@@ -125,14 +127,14 @@ def parse(text: str, source: str, folder: str = "") -> SceneFile:
     fields.done()
     if not tables:
         raise SceneError(f"{source}: there are no parts")
-    found = [part(Fields(table, f"{source}: part {k}"), folder) for k, table in enumerate(tables, 1)]
+    entries = [part(Fields(table, f"{source}: part {k}"), folder) for k, table in enumerate(tables, 1)]
     return SceneFile(
         source,
         title,
         sight,
-        tuple(item for parts in found for item in parts.parts),
-        tuple(parts.file for parts in found if parts.file),
-        tuple(note for parts in found for note in parts.notes),
+        tuple(item for parts in entries for item in parts.parts),
+        tuple(parts.file for parts in entries if parts.file),
+        tuple(note for parts in entries for note in parts.notes),
     )
 
 
@@ -153,7 +155,7 @@ def _sight(fields: Fields) -> Sight:
     if near is not None and projection == PARALLEL:
         raise fields.wrong("near", "a parallel projection has no near plane")
     if near is not None and near <= 0:
-        raise fields.wrong("near", "the near plane is at a distance greater than 0")
+        raise fields.wrong("near", "expected a distance greater than 0")
     fields.done()
     return Sight(eye, projection, towards, near)
 
@@ -165,13 +167,14 @@ def _middle(polyhedra: Sequence[Polyhedron]) -> Vector:
 
 
 def _decimal(text: str) -> Fraction:
-    """A TOML float as the decimal it is written as."""
+    """Read a TOML float as an exact decimal."""
     return number(text.replace("_", ""))
 
 
 def _located(source: str, text: str, message: str) -> str:
-    found = _AT.fullmatch(message)
-    if not found:
+    """Rewrite a message of tomllib with the position in front."""
+    match = _AT.fullmatch(message)
+    if not match:
         return f"{source}: {message}"
-    line, column = (found[2], found[3]) if found[2] else (text.count("\n") + 1, len(text) - text.rfind("\n"))
-    return f"{source}: line {line}, column {column}: {found[1][:1].lower()}{found[1][1:]}"
+    line, column = (match[2], match[3]) if match[2] else (text.count("\n") + 1, len(text) - text.rfind("\n"))
+    return f"{source}: line {line}, column {column}: {match[1][:1].lower()}{match[1][1:]}"

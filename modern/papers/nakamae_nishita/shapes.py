@@ -1,6 +1,6 @@
-"""The standard shapes that section 2 has subroutines for, and their placing: parallelepiped, column, polygonal plate.
+"""The standard shapes of section 2 and their placement: parallelepiped, column and polygonal plate.
 
-All coordinates are fractions; a turn is made by fractions too, so that a turned shape is exactly the shape.
+All coordinates are fractions. Cosine and sine of a rotation are fractions too, so a rotated shape is exactly congruent.
 """
 
 from __future__ import annotations
@@ -19,31 +19,30 @@ _FINEST = 100_000
 
 
 def parallelepiped(name: str, a: Vector, b: Vector, c: Vector) -> Polyhedron:
-    """The parallelepiped at the origin with these three edges.  Raises SceneError where they lie in one plane."""
+    """Return the parallelepiped at the origin with these three edges. Raise SceneError if they lie in one plane."""
     if not dot(cross(a, b), c):
         raise SceneError(f"{name}: the three edges lie in one plane")
     return column(name, [_ZERO, a, plus(a, b), b], c)
 
 
 def cuboid(name: str, x: Fraction, y: Fraction, z: Fraction) -> Polyhedron:
-    """The cuboid from the origin to (x, y, z).  Raises SceneError for a side of length 0."""
+    """Return the cuboid from the origin to (x, y, z). Raise SceneError for a side of length 0."""
     if not (x and y and z):
         raise SceneError(f"{name}: a side of a cuboid has the length 0")
     return parallelepiped(name, (x, _N, _N), (_N, y, _N), (_N, _N, z))
 
 
 def column(name: str, base: Sequence[Vector], along: Vector) -> Polyhedron:
-    """The prism over a convex polygon.  Its vertices are those of the base, then those of the top.
+    """Return the prism over a convex polygon. Its vertices are those of the base, then those of the top.
 
-    base: the corners in either sense.  Raises SceneError for a base that is no plane convex polygon, or an ``along``
-    in its plane.
+    The base may run in either sense. Raise SceneError if it is not a plane convex polygon or ``along`` is in its plane.
     """
     normal = _normal(name, base)
     rise = dot(normal, along)
     if not rise:
         raise SceneError(f"{name}: the column does not rise from its base")
     corners = list(base) if rise > 0 else [base[0], *base[:0:-1]]
-    # Seen from the top the base runs counterclockwise: clockwise from outside, below it.
+    # As seen from the top the base runs counterclockwise, which is clockwise from outside, below it.
     n = len(corners)
     walls = [(k, k + n, (k + 1) % n + n, (k + 1) % n) for k in range(n)]
     faces = (tuple(range(n)), tuple(range(2 * n - 1, n - 1, -1)), *walls)
@@ -51,28 +50,31 @@ def column(name: str, base: Sequence[Vector], along: Vector) -> Polyhedron:
 
 
 def plate(name: str, corners: Sequence[Vector]) -> Polyhedron:
-    """A convex polygon without thickness, seen from both sides.  Raises SceneError where it is none."""
+    """Return a convex polygon without thickness. Raise SceneError if the corners are not a convex polygon."""
     _normal(name, corners)
     places = tuple(range(len(corners)))
     return Polyhedron(name, tuple(corners), (places, places[::-1]))
 
 
 def round_base(name: str, sides: int, radius: Fraction) -> list[Vector]:
-    """A polygon of corners exactly on a circle about the origin, each within 1/1000 degree of its place if regular.
+    """Return a nearly regular polygon whose corners lie exactly on a circle about the origin.
 
-    Raises SceneError for fewer than three sides, or more than 1000.
+    Each corner is within 1/1000 degree of the corner of the regular polygon. Raise SceneError for fewer than 3 or more
+    than 1000 sides.
     """
     if not 3 <= sides <= _MOST_SIDES:
-        raise SceneError(f"{name}: {sides} is not a number of sides from 3 to {_MOST_SIDES}")
-    turns = [rotation(Fraction(360 * k, sides)) for k in range(sides)]
-    return [(radius * cosine, radius * sine, _N) for cosine, sine in turns]
+        raise SceneError(f"{name}: the number of sides is from 3 to {_MOST_SIDES}, found {sides}")
+    rotations = [rotation(Fraction(360 * k, sides)) for k in range(sides)]
+    return [(radius * cosine, radius * sine, _N) for cosine, sine in rotations]
 
 
 def rotation(degrees: Fraction) -> tuple[Fraction, Fraction]:
-    """Cosine and sine, both fractions and exactly on the unit circle, of an angle within 1/1000 degree of this one.
+    """Return cosine and sine, as fractions exactly on the unit circle, of an angle within 1/1000 degree of this one.
 
-    Multiples of 90 degrees are exact.  The tangent of half the rest is rounded to a denominator of at most 100,000.
+    Multiples of 90 degrees are exact. The tangent of half the remaining angle is rounded to a fraction with a
+    denominator of at most 100,000.
     """
+    # With t = tan(angle / 2), ((1 - t^2) / (1 + t^2), 2 t / (1 + t^2)) is a rational point of the circle.
     quarters = round(degrees / 90)
     half = math.radians(float(degrees - 90 * quarters) / 2)
     t = Fraction(math.tan(half)).limit_denominator(_FINEST)
@@ -83,31 +85,31 @@ def rotation(degrees: Fraction) -> tuple[Fraction, Fraction]:
 
 
 def turned(degrees: Fraction) -> Move:
-    """A turn about the z axis, counterclockwise from above."""
+    """Return the rotation about the z axis, counterclockwise from above."""
     cosine, sine = rotation(degrees)
     return lambda p: (cosine * p[0] - sine * p[1], sine * p[0] + cosine * p[1], p[2])
 
 
 def scaled(times: Fraction) -> Move:
-    """Larger or smaller about the origin."""
+    """Return the scaling about the origin."""
     return lambda p: (times * p[0], times * p[1], times * p[2])
 
 
 def moved(shift: Vector) -> Move:
-    """A move by a vector."""
+    """Return the translation by a vector."""
     return lambda p: plus(p, shift)
 
 
 def placed(polyhedron: Polyhedron, move: Move, name: str) -> Polyhedron:
-    """The polyhedron and its figures, moved and named."""
+    """Return the polyhedron and its figures after a move, with a new name."""
     figures = tuple(Figure(f.face, tuple(map(move, f.corners))) for f in polyhedron.figures)
     return replace(polyhedron, name=name, vertices=tuple(map(move, polyhedron.vertices)), figures=figures)
 
 
 def _normal(name: str, corners: Sequence[Vector]) -> Vector:
-    """A vector at right angles to a convex polygon, from where it runs counterclockwise."""
+    """Return a normal of a convex polygon on the side from which it runs counterclockwise."""
     if len(corners) < 3:
-        raise SceneError(f"{name}: a polygon has three corners or more, not {len(corners)}")
+        raise SceneError(f"{name}: expected at least 3 corners, found {len(corners)}")
     bends = [
         cross(minus(q, p), minus(r, q))
         for p, q, r in zip(corners, [*corners[1:], corners[0]], [*corners[2:], *corners[:2]], strict=True)

@@ -1,4 +1,4 @@
-"""A polyhedron as it is seen: the paper's second step, to contour and inner edges (section 4, time II)."""
+"""The projection of a polyhedron with its contour and inner edges: the paper's second step (section 4, time II)."""
 
 from __future__ import annotations
 
@@ -21,9 +21,10 @@ Kind = visible.Kind | Literal["figure"]
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """A line that may be seen: an inner or contour edge, or a side of a figure; its ends by place in the points.
+    """A line that may be visible: an inner edge, a contour edge or a side of a figure.
 
-    ``first``, ``last``: the same ends by place in ``Solid.used``.  ``faces``: those beside it that are seen.
+    ``start`` and ``end`` are indices of ``Solid.points``, ``first`` and ``last`` the same ends as indices of
+    ``Solid.used``. ``faces`` are the front faces at the line.
     """
 
     start: int
@@ -36,11 +37,12 @@ class Segment:
 
 @dataclass(frozen=True, slots=True)
 class Solid:
-    """A polyhedron with its images.
+    """A polyhedron with its image.
 
-    points: those of the vertices, then of the figures' corners.  signs: of each face, 1 seen.  contour: places of
-    vertices, clockwise; lines: formula (1) of its segments.  planes: formula (5) of each face, positive outside.
-    used: places of all points of segments, those of the contour first.
+    ``points`` are the images of the vertices, then of the corners of figures. ``signs`` has 1 for each front face.
+    ``contour`` lists the indices of its vertices, clockwise, and ``lines`` the coefficients of formula (1) of its
+    segments. ``planes`` are the coefficients of formula (5) of each face, positive outside. ``used`` lists the indices
+    of all points of segments, those of the contour first.
     """
 
     number: int
@@ -67,25 +69,28 @@ _DRAWN = (visible.INNER, visible.CONTOUR)
 
 
 def solid(number: int, polyhedron: Polyhedron, observer: Observer, origin: Vector) -> Solid:
-    """Project a polyhedron and search its faces, edges and contour.  Raises SceneError; see ``project``."""
+    """Project a polyhedron and classify its faces, edges and contour. Raise SceneError as ``project`` does."""
     points = project(polyhedron, observer, origin)
     flat: list[Flat] = [(x, y, w) for x, y, _, w in points]
     signs = [visible.facing([flat[place] for place in face]) for face in polyhedron.faces]
     planes = [_face_plane([points[place] for place in face]) for face in polyhedron.faces]
     edges = visible.classify(polyhedron.faces, signs, lambda a, b: same_plane(planes[a], planes[b]))
     if polyhedron.joined:
-        edges = tuple(_read_as_one(edge, polyhedron.joined) for edge in edges)
+        edges = tuple(_merged(edge, polyhedron.joined) for edge in edges)
     chain = visible.contour(polyhedron.faces, signs)
-    found: list[tuple[int, int, Kind, tuple[int, ...]]] = [
-        (edge.start, edge.end, edge.kind, _seen(edge.faces, signs)) for edge in edges if edge.kind in _DRAWN
+    visible_lines: list[tuple[int, int, Kind, tuple[int, ...]]] = [
+        (edge.start, edge.end, edge.kind, _front(edge.faces, signs)) for edge in edges if edge.kind in _DRAWN
     ]
+    # A figure is visible if its face is (section 1, merit 4). Its corners follow the vertices in ``points``.
     corner = len(polyhedron.vertices)
     for figure in polyhedron.figures:
         places = range(corner, corner + len(figure.corners))
         corner += len(figure.corners)
         if signs[figure.face] > 0:
-            found += [(a, b, FIGURE, (figure.face,)) for a, b in zip(places, [*places[1:], places[0]], strict=True)]
-    used = tuple(dict.fromkeys((*chain, *(place for start, end, *_ in found for place in (start, end)))))
+            visible_lines += [
+                (a, b, FIGURE, (figure.face,)) for a, b in zip(places, [*places[1:], places[0]], strict=True)
+            ]
+    used = tuple(dict.fromkeys((*chain, *(place for start, end, *_ in visible_lines for place in (start, end)))))
     where = {place: order for order, place in enumerate(used)}
     return Solid(
         number,
@@ -96,15 +101,18 @@ def solid(number: int, polyhedron: Polyhedron, observer: Observer, origin: Vecto
         chain,
         tuple(line_through(flat[a], flat[b]) for a, b in (sides(chain) if chain else ())),
         tuple(planes),
-        tuple(Segment(a, b, where[a], where[b], kind, seen) for a, b, kind, seen in found),
+        tuple(Segment(a, b, where[a], where[b], kind, front) for a, b, kind, front in visible_lines),
         used,
         tuple(points[place] for place in used),
     )
 
 
 def plane_through(p: Homogeneous, q: Homogeneous, r: Homogeneous) -> Plane:
-    """The coefficients of formula (5) for three points clockwise from outside; 0,0,0,0 where they lie in a line."""
-    # The two-rowed minors of q and r, each used twice.
+    """Return the coefficients of formula (5) for three points clockwise from outside, or zeros if they are collinear.
+
+    They are the cofactors of the first row of the determinant of formula (5) in homogeneous coordinates.
+    """
+    # The 2 x 2 minors of q and r, each of which occurs in two cofactors.
     xy, xz, xw = q[0] * r[1] - q[1] * r[0], q[0] * r[2] - q[2] * r[0], q[0] * r[3] - q[3] * r[0]
     yz, yw, zw = q[1] * r[2] - q[2] * r[1], q[1] * r[3] - q[3] * r[1], q[2] * r[3] - q[3] * r[2]
     return (
@@ -116,12 +124,12 @@ def plane_through(p: Homogeneous, q: Homogeneous, r: Homogeneous) -> Plane:
 
 
 def height(plane: Plane, p: Homogeneous) -> int:
-    """Formula (5): positive where the point is on the outer side of the face."""
+    """Evaluate formula (5), which is positive if the point is on the outer side of the face."""
     return plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2] + plane[3] * p[3]
 
 
 def same_plane(u: Plane, v: Plane) -> bool:
-    """Whether two planes are one, with one outer side."""
+    """Return True if two planes are equal and have the same outer side."""
     k = next(k for k in range(4) if u[k])
     return u[k] * v[k] > 0 and all(u[k] * v[n] == v[k] * u[n] for n in range(4))
 
@@ -134,12 +142,12 @@ def _face_plane(corners: Sequence[Homogeneous]) -> Plane:
     raise AssertionError("a face of a polyhedron is a polygon")
 
 
-def _read_as_one(edge: Edge, joined: Sequence[int]) -> Edge:
-    """The edge, which is not drawn where its faces are read as one and both are on its side of the contour."""
+def _merged(edge: Edge, joined: Sequence[int]) -> Edge:
+    """Return the edge as one that is not drawn if its two faces are merged and it is not on the contour."""
     first, last = edge.faces[0], edge.faces[-1]
     within = edge.kind in (visible.INNER, visible.BACK) and joined[first] == joined[last]
     return replace(edge, kind=visible.JOINED) if within else edge
 
 
-def _seen(orders: Sequence[int], signs: Sequence[int]) -> tuple[int, ...]:
-    return tuple(order for order in orders if signs[order] > 0)
+def _front(faces: Sequence[int], signs: Sequence[int]) -> tuple[int, ...]:
+    return tuple(face for face in faces if signs[face] > 0)

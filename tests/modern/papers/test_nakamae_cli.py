@@ -69,7 +69,7 @@ def test_tables(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     )
     assert run("two.toml", "--tables") == 0
     said = capsys.readouterr().out
-    assert "V = 1, V' = 2: V = 1 is the nearer, by (4)" in said
+    assert "V = 1, V' = 2: V = 1 is nearer, by (4)" in said
     assert said.count("-4") == 2
     assert "2: 1-2 (contour), order 1\n  behind 1: -1 at 1/6\n" in said
     assert "<svg" not in said
@@ -85,11 +85,14 @@ def test_tables(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
         (("cube.off", "--eye", "1,2"), "the direction of view: expected 3 numbers X,Y,Z, found 2"),
         (("cube.off", "--perspective"), "--perspective needs the observation point, --eye X,Y,Z"),
         (("cube.off", "--perspective", "--eye", "0.5,0.5,0.5"), "the observation point is the point looked at"),
-        (("cube.off", "--perspective", "--eye", "0.5,0.5,0.6"), "cube.off: not wholly before the observation point"),
+        (
+            ("cube.off", "--perspective", "--eye", "0.5,0.5,0.6"),
+            "cube.off: not entirely in front of the observation point",
+        ),
         (("cube.off", "--towards", "1,2,3"), "--towards is for a perspective"),
         (("cube.off", "--without", "all"), "'all' is not one of enclosed, touching, ends, ghosts"),
         (("cube.off", "--width", "5"), "a picture cannot be 5 pixels wide"),
-        (("flat.csv",), "flat.csv: a segment is no polyhedron"),
+        (("flat.csv",), "flat.csv: a segment is not a polyhedron"),
     ],
 )
 def test_refusals(folder: Path, arguments: tuple[str, ...], message: str, capsys: pytest.CaptureFixture[str]) -> None:

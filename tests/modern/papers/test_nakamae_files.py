@@ -69,7 +69,7 @@ def test_a_scene_of_three_files_from_another_folder(folder: Path, capsys: pytest
     assert notes[0].startswith("note: scenes/three.toml: part 1 (dodecahedron): d.off: 36 faces are joined into 12")
     assert notes[1:] == [
         "note: scenes/three.toml: part 2: parts/boxes.stl: 2 connected components",
-        "note: scenes/three.toml: part 3 (ell): ell.obj: not convex, its hull is taken",
+        "note: scenes/three.toml: part 3 (ell): ell.obj: not convex, replaced by its hull",
     ]
     assert len(list(ElementTree.parse("a.svg").iter())) > 40
 
@@ -79,22 +79,26 @@ def test_a_scene_of_three_files_from_another_folder(folder: Path, capsys: pytest
     [
         ('"d.off"', '"none.off"', "part 1 (dodecahedron): file: none.off: no such file or directory"),
         ('"d.off"', '""', "part 1 (dodecahedron): file: a file without a name cannot be read"),
-        ('"d.off"', "3", "part 1: file: a text is due"),
-        ('"d.off"', '"three.toml"', "part 1 (dodecahedron): file: three.toml: there are no faces, only points"),
+        ('"d.off"', "3", "part 1: file: expected a string"),
+        ('"d.off"', '"three.toml"', "part 1 (dodecahedron): file: three.toml: expected faces, found only points"),
         ("coplanar_within = 1e-9\n", "", "part 1 (dodecahedron): file: d.off: face 1 is not plane, by "),
         ("1e-9", "-1", "must be >= 0, not -1"),
         ("1e-9", "7", "part 1 (dodecahedron): file: d.off: all points lie within 7 of the plane"),
         ("hull = true\n", "", "part 3 (ell): file: ell.obj: not convex: between faces 5 and 6"),
-        ("hull = true\n", "hull = 1\n", "part 3: hull: true or false is due"),
-        ("scale = 0.5", "scale = 0", "part 3: scale: a size is a number greater than 0"),
+        ("hull = true\n", "hull = 1\n", "part 3: hull: expected true or false"),
+        ("scale = 0.5", "scale = 0", "part 3: scale: expected a number greater than 0"),
         ('"ell"\n', '"ell"\nshape = "cuboid"\n', "part 3: file: a part has a shape or a file, not both"),
-        ("step = [0, 4, 0]\n", "figures = [[[0, 0, 0]]]\nstep = [0, 4, 0]\n", "figures: the file holds 2 connected"),
+        (
+            "step = [0, 4, 0]\n",
+            "figures = [[[0, 0, 0]]]\nstep = [0, 4, 0]\n",
+            "figures: figures need one connected component",
+        ),
         (
             "count = [1, 2, 1]",
             "count = [1, 10001, 1]",
-            "part 2: count: copies are 1 or more along each axis, and 20,000",
+            "part 2: count: expected at least 1 copy along each axis and at most 20,000",
         ),
-        ("at = [4, 0, 0]\n", "hul = true\n", "part 2: 'hul' is no field of this place"),
+        ("at = [4, 0, 0]\n", "hul = true\n", "part 2: 'hul' is not a field of this table"),
     ],
 )
 def test_what_is_wrong_with_a_part_is_one_line(
@@ -114,7 +118,7 @@ def test_the_command_on_files_of_faces(folder: Path, capsys: pytest.CaptureFixtu
     assert len(list(ElementTree.fromstring(out).iter("{http://www.w3.org/2000/svg}line"))) == 18
     code, _, err = call(capsys, "hidden-line", "scenes/ell.obj", "-o", "a.svg")
     assert code == 2
-    assert "take its hull (--hull), or, where that is rounding, read faces within a distance as one (--coplanar" in err
+    assert "take its hull (--hull), or, if the cause is rounding, merge faces within a distance (--coplanar" in err
     assert call(capsys, "hidden-line", "scenes/ell.obj", "--hull", "-o", "a.svg")[0] == 0
     code, _, err = call(capsys, "hidden-line", "scenes/d.off", "--coplanar-within", "1e-9", "-o", "a.svg")
     assert (code, err.count("36 faces are joined into 12")) == (0, 1)

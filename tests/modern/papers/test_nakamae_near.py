@@ -11,7 +11,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from modern.exact_hull import exact_hull
-from modern.papers.nakamae_nishita.clipping import Kept, beyond_near
+from modern.papers.nakamae_nishita.clipping import Clipped, beyond_near
 from modern.papers.nakamae_nishita.hidden import draw
 from modern.papers.nakamae_nishita.picture import as_svg
 from modern.papers.nakamae_nishita.polyhedron import Figure, Polyhedron, SceneError, checked
@@ -35,7 +35,7 @@ def box(low, high, name: str = "box") -> Polyhedron:
     return placed(cuboid(name, *size), moved(vector(*low)), name)
 
 
-def clip(polyhedron: Polyhedron, near: Fraction | int | str) -> Kept:
+def clip(polyhedron: Polyhedron, near: Fraction | int | str) -> Clipped:
     return beyond_near([polyhedron], looking(near))
 
 
@@ -102,12 +102,12 @@ def test_the_distance_is_measured_along_the_direction_of_view() -> None:
 
 def test_what_the_plane_only_touches_is_whole_or_gone() -> None:
     solid = box((0, 0, 0), (2, 2, 2))
-    assert clip(solid, 10) == Kept((solid,))
+    assert clip(solid, 10) == Clipped((solid,))
     with pytest.raises(SceneError, match=r"^everything lies behind the near plane$"):
         clip(solid, 12)
     kept = beyond_near([solid, box((5, 5, 5), (6, 6, 6), "far")], looking(12))
     assert ([p.name for p in kept.polyhedra], kept.cut, kept.behind) == (["far"], (), ("box",))
-    assert beyond_near([solid], parallel((0, -1, 0))) == Kept((solid,))
+    assert beyond_near([solid], parallel((0, -1, 0))) == Clipped((solid,))
 
 
 def test_plates_figures_and_faces_read_as_one_are_cut_too() -> None:
@@ -167,7 +167,7 @@ def test_a_scene_with_a_near_plane(tmp_path: Path, monkeypatch: pytest.MonkeyPat
 @pytest.mark.parametrize(
     ("old", "new", "arguments", "message"),
     [
-        ("near = 8", "near = 0", (), "s.toml: view: near: the near plane is at a distance greater than 0"),
+        ("near = 8", "near = 0", (), "s.toml: view: near: expected a distance greater than 0"),
         ('projection = "perspective"\n', "", (), "towards: a parallel projection has a direction only, eye"),
         ('projection = "perspective"\neye', "eye", ("--towards", "1,2,3"), "towards: a parallel projection"),
         ("near = 8", "near = 99", (), "everything lies behind the near plane"),
@@ -189,7 +189,9 @@ def test_a_parallel_projection_has_no_near_plane_and_without_one_the_remedy_is_n
         parse("[view]\nnear = 1\n[[part]]\nshape = 'cuboid'\nsize = [1, 1, 1]", "s")
     code, _, err = call(capsys, "hidden-line", "house", "--near", "2")
     assert (code, err) == (2, "hull1620: --near is for a perspective; a parallel projection has a direction only\n")
-    with pytest.raises(SceneError, match=r"^box: not wholly before the observation point; a near plane cuts it$"):
+    with pytest.raises(
+        SceneError, match=r"^box: not entirely in front of the observation point; a near plane can clip it$"
+    ):
         draw([box((-1, -11, -1), (1, 1, 1))], perspective(EYE, vector(0, 0, 0)))
 
 
