@@ -1,4 +1,4 @@
-"""The site and a browser, shared by the tests of this folder."""
+"""Fixtures of this folder: the site, built once for all workers, and one browser for each worker."""
 
 from __future__ import annotations
 
@@ -16,24 +16,24 @@ if TYPE_CHECKING:
 
 @pytest.fixture(scope="session")
 def shared(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Path:
-    """A folder that all workers of a run share."""
+    """Return a folder that all workers of the test session share."""
     base = tmp_path_factory.getbasetemp()
     return base if worker_id == "master" else base.parent
 
 
 @pytest.fixture(scope="session")
 def site(shared: Path) -> Path:
-    """The site, built once."""
-    pytest.importorskip("sphinx", reason="the site is built by Sphinx (extra edition)")
+    """Return the site, which is built once."""
+    pytest.importorskip("sphinx", reason="Sphinx builds the site (extra edition)")
     return editions.built(shared)
 
 
 @pytest.fixture(scope="session")
 def chromium() -> Iterator[Browser]:
-    """A Chromium without a window."""
+    """Start a headless Chromium."""
     if not editions.CHROMIUM:
-        pytest.skip("there is no chromium (Debian: apt install chromium)")
-    pytest.importorskip("playwright", reason="the browser is driven by playwright (extra test)")
+        pytest.skip("chromium is missing (Debian: apt install chromium)")
+    pytest.importorskip("playwright", reason="playwright controls the browser (extra test)")
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as play:
