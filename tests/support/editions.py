@@ -87,9 +87,7 @@ def pages(site: Path) -> dict[str, Page]:
     return by_name
 
 
-_SIMILAR = re.compile(
-    r"(program1|program1_examples|program3|chart1|chart1_examples|chart3|example[1-5]).html|statements/[^kt]"
-)
+_SIMILAR = re.compile(r"((program|chart)(1|1_examples|3)|example[13-5])\.html|statements/[^kt]")
 """Pages that one generator makes from the same code and template as a page that is not listed here."""
 
 

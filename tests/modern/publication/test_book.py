@@ -1,4 +1,4 @@
-"""The book: words stay words, links lead somewhere, and every card, row and statement stands in it once."""
+"""The book: text is never interpreted as markup, references resolve, and every card, row and statement occurs once."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ def unescaped(written: str) -> str:
 
 @given(st.text(st.characters(exclude_characters="\t[]", exclude_categories=["Cs"]), max_size=40))
 @settings(deadline=None)
-def test_words_come_through_as_they_are(words: str) -> None:
+def test_text_is_preserved(words: str) -> None:
     assert unescaped(string(words)) == words
 
 
-def test_no_character_is_taken_for_markup(tmp_path: Path) -> None:
+def test_no_character_is_interpreted_as_markup(tmp_path: Path) -> None:
     words = '= #let x = 1 ; *a* _b_ `c` $d$ <e> @f [g] // h \\ i "j" - k + l / m ~ 1. n'
     (tmp_path / "b.typ").write_text(f"{say(words)}\n#metadata({string(words)}) <it>\n")
     (found,) = json.loads(compiler.query(str(tmp_path / "b.typ"), "<it>"))
@@ -42,7 +42,7 @@ def test_no_character_is_taken_for_markup(tmp_path: Path) -> None:
 
 @given(st.text(max_size=20), st.text(max_size=20))
 @settings(deadline=None)
-def test_labels_tell_words_apart(one: str, other: str) -> None:
+def test_different_texts_have_different_labels(one: str, other: str) -> None:
     assert re.fullmatch(r"[A-Za-z0-9.-]*", label(one))
     if one.replace(" ", "-").replace("_", "-") != other.replace(" ", "-").replace("_", "-"):
         assert label(one) != label(other)
@@ -52,7 +52,7 @@ def typst(text: str, name: str = "how-to/x.md", known: tuple[str, ...] = ()) -> 
     return Markdown(name, known, 2, lambda file: "").typst(text)
 
 
-def test_markdown_becomes_typst() -> None:
+def test_markdown_is_translated_to_typst() -> None:
     found = typst("# A *b*\n\nSee `c` and [d](../e.md#f).\n\n- one\n- two\n\n| x | y |\n|---|---|\n| 1 | 2 |\n")
     title, words, items, table_ = [part for part in found.split("\n\n") if part]
     assert title == f'#[] <{label("how-to/x.md")}>\n== #"A b"; <{label("how-to/x.md", "a-b")}>'
@@ -67,13 +67,13 @@ def test_the_title_of_a_table_stays_with_it() -> None:
         assert "sticky" not in typst(other)
 
 
-def test_a_link_within_the_book_has_its_page() -> None:
+def test_a_link_within_the_book_is_a_reference() -> None:
     known = (label("e.md", "f"), label("e.md"))
     assert f"#to(<{label('e.md', 'f')}>)" in typst("See [d](../e.md#f).", known=known)
     assert f"#to(<{label('e.md')}>)" in typst("See [d](../e.md#gone).", known=known)
 
 
-def test_a_role_is_a_reference_or_its_words() -> None:
+def test_a_role_is_a_reference_or_plain_text() -> None:
     known = (label("card", "program3", "147+2"),)
     assert f"#to(<{known[0]}>)" in typst("At {card}`program3 147+2` it stands.", known=known)
     found = typst("At {card}`program3 9+9` it stands.", known=known)
@@ -106,14 +106,14 @@ def test_a_wide_table_breaks_its_widest_column_or_is_set_smaller() -> None:
     assert "#tabular(8.5pt" in table("ab", ["xy"], (60, 60)), "a sentence is broken"
 
 
-def test_pictures_have_the_fonts_of_the_book() -> None:
+def test_pictures_use_the_fonts_of_the_book() -> None:
     text = '<text font-family="Helvetica, Arial, sans-serif">a</text>'
     svg = f'<svg><a href="x">{text}</a><style>.m{{font-family:monospace}}</style></svg>'
     serif = '<text font-family="Libertinus Serif">a</text>'
     assert fitted(svg) == f"<svg>{serif}<style>.m{{font-family:'DejaVu Sans Mono'}}</style></svg>"
 
 
-def test_every_card_and_row_of_the_listings_stands_once() -> None:
+def test_every_card_and_row_of_the_listings_occurs_once() -> None:
     found = "".join(listings())
     for name in programs.NAMES:
         for card in facing(name).cards:
@@ -125,14 +125,14 @@ def test_every_card_and_row_of_the_listings_stands_once() -> None:
     assert missing == []
 
 
-def test_every_statement_stands_once() -> None:
+def test_every_statement_occurs_once() -> None:
     found = "".join(statements())
     for name in DOCUMENTS:
         for row in statements_of(name):
             assert found.count(f"<{label('row', row.id)}>") == 1
 
 
-def test_every_document_of_a_chapter_is_there() -> None:
+def test_every_document_of_a_chapter_exists() -> None:
     for _, chapter in book.CHAPTERS:
         for name in chapter:
             assert name.startswith("@") or (book.DOCS / name).is_file()
@@ -144,7 +144,7 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> tuple[str, Path]:
     return book.typst(folder), folder
 
 
-def test_every_reference_of_the_book_leads_somewhere(whole: tuple[str, Path]) -> None:
+def test_every_reference_of_the_book_resolves(whole: tuple[str, Path]) -> None:
     text, folder = whole
     made = re.findall(r" <([\w.-]+)>", text)
     assert len(made) == len(set(made)), sorted({one for one in made if made.count(one) > 1})[:5]
@@ -166,7 +166,7 @@ def test_the_book_is_pdf_a(tmp_path: Path, whole: tuple[str, Path]) -> None:
     assert b"<pdfaid:conformance>A</pdfaid:conformance>" in made
 
 
-def test_without_typst_it_says_what_to_install(
+def test_without_typst_the_message_names_the_package(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     import sys
@@ -177,6 +177,6 @@ def test_without_typst_it_says_what_to_install(
     assert not (tmp_path / "x.pdf").exists()
 
 
-def test_a_document_knows_its_places() -> None:
+def test_places_returns_the_labels_of_a_document() -> None:
     found = places("x.md", "# A\n\n## B c\n\n## B c\n\nTerm\n: words\n")
     assert set(found) >= {label("x.md"), label("x.md", "a"), label("x.md", "b-c"), label("x.md", "b-c-1")}

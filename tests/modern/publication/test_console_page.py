@@ -64,8 +64,6 @@ def served(site: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str
         if entry.name != "console":
             (folder / entry.name).symlink_to(entry)
     assert install_machine(folder / "console", packed(room)) > 0
-        "bytes to load, the largest file compressed"
-    )
     server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Quiet, directory=str(folder)))
     threading.Thread(target=server.serve_forever, daemon=True).start()
     yield f"http://127.0.0.1:{server.server_port}"
@@ -223,7 +221,7 @@ def test_an_endless_loop_can_be_stopped(tab: Page) -> None:
 def test_console_commands_are_answered(tab: Page) -> None:
     assert load(tab, Pair("x", "program1", "example1"))
     stands(tab)
-    for words, answer in (("BREAK 131", "BREAK 131"), ("SWITCH", "1 OFF, 2 OFF"), ("NONSENSE", "is none of")):
+    for words, answer in (("BREAK 131", "BREAK 131"), ("SWITCH", "1 OFF, 2 OFF"), ("NONSENSE", "is not a command")):
         tab.fill("#desk-line", words)
         tab.press("#desk-line", "Enter")
         tab.wait_for_function("w => document.getElementById('desk-paper').textContent.includes(w)", arg=answer)
@@ -289,7 +287,7 @@ def test_the_comparison_in_the_page_equals_that_in_python(chromium: Browser, ser
 def test_a_point_can_be_dragged(chromium: Browser, served: str) -> None:
     page = chromium.new_page()
     page.goto(f"{served}/parting.html")
-    page.select_option("#parting-sets", "seven points in a plane, to be dragged")
+    page.select_option("#parting-sets", "seven points in a plane that can be dragged")
     before = page.input_value("#parting-points")
     box = page.locator("[data-n='0']").bounding_box()
     assert box is not None

@@ -1,4 +1,4 @@
-"""The deposit: a bag that each standard's own package finds valid, the same bytes twice, and a change noticed."""
+"""The deposit is valid for the packages of each standard, reproducible, and detects changes."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
     return write(tmp_path_factory.mktemp("deposit"), parts())
 
 
-def test_bagit_finds_it_valid_and_a_changed_byte_not(tmp_path: Path) -> None:
+def test_bagit_accepts_the_bag_and_detects_a_changed_byte(tmp_path: Path) -> None:
     bag, _ = write(tmp_path, parts())
     assert bagit.Bag(str(bag)).validate()
     (bag / "data" / "book" / "hull1620.pdf").write_bytes(b"%PDG")
@@ -53,7 +53,7 @@ def test_bagit_finds_it_valid_and_a_changed_byte_not(tmp_path: Path) -> None:
         bagit.Bag(str(bag)).validate()
 
 
-def test_the_crate_loads_and_everything_it_names_is_there(made: tuple[Path, Path]) -> None:
+def test_the_crate_loads_and_names_existing_files(made: tuple[Path, Path]) -> None:
     from rocrate.rocrate import ROCrate
 
     data = made[0] / "data"
@@ -64,7 +64,7 @@ def test_the_crate_loads_and_everything_it_names_is_there(made: tuple[Path, Path
     assert all((data / name).exists() for name in named)
 
 
-def test_frictionless_finds_the_tables_as_they_are_described(made: tuple[Path, Path]) -> None:
+def test_frictionless_accepts_the_tables_and_detects_a_wrong_type(made: tuple[Path, Path]) -> None:
     frictionless = pytest.importorskip("frictionless", reason="tables are checked by frictionless")
     data = made[0] / "data"
     report = frictionless.Package(str(data / "datapackage.json")).validate()
@@ -79,19 +79,19 @@ def test_frictionless_finds_the_tables_as_they_are_described(made: tuple[Path, P
         table.write_text(before)
 
 
-def test_two_columns_of_one_name_are_refused() -> None:
+def test_duplicate_column_names_are_rejected() -> None:
     with pytest.raises(ValueError, match=r"^a/b\.csv: two columns are called found$"):
         data_package(described(), {"a/b.csv": "n,found,found\n1,2,3\n"})
 
 
-def test_a_column_is_what_all_its_cells_are() -> None:
+def test_the_type_of_a_column_fits_all_its_cells() -> None:
     about = described()
     made = json.loads(data_package(about, {name: data.decode() for name, data in TABLES.items()}))
     fields = {field["name"]: field["type"] for each in made["resources"] for field in each["schema"]["fields"]}
     assert fields == {"kind": "string", "count": "integer", "share": "number", "card": "integer", "words": "string"}
 
 
-def test_all_descriptions_say_the_same(made: tuple[Path, Path]) -> None:
+def test_all_descriptions_agree(made: tuple[Path, Path]) -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     data = made[0] / "data"
     code = json.loads((data / "codemeta.json").read_text(encoding="utf-8"))
@@ -106,7 +106,7 @@ def test_all_descriptions_say_the_same(made: tuple[Path, Path]) -> None:
     assert len(root["citation"]) == 5
 
 
-def test_a_citation_of_another_version_is_refused() -> None:
+def test_a_citation_of_another_version_is_rejected() -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     with pytest.raises(ValueError, match=r"CITATION\.cff has version 0\.1\.0, pyproject\.toml 9"):
         work(citation(), project | {"version": "9"}, ())
@@ -120,7 +120,7 @@ def test_codemeta_uses_terms_of_its_context() -> None:
     assert set(json.loads(codemeta(described()))) == known
 
 
-def test_two_deposits_are_the_same_bytes(tmp_path: Path, made: tuple[Path, Path]) -> None:
+def test_two_deposits_are_identical(tmp_path: Path, made: tuple[Path, Path]) -> None:
     again = write(tmp_path, parts())
     assert again[1].read_bytes() == made[1].read_bytes()
     first, second = (
@@ -135,7 +135,7 @@ def test_two_deposits_are_the_same_bytes(tmp_path: Path, made: tuple[Path, Path]
     assert modes["source/README.md"] == 0o644
 
 
-def test_an_identifier_is_that_of_gits_tree(tmp_path: Path) -> None:
+def test_the_identifier_is_the_hash_of_the_git_tree(tmp_path: Path) -> None:
     files = {"b/x": b"1\n", "a": b"2\n", "b.c": b"3\n", "b/y/z": b"4\n"}
     for name, data in files.items():
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
@@ -150,14 +150,14 @@ def test_an_identifier_is_that_of_gits_tree(tmp_path: Path) -> None:
     assert swhid(files, set()) != f"swh:1:dir:{tree}"
 
 
-def test_without_git_what_is_made_is_left_out(tmp_path: Path) -> None:
+def test_without_git_build_results_are_omitted(tmp_path: Path) -> None:
     for name in ("README.md", "dist/x", "build/y", "emulator/__pycache__/z.pyc", "emulator/a.py", ".venv/b"):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text("x")
     assert source_files(tmp_path) == ("README.md", "emulator/a.py")
 
 
-def test_the_readme_names_what_is_needed(made: tuple[Path, Path]) -> None:
+def test_the_readme_names_the_required_packages(made: tuple[Path, Path]) -> None:
     text = (made[0] / "data" / "README.txt").read_text(encoding="utf-8")
     for words in (
         "lark==",
@@ -172,7 +172,7 @@ def test_the_readme_names_what_is_needed(made: tuple[Path, Path]) -> None:
     assert not re.search(r"\brows/", text), "what is not in the bag is not spoken of"
 
 
-def test_what_is_missing_or_in_the_way_is_said_in_a_line(
+def test_missing_parts_and_foreign_folders_are_reported_in_one_line(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with pytest.raises(BuildError, match=r"hull1620\.whl: no such file; make wheel builds it"):

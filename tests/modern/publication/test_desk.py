@@ -1,4 +1,4 @@
-"""The desk behind the console's page: the same cards, lines and messages as the command, in slices, and no numpy."""
+"""The desk behind the emulator page gives the same cards, lines and messages as the command."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from tests.support.paths import ROOT
 
 
 @pytest.mark.parametrize("pair", PAIRS, ids=[pair.name for pair in PAIRS])
-def test_cards_lines_and_messages_are_those_of_the_command(
+def test_cards_lines_and_messages_equal_those_of_the_command(
     pair: Pair, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -31,12 +31,7 @@ def test_cards_lines_and_messages_are_those_of_the_command(
     assert desk.messages == err.splitlines()
 
 
-def test_there_are_twenty() -> None:
-    assert len(PAIRS) >= 20
-    assert {"game", "endless", "bad card", "bad source", "pause"} <= {pair.shows for pair in PAIRS}
-
-
-def test_a_loop_is_stopped_in_a_slice() -> None:
+def test_an_endless_loop_stops_within_a_slice() -> None:
     desk = Desk()
     assert "listing" in desk.load({"program": ["loop.f", "    1 GO TO 1\n      END\n"], "deck": ""})
     desk.run(1)
@@ -55,7 +50,7 @@ def test_a_loop_is_stopped_in_a_slice() -> None:
     )
 
 
-def test_a_pace_holds_the_machine_to_its_time() -> None:
+def test_the_pace_limits_the_speed() -> None:
     now = 0.0
 
     def clock() -> float:
@@ -71,7 +66,7 @@ def test_a_pace_holds_the_machine_to_its_time() -> None:
     assert desk.run(1000, 1000.0)["ended"]
 
 
-def test_single_statements_say_what_they_did() -> None:
+def test_single_steps_report_what_they_did() -> None:
     desk = Desk()
     desk.load({"program": ["one.f", "      I=2\n      J=I*I\n      STOP\n      END\n"], "deck": ""})
     desk.run(1)
@@ -79,7 +74,7 @@ def test_single_statements_say_what_they_did() -> None:
     assert desk.run(5)["did"] == ["I = 2"]
 
 
-def test_what_does_not_fit_the_moment_is_said() -> None:
+def test_inappropriate_commands_are_explained() -> None:
     desk = Desk()
     assert desk.act("START") == {"lines": ["nothing is running: load a program first"]}
     assert desk.run(1)["card"] == 0
@@ -102,7 +97,7 @@ def test_what_does_not_fit_the_moment_is_said() -> None:
         ({"program": ["x.f", "      DIMENSION A(9000)\n      A(1)=0.\n      END\n"], "deck": ""}, "OVERLAP"),
     ],
 )
-def test_what_cannot_be_loaded_is_refused_in_words(request_: dict[str, Any], message: str) -> None:
+def test_invalid_programs_and_decks_are_rejected_with_a_message(request_: dict[str, Any], message: str) -> None:
     desk = Desk()
     desk.load({"program": "program1", "deck": "example1"})
     refused = desk.load(request_)["refused"]
@@ -110,12 +105,12 @@ def test_what_cannot_be_loaded_is_refused_in_words(request_: dict[str, Any], mes
     assert desk.run(1)["waits"] == "answer", "the machine is as it was"
 
 
-def test_small_letters_are_read_when_asked() -> None:
+def test_lower_case_is_accepted_on_request() -> None:
     answer = Desk().load({"program": ["x.f", "      i=1\n      end\n"], "deck": "", "upcase": True})
     assert answer["listing"][0] == [1, "      I=1"]
 
 
-def test_the_log_is_one_the_command_does_again(
+def test_the_command_repeats_a_session_from_the_log(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -131,7 +126,7 @@ def test_the_log_is_one_the_command_does_again(
     assert operator_lines(again.read_text()) == operator_lines(desk.log())
 
 
-def test_nothing_is_imported_that_a_page_has_not() -> None:
+def test_the_module_imports_only_what_the_page_provides() -> None:
     own = "emulator modern hull1620 fortran_src transcripts lark mpmath __main__".split()
     code = f"""
 import sys

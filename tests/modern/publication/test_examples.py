@@ -1,4 +1,4 @@
-"""What the pages of the examples, statements, faults and questions are made of."""
+"""The data behind the pages of examples, statements, faults and questions."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def test_every_card_of_the_print_and_of_the_run_is_shown(number: int) -> None:
 
 
 @pytest.mark.parametrize("number", EXAMPLES)
-def test_every_line_of_the_witness_is_shown_once_with_its_words(number: int) -> None:
+def test_every_line_of_the_witness_is_shown_once_with_its_text(number: int) -> None:
     witness = {line.id: line.text for line in load_chapter().text.witness}
     for part in example(number):
         seen = [source for card in part.cards for source in card.sources]
@@ -49,7 +49,7 @@ def test_every_line_of_the_witness_is_shown_once_with_its_words(number: int) -> 
         assert bool(seen) != part.stated
 
 
-def test_what_a_row_changes_is_marked_and_nothing_else() -> None:
+def test_exactly_the_changes_of_rows_are_marked() -> None:
     card = example(1)[0].cards[1]
     (source,) = card.sources
     assert source.text == "- +.20000000E+01-.50000000E+01+.20000000E+02"
@@ -57,7 +57,7 @@ def test_what_a_row_changes_is_marked_and_nothing_else() -> None:
     assert source.at == 1823
 
 
-def test_a_row_of_chapter_6_stands_in_its_example() -> None:
+def test_a_row_of_chapter_6_is_shown_in_its_example() -> None:
     touched = {row.id for number in EXAMPLES for part in example(number) for row in part.rows}
     assert set(homes()) == touched
     others = {row.id for row in rest()}
@@ -76,12 +76,12 @@ def test_a_row_of_chapter_6_stands_in_its_example() -> None:
         ("", "x", ((0, 1),)),
     ],
 )
-def test_differing(one: str, other: str, spans: tuple[tuple[int, int], ...]) -> None:
+def test_differing_returns_the_spans_that_differ(one: str, other: str, spans: tuple[tuple[int, int], ...]) -> None:
     assert differing(one, other) == spans
 
 
 @pytest.mark.parametrize("number", EXAMPLES)
-def test_the_page_of_an_example_nests(number: int) -> None:
+def test_the_html_of_an_example_is_well_formed(number: int) -> None:
     made = make("example", str(number))
     for part in made.parts:
         parsed(part.html)
@@ -91,7 +91,7 @@ def test_the_page_of_an_example_nests(number: int) -> None:
 
 
 @pytest.mark.parametrize("name", DOCUMENTS)
-def test_every_statement_stands_on_its_page_with_its_verdict(name: str) -> None:
+def test_every_statement_is_on_its_page_with_its_verdict(name: str) -> None:
     made = make("statements", name)
     html = "".join(part.html for part in made.parts)
     parsed(html)
@@ -104,7 +104,7 @@ def test_every_statement_stands_on_its_page_with_its_verdict(name: str) -> None:
 
 
 @pytest.mark.parametrize("file", FILES)
-def test_items_are_counted_and_whole(file: str) -> None:
+def test_numbered_items_are_complete(file: str) -> None:
     opening, items, closing = numbered(file)
     source = read(file)
     assert opening
@@ -129,7 +129,7 @@ def test_a_fault_shows_its_deck() -> None:
             assert read(f"fortran_src/grounds/{deck}.deck").splitlines()[1] in html
 
 
-def test_items_out_of_order_are_refused(tmp_path: object, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_items_out_of_order_are_rejected(tmp_path: object, monkeypatch: pytest.MonkeyPatch) -> None:
     from pathlib import Path
 
     from modern.publication import numbered as module
@@ -141,7 +141,7 @@ def test_items_out_of_order_are_refused(tmp_path: object, monkeypatch: pytest.Mo
         numbered("x.md")
 
 
-def test_the_set_that_goes_wrong_names_its_card() -> None:
+def test_the_page_of_the_wrong_hull_names_the_card() -> None:
     made = make("wrong", "")
     html = "".join(part.html for part in made.parts)
     parsed(html)
@@ -149,7 +149,7 @@ def test_the_set_that_goes_wrong_names_its_card() -> None:
     assert re.search(r'href="@/program3\.html#\S+">program 3, ', html)
 
 
-def test_every_document_and_witness_is_a_source() -> None:
+def test_every_document_and_witness_is_listed_as_a_source() -> None:
     html = "".join(part.html for part in make("texts", "sources").parts)
     parsed(html)
     for name in ("program1.txt", "chapter6/witness.txt", "butler-1963"):

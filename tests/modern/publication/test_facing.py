@@ -1,4 +1,4 @@
-"""The facing text: the deck is on it whole, every line of the witness and every row once, and places that hold."""
+"""The facing text: complete decks, every line of the witness and every row once, and permanent places."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def shown(card: Card) -> list[str]:
 
 
 @pytest.mark.parametrize("name", programs.NAMES)
-def test_the_cards_are_the_committed_deck(name: str) -> None:
+def test_the_cards_equal_the_committed_deck(name: str) -> None:
     text = "".join(each.text + "\n" for each in facing(name).cards)
     committed = programs.sources().joinpath(f"{name}.f").read_bytes()
     assert hashlib.sha256(text.encode()).digest() == hashlib.sha256(committed).digest()
@@ -32,7 +32,7 @@ def test_the_cards_are_the_committed_deck(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", programs.NAMES)
-def test_places_are_different_and_count_from_the_number_before(name: str) -> None:
+def test_places_are_unique_and_counted_from_the_preceding_number(name: str) -> None:
     cards = facing(name).cards
     assert len({each.place for each in cards}) == len(cards)
     last, steps = 0, 0
@@ -52,7 +52,7 @@ def test_places_of_program_3() -> None:
 
 
 @pytest.mark.parametrize("name", programs.NAMES)
-def test_a_count_may_go_on_past_the_next_number(name: str) -> None:
+def test_counting_may_continue_past_the_next_number(name: str) -> None:
     cards = [each for each in facing(name).cards if each.kind not in ("comment", "title")]
     first = {each.label: at for at, each in enumerate(cards) if each.label}
     names = [each.place for each in cards] + [also for each in cards for also in each.also]
@@ -63,7 +63,7 @@ def test_a_count_may_go_on_past_the_next_number(name: str) -> None:
             assert first[int(label)] + int(steps) == at
 
 
-def test_147_and_two_cards_of_program_3() -> None:
+def test_147_plus_2_is_two_cards_after_147() -> None:
     assert [each.place for each in facing("program3").cards if "147+2" in (each.place, *each.also)] == ["148+1"]
 
 
@@ -85,7 +85,7 @@ def test_every_line_of_the_witness_is_shown_once(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", programs.NAMES)
-def test_unmarked_characters_are_the_same_on_both_sides(name: str) -> None:
+def test_unmarked_characters_are_equal_on_both_sides(name: str) -> None:
     for each in facing(name).cards:
         if not each.witness:
             assert each.changed == ((0, len(each.text)),)
@@ -121,7 +121,7 @@ def test_changed_characters(program: str, place: str, witness: list[str], deck: 
     assert [found.text[a:b] for a, b in found.changed] == deck
 
 
-def test_a_line_of_many_cards_is_cut_where_they_begin() -> None:
+def test_a_line_with_several_cards_is_divided_at_their_starts() -> None:
     parts = [
         (each.place, piece.text.strip())
         for each in facing("program1").cards
@@ -133,13 +133,13 @@ def test_a_line_of_many_cards_is_cut_where_they_begin() -> None:
     assert parts[-1] == ("133+2", "NUMB1=NUMB1+2")
 
 
-def test_a_card_of_ours_has_no_witness() -> None:
+def test_an_inserted_card_has_no_witness() -> None:
     assert card("program1", "131+1").witness == ()
     assert card("program1", "131+1").rows == ("P1-039",)
 
 
 @pytest.mark.parametrize("name", programs.NAMES)
-def test_what_stands_otherwise_with_a_layer_gives_the_deck_of_that_layer(name: str) -> None:
+def test_variants_of_a_layer_give_the_deck_of_that_layer(name: str) -> None:
     found = facing(name)
     base = programs.built_in(name).layers
     for layer in {other.layer for each in found.cards for other in each.variants}:

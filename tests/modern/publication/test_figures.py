@@ -1,4 +1,4 @@
-"""Figures by name: each is there, from the committed results; what the article quotes is never typed."""
+"""Figures by name: all exist in the committed results, and the article quotes no result as a number."""
 
 from __future__ import annotations
 
@@ -22,21 +22,21 @@ def values() -> dict[str, str]:
 
 
 @pytest.mark.parametrize("name", CELLS)
-def test_a_cell_is_there(name: str) -> None:
+def test_every_cell_exists(name: str) -> None:
     assert read_cell(DOCS, CELLS[name])
 
 
 @pytest.mark.parametrize("page", documents.PAGES, ids=lambda path: path.relative_to(DOCS).as_posix())
-def test_every_figure_a_page_names_is_there(page: Path, values: dict[str, str]) -> None:
+def test_every_figure_named_on_a_page_exists(page: Path, values: dict[str, str]) -> None:
     assert [name for name in named(page.read_text(encoding="utf-8")) if name not in (*values, *MADE)] == []
 
 
-def test_every_cell_is_quoted() -> None:
+def test_every_cell_is_quoted_on_a_page() -> None:
     quoted = {name for page in documents.PAGES for name in named(page.read_text(encoding="utf-8"))}
     assert sorted(set(CELLS) - quoted) == []
 
 
-def test_figures_are_those_of_other_reports(values: dict[str, str]) -> None:
+def test_figures_agree_with_other_reports(values: dict[str, str]) -> None:
     report = (DOCS / "weight" / "report.md").read_text(encoding="utf-8")
     assert f"no check detects {values['weight.silent']} ({values['weight.silent-share']})" in report
     assert f"{values['weight.variants']} of {values['weight.variants']} variants were judged" in report
@@ -49,7 +49,7 @@ def test_figures_are_those_of_other_reports(values: dict[str, str]) -> None:
     assert (values["seventy.sets"], values["capacity.listed"]) == ("140,000", "98")
 
 
-def test_no_digit_of_a_result_is_typed_in_the_article() -> None:
+def test_the_article_quotes_results_by_name_only() -> None:
     text = (DOCS / "article.md").read_text(encoding="utf-8")
     assert typed(text) == []
     assert len(named(text)) > 30
@@ -87,22 +87,22 @@ def typed(text: str) -> list[str]:
         ("`program3 147` and [x](a.md#1)", []),
     ],
 )
-def test_a_typed_digit_is_found(text: str, found: list[str]) -> None:
+def test_a_typed_result_is_detected(text: str, found: list[str]) -> None:
     assert typed(text) == found
 
 
-def test_figures_are_put_in_where_they_are_named() -> None:
+def test_names_are_replaced_by_figures() -> None:
     assert filled("a {{ x.y-z }} b {{n}} {no} {{ X }}", {"x.y-z": "1 %", "n": "2"}) == "a 1 % b 2 {no} {{ X }}"
     assert named("{{ b }} {{ a.c }} {{ b }}") == ("b", "a.c", "b")
 
 
-def test_a_name_without_a_figure_is_refused() -> None:
+def test_an_unknown_name_is_rejected() -> None:
     with pytest.raises(FigureError, match=r"unknown figure 'seventy\.mean'"):
         filled("{{ seventy.mean }}", {"seventy.sets": "1"})
 
 
 @pytest.mark.parametrize("row", [("a",), ("c",), ("b", "2")])
-def test_a_cell_there_is_not_or_twice_is_refused(row: tuple[str, ...], tmp_path: Path) -> None:
+def test_a_missing_or_ambiguous_cell_is_rejected(row: tuple[str, ...], tmp_path: Path) -> None:
     (tmp_path / "t.csv").write_text("x,y,z\na,1,2\na,2,3\nb,1,5\n", encoding="utf-8")
     assert read_cell(tmp_path, Cell("t.csv", ("a", "2"), "z")) == "3"
     with pytest.raises(FigureError, match=r"t\.csv"):

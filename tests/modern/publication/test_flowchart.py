@@ -1,4 +1,4 @@
-"""Flow charts: every way of the compiled program once, on a page where no line runs through anything."""
+"""Flow charts: every transition of the compiled program is drawn once, and no line crosses a box."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ LOOP = ("DO 10 I=1,3", "10 CONTINUE", "20 GO TO 20", "END")
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_every_way_of_a_listing_is_drawn_once_and_clear_of_all_else(name: str) -> None:
+def test_every_transition_of_a_listing_is_drawn_once_without_collisions(name: str) -> None:
     compiled = built_in(name)
     found = flow(compiled)
     drawn = drawn_ways(found)
@@ -39,7 +39,7 @@ def test_every_way_of_a_listing_is_drawn_once_and_clear_of_all_else(name: str) -
 @settings(max_examples=50, deadline=None)
 @given(programs())
 @example(["DIMENSION X(3)", "READ 9,(X(K),K=1,3),(X(K),K=1,3)", "9 FORMAT(F4.1)", "END"])
-def test_random_programs(cards: list[str]) -> None:
+def test_charts_of_random_programs_have_no_collisions(cards: list[str]) -> None:
     try:
         compiled, _ = translate(source(*cards))
     except EmulatorError:
@@ -92,7 +92,7 @@ def test_boxes_of_a_small_program() -> None:
     ]
 
 
-def test_a_go_to_without_a_number_is_a_line_and_one_with_a_number_a_step() -> None:
+def test_a_go_to_is_a_line_without_a_number_and_a_step_with_one() -> None:
     found = flow(program("1 A=1.", "GO TO 3", "2 GO TO 1", "3 IF(A)1,2,2", "END"))
     assert [(box.kind, box.name, box.cards) for box in found.boxes] == [
         ("processing", "1", (1, 2)),
@@ -125,7 +125,7 @@ def _shifted(drawn: Chart, x: int) -> Chart:
     return replace(drawn, pages=(replace(page, paths=paths), *drawn.pages[1:]))
 
 
-def test_the_guards_see_a_bad_chart() -> None:
+def test_the_collision_checks_detect_a_bad_chart() -> None:
     drawn = chart(
         flow(program("1 A=1.", "IF(A)1,2,3", "2 A=2.", "B=1.", "3 IF(A)4,1,5", "4 STOP", "5 A=1.", "GO TO 2", "END"))
     )
@@ -161,13 +161,13 @@ def test_the_picture_is_xml_with_every_statement_as_text() -> None:
     assert len(root.findall(f"{SVG}g")) == len(drawn.pages)
 
 
-def test_a_box_links_where_the_caller_says() -> None:
+def test_a_box_links_to_the_address_of_the_caller() -> None:
     drawn = chart(flow(program(*LOOP)))
     root = ET.fromstring(chart_svg(drawn, link=lambda box: f"x.html#{box.name}" if box.label else ""))
     assert [a.get("href") for a in root.iter(f"{SVG}a")] == ["x.html#10", "x.html#20"]
 
 
-def test_pages_one_by_one_are_the_whole() -> None:
+def test_single_pages_add_up_to_the_whole_chart() -> None:
     drawn = chart(flow(built_in("program1")))
     one = [chart_svg(drawn, k) for k in range(1, len(drawn.pages) + 1)]
     heights = [int(ET.fromstring(text).get("height", "0")) for text in one]

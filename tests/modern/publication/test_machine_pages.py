@@ -1,4 +1,4 @@
-"""How the programs use the machine, as drawn: storage maps against ``hull1620 map``, times against the time table."""
+"""Storage maps compared with ``hull1620 map``, and pictures of times compared with the table of times."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def _rectangles(picture: str, group: str) -> list[etree._Element]:
 
 
 @pytest.mark.parametrize("name", programs.NAMES)
-def test_the_regions_fill_core_without_a_gap(name: str) -> None:
+def test_the_regions_fill_core_without_gaps(name: str) -> None:
     regions = core_map(name).regions
     assert (regions[0].low, regions[-1].high) == (0, CORE - 1)
     assert all(one.high + 1 == other.low for one, other in pairwise(regions))
@@ -37,7 +37,7 @@ def test_the_regions_fill_core_without_a_gap(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", programs.NAMES)
-def test_regions_are_those_of_the_storage_map(name: str) -> None:
+def test_regions_equal_those_of_the_storage_map(name: str) -> None:
     """What ``hull1620 map`` prints: every array's addresses, the data's length, what is free."""
     found = core_map(name)
     printed = "\n".join(map_lines(programs.program(name), CORE))
@@ -55,7 +55,7 @@ def test_regions_are_those_of_the_storage_map(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", programs.NAMES)
-def test_a_map_is_to_scale(name: str) -> None:
+def test_a_map_is_drawn_to_scale(name: str) -> None:
     found = core_map(name)
     rectangles = _rectangles(map_svg(found), "regions")
     assert [int(each.get("data-positions", "")) for each in rectangles] == [r.positions for r in found.regions]
@@ -76,7 +76,7 @@ def test_program_3_is_the_fullest() -> None:
         assert points[40_000] >= 51
 
 
-def test_bars_of_time_are_to_scale_and_complete() -> None:
+def test_bars_of_time_are_complete_and_to_scale() -> None:
     found = example_runs()
     assert [(run.example, run.program) for run in found] == [
         *((1, "program1_examples"), (2, "program1_examples"), (3, "program1_examples")),
@@ -100,14 +100,14 @@ def test_bars_of_time_are_to_scale_and_complete() -> None:
     assert [wide / scales[0] for wide in bars.values()] == pytest.approx([run.total for run in found], rel=0.005)
 
 
-def test_what_the_page_says_of_the_longest_part() -> None:
+def test_the_page_describes_the_longest_part_correctly() -> None:
     for run in example_runs():
         parts = dict(zip(PARTS, seconds_of(run), strict=True))
         longest = max(parts, key=lambda name: parts[name])
         assert longest in (("floating point",) if run.program == "program3" else ("card punch", "number conversion"))
 
 
-def test_the_table_has_the_figures_of_the_bars() -> None:
+def test_the_table_agrees_with_the_bars() -> None:
     rows = _html("time").findall(".//tbody/tr")
     told = [[float(str(cell.text)) for cell in row.findall("td")] for row in rows]
     for cells, run in zip(told, example_runs(), strict=True):
@@ -115,7 +115,7 @@ def test_the_table_has_the_figures_of_the_bars() -> None:
 
 
 @pytest.mark.parametrize("argument", ["storage", "time"])
-def test_pictures_have_words_and_ids_of_their_own(argument: str) -> None:
+def test_pictures_have_descriptions_and_unique_ids(argument: str) -> None:
     html = _html(argument)
     ids = [str(id) for id in html.xpath("//@id")]
     assert len(set(ids)) == len(ids)
@@ -127,12 +127,12 @@ def test_pictures_have_words_and_ids_of_their_own(argument: str) -> None:
         assert {picture.get("aria-labelledby"), picture.get("aria-describedby")} <= set(ids)
 
 
-def test_a_description_is_not_put_in_twice() -> None:
+def test_a_description_is_not_inserted_twice() -> None:
     once = described(map_svg(core_map("program2")), "words & more")
     assert '<desc id="desc">words &amp; more</desc>' in once
     assert described(once, "others") == once
 
 
-def test_an_argument_that_is_none_is_refused() -> None:
+def test_an_unknown_argument_is_rejected() -> None:
     with pytest.raises(ValueError, match="'drum' is not one of storage, time"):
         make("machine", "drum")

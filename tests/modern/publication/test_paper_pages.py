@@ -1,4 +1,4 @@
-"""The pictures on the papers' pages: counts and lengths in them against the papers' results, and against algebra."""
+"""The pictures of the papers: their counts and lengths compared with the results of the papers."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def html(request: pytest.FixtureRequest) -> etree._Element:
     return etree.fromstring(f"<div>{''.join(part.html for part in made.parts)}</div>")
 
 
-def test_pictures_have_words_and_ids_of_their_own(html: etree._Element) -> None:
+def test_pictures_have_descriptions_and_unique_ids(html: etree._Element) -> None:
     ids = [str(id) for id in html.xpath("//@id")]
     assert len(set(ids)) == len(ids)
     pictures = html.findall(f".//{SVG}svg")
@@ -45,12 +45,12 @@ def test_pictures_have_words_and_ids_of_their_own(html: etree._Element) -> None:
         assert int(picture.get("width", "")) <= 340
 
 
-def test_a_paper_that_is_none_is_refused() -> None:
+def test_an_unknown_paper_is_rejected() -> None:
     with pytest.raises(ValueError, match="'bentley' is not one of appel-will, kovalevsky-schulz, yau-srihari"):
         make("papers", "bentley")
 
 
-def test_lines_of_a_loop_are_as_thick_as_they_were_used() -> None:
+def test_line_widths_of_a_loop_show_the_uses() -> None:
     """Fig. 22: each loop's IUC; at the end of processing all are 2."""
     hull = appel_will(found_solid("fig14").points)
     for number, loop in enumerate(hull.table.loops, 1):
@@ -62,7 +62,7 @@ def test_lines_of_a_loop_are_as_thick_as_they_were_used() -> None:
     assert set(drawn) == {2}
 
 
-def test_the_line_within_its_star_polygon_is_no_edge() -> None:
+def test_a_line_inside_its_star_polygon_is_not_an_edge() -> None:
     """The middle of the line lies inside of the hull: on the inner side of every plane through three vertices that has
     all points on one side."""
     solid = printed_solid(printed_lines(next(paper for paper in PAPERS if paper.name == "appel-will")))
@@ -81,7 +81,7 @@ def _length(plate: Plate, *kinds: str) -> float:
     return sum(math.dist(s.start, s.end) for s in plate.strokes if s.kind in kinds)
 
 
-def test_what_a_step_removes_is_what_the_next_lacks() -> None:
+def test_the_next_step_lacks_what_a_step_removes() -> None:
     _, (everything, facing, nearer, result) = steps.hidden_lines()
     assert _length(everything, SEEN) == pytest.approx(_length(facing, SEEN, EDGE_OF_CONTOUR, REMOVED))
     assert _length(facing, SEEN, EDGE_OF_CONTOUR) == pytest.approx(_length(nearer, SEEN, REMOVED))
@@ -89,7 +89,7 @@ def test_what_a_step_removes_is_what_the_next_lacks() -> None:
     assert all(plate.count(REMOVED) for plate in (facing, nearer, result))
 
 
-def test_all_lines_are_the_edges_and_figures_of_the_scene() -> None:
+def test_the_first_step_has_all_edges_and_figures_of_the_scene() -> None:
     given = scene("house").make()
     edges = sum(sum(map(len, item.faces)) // 2 for item in given)
     figures = sum(len(figure.corners) for item in given for figure in item.figures)
@@ -104,7 +104,7 @@ def test_the_last_step_is_the_drawing() -> None:
     assert plates[-1].count(SEEN) == len(drawing.pieces)
 
 
-def test_cells_of_the_ball() -> None:
+def test_the_cells_of_the_ball_satisfy_euler() -> None:
     """Voxels by Pythagoras; of the closed surfaces Euler's formula, and two triangles more than twice the vertices."""
     found = steps.cells()
     counts = dict(found.counts)

@@ -1,4 +1,4 @@
-"""The page where 1963 and exact numbers part: its own true hull against the judge, and what it says of known sets."""
+"""The comparison with exact arithmetic: its hull against the exact hull, and its messages for known sets."""
 
 from __future__ import annotations
 
@@ -34,24 +34,24 @@ def agree(points: list[tuple[int, int, int]]) -> None:
 
 @given(st.lists(SMALL, min_size=1, max_size=14))
 @settings(deadline=None, max_examples=150)
-def test_its_hull_is_the_judges(points: list[tuple[int, int, int]]) -> None:
+def test_the_hull_equals_the_exact_hull(points: list[tuple[int, int, int]]) -> None:
     agree(points)
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_its_hull_is_the_judges_on_whole_data_sets(seed: int) -> None:
+def test_the_hull_equals_the_exact_hull_for_full_data_sets(seed: int) -> None:
     draw = random.Random(seed)
     agree([(draw.randint(-99, 99), draw.randint(-99, 99), draw.randint(-99, 99)) for _ in range(MOST)])
 
 
-def test_a_loop_goes_round() -> None:
+def test_the_corners_of_a_face_are_in_order() -> None:
     _, faces = true_hull([(0, 0, 0), (2, 2, 0), (2, 0, 0), (0, 2, 0), (1, 1, 0), (1, 0, 0)])
     assert sorted(faces[0]) == [0, 1, 2, 3]
     assert abs(faces[0].index(0) - faces[0].index(1)) == 2, "opposite corners are not neighbours"
 
 
 @pytest.mark.parametrize("example", range(1, 7))
-def test_the_examples_part_nowhere(example: int) -> None:
+def test_no_decision_differs_in_the_examples(example: int) -> None:
     points = parse_bytes(input_deck(example).text().encode(), "x").points
     answer = parted("\n".join(" ".join(point) for point in points))
     assert answer["part"] == []
@@ -70,7 +70,7 @@ def test_the_silent_set_loses_three_vertices_at_a_named_statement() -> None:
     ]
 
 
-def test_a_refusal_names_its_statement_and_fault() -> None:
+def test_a_rejection_names_its_statement_and_fault() -> None:
     draw = random.Random(1)
     text = "\n".join(" ".join(str(draw.randint(-999, 999) / 10) for _ in range(3)) for _ in range(20))
     answer = parted(text)
@@ -89,20 +89,20 @@ def test_a_refusal_names_its_statement_and_fault() -> None:
         ("\n".join(f"{n} 0 0" for n in range(52)), "52"),
     ],
 )
-def test_what_is_no_data_set_is_refused_in_a_line(text: str, message: str) -> None:
+def test_invalid_points_are_rejected_with_one_line(text: str, message: str) -> None:
     answer = parted(text)
     assert list(answer) == ["refused"]
     assert message in answer["refused"]
     assert "\n" not in answer["refused"]
 
 
-def test_common_denominators_are_found() -> None:
+def test_points_are_scaled_by_the_common_denominator() -> None:
     from fractions import Fraction
 
     assert scaled([(Fraction(1, 2), Fraction(1, 3), Fraction(0))]) == [(3, 2, 0)]
 
 
-def test_it_needs_no_numpy() -> None:
+def test_the_module_does_not_import_numpy() -> None:
     code = f"""
 import sys
 sys.path[:0] = {sys.path!r}

@@ -1,4 +1,4 @@
-"""The TEI documents: valid, complete, and enough by themselves for witness, decks and cards, byte for byte."""
+"""The TEI documents are valid and complete: witness, decks and cards can be restored byte for byte."""
 
 from __future__ import annotations
 
@@ -37,12 +37,12 @@ def root(name: str) -> Element:
     return reading.parsed(name, written(name))
 
 
-def test_there_is_a_document_of_every_text() -> None:
+def test_every_text_has_a_document() -> None:
     assert set(NAMES) == set(texts())
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_it_is_valid(name: str) -> None:
+def test_every_document_is_valid(name: str) -> None:
     own().assertValid(etree.fromstring(written(name).encode()))
 
 
@@ -58,7 +58,7 @@ def test_it_is_valid(name: str) -> None:
         (' xml:space="preserve"', ""),
     ],
 )
-def test_the_schema_refuses_what_is_no_document_of_ours(what: str, instead: str) -> None:
+def test_the_schema_rejects_other_documents(what: str, instead: str) -> None:
     assert what in written("program1")
     changed = (
         written("program1")
@@ -74,28 +74,28 @@ def test_the_schema_refuses_what_is_no_document_of_ours(what: str, instead: str)
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_the_witness_comes_back(name: str) -> None:
+def test_the_witness_is_restored(name: str) -> None:
     assert reading.witness(root(name)) == read(sources().excerpt(name).file)
 
 
 @pytest.mark.parametrize("name", TEXTS)
-def test_the_deck_comes_back(name: str) -> None:
+def test_the_deck_is_restored(name: str) -> None:
     assert reading.corrected(root(name)) == read(f"fortran_src/{name}.f")
 
 
-def test_the_state_of_the_examples_comes_back() -> None:
+def test_the_state_of_the_examples_is_restored() -> None:
     layers = next(b.layers for b in BUILT_INS if b.name == "program1_examples")
     assert reading.corrected(root("program1"), layers) == read("fortran_src/program1_examples.f")
 
 
-def test_the_cards_of_chapter_6_come_back() -> None:
+def test_the_cards_of_chapter_6_are_restored() -> None:
     files = [file for _, _, _, file in device_files(load_chapter())]
     assert list(reading.parts(root("chapter6"))) == files
     for file in files:
         assert reading.part(root("chapter6"), file) == read(f"transcripts/chapter6/{file}")
 
 
-def test_what_a_card_is_tied_to_is_a_line_of_the_print() -> None:
+def test_tokens_of_cards_refer_to_lines_of_the_print() -> None:
     document = fromstring(written("chapter6"))
     lines = {ab.get("{http://www.w3.org/XML/1998/namespace}id") for ab in document.iter(TEI + "ab")}
     ties = [seg.get("corresp", "") for seg in document.iter(TEI + "seg")]
@@ -104,7 +104,7 @@ def test_what_a_card_is_tied_to_is_a_line_of_the_print() -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_every_row_is_there_with_what_an_edition_owes(name: str) -> None:
+def test_every_row_has_reason_evidence_certainty_and_rejected_readings(name: str) -> None:
     document = fromstring(written(name))
     first = {app.get("{http://www.w3.org/XML/1998/namespace}id"): app for app in document.iter(TEI + "app")}
     for row in texts()[name].rows:
@@ -117,13 +117,13 @@ def test_every_row_is_there_with_what_an_edition_owes(name: str) -> None:
         assert rejected == [one.reading for one in row.rejected]
 
 
-def test_one_changed_character_of_the_document_is_one_of_the_deck() -> None:
+def test_a_changed_character_changes_one_character_of_the_deck() -> None:
     changed = written("program2").replace("GO TO", "GO TQ", 1)
     decks = [reading.corrected(reading.parsed("x", source)) for source in (written("program2"), changed)]
     assert sum(a != b for a, b in zip(*decks, strict=True)) == 1
 
 
-def test_a_rejected_reading_is_no_reading_of_the_text() -> None:
+def test_rejected_readings_do_not_enter_the_text() -> None:
     source = written("program1")
     assert re.search('<rdg type="rejected"', "".join(map(written, NAMES)))
     before = reading.corrected(reading.parsed("x", source))
@@ -147,7 +147,7 @@ def test_the_command_writes_reads_and_validates(tmp_path: Path, capsys: pytest.C
     assert call(capsys, "tei", "nakamae_nishita_1972", "--check") == (0, "nakamae_nishita_1972: valid\n", "")
 
 
-def test_another_schema_refuses_in_a_line_a_document(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_invalid_document_is_reported_in_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     other = tmp_path / "other.rng"
     other.write_text(schema().replace('<element name="ab">', '<element name="p">'))
     code, out, err = call(capsys, "tei", "program1", "--check", str(other))
@@ -173,7 +173,7 @@ def test_another_schema_refuses_in_a_line_a_document(tmp_path: Path, capsys: pyt
         (("tei", "--all", "good.xml"), "good.xml: file exists"),
     ],
 )
-def test_wrong_use_is_one_line(
+def test_wrong_use_is_reported_in_one_line(
     words: tuple[str, ...],
     message: str,
     tmp_path: Path,
@@ -190,7 +190,9 @@ def test_wrong_use_is_one_line(
     assert message in err
 
 
-def test_a_damaged_document_is_refused_in_a_line_or_read(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_damaged_document_is_read_or_rejected_with_one_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     draw = random.Random(1963)
     source = written("chapter6")
     seen = set()
