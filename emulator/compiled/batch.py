@@ -26,10 +26,7 @@ Note = Callable[[str], None]
 
 
 def run_batch(
-    program: Program,
-    decks: Iterable[Deck],
-    options: Options | None = None,
-    note: Note | None = None,
+    program: Program, decks: Iterable[Deck], options: Options | None = None, note: Note | None = None
 ) -> tuple[Result, ...]:
     """Run a program over many decks and return the result of each deck.
 

@@ -12,51 +12,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from emulator.compiled.devices import (
-    ANY_READ,
-    CARDS_READ,
-    DEVICES,
-    FIRST_CARD,
-    FIRST_READ,
-    GO_ON,
-    HELD,
-    LAST_CARD,
-    LOG_FROM,
-    LOG_FULL,
-    LOG_TO,
-    NEXT,
-    NOT_HERE,
-    PAUSES,
-    READ,
-    REASON,
-    USED,
-    VERB,
-    Cards,
-    Code,
-    Desk,
-    Forms,
-    Report,
-    Tools,
-    begin,
-    end_record,
-    error,
-    item,
-    to_field,
-)
+from emulator.compiled import devices as dev
+from emulator.compiled.devices import Cards, Code, Desk, Forms, Report, Tools, begin, end_record, error, item, to_field
 from emulator.compiled.kernel import ADDRESS, AT, CHARACTERISTIC, EVENT, FAC, WORK, Core, Row, owe, run
-from emulator.machine.interpreter import (
-    AT_BEGIN,
-    AT_COSTLY,
-    AT_EVENT,
-    AT_FINISH,
-    AT_FUNCTION,
-    AT_ITEM,
-    AT_LIMIT,
-    AT_PAUSE,
-    AT_POWER,
-    AT_POWERX,
-    SLACK,
-)
+from emulator.machine import interpreter
 from emulator.machine.result import LOOP_WINDOW
 from emulator.numbers.arithmetic import ZERO, Rules, square_root, whole_power
 from emulator.numbers.work import multiplied
@@ -70,7 +29,7 @@ class Start(NamedTuple):
 
 
 Setting = tuple[int, int, int, int]
-"""(limit, strict bounds, type error codes, end the run at any READ if the hopper is empty)."""
+"""(limit, strict bounds, type error codes, end the run at any dev.READ if the hopper is empty)."""
 
 
 def run_decks(
@@ -96,22 +55,22 @@ def run_decks(
         load(forms, start, core, desk)
         clear(report.counts[d])
         clear(report.pauses[d])
-        devices[USED] = used
-        devices[NEXT] = cards.first[d]
-        devices[FIRST_CARD] = cards.first[d]
-        devices[LAST_CARD] = cards.first[d + 1]
+        devices[dev.USED] = used
+        devices[dev.NEXT] = cards.first[d]
+        devices[dev.FIRST_CARD] = cards.first[d]
+        devices[dev.LAST_CARD] = cards.first[d + 1]
         counts, before, pauses = report.counts[d], report.before[d], report.pauses[d]
         reason = run_deck(code, forms, cards, core, desk, counts, before, pauses, rules, setting)
-        if reason == LOG_FULL:
+        if reason == dev.LOG_FULL:
             return d
-        ends[REASON] = reason
-        ends[CARDS_READ] = devices[NEXT] - devices[FIRST_CARD]
-        ends[LOG_FROM] = used
-        used = devices[USED]
-        ends[LOG_TO] = used
+        ends[dev.REASON] = reason
+        ends[dev.CARDS_READ] = devices[dev.NEXT] - devices[dev.FIRST_CARD]
+        ends[dev.LOG_FROM] = used
+        used = devices[dev.USED]
+        ends[dev.LOG_TO] = used
         # A message about an undefined field needs the kind of the field, which the next deck overwrites.
         address = registers[ADDRESS]
-        ends[HELD] = core.exponents[address] if 0 <= address < len(core.exponents) else 0
+        ends[dev.HELD] = core.exponents[address] if 0 <= address < len(core.exponents) else 0
     return len(cards.first) - 1
 
 
@@ -122,9 +81,9 @@ def load(forms: Forms, start: Start, core: Core, desk: Desk) -> None:
         core.exponents[k] = start.exponents[k]
     for k in range(len(forms.texts)):
         desk.texts[k] = forms.texts[k]
-    for k in range(DEVICES):
+    for k in range(dev.DEVICES):
         desk.devices[k] = 0
-    desk.devices[FIRST_READ] = -1
+    desk.devices[dev.FIRST_READ] = -1
     clear(desk.registers)
     clear(desk.numbers)
     clear(desk.errors)
@@ -151,7 +110,7 @@ def run_deck(
     """Run one deck, whose cards the registers of the devices name, and return the reason for its end."""
     limit, strict, types_errors, any_read = setting
     marks, devices, registers = code.marks, desk.devices, desk.registers
-    devices[ANY_READ] = any_read
+    devices[dev.ANY_READ] = any_read
     # As in Session.advance, the counts are saved shortly before the limit, for the message about a loop.
     goal = limit - min(LOOP_WINDOW, limit // 2)
     saved = False
@@ -159,51 +118,51 @@ def run_deck(
         reason = run(code.flat, core, counts, registers, rules, goal, limit, strict)
         pc = registers[AT]
         address = registers[ADDRESS]
-        status = GO_ON
-        if reason == AT_ITEM:
+        status = dev.GO_ON
+        if reason == interpreter.AT_ITEM:
             status = item(marks, forms, cards, core, desk, rules, types_errors)
-        elif reason == AT_BEGIN:
+        elif reason == interpreter.AT_BEGIN:
             status = begin(marks, forms, cards, desk)
-        elif reason == AT_FINISH:
+        elif reason == interpreter.AT_FINISH:
             status = to_field(marks, forms, cards, desk, False)
-            if status == GO_ON and devices[VERB] != READ:
+            if status == dev.GO_ON and devices[dev.VERB] != dev.READ:
                 status = end_record(marks, cards, desk)
-        elif reason == AT_EVENT:
+        elif reason == interpreter.AT_EVENT:
             status = error(registers[EVENT], marks, desk, types_errors)
         # Without ``powers_multiply`` the exact power is truncated once.  Repeated multiplication gives the same for
         # exponents from -1 to 2; others would need more than 64 bits.
-        elif reason == AT_POWERX and (rules.powers_multiply or -1 <= core.mantissas[address] <= 2):
+        elif reason == interpreter.AT_POWERX and (rules.powers_multiply or -1 <= core.mantissas[address] <= 2):
             if registers[FAC] != 0 and not -1 <= core.mantissas[address] <= 2:
                 owe(registers, multiplied(core.mantissas[address]))
-                if registers[WORK] > limit + SLACK:
-                    return AT_COSTLY
+                if registers[WORK] > limit + interpreter.SLACK:
+                    return interpreter.AT_COSTLY
             m, e, event = whole_power(registers[FAC], registers[CHARACTERISTIC], core.mantissas[address], rules)
             registers[FAC] = m
             registers[CHARACTERISTIC] = e
             if event:
                 status = error(event, marks, desk, types_errors)
-        elif reason == AT_FUNCTION:
+        elif reason == interpreter.AT_FUNCTION:
             # SQRT is the only library function that integers can compute.
             if code.roots[address] == 0:
-                return NOT_HERE
+                return dev.NOT_HERE
             m, e = registers[FAC], ZERO
             if m != 0:
                 m, e = square_root(m, registers[CHARACTERISTIC], rules)
             registers[FAC] = m
             registers[CHARACTERISTIC] = e
-        elif reason == AT_PAUSE:
+        elif reason == interpreter.AT_PAUSE:
             # START is pressed at once.  A notice needs each PAUSE once, in the order of their first occurrence.
             if pauses[marks.statements[pc]] == 0:
-                devices[PAUSES] += 1
-                pauses[marks.statements[pc]] = devices[PAUSES]
-        elif reason == AT_LIMIT and not saved:
+                devices[dev.PAUSES] += 1
+                pauses[marks.statements[pc]] = devices[dev.PAUSES]
+        elif reason == interpreter.AT_LIMIT and not saved:
             for k in range(len(counts)):
                 before[k] = counts[k]
             goal = limit
             saved = True
-        elif reason == AT_POWER or reason == AT_POWERX:
-            return NOT_HERE
+        elif reason == interpreter.AT_POWER or reason == interpreter.AT_POWERX:
+            return dev.NOT_HERE
         else:
             return reason
-        if status != GO_ON:
+        if status != dev.GO_ON:
             return status

@@ -13,24 +13,7 @@ from typing import NamedTuple
 
 from emulator.language import objectcode as op
 from emulator.language.objectcode import Flat, element_after
-from emulator.machine.interpreter import (
-    AT_BEGIN,
-    AT_BOUNDS,
-    AT_COSTLY,
-    AT_EVENT,
-    AT_FINISH,
-    AT_FUNCTION,
-    AT_ITEM,
-    AT_LIMIT,
-    AT_OUTSIDE,
-    AT_PAUSE,
-    AT_POWER,
-    AT_POWERX,
-    AT_SELECT,
-    AT_STOP,
-    AT_UNDEFINED,
-    SLACK,
-)
+from emulator.machine import interpreter
 from emulator.numbers.accumulator import add, divide, divide_fixed, multiply, negate, subtract, subtract_reversed
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, Rules, from_integer, to_integer, wrap_integer
 from emulator.numbers.work import STEPS
@@ -90,7 +73,7 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
             if variable >= 0:
                 if exponents[variable] != FIXED_POINT:
                     address = variable
-                    reason = AT_UNDEFINED
+                    reason = interpreter.AT_UNDEFINED
                     break
                 row += table[subscript + 1] * mantissas[variable]
             if columns == 0:
@@ -103,7 +86,7 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
                         continue
                     registers[INDEX] = row
                     registers[INDEX2] = 0
-                    reason = AT_BOUNDS
+                    reason = interpreter.AT_BOUNDS
                     break
                 address += row - 1
             else:
@@ -112,18 +95,18 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
                 if variable >= 0:
                     if exponents[variable] != FIXED_POINT:
                         address = variable
-                        reason = AT_UNDEFINED
+                        reason = interpreter.AT_UNDEFINED
                         break
                     column += table[subscript + 5] * mantissas[variable]
                 if strict and (row < 1 or row > rows or column < 1 or column > columns):
                     registers[INDEX] = row
                     registers[INDEX2] = column
-                    reason = AT_BOUNDS
+                    reason = interpreter.AT_BOUNDS
                     break
                 # Arrays are stored column by column.
                 address += row - 1 + rows * (column - 1)
             if address < 0 or address >= size:
-                reason = AT_OUTSIDE
+                reason = interpreter.AT_OUTSIDE
                 break
         # As in the interpreter, frequent operations are tried first.
         if operation <= op.FDVR:
@@ -135,7 +118,7 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
             mantissa = mantissas[address]
             exponent = exponents[address]
             if exponent >= FIXED_POINT:
-                reason = AT_UNDEFINED
+                reason = interpreter.AT_UNDEFINED
                 break
             pc += 1
             if operation == op.TOFAC:
@@ -156,13 +139,13 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
                 fac, fac_exponent, event = divide(mantissa, exponent, fac, fac_exponent, rules)
             # ``event`` is the number of an error code, E1 to E8; the caller types it, and the run continues.
             if event:
-                reason = AT_EVENT
+                reason = interpreter.AT_EVENT
                 break
         elif operation == op.COUNT:
             # A statement begins: the only place where the limit stops a run.
             if charges[address] > 0:
                 if work >= limit:
-                    reason = AT_LIMIT
+                    reason = interpreter.AT_LIMIT
                     break
                 work += charges[address]
             counts[address] += 1
@@ -179,7 +162,7 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
                     address = loops[k]
                     break
             if variable < 0:
-                reason = AT_UNDEFINED
+                reason = interpreter.AT_UNDEFINED
                 break
             mantissa = wrap_integer(mantissas[variable] + mantissas[loops[address + 1]])
             mantissas[variable] = mantissa
@@ -202,7 +185,7 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
                 pc += 1
                 continue
             if exponents[address] != FIXED_POINT:
-                reason = AT_UNDEFINED
+                reason = interpreter.AT_UNDEFINED
                 break
             mantissa = mantissas[address]
             pc += 1
@@ -221,7 +204,7 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
                     fixed, mantissa = mantissa, fixed
                 fixed, event = divide_fixed(fixed, mantissa)
                 if event:
-                    reason = AT_EVENT
+                    reason = interpreter.AT_EVENT
                     break
         elif operation == op.IFX:
             decision = pc + 1
@@ -240,14 +223,14 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
             pc += 1
         elif operation == op.SELECT:
             if exponents[address] != FIXED_POINT:
-                reason = AT_UNDEFINED
+                reason = interpreter.AT_UNDEFINED
                 break
             # A computed GO TO.  The number before the first target is their count.
             choice = mantissas[address]
             first = seconds[pc]
             if choice < 1 or choice > targets[first - 1]:
                 registers[INDEX] = choice
-                reason = AT_SELECT
+                reason = interpreter.AT_SELECT
                 break
             decision = pc + 1
             pc = targets[first + choice - 1]
@@ -255,42 +238,50 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
             pc = targets[address] if core.switches[seconds[pc] - 1] else targets[address + 1]
         elif operation == op.ITEM:
             # One number of a list.  The instruction comes again for each element of a whole array.
-            if work > most + SLACK:
-                reason = AT_COSTLY
+            if work > most + interpreter.SLACK:
+                reason = interpreter.AT_COSTLY
                 break
             address += element
             element = element_after(element, seconds[pc])
             pc += element == 0
-            reason = AT_ITEM
+            reason = interpreter.AT_ITEM
             break
         elif operation == op.BEGIN:
             pc += 1
-            reason = AT_BEGIN
+            reason = interpreter.AT_BEGIN
             break
         elif operation == op.FINISH:
             pc += 1
-            reason = AT_FINISH
+            reason = interpreter.AT_FINISH
             break
         elif operation == op.FUNCTION:
             pc += 1
-            reason = AT_FUNCTION
+            reason = interpreter.AT_FUNCTION
             break
         elif operation == op.POWER or operation == op.POWERX:
             if exponents[address] == UNDEFINED or (exponents[address] == FIXED_POINT) != (operation == op.POWERX):
-                reason = AT_UNDEFINED
+                reason = interpreter.AT_UNDEFINED
                 break
             pc += 1
-            reason = AT_POWER if operation == op.POWER else AT_POWERX
+            reason = interpreter.AT_POWER if operation == op.POWER else interpreter.AT_POWERX
             break
         elif operation == op.PAUSE:
             pc += 1
-            reason = AT_PAUSE
+            reason = interpreter.AT_PAUSE
             break
         else:
-            reason = AT_STOP
+            reason = interpreter.AT_STOP
             break
     # AT is the instruction the reason is about: the next one (PC) after an error, the one before it after a service.
-    stays = reason in (AT_UNDEFINED, AT_BOUNDS, AT_OUTSIDE, AT_SELECT, AT_LIMIT, AT_STOP, AT_COSTLY)
+    stays = reason in (
+        interpreter.AT_UNDEFINED,
+        interpreter.AT_BOUNDS,
+        interpreter.AT_OUTSIDE,
+        interpreter.AT_SELECT,
+        interpreter.AT_LIMIT,
+        interpreter.AT_STOP,
+        interpreter.AT_COSTLY,
+    )
     registers[AT] = pc if stays or element > 0 else pc - 1
     registers[ELEMENT] = element
     registers[PC] = pc

@@ -154,6 +154,9 @@ def digest(entry: Function, options: str) -> str:
         text.append(inspect.getsource(sys.modules[module]))
     for function in functions:
         for name, value in inspect.getclosurevars(function).globals.items():
-            if not isinstance(value, (FunctionType, ModuleType)):
+            if isinstance(value, ModuleType):
+                constants = {key: getattr(value, key, None) for key in function.__code__.co_names}
+                text += [f"{name}.{key} {n!r}" for key, n in constants.items() if isinstance(n, (int, float))]
+            elif not isinstance(value, FunctionType):
                 text.append(f"{name} {value!r}")
     return hashlib.sha256("\0".join(text).encode()).hexdigest()[:16]

@@ -26,25 +26,9 @@ from emulator.language.storage import CORES, FIELD, FUNCTION_NAMES
 
 VERBS = ("READ", "ACCEPT", "PUNCH", "PRINT", "TYPE")
 _LARGEST = (CORES[-1] - FUNCTION_NAMES) // FIELD
-_EFFECTS = {
-    op.FMFAC: "store",
-    op.FMFIX: "store",
-    op.TRANSMIT: "store",
-    op.IF: "test",
-    op.IFX: "test fixed",
-    op.FINISH: "list",
-}
-_NO_DO_END = (
-    tree.GoTo,
-    tree.ComputedGoTo,
-    tree.If,
-    tree.IfSwitch,
-    tree.Do,
-    tree.Stop,
-    tree.Format,
-    tree.Dimension,
-    tree.End,
-)
+_EFFECTS = dict.fromkeys((op.FMFAC, op.FMFIX, op.TRANSMIT), "store")
+_EFFECTS |= {op.IF: "test", op.IFX: "test fixed", op.FINISH: "list"}
+_NO_DO_END = (tree.Jump, tree.Do, tree.Stop, tree.Format, tree.Dimension, tree.End)
 
 
 def compile_deck(deck: Deck) -> Program:

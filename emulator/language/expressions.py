@@ -22,26 +22,9 @@ from emulator.numbers.fields import FieldError, parse_constant
 LIBRARY = ("SIN", "COS", "ATAN", "EXP", "LOG", "SQRT")
 """The library functions.  Each may also be written with a final F (C26-5619 p. 63, 66)."""
 
-_FLOATING = {
-    "to": op.TOFAC,
-    "from": op.FMFAC,
-    "+": op.FAD,
-    "-": op.FSB,
-    "-r": op.FSBR,
-    "*": op.FMP,
-    "/": op.FDV,
-    "/r": op.FDVR,
-}
-_FIXED = {
-    "to": op.TOFIX,
-    "from": op.FMFIX,
-    "+": op.XAD,
-    "-": op.XSB,
-    "-r": op.XSBR,
-    "*": op.XMP,
-    "/": op.XDV,
-    "/r": op.XDVR,
-}
+_ROLES = ("to", "from", "+", "-", "-r", "*", "/", "/r")
+_FLOATING = dict(zip(_ROLES, (op.TOFAC, op.FMFAC, op.FAD, op.FSB, op.FSBR, op.FMP, op.FDV, op.FDVR), strict=True))
+_FIXED = dict(zip(_ROLES, (op.TOFIX, op.FMFIX, op.XAD, op.XSB, op.XSBR, op.XMP, op.XDV, op.XDVR), strict=True))
 _REVERSED = {"+": "+", "*": "*", "-": "-r", "/": "/r"}
 _FLIPPED = {"+": "-", "-": "+"}
 

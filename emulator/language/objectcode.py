@@ -63,45 +63,10 @@ MEANINGS = {
 
 NAMES = tuple(MEANINGS)
 
-(
-    TOFAC,
-    FMFAC,
-    FAD,
-    FSB,
-    FSBR,
-    FMP,
-    FDV,
-    FDVR,
-    TOFIX,
-    FMFIX,
-    XAD,
-    XSB,
-    XSBR,
-    XMP,
-    XDV,
-    XDVR,
-    SEND,
-    TRANSMIT,
-    ITEM,
-    COUNT,
-    BRANCH,
-    IF,
-    IFX,
-    RSGN,
-    RSGX,
-    DOTEST,
-    SELECT,
-    SWITCH,
-    FLOAT,
-    FIX,
-    FUNCTION,
-    POWER,
-    POWERX,
-    BEGIN,
-    FINISH,
-    PAUSE,
-    STOP,
-) = range(len(NAMES))
+TOFAC, FMFAC, FAD, FSB, FSBR, FMP, FDV, FDVR = range(8)
+TOFIX, FMFIX, XAD, XSB, XSBR, XMP, XDV, XDVR = range(8, 16)
+SEND, TRANSMIT, ITEM, COUNT, BRANCH, IF, IFX, RSGN, RSGX, DOTEST = range(16, 26)
+SELECT, SWITCH, FLOAT, FIX, FUNCTION, POWER, POWERX, BEGIN, FINISH, PAUSE, STOP = range(26, len(NAMES))
 
 
 @dataclass(frozen=True, slots=True)
@@ -183,11 +148,8 @@ class Line:
     @property
     def name(self) -> str:
         """The name in messages: the card, and the statement number if there is one."""
-        return (
-            f"statement {self.label} (card {self.place.card})"
-            if self.label
-            else f"the statement on card {self.place.card}"
-        )
+        card = f"card {self.place.card}"
+        return f"statement {self.label} ({card})" if self.label else f"the statement on {card}"
 
 
 @dataclass(frozen=True)
@@ -288,17 +250,7 @@ def flatten(program: Program) -> Flat:
 
 _INSTRUCTION, _SUBSCRIPT = 12, 30
 # Instructions of the object program per operation: IF compiles to three, FSBR to two (subtract and reverse sign).
-_LENGTHS = {
-    COUNT: 0,
-    IF: 3,
-    IFX: 3,
-    DOTEST: 3,
-    SELECT: 4,
-    SWITCH: 2,
-    TRANSMIT: 0,
-    SEND: 1,
-    FSBR: 2,
-}
+_LENGTHS = {COUNT: 0, IF: 3, IFX: 3, DOTEST: 3, SELECT: 4, SWITCH: 2, TRANSMIT: 0, FSBR: 2}
 
 
 def code_positions(program: Program) -> int:

@@ -102,6 +102,9 @@ class IfSwitch:
     labels: tuple[int, int]
 
 
+Jump = GoTo | ComputedGoTo | If | IfSwitch
+
+
 @dataclass(frozen=True, slots=True)
 class Do:
     """``DO label variable = first, last, step``.  The test is at the bottom, so a loop runs at least once."""
@@ -186,21 +189,7 @@ class Format:
     places: Columns
 
 
-Body = (
-    Assignment
-    | GoTo
-    | ComputedGoTo
-    | If
-    | IfSwitch
-    | Do
-    | Continue
-    | Pause
-    | Stop
-    | End
-    | Dimension
-    | InputOutput
-    | Format
-)
+Body = Assignment | Jump | Do | Continue | Pause | Stop | End | Dimension | InputOutput | Format
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,12 +7,12 @@ to be typed, they raise :class:`LineNeeded`; the same call can then be made agai
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from emulator.errors import CardError, DeckError
 from emulator.language.cards import COLUMNS, Card, Deck, check_characters, read_line
 from emulator.language.objectcode import Line, Program
-from emulator.machine.endings import Ending, Kind, Mode, Notice, decided
+from emulator.machine.endings import Ending, Kind, Mode, Notice, stopped
 from emulator.machine.forms import Input, Layout, NoField, Output
 from emulator.machine.result import PUNCH_COLUMNS, TYPEWRITER_COLUMNS, Event, Options, Uncut
 from emulator.machine.state import FLOATING, State
@@ -64,7 +64,6 @@ class Devices:
     verb: str = ""
 
     def __post_init__(self) -> None:
-        self._statement_of = self.program.statement_numbers
         self.layouts = [Layout(spec) for _, spec in self.program.formats]
         self._whole = {
             (card.number, column, width): value
@@ -81,7 +80,7 @@ class Devices:
 
     def line_at(self, pc: int) -> Line:
         """Return the statement of an instruction."""
-        return self.program.statements[self._statement_of[pc]]
+        return self.program.line_at(pc)
 
     def begin(self, address: int) -> None:
         """Begin an input or output statement, with the verb at ``address``.  Raise Ended, LineNeeded or DeckError."""
@@ -122,7 +121,7 @@ class Devices:
                 self._count_item(address)
                 self._read(*place, address, fixed)
         except NoField:
-            raise Ended(self.ending("mode", format=self._format)) from None
+            raise Ended(replace(self.ending("mode"), format=self._format)) from None
 
     def finish(self) -> None:
         """End the list.  Raise LineNeeded or DeckError if the rest of the FORMAT needs another record."""
@@ -174,16 +173,17 @@ class Devices:
         key = spec.kind + ("<" if isinstance(self.transfer, Input) else ">")
         self.fields[key] = self.fields.get(key, 0) + 1
         if (spec.kind == "I") != fixed:
+            ending = replace(self.ending("mode"), name=self.program.storage.name_of(address))
             mode: Mode = "fixed" if fixed else "floating"
-            name = self.program.storage.name_of(address)
-            raise Ended(self.ending("mode", name=name, mode=mode, format=self._format, field=spec))
+            raise Ended(replace(ending, mode=mode, format=self._format, field=spec))
 
     def _write(self, transfer: Output, spec: Field, address: int, fixed: bool) -> None:
         self._check_mode(spec, fixed, address)
         value, kind = self.state.values[address], self.state.kinds[address]
         if kind == UNDEFINED or (kind == FIXED_POINT) != fixed:
             name = self.program.storage.name_of(address)
-            raise Ended(self.ending("undefined" if kind == UNDEFINED else "mode", name=name, put_out=True))
+            ending = self.ending("undefined" if kind == UNDEFINED else "mode")
+            raise Ended(replace(ending, name=name, put_out=True))
         if fixed:
             # An I field that is too narrow prints the low-order digits, without a message.
             transfer.write(write_fixed(spec, value))
@@ -252,27 +252,6 @@ class Devices:
         """Add a notice, once."""
         self.notices[notice] = None
 
-    def ending(
-        self,
-        kind: Kind,
-        *,
-        name: str = "",
-        mode: Mode | None = None,
-        format: int = 0,
-        field: Field | None = None,
-        put_out: bool = False,
-        trouble: str = "",
-    ) -> Ending:
+    def ending(self, kind: Kind) -> Ending:
         """Return an ending at the current statement."""
-        return Ending(
-            kind,
-            self.program.source,
-            self.line_at(self.state.at),
-            decided(self.program, self.state.decision),
-            name=name,
-            mode=mode,
-            format=format,
-            field=field,
-            put_out=put_out,
-            trouble=trouble,
-        )
+        return stopped(self.program, kind, self.state.at, self.state.decision)

@@ -3,28 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Literal
+from dataclasses import dataclass, replace
+from typing import Literal, get_args
 
 from emulator.language.objectcode import Line, Program
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED
 from emulator.numbers.fields import Field, Remark
 
-Kind = Literal[
-    "hopper",
-    "stop",
-    "end",
-    "limit",
-    "bounds",
-    "undefined",
-    "outside",
-    "select",
-    "mode",
-    "undecided",
-    "input",
-    "operator",
-]
-NORMAL: tuple[Kind, ...] = ("hopper", "stop", "end")
+Normal = Literal["hopper", "stop", "end"]
+Kind = Normal | Literal["limit", "bounds", "undefined", "outside", "select", "mode", "undecided", "input", "operator"]
+NORMAL = get_args(Normal)
 
 Mode = Literal["fixed", "floating"]
 
@@ -138,8 +126,7 @@ def _loop(ending: Ending) -> str:
 
 def too_costly(program: Program, limit: int, at: int, decision: int, costly: int) -> Ending:
     """Return the ending at an operation that needs more work than the limit allows."""
-    line, last = program.line_at(at), decided(program, decision)
-    return Ending("limit", program.source, line, last, count=limit, costly=costly)
+    return replace(stopped(program, "limit", at, decision), count=limit, costly=costly)
 
 
 def looped(
@@ -166,29 +153,21 @@ def looped(
 def out_of_bounds(program: Program, at: int, decision: int, address: int, subscripts: tuple[int, ...]) -> Ending:
     """Return the ending at a subscript outside the array that begins at ``address``."""
     entry = program.storage.entry_of(address)
-    return Ending(
-        "bounds",
-        program.source,
-        program.line_at(at),
-        decided(program, decision),
-        name=entry.name,
-        shape=entry.shape,
-        subscripts=subscripts[: len(entry.shape)],
-    )
+    ending = stopped(program, "bounds", at, decision, subscripts[: len(entry.shape)])
+    return replace(ending, name=entry.name, shape=entry.shape)
+
+
+def unfit(program: Program, at: int, decision: int, address: int, kind: int) -> Ending:
+    """Return the ending at a field that cannot be computed with: undefined or, by ``kind``, of the other mode."""
+    ending = replace(stopped(program, "undefined", at, decision), name=program.storage.name_of(address))
+    if kind == UNDEFINED:
+        return ending
+    return replace(ending, kind="mode", mode="fixed" if kind == FIXED_POINT else "floating")
 
 
 def stopped(program: Program, kind: Kind, at: int, decision: int, subscripts: tuple[int, ...] = ()) -> Ending:
     """Return an ending at an instruction, without other details than subscripts."""
     return Ending(kind, program.source, program.line_at(at), decided(program, decision), subscripts=subscripts)
-
-
-def unfit(program: Program, at: int, decision: int, address: int, kind: int) -> Ending:
-    """Return the ending at a field that cannot be computed with: undefined or, by ``kind``, of the other mode."""
-    name, line, last = program.storage.name_of(address), program.line_at(at), decided(program, decision)
-    if kind == UNDEFINED:
-        return Ending("undefined", program.source, line, last, name=name)
-    mode: Mode = "fixed" if kind == FIXED_POINT else "floating"
-    return Ending("mode", program.source, line, last, name=name, mode=mode)
 
 
 def decided(program: Program, decision: int) -> Line | None:

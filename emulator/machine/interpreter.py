@@ -17,69 +17,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from emulator.language.objectcode import (
-    BEGIN,
-    BRANCH,
-    COUNT,
-    DOTEST,
-    FAD,
-    FDV,
-    FDVR,
-    FINISH,
-    FIX,
-    FLOAT,
-    FMFAC,
-    FMFIX,
-    FMP,
-    FSB,
-    FSBR,
-    FUNCTION,
-    IF,
-    IFX,
-    ITEM,
-    PAUSE,
-    POWER,
-    POWERX,
-    RSGN,
-    RSGX,
-    SELECT,
-    SEND,
-    SWITCH,
-    TOFAC,
-    TOFIX,
-    TRANSMIT,
-    XAD,
-    XDVR,
-    XMP,
-    XSB,
-    XSBR,
-    Flat,
-    element_after,
-)
+from emulator.language import objectcode as op
+from emulator.language.objectcode import Flat, element_after
 from emulator.machine.state import FLOATING, Journal, State, Table
 from emulator.numbers.accumulator import divide_fixed
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED, wrap_integer
 from emulator.numbers.base import Numbers, Trap
 
 # The reasons to return to the session.
-(
-    AT_LIMIT,
-    AT_STATEMENT,
-    AT_BEGIN,
-    AT_ITEM,
-    AT_FINISH,
-    AT_FUNCTION,
-    AT_POWER,
-    AT_POWERX,
-    AT_PAUSE,
-    AT_STOP,
-    AT_EVENT,
-    AT_UNDEFINED,
-    AT_BOUNDS,
-    AT_OUTSIDE,
-    AT_SELECT,
-    AT_COSTLY,
-) = range(16)
+AT_LIMIT, AT_STATEMENT, AT_BEGIN, AT_ITEM, AT_FINISH, AT_FUNCTION, AT_POWER, AT_POWERX, AT_PAUSE = range(9)
+AT_STOP, AT_EVENT, AT_UNDEFINED, AT_BOUNDS, AT_OUTSIDE, AT_SELECT, AT_COSTLY = range(9, 16)
 
 SLACK = 6_000
 """Units of work a statement may do beyond the limit.
@@ -87,17 +34,12 @@ SLACK = 6_000
 The limit is checked only when a statement begins, so that the list of the largest possible array is still finished.
 """
 
-_WORK_NAMES = {FAD: "add", FSB: "subtract", FSBR: "subtract", FMP: "multiply", FDV: "divide", FDVR: "divide"}
+_WORK_NAMES = {op.FAD: "add", op.FMP: "multiply"}
+_WORK_NAMES |= dict.fromkeys((op.FSB, op.FSBR), "subtract") | dict.fromkeys((op.FDV, op.FDVR), "divide")
 """The names of the two-operand operations in :meth:`emulator.numbers.base.Numbers.work`."""
 
-_REASONS = {
-    BEGIN: AT_BEGIN,
-    FINISH: AT_FINISH,
-    FUNCTION: AT_FUNCTION,
-    POWER: AT_POWER,
-    POWERX: AT_POWERX,
-    PAUSE: AT_PAUSE,
-}
+_REASONS = {op.BEGIN: AT_BEGIN, op.FINISH: AT_FINISH, op.FUNCTION: AT_FUNCTION, op.PAUSE: AT_PAUSE}
+_REASONS |= {op.POWER: AT_POWER, op.POWERX: AT_POWERX}
 """Operations that the session performs, with the reason to return for each."""
 
 
@@ -176,7 +118,7 @@ def run(
                     if strict and not 1 <= row <= rows:
                         # The hull programs copy element N+1 when they delete the last entry of a full table
                         # (KNOWN-FAULTS).  The copy is never computed with, so it is only marked as undefined.
-                        if operation == SEND and row == rows + 1:
+                        if operation == op.SEND and row == rows + 1:
                             sent, sent_kind = 0, UNDEFINED
                             pc += 1
                             continue
@@ -201,9 +143,9 @@ def run(
                     reason = AT_OUTSIDE
                     break
             # Frequent operations are tried first.
-            if operation <= FDVR:
+            if operation <= op.FDVR:
                 # The floating accumulator FAC (C26-5619 p. 60-69).
-                if operation == FMFAC:
+                if operation == op.FMFAC:
                     values[address] = checked(fac)
                     kinds[address] = FLOATING
                     stored = address
@@ -216,7 +158,7 @@ def run(
                     reason = AT_UNDEFINED
                     break
                 value = values[address]
-                if operation == TOFAC:
+                if operation == op.TOFAC:
                     fac = value
                     pc += 1
                     continue
@@ -228,19 +170,19 @@ def run(
                         break
                 # The operation is finished even if it ends in an error code (Trap): the run continues after it.
                 pc += 1
-                if operation == FMP:
+                if operation == op.FMP:
                     fac = multiply(fac, value)
-                elif operation == FAD:
+                elif operation == op.FAD:
                     fac = add(fac, value)
-                elif operation == FSB:
+                elif operation == op.FSB:
                     fac = subtract(fac, value)
-                elif operation == FSBR:
+                elif operation == op.FSBR:
                     fac = numbers.subtract_reversed(fac, value)
-                elif operation == FDV:
+                elif operation == op.FDV:
                     fac = numbers.divide(fac, value)
                 else:
                     fac = numbers.divide(value, fac)
-            elif operation == COUNT:
+            elif operation == op.COUNT:
                 # A statement begins, or a part of one that is counted separately.  Only here may the limit stop a run.
                 charge = charges[address]
                 if charge:
@@ -255,7 +197,7 @@ def run(
                 if traced and begins[address] == 1:
                     reason = AT_STATEMENT
                     break
-            elif operation == IF:
+            elif operation == op.IF:
                 if weigh and (work := work + state.owe(weigh("sign", fac))) > most + SLACK:
                     reason = AT_COSTLY
                     break
@@ -265,7 +207,7 @@ def run(
                 if decide:
                     decide((pc, target, fac))
                 pc = target
-            elif operation == DOTEST:
+            elif operation == op.DOTEST:
                 # The end of a DO: add the step to the variable, and repeat the range unless it exceeds the limit.
                 variable = loops[address]
                 step, last = loops[address + 1], loops[address + 2]
@@ -279,21 +221,21 @@ def run(
                 if decide:
                     decide((pc, target, value))
                 pc = target
-            elif operation == SEND:
+            elif operation == op.SEND:
                 # SEND and TRANSMIT copy a field, whatever it holds: an undefined one, too.
                 sent, sent_kind = values[address], kinds[address]
                 pc += 1
-            elif operation == TRANSMIT:
+            elif operation == op.TRANSMIT:
                 values[address], kinds[address] = sent, sent_kind
                 stored = address
                 if enter and enters[pc]:
                     enter((pc, address, None if sent_kind == UNDEFINED else sent))
                 pc += 1
-            elif operation == BRANCH:
+            elif operation == op.BRANCH:
                 pc = targets[address]
-            elif operation <= XDVR:
+            elif operation <= op.XDVR:
                 # The fixed-point accumulator: four digits and a sign (C26-5619 p. 14).
-                if operation == FMFIX:
+                if operation == op.FMFIX:
                     values[address], kinds[address] = fixed, FIXED_POINT
                     stored = address
                     if enter and enters[pc]:
@@ -305,45 +247,45 @@ def run(
                     break
                 value = values[address]
                 pc += 1
-                if operation == TOFIX:
+                if operation == op.TOFIX:
                     fixed = value
-                elif operation == XAD:
+                elif operation == op.XAD:
                     fixed = wrap_integer(fixed + value)
-                elif operation == XSB:
+                elif operation == op.XSB:
                     fixed = wrap_integer(fixed - value)
-                elif operation == XSBR:
+                elif operation == op.XSBR:
                     fixed = wrap_integer(value - fixed)
-                elif operation == XMP:
+                elif operation == op.XMP:
                     fixed = wrap_integer(fixed * value)
                 else:
-                    if operation == XDVR:
+                    if operation == op.XDVR:
                         fixed, value = value, fixed
                     fixed, event = divide_fixed(fixed, value)
                     if event:
                         reason = AT_EVENT
                         break
-            elif operation == IFX:
+            elif operation == op.IFX:
                 target = targets[address + 1 + (fixed > 0) - (fixed < 0)]
                 decision = pc + 1
                 if decide:
                     decide((pc, target, fixed))
                 pc = target
-            elif operation == RSGN:
+            elif operation == op.RSGN:
                 fac = numbers.negate(fac)
                 pc += 1
-            elif operation == RSGX:
+            elif operation == op.RSGX:
                 fixed = -fixed
                 pc += 1
-            elif operation == FLOAT:
+            elif operation == op.FLOAT:
                 fac = numbers.from_integer(fixed)
                 pc += 1
-            elif operation == FIX:
+            elif operation == op.FIX:
                 if weigh and (work := work + state.owe(weigh("to_integer", fac))) > most + SLACK:
                     reason = AT_COSTLY
                     break
                 fixed = numbers.to_integer(fac)
                 pc += 1
-            elif operation == SELECT:
+            elif operation == op.SELECT:
                 # A computed GO TO.  The number before the targets in the table is their count.
                 if kinds[address] != FIXED_POINT:
                     reason = AT_UNDEFINED
@@ -359,9 +301,9 @@ def run(
                 if decide:
                     decide((pc, target, value))
                 pc = target
-            elif operation == SWITCH:
+            elif operation == op.SWITCH:
                 pc = targets[address] if switches[seconds[pc] - 1] else targets[address + 1]
-            elif operation == ITEM:
+            elif operation == op.ITEM:
                 # One number of a list.  For a whole array the same instruction comes again until its last element.
                 if work > most + SLACK:
                     reason = AT_COSTLY
@@ -374,8 +316,8 @@ def run(
                 break
             elif operation in _REASONS:
                 # POWER needs a floating-point field, POWERX a fixed-point one.
-                if operation in (POWER, POWERX) and (
-                    kinds[address] == UNDEFINED or (kinds[address] == FIXED_POINT) != (operation == POWERX)
+                if operation in (op.POWER, op.POWERX) and (
+                    kinds[address] == UNDEFINED or (kinds[address] == FIXED_POINT) != (operation == op.POWERX)
                 ):
                     reason = AT_UNDEFINED
                     break

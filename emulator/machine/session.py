@@ -245,7 +245,7 @@ class Session:
         except Ended as ended:
             self._ending = ended.ending
         except Undecided as error:
-            self._ending = self.devices.ending("undecided", trouble=str(error))
+            self._ending = replace(self.devices.ending("undecided"), trouble=str(error))
         return self._ending or self.halt
 
     def _wait_for_line(self, trouble: str) -> None:

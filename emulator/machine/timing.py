@@ -30,52 +30,22 @@ class Cost:
     estimated: bool = False
 
 
-ARITHMETIC, FIXED, CONTROL, SUBSCRIPTS, CONVERSION = (
-    "floating point",
-    "fixed point",
-    "control",
-    "subscripts",
-    "number conversion",
-)
+ARITHMETIC, FIXED, CONTROL = "floating point", "fixed point", "control"
+SUBSCRIPTS, CONVERSION = "subscripts", "number conversion"
 
-COSTS: dict[str, Cost] = {
-    "TOFAC": Cost(2.0, ARITHMETIC),
-    "FMFAC": Cost(2.0, ARITHMETIC),
-    "FAD": Cost(9.5, ARITHMETIC),
-    "FSB": Cost(12.4, ARITHMETIC),
-    "FSBR": Cost(12.9, ARITHMETIC),
-    "FMP": Cost(18.3, ARITHMETIC),
-    "FDV": Cost(54.0, ARITHMETIC),
-    "FDVR": Cost(56.0, ARITHMETIC),
-    "RSGN": Cost(0.5, ARITHMETIC),
-    "FUNCTION": Cost(150.0, ARITHMETIC, True),
-    "POWER": Cost(300.0, ARITHMETIC, True),
-    "POWERX": Cost(60.0, ARITHMETIC, True),
-    "FLOAT": Cost(3.0, ARITHMETIC, True),
-    "FIX": Cost(3.0, ARITHMETIC, True),
-    "SEND": Cost(0.56, CONTROL),
-    "TRANSMIT": Cost(0.0, CONTROL),
-    "TOFIX": Cost(0.36, FIXED),
-    "FMFIX": Cost(0.36, FIXED),
-    "XAD": Cost(0.48, FIXED),
-    "XSB": Cost(0.48, FIXED),
-    "XSBR": Cost(0.7, FIXED),
-    "XMP": Cost(3.4, FIXED),
-    "XDV": Cost(11.4, FIXED),
-    "XDVR": Cost(12.0, FIXED),
-    "RSGX": Cost(0.2, FIXED),
-    "COUNT": Cost(0.0, CONTROL),
-    "BRANCH": Cost(0.2, CONTROL),
-    "IF": Cost(1.2, CONTROL),
-    "IFX": Cost(0.9, CONTROL),
-    "DOTEST": Cost(1.2, CONTROL),
-    "SELECT": Cost(1.5, CONTROL),
-    "SWITCH": Cost(0.3, CONTROL),
-    "BEGIN": Cost(3.4, CONVERSION),
-    "ITEM": Cost(0.0, CONVERSION),
-    "FINISH": Cost(2.0, CONVERSION, True),
-    "PAUSE": Cost(0.16, CONTROL),
-    "STOP": Cost(0.16, CONTROL),
+
+def _costs(cause: str, estimated: bool = False, **milliseconds: float) -> dict[str, Cost]:
+    return {operation: Cost(time, cause, estimated) for operation, time in milliseconds.items()}
+
+
+COSTS = {
+    **_costs(ARITHMETIC, TOFAC=2, FMFAC=2, FAD=9.5, FSB=12.4, FSBR=12.9, FMP=18.3, FDV=54, FDVR=56, RSGN=0.5),
+    **_costs(ARITHMETIC, estimated=True, FUNCTION=150, POWER=300, POWERX=60, FLOAT=3, FIX=3),
+    **_costs(FIXED, TOFIX=0.36, FMFIX=0.36, XAD=0.48, XSB=0.48, XSBR=0.7, XMP=3.4, XDV=11.4, XDVR=12, RSGX=0.2),
+    **_costs(CONTROL, SEND=0.56, TRANSMIT=0, COUNT=0, BRANCH=0.2, IF=1.2, IFX=0.9, DOTEST=1.2, SELECT=1.5),
+    **_costs(CONTROL, SWITCH=0.3, PAUSE=0.16, STOP=0.16),
+    **_costs(CONVERSION, BEGIN=3.4, ITEM=0),
+    **_costs(CONVERSION, estimated=True, FINISH=2),
 }
 """The cost of each operation of the object code."""
 # COUNT is not on the machine: it costs nothing.  SEND and TRANSMIT are a single transmit field instruction, whose time
@@ -84,12 +54,10 @@ COSTS: dict[str, Cost] = {
 SUBSCRIPT = Cost(2.0, SUBSCRIPTS, True)
 SUBSCRIPT_2 = Cost(7.0, SUBSCRIPTS, True)
 FIELD_COSTS = {
-    "E<": Cost(100.0, CONVERSION, True),
-    "F<": Cost(100.0, CONVERSION, True),
-    "I<": Cost(20.0, CONVERSION, True),
-    "E>": Cost(180.0, CONVERSION, True),
-    "F>": Cost(180.0, CONVERSION, True),
-    "I>": Cost(30.0, CONVERSION, True),
+    **dict.fromkeys(("E<", "F<"), Cost(100, CONVERSION, True)),
+    **dict.fromkeys(("E>", "F>"), Cost(180, CONVERSION, True)),
+    "I<": Cost(20, CONVERSION, True),
+    "I>": Cost(30, CONVERSION, True),
 }
 """The cost of a number read (<) or written (>), fitted to runs of examples 1 and 2 as PDQ FORTRAN compiles them."""
 

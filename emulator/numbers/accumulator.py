@@ -10,28 +10,14 @@ The functions use only integers and loops, so that numba can compile them.
 
 from __future__ import annotations
 
-from emulator.numbers.arithmetic import (
-    MAX_EXPONENT,
-    MIN_EXPONENT,
-    MINUS_ZERO,
-    ZERO,
-    Rules,
-)
+from emulator.numbers.arithmetic import MAX_EXPONENT, MIN_EXPONENT, MINUS_ZERO, ZERO, Rules
 from emulator.numbers.arithmetic import add as add_digits
 from emulator.numbers.arithmetic import divide as divide_digits
 from emulator.numbers.arithmetic import multiply as multiply_digits
 
 # Events, numbered as the error codes E1 to E8.
-(
-    SUM_OVER,
-    SUM_UNDER,
-    PRODUCT_OVER,
-    PRODUCT_UNDER,
-    QUOTIENT_OVER,
-    QUOTIENT_UNDER,
-    ZERO_DIVISOR,
-    FIXED_ZERO_DIVISOR,
-) = range(1, 9)
+SUM_OVER, SUM_UNDER, PRODUCT_OVER, PRODUCT_UNDER = range(1, 5)
+QUOTIENT_OVER, QUOTIENT_UNDER, ZERO_DIVISOR, FIXED_ZERO_DIVISOR = range(5, 9)
 
 State = tuple[int, int, int]
 """Mantissa, exponent and event."""

@@ -18,7 +18,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from emulator.compiled import deck as unattended
+from emulator.compiled import deck as compiled_deck
+from emulator.compiled import devices
 from emulator.compiled import runner
 from emulator.compiled.batch import run_batch
 from emulator.jit.functions import Compiled, NotInstalled, called, digest
@@ -102,7 +103,7 @@ def test_with_numba_there_is_no_note() -> None:
 def test_a_single_run_does_not_import_numba() -> None:
     """Importing numba takes a third of a second."""
     code = (
-        "import sys\nfrom emulator import Machine, compile_deck, deck_from_lines\n"
+        "import sys\nfrom hull1620 import Machine, compile_deck, deck_from_lines\n"
         f"lines = {LINES!r}\n"
         "Machine(compile_deck(deck_from_lines('p', lines)), deck_from_lines('d', ['  41'])).run()\n"
         "sys.exit('numba' in sys.modules)"
@@ -289,11 +290,11 @@ def test_the_engine_runs_as_python_on_lists(number: int, name: str) -> None:
     columns = packed(deck)
     assert columns is not None
     report = lists(runner.report)
-    done = unattended.run_decks(
+    done = compiled_deck.run_decks(
         lists(runner.code),
         lists(runner.forms),
         lists(runner.start),
-        unattended.Cards(list(columns), [0, 1]),
+        devices.Cards(list(columns), [0, 1]),
         lists(runner.core),
         lists(runner.tools),
         report,
@@ -301,6 +302,6 @@ def test_the_engine_runs_as_python_on_lists(number: int, name: str) -> None:
         runner.setting,
     )
     assert done == 1
-    log = bytes(report.log[: report.ends[0][unattended.LOG_TO]]).decode()
+    log = bytes(report.log[: report.ends[0][devices.LOG_TO]]).decode()
     result = Machine(made, deck, options).run()
     assert [line[1:] for line in log.splitlines() if line[0] == "P"] == list(result.punched)

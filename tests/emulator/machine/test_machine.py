@@ -202,10 +202,7 @@ def test_whole_arrays_are_transferred_column_by_column() -> None:
 
 def test_indexed_lists_transfer_the_elements_in_order() -> None:
     lines = ["DIMENSION M(2,3)", "READ 90,((M(I,J),J=1,3),I=1,2)", "PUNCH 90,(M(I,2),I=1,2)", "PUNCH 90,M"]
-    assert punched(*lines, "90 FORMAT(6I3)", "END", data=["  1  2  3  4  5  6"]) == (
-        "  2  5",
-        "  1  4  2  5  3  6",
-    )
+    assert punched(*lines, "90 FORMAT(6I3)", "END", data=["  1  2  3  4  5  6"]) == ("  2  5", "  1  4  2  5  3  6")
 
 
 def test_an_indexed_list_has_at_least_one_pass_and_may_have_a_step() -> None:

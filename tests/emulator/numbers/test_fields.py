@@ -118,15 +118,7 @@ def test_the_largest_and_smallest() -> None:
 
 
 @pytest.mark.parametrize(
-    ("columns", "value"),
-    [
-        ("2 ", 20),
-        (" 2 ", 20),
-        ("1 2", 102),
-        ("  12", 12),
-        ("- 5", -5),
-        ("    ", 0),
-    ],
+    ("columns", "value"), [("2 ", 20), (" 2 ", 20), ("1 2", 102), ("  12", 12), ("- 5", -5), ("    ", 0)]
 )
 def test_blanks_in_an_i_field(columns: str, value: int) -> None:
     """OPEN-QUESTIONS 6: leading blanks are ignored, others are zeros with a warning.  A blank field warns too."""

@@ -8,14 +8,7 @@ from collections import Counter
 
 import pytest
 
-from emulator.numbers.arithmetic import (
-    FAMILIES,
-    MAX_DIGITS,
-    MIN_DIGITS,
-    Profile,
-    Rules,
-    profile,
-)
+from emulator.numbers.arithmetic import FAMILIES, MAX_DIGITS, MIN_DIGITS, Profile, Rules, profile
 from emulator.numbers.arithmetic import PROFILES as OF_THE_TIME
 from emulator.numbers.base import Trap
 from emulator.numbers.decimal import DecimalNumbers, Pair
