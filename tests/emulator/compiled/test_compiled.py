@@ -19,8 +19,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from emulator.compiled import deck as compiled_deck
-from emulator.compiled import devices
-from emulator.compiled import runner
+from emulator.compiled import devices, runner
 from emulator.compiled.batch import run_batch
 from emulator.jit.functions import Compiled, NotInstalled, called, digest
 from emulator.language.cards import deck_from_lines
