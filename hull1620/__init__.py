@@ -2,17 +2,17 @@
 
 ``import hull1620`` is fast, because each name is loaded on first use.
 
-convex_hull, exact_hull         the hull of points: by Butler's procedure in any arithmetic; exactly, with a proof
-Hull                            their result: numpy arrays, exact volume and area, drawings, files
-digital_hull, voxel_hull        the filled hull of voxels; the exact hull of voxels, in physical coordinates if known
-read_volume                     voxels from a file: NRRD, NPY, NIfTI, DICOM and others
-read_points, data_deck          points from a file of any supported format; points as a data deck
-read_deck, compile_deck         cards from a file; a compiled FORTRAN program
-Machine, Options, numbers       a run of a program on the 1620, its options, its arithmetic
-run_hull, read_hull             the programs of 1963 applied to a data deck; a hull from the cards they punch
-diverge                         one program run in two arithmetics in step
-Plan, Cell, run_study           studies of thousands of point sets by several routes, each compared with the exact hull
-reproduce                       the printed results computed again
+- ``convex_hull``, ``exact_hull``: the hull of points, by Butler's procedure in any arithmetic or with an exact proof
+- ``Hull``: their result, with numpy arrays, exact volume and area, drawings and files
+- ``digital_hull``, ``voxel_hull``: the filled hull of voxels; the exact hull of voxels, in physical coordinates
+- ``read_volume``: voxels from a file, such as NRRD, NPY, NIfTI or DICOM
+- ``read_points``, ``data_deck``: points from a file of any supported format; points as a data deck
+- ``read_deck``, ``compile_deck``: cards from a file; a compiled FORTRAN program
+- ``Machine``, ``Options``, ``numbers``: a run of a program on the 1620, its options, its arithmetic
+- ``run_hull``, ``read_hull``: the programs of 1963 applied to a data deck; a hull from the cards they punch
+- ``diverge``: one program run in two arithmetics in step
+- ``Plan``, ``Cell``, ``run_study``: studies of thousands of point sets, compared with the exact hull
+- ``reproduce``: the printed results computed again
 """
 
 from __future__ import annotations

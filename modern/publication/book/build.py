@@ -39,12 +39,7 @@ CHAPTERS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("Hulls", ("explanation/judge.md", "explanation/digital.md")),
     (
         "Four later papers",
-        (
-            "papers/appel_will.md",
-            "papers/nakamae_nishita.md",
-            "papers/kovalevsky_schulz.md",
-            "papers/yau_srihari.md",
-        ),
+        ("papers/appel_will.md", "papers/nakamae_nishita.md", "papers/kovalevsky_schulz.md", "papers/yau_srihari.md"),
     ),
     ("Studies", ("explanation/studies.md", "@studies", "weight/report.md")),
     ("Glossary", ("reference/glossary.md",)),

@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 from docutils import nodes
+from sphinx import addnodes
 from sphinx.writers.html5 import HTML5Translator
 
 
@@ -21,12 +22,15 @@ class AccessibleTranslator(HTML5Translator):
         """Return a start tag.
 
         A heading cell has the scope of its column, but an empty one is a data cell.  The keyboard can scroll a wide
-        table.  The caption of a table of contents is not a heading, because it has no level.
+        table.  The caption of a table of contents is not a heading, because it has no level.  The parameters of a long
+        signature are no description list, although Sphinx writes them as ``dl``.
         """
         if tagname == "th":
             tagname, attributes = ("th", attributes | {"scope": "col"}) if node.astext() else ("td", attributes)
         if "table-wrapper" in node.get("classes", ()):
             attributes["tabindex"] = "0"
+        if tagname == "dl" and isinstance(node, addnodes.desc_parameterlist):
+            attributes["role"] = "presentation"
         if attributes.get("ROLE") == "heading":
             del attributes["ROLE"]
         tag: str = super().starttag(node, tagname, suffix, empty, **attributes)
