@@ -1,11 +1,9 @@
-"""All checks of ``hull1620 apparatus --check``, each reported as a :class:`Proof`: sources, decks, readings and
-grounds.
+"""All checks of ``hull1620 apparatus --check``, each reported as a :class:`Proof`.
 
 An emendation is checked twice: its kind must allow the change (:mod:`modern.edition.readings`), and its ground must
-fail without it. The grounds of the listings are in :mod:`modern.edition.grounds` and those of chapter 6 in
-:mod:`modern.edition.chapter6_grounds`. The grounds of chapter 4 and of the papers are here: ``sibling``, words that
-another line has too; ``arithmetic``, the four conditions of theorem 4.2 in full; and ``result``, a published result
-that is computed and is reproduced only with the emendation.
+fail without it. The grounds of chapter 4 and of the papers are checked here: ``sibling``, words that another line has
+too; ``arithmetic``, the four conditions of theorem 4.2 in full; and ``result``, a published result that is computed and
+is reproduced only with the emendation.
 """
 
 from __future__ import annotations
@@ -42,11 +40,7 @@ def count_pair_uses(all_texts: Mapping[str, Text]) -> Counter[tuple[str, str]]:
 
 
 def check_sources(whole: str = "") -> Iterator[Proof]:
-    """Check the hashes of witnesses and ground decks and, if ``whole`` is the text of a document, that its excerpts are
-    in it.
-
-    Raise ApparatusError for a text that does not belong to a document.
-    """
+    """Check the hashes of the sources, and the excerpts against ``whole``, the text of a document, if it is given."""
     for file, holds, message in (*sources.check_files(), *(sources.check_against(whole) if whole else ())):
         yield Proof(file.removeprefix("fortran_src/").removeprefix("transcripts/"), holds, message)
 
@@ -152,7 +146,6 @@ def paper_faults(paper: published.Paper, text: Text, row: Row) -> tuple[str, ...
 
 
 def _span(text: Text, row: Row, first: str, last: str) -> list[str]:
-    """Return the lines of a result, and the lines after it that the row removes."""
     order = [line.id for line in text.witness]
     start, end = order.index(first), order.index(last) + 1
     for change in row.changes:
@@ -164,21 +157,8 @@ def _span(text: Text, row: Row, first: str, last: str) -> list[str]:
 def check_everything(rows: list[Row], transcripts: bool, whole: str = "", workers: int = 1) -> Iterator[Proof]:
     """Run all checks in the order in which they are printed.
 
-    Parameters
-    ----------
-    rows
-        The rows of the listings to check.
-    transcripts
-        Whether to check the sources and the transcripts too.
-    whole
-        The complete text of a document, whose excerpts are then checked.
-    workers
-        The number of processes; with 1 everything runs in this process.
-
-    Raises
-    ------
-    ApparatusError
-        If ``whole`` does not belong to a document.
+    Check only the ``rows`` of the listings unless ``transcripts`` is true, and the excerpts of a document if ``whole``
+    is its text. Raise ApparatusError if ``whole`` does not belong to a document.
     """
     pair_uses = count_pair_uses(texts())
     if workers == 1 or len(rows) < _MANY:

@@ -1,9 +1,8 @@
 """Published results of the later papers, and the verdict on each.
 
-The folder of a paper below ``transcripts`` holds a witness (the values as printed, with page marks), an apparatus (the
-emendations, see :mod:`modern.edition.apparatus`) and ``results.toml``, which names the lines of the corrected print
-that form one published result. The output of a program is compared with the corrected print word by word; spacing is
-ignored.
+The folder of a paper below ``transcripts`` holds a witness (the values as printed, with page marks), an apparatus and
+``results.toml``, which names the lines of the corrected print that form one published result. The output of a program
+is compared with the corrected print word by word; spacing is ignored.
 """
 
 from __future__ import annotations
@@ -29,11 +28,7 @@ Kind = Literal["exact", "as corrected", "differs, explained", "not reproducible"
 
 @dataclass(frozen=True, slots=True)
 class Paper:
-    """A paper with published results: its name on the command line, its title, its data folder and the module that
-    computes them.
-
-    The module provides a function ``produced``; see :data:`modern.papers.Lines`.
-    """
+    """A paper with published results; ``module`` provides ``produced`` (see :data:`modern.papers.Lines`)."""
 
     name: str
     title: str
@@ -67,10 +62,9 @@ PAPERS: tuple[Paper, ...] = (
 class PublishedResult:
     """A published result.
 
-    ``place`` is its page, figure or table. ``printed`` are its lines as in the witness, ``corrected`` the lines after
-    the emendations ``rows``, and ``span`` the ids of its first and last line. ``differs`` explains why the computed
-    result differs from the printed one, and ``cannot`` why nothing can be computed; both are empty if the print is
-    reproduced.
+    ``printed`` are its lines as in the witness, ``corrected`` the lines after the emendations ``rows``, and ``span``
+    the ids of its first and last line. ``differs`` explains why the computed result differs from the printed one, and
+    ``cannot`` why nothing can be computed.
     """
 
     id: str
@@ -112,10 +106,7 @@ def text_of(paper: Paper, folder: Traversable | None = None) -> Text:
 def results_of(paper: Paper, folder: Traversable | None = None) -> tuple[PublishedResult, ...]:
     """Return the published results of a paper in the order of ``results.toml``.
 
-    Raises
-    ------
-    ApparatusError
-        If a result names a line that does not exist, or if a line belongs to two results or to none.
+    Raise ApparatusError if a result names a line that does not exist, or if a line belongs to two results or to none.
     """
     folder = folder or files("transcripts").joinpath(paper.folder)
     text = text_of(paper, folder)
@@ -153,10 +144,7 @@ def results_of(paper: Paper, folder: Traversable | None = None) -> tuple[Publish
 
 
 def judge(paper: Paper, result: PublishedResult, produced: Sequence[str]) -> Finding:
-    """Compare produced lines with the corrected print.
-
-    A result that is reproduced although the data call it different or not reproducible is DIFFERENT.
-    """
+    """Compare produced lines with the corrected print; a result must differ if the data say that it does."""
     same = [line.split() for line in produced] == [line.split() for line in result.corrected]
     kind: Kind
     if result.cannot:

@@ -1,10 +1,9 @@
 """The register of statements of the five documents, and the computation of their verdicts.
 
-``transcripts/statements`` holds one file for each document and one row for each statement.  A row records a verdict
-and names the evidence from which :func:`judge` computes it again: a *claim* is a function of this package, a *result*
-is a published result that ``reproduce`` judges as well, and a *test* replaces them if the check takes too long
-(``tests/modern/claims/test_register.py`` checks that the test exists).  A statement that cannot be tested has a reason
-instead.
+``transcripts/statements`` holds one file for each document and one row for each statement.  A row records a verdict and
+names the evidence from which :func:`judge` computes it again: a *claim* is a function of this package, a *result* is a
+published result that ``reproduce`` judges as well, and a *test* replaces them if the check takes too long.  A statement
+that cannot be tested has a reason instead.
 """
 
 from __future__ import annotations
@@ -63,15 +62,11 @@ def fails_if(refuted: object, message: str) -> CheckResult:
 class Statement:
     """A statement of a document.
 
-    ``page`` is the page, or the section if our text has no page numbers.  ``kind`` is theorem, lemma, definition,
-    equation, figure, table, complexity, property, step, claim, slip and so on.  ``words`` quotes at most eight words of
-    our text of the document and so locates the statement; ``says`` paraphrases it.  ``why`` is the condition, the
-    reason why the statement fails, or the reason why it is not tested.
-
-    ``claim`` is ``module.function arguments`` below :mod:`modern.claims`, ``results`` are ids of published results,
-    and ``tests`` are test functions, ``file::name``.  ``file`` is the smallest known counterexample in
-    ``transcripts/counterexamples``, and ``run`` the command that shows it.  ``part`` is the theorem to which a worked
-    example of chapter 4 belongs.
+    ``page`` may be a section.  ``words`` quotes at most eight words of our text of the document; ``says`` paraphrases
+    the statement.  ``why`` is the condition, the reason why the statement fails, or the reason why it is not tested.
+    ``claim`` is ``module.function arguments`` below :mod:`modern.claims`, ``results`` are ids of published results, and
+    ``tests`` are test functions, ``file::name``.  ``file`` is the smallest known counterexample, and ``run`` the
+    command that shows it.  ``part`` is the theorem to which a worked example of chapter 4 belongs.
     """
 
     document: str
@@ -128,10 +123,7 @@ def statements_of(document: str) -> tuple[Statement, ...]:
 def read_rows(document: str, text: str) -> Iterator[Statement]:
     """Yield the rows of a register.
 
-    Raises
-    ------
-    StatementError
-        If a row has an unknown or missing field, an unknown verdict, or evidence that does not fit its verdict.
+    Raise StatementError for an unknown or missing field, an unknown verdict, or evidence that does not fit its verdict.
     """
     for raw in tomllib.loads(text).get("statement", ()):
         yield _row(document, raw)
@@ -173,10 +165,7 @@ def _as_tuple(value: str | Iterable[str]) -> tuple[str, ...]:
 def judge(statement: Statement, results: Results) -> Judged:
     """Compute the verdict of a row from its evidence; the worst verdict counts.
 
-    Raises
-    ------
-    StatementError
-        If the row names a claim or result that does not exist.
+    Raise StatementError if the row names a claim or result that does not exist.
     """
     verdicts: list[Verdict] = []
     messages: list[str] = []

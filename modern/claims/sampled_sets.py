@@ -1,8 +1,4 @@
-"""Data that the checks of several documents share: sampled point sets, random triples and counterexamples.
-
-The sampled sets are small sets of integer points, always the same ones, each with the hull that the port of Butler's
-procedure constructs and the hull that the exact judge computes.
-"""
+"""Data that the checks of several documents share: sampled point sets, random triples and counterexamples."""
 
 from __future__ import annotations
 
@@ -103,10 +99,7 @@ def _normal(points: tuple[Point, ...], start: tuple[int, ...]) -> Point:
 
 @cache
 def sampled_sets(dimension: int, count: int) -> tuple[SampledSet, ...]:
-    """Return ``count`` sets in space (3) or in a plane that is not parallel to a coordinate axis (2).
-
-    Some sets have three collinear points.
-    """
+    """Return sets in space (3) or in an oblique plane (2); some have three collinear points."""
     random = Random(_SEEDS[dimension])
     sets: list[SampledSet] = []
     while len(sets) < count:

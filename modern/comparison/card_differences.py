@@ -18,13 +18,9 @@ class UnrelatedCards(EmulatorError):
 
 @dataclass(frozen=True, slots=True)
 class CardDifferences:
-    """The differences between punched cards and the exact hull.
+    """The vertices missed and added by punched cards, the faces ``not_found``, and false faces.
 
-    missed, added: vertices that the cards lack, and points that they wrongly call vertices, by index in the input.
-    not_found: faces that the cards lack, by index into ``Hull.faces``.
-    polygons: for each face on the cards that the hull does not have, the vertices that the cards list on it, if there
-        are at least two.
-    others: the number of such faces with fewer vertices.
+    ``polygons`` has the vertices that the cards list on each false face; ``others`` counts those with fewer than two.
     """
 
     missed: tuple[int, ...] = ()
@@ -35,10 +31,7 @@ class CardDifferences:
 
 
 def card_differences(cards: CardHull, hull: Hull, source: str) -> CardDifferences:
-    """Return how the cards of the file ``source`` differ from the exact hull of the points.
-
-    Raise UnrelatedCards if the cards hold no result, or points that are not among those of the hull.
-    """
+    """Return how the cards of the file ``source`` differ from the exact hull. Raise UnrelatedCards for other points."""
     if not cards.vertices:
         raise UnrelatedCards(f"{source}: these cards have no vertices; 'hull1620 hull' punches cards that have them")
     points = [tuple(Fraction(number) for number in point) for point in hull.points]

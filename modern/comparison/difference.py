@@ -132,7 +132,6 @@ def _distance(equation: Equation, exact: Equation) -> Fraction:
 
 
 def _excluded(equations: Sequence[Equation], points: Sequence[Vector]) -> tuple[Fraction, int | None]:
-    """Return the largest distance of a point outside an equation, and the point."""
     worst, worst_point = Fraction(0), None
     if not equations:
         return worst, worst_point

@@ -30,15 +30,11 @@ _STATUS = {"limit": "endless", "bounds": "out of bounds", "outside": "out of bou
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """The result of one route for a point set.
+    """The result of one route for a point set; points are indices.
 
-    status: ``determined``, or the reason why there is no hull.
-    dimension: -1 if the route does not determine it.
-    vertices, boundary, inside: indices of points.
-    equations: supporting planes or lines.
-    strange: the number of points in the result that are not in the input.
-    faulty: numbers of equations of program 1 that do not vanish at the points that they should contain.
-    ending: the ending of a run that failed.
+    ``status`` is ``determined``, or the reason why there is no hull, and ``dimension`` -1 if it is not determined.
+    ``strange`` counts points in the result that are not in the input. ``faulty`` are the equations of program 1 that do
+    not vanish at the points that they should contain. ``ending`` is that of a run that failed.
     """
 
     name: str
@@ -126,10 +122,8 @@ def from_judge(hull: ExactHull, points: Sequence[Vector]) -> Outcome:
 
 
 def as_hull(judged: ExactHull) -> Hull:
-    """Return an exact hull in the form of the port's results, with all numbers as exact text.
-
-    Points are in the order of the input, whereas the port has them in the order of the programs.  There are no labels
-    of statements, no point C and no history.
+    """Return an exact hull, in the order of the input, in the form of the port's results, with all numbers as exact
+    text.
     """
     points = [tuple(Fraction(number, judged.scale) for number in point) for point in judged.scaled]
     if judged.dimension == 3:
@@ -204,7 +198,6 @@ def _lines(hull: ExactHull, points: Sequence[Vector]) -> list[Equation]:
 
 
 def _faulty(hull: CardHull) -> tuple[int, ...]:
-    """Return the numbers of equations of program 1 that do not vanish at the points that they should contain."""
     equations = hull.equations
     pairs = hull.satisfied or [((1, 2), number) for number in range(1, len(equations) + 1)]
     return tuple(
@@ -215,5 +208,4 @@ def _faulty(hull: CardHull) -> tuple[int, ...]:
 
 
 def _value(equation: Sequence[Fraction], point: Vector) -> Fraction:
-    """Return the value of an equation at a point."""
     return sum((c * x for c, x in zip(equation, point, strict=False)), equation[3])

@@ -22,11 +22,7 @@ _HEADERS = {(1, 0): npy.read_array_header_1_0, (2, 0): npy.read_array_header_2_0
 
 
 def parse_npy(data: bytes, source: str) -> NDArray[Any]:
-    """Return the array of an NPY file without copying its data.
-
-    Raise VolumeError for a damaged header, an array of objects, data of another length than the header states, and
-    more than ``MAX_CELLS`` numbers.
-    """
+    """Return the array of an NPY file without copying its data. Raise VolumeError for a damaged or too large file."""
     file = io.BytesIO(data)
     try:
         with warnings.catch_warnings():
@@ -54,8 +50,7 @@ def parse_npy(data: bytes, source: str) -> NDArray[Any]:
 def parse_npz(data: bytes, source: str, name: str | None = None) -> NDArray[Any]:
     """Return the array called ``name`` of an NPZ file, or its only array.
 
-    Raise VolumeError if there are several arrays and no name, if no array has the name, if the file is damaged, and in
-    the cases of ``parse_npy``.
+    Raise VolumeError if there is no such array, if ``name`` is needed, and in the cases of ``parse_npy``.
     """
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as packed:

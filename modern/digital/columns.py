@@ -1,7 +1,6 @@
 """The columns of a volume: their lowest and highest voxels, the candidates for vertices, and filled columns.
 
-A column is a line of voxels along the last axis of an array. All its voxels lie between its two ends, so the hull of a
-volume is the hull of the ends of its columns, two points for each column.
+A column is a line of voxels along the last axis. The hull of a volume is the hull of the ends of its columns.
 """
 
 from __future__ import annotations
@@ -41,10 +40,9 @@ def column_ends(volume: Truth) -> tuple[Grid, Grid, Grid, Grid]:
 
 
 def reduced(x: Grid, y: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
-    """Remove points on or above a chord of their row or column of (x, y), and return the remaining points.
+    """Remove points on or above a chord of their row or column of (x, y), which are never vertices of the lower side.
 
-    A removed point is never a vertex of the lower side of the hull. Not every other point is removed. The arrays x, y,
-    z hold one point for each (x, y), in raster order, and so does the result.
+    The arrays x, y, z hold one point for each (x, y), in raster order, and so does the result.
     """
     x, y, z = _along(x, y, z)
     order = np.lexsort((x, y))

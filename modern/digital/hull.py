@@ -83,10 +83,7 @@ class DigitalHull:
         return int(np.count_nonzero(self.filled))
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write ``filled`` as .nrrd with the position of its voxels, or as .npy, which stores no position.
-
-        Raise VolumeError for another file name extension and FileError if the file cannot be written.
-        """
+        """Write ``filled`` as .nrrd with the position of its voxels, or as .npy, which stores no position."""
         from modern.digital.volumes import write_array
 
         write_array(os.fspath(path), self.filled, self.source)
@@ -135,10 +132,7 @@ def placed(
     origin: Sequence[Any] | None = None,
     directions: Sequence[Sequence[Any]] | None = None,
 ) -> Volume:
-    """Return a volume unchanged, or an array with its position as a volume of the values other than 0.
-
-    Raise VolumeError and NoVoxels as ``digital_hull`` does.
-    """
+    """Return a volume unchanged, or an array with its position as a volume of the values other than 0."""
     if not isinstance(volume, Volume):
         array = _truth(np.asarray(volume))
         volume = Volume(array, (0,) * array.ndim, world=world_of(array.ndim, spacing, origin, directions))
@@ -164,7 +158,6 @@ def _truth(array: NDArray[Any]) -> Truth:
 
 
 def _hull(solid: Truth, fast: bool | None) -> tuple[int, Truth]:
-    """Return dimension and filled hull of a volume with three axes and at least one voxel."""
     # Candidates for vertices: the lower and the upper ends of the columns, reduced separately.
     x, y, low, high = column_ends(solid)
     lower = np.stack(reduced(x, y, low), axis=1)

@@ -36,10 +36,7 @@ class Measures:
 
     @property
     def solidity(self) -> Fraction:
-        """The fraction of the hull that the solid fills, for a hull of voxel corners, which contains the solid.
-
-        Raise VolumeError for a flat hull.
-        """
+        """The fraction of a hull of voxel corners that the solid fills. Raise VolumeError for a flat hull."""
         if not self.hull_volume:
             raise VolumeError("a flat hull has no volume, so its solidity is undefined")
         return self.volume / self.hull_volume

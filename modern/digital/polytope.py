@@ -93,10 +93,7 @@ def distribute(at: Points, surface: Surface, first: int, chosen: Integers, count
 
 
 def find_visible(at: Points, surface: Surface, p: int, first: int) -> tuple[int, int]:
-    """Mark and list the facets that ``p`` sees, starting from one of them, and the horizon.
-
-    Return the numbers of facets and edges.
-    """
+    """List the facets that ``p`` sees, from one of them on, and the horizon. Return the numbers of facets and edges."""
     visible, mark, across, horizon = surface.visible, surface.mark, surface.across, surface.horizon
     mark[first], visible[0] = p + 1, first
     count, edges, at_facet = 1, 0, 0
@@ -179,10 +176,7 @@ def grow(at: Points, surface: Surface, used: int) -> int:
 
 
 def hull(at: Points, surface: Surface, a: int, b: int, c: int, d: int) -> int:
-    """Compute the polyhedron of all points from a tetrahedron with d below the plane of a, b, c.
-
-    Return the slots used.
-    """
+    """Compute the polyhedron from a tetrahedron with d below the plane of a, b, c. Return the slots used."""
     set_facet(at, surface, 0, a, b, c)
     set_facet(at, surface, 1, b, a, d)
     set_facet(at, surface, 2, c, b, d)
@@ -249,7 +243,6 @@ def _listed(count: int, number: int) -> list[int]:
 
 
 def _outward(points: Grid, simplex: tuple[int, int, int, int]) -> tuple[int, int, int, int]:
-    """Return the four points in an order in which the fourth is below the plane of the first three."""
     a, b, c, d = simplex
     normal = np.cross(points[b] - points[a], points[c] - points[a])
     return (a, b, c, d) if normal @ (points[d] - points[a]) < 0 else (b, a, c, d)

@@ -75,10 +75,7 @@ class Volume:
 
 
 def as_volume(volume: Volume | Voxels) -> Volume:
-    """Return a volume unchanged, or an array of truth values as a volume whose coordinates are indices.
-
-    Raise VolumeError as ``Volume`` does.
-    """
+    """Return a volume unchanged, or an array of truth values as a volume whose coordinates are indices."""
     if isinstance(volume, Volume):
         return volume
     array = np.asarray(volume)
@@ -137,7 +134,6 @@ def half_ball(diameter: int, centre: str = VERTEX) -> Volume:
 
 
 def _widest() -> int:
-    """Return the largest diameter whose box has at most ``MAX_CELLS`` voxels."""
     size = round(MAX_CELLS ** (1 / 3)) + 1
     return next(d for d in range(size, 0, -1) if (d + 1) ** 3 <= MAX_CELLS)
 

@@ -1,7 +1,4 @@
-"""The differences between a claimed hull of some points and their true hull, drawn in one picture.
-
-Missing and false parts differ in shape and in colour, and the colours differ in brightness.
-"""
+"""The differences between a claimed hull and the true hull in one picture, distinguished by shape and brightness."""
 
 from __future__ import annotations
 
@@ -23,10 +20,7 @@ MISSED = Style("missed", "missing vertex", "dot", 'fill="none" stroke="#c1121f" 
 ADDED = Style("added", "false vertex", "dot", 'fill="#1d6fb8" stroke="#fff" stroke-width="1"')
 NOT_FOUND = Style("not-found", "missing face", "line", 'fill="#c1121f" fill-opacity="0.22" stroke="#c1121f"')
 NO_FACE = Style(
-    "no-face",
-    "false face",
-    "line",
-    'fill="#1d6fb8" fill-opacity="0.25" stroke="#1d6fb8" stroke-dasharray="2 3"',
+    "no-face", "false face", "line", 'fill="#1d6fb8" fill-opacity="0.25" stroke="#1d6fb8" stroke-dasharray="2 3"'
 )
 _FONT = f'font-family="{svg.FONT}" font-size="13" fill="#000"'
 _STEP, _RING, _HALF = 19, "6.5", 460
@@ -40,10 +34,7 @@ def draw_against(
     width: int | None = None,
     show: Show | None = None,
 ) -> str:
-    """Return the true hull and the differences of a claimed hull as the text of an SVG file.
-
-    The parameters and errors are those of :func:`modern.drawing.draw.draw_svg`.
-    """
+    """Return a true hull and the differences of a claimed one as an SVG file, with the parameters of ``draw_svg``."""
     show = replace(show or Show(), points=True)
     picture = filter_scene(scene(hull, None if eye is None else [Fraction(number) for number in eye]), show)
     width = width_of(picture, width)
@@ -63,7 +54,6 @@ def draw_against(
 
 
 def _pixels(hull: Hull, picture: Scene, layout: Layout) -> dict[int, Pixel]:
-    """Return the position of every input point in the picture."""
     pixels = {index: layout.vertices[place] for place, index in enumerate(hull.vertices)}
     for marks, places in ((picture.boundary, layout.boundary), (picture.inside, layout.inside)):
         pixels.update({mark.index: at for mark, at in zip(marks, places, strict=True)})
@@ -95,7 +85,6 @@ def _around(corners: Sequence[Pixel]) -> list[Pixel]:
 
 
 def _legend(claim: CardDifferences, top: int) -> Iterator[str]:
-    """Yield a row for each kind of difference with the number of its occurrences."""
     for k, (style, count) in enumerate(_counts(claim)):
         base = top + _STEP * k + 4
         at = Pixel((MARGIN + 9) * 100, base * 100 - 450)

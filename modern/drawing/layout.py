@@ -28,9 +28,7 @@ class Pixel:
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """The positions of all points of a scene. ``width`` and ``height`` of the picture are in pixels and include
-    margins.
-    """
+    """The positions of all points of a scene, and the size of the picture in pixels with its margins."""
 
     width: int
     height: int
@@ -59,11 +57,7 @@ def lay_out(picture: Scene, width: int) -> Layout:
 
 
 def fit(images: Sequence[Flat], width: int, highest: int, margin: int = MARGIN) -> tuple[Callable[[Flat], Pixel], int]:
-    """Return the map of images to pixels that fits them into the width, and the height of the picture with its
-    margins.
-
-    The map is true to scale. ``highest`` is the greatest height without the margins.
-    """
+    """Return the map of images to pixels that fits them into the width, and the height with its margins."""
     x_min, x_max = _ends(image[0] for image in images)
     y_min, y_max = _ends(image[1] for image in images)
     available = width - 2 * margin

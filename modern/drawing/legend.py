@@ -52,7 +52,6 @@ def wrapped(text: str, room: int) -> list[str]:
 
 
 def _text_lines(picture: Scene, width: int, title: str, numbered: bool) -> tuple[list[str], list[str]]:
-    """Return the lines of title and caption, which leave space for the axes."""
     room = width - 2 * MARGIN - (_AXES if picture.dimension else 0)
     return wrapped(title, room), wrapped(caption(picture) + ("" if numbered else "; vertices not numbered"), room)
 
@@ -76,7 +75,6 @@ def _count_of(count: int, singular: str, plural: str) -> str:
 
 
 def _styles(picture: Scene) -> list[Style]:
-    """Return the kinds of marks in the picture that need an explanation."""
     hidden = picture.behind and any(edge.hidden for edge in picture.edges)
     behind = [mark.hidden for mark in picture.boundary]
     present = (

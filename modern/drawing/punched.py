@@ -65,8 +65,7 @@ def check_punched(deck: Deck) -> None:
 def cards_svg(deck: Deck, across: int = 1, title: str = "") -> str:
     """Return the cards of a deck as the text of an SVG file, in rows of ``across`` cards from the upper left.
 
-    ``title`` defaults to the deck's name. The text of a card can be selected and copied. Raise CardError for a
-    character without a punch and DeckError for more than MOST_CARDS cards.
+    Raise CardError for a character without a punch and DeckError for more than MOST_CARDS cards.
     """
     if len(deck.cards) > MOST_CARDS:
         raise DeckError(f"{deck.source}: expected at most {MOST_CARDS} cards for one picture, found {len(deck.cards)}")
@@ -85,7 +84,6 @@ def cards_svg(deck: Deck, across: int = 1, title: str = "") -> str:
 
 
 def _form() -> Iterator[str]:
-    """Yield the blank card, which is defined once and used for all cards."""
     corner = Pixel(WIDTH * 100, HEIGHT * 100)
     corners = (Pixel(_CUT.x, 0), Pixel(corner.x, 0), corner, Pixel(0, corner.y), Pixel(0, _CUT.y))
     yield f'<g id="form" {_FORM}>'
@@ -100,7 +98,6 @@ def _form() -> Iterator[str]:
 
 
 def _card(card: Card, x: int, y: int) -> Iterator[str]:
-    """Yield one card: the form, its holes as one path, and its characters as one line of text."""
     yield f'<g class="card" transform="translate({x} {y})">'
     yield f"<title>card {card.number}</title>"
     yield '<use href="#form"/>'

@@ -1,7 +1,4 @@
-"""The scene of a picture: the images of points, visible and hidden edges, and marks of a hull seen from a direction.
-
-Visible faces and hidden edges are determined by the method of Nakamae and Nishita.
-"""
+"""The scene of a picture: images of points, and the edges visible and hidden by the method of Nakamae and Nishita."""
 
 from __future__ import annotations
 
@@ -155,7 +152,6 @@ def _behind(
     normals: Sequence[Vector],
     signs: Sequence[int],
 ) -> bool:
-    """Return True if every face that contains the boundary point is turned away."""
     on = [
         sign
         for face, polygon, normal, sign in zip(hull.faces, surface.faces, normals, signs, strict=True)
@@ -165,9 +161,7 @@ def _behind(
 
 
 def _light(normal: Vector, sight: View) -> Fraction:
-    """Return the light on a face, (1 + cosine) / 2 of its angle to a lamp above and behind the left shoulder of the
-    eye.
-    """
+    """Return the light on a face, (1 + cosine) / 2 of its angle to a lamp at the left shoulder of the eye."""
     length = sight.stretch
     level = root(Fraction(dot(sight.right, sight.right)))
     tall = level * length

@@ -1,8 +1,4 @@
-"""The construction H_1 to H_f (thesis p. 22-33) in pictures: a strip of stages, or an animation.
-
-Every stage has the same direction of view and the same scale. It shows the hull of the vertices so far, the added
-vertex, the points eliminated as inside points, and the points not tested yet.
-"""
+"""The construction H_1 to H_f (thesis p. 22-33) in pictures: a strip of stages, or an animation."""
 
 from __future__ import annotations
 
@@ -52,10 +48,7 @@ class Frame:
 
 
 def frames(hull: Hull, eye: Sequence[Fraction | int] | None = None, width: int = _CELL) -> tuple[Frame, ...]:
-    """Return the stages of a hull that was determined with its history.
-
-    Raise ExportError for a point, a segment or three points, which need no construction.
-    """
+    """Return the stages of a hull determined with its history. Raise ExportError if it needed no construction."""
     if not hull.determined:
         raise ExportError(f"there is no hull: {hull.status}")
     if not hull.history:
@@ -104,10 +97,7 @@ def strip(all_frames: Sequence[Frame], title: str = "") -> str:
 
 
 def played(all_frames: Sequence[Frame], title: str = "") -> str:
-    """Return an endless animation of the stages as the text of an SVG file.
-
-    A system that asks for reduced motion shows the last stage only.
-    """
+    """Return an endless animation as an SVG file; a reader with reduced motion sees the last stage only."""
     width, height = all_frames[0].layout.width, all_frames[0].layout.height + _BAND
     steps = len(all_frames) + _LAST - 1
     # The last stage is shown longer. Percentages of the whole cycle, as CSS keyframes require.

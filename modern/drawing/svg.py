@@ -1,7 +1,4 @@
-"""The elements of an SVG file as text: numbers without superfluous zeros, escaped text, nothing but ASCII.
-
-The marks of a picture differ in shape and in grey, never in colour.
-"""
+"""The elements of an SVG file as ASCII text; the marks of a picture differ in shape and in grey, never in colour."""
 
 from __future__ import annotations
 
@@ -25,9 +22,7 @@ def number(hundredths: int) -> str:
 
 
 def escape(text: str) -> str:
-    """Escape markup, write characters beyond ASCII as references, and replace those that XML forbids by question
-    marks.
-    """
+    """Escape markup and characters beyond ASCII, and replace those that XML forbids by question marks."""
     allowed = "".join(c if _LEGAL.fullmatch(c) else "?" for c in text)
     return _escape(allowed).encode("ascii", "xmlcharrefreplace").decode("ascii")
 
@@ -56,9 +51,7 @@ def square(centre: Pixel, half: int, title: str = "", attributes: str = "") -> s
 
 
 def saltire(centre: Pixel, arm: int, title: str = "", attributes: str = "") -> str:
-    """Return a diagonal cross whose ends are ``arm`` hundredths from the centre along both axes, with an optional
-    title.
-    """
+    """Return a diagonal cross whose ends are ``arm`` hundredths from the centre along both axes."""
     ends = [(centre.x + dx * arm, centre.y + dy * arm) for dx, dy in ((-1, -1), (1, 1), (-1, 1), (1, -1))]
     a, b, c, d = (f"{number(x)} {number(y)}" for x, y in ends)
     start = f'<path d="M{a}L{b}M{c}L{d}"{_after_space(attributes)}'
@@ -77,9 +70,7 @@ def group(name: str, attributes: str, items: Iterable[str]) -> list[str]:
 
 
 def page(width: int, height: int, title: str, items: Iterable[str], description: str = "") -> str:
-    """Return a complete file with a white background: a picture, or, with a description, a document with readable
-    text.
-    """
+    """Return a complete file with a white background; with a description it is a document with readable text."""
     role = "graphics-document document" if description else "img"
     head = (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '

@@ -68,10 +68,7 @@ def facing(corners: Sequence[tuple[N, N, N]]) -> int:
 def classify(
     faces: Sequence[tuple[int, ...]], signs: Sequence[int], flat: Callable[[int, int], bool]
 ) -> tuple[Edge, ...]:
-    """Return every edge once, sorted.
-
-    ``signs`` are those of :func:`facing` for each face. ``flat`` returns True if two faces lie in one plane.
-    """
+    """Return every edge once, sorted, from the ``signs`` of the faces; ``flat`` recognizes coplanar faces."""
     edge_faces: dict[tuple[int, int], list[int]] = defaultdict(list)
     for face_index, face in enumerate(faces):
         for a, b in sides(face):

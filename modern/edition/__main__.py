@@ -1,7 +1,4 @@
-"""Write the device files of chapter 6 from witness, apparatus and layout, or check the chapter.
-
-No run of a program is an input.
-"""
+"""Write the device files of chapter 6 from witness, apparatus and layout, or check the chapter."""
 
 from __future__ import annotations
 

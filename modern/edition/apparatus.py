@@ -156,8 +156,7 @@ class Text:
 def read_witness(source: str, furniture: Collection[str] = ()) -> tuple[Line, ...]:
     """Return the lines of a witness, numbered from 1 without the page marks.
 
-    Blank lines and ``furniture`` (lines such as code fences that belong to no text) are left out of the result but
-    counted, so that a number leads to the same line of the file.
+    Blank lines and ``furniture`` (lines that belong to no text, such as code fences) are counted but left out.
     """
     lines: list[Line] = []
     page, number = "", 0
@@ -199,10 +198,8 @@ def build(
     """Return the lines of the witness after the rows of ``layers`` (by default, the text's default layers).
 
     The rows ``without`` are left out, and ``instead`` replaces the row with the same id.  Layers always apply in the
-    text's order, so that a later layer can change the result of an earlier one.
-
-    Raises ApparatusError for an unknown layer, and RowMisfit if the witness fragment of a row does not occur exactly
-    once in its line.
+    text's order.  Raises ApparatusError for an unknown layer, and RowMisfit if the witness fragment of a row does not
+    occur exactly once in its line.
     """
     chosen = set(text.default if layers is None else layers)
     unknown = chosen.difference(text.layers)
@@ -369,8 +366,6 @@ def _row(head: Mapping[str, Any], raw: Mapping[str, Any]) -> Row:
 
 
 def _with_page(row: Row, pages: Mapping[str, str], origins: Mapping[str, Row]) -> Row:
-    """Return the row with the page, or the first and last page, of the witness lines that it changes."""
-
     def page(line: str) -> str:
         if line in pages:
             return pages[line]

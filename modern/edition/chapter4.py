@@ -1,7 +1,7 @@
 """The worked examples of chapter 4 (theorems 4.1, 4.2 with Table 1, and 4.8) as exact data.
 
-Points and planes are rational.  Each names its line of the corrected print (witness and apparatus of
-``transcripts/chapter4``) and the words there.  :func:`theorem_faults` parses those words and compares.
+Each point and plane names its line of the corrected print (witness and apparatus of ``transcripts/chapter4``) and the
+words there.  :func:`theorem_faults` parses those words and compares.
 """
 
 from __future__ import annotations
@@ -133,10 +133,7 @@ def printed_plane(equation: str) -> Vector:
 
 
 def theorem_faults(theorem: Theorem, text: Text, lines: Sequence[Line] | None = None) -> tuple[str, ...]:
-    """Return the faults of a theorem's data: differences from the print, and claims that exact arithmetic refutes.
-
-    ``lines`` are the lines of the corrected print, by default those of the text's default layers.
-    """
+    """Return differences of a theorem's data from the lines of the print, and claims that exact arithmetic refutes."""
     faults: list[str] = []
     at = {line.id: "".join(line.text.split()) for line in (build(text) if lines is None else lines)}
     name = f"theorem {theorem.id}"
@@ -186,7 +183,7 @@ def _named(point: Point, printed_line: str) -> bool:
 
 
 def _extreme_faults(theorem: Theorem, label: str, name: str) -> list[str]:
-    """Check an extreme: no point has a larger x than ``lx``, or a smaller one than ``sx``.  Lost points are skipped."""
+    """Check that no point, except lost ones, is more extreme than the named one."""
     axis, point = "xyz".index(label[1]), theorem.point(name)
     if point is None:
         return [] if name in theorem.lost else [f"theorem {theorem.id}: {name} does not exist"]

@@ -1,9 +1,9 @@
 """The layout of chapter 6 (``transcripts/chapter6/layout.toml``) and its committed device files.
 
-The print of chapter 6 gives words, numbers and their order.  The OCR lost the columns and the blank cards; the layout
-supplies them from the FORMAT statements (layer ``layout``).  It also supplies the typewriter lines, which the thesis
-states but does not print (layer ``stated``).  :mod:`modern.edition.chapter6_cards` combines print and layout into
-*device files*: an input deck, the cards that a program punches, or the lines that it types.
+The print of chapter 6 gives words, numbers and their order.  The layout supplies columns and blank cards, which the OCR
+lost, from the FORMAT statements (layer ``layout``), and the typewriter lines, which the thesis states but does not
+print (layer ``stated``).  :mod:`modern.edition.chapter6_cards` combines print and layout into *device files*: an input
+deck, the cards that a program punches, or the lines that it types.
 """
 
 from __future__ import annotations

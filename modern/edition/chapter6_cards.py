@@ -1,11 +1,8 @@
 """The printed examples of chapter 6 as card images, with the printed line of every character.
 
-A device file (an input deck, the punched cards or the typed lines of a program) is the corrected print (witness and
-apparatus, :mod:`modern.edition.apparatus`) set into the columns of ``layout.toml``.  The print gives every nonblank
-character and their order.  The layout gives only blanks and blank cards, and the typewriter lines, which chapter 6
-does not print.
-
-``python -m modern.edition --write`` writes the device files from these sources.  No run of a program is an input.
+A device file is the corrected print (witness and apparatus, :mod:`modern.edition.apparatus`) set into the columns of
+``layout.toml``.  The print gives every nonblank character and their order; the layout gives the rest.  No run of a
+program is an input.
 """
 
 from __future__ import annotations
@@ -41,10 +38,7 @@ class Token:
 
 @dataclass(frozen=True, slots=True)
 class Card:
-    """A card of a device file.  ``number`` counts from 1 and includes blank cards; ``image`` has no trailing blanks.
-
-    A typed line has no tokens, because it is not printed.
-    """
+    """A card of a device file, or a typed line, which has no tokens.  ``number`` includes blank cards, from 1."""
 
     example: int
     program: int
@@ -74,10 +68,7 @@ class Chapter:
 
 
 def load_chapter(layers: Iterable[str] | None = None, without: Collection[str] = ()) -> Chapter:
-    """Read chapter 6 with the rows of ``layers`` (by default all), except the rows ``without``.
-
-    Raises ApparatusError if a row does not fit, and LayoutError for an invalid layout.
-    """
+    """Read chapter 6 with the rows of ``layers`` (by default all), except the rows ``without``."""
     return rebuilt(*_text_and_layout(), layers, without)
 
 
@@ -172,10 +163,7 @@ def built_files(chapter: Chapter) -> Iterator[tuple[str, str]]:
 
 
 def write_files(chapter: Chapter, folder: Path) -> tuple[str, ...]:
-    """Write the device files under ``folder`` and return their names.
-
-    Everything is built before anything is written, so that an error leaves the folder unchanged.
-    """
+    """Write the device files under ``folder`` and return their names.  All are built before one is written."""
     built = tuple(built_files(chapter))
     for name, contents in built:
         path = folder / name

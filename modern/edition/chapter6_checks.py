@@ -18,23 +18,8 @@ from emulator.errors import Refused
 from emulator.language.formats import Literal, Slash, parse_format
 from emulator.language.tree import Format, Place
 from modern.edition.chapter6 import CardShape, DeviceLayout, Field, Role, chapter6_folder
-from modern.edition.chapter6_cards import (
-    Chapter,
-    built_files,
-    cards,
-    device_files,
-    printed_lines,
-)
-from modern.edition.chapter6_grounds import (
-    incidences,
-    numbers,
-    of_role,
-    plane_at,
-    planes,
-    row_faults,
-    solid,
-    vertices,
-)
+from modern.edition.chapter6_cards import Chapter, built_files, cards, device_files, printed_lines
+from modern.edition.chapter6_grounds import incidences, numbers, of_role, plane_at, planes, row_faults, solid, vertices
 
 Point = tuple[Decimal, ...]
 
@@ -108,8 +93,8 @@ def check_layout(chapter: Chapter) -> tuple[str, ...]:
 def records(text: str, values: int) -> tuple[tuple[tuple[Field, str], ...], ...]:
     """Return the fields of the cards on which FORMAT ``text`` punches ``values`` numbers in one pass.
 
-    Each word of a literal is a field.  The text of a field is empty for a number, and a card without fields is blank.
-    Raises Refused if the FORMAT does not parse or has too few fields.
+    Each word of a literal is a field.  A number has an empty text.  Raises Refused if the FORMAT does not parse or has
+    too few fields.
     """
     spec, _ = parse_format(Format(text, tuple(Place(1, column) for column in range(1, len(text) + 1))))
     card_fields: list[list[tuple[Field, str]]] = [[]]

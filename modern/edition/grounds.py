@@ -95,7 +95,7 @@ def _several_steps(row: Row) -> tuple[Step, ...]:
 
 
 def _name(row: Row) -> str:
-    """Return the built-in program by which a row is judged: the one that its ground names, or the listing."""
+    """Return the built-in program by which a row is judged."""
     return str(row.ground.get("program", "program1_examples" if row.layer == "examples" else row.text))
 
 
@@ -135,7 +135,6 @@ def _program(deck: Deck) -> tuple[Program | None, str]:
 
 
 def _whole(row: Row) -> Program:
-    """Return the program with the row."""
     return programs.with_layers(_name(row), layers_for(row))
 
 
@@ -232,10 +231,7 @@ def ground_deck(name: str) -> Deck | None:
 
 @dataclass(frozen=True, slots=True)
 class _Outcome:
-    """The outcome of a job: every line punched and typed, and the ending of the last program or the error of the job.
-
-    ``longest`` is the number of statements that the longest run of the job executed.
-    """
+    """The lines punched and typed by a job, its ending or error, and the longest run in statements."""
 
     lines: tuple[str, ...]
     ending: Ending | EmulatorError
@@ -247,10 +243,7 @@ class _Outcome:
         return self.ending.message if isinstance(self.ending, Ending) else str(self.ending)
 
     def same_as(self, other: _Outcome) -> bool:
-        """Return True if the output is equal and the job ended for the same reason.
-
-        Card numbers are not compared, because cards are renumbered if a row is removed.
-        """
+        """Return True for equal output and the same kind of ending; a removed row changes card numbers."""
         return self.lines == other.lines and _reason(self.ending) == _reason(other.ending)
 
 

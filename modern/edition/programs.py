@@ -34,11 +34,7 @@ BUILT_INS = (
     BuiltIn("program2", 2, "program2", _BASE, "program 2 as listed: coplanar points"),
     BuiltIn("program3", 3, "program3", _BASE, "program 3 as listed: points not coplanar"),
     BuiltIn(
-        "program1_examples",
-        1,
-        "program1",
-        (*_BASE, "examples"),
-        "program 1 in the state that produced the examples",
+        "program1_examples", 1, "program1", (*_BASE, "examples"), "program 1 in the state that produced the examples"
     ),
 )
 NAMES = tuple(built_in.name for built_in in BUILT_INS)
@@ -68,8 +64,7 @@ def text(name: str) -> Text:
 def _named(name: str, layers: tuple[str, ...]) -> tuple[tuple[str, frozenset[str]], ...]:
     """Return the name of each card of a built-in program in the edition, and the rows that changed the card.
 
-    A card is named by its statement number, or by its distance from the last one (``147+1``); a comment by the
-    statement that follows it.
+    A card is named by its distance from the last statement number (``147+1``), a comment by the next statement.
     """
     entry = built_in(name)
     lines = build(text(entry.text), (*entry.layers, *layers))
@@ -112,11 +107,9 @@ def committed(name: str) -> Deck:
 
 
 def built(name: str, layers: Sequence[str] = (), without: Collection[str] = (), instead: Row | None = None) -> Deck:
-    """Build a built-in program from witness and apparatus.
+    """Build a built-in program with additional ``layers``; ``without`` and ``instead`` are those of ``build``.
 
-    ``layers`` are added to the layers of the program, the rows ``without`` are left out, and ``instead`` replaces the
-    row with the same id.  Raises ApparatusError if a row does not fit, and CardError if the result is not a deck
-    because a reading of the OCR remains.
+    Raises ApparatusError if a row does not fit, and CardError if a reading of the OCR remains.
     """
     entry = built_in(name)
     lines = build(text(entry.text), (*entry.layers, *layers), without, instead)
@@ -124,10 +117,7 @@ def built(name: str, layers: Sequence[str] = (), without: Collection[str] = (), 
 
 
 def deck(name: str, layers: Sequence[str] = ()) -> Deck:
-    """Return the deck of a built-in program, as committed or with additional layers.
-
-    Raises DeckError if the program has no row of a layer.
-    """
+    """Return the deck of a built-in program with additional layers.  Raises DeckError if it has no row of a layer."""
     if not layers:
         return committed(name)
     entry = built_in(name)
@@ -151,10 +141,7 @@ def with_layers(name: str, layers: Sequence[str]) -> Program:
 
 
 def loader(layers: tuple[str, ...]) -> Callable[[str], Program]:
-    """Return a function that compiles programs by name with ``layers`` added to those that have rows of them.
-
-    Raises DeckError for a layer that no program has.
-    """
+    """Return a function that compiles programs by name with ``layers`` added.  Raises DeckError for an unused layer."""
     present = {row.layer for name in TEXTS for row in text(name).rows}
     for layer in layers:
         if layer not in present:

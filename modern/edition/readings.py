@@ -46,10 +46,7 @@ RULED = (*CLASSES, *KEEPS, "displaced", "lost", "doubled", "overlaid")
 
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """Characters of the witness and the characters that are read instead.
-
-    ``cls`` is the class of the pair, ``known`` the evidence for it other than our rows.
-    """
+    """Characters of the witness and those read instead, with the class and evidence other than our rows."""
 
     witness: str
     lemma: str
@@ -59,10 +56,7 @@ class Pair:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """A pair at a place: the number of the change, and its start in the witness (``at``) and in the lemma (``to``).
-
-    Both positions are counted without blanks.
-    """
+    """A pair of a change, and its start in the witness (``at``) and the lemma (``to``), counted without blanks."""
 
     change: int
     at: int
@@ -170,10 +164,7 @@ def attested(rows: Iterable[Row]) -> Counter[tuple[str, str]]:
 
 
 def reading_faults(row: Row, places: Mapping[tuple[str, str], int]) -> Iterator[str]:
-    """Yield the ways in which the readings of a row break the rule of its kind.
-
-    ``places`` is the result of :func:`attested` for all rows.
-    """
+    """Yield the ways in which a row breaks the rule of its kind; ``places`` comes from :func:`attested`."""
     if row.layer != "ocr":
         return
     if row.kind not in RULED:
@@ -204,6 +195,5 @@ def reading_faults(row: Row, places: Mapping[tuple[str, str], int]) -> Iterator[
 
 
 def _within(subsequence: Iterable[str], sequence: Iterable[str]) -> bool:
-    """Return True if the elements of ``subsequence`` occur in ``sequence`` in the same order."""
     rest = iter(sequence)
     return all(element in rest for element in subsequence)

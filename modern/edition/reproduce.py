@@ -1,11 +1,9 @@
 """Run the examples of chapter 6 and give a verdict on every printed result.
 
-Each example runs twice.  The first run uses program 1 in the state that produced the examples, which was reconstructed
-from them.  The second run uses program 1 as chapter 5 lists it, which chooses its first points differently.  Programs
-2 and 3 then read the punched cards.
-
-The print proves numbers, signs, order and words.  It does not prove blank cards and columns, which the OCR lost and
-the FORMATs supply; a verdict distinguishes the two.
+Each example runs twice: with program 1 in the state that produced the examples, which was reconstructed from them, and
+as chapter 5 lists it, which chooses its first points differently.  Programs 2 and 3 then read the punched cards.  The
+print proves numbers, signs, order and words.  It does not prove blank cards and columns, which the OCR lost and the
+FORMATs supply; a verdict distinguishes the two.
 """
 
 from __future__ import annotations
@@ -43,11 +41,10 @@ _NUMBER = re.compile(r"[+-]?\.\d+E[+-]\d\d|(?<![A-Z0-9.])\d+")
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """A verdict on the output of one device.
+    """A verdict on the output of one device, with the numbers of printed numbers, words and cards, and of blank cards.
 
-    ``numbers``, ``words``, ``cards`` and ``blank`` count the printed numbers, the printed words, the cards with print
-    and the blank cards.  ``differences`` are (card, printed, produced), with an empty string for a missing card.
-    ``same`` counts the parts that agree in another order.
+    ``differences`` are (card, printed, produced), with an empty string for a missing card.  ``same`` counts the parts
+    that agree in another order.
     """
 
     kind: Kind
@@ -66,10 +63,7 @@ class Verdict:
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """The verdict on one device of one example for one state of program 1.
-
-    ``ending`` is the ending of the program, the error that ended the job, or None if the program did not start.
-    """
+    """The verdict on one device of one example; ``ending`` is None if the program did not start."""
 
     example: int
     state: State
@@ -93,10 +87,7 @@ def reproduce(
     folder: Traversable | None = None,
     states: Iterable[State] = STATES,
 ) -> Iterator[Report]:
-    """Run examples and judge them, with one report for each device.
-
-    ``load`` returns the compiled programs and ``folder`` holds the corrected print; by default, the committed ones.
-    """
+    """Run examples, by default with the committed programs and print, and judge the output of each device."""
     states = tuple(states)
     for example in examples:
         expected = tuple(prints(example, folder))
@@ -105,7 +96,7 @@ def reproduce(
 
 
 def summary(reports: Iterable[Report]) -> tuple[bool, int, int, int]:
-    """Return (whether everything is reproduced, exact results, results in another order, different results).
+    """Return whether everything is reproduced, and the numbers of exact, reordered and different results.
 
     In the state of the examples, a result counts as reproduced only if it is exact.
     """
@@ -142,10 +133,9 @@ def _reports(
 
 
 def compare(printed: Sequence[str], produced: Sequence[str], final: bool, oriented: bool) -> Verdict:
-    """Return the verdict on the lines of a device.
+    """Return the verdict on the lines of a device; ``final`` is True if the cards hold a hull.
 
-    ``final`` is True if the cards hold a hull, and False for an intermediate deck.  For ``oriented`` see
-    :func:`modern.thesis.cards.same_hull`.
+    For ``oriented`` see :func:`modern.thesis.cards.same_hull`.
     """
     tokens = [token for line in printed for token in line.split()]
     numbers = sum(len(_NUMBER.findall(line)) for line in printed)
@@ -183,15 +173,11 @@ def _dense(lines: Sequence[str]) -> list[str]:
 
 
 def _headings(lines: Sequence[str]) -> Counter[str]:
-    """Count the headings: the lines without their numbers."""
     return Counter(text for line in lines if (text := " ".join(_NUMBER.sub("", line).replace(",", " ").split())))
 
 
 def _same_results(printed: Sequence[str], produced: Sequence[str], oriented: bool) -> bool:
-    """Return True for the same hull in another order under the same headings.
-
-    If the hulls are equal as read, the lines differ in something else, such as the sign of a zero.
-    """
+    """Return True for the same hull in another order under the same headings, but not for other characters."""
     printed_hull, produced_hull = read_hull(printed), read_hull(produced)
     in_other_order = printed_hull != produced_hull and same_hull(printed_hull, produced_hull, oriented)
     return in_other_order and _headings(printed) == _headings(produced)

@@ -2,8 +2,7 @@
 
 :func:`modern.edition.apparatus.build` applies rows and returns only the result.  Here the same rows make *places*:
 pieces of a line with an old and a new reading and their row.  Places nest, because a row of a later layer may change
-the result of an earlier one.  :func:`reading` extracts any state of the text from this tree: with no layers the
-witness, with the layers of a deck the deck.
+the result of an earlier one.  :func:`reading` extracts any state of the text from this tree.
 """
 
 from __future__ import annotations
@@ -49,10 +48,7 @@ def reading(pieces: Iterable[Piece], layers: Collection[str]) -> str:
 
 
 def segments(text: Text) -> tuple[Segments, ...]:
-    """Return every line of a text, inserted lines included, with the rows of all layers as places.
-
-    Raises RowMisfit if a row does not fit, as ``build`` does.
-    """
+    """Return every line of a text with the rows of all layers as places.  Raises RowMisfit as ``build`` does."""
     segmented = _SegmentedText(text)
     for layer in text.layers:
         for row in text.rows:
@@ -130,13 +126,12 @@ class _SegmentedText:
 
 
 def _trimmed(witness: str, first: int, lemma: str) -> tuple[int, str]:
-    """Return the start and the lemma of a change without the characters at its beginning that do not change."""
+    """Return the start and the lemma of a change without its unchanged beginning."""
     length = _common_prefix(witness, lemma)
     return first + length, lemma[length:]
 
 
 def _common_prefix(a: str, b: str) -> int:
-    """Return the length of the longest common prefix."""
     return next((n for n, (x, y) in enumerate(zip(a, b, strict=False)) if x != y), min(len(a), len(b)))
 
 

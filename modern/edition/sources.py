@@ -19,10 +19,8 @@ from modern.edition.apparatus import PAGE_MARK, ApparatusError
 
 @dataclass(frozen=True, slots=True)
 class Document:
-    """A document, with the SHA-256 and the length of its OCR text.
-
-    ``lines`` includes the last line, which has no line end.  ``pages`` maps lines of that text (page, first, last) to
-    pages.  A fact that is not known has the value "unknown".
+    """A document; ``lines`` counts the last line, which has no line end, and ``pages`` are (page, first line, last
+    line).
     """
 
     id: str
@@ -45,10 +43,7 @@ class Document:
 
 @dataclass(frozen=True, slots=True)
 class Stretch:
-    """Lines ``first`` to ``last`` of a witness, which begin at line ``at`` of the document.
-
-    With ``part``, the witness holds only some words of those lines.
-    """
+    """Lines of a witness, or only words of them (``part``), which begin at line ``at`` of the document."""
 
     first: int
     last: int
@@ -150,7 +145,7 @@ def check_files() -> Iterator[tuple[str, bool, str]]:
 
 
 def check_against(text: str) -> Iterator[tuple[str, bool, str]]:
-    """Compare the whole text of a document with its recorded length, and its excerpts line by line.
+    """Compare the whole text of a document with its recorded length and excerpts.
 
     Yields (subject, whether it agrees, message).  Raises ApparatusError if the text is not that of a document.
     """

@@ -51,11 +51,10 @@ FUNCTIONS = ("SQRT",)
 
 @dataclass(frozen=True, slots=True)
 class Variant:
-    """A card of a listing with another reading.
+    """A card of a listing, counted from 1, with another reading.
 
-    ``card`` counts the cards of the deck from 1, and ``place`` is the name of the card in the edition.  ``how`` is
-    ``number``, ``name``, ``operator``, ``constant``, ``character``, ``format`` or ``card``.  ``was`` and ``reads`` are
-    the statement before and after the change, without blanks; ``reads`` is empty if the card is left out.
+    ``how`` is ``number``, ``name``, ``operator``, ``constant``, ``character``, ``format`` or ``card``.  ``was`` and
+    ``reads`` are the statement before and after, without blanks; ``reads`` is empty if the card is left out.
     """
 
     program: str
@@ -151,7 +150,6 @@ def _altered(statement: Statement) -> Iterator[tuple[str, str]]:
 
 
 def _digits(number: str) -> Iterator[str]:
-    """Yield the number with one digit exchanged for every other digit."""
     for at, digit in enumerate(number):
         yield from (number[:at] + new + number[at + 1 :] for new in "0123456789" if new != digit)
 
@@ -171,7 +169,6 @@ def _alike(name: str) -> set[str]:
 
 @cache
 def _names() -> frozenset[str]:
-    """Return all names of variables of the listings."""
     return frozenset(
         entry.name for n in programs.TEXTS for entry in programs.program(n).storage.entries if entry.name[:1].isalpha()
     )

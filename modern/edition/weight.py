@@ -69,10 +69,7 @@ EQUATIONS: tuple[tuple[str, str, str, str], ...] = (
 
 @dataclass(frozen=True, slots=True)
 class Bench:
-    """A program with its decks and the results of the listing on them.
-
-    ``kinds`` is ``print`` or ``machine`` for each deck, and ``examples`` the number of the example or 0.
-    """
+    """A program with its decks, their kind (``print`` or ``machine``), results, and example or 0."""
 
     program: Program
     decks: tuple[Deck, ...]
@@ -87,10 +84,7 @@ class Bench:
 
 
 def benches(runs: str) -> dict[str, Bench]:
-    """Return every built-in program with the decks that it reads.
-
-    ``runs`` is a folder of decks whose cards are known from a second restoration, or empty.
-    """
+    """Return every built-in program with the decks that it reads, and those of the folder ``runs``, if any."""
     known = [
         ("machine", 0, deck_from_text(path.parent.name, path.read_text(encoding="ascii")))
         for path in (sorted(Path(runs).glob("*/deck.cards")) if runs else ())
@@ -234,7 +228,6 @@ def equation_of(name: str, place: str) -> str:
 
 @cache
 def _forms() -> Counter[str]:
-    """Count the cards of the three listings by form."""
     return Counter(
         _form(s.source.text) for name in programs.TEXTS for s in statements(name) if s.source.kind != "format"
     )
@@ -276,8 +269,8 @@ def _judge(chunk: Sequence[Variant]) -> list[str]:
 def weigh(folder: Path, runs: str, workers: int = 1, most: int = 0, chunk: int = 20) -> dict[str, str]:
     """Judge every variant, or the first ``most``, and return the answers by key.
 
-    Answers are stored in ``folder/variants.jsonl`` and read from there if the run is resumed.  Raises FileError if
-    ``runs`` holds no deck, and if the folder holds answers for other listings or cannot be written.
+    Answers are kept in ``folder/variants.jsonl``.  Raises FileError if ``runs`` holds no deck, and if the folder holds
+    answers for other listings or cannot be written.
     """
     if runs and not any(Path(runs).glob("*/deck.cards")):
         raise FileError(f"{runs}: no folder in it has a deck.cards")

@@ -41,10 +41,7 @@ def insertion_order(count: int, simplex: Sequence[int]) -> list[int]:
 
 
 def _on_facets(points: Sequence[IntPoint], facets: Sequence[Facet], others: Sequence[int] | None = None) -> list[int]:
-    """Return the points that lie in the plane of a facet, among ``others`` or else all that are not vertices.
-
-    The points all belong to the hull, so a point in such a plane is on the facet.
-    """
+    """Return the points in the plane of a facet, among ``others`` or else all points that are not vertices."""
     if others is None:
         vertices = {index for facet in facets for index in facet.polygon}
         others = [index for index in range(len(points)) if index not in vertices]
@@ -70,8 +67,7 @@ def _on_facets(points: Sequence[IntPoint], facets: Sequence[Facet], others: Sequ
 def _polyhedron(points: Sequence[IntPoint], simplex: Sequence[int], first: Sequence[int] = ()) -> list[Facet]:
     """Return the faces of distinct points, of which the four in ``simplex`` are affinely independent.
 
-    The points in ``first`` are inserted before all others.  If they include the vertices, every other point is
-    discarded at once.
+    The points in ``first`` are inserted before all others; every other point inside is then discarded at once.
     """
     space = frame(points)
     order = insertion_order(len(points), simplex)
@@ -106,10 +102,7 @@ def _proposed(points: Sequence[IntPoint], fast: bool | None) -> tuple[list[Facet
 
 @dataclass(frozen=True, slots=True)
 class _Distinct:
-    """The points as integers with a common scale.
-
-    distinct: the points that do not repeat an earlier one.  indices: their indices in the input.
-    """
+    """The points as integers with a common scale, and those that do not repeat an earlier one with their indices."""
 
     scale: int
     scaled: list[IntPoint]

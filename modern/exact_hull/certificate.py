@@ -76,7 +76,6 @@ def _are_integers(rows: Iterable[Iterable[object]]) -> bool:
 
 
 def _check_integers(points: Points, hull: ExactHull) -> None:
-    """Check the scale and the scaled integers."""
     exact = read_points(points)
     scale, scaled = hull.scale, hull.scaled
     # A fast path for the usual case, integers that need no scale.
@@ -132,7 +131,6 @@ def _check_dimension(hull: ExactHull) -> None:
 
 
 def _check_planes(hull: ExactHull) -> None:
-    """Check each plane, and that it contains its facet."""
     vertices = set(hull.vertices)
     planes = [facet.plane for facet in hull.facets]
     require(bool(planes), "there are no facets")
@@ -251,8 +249,7 @@ def _proved(hull: ExactHull) -> tuple[int, Incidences]:
 def certify(points: Points, hull: ExactHull) -> Certificate:
     """Prove that ``hull`` is the convex hull of ``points``, or raise CertificateError.
 
-    points: as for ``exact_hull``, but not an iterator, because they are read again.  ``hull.certificate`` is ignored.
-    Raise PointsError if the points are invalid.
+    The points are those of ``exact_hull``, but not an iterator, because they are read again.
     """
     _check_integers(points, hull)
     _check_classes(hull)

@@ -314,10 +314,9 @@ class _Proof:
 
 
 def prove(hull: ExactHull) -> tuple[int, Incidences]:
-    """Check all of the above; return the number of edges, and counts.
+    """Check all of the above for dimension 3 and valid classes; return the number of edges, and counts.
 
-    The points have dimension 3, and every index has exactly one class.  Raise CertificateError if a check fails, and
-    Undecided if there is no suitable o or ray.
+    Raise CertificateError if a check fails, and Undecided if there is no suitable o or ray.
     """
     sides = polygons(hull)
     planes = check_planes(hull, sides)

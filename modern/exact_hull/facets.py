@@ -52,10 +52,7 @@ def lowest_terms(plane: Plane) -> Plane:
 
 
 def independent(points: Sequence[IntPoint]) -> tuple[int, ...]:
-    """Return the first affinely independent points, at most four; their number minus one is the dimension.
-
-    The points must be distinct.
-    """
+    """Return at most four affinely independent points of distinct ones; their number minus one is the dimension."""
     if len(points) == 1:
         return (0,)
     origin = points[0]

@@ -19,10 +19,7 @@ BOUND = 2.0**-47
 
 @dataclass(frozen=True, slots=True)
 class Incidences:
-    """The pairs (plane, point) with the value 0, and one pair with a point outside the plane, if there is one.
-
-    evaluations: the number of values computed.  in_integers: how many of them float64 could not decide.
-    """
+    """The pairs (plane, point) with the value 0, one with a point outside, and the numbers of values computed."""
 
     touching: list[tuple[int, int]]
     outside: tuple[int, int] | None

@@ -148,10 +148,7 @@ def wait(known: Any, slot: int, p: int, height: float) -> None:
 
 
 def distribute(known: Any, p: int, slots: Any, count: int, exact: bool) -> bool:
-    """Add a point to the list of the first triangle that it sees.
-
-    Return True if it sees none and may lie on the surface.
-    """
+    """Add a point to the list of the first triangle that it sees. Return True if it may lie on the surface instead."""
     largest = -np.inf
     for k in range(count):
         height = value(known, slots[k], p)
@@ -163,10 +160,7 @@ def distribute(known: Any, p: int, slots: Any, count: int, exact: bool) -> bool:
 
 
 def region(known: Any, p: int, start: int, step: int, visible: Any, edges: Any) -> Any:
-    """Find the triangles that a point sees, from ``start`` on, and the edges (slot, edge) of their border.
-
-    Write them to ``visible`` and ``edges``, and return the number of each.
-    """
+    """Write and count the triangles that a point sees, from ``start`` on, and the edges (slot, edge) around them."""
     mark, neighbours = known.mark, known.neighbours
     visible[0] = start
     mark[start] = 2 * step
@@ -190,10 +184,7 @@ def region(known: Any, p: int, start: int, step: int, visible: Any, edges: Any) 
 
 
 def grow(known: Any, work: Any, start: NDArray[np.int64], exact: bool) -> int:
-    """Grow the hull from four points, and return the number of slots used, or 0 if the surface does not close.
-
-    A slot with a first corner below 0 is empty.  ``work.near`` tells which points may lie on the surface.
-    """
+    """Grow the hull from four points, and return the number of slots used, or 0 if the surface does not close."""
     corners, neighbours = known.corners, known.neighbours
     points = len(known.grid)
     near, visible, fresh, heads = work.near, work.visible, work.fresh, work.heads

@@ -1,7 +1,4 @@
-"""The polygons of a surface as arrays, their planes as integers, and float64 images, for the proof of convexity.
-
-:mod:`modern.exact_hull.convexity` defines the images and their error bounds.
-"""
+"""The polygons of a surface as arrays, their planes as integers, and float64 images (see ``convexity``)."""
 
 from __future__ import annotations
 
@@ -39,10 +36,7 @@ def dot(u: Sequence[int], v: Sequence[int]) -> int:
 
 
 def check_convex(polygon: Sequence[int], normal: IntPoint, scaled: Sequence[IntPoint], name: str) -> None:
-    """Check that a polygon, seen from the side to which ``normal`` points, turns left everywhere and goes around once.
-
-    Raise CertificateError with ``name`` in the message if it does not.
-    """
+    """Check that a polygon, seen from the side of ``normal``, turns left everywhere and goes around once."""
     require(len(polygon) >= 3, f"{name}: fewer than three vertices")
     sides = [
         difference(scaled[end], scaled[start]) for start, end in zip(polygon, (*polygon[1:], polygon[0]), strict=True)
@@ -113,9 +107,9 @@ def polygons(hull: ExactHull) -> Polygons:
 
 
 def check_planes(hull: ExactHull, sides: Polygons) -> Objects:
-    """Check each plane and that it contains the corners of its polygon; return the planes (m, 4) as integers.
+    """Check each plane and the corners of its polygon, and return the planes (m, 4) as integers.
 
-    Also check that polygons of more than three corners turn left.  ``convexity`` checks the orientation of triangles.
+    Polygons of more than three corners must turn left.  ``convexity`` checks the orientation of triangles.
     """
     planes = [facet.plane for facet in hull.facets]
     require(
@@ -146,10 +140,7 @@ def values(planes: Objects, scaled: Sequence[IntPoint], facets: Ints, points: In
 
 @dataclass(frozen=True, slots=True)
 class Images:
-    """The images u of points x = c + s u.
-
-    low: c.  shifts: the exponents of s, a power of two for each axis.  places: the images (n, 3).
-    """
+    """The images u, ``places`` (n, 3), of points x = c + s u, where ``low`` is c and ``shifts`` the exponents of s."""
 
     low: tuple[int, ...]
     shifts: tuple[int, ...]

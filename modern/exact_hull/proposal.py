@@ -65,8 +65,7 @@ def on_grid(points: Sequence[IntPoint]) -> tuple[Ints, bool]:
 def propose(points: Sequence[IntPoint], fast: bool | None = None) -> Proposal | None:
     """Return a proposed hull, or None.
 
-    fast: use the compiled kernel.  None uses it if it is loaded, or if there are very many points and numba is
-    installed.  Raise NotInstalled if ``fast`` is true and numba is missing.
+    ``fast`` selects the compiled kernel; None uses it if it is loaded, or if there are very many points.
     """
     grid, exact = on_grid(points)
     start = _simplex(grid)
@@ -165,7 +164,6 @@ class _Growing:
         self.waiting, self.home, self.height = self._tried_against_all(np.flatnonzero(rest), 0)
 
     def _add(self, corners: Ints, neighbours: Ints) -> None:
-        """Append triangles, and double the arrays if necessary."""
         end = self.made + len(corners)
         while end > len(self.alive):
             for name in ("corners", "neighbours", "normals", "images", "alive"):
@@ -196,9 +194,8 @@ class _Growing:
         self.near.append(points[largest == 0] if self.exact else points[largest >= NEAR])
 
     def _tried_against_all(self, points: Ints, first: int) -> tuple[Ints, Ints, Floats]:
-        """Compare points with all triangles from ``first`` on.
-
-        Return the points that see one, the triangle with the largest value for each, and that value.
+        """Return the points that see a triangle from ``first`` on, the one with the largest value for each, and the
+        value.
         """
         triangles = np.arange(first, self.made)
         chosen, largest = np.empty(len(points), np.int64), np.empty(len(points))
@@ -216,10 +213,7 @@ class _Growing:
         return points[outside], chosen[outside], largest[outside]
 
     def _tried_against_own(self, points: Ints, remover: Ints, starts: Ints, counts: Ints) -> tuple[Ints, Ints, Floats]:
-        """Compare each point with the new triangles of its remover only: ``counts`` triangles from ``starts`` on.
-
-        Return the same as ``_tried_against_all``.
-        """
+        """Do the same with the new triangles of each point's remover only: ``counts`` triangles from ``starts`` on."""
         # One row for each pair of a point and a triangle of its remover.
         pairs = counts[remover]
         ends = np.cumsum(pairs)
@@ -273,10 +267,7 @@ class _Growing:
         return True
 
     def _nominated(self) -> tuple[Ints, Ints]:
-        """Return points to insert and the triangles that nominate them, the highest last.
-
-        A triangle nominates its highest point if no neighbouring triangle has a higher one.
-        """
+        """Return points to insert and their triangles, the highest last; no neighbour has a higher point."""
         highest = np.full(self.made, -1.0)
         np.maximum.at(highest, self.home, self.height)
         top = self.height == highest[self.home]

@@ -92,11 +92,7 @@ def plane_image(plane: Plane, shifts: IntPoint) -> tuple[float, float, float, fl
     """Return the image of a plane through a point of the frame (its moved integers)."""
     a, b, c, d = plane
     k, l, m = shifts  # noqa: E741
-    power = max(
-        a.bit_length() + k if a else 0,
-        b.bit_length() + l if b else 0,
-        c.bit_length() + m if c else 0,
-    )
+    power = max(a.bit_length() + k if a else 0, b.bit_length() + l if b else 0, c.bit_length() + m if c else 0)
     return (
         a / (1 << power - k) if a else 0.0,
         b / (1 << power - l) if b else 0.0,

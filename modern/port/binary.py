@@ -20,10 +20,7 @@ MIN_BITS, MAX_BITS = 2, 100_000
 
 @dataclass(frozen=True)
 class FloatArithmetic(Arithmetic):
-    """IEEE 754 single or double precision.
-
-    A decimal number is rounded to the nearest double, and for single precision that double to the nearest single.
-    """
+    """IEEE 754 single or double precision; a decimal is rounded to a double, and that to a single if requested."""
 
     dtype: type[np.floating[Any]]
 

@@ -1,8 +1,8 @@
 """Numbers of the 1620 as Python numbers, under a profile of :mod:`emulator.numbers.arithmetic`.
 
-``a op b`` computes what the accumulator (:mod:`emulator.numbers.accumulator`) computes when it holds a. The result of
-an operation that would report an error code on the 1620 is used without a report. The left operand matters to
-``ibm1962``, in which zero plus zero keeps the accumulator's sign.
+``a op b`` computes what the accumulator computes when it holds a; the result of an operation that would report an error
+code is used without a report. The left operand matters to ``ibm1962``, in which zero plus zero keeps the accumulator's
+sign.
 """
 
 from __future__ import annotations
@@ -15,15 +15,7 @@ from functools import cached_property
 import numpy as np
 
 from emulator.numbers import accumulator
-from emulator.numbers.arithmetic import (
-    MAX_EXPONENT,
-    MIN_EXPONENT,
-    MINUS_ZERO,
-    ZERO,
-    Profile,
-    Rules,
-    from_integer,
-)
+from emulator.numbers.arithmetic import MAX_EXPONENT, MIN_EXPONENT, MINUS_ZERO, ZERO, Profile, Rules, from_integer
 from emulator.numbers.base import decimal_length
 from emulator.numbers.functions import function
 from modern.geometry.numbers import Exact, scaled_decimal
@@ -82,10 +74,7 @@ class Arithmetic1620(Arithmetic):
         return self.profile.rules
 
     def number(self, value: Exact, minus: bool = False) -> Number1620:
-        """Return the first P digits of a number, as READ stores them; ``minus`` marks a zero with a minus sign.
-
-        Raise RangeError if the exponent is not in -99 to 99.
-        """
+        """Return the first P digits of a number, as READ stores them; ``minus`` marks a zero with a minus sign."""
         if value == 0:
             return Number1620(0, MINUS_ZERO if minus else ZERO, self.rules)
         digits = self.profile.digits

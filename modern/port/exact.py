@@ -1,7 +1,6 @@
 """The arithmetic ``exact``: integers, in a unit small enough to make every coordinate and the point C an integer.
 
-The unit does not affect the decisions of the procedure, only the conversion of the result. If every number of the
-procedure fits in 64 bits the vectors hold int64, otherwise Python's integers.
+If every number of the procedure fits in 64 bits the vectors hold int64, otherwise Python's integers.
 """
 
 from __future__ import annotations

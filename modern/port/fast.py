@@ -130,7 +130,6 @@ def _spare(hull: Polyhedron) -> int:
 
 
 def _cloud(hull: Polyhedron) -> Cloud:
-    """Return the points with the slot of each point's keeper, or -1 if its equation was deleted."""
     points, serial = hull.points, hull.table.serial
     keeper_serial = hull.remaining.keeper
     keeper_slot = np.searchsorted(serial, keeper_serial)

@@ -34,10 +34,7 @@ def plane(p: Point, q: Point, r: Point) -> tuple[Number, Number, Number, Number]
 
 
 def line(u1: Number, v1: Number, u2: Number, v2: Number, cu: Number, cv: Number) -> tuple[Number, Number, Number]:
-    """Return the coefficients of the line A u + B v + C = 0 through two points: equations (3.1) to (3.3) and (3.5).
-
-    C is computed with the point (cu, cv), which is one of the two.
-    """
+    """Return the line A u + B v + C = 0 through two points, (cu, cv) being one: (3.1) to (3.3) and (3.5)."""
     return v2 - v1, u1 - u2, (v1 - v2) * cu + (u2 - u1) * cv
 
 
@@ -51,10 +48,7 @@ def at(equation: tuple[Number, ...], point: tuple[Number, ...]) -> Number:
 
 
 def moments(points: Point, p: Point, q: Point) -> tuple[Number, Number, Number]:
-    """Return O1, O2, O3, whose squares add up to V, a measure of the distance from the line P Q (thesis p. 15).
-
-    ``p`` is P1 of the formula and ``q`` is P2. ``points`` holds vectors of the coordinates of all points.
-    """
+    """Return O1, O2, O3, whose squares add up to V, a measure of the distance from the line P1 P2 (thesis p. 15)."""
     (x, y, z), (x1, y1, z1), (x2, y2, z2) = points, p, q
     # Statements 125 to 226 of program 1: the components of the cross product of P2 - P and P2 - P1.
     o1 = less((y2 - y) * (z2 - z1), (z2 - z) * (y2 - y1))

@@ -28,10 +28,9 @@ class Remaining:
         self.tried = 0
 
     def swapped(self, index: int) -> None:
-        """Record that the first of these points became a vertex and the point now at ``index`` took its place.
+        """Record that the first point became a vertex and the point now at ``index`` took its place.
 
-        A negative index means that the new vertex was a vertex before, which rounded arithmetic can report as
-        outside.
+        A negative index means that it was a vertex before, which rounded arithmetic can report as outside.
         """
         if index > 0:
             self.keeper[index] = self.keeper[0]
@@ -119,11 +118,7 @@ Hull = TypeVar("Hull", bound=Growing)
 
 @dataclass(frozen=True, slots=True)
 class Grown:
-    """The result of a stage.
-
-    ``added`` and ``eliminated`` are input indices of points, ``checked`` is NETC, the number of the equation that was
-    being checked, and ``outside`` is the number of equations that the added point lay outside of.
-    """
+    """The input indices added and eliminated by a stage, NETC (``checked``), and the number of equations replaced."""
 
     added: tuple[int, ...]
     checked: int
@@ -134,7 +129,7 @@ class Grown:
 def stage(hull: Growing, first: bool) -> Grown | None:
     """Add the next point and eliminate the points inside. Return None if no point lies outside.
 
-    ``first`` marks the stage of H_1, whose vertices exist already. Raise Stopped if the procedure cannot continue.
+    ``first`` marks the stage of H_1, whose vertices exist already.
     """
     if first:
         added, checked, outside = hull.points.input_indices(slice(0, hull.vertices)), 0, 0
@@ -153,10 +148,7 @@ def stage(hull: Growing, first: bool) -> Grown | None:
 
 
 def grow(hull: Hull, grow_stage: Callable[[Hull, bool], Grown | None] = stage) -> None:
-    """Run stage after stage until no point lies outside. Raise Stopped if the procedure cannot continue.
-
-    ``grow_stage`` is :func:`stage` or a faster equivalent, which may run several stages at once if nothing watches.
-    """
+    """Run ``grow_stage`` until no point lies outside. It may run several stages at once if nothing watches."""
     hull.remaining.begin(len(hull.points) - hull.vertices)
     growth = grow_stage(hull, True)
     while growth:

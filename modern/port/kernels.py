@@ -112,9 +112,8 @@ def farthest_outside(coordinates: NDArray[Any], count: int, plane_equation: Any,
 
 
 def outside_point(cloud: Any, slots: Any, state: NDArray[np.int64]) -> int:
-    """Find the next vertex as ``Polyhedron.outside_point`` does.
-
-    Return its index, -1 if every equation supports, or -2 if a defining point is off its plane.
+    """Return the next vertex as ``Polyhedron.outside_point`` does, -1 for none, or -2 if a plane misses a defining
+    point.
     """
     while state[CHECK] < state[MADE]:
         slot = state[CHECK]
@@ -133,10 +132,10 @@ def outside_point(cloud: Any, slots: Any, state: NDArray[np.int64]) -> int:
 
 
 def planes_to_replace(point: Any, slots: Any, scratch: Any, state: NDArray[np.int64]) -> int:
-    """List the planes the point is outside of. Return their number.
+    """List the planes the point is outside of in the order of replacement, and return their number.
 
-    ``scratch.order`` receives their slots in the order of replacement. The first is the plane to check. No plane
-    before it qualifies, because those have been tested on all remaining points.
+    The first is the plane to check. No plane before it qualifies, because those have been tested on all remaining
+    points.
     """
     order, values = scratch.order, scratch.values
     # Statements 135 to 140: the plane being checked first, then by decreasing value at the new vertex.
@@ -170,10 +169,7 @@ def sort_descending(order: NDArray[np.int64], values: NDArray[Any], first: int, 
 
 
 def three_planes(count: int, index: int, cloud: Any, slots: Any, scratch: Any, state: Any, rules: Any) -> int:
-    """Write the planes of ``Polyhedron.three_planes`` into the slots after those in use.
-
-    Return the bits of the corrections, or -1 to stop the stage.
-    """
+    """Write the planes of ``Polyhedron.three_planes`` into new slots. Return correction bits, or -1 to stop."""
     new, slot, corrections = state[VERTICES], state[MADE], 0
     point = corner(cloud.coordinates, index)
     for k in range(count):
@@ -210,9 +206,8 @@ def three_planes(count: int, index: int, cloud: Any, slots: Any, scratch: Any, s
 def doubles(defining: NDArray[np.int64], first: int, last: int, scratch: Any) -> None:
     """Find the pairs of equal planes among the fresh planes, which begin at slot ``first``.
 
-    ``scratch.partner`` receives for each fresh plane the other one with the same three points, or -1, both counted
-    from zero. Among three equal planes the first two are a pair. Planes without a partner wait in chains of a hash
-    table.
+    ``scratch.partner`` receives for each fresh plane the other one with the same three points, or -1, both counted from
+    zero. Among three equal planes the first two are a pair. Others wait in chains of a hash table.
     """
     partner, following, chains, keys = scratch.partner, scratch.following, scratch.chains, scratch.keys
     size = 4
@@ -303,10 +298,7 @@ def expand(index: int, cloud: Any, slots: Any, scratch: Any, state: NDArray[np.i
 
 
 def grow(cloud: Any, slots: Any, scratch: Any, state: NDArray[np.int64], rules: Any, first: bool, stages: int) -> int:
-    """Run the given number of stages, or all of them if ``stages`` is negative.
-
-    ``first`` marks that the first of them is H_1 itself, which adds no vertex.
-    """
+    """Run the given number of stages, or all if negative; ``first`` marks H_1, which adds no vertex."""
     while True:
         if not first:
             # No points remain, and the last test eliminated none (103).
@@ -340,10 +332,8 @@ def count_on(coordinates: NDArray[Any], start: int, end: int, plane_equation: An
 
 
 def satisfied(slots: Any, coordinates: NDArray[Any], counts: NDArray[np.int64], indices: NDArray[np.int64]) -> int:
-    """Find the points that satisfy each equation, as ``Equations.satisfied`` does. Return the number of incidences.
-
-    ``counts`` receives the number of points of each equation and ``indices`` their indices. Points beyond the end of
-    ``indices`` are counted but not stored.
+    """Find the points of each equation as ``Equations.satisfied`` does. Return their number, even if not all are
+    stored.
     """
     k, count = 0, coordinates.shape[1]
     for slot in range(len(slots.alive)):

@@ -101,8 +101,8 @@ def all_within(arithmetic: Arithmetic, equation: tuple[Scalar, ...], values: Vec
 def open_hull(arithmetic: Arithmetic, points: PointTable, slack: Slack | None, text: bool = False) -> Opening:
     """Run program 1 on distinct points, which are reordered.
 
-    ``text`` selects the rule of the text (p. 29): the fourth point is that of the largest value, not of the largest
-    square. If that value is 0, the point lies in the plane and there is no tetrahedron (``error``).
+    ``text`` selects the rule of the text (p. 29): the fourth point has the largest value, not the largest square. If
+    that value is 0, there is no tetrahedron (``error``).
     """
     count = len(points)
     zero = arithmetic.number(0)

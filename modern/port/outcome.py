@@ -55,10 +55,8 @@ class Faces:
         return dict(zip(indices, zip(*integers, strict=True), strict=True))
 
     def polyhedral(self, table: Equations, on: list[NDArray[np.int64]], vertex: NDArray[np.bool_]) -> Sequence[Face]:
-        """Return the faces of a polyhedron.
-
-        ``on`` holds the indices of the points that satisfy each plane, and ``vertex`` is a mask of the vertices. The
-        faces are computed on first access, so the points, the table and the mask must not change afterwards.
+        """Return the faces, computed on first access, of a polyhedron; points, table and mask must not change
+        afterwards.
         """
         return LazyTuple(len(on), lambda: self._polyhedral(table, on, vertex))
 
@@ -89,10 +87,7 @@ class Faces:
     def edges(
         self, table: Equations, ends: NDArray[np.int64], on: list[NDArray[np.int64]], projection: int
     ) -> tuple[Face, ...]:
-        """Return the lines of a polygon as faces.
-
-        ``ends`` holds the indices of their vertices. The coordinate that was projected away gets the coefficient 0.
-        """
+        """Return the lines of a polygon as faces; the coordinate that was projected away gets the coefficient 0."""
         faces = []
         zero = self.arithmetic.number(0)
         for k, satisfied in enumerate(on):
@@ -182,10 +177,10 @@ IntPoint = tuple[int, int, int]
 
 
 def cyclic(points: Sequence[IntPoint], normal: Sequence[Exact]) -> list[int]:
-    """Return the order of coplanar points around their polygon, counterclockwise as seen from the tip of ``normal``.
+    """Return the counterclockwise order of the corners of a polygon, seen from the tip of ``normal``, from the first
+    on.
 
-    The order begins with the first point. The points are the corners of a convex polygon, exactly or nearly. They are
-    sorted by direction from the lowest corner, in the projection along the largest component of the normal.
+    They are sorted by direction from the lowest corner, in the projection along the largest component of the normal.
     """
     sizes: list[Exact] = [component if component > 0 else -component for component in normal]
     # Project along the largest component of the normal: the image is then farthest from degenerate.
@@ -215,5 +210,4 @@ def cyclic(points: Sequence[IntPoint], normal: Sequence[Exact]) -> list[int]:
 
 
 def _turn(p: tuple[int, int], q: tuple[int, int], r: tuple[int, int]) -> int:
-    """Return a positive number if the path from p by q to r turns left."""
     return (q[0] - p[0]) * (r[1] - p[1]) - (r[0] - p[0]) * (q[1] - p[1])

@@ -32,10 +32,7 @@ def read_number(value: object) -> Read:
 
 
 def read_points(points: Points) -> list[Read]:
-    """Return the coordinates of all points, three for each point, in one list.
-
-    Raise PointsError for invalid input; the message counts points from 0.
-    """
+    """Return the coordinates of all points in one list. Raise PointsError for invalid input."""
     if isinstance(points, np.ndarray):
         _check_shape(points)
         points = points.tolist()
@@ -72,10 +69,7 @@ NAMES = ("exact", "float64", "float32", "mp:BITS", *PROFILES, *FAMILIES)
 
 
 def fixed_arithmetic(name: str) -> Arithmetic | None:
-    """Return the arithmetic with the given name, or None for ``exact``, which depends on the points.
-
-    Raise ValueError if the name is unknown.
-    """
+    """Return the arithmetic with the given name, or None for ``exact``, which depends on the points."""
     if name == "exact":
         return None
     if name == "float64":
@@ -93,10 +87,8 @@ def fixed_arithmetic(name: str) -> Arithmetic | None:
 
 
 def take(points: Points, name: str, wide: bool = False) -> tuple[Arithmetic, Vector]:
-    """Return the arithmetic with the given name, and the coordinates of the points in it as three rows.
-
-    ``wide`` selects exact numbers without the limit of a machine word. Raise ValueError for an unknown arithmetic and
-    PointsError for invalid points.
+    """Return the named arithmetic, and the points in it as three rows; ``wide`` forbids machine words for exact
+    numbers.
     """
     arithmetic = fixed_arithmetic(name)
     if isinstance(arithmetic, FloatArithmetic) and isinstance(points, np.ndarray) and points.dtype == arithmetic.dtype:

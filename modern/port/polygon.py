@@ -37,10 +37,7 @@ def lines(points: PointTable, first: NDArray[np.int64], second: NDArray[np.int64
 
 @dataclass
 class Polygon:
-    """The state of program 2.
-
-    The points and the table are changed in place. The third coordinate of a point is the one that was projected away.
-    """
+    """The state of program 2, changed in place; the third coordinate is the one that was projected away."""
 
     arithmetic: Arithmetic
     points: PointTable
@@ -137,9 +134,8 @@ def other_lines(
 ) -> NDArray[np.bool_]:
     """Return a mask of the equations that remain if those through both ends are deleted, except ``keep`` (161 to 167).
 
-    As in the listing, KK stays a position in the table while equations before it are deleted. In exact arithmetic
-    there are no such equations, because a line has two equations and the first of them comes first. Raise Stopped if
-    the listing would read beyond the end of its table.
+    As in the listing, KK stays a position in the table while equations before it are deleted. Raise Stopped if the
+    listing would read beyond the end of its table.
     """
     first, second = (points.at(int(i))[:2] for i in ends)
     both = (arithmetic.sign(table.all_at(first)) == 0) & (arithmetic.sign(table.all_at(second)) == 0)

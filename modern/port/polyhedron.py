@@ -1,7 +1,6 @@
 """The hull of points that are not coplanar, program 3 (thesis p. 29-33, listing p. 93-102).
 
-Numbers in parentheses are statement labels of the listing. Points and planes are counted from 0 here, from 1 in the
-listing.
+Numbers in parentheses are statement labels of the listing. Indices start from 0 here, from 1 in the listing.
 """
 
 from __future__ import annotations
@@ -36,11 +35,7 @@ LISTED_PLANES, PLANES = 98, 193
 
 @dataclass(frozen=True)
 class Fresh:
-    """The planes that a stage has just made, as columns like those of the table.
-
-    ``through`` is true if one of them passes through C, and ``degenerate`` if all coefficients of one of those are
-    zero.
-    """
+    """The planes of a stage; ``through`` marks one through C, and ``degenerate`` zeros as its coefficients."""
 
     coefficients: Vector
     defining: NDArray[np.int64]
@@ -65,10 +60,7 @@ class Polyhedron:
     """True to replace further planes in the order of their numbers, as the text does (p. 32)."""
 
     def run(self, grow_stage: Callable[[Polyhedron, bool], Grown | None] = stage) -> None:
-        """Expand H_1 to the hull of all points (103 to 160) with the given function for a stage.
-
-        Raise Stopped if the procedure cannot continue.
-        """
+        """Expand H_1 to the hull of all points (103 to 160) with the given function for a stage."""
         grow(self, grow_stage)
 
     def outside_point(self) -> int | None:

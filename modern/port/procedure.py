@@ -191,10 +191,7 @@ class _Run:
         )
 
     def triangle(self, polygon: Polygon, projected_axis: int) -> Hull:
-        """Return the hull of three points, which program 1 determines (131).
-
-        Its equations are :attr:`Hull.lines`. The faces have the same form as those of a polygon.
-        """
+        """Return the hull of three points, which program 1 determines (131), with faces like those of a polygon."""
         table, points = polygon.table, polygon.points
         on = list(table.defining.T)
         return replace(
@@ -227,10 +224,7 @@ class _Run:
         return None
 
     def move_back(self, points: PointTable, table: Equations, centre: tuple[Scalar, ...]) -> None:
-        """Restore the original origin for points and constant terms.
-
-        Digits that the arithmetic lost in the translation stay lost.
-        """
+        """Restore the original origin for points and constant terms, without the digits lost in the translation."""
         if not self.translate:
             return
         constant = table.coefficients[-1]

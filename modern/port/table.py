@@ -15,11 +15,7 @@ from modern.port.formulas import at
 
 @dataclass
 class PointTable:
-    """The points in the order in which the procedure keeps them, counted from 0.
-
-    ``coordinates`` has three rows and a column for each point. ``input_index`` gives for each point its index in the
-    input.
-    """
+    """The points in the order of the procedure: coordinates (3, n) and indices in the input."""
 
     coordinates: Vector
     input_index: NDArray[np.int64]
@@ -73,9 +69,7 @@ class Slack:
     relative: bool
 
     def of(self, coefficients: tuple[Vector, ...]) -> Vector:
-        """Return the e of each equation. ``coefficients`` are the vectors A, B, C (of lines A, B) and the constant
-        terms.
-        """
+        """Return the e of each equation from its coefficients, the constant terms included."""
         arithmetic = self.arithmetic
         degree = 1 if self.relative else len(coefficients) - 1
         e = arithmetic.filled([arithmetic.tolerance(self.size, degree)] * len(coefficients[0]))
@@ -198,8 +192,8 @@ def turned(
 ) -> tuple[Vector, NDArray[np.bool_]]:
     """Reverse the equations (columns) that are positive at C. Return them and a mask of those that are zero at C.
 
-    ``centre`` is None if the origin was moved to C. Then the constant term is the value at C (thesis p. 118). No
-    epsilon applies, because C is not an input point.
+    ``centre`` is None if the origin was moved to C; the constant term is then the value (thesis p. 118). No epsilon
+    applies, because C is not an input point.
     """
     values = coefficients[-1] if centre is None else at(tuple(coefficients), centre)
     signs = arithmetic.sign(values)

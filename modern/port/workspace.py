@@ -29,10 +29,9 @@ equal planes was deleted.
 
 
 class Cloud(NamedTuple):
-    """The points in their current order.
+    """The points in their current order, as coordinates (3, n) with their indices in the input.
 
-    ``coordinates`` has the shape (3, n). ``input_index`` holds indices in the input. ``keeper`` is the slot of a
-    plane that the point is not inside of, or -1. ``eliminated`` receives the eliminated points in order.
+    ``keeper`` is the slot of a plane that the point is not inside of, or -1; ``eliminated`` receives points in order.
     """
 
     coordinates: NDArray[Any]
@@ -42,11 +41,8 @@ class Cloud(NamedTuple):
 
 
 class Slots(NamedTuple):
-    """The planes by slot.
-
-    ``coefficients`` has the shape (4, slots) and ``defining``, the indices of the defining points, (3, slots).
-    ``tolerances`` holds the e of each equation, -1 if no epsilon applies, and ``alive`` whether the slot holds a
-    plane.
+    """The planes by slot: ``coefficients`` (4, slots), ``defining`` (3, slots), and the e of each or -1
+    (``tolerances``).
     """
 
     coefficients: NDArray[Any]
@@ -56,11 +52,10 @@ class Slots(NamedTuple):
 
 
 class Scratch(NamedTuple):
-    """Scratch arrays for a stage.
+    """Scratch arrays for a stage, which numba compiles much faster if the kernels allocate none.
 
-    The kernels themselves allocate no arrays, because numba takes far longer to compile functions that do. ``order``
-    and ``values`` hold slots of planes and their values at a point. ``partner``, ``following``, ``keys`` (2, slots)
-    and ``chains`` are used to find pairs of fresh planes in :func:`modern.port.kernels.doubles`.
+    ``order`` and ``values`` hold slots of planes and their values at a point. The others are used in
+    :func:`modern.port.kernels.doubles`.
     """
 
     order: NDArray[np.int64]
@@ -89,12 +84,7 @@ def scratch_for(slots: int, number: Any) -> Scratch:
 
 
 class Rules(NamedTuple):
-    """The constants of a run.
-
-    ``centre`` is the point C, or ``moved`` is true if the origin was moved to it. ``size`` is e or -1, and
-    ``relative`` is true if it is relative. ``listed`` and ``capacity`` are the entries of the plane table in the
-    listing and in the layer ``corrected``.
-    """
+    """The constants of a run: C unless the origin was ``moved`` to it, e or -1, and two sizes of the plane table."""
 
     centre: NDArray[Any]
     moved: bool

@@ -25,16 +25,4 @@ from modern.study.plan import Cell, Plan, PlanError, Port, Programs, Route
 from modern.study.report import Report
 from modern.study.run import run_study
 
-__all__ = [
-    "Cell",
-    "Draw",
-    "Drawn",
-    "Plan",
-    "PlanError",
-    "Port",
-    "Programs",
-    "Report",
-    "Route",
-    "drawn",
-    "run_study",
-]
+__all__ = ["Cell", "Draw", "Drawn", "Plan", "PlanError", "Port", "Programs", "Report", "Route", "drawn", "run_study"]

@@ -1,7 +1,7 @@
 """The layout of a chart, computed before it is drawn: the offsets of its series, and whether each needs a panel.
 
-Series with equal values would hide one another.  They are drawn side by side, shifted by a few typographic points, or,
-if their x values are too close for that, each in a separate panel.
+Series with equal values are drawn side by side, shifted by a few typographic points, or, if their x values are too
+close for that, each in a separate panel.
 """
 
 from __future__ import annotations
@@ -29,8 +29,7 @@ _RAISED = str.maketrans("0123456789-+k", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺ᵏ")
 
 
 def typeset(text: str) -> str:
-    """Return text with typographic characters: 10⁻³ for ``10^-3`` and ``1E-3``, and a minus sign (U+2212) for a hyphen
-    before a number."""
+    """Return text with typographic characters: 10⁻³ for ``10^-3`` and ``1E-3``, and a minus sign before a number."""
     text = re.sub(r"(?<![\w.])(\d+\.?\d*)E([+-]?\d+)\b", _power, text)
     text = re.sub(r"(?<=\d)\^([+-]?\d+|k\b)", lambda match: match[1].translate(_RAISED), text)
     return re.sub(r"(?<![\w.)-])-(?=\.?\d)", "\N{MINUS SIGN}", text)
@@ -94,7 +93,6 @@ def values(chart: Chart) -> list[float]:
 
 
 def _nearest(chart: Lines) -> float:
-    """Return the least distance of two markers at the same x, in points."""
     pairs = combinations(_heights(chart), 2)
     return min((abs(a[x] - b[x]) for a, b in pairs for x in a.keys() & b.keys()), default=HEIGHT)
 
@@ -107,7 +105,6 @@ def _heights(chart: Lines) -> list[dict[float, float]]:
 
 
 def _scaled(ascending: Sequence[float], size: float, logarithmic: bool) -> list[float]:
-    """Return the positions of ascending numbers along an axis of that size."""
     scaled = _logarithms(ascending) if logarithmic else list(ascending)
     span = scaled[-1] - scaled[0] if scaled else 0.0
     return [(value - scaled[0]) / span * size if span else 0.0 for value in scaled]

@@ -133,7 +133,6 @@ def first_difference(earlier: Mapping[str, Any], current: Mapping[str, Any]) -> 
 
 
 def _programs(route: Programs) -> dict[str, str]:
-    """Return the SHA-256 of the statements and FORMATs of each program of a route."""
     first, load = programs_of(route)
     sums = {}
     for name in (first, *_LATER_PROGRAMS):

@@ -130,8 +130,7 @@ def reordered(answer: Answer, reference: Answer) -> Answer:
 def position(program: Program, line: Line) -> str:
     """Return the position of a statement in the notation of the apparatus.
 
-    This is its statement number, ``147``; or the last number before it and the statements since, ``132+3``; or, before
-    the first number, ``+3``.
+    This is its number, ``147``, or the statements since the last number, ``132+3``, or since the beginning, ``+3``.
     """
     for distance, earlier in enumerate(reversed(program.statements[: line.index + 1])):
         if earlier.label:
@@ -169,7 +168,6 @@ def _reached(step: Step) -> str:
 
 
 def _stopped_at(step: Step) -> str:
-    """Return the statement at which a run stopped."""
     line = step.result.ending.line
     return f"{step.name} {position(step.program, line)}" if line else step.name
 
@@ -180,7 +178,6 @@ def number_text(value: Fraction) -> str:
 
 
 def _determined(outcome: compared.Outcome, sample: Sample, hull: CardHull | Hull) -> Answer:
-    """Return the answer of a run that gave a hull."""
     difference = disagreement(outcome, sample.outcome, sample.points)
     figures = {"coefficient_error": number_text(difference.error), "excluded": number_text(difference.excluded)}
     fault = _fault(outcome, sample, difference, hull)
@@ -246,7 +243,6 @@ def _incidences_are_right(hull: CardHull | Hull, sample: Sample, difference: Dis
 
 
 def _order(outcome: compared.Outcome, sample: Sample, hull: CardHull | Hull) -> tuple[int, ...]:
-    """Return the vertices in the order of the hull, by their indices in the input."""
     if isinstance(hull, Hull):
         return hull.vertices
     index_of = {point: index for index, point in enumerate(sample.points)}

@@ -1,8 +1,8 @@
 """``rows.parquet``: the answers of a study as one flat table, one row per answer, for pandas, DuckDB and the like.
 
-The key of the cell, the tags of a set and the figures of a run have separate columns, such as ``key_n``, ``tag_kind``
-and ``figure_statements``, which are null for a cell, set or route without them.  A column contains integers if all its
-values are integers, doubles if the other values are decimals as text, and text otherwise.
+The key of the cell, the tags of a set and the figures of a run have separate columns, such as ``key_n`` and
+``figure_statements``, which are null if absent.  A column contains integers if all its values are integers, doubles if
+the other values are decimals as text, and text otherwise.
 """
 
 from __future__ import annotations

@@ -111,7 +111,6 @@ def drawn(chart: Chart) -> Any:
 
 
 def _together(axes: Any, chart: Chart) -> None:
-    """Draw all series on one pair of axes."""
     _marks(axes, chart)
     if isinstance(chart, Lines):
         shifts = steps(chart)
@@ -153,7 +152,6 @@ def _panels(figure: Any, chart: Chart) -> None:
 
 
 def _marks(axes: Any, chart: Chart, turned: bool = False) -> None:
-    """Draw the marks; ``turned`` exchanges x and y, for horizontal bars."""
     for mark in chart.marks:
         line = axes.axvline if mark.upright != turned else axes.axhline
         line(mark.at, label=typeset(mark.label), **_MARK)
@@ -236,7 +234,6 @@ def _numbers(
 
 
 def _standing(axes: Any, chart: Chart) -> None:
-    """Draw vertical bars, those of each group side by side."""
     from matplotlib.ticker import FuncFormatter
 
     groups = names(chart)
@@ -255,7 +252,6 @@ def _standing(axes: Any, chart: Chart) -> None:
 
 
 def _lying(axes: Any, chart: Chart, k: int) -> None:
-    """Draw the bars of one series horizontally, one below another."""
     from matplotlib.ticker import FuncFormatter, MaxNLocator
 
     groups, series = names(chart), chart.series[k]
@@ -277,9 +273,4 @@ _WHISKERS: Any = {"fmt": "none", "ecolor": "0.0", "elinewidth": 0.9, "capsize": 
 
 
 def _fill(k: int) -> dict[str, Any]:
-    return {
-        "color": FILLS[k % len(FILLS)],
-        "edgecolor": "0.1",
-        "linewidth": 0.6,
-        "hatch": HATCHES[k % len(HATCHES)],
-    }
+    return {"color": FILLS[k % len(FILLS)], "edgecolor": "0.1", "linewidth": 0.6, "hatch": HATCHES[k % len(HATCHES)]}

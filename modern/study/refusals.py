@@ -1,9 +1,8 @@
 """Data sheets with decimals: how often the programs reject them, and what share of them explains two rejections in 70.
 
-The thesis explains its two failures by the limits of the machine, its eight digits, for which the programs have a
-message, DATA NOT ACCEPTABLE.  They reject sets like the data sheet of chapter 5
-(:func:`modern.study.families.thesis.data_sheet`) more often the more of the coordinates are decimals.  The share of
-decimals is the variable here.
+The thesis explains its two failures by the limits of the machine, its eight digits.  The programs reject sets like the
+data sheet of chapter 5 (:func:`modern.study.families.thesis.data_sheet`) more often the more of the coordinates are
+decimals.
 """
 
 from __future__ import annotations
@@ -109,8 +108,8 @@ def needed(sheets: Sheets) -> str:
 def likely_shares(rates: tuple[tuple[int, float], ...]) -> tuple[float, float] | None:
     """Return the shares of decimals, in thousandths, between which two rejections in seventy are most probable.
 
-    All seventy sets are assumed to have that share.  ``rates`` holds (share, frequency of rejection) with ascending
-    shares; the frequencies are interpolated linearly.  Return None if they do not reach both bounds.
+    ``rates`` holds (share, frequency of rejection) with ascending shares, interpolated linearly.  Return None if they
+    do not reach both bounds.
     """
     crossings = []
     for bound in TWO_LIKELIEST:

@@ -15,11 +15,7 @@ from modern.study.store import Store
 
 
 class Study(Protocol):
-    """The interface of a module of :mod:`modern.study.builtin`.
-
-    TITLE: one line for ``--list``.  SAMPLES: the default of ``--samples``; the module says what they count.  plan:
-    makes the plan with the given number of samples.  report: makes the report from the finished rows.
-    """
+    """The interface of a module of :mod:`modern.study.builtin`: title, default samples, plan and report."""
 
     TITLE: str
     SAMPLES: int

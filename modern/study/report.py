@@ -22,10 +22,7 @@ INTERVALS = ("In parentheses: exact 95 % intervals of proportions (Clopper and P
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """A table: a title, column heads, rows of text, and notes printed below.
-
-    ``name`` is the name of its file; that of the main table is ``table``.
-    """
+    """A table with notes printed below; ``name`` is that of its file, ``table`` for the main one."""
 
     name: str
     title: str
@@ -51,7 +48,6 @@ class Table:
         return "\n".join([f"**{self.title}**", "", *lines, *(f"\n{note}" for note in self.notes)]) + "\n"
 
     def _numeric(self) -> list[bool]:
-        """Return for each column whether all its entries are numbers, and not all are empty."""
         return [
             any(row[k] for row in self.rows) and all(set(row[k]) <= _NUMERIC for row in self.rows)
             for k in range(len(self.head))
@@ -114,10 +110,9 @@ class Mark:
 
 @dataclass(frozen=True, slots=True)
 class Chart:
-    """The common part of bar charts and line charts.
+    """The common part of charts: the ``name`` of its files, labels of the axes with units, series and marks.
 
-    name: the name of its files.  x and y: the labels of the axes, with units.  percent: the values are proportions,
-    shown in percent.  marks: values to compare with.
+    Values are proportions, shown in percent, if ``percent`` is true.
     """
 
     name: str
@@ -137,10 +132,7 @@ class Bars(Chart):
 
 @dataclass(frozen=True, slots=True)
 class Lines(Chart):
-    """A chart of values joined by lines, with error bars; either axis may be logarithmic.
-
-    powers: the numbers on the x axis are exponents of ten.
-    """
+    """A chart of values joined by lines, with error bars; ``powers`` marks exponents of ten on the x axis."""
 
     log_x: bool = False
     log_y: bool = False
@@ -149,11 +141,7 @@ class Lines(Chart):
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """The result of a study.
-
-    tables: the first is the main one and is named ``table``.  charts: drawn by :mod:`modern.study.plots`.
-    conclusions: paragraphs of plain sentences, every number of which is computed from the rows.
-    """
+    """The tables (the main one first), the charts and the conclusions of a study, computed from its rows."""
 
     tables: tuple[Table, ...]
     charts: tuple[Chart, ...]

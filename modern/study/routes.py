@@ -55,7 +55,6 @@ def programs_of(route: Programs) -> tuple[str, Load]:
 
 @cache
 def _program(name: str, layers: tuple[str, ...], rows: tuple[str, ...]) -> Program:
-    """Return a built-in program with layers added, and with single rows: their layers without the other rows."""
     rows_of_text = programs.text(programs.built_in(name).text).rows
     partial_layers = {row.layer for row in rows_of_text if row.id in rows and row.layer not in layers}
     if not partial_layers:

@@ -19,12 +19,7 @@ CARD_DIGITS = 8
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """A sample and its exact hull, with which the hulls of all routes are compared.
-
-    drawn: the points as a family drew them.  deck: the data deck.  points: the exact coordinates (x, y, z) on the
-    cards of the deck.  hull, outcome: the exact hull, and the same hull in the form that comparisons use.  on: the
-    vertices on each equation of ``outcome``.
-    """
+    """A sample, its deck and the exact points on it, its exact hull in two forms, and the vertices on each equation."""
 
     drawn: Drawn
     deck: Deck
@@ -66,7 +61,6 @@ def judge(drawn: Drawn, name: str) -> Sample:
 
 
 def _on(hull: ExactHull) -> tuple[frozenset[int], ...]:
-    """Return the vertices on each equation, in the order of :func:`modern.comparison.outcome.from_judge`."""
     if hull.dimension == 3:
         return tuple(frozenset(facet.polygon) for facet in hull.facets)
     ring = hull.polygon

@@ -35,10 +35,7 @@ class Interval:
 
 
 def exact(hits: int, of: int, level: float = LEVEL) -> Interval:
-    """Return the exact (Clopper and Pearson) interval of a proportion of ``hits`` in ``of`` samples.
-
-    Raise ValueError unless 0 <= hits <= of and of > 0.
-    """
+    """Return the exact (Clopper and Pearson) interval of a proportion of ``hits`` in ``of`` samples."""
     if of < 1 or not 0 <= hits <= of:
         raise ValueError(f"{hits} of {of} is not a proportion")
     tail = (1 - level) / 2
@@ -48,11 +45,7 @@ def exact(hits: int, of: int, level: float = LEVEL) -> Interval:
 
 
 def count(hits: int, of: int, times: int, level: float = LEVEL) -> Interval:
-    """Return the number of hits to expect in ``times`` samples if ``of`` samples had ``hits``.
-
-    The interval is that of the proportion multiplied by ``times``, so it lies in 0 to ``times``.  Raise ValueError as
-    :func:`exact` does.
-    """
+    """Return the number of hits to expect in ``times`` samples if ``of`` samples had ``hits``, from 0 to ``times``."""
     share = exact(hits, of, level)
     return Interval(times * share.value, times * share.low, times * share.high)
 
@@ -61,7 +54,6 @@ def mean(values: Iterable[float], level: float = LEVEL, least: float = -inf, mos
     """Return the mean of a sample with Student's interval, truncated at the bounds ``least`` and ``most``.
 
     The values are read once (B. P. Welford, Technometrics 4 (1962) 419-420).  A single value has an infinite interval.
-    Raise ValueError if there is no value.
     """
     number, average, squares = 0, 0.0, 0.0
     for value in values:
@@ -129,7 +121,6 @@ def incomplete_beta(a: float, b: float, x: float) -> float:
 
 
 def _root(monotonic: Callable[[float], float]) -> float:
-    """Return the zero of a monotonic function on 0 to 1, by bisection."""
     falling = monotonic(1e-300) > monotonic(1.0)
     low, high = 0.0, 1.0
     for _ in range(200):

@@ -46,10 +46,7 @@ class Summary:
         return self.of(cell, route) - self.hits(cell, route)
 
     def sound_from(self, cell: int, route: Callable[[int], str], tried: Sequence[int]) -> int | None:
-        """Return the least of the numbers tried from which on no sample failed; None if one fails at the greatest.
-
-        ``tried`` is ascending; ``route`` returns the name of the route for a number.
-        """
+        """Return the least of the ascending numbers from which on no sample failed, or None."""
         least = None
         for number in reversed(tried):
             if self.failed(cell, route(number)):

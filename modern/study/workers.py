@@ -48,18 +48,12 @@ An exception would have to be unpickled by the receiving process; text always ca
 
 
 def chunk_text(cell: Cell, seed: int, chunk: Chunk) -> str:
-    """Return the rows of a chunk as JSONL text, one line per sample.
-
-    ``cell`` is the cell that the chunk belongs to, ``seed`` the seed of the study.
-    """
+    """Return the rows of a chunk as JSONL text, one line per sample; ``seed`` is that of the study."""
     return "".join(json.dumps(row, separators=(",", ":")) + "\n" for row in chunk_rows(cell, seed, chunk))
 
 
 def chunk_rows(cell: Cell, seed: int, chunk: Chunk) -> Iterator[Row]:
-    """Yield the row of each sample: its seed, its deck, the judge's figures, and the answer of each route.
-
-    Raise EmulatorError if the plan cannot be carried out.
-    """
+    """Yield the row of each sample: its seed, its deck, the judge's figures, and the answer of each route."""
     samples = [judge(draw_sample(cell, seed, index), f"sample {index}") for index in range(chunk.start, chunk.stop)]
     runs = Runs()
     answers = {route.name: carry_out(route, samples, runs) for route in cell.routes}
@@ -104,8 +98,8 @@ def processes() -> int:
 def in_processes(plan: Plan, chunks: Sequence[Chunk], workers: int) -> Generator[FinishedChunk]:
     """Yield each chunk with its rows as it is finished, in any order.
 
-    With one worker, this process does all the work.  Closing the generator, as Ctrl-C does, terminates the workers at
-    once.  Raise PlanError if a chunk cannot be carried out or a worker dies.
+    Closing the generator, as Ctrl-C does, terminates the workers at once.  Raise PlanError if a chunk cannot be carried
+    out or a worker dies.
     """
     if workers == 1 or len(chunks) <= 1:
         for chunk in chunks:

@@ -46,11 +46,7 @@ def _results(program: Program, decks: Sequence[Deck], options: Options) -> Seque
 
 
 def run_hulls(
-    decks: Sequence[Deck],
-    load: Load,
-    options: Options | None = None,
-    first: str = "program1",
-    runs: Runs | None = None,
+    decks: Sequence[Deck], load: Load, options: Options | None = None, first: str = "program1", runs: Runs | None = None
 ) -> list[HullRun | EmulatorError]:
     """Return for each deck of one data set what :func:`modern.thesis.job.run_hull` returns, or the error it raises.
 

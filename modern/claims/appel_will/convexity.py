@@ -184,8 +184,7 @@ ARM = 9
 
 
 def surface_area() -> CheckResult:
-    """Compare surface areas: a hull inside a box has less than the box, and three arms of cubes have less than their
-    hull."""
+    """Check that a hull has less surface than a box around it, and three arms of cubes less than their hull."""
     octahedron: list[Point] = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
     box = [(2 * x - 1, 2 * y - 1, 2 * z - 1) for x, y, z in CUBE]
     inner, outer = _surface(octahedron), _surface(box)
@@ -287,10 +286,8 @@ def step_as_printed(step: str) -> CheckResult:
 
 
 def planar_graph() -> CheckResult:
-    """Check that the faces embed the graph in a sphere without crossings.
-
-    Each edge belongs to two faces, once in each direction, and the faces around each vertex form one ring. The surface
-    is connected and V - E + F = 2, so it is a sphere.
+    """Check that the faces embed the graph in a sphere without crossings: edges and vertices are manifold, V - E + F =
+    2.
     """
     checks = []
     for _, hull in _hulls():

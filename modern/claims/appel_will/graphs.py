@@ -1,7 +1,4 @@
-"""Checks of Appel and Will's appendix on faces found from the graph of the edges, from three points, or from a list.
-
-The hulls are those of sampled sets, of a cube, and of the objects of Figs. 14 and 23.
-"""
+"""Checks of Appel and Will's appendix on faces found from the graph of the edges, from three points, or from a list."""
 
 from __future__ import annotations
 
@@ -45,7 +42,6 @@ def _graph(judge: ExactHull) -> Graph:
 
 
 def _cycles(graph: Graph) -> Iterator[frozenset[int]]:
-    """Yield cycles without chords as sets of points, each found from its smallest point in both directions."""
     paths: list[tuple[int, ...]] = [(k,) for k in graph]
     while paths:
         path = paths.pop()

@@ -67,10 +67,7 @@ def star_test(kind: str = "") -> CheckResult:
 
 
 def closed_loops(kind: str = "") -> CheckResult:
-    """Check that consecutive lines of a loop share an end, and that each line is in two loops, once in each direction.
-
-    A positive entry runs from the first point of its line to the second.
-    """
+    """Check that consecutive lines of a loop share an end, and that each line is in two loops, once each way."""
     checks, signs = [], []
     for points in (CUBE, *(sampled.points for sampled in sampled_sets(3, int(COUNT)))):
         hull = appel_will(points)
@@ -93,10 +90,7 @@ def fourth_loop() -> CheckResult:
 
 
 def limit_of_searches() -> CheckResult:
-    """Check step 9 as printed on a pentagon: without a limit it reaches a point again and never ends.
-
-    With the limit the program ends and reports that the loop does not close.
-    """
+    """Check step 9 on a pentagon: as printed it never ends, and with a limit it reports an open loop."""
     points = counterexample_points("pentagon.csv")
     hull = appel_will(points, method=printed("step9", "step3"))
     ring = exact_hull(points).polygon
@@ -106,7 +100,6 @@ def limit_of_searches() -> CheckResult:
 
 
 def _comes_again(edges: Sequence[tuple[int, int]], start: int, common: int, match: int) -> bool:
-    """Return True if steps 9 and 10 as printed, starting with the lines start-common-match, reach a point twice."""
     visited: set[int] = set()
     while match != start and match not in visited:
         visited.add(match)
@@ -116,7 +109,6 @@ def _comes_again(edges: Sequence[tuple[int, int]], start: int, common: int, matc
 
 
 def _joined(entries: Sequence[int], edges: Sequence[tuple[int, int]]) -> bool:
-    """Return True if each entry starts at the end of the one before it, and the first at the end of the last."""
     ends = [edges[abs(e) - 1] if e > 0 else edges[abs(e) - 1][::-1] for e in entries]
     return all(a[1] == b[0] for a, b in pairwise([*ends, ends[0]]))
 

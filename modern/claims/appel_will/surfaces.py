@@ -92,8 +92,7 @@ def two_inside_corners() -> CheckResult:
 def preprocessing_cost(kind: str = "") -> CheckResult:
     """Compare the projections and star polygons of Fig. 4 with and without the deletion of inside corners.
 
-    ``cheap``: compare one triple product for each line with the images saved; each pair needs those of all other
-    points.
+    ``cheap``: compare one triple product for each line with the images saved.
     """
     solid, counts, stars = fig_4(), {}, [0]
 
@@ -117,10 +116,7 @@ def preprocessing_cost(kind: str = "") -> CheckResult:
 
 
 def minimum_data() -> CheckResult:
-    """Check that the surfaces of Fig. 4, as sets of points, determine its lines, and that its points alone do not.
-
-    The points of a cube determine the cube.
-    """
+    """Check that the surfaces of Fig. 4, as sets of points, determine its lines, and that its points alone do not."""
     solid = fig_4()
     sets = [frozenset(surface) for surface in solid.surfaces]
     shared = Counter(
@@ -161,10 +157,7 @@ def hulls_of_surfaces(kind: str) -> CheckResult:
 
 
 def vertex_without_supporting_surface() -> CheckResult:
-    """Check a tetrahedron with a pit in every face: its corners are vertices although no surface supports.
-
-    No two surfaces are coplanar.
-    """
+    """Check a tetrahedron with a pit in every face: its corners are vertices although no surface supports."""
     solid = pitted()
     planes = {}
     for surface in oriented(solid.points, solid.surfaces):
@@ -238,10 +231,7 @@ def planes_of_surfaces() -> CheckResult:
 
 
 def normal_from_two_lines() -> CheckResult:
-    """Check that the cross product of two lines at each corner of a surface is perpendicular to the surface.
-
-    For unit directions its length is 1 only at a right angle, and at a concave corner it points the other way.
-    """
+    """Check that the cross product of two lines at each corner of a surface is perpendicular to the surface."""
     checks, turned, shorter = [], 0, 0
     for solid in (fig_4(), crown(), bent()):
         for ring in oriented(solid.points, solid.surfaces):

@@ -94,7 +94,6 @@ def _incident(a: Point, b: Point) -> bool:
 
 
 def _components(cells: Collection[Point]) -> list[set[Point]]:
-    """Return the components by steps from a cell to an incident one."""
     remaining, components = set(cells), []
     while remaining:
         component, queue = set[Point](), [remaining.pop()]
@@ -109,10 +108,7 @@ def _components(cells: Collection[Point]) -> list[set[Point]]:
 
 
 def subcomplex() -> CheckResult:
-    """Check that the relation restricted to a subset stays irreflexive, antisymmetric and transitive.
-
-    It consists of all pairs, found by a search, whose cells are both in the subset, and dimensions increase along it.
-    """
+    """Check that the relation restricted to a subset stays irreflexive, antisymmetric and transitive."""
     checks = []
     everywhere = {(a, b) for a in SPACE for b in bounded(a)}
     for cells in _subsets():
@@ -168,8 +164,7 @@ def smallest_closed_subset() -> CheckResult:
 
 
 def greatest_open_subset() -> CheckResult:
-    """Check that the interior is open, that it is the complement of the closure of the rest, and that it is the
-    greatest."""
+    """Check that the interior is the greatest open subset, and the complement of the closure of the rest."""
     checks = []
     for cells in (*_subsets(4), closure([(1, 1, 1)]), closure([(1, 1, 1), (3, 1, 1)])):
         inside = interior(cells)
@@ -201,10 +196,7 @@ def boundary() -> CheckResult:
 
 
 def manifold(kind: str = "") -> CheckResult:
-    """Check that the edges and faces around each vertex of a hull form a ring.
-
-    Around a vertex at the rim of a ``patch`` they form a row.
-    """
+    """Check that the edges and faces around a vertex form a ring, and a row at the rim of a ``patch``."""
     checks, rows = [], 0
     for _, judge in sampled_hulls():
         rings = [facet.polygon for facet in judge.facets][1 if kind else 0 :]
@@ -268,8 +260,9 @@ def solid() -> CheckResult:
 
 
 def half_space() -> CheckResult:
-    """Check that voxels that satisfy an inequality form, with the cells between them, an open, connected and solid
-    subset."""
+    """Check that voxels that satisfy an inequality form an open, connected and solid subset with the cells between
+    them.
+    """
     checks = []
     for a, b, c, d in ((1, 0, 0, 2), (1, 1, 0, 4), (1, 2, 3, 10), (1, 1, 1, 7)):
         voxels = {v for v in VOXELS if a * v[0] + b * v[1] + c * v[2] <= d}
@@ -295,7 +288,6 @@ def topological_line() -> CheckResult:
 
 
 def _in_line(x: int, y: int) -> bool:
-    """Return True if a cell of a line bounds another or is the same."""
     return x == y or (y % 2 == 1 and abs(x - y) == 1)
 
 
@@ -331,10 +323,7 @@ def raster(kind: str) -> CheckResult:
 
 
 def cells_incident_to_voxels() -> CheckResult:
-    """Check that each corner, edge and face in the closure of some voxels is incident to one of them.
-
-    The corners are those that the program finds.
-    """
+    """Check that each corner, edge and face in the closure of some voxels is incident to one of them."""
     volume = random_solid(2, 3)
     voxels = [tuple(2 * x + 1 for x in v) for v in volume.coordinates().tolist()]
     whole = {c for v in voxels for c in (v, *sides(v))}

@@ -90,8 +90,7 @@ def third_condition() -> CheckResult:
 
 
 def complex_of_polyhedron() -> CheckResult:
-    """Check that bounding is a partial order of the vertices, edges, faces and body of a hull, along which dimensions
-    rise."""
+    """Check that bounding is a partial order of the vertices, edges, faces and body of a hull; dimensions rise."""
     _, judge = sampled_hulls()[0]
     cells = [(0, frozenset([k])) for k in judge.vertices] + [(1, frozenset(e)) for e in judge.edges()]
     cells += [(2, frozenset(f.polygon)) for f in judge.facets] + [(3, frozenset(judge.vertices))]
@@ -115,11 +114,7 @@ def maximum_of_combinations() -> CheckResult:
 
 
 def _horizons() -> Iterator[tuple[Point, Plane, Plane, Plane, list[Point], tuple[Point, Point]]]:
-    """Yield the configurations at the horizon of sampled hulls for points outside them.
-
-    Each has the new point, the planes of a visible and an invisible face, the plane through the point and their common
-    edge, the vertices, and the edge.
-    """
+    """Yield new points with the visible, invisible and new plane, the vertices and the edge at sampled horizons."""
     for points, judge in sampled_hulls():
         for new in ((9, 1, 0), (-8, 3, 7)):
             for edge in judge.edges():
@@ -134,11 +129,7 @@ def _horizons() -> Iterator[tuple[Point, Plane, Plane, Plane, list[Point], tuple
 
 
 def lemma_be(kind: str = "") -> CheckResult:
-    """Check that the new plane supports and, with ``kind``, that its normal is a positive combination of the two
-    normals.
-
-    For a coplanar face a is 0.
-    """
+    """Check that the new plane supports and, with ``kind``, that its normal is a positive combination."""
     checks = []
     for _, visible, hidden, plane, vertices, _ in _horizons():
         values = [plane_value(plane, p) for p in vertices]
@@ -170,8 +161,7 @@ def closed_boundary() -> CheckResult:
 def section_angles() -> CheckResult:
     """Check the angles of Fig. 9 with Q at the foot of the perpendicular from P on the edge, and with Q at an end.
 
-    Only squares of cosines are compared: beta is 90 - alpha or alpha - 90 if the squares of the two cosines add up to
-    1.
+    Only squares of cosines are compared: beta is 90 - alpha or alpha - 90 if the squares add up to 1.
     """
     right: list[bool] = []
     elsewhere: list[bool] = []

@@ -39,8 +39,7 @@ def sampled_hulls() -> tuple[tuple[tuple[Point, ...], ExactHull], ...]:
 
 
 def algorithm_against_judge(kind: str = "") -> CheckResult:
-    """Compare both treatments of coplanar faces with the exact hull, on a grid with many coplanar points and on
-    samples."""
+    """Compare both treatments of coplanar faces with the exact hull, on samples and on a grid of coplanar points."""
     checks = _right_hulls()
     return holds_if(all(checks), f"{len(checks) // 2} hulls agree with the exact hull", conditional=kind)
 
@@ -186,8 +185,7 @@ def formula_5() -> CheckResult:
 
 
 def integers_per_face() -> CheckResult:
-    """Check the last column of Table 5: it is rounded at diameter 16, and so 1070 / 142 at 18 would be 7.54 and not
-    7.53."""
+    """Check that Table 5's last column is rounded at diameter 16, so that 1070 / 142 at 18 is 7.54, not 7.53."""
     sixteen, eighteen = (Fraction(100 * integers, faces) for _, _, faces, integers in _table_5()[4:6])
     passed = (int(sixteen), round(sixteen)) == (855, 856) and (int(eighteen), round(eighteen)) == (753, 754)
     return holds_if(passed, "1010 / 118 is printed rounded as 8.56; 1070 / 142 is 7.535", conditional=True)
@@ -203,8 +201,7 @@ def _table_5() -> tuple[tuple[int, int, int, int], ...]:
 
 
 def memory_requirements() -> CheckResult:
-    """Compare the integers of the cell list with those of Marching Cubes and of triangles, for all half-balls of Table
-    5.
+    """Compare the integers of the cell list with those of Marching Cubes and of triangles, for the bodies of Table 5.
 
     Formula (6) gives the number V of vertices from the number of integers; a hull has 2 V - 4 triangles.
     """
@@ -295,10 +292,7 @@ def _straight(volume: Volume) -> CellList:
 
 
 def symmetry() -> CheckResult:
-    """Check that rotations and reflections that map the voxels of a body to themselves map the faces to themselves.
-
-    A half-ball has eight of them, an L of three voxels four, and an L of four voxels two.
-    """
+    """Check that rotations and reflections that map the voxels of a body to themselves map the faces to themselves."""
     short: list[Point] = [(0, 0, 0), (1, 0, 0), (0, 1, 0)]
     numbers, checks = [], []
     for volume in (half_ball(10), listed(short), listed([*short, (0, 2, 0)])):
@@ -347,10 +341,7 @@ def bounds(a: Point, b: Point) -> bool:
 
 
 def bounding_relation() -> CheckResult:
-    """Check that bounding is antisymmetric and transitive for the cells of a voxel, and that incidence is not.
-
-    The dimension, the number of odd coordinates, is smaller in the bounding cell.
-    """
+    """Check that bounding is antisymmetric and transitive for the cells of a voxel, and that incidence is not."""
     cells: list[Point] = [(x, y, z) for x in range(3) for y in range(3) for z in range(3)]
     pairs = {(a, b) for a in cells for b in cells if bounds(a, b)}
     partial = not any((b, a) in pairs for a, b in pairs)

@@ -27,10 +27,7 @@ def _placed(volume: Volume, of: str) -> set[Point]:
 
 
 def corners_against_centres(kind: str = "") -> CheckResult:
-    """Check that the hull of the corners is that of the centres with a cube about each, in half units.
-
-    ``first``: Int(M) contains the voxels, and Cl(M) their vertices as well.
-    """
+    """Check that the hull of the corners is that of the centres with a cube about each, in half units."""
     checks, sizes = [], []
     for volume in (random_solid(1, 3), listed([(0, 0, 0), (1, 0, 0), (1, 1, 0)]), half_ball(8)):
         voxels, corners = _placed(volume, CENTRES), _placed(volume, VERTICES)
@@ -86,11 +83,7 @@ def corner_of_single_voxel() -> CheckResult:
 
 
 def farthest_voxel_of_corner(kind: str = "") -> CheckResult:
-    """Check that the farthest voxel at a corner has the coordinates of the corner, so that corners have different
-    names.
-
-    At the border of the space there is no such voxel, and another corner's voxel is taken. ``figure``: in the plane.
-    """
+    """Check that the farthest voxel at a corner has the coordinates of the corner, so that corners differ in name."""
     flat, size = bool(kind), 3
     raster = {(x, y, z) for x in range(size) for y in range(size) for z in range(1 if flat else size)}
     named: dict[Point, Point] = {}

@@ -66,7 +66,6 @@ def inside(p: Place, v: tuple[Place, ...]) -> bool:
 
 
 def _apart(v: tuple[Place, ...], w: tuple[Place, ...]) -> bool:
-    """Return True if the other polygon is beyond or on a side of one of them."""
     return any(all(value(line, p) <= 0 for p in flat(b)) for a, b in ((v, w), (w, v)) for line in lines_of(a))
 
 
@@ -110,9 +109,8 @@ def _roof() -> tuple[tuple[Point, ...], ExactHull, tuple[int, int]]:
 
 
 def correlations(kind: str = "") -> CheckResult:
-    """Classify pairs of polygons independently: separated by a line, one inside the other, or with crossing sides.
-
-    Exactly one of the three applies unless the polygons touch; for some that touch none applies.
+    """Classify pairs of polygons independently: exactly one relation applies unless they touch, and then sometimes
+    none.
     """
     counts: dict[str, int] = dict.fromkeys(("apart", "encloses", "partly", "touching"), 0)
     checks, some_unrelated = [], False
@@ -190,7 +188,6 @@ def numbers_of_meetings(v: tuple[Place, ...], w: tuple[Place, ...]) -> Iterator[
 
 
 def _between(p: Place, q: Place, r: Place) -> bool:
-    """Return True if r lies on the segment from p to q."""
     along = (r[0] - p[0]) * (r[0] - q[0]) + (r[1] - p[1]) * (r[1] - q[1])
     return side(p, q, r) == 0 and along <= 0
 
@@ -205,10 +202,7 @@ def crosses(v: tuple[Place, ...], i: int, w: tuple[Place, ...], j: int) -> bool:
 
 
 def table_properties(number: str) -> CheckResult:
-    """Check a property of the tables in the direction in which it is stated, on pairs of convex polygons.
-
-    Some of the polygons touch. ``LP`` checks all four properties for LP, with rows for columns.
-    """
+    """Check a property of the tables on pairs of convex polygons; ``LP`` checks all four, with rows for columns."""
     checks, touching = [], False
     for v, w in pairs():
         pl, lp = tables_of(v, w)
@@ -234,8 +228,7 @@ def _property(
 ) -> tuple[list[bool], bool]:
     """Return the results for one pair of polygons, and True if lines without an intersection touch the other polygon.
 
-    ``of_lines`` has a row for each line of v with the signs of the vertices of w; ``met`` has the same rows with the
-    values of d for the lines of w.
+    ``of_lines`` has the signs of the vertices of w for each line of v, and ``met`` the values of d for the lines of w.
     """
     if number == "1":
         return [_apart(v, w) or all(1 in line for line in of_lines)], False
@@ -256,10 +249,7 @@ def overlap_in_line() -> CheckResult:
 
 
 def intersection_counts() -> CheckResult:
-    """Count the different points in which segments between grid points meet the contours of polygons.
-
-    There are at most two unless the segment runs along a side. At a corner, d of (3) is not 0 for both adjacent sides.
-    """
+    """Check that segments meet contours in at most two points, and that d of (3) is not 0 twice at a corner."""
     counts, along, over_two = set(), 0, 0
     for v in _polygons():
         for a, b in combinations([(x, y) for x in (-3, 0, 2, 4) for y in (-2, 0, 3, 4)], 2):

@@ -28,8 +28,7 @@ def _cuboid(way: tuple[int, int, int] = (3, -5, 2)) -> Drawing:
 def faces_and_edges(kind: str = "") -> CheckResult:
     """Check that a cuboid has three front faces, three inner edges and six contour edges.
 
-    With ``kind``, view it along an axis: four faces are neither front nor back. If these count as back faces, there are
-    four contour edges; there is no such edge by the printed definition.
+    With ``kind``, view it along an axis, so that four faces are neither front nor back.
     """
     (solid,) = _cuboid().solids
     kinds = [edge.kind for edge in solid.edges]
@@ -81,10 +80,9 @@ def three_collinear_points() -> CheckResult:
 
 
 def indices(kind: str = "") -> CheckResult:
-    """Compare the indices of the program with those of (6), where k is the number of intersections.
+    """Compare the indices of the program with those of (6) for segments in general position.
 
-    The segments between grid points and the square are in general position. ``k``: the index -1 occurs only if there is
-    one intersection.
+    ``k``: the index -1 occurs only if there is one intersection.
     """
     checks, alone = [], set()
     ways = set()
@@ -122,10 +120,7 @@ def touching_solids(kind: str = "") -> CheckResult:
 
 
 def three_conditions() -> CheckResult:
-    """Check that a segment that crosses the contour of a square enters, leaves, or does both.
-
-    A few segments only touch a corner from outside.
-    """
+    """Check that a segment that crosses the contour of a square enters, leaves, or does both."""
     index_patterns, touching = set(), 0
     grid = [(x, y) for x in (-3, 1, 2, 7) for y in (-3, 1, 3, 6)]
     for a, b in combinations(grid, 2):
@@ -211,10 +206,7 @@ def table_by_formula_4() -> CheckResult:
 
 
 def nearer_contour_inside() -> CheckResult:
-    """Check a box in front of a frustum: sides of the top are hidden without an intersection.
-
-    No contour edge of the frustum is hidden.
-    """
+    """Check a box in front of a frustum: sides of the top are hidden without an intersection."""
     corners = [(x, y, z) for z, low, high in ((0, 0, 8), (2, 3, 5)) for x, y in _ring(low, high)]
     walls = [(k, k + 4, (k + 1) % 4 + 4, (k + 1) % 4) for k in range(4)]
     frustum = Polyhedron(
@@ -244,10 +236,7 @@ COUNTS = {"a": (11, 116, 80), "c": (60, 480, 360), "d": (30, 216, 158)}
 
 
 def counts_of_table_1d() -> CheckResult:
-    """Check that the counts of Table 1 (d) need plates: a solid with F faces has at most 2 F - 4 vertices.
-
-    In (a) and (c) the number of vertices is the largest possible one.
-    """
+    """Check that the counts of Table 1 (d) need plates: a solid with F faces has at most 2 F - 4 vertices."""
     most = {name: 2 * faces - 4 * parts for name, (parts, _, faces) in COUNTS.items()}
     # 25 prisms, 23 on quadrangles and 2 on triangles, and five plates with four corners and two faces.
     bases = [4] * 23 + [3] * 2

@@ -1,7 +1,6 @@
 """Checks of chapter 2: convex combinations, supporting planes, vertices, and earlier methods for finding a hull.
 
-The earlier methods are carried out on small sets: testing the planes through all triples and the lines through all
-pairs, and turning a plane or a line about points and edges (gift wrapping).
+The earlier methods (testing all planes or lines, and gift wrapping) are carried out on small sets.
 """
 
 from __future__ import annotations
@@ -77,10 +76,7 @@ def _supporting(sets: tuple[SampledSet, ...], dimension: int) -> CheckResult:
 
 
 def vertex_formula_with_minus() -> CheckResult:
-    """Check that the formula with the printed minus does not give the middle of three collinear points.
-
-    The x coordinates of the points differ, so they determine lambda for each ordered pair.
-    """
+    """Check that the formula with the printed minus does not give the middle of three collinear points."""
     points = counterexample_points("middle.csv")
     middle = points[1]
     pair_counts = {"+": 0, "-": 0}
@@ -98,8 +94,9 @@ def vertex_formula_with_minus() -> CheckResult:
 
 
 def vertex_of_hull() -> CheckResult:
-    """Check that (1, 1) is not a vertex of the triangle (0, 0), (3, 0), (0, 3) although it lies between no two of the
-    points."""
+    """Check that (1, 1), inside the triangle (0, 0), (3, 0), (0, 3), is no vertex, although it lies between no two
+    points.
+    """
     points = [(0, 0, 0), (3, 0, 0), (0, 3, 0), (1, 1, 0)]
     between = [(p, q) for p, q in combinations(points[:3], 2) if not any(cross(minus(q, p), minus(points[3], p)))]
     passed = not between and 3 not in exact_hull(points).vertices
@@ -112,10 +109,9 @@ def vertex_of_hull() -> CheckResult:
 
 
 def vertex_in_space(count: str = COUNT) -> CheckResult:
-    """Check the definition of a vertex, with the minus corrected, for points between two points of the hull.
+    """Check that a point is between two points of the hull if and only if the hull of the other points contains it.
 
-    A point lies between two points of the hull if and only if the hull of the other points contains it. Among the given
-    points alone, a point inside a tetrahedron lies between no two.
+    Among the given points alone, a point inside a tetrahedron lies between no two.
     """
     checks = []
     for sampled in sampled_sets(3, int(count)):

@@ -15,8 +15,7 @@ Line = tuple[int, int, int]
 
 
 def procedure_against_judge(count: str = COUNT) -> CheckResult:
-    """Compare the procedure, in exact arithmetic, with the exact hull: vertices, boundary points, inside points and
-    planes."""
+    """Compare the procedure in exact arithmetic with the exact hull: vertices, other points and planes."""
     right = sets = 0
     for sampled in flat_and_spatial_sets(count):
         sets += 1

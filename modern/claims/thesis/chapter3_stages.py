@@ -1,8 +1,7 @@
 """Checks of the approximations H_1, H_2, ... in the construction of small sets.
 
-A property is a function that examines the stages of one set and yields True or False for each case. ``reproduce``
-samples two sets of each dimension; the tests sample more. NV and NE are the numbers of vertices and equations of a
-stage, and NETC is the number of the first equation that a point is outside of, as in the thesis.
+A property is a function that examines the stages of one set and yields True or False for each case. NV and NE are the
+numbers of vertices and equations of a stage, and NETC is the number of the first equation that a point is outside of.
 """
 
 from __future__ import annotations
@@ -220,11 +219,7 @@ def _added_triangle(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _added_tetrahedra(sampled: SampledSet) -> Iterator[bool]:
-    """A lattice point is in H_k+1 if and only if it is in H_k or in a tetrahedron at the new point.
-
-    The other three corners of such a tetrahedron define an equation that the new point is outside of. If NETC is the
-    only such equation, there is one tetrahedron.
-    """
+    """A lattice point is in H_k+1 if and only if it is in H_k or in a tetrahedron of the new point."""
     lattice: list[Point] = [(x, y, z) for x, y, z in product(range(-5, 6, 2), repeat=3)]
     for before, after, record, added in _steps(sampled):
         apex = sampled.points[added]
@@ -249,7 +244,6 @@ def _in_tetrahedron(point: Point, corners: list[Point]) -> bool:
 
 
 def _in_triangle(point: Point, a: Point, b: Point, c: Point) -> bool:
-    """Return True if a point of the triangle's plane is in the triangle: none of the three areas is negative."""
     normal = cross(minus(b, a), minus(c, a))
     return all(dot(normal, cross(minus(q, p), minus(point, p))) >= 0 for p, q in ((a, b), (b, c), (c, a)))
 

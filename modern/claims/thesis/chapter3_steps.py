@@ -1,7 +1,6 @@
 """Checks of the steps of chapter 3: the first points, inside points, new planes and boundary points.
 
-The steps are checked on small sets in a plane and in space (:mod:`modern.claims.sampled_sets`). Each step that fails as
-printed has a counterexample in ``transcripts/counterexamples``.
+Each step that fails as printed has a counterexample in ``transcripts/counterexamples``.
 """
 
 from __future__ import annotations
@@ -68,9 +67,8 @@ def _square(u: Point) -> int:
 
 
 def value_v() -> CheckResult:
-    """Check that V by the formula of the proof is the square of a vector product.
-
-    By the display in our text V is not 0 at a point of the line.
+    """Check that V by the formula of the proof is the square of a vector product, and by the display of our text is
+    not.
     """
     right = all(
         sum(o * o for o in moments(x, p, q)) == _square(cross(minus(q, p), minus(x, p))) for p, q, x in random_triples()
@@ -173,10 +171,7 @@ def used_boundary_point() -> CheckResult:
 
 
 def between_by_distances() -> CheckResult:
-    """Check that sums of distances tell which of three collinear points lies between the others.
-
-    The direction (3, 4) makes all distances integers.
-    """
+    """Check that sums of distances tell which of three collinear points lies between the others."""
     checks = []
     for a, b, c in ((0, 5, 2), (0, 2, 5), (5, 0, -3), (1, 0, 2)):
         between = _between(a, b, c, *(5 * abs(p - q) for p, q in ((b, a), (a, c), (b, c))))
@@ -185,7 +180,6 @@ def between_by_distances() -> CheckResult:
 
 
 def _between(a: int, b: int, c: int, ab: int, ac: int, bc: int) -> int:
-    """Return the collinear point between the other two, by the sums of their distances."""
     return a if ab + ac - bc == 0 else b if ab + bc - ac == 0 else c
 
 

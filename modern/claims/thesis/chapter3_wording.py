@@ -1,7 +1,4 @@
-"""Checks of chapters 1 and 3 as worded: the steps of the text against the listing, and other ways to start.
-
-If the text describes a step differently from the listing, the step is carried out as worded and its result is compared.
-"""
+"""Checks of chapters 1 and 3 as worded: the steps of the text against the listing, and other ways to start."""
 
 from __future__ import annotations
 
@@ -34,10 +31,7 @@ from modern.port import convex_hull
 from modern.thesis.job import run_hull
 
 Pair = tuple[int, int]
-_ELIMINATE_CHECK_GROW = {
-    "program2.f": {106: "E", 124: "C", 133: "G"},
-    "program3.f": {103: "E", 114: "C", 125: "G"},
-}
+_ELIMINATE_CHECK_GROW = {"program2.f": {106: "E", 124: "C", 133: "G"}, "program3.f": {103: "E", 114: "C", 125: "G"}}
 """The statements of the listings that eliminate inside points (E), check a hull (C) and add a point (G)."""
 
 
@@ -88,8 +82,7 @@ def _indices_on_line(points: Sequence[Point], a: int, b: int) -> list[int]:
 
 
 def plane_duplicates_as_printed(count: str = COUNT) -> CheckResult:
-    """Check the removal of duplicate planes. Page 34 keeps the last equation of each plane; the listing keeps the
-    first."""
+    """Check the removal of duplicate planes: page 34 keeps the last equation of each plane, the listing the first."""
     checks, differing = [], 0
     for points in (PYRAMID, *(list(sampled.points) for sampled in sampled_sets(3, int(count)))):
         last = convex_hull(points, history=True).history[-1].equations
@@ -119,8 +112,7 @@ def _unsigned(plane: tuple[int, int, int, int]) -> tuple[int, int, int, int]:
 
 
 def last_equation_accepted(dimension: str) -> CheckResult:
-    """Check a set with an H_j whose last equation, NETC = NE, is not supporting, and that all equations support at the
-    end."""
+    """Check a set with an H_j whose last equation, NETC = NE, is not supporting; at the end all equations are."""
     flat = dimension == "2"
     points = [(0, 3, 0), (0, 2, 0), (4, 4, 0), (4, 3, 0)]
     if not flat:
@@ -155,10 +147,8 @@ def program3_against_program2() -> CheckResult:
 
 
 def substitution_counts() -> CheckResult:
-    """Count substitutions of points into equations for sets in which all points are vertices.
-
-    At most, the procedure substitutes every remaining point twice into every equation of each H_j: to eliminate inside
-    points and to find the supporting equations.
+    """Count substitutions if all points are vertices: at most two of every remaining point into every equation of each
+    H_j.
     """
     needed = {}
     for n in (12, 24, 48):
@@ -185,10 +175,7 @@ def consecutive_hulls(count: str = COUNT) -> CheckResult:
 
 
 def order_of_elimination() -> CheckResult:
-    """Trace programs 2 and 3 in examples 4 to 6: they eliminate inside points of each hull before they check it.
-
-    Only if the hull is not the last one do they add a point.
-    """
+    """Check by a trace that programs 2 and 3 eliminate inside points before they check a hull or add a point."""
     sequences = []
     for example in (4, 5, 6):
         steps: list[str] = []
@@ -259,7 +246,6 @@ def _extreme_points(points: Sequence[Point]) -> list[Point]:
 
 
 def _volume(points: Sequence[Point], judge: ExactHull) -> int:
-    """Return six times the volume of a hull, or 0 if it is flat."""
     return sum(_cone_volumes(points, judge)) if judge.dimension == 3 else 0
 
 

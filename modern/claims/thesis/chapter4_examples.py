@@ -1,7 +1,6 @@
 """Checks of the worked examples of chapter 4: every equation and every claim, and their point sets in the programs.
 
-The claims are computed exactly from the printed points (``transcripts/chapter4``). The programs read the points from
-cards, truncated to eight digits.
+The claims are computed exactly from the printed points. The programs read them from cards, truncated to eight digits.
 """
 
 from __future__ import annotations
@@ -52,10 +51,7 @@ def _computed(theorem: str) -> Mapping[str, CheckResult]:
 
 
 def worked_example(theorem: str, claim: str, kind: str = "") -> CheckResult:
-    """Return the check of a claim such as ``4.1 six_extremes``, with a condition if ``kind`` is given.
-
-    Raise KeyError for an unknown theorem or claim.
-    """
+    """Return the check of a claim such as ``4.1 six_extremes``, with a condition if ``kind`` is given."""
     result = _computed(theorem)[claim]
     return replace(result, verdict=CONDITION) if kind and result.verdict == HOLDS else result
 
@@ -100,10 +96,7 @@ def _point(theorem: Theorem, name: str) -> Point:
 
 
 def lost_candidates(theorem: Theorem) -> list[Vector]:
-    """Return the possible integer coordinates of the lost point P3 of theorem 4.1.
-
-    P3 lies in the plane, has the largest y and is not extreme in x or z.
-    """
+    """Return the possible lost points P3 of theorem 4.1: integers in the plane, largest y, x and z not extreme."""
     (plane,) = theorem.planes
     known = [point.at for point in theorem.points]
     low = [min(p[k] for p in known) for k in range(3)]
@@ -154,14 +147,12 @@ ADDED = ("Q1", "Q6", "Q7", "Q2", "Q8", "Q5", "Q3", "Q4")
 
 
 def _growing(theorem: Theorem) -> CheckResult:
-    """Check that H_1 to H_5 have the added points as vertices."""
     points = [_point(theorem, name).at for name in ADDED]
     vertices = [len(exact_hull([*map(list, points[:n])]).vertices) for n in range(4, 9)]
     return holds_if(vertices == [4, 5, 6, 7, 8], f"the hulls have {', '.join(map(str, vertices))} vertices")
 
 
 def _supporting(theorem: Theorem) -> CheckResult:
-    """Check that the table lists the supporting planes of H_5."""
     faces = _faces([_point(theorem, name).at for name in ADDED])
     table = {scaled(plane.coefficients, True) for plane in theorem.planes}
     return holds_if(
@@ -194,8 +185,7 @@ def _programs(theorem: Theorem, load: Load) -> CheckResult:
 
 
 def procedure_of_4_8(kind: str = "") -> CheckResult:
-    """Check the procedure on the nine points: it makes H_1, H_2 and H_5 of the text, but takes other points for H_3 and
-    H_4.
+    """Check that the procedure makes H_1, H_2 and H_5 of the text, but takes other points for H_3 and H_4.
 
     By the text of page 29 there is no H_1. ``theorem``: the last point is outside six planes of H_5.
     """

@@ -66,10 +66,7 @@ def inequalities_without_z() -> CheckResult:
 
 
 def theorem_4_3() -> CheckResult:
-    """Check that V orders points by their distance from the line: V is the distance squared times D squared.
-
-    In the theorem's own display our text has 1 for each i, so that V is 0 at every point.
-    """
+    """Check that V orders points by their distance from the line: V is the distance squared times D squared."""
     value_check = value_v()
     as_text = []
     for (x1, y1, z1), (x2, y2, z2), _ in random_triples():
@@ -197,7 +194,7 @@ def combinations_inside() -> CheckResult:
 def theorem_4_6(kind: str = "") -> CheckResult:
     """Check that the values of a line order points by their distance from it, and that the printed formula gives it.
 
-    The distance is measured to the foot of the perpendicular. ``bars`` uses the absolute values as placed in our text.
+    ``bars`` uses the absolute values as placed in our text.
     """
     checks, as_text = [], []
     for (a, b, c), p, q in (((3, -2, 5), (1, 4), (3, 7)), ((4, -6, 2), (1, 1), (4, 3)), ((0, 5, -10), (0, 2), (1, 2))):
@@ -218,7 +215,6 @@ def theorem_4_6(kind: str = "") -> CheckResult:
 
 
 def _distance_squared(x: tuple[int, int], p: tuple[int, int], q: tuple[int, int]) -> Fraction:
-    """Return the squared distance of a point from the foot of its perpendicular to the line through two others."""
     along = q[0] - p[0], q[1] - p[1]
     t = Fraction((x[0] - p[0]) * along[0] + (x[1] - p[1]) * along[1], along[0] ** 2 + along[1] ** 2)
     return (p[0] + t * along[0] - x[0]) ** 2 + (p[1] + t * along[1] - x[1]) ** 2
@@ -243,10 +239,7 @@ def choice_of_first_triangle() -> CheckResult:
 
 
 def gap_in_4_7() -> CheckResult:
-    """Check a case that the proof does not exclude: a point outside one line of H_k and outside two lines of H_k+1.
-
-    The choice of the used points excludes it.
-    """
+    """Check a case that the proof does not exclude: a point outside one line of H_k and two lines of H_k+1."""
     square = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0)]
     lines = [facet.plane for facet in exact_hull(square).facets]
     after = [facet.plane for facet in exact_hull([*square, (5, 2, 0)]).facets]

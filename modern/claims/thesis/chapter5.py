@@ -65,10 +65,7 @@ def points_are_coplanar() -> CheckResult:
 
 
 def underflow() -> CheckResult:
-    """Check that the result for one-digit coordinates depends on the power of ten that multiplies them.
-
-    So this error comes neither from coordinates nor from truncation.
-    """
+    """Check that the result for one-digit coordinates depends on the power of ten that multiplies them."""
     hulls = [_first_run(exponent) for exponent in ("E+01", "E-17")]
     names = [run.final.name for run in hulls]
     passed = names == ["program3", "program2"]
@@ -85,8 +82,7 @@ def ninth_digit_of_product() -> CheckResult:
 
 
 def plane_table_size() -> CheckResult:
-    """Check the 98 entries of the plane table: a hull of 51 points has at most 2N - 4 planes, but intermediate hulls
-    need more."""
+    """Check the 98 entries of the plane table, 2N - 4 for 51 points, although intermediate hulls need more."""
     size = next(entry.size for entry in programs.program("program3").storage.arrays() if entry.name == "KK")
     hull = exact_hull([(k, k**2, k**3) for k in range(MOST_POINTS)])
     planes = len(hull.facets)

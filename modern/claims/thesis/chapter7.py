@@ -1,8 +1,4 @@
-"""Checks of chapters 5 and 7: the machine, the data sheet, rejected data, errors and the two modifications.
-
-The behaviour of the programs is checked by running them on small decks, and the effect of eight digits on three or four
-points in the arithmetic of the emulator.
-"""
+"""Checks of chapters 5 and 7: the machine, the data sheet, rejected data, errors and the two modifications."""
 
 from __future__ import annotations
 
@@ -170,9 +166,8 @@ def quotient_truncated() -> CheckResult:
 
 
 def two_kinds_of_error(kind: str = "") -> CheckResult:
-    """Check that truncation changes coordinates, and that coefficients of exact points are truncated too.
-
-    With ``kind``, check that more digits avoid the error in coefficients.
+    """Check that truncation changes coordinates, and also coefficients; with ``kind``, that more digits avoid the
+    second.
     """
     third = coordinate_field("0.333333333", truncate=True)
     cut, exact = (_coefficients(_THREE, arithmetic) for arithmetic in ("truncating", "exact"))
@@ -231,10 +226,7 @@ def vertex_within_interval() -> CheckResult:
 
 
 def interval_instead_of_rejection() -> CheckResult:
-    """Check points whose first three miss their own plane: e = 10 gives the right hull instead of a rejection.
-
-    e = 10,000,000 gives a wrong hull.
-    """
+    """Check that e = 10 gives the right hull instead of a rejection, and e = 10,000,000 a wrong hull."""
     points = [*_THREE, (101, 77, -340), (250, 333, 90)]
     whole = [tuple(map(str, point)) for point in points]
     hulls = [convex_hull(whole, "truncating", epsilon=e, on_refusal="return") for e in (None, "10", "10000000")]

@@ -55,8 +55,7 @@ def _parts(points: Sequence[Point], hull: ExactHull) -> tuple[object, ...]:
 def inside_nonconvex_polyhedron() -> CheckResult:
     """Check that points inside the polyhedron of theorem 4.2 can be positive in an equation of a face.
 
-    Points inside are those whose ray meets an odd number of faces. They are negative in all equations of the convex
-    hull.
+    A point is inside if its ray meets an odd number of faces.
     """
     theorem = theorem_of("4.2")
     at = {point.name: _four_times(point.at) for point in theorem.points}
@@ -80,7 +79,6 @@ def _four_times(numbers: Sequence[object]) -> Point:
 
 
 def _goes_through(start: Point, face: Sequence[Point]) -> bool:
-    """Return True if the ray from a point meets a triangle."""
     a, b, c = (minus(corner, start) for corner in face)
     turns = [dot(_RAY, cross(p, q)) > 0 for p, q in ((a, b), (b, c), (c, a))]
     normal = cross(minus(b, a), minus(c, a))

@@ -26,12 +26,8 @@ from modern.papers.yau_srihari.convexity import (
 
 
 def definitions_differ() -> CheckResult:
-    """Check that two voxels with a common corner are midpoint convex but not a convex solid, and that a bend is
-    neither."""
-    corner, bend = (
-        array_of([(0, 0, 0), (1, 1, 0)]),
-        array_of([(0, 0, 0), (1, 0, 0), (2, 0, 0), (2, 1, 0), (2, 2, 0)]),
-    )
+    """Check that two voxels with a common corner are midpoint convex but not a convex solid; a bend is neither."""
+    corner, bend = (array_of([(0, 0, 0), (1, 1, 0)]), array_of([(0, 0, 0), (1, 0, 0), (2, 0, 0), (2, 1, 0), (2, 2, 0)]))
     definitions = [(is_midpoint_convex(a), is_digitally_convex(a)) for a in (corner, bend)]
     message = "two voxels with a common corner are convex by 3.2.2 and not by 3.2.3"
     return holds_if(definitions[0] == (True, False) and not definitions[1][1], message)
@@ -69,10 +65,7 @@ def expansion_of_voxel() -> CheckResult:
 
 
 def convexity_by_expansion() -> CheckResult:
-    """Check that half-cell expansions of convex solids pass the convexity test of 3.2.3.
-
-    The expansion of nine voxels that are simple but not convex passes as well.
-    """
+    """Check that expansions of convex solids, and of nine voxels without convexity, pass the test of 3.2.3."""
     nine = [(0, 1, 0), (0, 1, 1), (1, 1, 1), (1, 2, 0), (1, 2, 1), (2, 0, 0), (2, 0, 1), (2, 1, 1), (2, 2, 1)]
     steps: list[Point] = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (1, 1, 1)]
     rows = [steps[:2], steps[:3], steps[1:]]
@@ -89,8 +82,7 @@ def convexity_by_expansion() -> CheckResult:
 
 
 def simple_with_a_tunnel() -> CheckResult:
-    """Check that a ring of twelve voxels around a cube's diagonal is simple although its Euler number is that of a
-    ring."""
+    """Check that a ring of twelve voxels around a cube's diagonal is simple although its Euler number is a ring's."""
     array = array_of(counterexample_points("tunnel.csv"))
     cells: set[Point] = set()
     for x, y, z in np.argwhere(array).tolist():
@@ -136,7 +128,6 @@ def _of_triangle(corners: list[Point], u: Fraction, v: Fraction) -> Place:
 
 
 def _on_segment(point: Place, p: Place, q: Place) -> bool:
-    """Return True if a point lies between two others or equals one of them."""
     along = [b - a for a, b in zip(p, q, strict=True)]
     gone = [b - a for a, b in zip(p, point, strict=True)]
     share = sum(a * b for a, b in zip(along, gone, strict=True)) / (sum(a * a for a in along) or 1)
@@ -194,7 +185,6 @@ def convex_functions(kind: str = "segment") -> CheckResult:
 
 @cache
 def _kinds() -> tuple[list[Height], list[Height]]:
-    """Return the convex functions and the concave functions."""
     chords = {f: [*_chords(f)] for f in FUNCTIONS}
     convex = [f for f in FUNCTIONS if all(chord >= graph for chord, graph in chords[f])]
     return convex, [f for f in FUNCTIONS if all(chord <= graph for chord, graph in chords[f])]

@@ -17,11 +17,7 @@ from modern.digital.solids import VERTEX, ball, listed
 from modern.exact_hull import exact_hull
 from modern.geometry.vectors import dot, minus
 from modern.papers.yau_srihari import OctreeHull, Printed, octree_hull
-from modern.papers.yau_srihari.convexity import (
-    convex_deficiency,
-    is_digitally_convex,
-    is_simple,
-)
+from modern.papers.yau_srihari.convexity import convex_deficiency, is_digitally_convex, is_simple
 from modern.papers.yau_srihari.envelope import reduced_tree
 from modern.papers.yau_srihari.octree import count
 from modern.papers.yau_srihari.quadtree import Leaf, Place, graph_side, heights, no_columns, written
@@ -52,8 +48,7 @@ def algorithm_as_printed(name: str) -> CheckResult:
 
 
 def minimum_not_unique() -> CheckResult:
-    """Check that two voxels with a common corner lie in two digitally convex solids of three voxels and in no smaller
-    one."""
+    """Check that two voxels with a common corner have two smallest digitally convex solids, of three voxels."""
     both: list[Point] = [(0, 0, 0), (1, 1, 0)]
     least = [is_digitally_convex(array_of([*both, third])) for third in ((1, 0, 0), (0, 1, 0))]
     return holds_if(all(least) and not is_simple(array_of(both)), "either of two voxels makes a convex solid of three")
@@ -133,10 +128,7 @@ def in_voxel(x: Fraction, v: int) -> bool:
 
 
 def disconnected_hull() -> CheckResult:
-    """Check the counterexample: nine connected voxels whose hull contains a voxel without neighbours.
-
-    The voxel is in the middle between the first and the last voxel.
-    """
+    """Check the counterexample: nine connected voxels whose hull contains a voxel without neighbours, midway."""
     stairs = counterexample_points("yau_stairs.csv")
     hull = octree_hull(array_of(stairs))
     (x, y, z), (u, v, w) = stairs[0], stairs[-1]
@@ -150,11 +142,10 @@ def disconnected_hull() -> CheckResult:
 
 
 def smallest_convex_solid() -> CheckResult:
-    """Check that the digital points of the hull of a solid pass the convexity test, and that a path of six voxels does
-    not.
+    """Check that the digital points of a solid's hull pass the convexity test, and that a path of six voxels does not.
 
-    The path contains all digital points of its hull, but a point of the hull with two integer coordinates is near none
-    of the six voxels. Two solids of seven voxels that contain the path pass, so there is no smallest one.
+    The path contains all digital points of its hull. Two solids of seven voxels that contain the path pass, so there is
+    no smallest one.
     """
     hull = _hull()
     passed = hull.components == 1 and is_simple(hull.filled) and is_digitally_convex(hull.filled)
@@ -172,9 +163,8 @@ def smallest_convex_solid() -> CheckResult:
 
 
 def floor_and_ceiling(kind: str = "") -> CheckResult:
-    """Check that floor and ceiling are the smallest and the largest z of each column.
-
-    With ``kind`` the statement names them alpha and beta, in this order.
+    """Check that floor and ceiling are the smallest and the largest z of each column; ``kind`` names them alpha and
+    beta.
     """
     columns = {(x, y): sorted(z for a, b, z in SOLID if (a, b) == (x, y)) for x, y, _ in SOLID}
     passed = all(_hull().floor[at] == zs[0] and _hull().ceiling[at] == zs[-1] for at, zs in columns.items())
@@ -244,10 +234,7 @@ def another_vertex() -> CheckResult:
 
 
 def epigraph_at_inner_nodes() -> CheckResult:
-    """Check an inner node of four columns with the heights 0, 1, 1, 1: as printed it is full, but the epigraph is not.
-
-    By its greatest height, 1, the node is not full.
-    """
+    """Check an inner node with the heights 0, 1, 1, 1: as printed it is full, but the epigraph is not."""
     tops = {(0, 0): 0, (0, 1): 1, (1, 0): 1, (1, 1): 1}
     tree = written(no_columns(2), {place: Leaf(top) for place, top in tops.items()})
     voxels_as_printed = 8 if tree.low == 0 else 0
@@ -277,10 +264,7 @@ def outward_normals() -> CheckResult:
 
 
 def queued_edges_reversed() -> CheckResult:
-    """Check that edges entered in the queue as u1 u3 or u3 u2 are removed in the reverse direction, on random solids.
-
-    In the printed direction none would ever be removed.
-    """
+    """Check that edges entered in the queue as u1 u3 or u3 u2 are always removed in the reverse direction."""
     random = Random(8)
     same, reverse, neither = 0, 0, 0
     for _ in range(6):
@@ -300,11 +284,7 @@ def queued_edges_reversed() -> CheckResult:
 
 
 def row_and_column_steps() -> CheckResult:
-    """Compare points that are extreme in both their row and their column with those left after a step by rows and one
-    by columns.
-
-    On random floors both sets contain all vertices of the floor's hull; the second is sometimes larger.
-    """
+    """Compare points extreme in both row and column with those left after a step by rows and one by columns."""
     random = Random(29)
     checks, larger = [], 0
     for _ in range(40):
@@ -322,10 +302,8 @@ def row_and_column_steps() -> CheckResult:
 
 
 def angle_counts() -> CheckResult:
-    """Count angles in the lower halves of two balls: one for each point beyond an edge, of the floor and of the reduced
-    set.
-
-    They are compared with the angles that the search in the tree computes, for points and for corners of squares.
+    """Count angles in the lower halves of two balls, one for each point beyond an edge, and those the tree search
+    computes.
     """
     counts = []
     for diameter in (8, 40):
@@ -348,8 +326,7 @@ def _beyond(edge: tuple[Point, Point], places: Iterable[Place]) -> int:
 
 
 def _extreme(place: Place, axis: int, heights_: Mapping[Place, int]) -> bool:
-    """Return True if a point is a vertex of the lower chain of its row or column, below all lines of two points around
-    it."""
+    """Return True if a point is a vertex of the lower chain of its row or column."""
     at, z = place[axis], heights_[place]
     line = [(p[axis], h) for p, h in heights_.items() if p[1 - axis] == place[1 - axis]]
     around = product([entry for entry in line if entry[0] < at], [entry for entry in line if entry[0] > at])

@@ -1,8 +1,8 @@
 """Study whether program 3 can really handle N = 51: how many entries of its plane table N points need.
 
 The construction in exact arithmetic gives the largest number of entries in use at once.  The programs as listed show
-what the 98-entry table is large enough for.  Coordinates have two digits, for which eight-digit arithmetic is
-sufficient.  ``samples`` counts the sets of each family and N.
+what the 98-entry table is large enough for.  Coordinates have two digits.  ``samples`` counts the sets of each family
+and N.
 """
 
 from __future__ import annotations
@@ -157,7 +157,6 @@ def _core(peaks: dict[int, _Peak]) -> Table:
 
 
 def _along(plan: Plan, name: Value) -> list[tuple[int, float]]:
-    """Return the number and the N of each cell of a kind of set."""
     return [(k, float(cell.key["n"])) for k, cell in cells(plan, sets=name)]
 
 

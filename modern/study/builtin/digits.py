@@ -112,10 +112,7 @@ def _main(counts: Summary, cells: Cells) -> Table:
         "always enough: 3d+4",
         "failures at least P",
     )
-    notes = (
-        *INTERVALS,
-        "No set failed at the least P. The interval tells how often sets could still fail there.",
-    )
+    notes = (*INTERVALS, "No set failed at the least P. The interval tells how often sets could still fail there.")
     return Table("table", "Digits of the coordinates against digits of the arithmetic", head, tuple(rows), notes)
 
 
@@ -173,7 +170,6 @@ def _needed(counts: Summary, cells: Cells) -> Lines:
 
 
 def _drawn(place: int, value: int) -> tuple[float, Interval]:
-    """Return a number known without error as a point of a chart."""
     return float(place), Interval(float(value), float(value), float(value))
 
 

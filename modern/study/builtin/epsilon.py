@@ -214,7 +214,6 @@ def _chart(
 
 
 def _best(plan: Plan, rows: _Rows) -> Table:
-    """Return the table that shows whether one e works for all sets, which is best, and for which kinds."""
     of = sum(cell.samples for cell in plan.cells)
     lines = []
     for how, name, tried in _WAYS:
@@ -269,7 +268,7 @@ def _conclusions(plan: Plan, rows: _Rows, store: Store) -> tuple[str, ...]:
 
 
 def _same_as_port(store: Store) -> tuple[int, int]:
-    """Return in how many runs programs and port with the same e agree, and of how many; the order may differ."""
+    """Return how many runs of programs and port with the same e agree except in order, and of how many."""
     same = of = 0
     for k in ABSOLUTE:
         alike, runs = next(

@@ -1,8 +1,7 @@
 """Study the time on a 1620, for reader, punch, typewriter and processor, against the number of points.
 
 The corrected programs are used, so that no set fails because of faults of the listing.  The times come from
-emulator/machine/timing.py; they were measured and in part estimated (docs/reference/machine.md).  ``samples`` counts
-the sets of each family and N.
+emulator/machine/timing.py.  ``samples`` counts the sets of each family and N.
 """
 
 from __future__ import annotations
@@ -84,9 +83,7 @@ def report(plan: Plan, store: Store) -> Report:
     """Return the tables, charts and conclusions."""
     times = _times(store)
     return Report(
-        (_main(plan, times), _sizes(plan, times)),
-        (_chart(plan, times), _parts(plan, times)),
-        _conclusions(plan, times),
+        (_main(plan, times), _sizes(plan, times)), (_chart(plan, times), _parts(plan, times)), _conclusions(plan, times)
     )
 
 

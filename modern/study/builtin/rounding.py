@@ -151,7 +151,6 @@ def _compared(plan: Plan, store: Store, way: str, test: str) -> _Pairs:
 
 
 def _pooled(plan: Plan, counts: Summary, test: str, route: str, outcomes: tuple[str, ...]) -> tuple[int, int]:
-    """Return how many sets of all kinds have these outcomes, and the total."""
     numbers = [number for number, _ in cells(plan, test=test)]
     return sum(counts.hits(k, route, outcomes) for k in numbers), sum(counts.of(k, route) for k in numbers)
 

@@ -131,7 +131,6 @@ def _route(store: Store, name: str) -> _Route:
 
 
 def _longest(store: Store) -> int:
-    """Return the number of statements of the longest run that gave a hull."""
     longest = store.query(
         "SELECT MAX(json_extract(figures, '$.statements')) FROM runs "
         f"WHERE cell = ? AND outcome IN ({', '.join('?' * len(DETERMINED))})",
@@ -166,11 +165,7 @@ def _distribution(*routes: _Route) -> Table:
     most = max(max(route.failures) for route in routes)
     counts = [Counter(route.failures) for route in routes]
     rows = tuple(
-        (
-            str(k),
-            *(str(count[k]) for count in counts),
-            *(percent(route.groups(k, k)) for route in routes),
-        )
+        (str(k), *(str(count[k]) for count in counts), *(percent(route.groups(k, k)) for route in routes))
         for k in range(most + 1)
     )
     return Table("distribution", "Failures per group of seventy sets", head, rows, INTERVALS)
@@ -232,7 +227,6 @@ def _kind_chart(kinds: dict[tuple[str, ...], int]) -> Bars:
 
 
 def _names(kinds: dict[tuple[str, ...], int]) -> list[str]:
-    """Return the kinds that were drawn, in the order of the thesis."""
     return [kind for kind in KINDS if any(key[0] == kind for key in kinds)]
 
 
@@ -241,7 +235,6 @@ def _of(kinds: dict[tuple[str, ...], int], names: tuple[str, ...], route: str = 
 
 
 def _share(kinds: dict[tuple[str, ...], int], names: tuple[str, ...], route: str) -> Interval:
-    """Return the share of sets of these kinds that fail."""
     return exact(*_failed(kinds, names, route))
 
 
@@ -281,7 +274,6 @@ def _conclusions(as_listed: _Route, mended: _Route, kinds: dict[tuple[str, ...],
 
 
 def _compared_with_two(failures: Interval) -> str:
-    """Compare a mean number of failures with the two of the thesis."""
     if failures.high < THESIS:
         return "fewer than the two of the thesis"
     return (
@@ -299,7 +291,6 @@ def _unusual(share: Interval) -> str:
 
 
 def _comparison(as_listed: _Route, sheets: tuple[refusals.Sheets, ...]) -> str:
-    """Compare the two explanations of the failures."""
     printed = [s for s in sheets if s.share == max(sheet.share for sheet in sheets)]
     needed = " or ".join(refusals.needed(s) for s in printed)
     return (

@@ -222,7 +222,6 @@ def _main(plan: Plan, pairs: list[_Pair]) -> Table:
 
 
 def _classes(pairs: list[_Pair]) -> list[tuple[str, list[_Pair]]]:
-    """Return the timed sets by classes of planes per point, without empty classes."""
     classes = []
     for low, high in pairwise(RATIOS):
         here = [pair for pair in pairs if low <= pair.ratio < high]
@@ -295,8 +294,7 @@ def _time_chart(plan: Plan, pairs: list[_Pair]) -> Lines:
 def _digit_chart(plan: Plan, counts: Summary) -> Lines:
     shown = tuple(
         Series(
-            f"{cell.key['sets']}, {name}",
-            tuple((float(p), counts.share(number, working(name, p))) for p in WORKING),
+            f"{cell.key['sets']}, {name}", tuple((float(p), counts.share(number, working(name, p))) for p in WORKING)
         )
         for number, cell in cells(plan, asked="digits")
         if cell.key["sets"] in _CHARTED
@@ -329,7 +327,6 @@ def _time_conclusion(pairs: list[_Pair]) -> str:
 
 
 def _verdict(saved: Interval) -> str:
-    """Return whether time is saved, judged by the interval of the mean."""
     return "saves time" if saved.low > 0 else "costs time" if saved.high < 0 else "makes no significant difference"
 
 
