@@ -1,4 +1,4 @@
-"""Random scenes for the judge of hidden lines: polyhedra apart in cells of a grid, and solids cut into parts."""
+"""Random scenes for tests of hidden lines: disjoint polyhedra in the cells of a grid, and solids cut into parts."""
 
 from __future__ import annotations
 
@@ -35,8 +35,8 @@ def hull_of(points: list[Vector], name: str, thing: str = "") -> Polyhedron | No
     return Polyhedron(name, tuple(points[index] for index in hull.vertices), faces, thing)
 
 
-def some_shape(source: random.Random, name: str) -> Polyhedron:
-    """A shape within -2 to 2."""
+def random_shape(source: random.Random, name: str) -> Polyhedron:
+    """Return a shape whose coordinates are mostly between -2 and 2."""
     kind = source.randrange(6)
     if kind == 0:
         size = [Fraction(source.randint(2, 8), 2) for _ in range(3)]
@@ -55,24 +55,24 @@ def some_shape(source: random.Random, name: str) -> Polyhedron:
         return placed(slanted, moved(vector(Fraction(-1, 2), Fraction(-3, 2), -1)), name)
     while True:
         points = [vector(*(source.randint(-2, 2) for _ in range(3))) for _ in range(source.randint(4, 9))]
-        found = hull_of(points, name)
-        if found:
-            return found
+        hull = hull_of(points, name)
+        if hull:
+            return hull
 
 
 def apart(seed: int, most: int = 14) -> list[Polyhedron]:
-    """Shapes in cells of their own, so that none can touch another."""
+    """Return shapes in different cells of a grid, so that no two of them touch."""
     source = random.Random(seed)
     cells = [(i, j, k) for i in range(3) for j in range(3) for k in range(3)]
-    found = []
+    shapes = []
     for number, cell in enumerate(source.sample(cells, source.randint(2, most))):
         shift = vector(*(CELL * c + Fraction(source.randint(-4, 4), 10) for c in cell))
-        found.append(placed(some_shape(source, f"p{number}"), moved(shift), f"p{number}"))
-    return found
+        shapes.append(placed(random_shape(source, f"p{number}"), moved(shift), f"p{number}"))
+    return shapes
 
 
 def blocks(seed: int, cuts: int = 9, size: int = 4) -> list[Polyhedron]:
-    """A block cut into cuboids with whole corners, some taken away: the parts of one or of several objects."""
+    """Return the parts of a block cut into cuboids with integer corners, without some of them, as up to two objects."""
     source = random.Random(seed)
     parts = [((0, 0, 0), (size, size, size))]
     for _ in range(cuts):
@@ -85,18 +85,18 @@ def blocks(seed: int, cuts: int = 9, size: int = 4) -> list[Polyhedron]:
         at = source.randint(low[axis] + 1, high[axis] - 1)
         parts.append((low, tuple(at if k == axis else high[k] for k in range(3))))
         parts.append((tuple(at if k == axis else low[k] for k in range(3)), high))
-    kept = [part for part in parts if source.random() < 0.8]
-    found = []
-    for number, (low, high) in enumerate(kept):
+    remaining = [part for part in parts if source.random() < 0.8]
+    polyhedra = []
+    for number, (low, high) in enumerate(remaining):
         name = f"b{number}"
         box = placed(cuboid(name, *vector(*(b - a for a, b in zip(low, high, strict=True)))), moved(vector(*low)), name)
         thing = source.choice(["", "one", "one", "two"])
-        found.append(Polyhedron(name, box.vertices, box.faces, thing))
-    return found
+        polyhedra.append(Polyhedron(name, box.vertices, box.faces, thing))
+    return polyhedra
 
 
 def cut(polyhedron: Polyhedron, normal: Vector, distance: Fraction) -> list[Polyhedron]:
-    """The two parts on either side of a plane, or the whole."""
+    """Return the two parts of a polyhedron on either side of a plane, or the polyhedron if it is on one side."""
     heights = [sum(n * c for n, c in zip(normal, p, strict=True)) - distance for p in polyhedron.vertices]
     between = []
     for face in polyhedron.faces:
@@ -115,7 +115,7 @@ def cut(polyhedron: Polyhedron, normal: Vector, distance: Fraction) -> list[Poly
 
 
 def shards(seed: int, cuts: int = 4) -> list[Polyhedron]:
-    """A cuboid cut by planes in every direction: parts of one object that touch in faces, edges and vertices."""
+    """Return the parts of a cuboid cut by random planes, which touch in faces, edges and vertices."""
     source = random.Random(seed)
     parts = [placed(cuboid("s", *vector(4, 4, 4)), moved(vector(-2, -2, -2)), "s")]
     for _ in range(cuts):
@@ -125,19 +125,20 @@ def shards(seed: int, cuts: int = 4) -> list[Polyhedron]:
             parts = [
                 piece for part in parts for piece in (cut(part, normal, distance) if source.random() < 0.8 else [part])
             ]
-    kept = [part for part in parts if source.random() < 0.85] or parts
+    remaining = [part for part in parts if source.random() < 0.85] or parts
     return [
-        Polyhedron(f"s{n}", part.vertices, part.faces, source.choice(["", "one", "one"])) for n, part in enumerate(kept)
+        Polyhedron(f"s{n}", part.vertices, part.faces, source.choice(["", "one", "one"]))
+        for n, part in enumerate(remaining)
     ]
 
 
 def direction(source: random.Random) -> tuple[int, int, int]:
-    """A direction: often one along which faces are edge-on and edges fall together."""
+    """Return a direction, often one in which faces are edge-on and the images of edges coincide."""
     if source.random() < 0.4:
         return source.choice(
             [(1, 0, 0), (0, -1, 0), (0, 0, 1), (1, 1, 0), (1, -1, 1), (2, 1, 1), (1, -2, 0), (3, 3, 1)]
         )
     while True:
-        found = tuple(source.randint(-9, 9) for _ in range(3))
-        if any(found):
-            return found
+        eye = tuple(source.randint(-9, 9) for _ in range(3))
+        if any(eye):
+            return eye

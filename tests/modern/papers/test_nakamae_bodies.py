@@ -1,4 +1,4 @@
-"""Solids of files: components, convex or with a dent that is named, their hulls, faces in floats."""
+"""Tests of reading solids from files: connected components, proofs of convexity, hulls, and merged faces."""
 
 from __future__ import annotations
 
@@ -33,19 +33,19 @@ def read_mesh(points: list[tuple[object, ...]], faces: list[tuple[int, ...]], re
 
 
 def shape(polyhedron: Polyhedron) -> set[frozenset[tuple[Fraction, ...]]]:
-    """The faces as sets of points, those in one plane together."""
+    """Return the faces as sets of points."""
     return {frozenset(polyhedron.vertices[place] for place in face) for face in polyhedron.faces}
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=20)
 @given(st.integers(0, 10**6), st.integers(1, 4), st.booleans(), st.sampled_from(("off", "obj", "stl")))
-def test_components_are_the_solids_a_file_was_made_of(seed: int, many: int, inward: bool, form: str) -> None:
-    """Solids apart, their faces in any order: as OFF and OBJ faces, as STL triangles; all inward or all outward."""
+def test_components_are_the_solids_written_to_the_file(seed: int, number: int, inward: bool, form: str) -> None:
+    """Write disjoint solids as OFF, OBJ or STL, with shuffled faces that all run inward or all outward."""
     source = random.Random(seed)
     points: list[tuple[object, ...]] = []
     faces: list[tuple[int, ...]] = []
     solids = []
-    while len(solids) < many:
+    while len(solids) < number:
         corners = [tuple(source.randrange(-5, 6) for _ in range(3)) for _ in range(source.randrange(4, 9))]
         corners = [(x + 20 * len(solids), y, z) for x, y, z in corners]
         hull = exact_hull(corners)
@@ -66,28 +66,28 @@ def test_components_are_the_solids_a_file_was_made_of(seed: int, many: int, inwa
         data = "\n".join([*rows, *("f " + " ".join(signs[k] for k in face) for face in faces), ""]).encode()
     else:
         data = binary_stl(cut(points, faces))  # type: ignore[arg-type]
-    found = bodies(parse_mesh(data, f"a.{form}"), Reading(), "a")
-    assert len(found.polyhedra) == many
-    assert (found.notes == ()) == (many == 1)
-    for polyhedron in found.polyhedra:
+    result = bodies(parse_mesh(data, f"a.{form}"), Reading(), "a")
+    assert len(result.polyhedra) == number
+    assert (result.notes == ()) == (number == 1)
+    for polyhedron in result.polyhedra:
         assert checked(polyhedron) == polyhedron
         if form != "stl":
             assert shape(polyhedron) in solids
     merged = [{p for face in solid for p in face} for solid in solids]
-    assert sorted(map(sorted, merged)) == sorted(sorted(p.vertices) for p in found.polyhedra)
+    assert sorted(map(sorted, merged)) == sorted(sorted(p.vertices) for p in result.polyhedra)
 
 
-def test_solids_that_touch_in_a_file_of_triangles_stay_apart() -> None:
-    """Two cubes with an edge, and two with a corner, in common: STL has their points once."""
+def test_touching_solids_in_an_stl_file_are_separate_components() -> None:
+    """Two cubes share an edge or a corner. The mesh read from STL contains each common point once."""
     for shift in ((1, 1, 0), (1, 1, 1)):
-        other = [tuple(a + b for a, b in zip(p, shift, strict=True)) for p in CUBE]
-        data = binary_stl([*cut(CUBE, CUBE_FACES), *cut(other, CUBE_FACES)])  # type: ignore[arg-type]
-        found = parse_mesh(data, "a.stl")
-        assert len(found.points) == 16 - (2 if shift == (1, 1, 0) else 1)
-        assert len(bodies(found, Reading(), "a").polyhedra) == 2
+        second_cube = [tuple(a + b for a, b in zip(p, shift, strict=True)) for p in CUBE]
+        data = binary_stl([*cut(CUBE, CUBE_FACES), *cut(second_cube, CUBE_FACES)])  # type: ignore[arg-type]
+        surface = parse_mesh(data, "a.stl")
+        assert len(surface.points) == 16 - (2 if shift == (1, 1, 0) else 1)
+        assert len(bodies(surface, Reading(), "a").polyhedra) == 2
 
 
-def test_the_reflex_edge_is_named_with_what_to_do() -> None:
+def test_the_message_names_the_reflex_edge_and_the_remedies() -> None:
     points = [(x, y, z) for z in (0, 1) for x, y in ELL]
     with pytest.raises(SceneError) as caught:
         read_mesh(points, ELL_FACES)
@@ -96,12 +96,12 @@ def test_the_reflex_edge_is_named_with_what_to_do() -> None:
         "divide the solid along the plane of face 5, take its hull (hull = true), or, if the cause is rounding, merge "
         'faces within a distance (coplanar_within = "E")'
     )
-    found = read_mesh(points, ELL_FACES, Reading(hull=True))
-    assert found.notes == ("f: not convex, replaced by its hull",)
-    assert sorted(found.polyhedra[0].vertices) == sorted(tuple(map(Fraction, p)) for p in points if p[:2] != (1, 1))
+    result = read_mesh(points, ELL_FACES, Reading(hull=True))
+    assert result.notes == ("f: not convex, replaced by its hull",)
+    assert sorted(result.polyhedra[0].vertices) == sorted(tuple(map(Fraction, p)) for p in points if p[:2] != (1, 1))
 
 
-def test_a_distance_forgives_no_more_than_itself() -> None:
+def test_deviations_beyond_the_distance_are_rejected() -> None:
     points = [(x, y, z) for z in (0, 1) for x, y in ELL]
     with pytest.raises(SceneError, match=r"between faces 5 and 6 the edge of vertices 4 and 10, .* is reflex by 2; "):
         read_mesh(points, ELL_FACES, Reading(within=Fraction(1, 100)))
@@ -112,8 +112,8 @@ def test_a_distance_forgives_no_more_than_itself() -> None:
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_of_several_dents_the_deepest_is_named(seed: int) -> None:
-    """A star prism: every second corner is drawn in, each by its own amount; the deepest is known."""
+def test_the_message_names_the_deepest_reflex_edge(seed: int) -> None:
+    """Read a star-shaped prism whose four reflex edges have known, different depths."""
     source = random.Random(seed)
     outer = [(20, 0), (0, 20), (-20, 0), (0, -20)]
     depths = source.sample(range(1, 10), 4)
@@ -129,36 +129,35 @@ def test_of_several_dents_the_deepest_is_named(seed: int) -> None:
     assert f"the edge of vertices {corner + 1} and {corner + 1 + n}," in str(caught.value)
 
 
-def test_faces_in_doubles_are_refused_with_how_far_off_they_are_and_read_within_a_distance() -> None:
+def test_rounded_faces_are_rejected_with_their_deviation_and_merged_within_a_distance() -> None:
     points = dodecahedron()
     hull = convex_hull(points)
-    joined = parse_mesh(export_text(hull, "off").encode(), "d.off")
-    assert len(bodies(joined, Reading(), "d").polyhedra[0].faces) == 36
+    triangles = parse_mesh(export_text(hull, "off").encode(), "d.off")
+    assert len(bodies(triangles, Reading(), "d").polyhedra[0].faces) == 36
     text = export_text(twelve_faces(), "off").encode()
     with pytest.raises(SceneError, match=r"^d: face \d+ is not plane, by \d\.\d+e-16; coplanar_within = \"E\" merges"):
         bodies(parse_mesh(text, "d.off"), Reading(), "d")
-    found = bodies(parse_mesh(text, "d.off"), Reading(within=Fraction(1, 10**9)), "d")
-    assert found.notes[0].startswith("d: 36 faces are joined into 12 within 1e-9; a vertex lies at most ")
-    drawing = draw(found.polyhedra, parallel((3, -5, 2)), hidden=True)
+    result = bodies(parse_mesh(text, "d.off"), Reading(within=Fraction(1, 10**9)), "d")
+    assert result.notes[0].startswith("d: 36 faces are joined into 12 within 1e-9; a vertex lies at most ")
+    drawing = draw(result.polyhedra, parallel((3, -5, 2)), hidden=True)
     assert len({(piece.start, piece.end) for piece in drawing.pieces}) == 30
-    whole = draw(
-        [Polyhedron("d", found.polyhedra[0].vertices, found.polyhedra[0].faces)], parallel((3, -5, 2)), hidden=True
-    )
-    assert {(p.start, p.end, p.seen) for p in drawing.pieces} < {(p.start, p.end, p.seen) for p in whole.pieces}
+    separate_faces = Polyhedron("d", result.polyhedra[0].vertices, result.polyhedra[0].faces)
+    unmerged = draw([separate_faces], parallel((3, -5, 2)), hidden=True)
+    assert {(p.start, p.end, p.seen) for p in drawing.pieces} < {(p.start, p.end, p.seen) for p in unmerged.pieces}
     assert "joined" in {edge.kind for edge in drawing.solids[0].edges}
     with pytest.raises(CoplanarError, match=r"^d: within 2 the 36 faces would become 2; "):
         bodies(parse_mesh(text, "d.off"), Reading(within=Fraction(2)), "d")
 
 
-def test_the_outline_is_whole_where_a_joined_face_is_seen_edge_on() -> None:
-    """A slab whose side bends by a thousandth: seen along the side the contour runs between its two faces."""
+def test_the_outline_is_complete_when_a_merged_face_is_edge_on() -> None:
+    """One side of a slab bends by 1/1000. Seen along that side, the contour runs between its two merged faces."""
     base = [(0, 0), (10, 0), (Fraction(10001, 1000), 5), (10, 10), (0, 10)]
     points = [(x, y, z) for z in (0, 3) for x, y in base]
     faces = [(4, 3, 2, 1, 0), (5, 6, 7, 8, 9), *((k, (k + 1) % 5, (k + 1) % 5 + 5, k + 5) for k in range(5))]
-    (made,) = read_mesh(points, faces, Reading(within=Fraction(1, 100))).polyhedra
-    assert len(set(made.joined)) == 6
-    front, along = draw([made], parallel((5, 1, 2))), draw([made], parallel((0, -5, 2)))
-    bend = tuple(sorted(k for k, v in enumerate(made.vertices) if v[1] == 5))
+    (slab,) = read_mesh(points, faces, Reading(within=Fraction(1, 100))).polyhedra
+    assert len(set(slab.joined)) == 6
+    front, along = draw([slab], parallel((5, 1, 2))), draw([slab], parallel((0, -5, 2)))
+    bend = tuple(sorted(k for k, v in enumerate(slab.vertices) if v[1] == 5))
     assert bend not in {(piece.start, piece.end) for piece in front.pieces}
     assert bend in {(piece.start, piece.end) for piece in along.pieces}
     for drawing in (front, along):
@@ -177,7 +176,7 @@ def test_the_outline_is_whole_where_a_joined_face_is_seen_edge_on() -> None:
         ([*CUBE[:7], (0, 1, "9/8")], CUBE_FACES, "f: face 2 is not plane, by 0.0623; coplanar_within"),
     ],
 )
-def test_what_is_no_convex_solid(points: list[Point], faces: list[tuple[int, ...]], message: str) -> None:
+def test_invalid_surfaces_are_rejected(points: list[Point], faces: list[tuple[int, ...]], message: str) -> None:
     with pytest.raises(SceneError) as caught:
         read_mesh(points, faces)  # type: ignore[arg-type]
     assert str(caught.value).startswith(message)
@@ -188,7 +187,7 @@ HALF = Fraction(1, 2)
 STAR = [(0, 30), (18, -24), (-29, 9), (29, 9), (-18, -24)]
 TETRA = [(0, 0, 0), (6, 0, 0), (0, 6, 0), (0, 0, 6)]
 MIDDLES = [(3, 0, 0), (0, 3, 0), (0, 0, 3), (3, 3, 0), (3, 0, 3), (0, 3, 3)]
-"""Of the edges 01, 02, 03, 12, 13, 23: vertices 4 to 9."""
+"""The midpoints of the edges 01, 02, 03, 12, 13 and 23, which are the vertices 4 to 9."""
 
 
 @pytest.mark.parametrize(
@@ -217,24 +216,24 @@ MIDDLES = [(3, 0, 0), (0, 3, 0), (0, 0, 3), (3, 3, 0), (3, 0, 3), (0, 3, 3)]
         ),
     ],
 )
-def test_closed_faces_without_a_dent_that_are_no_convex_solid(
+def test_closed_surfaces_without_reflex_edges_can_still_be_invalid(
     points: list[tuple[object, ...]], faces: list[tuple[int, ...]], message: str
 ) -> None:
-    """A face without width; walls over a star; a face that is not convex; a tetrahedron covered twice."""
+    """Reject a degenerate face, a prism over a star, a face that is not convex, and a tetrahedron covered twice."""
     with pytest.raises(SceneError) as caught:
         read_mesh(points, faces)
     assert str(caught.value) == message
 
 
-def test_vertices_of_no_face_and_files_of_points_alone_are_told() -> None:
-    found = read_mesh([*CUBE, (9, 9, 9)], CUBE_FACES)
-    assert found.notes == ("f: 1 of 9 vertices belong to no face",)
+def test_notes_report_unused_vertices_and_repeated_points() -> None:
+    result = read_mesh([*CUBE, (9, 9, 9)], CUBE_FACES)
+    assert result.notes == ("f: 1 of 9 vertices belong to no face",)
     with pytest.raises(SceneError, match=r"^a: expected faces, found only points; hull = true uses their hull$"):
         read_bodies(b"0,0,0\n1,0,0\n0,1,0\n0,0,1\n", "a", Reading())
     for data in (b"0,0,0\n1,0,0\n0,1,0\n0,0,1\n0,0,0\n", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 0\n"):
-        taken = read_bodies(data, "a", Reading(hull=True))
-        assert len(taken.polyhedra[0].faces) == 4
-        assert taken.notes == ("a: line 5: the point of line 1 again",)
+        of_points = read_bodies(data, "a", Reading(hull=True))
+        assert len(of_points.polyhedra[0].faces) == 4
+        assert of_points.notes == ("a: line 5: the point of line 1 again",)
     flat = read_bodies(b"0,0,0\n1,0,0\n0,1,0\n", "a", Reading(hull=True, within=Fraction(1)))
     assert (len(flat.polyhedra[0].faces), flat.notes) == (
         2,
@@ -242,10 +241,10 @@ def test_vertices_of_no_face_and_files_of_points_alone_are_told() -> None:
     )
 
 
-def test_a_plate_and_an_open_surface() -> None:
+def test_a_plate_is_accepted_and_an_open_surface_is_replaced_by_its_hull() -> None:
     assert len(read_mesh(CUBE[:4], [(0, 1, 2, 3), (3, 2, 1, 0)]).polyhedra[0].faces) == 2  # type: ignore[arg-type]
-    found = read_mesh(CUBE, CUBE_FACES[1:], Reading(hull=True))  # type: ignore[arg-type]
-    assert (len(found.polyhedra[0].faces), found.notes) == (6, ("f: not closed, replaced by its hull",))
+    result = read_mesh(CUBE, CUBE_FACES[1:], Reading(hull=True))  # type: ignore[arg-type]
+    assert (len(result.polyhedra[0].faces), result.notes) == (6, ("f: not closed, replaced by its hull",))
 
 
 @pytest.mark.parametrize(
@@ -268,7 +267,7 @@ def test_a_plate_and_an_open_surface() -> None:
         (b"ply\n", "a.obj: line 1, column 1"),
     ],
 )
-def test_broken_files_of_faces(data: bytes, message: str) -> None:
+def test_malformed_files_are_rejected_with_line_and_column(data: bytes, message: str) -> None:
     with pytest.raises(EmulatorError) as caught:
         read_bodies(data, "a.obj", Reading(points=data.startswith(b"ply")))
     assert message in str(caught.value)

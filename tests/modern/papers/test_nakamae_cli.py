@@ -1,4 +1,4 @@
-"""``hull1620 hidden-line``: what can be drawn, from where, the tables, and what is refused."""
+"""Tests of the command ``hull1620 hidden-line``: its inputs, viewpoints, tables and error messages."""
 
 from __future__ import annotations
 
@@ -11,8 +11,6 @@ import pytest
 
 from modern.cli.main import main
 from tests.modern.papers.test_nakamae_scenes import CUBE, HEAD
-
-# --- the command
 
 
 def run(*arguments: str) -> int:
@@ -29,38 +27,29 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.mark.parametrize("source", ["cube.off", "points.csv", "mine.toml", "columns"])
-def test_what_can_be_drawn(folder: Path, source: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_every_kind_of_input_is_drawn(folder: Path, source: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(source, "-o", "a.svg") == 0
     assert run(source, "-o", "a.hpgl", "--hidden") == 0
     ElementTree.parse(folder / "a.svg")
     assert (folder / "a.hpgl").read_text().startswith("IN;")
-    said = capsys.readouterr()
-    assert said.out == ""
-    assert said.err.splitlines()[0].split() == [
-        "polyhedra",
-        "vertices",
-        "faces",
-        "points",
-        "I",
-        "II",
-        "III",
-        "(seconds)",
-    ]
+    output = capsys.readouterr()
+    assert output.out == ""
+    assert output.err.splitlines()[0].split() == "polyhedra vertices faces points I II III (seconds)".split()
     assert run(source) == 0
     assert capsys.readouterr().out == (folder / "a.svg").read_text()
 
 
-def test_the_points_of_view(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_viewpoint_and_the_refinements_change_the_picture(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     pictures = []
-    for more in ((), ("--eye=-1,2,3",), ("--eye", "9,8,7", "--perspective"), ("--without", "ghosts,ends")):
-        assert run("mine.toml", *more, *(("--eye", "60,-60,30") if more[-1:] == ("--perspective",) else ())) == 0
+    for options in ((), ("--eye=-1,2,3",), ("--perspective", "--eye", "60,-60,30"), ("--without", "ghosts,ends")):
+        assert run("mine.toml", *options) == 0
         pictures.append(capsys.readouterr().out)
     assert len(set(pictures)) == 4
     assert run("mine.toml", "--perspective", "--eye", "60,-60,30", "--towards", "5,5,5") == 0
     assert capsys.readouterr().out not in pictures
 
 
-def test_tables(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_tables_show_relations_and_passages(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (folder / "two.toml").write_text(
         HEAD
         + "'cuboid'\nsize = [2, 2, 2]\n"
@@ -68,11 +57,11 @@ def test_tables(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
         + "'cuboid'\nsize = [2, 2, 2]\nat = [1, 3, 0]\n[view]\neye = [2, -3, 1]\n"
     )
     assert run("two.toml", "--tables") == 0
-    said = capsys.readouterr().out
-    assert "V = 1, V' = 2: V = 1 is nearer, by (4)" in said
-    assert said.count("-4") == 2
-    assert "2: 1-2 (contour), order 1\n  behind 1: -1 at 1/6\n" in said
-    assert "<svg" not in said
+    tables = capsys.readouterr().out
+    assert "V = 1, V' = 2: V = 1 is nearer, by (4)" in tables
+    assert tables.count("-4") == 2
+    assert "2: 1-2 (contour), order 1\n  behind 1: -1 at 1/6\n" in tables
+    assert "<svg" not in tables
 
 
 @pytest.mark.parametrize(
@@ -95,11 +84,13 @@ def test_tables(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
         (("flat.csv",), "flat.csv: a segment is not a polyhedron"),
     ],
 )
-def test_refusals(folder: Path, arguments: tuple[str, ...], message: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_invalid_requests_are_rejected(
+    folder: Path, arguments: tuple[str, ...], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     (folder / "flat.csv").write_text("0,0,0\n1,0,0\n")
     assert run(*arguments) == 2
-    said = capsys.readouterr()
-    assert message in said.err
-    assert said.err.count("\n") == 1
-    assert said.out == ""
+    output = capsys.readouterr()
+    assert message in output.err
+    assert output.err.count("\n") == 1
+    assert output.out == ""
     assert not list(folder.glob("*.svg"))

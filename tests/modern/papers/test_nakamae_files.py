@@ -1,4 +1,4 @@
-"""Scenes of files, and files of faces drawn by themselves."""
+"""Tests of scenes whose parts are files, and of files with faces drawn without a scene."""
 
 from __future__ import annotations
 
@@ -54,15 +54,17 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_a_scene_of_three_files_from_another_folder(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    found = read("scenes/three.toml")
-    made = found.make()
-    assert [len(item.vertices) for item in made] == [20, 8, 8, 8, 8, 10]
-    assert made[1].name == "scenes/three.toml: part 2, component 1 of 2, copy 1,1,1"
-    ell = made[-1].vertices
+def test_paths_of_parts_are_relative_to_the_folder_of_the_scene(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    polyhedra = read("scenes/three.toml").make()
+    assert [len(polyhedron.vertices) for polyhedron in polyhedra] == [20, 8, 8, 8, 8, 10]
+    assert polyhedra[1].name == "scenes/three.toml: part 2, component 1 of 2, copy 1,1,1"
+    ell = polyhedra[-1].vertices
     assert {p[2] for p in ell} == {0, Fraction(1, 2)}
     assert (min(p[0] for p in ell), max(p[1] for p in ell)) == (Fraction(-9, 2), Fraction(-1, 2))
-    assert wrong(draw(made[1:], parallel((4, -7, 5))), Judge(made[1:], direction=(4, -7, 5)))[0] == []
+    exact_parts = polyhedra[1:]
+    assert wrong(draw(exact_parts, parallel((4, -7, 5))), Judge(exact_parts, direction=(4, -7, 5)))[0] == []
     code, out, err = call(capsys, "hidden-line", "scenes/three.toml", "-o", "a.svg")
     assert (code, out) == (0, "")
     notes = err.splitlines()[:-2]
@@ -101,7 +103,7 @@ def test_a_scene_of_three_files_from_another_folder(folder: Path, capsys: pytest
         ("at = [4, 0, 0]\n", "hul = true\n", "part 2: 'hul' is not a field of this table"),
     ],
 )
-def test_what_is_wrong_with_a_part_is_one_line(
+def test_an_invalid_part_is_rejected_with_one_line(
     folder: Path, old: str, new: str, message: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert SCENE.count(old) == 1
@@ -112,7 +114,7 @@ def test_what_is_wrong_with_a_part_is_one_line(
     assert not Path("a.svg").exists()
 
 
-def test_the_command_on_files_of_faces(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_command_draws_files_with_faces(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, out, err = call(capsys, "hidden-line", "scenes/parts/boxes.stl")
     assert (code, err.splitlines()[0]) == (0, "note: scenes/parts/boxes.stl: 2 connected components")
     assert len(list(ElementTree.fromstring(out).iter("{http://www.w3.org/2000/svg}line"))) == 18

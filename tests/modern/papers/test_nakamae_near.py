@@ -1,4 +1,4 @@
-"""The near plane of a perspective: what is cut is the part beyond it, exactly; what is behind is left out and said."""
+"""Tests of the near plane of a perspective: polyhedra are clipped exactly, and those behind it are reported."""
 
 from __future__ import annotations
 
@@ -39,40 +39,40 @@ def clip(polyhedron: Polyhedron, near: Fraction | int | str) -> Clipped:
     return beyond_near([polyhedron], looking(near))
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=30)
 @given(st.integers(0, 10**6))
-def test_what_is_left_is_the_hull_of_what_lies_beyond_and_of_where_edges_cross(seed: int) -> None:
-    """By the exact judge: every segment between two vertices is cut, not only the edges."""
+def test_a_clipped_polyhedron_is_the_hull_of_the_vertices_beyond_and_the_crossings(seed: int) -> None:
+    """Compare with the exact hull of crossings of all segments between two vertices, not only of the edges."""
     source = random.Random(seed)
     points = [vector(*(source.randint(-4, 4) for _ in range(3))) for _ in range(source.randint(4, 9))]
-    made = hull_of(points, "p")
-    assume(made is not None)
-    assert made is not None
-    # The plane is y = level: the eye looks along the y axis.
+    polyhedron = hull_of(points, "p")
+    assume(polyhedron is not None)
+    assert polyhedron is not None
+    # The near plane is y = level, because the eye looks along the y axis.
     level = Fraction(source.randint(-8, 8), 2)
-    if all(p[1] <= level for p in made.vertices):
+    if all(p[1] <= level for p in polyhedron.vertices):
         with pytest.raises(SceneError, match="everything lies behind"):
-            clip(made, level + 10)
+            clip(polyhedron, level + 10)
         return
-    kept = clip(made, level + 10)
-    beyond = [p for p in made.vertices if p[1] >= level]
+    clipped = clip(polyhedron, level + 10)
+    beyond = [p for p in polyhedron.vertices if p[1] >= level]
     crossed = [
         tuple(a + (level - p[1]) / (q[1] - p[1]) * (b - a) for a, b in zip(p, q, strict=True))
-        for p in made.vertices
-        for q in made.vertices
+        for p in polyhedron.vertices
+        for q in polyhedron.vertices
         if p[1] < level < q[1]
     ]
-    (left,) = kept.polyhedra
-    expected = exact_hull([*beyond, *crossed])
+    (remainder,) = clipped.polyhedra
     places = [*beyond, *crossed]
-    assert set(left.vertices) == {tuple(places[index]) for index in expected.vertices}
-    assert len(left.faces) == len(expected.facets)
-    assert checked(left) == left
-    assert kept.cut == (("p",) if any(p[1] < level for p in made.vertices) else ())
+    expected = exact_hull(places)
+    assert set(remainder.vertices) == {tuple(places[index]) for index in expected.vertices}
+    assert len(remainder.faces) == len(expected.facets)
+    assert checked(remainder) == remainder
+    assert clipped.cut == (("p",) if any(p[1] < level for p in polyhedron.vertices) else ())
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_a_cut_scene_is_drawn_as_the_judge_sees_it(seed: int) -> None:
+def test_the_drawing_of_a_clipped_scene_agrees_with_the_judge(seed: int) -> None:
     source = random.Random(seed)
     polyhedra = [
         box((x, y, z), (x + source.randint(1, 3), y + source.randint(1, 3), z + source.randint(1, 3)), f"{x}{y}{z}")
@@ -84,36 +84,36 @@ def test_a_cut_scene_is_drawn_as_the_judge_sees_it(seed: int) -> None:
     observer = perspective(eye, vector(0, 0, source.randint(-1, 1)), Fraction(source.randint(10, 27), 2))
     drawing = draw(polyhedra, observer)
     assert drawing.cut
-    left = [solid.polyhedron for solid in drawing.solids]
-    assert len(left) == len(polyhedra) - len(drawing.behind)
-    assert wrong(drawing, Judge(left, point=eye))[0] == []
+    remaining = [solid.polyhedron for solid in drawing.solids]
+    assert len(remaining) == len(polyhedra) - len(drawing.behind)
+    assert wrong(drawing, Judge(remaining, point=eye))[0] == []
 
 
 def test_the_distance_is_measured_along_the_direction_of_view() -> None:
-    """Exact where the direction has a length that is a fraction, within 1e-15 where it has none."""
+    """The distance is exact if the length of the direction is rational, and otherwise within a relative 1e-15."""
     observer = perspective(vector(0, 0, 0), vector(3, 4, 0), Fraction(5))
-    (left,) = beyond_near([box((0, 0, 0), (20, 20, 1))], observer).polyhedra
-    assert {3 * x + 4 * y for x, y, _ in left.vertices if 3 * x + 4 * y <= 25} == {25}
+    (remainder,) = beyond_near([box((0, 0, 0), (20, 20, 1))], observer).polyhedra
+    assert {3 * x + 4 * y for x, y, _ in remainder.vertices if 3 * x + 4 * y <= 25} == {25}
     slanted = perspective(vector(0, 0, 0), vector(1, 1, 1), Fraction(2))
-    (left,) = beyond_near([box((0, 0, 0), (9, 9, 9))], slanted).polyhedra
-    (level,) = {sum(p) for p in left.vertices if sum(p) < 5}
+    (remainder,) = beyond_near([box((0, 0, 0), (9, 9, 9))], slanted).polyhedra
+    (level,) = {sum(p) for p in remainder.vertices if sum(p) < 5}
     assert 0 <= 12 - level * level < Fraction(1, 10**13)
 
 
-def test_what_the_plane_only_touches_is_whole_or_gone() -> None:
+def test_a_polyhedron_that_the_plane_only_touches_is_not_clipped() -> None:
     solid = box((0, 0, 0), (2, 2, 2))
     assert clip(solid, 10) == Clipped((solid,))
     with pytest.raises(SceneError, match=r"^everything lies behind the near plane$"):
         clip(solid, 12)
-    kept = beyond_near([solid, box((5, 5, 5), (6, 6, 6), "far")], looking(12))
-    assert ([p.name for p in kept.polyhedra], kept.cut, kept.behind) == (["far"], (), ("box",))
+    clipped = beyond_near([solid, box((5, 5, 5), (6, 6, 6), "far")], looking(12))
+    assert ([p.name for p in clipped.polyhedra], clipped.cut, clipped.behind) == (["far"], (), ("box",))
     assert beyond_near([solid], parallel((0, -1, 0))) == Clipped((solid,))
 
 
-def test_plates_figures_and_faces_read_as_one_are_cut_too() -> None:
+def test_plates_figures_and_merged_faces_are_clipped() -> None:
     flat = plate("plate", [vector(0, y, z) for y, z in ((-2, 0), (2, 0), (2, 2), (-2, 2))])
-    (left,) = clip(flat, 11).polyhedra
-    assert (len(left.faces), {p[1] for p in left.vertices}) == (2, {1, 2})
+    (remainder,) = clip(flat, 11).polyhedra
+    assert (len(remainder.faces), {p[1] for p in remainder.vertices}) == (2, {1, 2})
     side = box((0, -2, 0), (2, 2, 2))
     order = next(k for k, face in enumerate(side.faces) if all(side.vertices[p][0] == 2 for p in face))
     front = next(k for k, face in enumerate(side.faces) if all(side.vertices[p][1] == -2 for p in face))
@@ -126,11 +126,11 @@ def test_plates_figures_and_faces_read_as_one_are_cut_too() -> None:
         Figure(order, (vector(2, -1, 1), vector(2, 0, 1), vector(2, 0, "3/2"))),
     )
     solid = Polyhedron("s", side.vertices, side.faces, figures=figures, joined=tuple(range(6)))
-    (left,) = clip(solid, 10).polyhedra
-    assert [figure.corners for figure in left.figures] == [(vector(2, 0, 1), *triangle[1:], vector(2, 0, "5/4"))]
-    assert {left.vertices[p][0] for p in left.faces[left.figures[0].face]} == {2}
-    assert len(set(left.joined)) == len(left.faces) == 6
-    assert {left.vertices[p][1] for p in left.faces[-1]} == {0}
+    (remainder,) = clip(solid, 10).polyhedra
+    assert [figure.corners for figure in remainder.figures] == [(vector(2, 0, 1), *triangle[1:], vector(2, 0, "5/4"))]
+    assert {remainder.vertices[p][0] for p in remainder.faces[remainder.figures[0].face]} == {2}
+    assert len(set(remainder.joined)) == len(remainder.faces) == 6
+    assert {remainder.vertices[p][1] for p in remainder.faces[-1]} == {0}
 
 
 SCENE = """[view]
@@ -151,7 +151,7 @@ at = [0, -5, 0]
 """
 
 
-def test_a_scene_with_a_near_plane(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys) -> None:
+def test_the_command_reports_clipped_and_omitted_parts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys) -> None:
     monkeypatch.chdir(tmp_path)
     Path("s.toml").write_text(SCENE, encoding="utf-8")
     code, _, err = call(capsys, "hidden-line", "s.toml", "-o", "a.svg")
@@ -176,7 +176,9 @@ def test_a_scene_with_a_near_plane(tmp_path: Path, monkeypatch: pytest.MonkeyPat
         ("near = 8", "", ("--near", "-1"), "--near: '-1' is not a distance greater than 0"),
     ],
 )
-def test_refusals(tmp_path: Path, monkeypatch, capsys, old: str, new: str, arguments, message: str) -> None:
+def test_invalid_near_planes_are_rejected(
+    tmp_path: Path, monkeypatch, capsys, old: str, new: str, arguments, message: str
+) -> None:
     monkeypatch.chdir(tmp_path)
     Path("s.toml").write_text(SCENE.replace(old, new), encoding="utf-8")
     code, _, err = call(capsys, "hidden-line", "s.toml", *arguments, "-o", "a.svg")
@@ -184,7 +186,7 @@ def test_refusals(tmp_path: Path, monkeypatch, capsys, old: str, new: str, argum
     assert message in err
 
 
-def test_a_parallel_projection_has_no_near_plane_and_without_one_the_remedy_is_named(capsys) -> None:
+def test_a_near_plane_is_for_perspective_only_and_is_suggested_there(capsys) -> None:
     with pytest.raises(SceneError, match="view: near: a parallel projection has no near plane"):
         parse("[view]\nnear = 1\n[[part]]\nshape = 'cuboid'\nsize = [1, 1, 1]", "s")
     code, _, err = call(capsys, "hidden-line", "house", "--near", "2")
@@ -195,7 +197,7 @@ def test_a_parallel_projection_has_no_near_plane_and_without_one_the_remedy_is_n
         draw([box((-1, -11, -1), (1, 1, 1))], perspective(EYE, vector(0, 0, 0)))
 
 
-def test_the_committed_picture_of_the_cut_house_is_the_one_drawn() -> None:
+def test_the_committed_picture_of_the_clipped_house_is_up_to_date() -> None:
     sight = Sight(vector(40, -35, 30), "perspective", vector(4, 5, 1), Fraction(53))
     make = scene("house").make
     picture = as_svg(draw(make, sight.observer(make)), "The house cut by a near plane")
