@@ -114,6 +114,7 @@ def _study(parser: ArgumentParser) -> None:
     parser.add_argument("--out", metavar="DIR", help="the study's folder (default: its name)")
     parser.add_argument("--resume", action="store_true", help="go on with the study begun in the folder")
     parser.add_argument("--redraw", metavar="DIR", help="draw the plots of a finished study anew, from its charts.json")
+    parser.add_argument("--verify", metavar="DIR", help="compare the rows of the study in DIR with their checksums")
     parser.add_argument("--quiet", action="store_true", help="no progress")
 
 

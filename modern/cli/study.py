@@ -9,7 +9,7 @@ import textwrap
 from collections.abc import Callable
 from pathlib import Path
 
-from modern.cli.shared.console import OK
+from modern.cli.shared.console import BAD_INPUT, OK, complain
 
 
 def main(args: argparse.Namespace) -> int:
@@ -35,6 +35,8 @@ def main(args: argparse.Namespace) -> int:
         return OK
     if args.redraw is not None:
         return redrawn(Path(args.redraw))
+    if args.verify is not None:
+        return verified(Path(args.verify))
     if args.name is None:
         raise PlanError(f"which study? There are {', '.join(names())}, or a plan file; --list says what they are")
     for name, value in (("--samples", args.samples), ("--workers", args.workers)):
@@ -97,3 +99,14 @@ def redrawn(folder: Path) -> int:
         draw(chart, folder)
         print(f"{folder / chart.name}.svg, .png")
     return OK
+
+
+def verified(folder: Path) -> int:
+    """Compare the rows of a study with their checksums and report each damaged file.  Raise StudyFileError."""
+    from modern.study.run import verify_study
+
+    plan, intact, messages = verify_study(folder)
+    for message in messages:
+        complain(message)
+    print(f"{folder}: {intact:,} of {plan.samples:,} rows are present and match their checksums")
+    return BAD_INPUT if messages else OK

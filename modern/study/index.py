@@ -1,9 +1,8 @@
-"""The SQLite index of a study, from which reports are computed.  It is made from the rows and made again if damaged.
+"""The SQLite index of a study, from which reports are computed.  Every run makes it from the rows again.
 
 The table ``samples`` has the columns cell, place (the index of the sample), n, dimension, vertices, planes, boundary,
-inside and tags (JSON); the table ``runs`` has cell, place, route, outcome, detail and figures (JSON).  The table
-``chunks`` names the files whose rows have been entered.  One connection writes and locks the file, so a second run in
-the same folder fails.
+inside and tags (JSON); the table ``runs`` has cell, place, route, outcome, detail and figures (JSON).  One connection
+writes and locks the file, so a second run in the same folder fails.
 """
 
 from __future__ import annotations
@@ -18,7 +17,6 @@ from modern.study.plan import StudyFileError
 
 NAME = "index.sqlite"
 _SCHEMA = """
-CREATE TABLE IF NOT EXISTS chunks (name TEXT PRIMARY KEY) WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS samples (
     cell INTEGER, place INTEGER, n INTEGER, dimension INTEGER, vertices INTEGER, planes INTEGER,
     boundary INTEGER, inside INTEGER, tags TEXT, PRIMARY KEY (cell, place)
@@ -50,6 +48,7 @@ class Row(TypedDict):
     deck: list[str]
     judge: dict[str, int]
     runs: dict[str, RouteRow]
+    checksum: NotRequired[str]
 
 
 def open_index(folder: Path) -> sqlite3.Connection:
@@ -79,34 +78,32 @@ def _opened(path: Path) -> sqlite3.Connection:
     connection = sqlite3.connect(path, timeout=0.5, isolation_level=None)
     try:
         connection.execute("PRAGMA locking_mode = EXCLUSIVE")
-        # A crash of the machine can lose entries, which the files of rows still hold.  A crash of the program cannot.
+        # An interruption may leave a damaged index, because the next run makes it again.
         connection.execute("PRAGMA synchronous = OFF")
+        connection.execute("PRAGMA journal_mode = MEMORY")
         connection.execute("BEGIN EXCLUSIVE")
         for statement in _SCHEMA.split(";"):
             connection.execute(statement)
         connection.execute("COMMIT")
         if connection.execute("PRAGMA quick_check").fetchone()[0] != "ok":
             raise sqlite3.DatabaseError("damaged")
-    except sqlite3.Error:
+        # Earlier versions wrote a journal, which remained after kill -9.
+        path.with_name(f"{NAME}-journal").unlink(missing_ok=True)
+    except (sqlite3.Error, OSError):
         connection.close()
         raise
     return connection
 
 
-def known_chunks(index: sqlite3.Connection) -> set[str]:
-    """Return the names of the chunks whose rows have been entered."""
-    return {name for (name,) in index.execute("SELECT name FROM chunks")}
-
-
 def clear(index: sqlite3.Connection) -> None:
     """Delete all entries."""
     index.execute("BEGIN")
-    for table in ("chunks", "samples", "runs"):
+    for table in ("samples", "runs"):
         index.execute(f"DELETE FROM {table}")
     index.execute("COMMIT")
 
 
-def enter(index: sqlite3.Connection, name: str, rows: Iterable[Row]) -> None:
+def enter(index: sqlite3.Connection, rows: Iterable[Row]) -> None:
     """Enter the rows of a chunk, all or none.  Raise StudyFileError if that fails."""
     samples, runs = [], []
     for row in rows:
@@ -120,7 +117,6 @@ def enter(index: sqlite3.Connection, name: str, rows: Iterable[Row]) -> None:
     try:
         index.execute("BEGIN")
         try:
-            index.execute("INSERT INTO chunks VALUES (?)", (name,))
             index.executemany(f"INSERT INTO samples VALUES ({', '.join('?' * 9)})", samples)
             index.executemany(f"INSERT INTO runs VALUES ({', '.join('?' * 6)})", runs)
             index.execute("COMMIT")

@@ -28,7 +28,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from random import Random
 from traceback import extract_tb
-from typing import Literal, TypeVar
+from typing import Any, Literal, TypeVar
 
 from emulator.errors import EmulatorError
 from emulator.machine.result import DEFAULT_CORE, DEFAULT_LIMIT
@@ -225,6 +225,18 @@ class Plan:
         ]
         return dict(json.loads(json.dumps(data)))
 
+    @classmethod
+    def of_document(cls, data: Mapping[str, Any]) -> Plan:
+        """Return the plan from which :meth:`document` made the data.
+
+        Raise KeyError, TypeError, ValueError or AttributeError if the data does not describe a plan.
+        """
+        cells = tuple(
+            Cell(**{**cell, "key": dict(cell["key"]), "routes": tuple(map(_route_of_document, cell["routes"]))})
+            for cell in data["cells"]
+        )
+        return cls(**{**data, "cells": cells, "notes": tuple(data["notes"])})
+
 
 def document(route: Route) -> dict[str, object]:
     """Return a route as JSON data with its kind; ``uncut`` is included only if it is true."""
@@ -232,3 +244,10 @@ def document(route: Route) -> dict[str, object]:
     if not data.get("uncut"):
         data.pop("uncut", None)
     return data
+
+
+def _route_of_document(data: Mapping[str, Any]) -> Route:
+    values = {name: tuple(value) if isinstance(value, list) else value for name, value in data.items()}
+    route_type: type[Any] = Programs if values.pop("kind") == "programs" else Port
+    route: Route = route_type(**values)
+    return route

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sqlite3
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import ExitStack, closing, suppress
@@ -29,7 +30,7 @@ from modern.study.plots import can_plot, draw
 from modern.study.report import Report, outcome_report, write_report
 from modern.study.routes import options_of, programs_of
 from modern.study.sample import CARD_DIGITS
-from modern.study.store import Store
+from modern.study.store import ROWS, Store
 from modern.study.workers import connect, in_processes, on_cluster, processes
 
 MOST_FILES = 1_000_000
@@ -110,6 +111,30 @@ def run_study(
         write_parquet(folder, plan, store)
         write_manifest(folder, {**document, "decks_sha256": store.decks_sha256(), "complete": True})
     return finished_report
+
+
+def verify_study(folder: Path) -> tuple[Plan, int, list[str]]:
+    """Return the plan of the study in a folder, the number of its intact rows, and a message for each damaged file.
+
+    Raise StudyFileError if the folder holds no study.
+    """
+    document = read_manifest(folder)
+    try:
+        plan = Plan.of_document(document["plan"])
+        is_plan = plan.document() == document["plan"]
+    except (KeyError, TypeError, ValueError, AttributeError):
+        is_plan = False
+    if not is_plan:
+        raise StudyFileError(f"{folder / NAME}: the plan of the study is damaged")
+    # The index is not needed, and another run may be using it.
+    with closing(Store(folder, plan, sqlite3.connect(":memory:"))) as store:
+        intact, messages = store.verify()
+        if document.get("complete") and not messages:
+            if intact < plan.samples:
+                messages.append(f"{folder / ROWS}: {plan.samples - intact:,} rows are missing; --resume computes them")
+            elif document.get("decks_sha256") != store.decks_sha256():
+                messages.append(f"{folder / NAME}: decks_sha256 is not the SHA-256 of the decks in the rows")
+    return plan, intact, messages
 
 
 def plain_lines(plan: Plan) -> tuple[str, ...]:

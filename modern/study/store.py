@@ -1,7 +1,8 @@
 """The folder of a study: its rows, their index, and the queries of reports.
 
 ``rows/`` holds one JSONL file for each finished chunk, with one line per sample.  A file is either complete or absent,
-so the files that exist show which chunks are finished.  ``index.sqlite`` is made from them.
+so the files that exist show which chunks are finished.  Every line ends with its checksum, which is compared whenever
+the line is read.  ``index.sqlite`` is made from the lines.
 """
 
 from __future__ import annotations
@@ -18,10 +19,11 @@ from typing import Any, BinaryIO
 
 from emulator.errors import FileError
 from emulator.files import UNFINISHED, writing_bytes
-from modern.study.index import JUDGE, Row, clear, enter, known_chunks, open_index
+from modern.study.index import JUDGE, Row, clear, enter, open_index
 from modern.study.plan import Chunk, Plan, StudyFileError
 
 ROWS = "rows"
+_CHECKSUM_FIELD = b',"checksum":"'
 
 
 @contextmanager
@@ -88,25 +90,41 @@ class Store:
         self.database.close()
 
     def missing(self) -> list[Chunk]:
-        """Return the chunks that have no file of rows, after bringing the index into agreement with the files."""
-        chunks = {chunk.name: chunk for chunk in self.plan.chunks()}
+        """Return the chunks that have no file of rows, after making the index from the files of the others.
+
+        Raise StudyFileError if a row is damaged.  The index is never reused, because a change in it would go unnoticed.
+        """
+        clear(self.database)
+        missing = []
+        for chunk, exists in self._files():
+            if exists:
+                enter(self.database, self._chunk_rows(chunk))
+            else:
+                missing.append(chunk)
+        return missing
+
+    def verify(self) -> tuple[int, list[str]]:
+        """Return the number of intact rows, and a message for each damaged file of rows."""
+        intact, messages = 0, []
+        for chunk, exists in self._files():
+            try:
+                intact += sum(1 for _ in self._chunk_rows(chunk)) if exists else 0
+            except StudyFileError as error:
+                messages.append(str(error))
+        return intact, messages
+
+    def _files(self) -> Iterator[tuple[Chunk, bool]]:
+        """Yield all chunks, and whether each has a file.  Raise StudyFileError if there is another file of rows."""
         present = {path.name for path in (self.folder / ROWS).glob("*.jsonl")}
-        foreign = present - chunks.keys()
+        foreign = present - {chunk.name for chunk in self.plan.chunks()}
         if foreign:
             raise StudyFileError(f"{self.folder / ROWS}: {min(foreign)} is not a chunk of this study")
-        known = known_chunks(self.database)
-        # A file of rows was removed: its entries cannot be told from the others, so the index is filled again.
-        if not known <= present:
-            clear(self.database)
-            known = set()
-        for name in sorted(present - known):
-            enter(self.database, name, self._chunk_rows(chunks[name]))
-        return [chunk for name, chunk in chunks.items() if name not in present]
+        return ((chunk, chunk.name in present) for chunk in self.plan.chunks())
 
     def add(self, chunk: Chunk, text: str) -> None:
         """Store the rows of a chunk.  Raise StudyFileError if they cannot be written; then nothing is stored."""
-        put(self.folder / ROWS / chunk.name, text)
-        enter(self.database, chunk.name, map(json.loads, text.splitlines()))
+        put(self.folder / ROWS / chunk.name, b"".join(map(_with_checksum, text.encode("ascii").splitlines())))
+        enter(self.database, map(json.loads, text.splitlines()))
 
     def rows(self) -> Iterator[Row]:
         """Yield every row from the files.  Raise StudyFileError if a file does not hold the rows of its chunk."""
@@ -153,20 +171,36 @@ class Store:
         return self.database.execute(sql, values)
 
     def _chunk_rows(self, chunk: Chunk) -> Iterator[Row]:
-        """Yield the rows of a chunk from its file, checking that each belongs to its sample and none is missing."""
+        """Yield the rows of a chunk from its file.
+
+        Raise StudyFileError if a row differs from its checksum or belongs to another sample, or if rows are missing.
+        """
         path = self.folder / ROWS / chunk.name
         try:
-            lines = path.read_bytes().splitlines()
+            lines = path.read_bytes().splitlines(keepends=True)
         except OSError as error:
             raise StudyFileError(f"{path}: {(error.strerror or str(error)).lower()}") from None
-        routes = {route.name for route in self.plan.cells[chunk.cell].routes}
+        cell = self.plan.cells[chunk.cell]
+        routes = {route.name for route in cell.routes}
         for number, (line, index) in enumerate(zip_longest(lines, range(chunk.start, chunk.stop)), 1):
             row = _row(line or b"")
-            if not row or (row["cell"], row["index"], set(row["runs"])) != (chunk.cell, index, routes):
+            where = f"{path}: line {number}" + ("" if index is None else f" (sample {index})")
+            if row and "checksum" not in row:
                 raise StudyFileError(
-                    f"{path}: line {number} is damaged; delete the file, and --resume computes it again"
+                    f"{where} has no checksum, like all rows of earlier versions of hull1620; "
+                    "changes in it cannot be detected, so repeat the study in another folder"
                 )
+            expected = None if index is None else (index, cell.seed(self.plan.seed, index), routes)
+            is_intact = line == _with_checksum((line or b"").rpartition(_CHECKSUM_FIELD)[0] + b"}")
+            if not row or not is_intact or (row["index"], row["seed"], set(row["runs"])) != expected:
+                raise StudyFileError(f"{where} is damaged; delete the file, and --resume computes it again")
             yield row
+
+
+def _with_checksum(line: bytes) -> bytes:
+    """Return a row with a checksum as its last field: 16 hexadecimal digits of the SHA-256 of all that precedes it."""
+    fields = line.removesuffix(b"}")
+    return b'%s%s%s"}\n' % (fields, _CHECKSUM_FIELD, hashlib.sha256(fields).hexdigest()[:16].encode("ascii"))
 
 
 def _row(line: bytes) -> Row | None:
@@ -175,7 +209,7 @@ def _row(line: bytes) -> Row | None:
         row: Row = json.loads(line)
     except ValueError:
         return None
-    is_complete = isinstance(row, dict) and {"cell", "index", "deck", "judge"} <= row.keys()
+    is_complete = isinstance(row, dict) and {"cell", "index", "seed", "deck", "judge"} <= row.keys()
     return row if is_complete and isinstance(row.get("runs"), dict) else None
 
 

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
+
 from modern.study import Cell, Plan, Port, Programs
+from modern.study.index import NAME as INDEX
 
 ROUTES = (Programs("listed", limit=20_000), Port("exact"))
 PLAN = Plan(
@@ -15,3 +19,15 @@ PLAN = Plan(
     ),
     seed=5,
 )
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    """Return all files except the index, whose bytes may differ, and the command in the manifest."""
+    files = {
+        str(path.relative_to(folder)): path.read_bytes()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file() and not path.name.startswith(INDEX)
+    }
+    manifest = json.loads(files.pop("manifest.json"))
+    manifest.pop("command")
+    return {**files, "manifest.json": json.dumps(manifest).encode()}

@@ -50,7 +50,7 @@ def reported(
                 }
                 for index in range(cell.samples)
             ]
-            enter(store.database, cell.name, rows)
+            enter(store.database, rows)
         report: Report = module.report(plan, store)
         return report
 

@@ -6,7 +6,6 @@ import errno
 import json
 import os
 import random
-import shutil
 import signal
 import sqlite3
 import subprocess
@@ -21,13 +20,12 @@ import pytest
 
 from emulator.files import UNFINISHED
 from modern.study import Plan, PlanError, Port, Programs, run_study
-from modern.study import run as study_run
 from modern.study.index import NAME as INDEX
 from modern.study.store import Store, StudyFileError
 from modern.study.tomlplan import read_plan
 from modern.study.workers import in_processes
 from tests.support.paths import ROOT
-from tests.support.studied import PLAN, ROUTES
+from tests.support.studied import PLAN, ROUTES, contents
 
 PLAN_FILE = """
 name = "long"
@@ -50,37 +48,6 @@ pool = ProcessPoolExecutor(1, multiprocessing.get_context("spawn"), initializer=
 pool.submit(print, "at work", flush=True).result()
 pool.submit(input).result()
 """
-
-
-def contents(folder: Path) -> dict[str, bytes]:
-    """Return all files except the index, whose bytes may differ, and the command in the manifest."""
-    files = {
-        str(path.relative_to(folder)): path.read_bytes()
-        for path in sorted(folder.rglob("*"))
-        if path.is_file() and not path.name.startswith(INDEX)
-    }
-    manifest = json.loads(files.pop("manifest.json"))
-    manifest.pop("command")
-    return {**files, "manifest.json": json.dumps(manifest).encode()}
-
-
-@pytest.fixture(scope="module")
-def finished(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("study") / "small"
-    run_study(PLAN, folder, workers=1, quiet=True)
-    return folder
-
-
-@pytest.fixture
-def copied(finished: Path, tmp_path: Path) -> Path:
-    """A copy of the finished study, to be damaged."""
-    return Path(shutil.copytree(finished, tmp_path / "copied"))
-
-
-@pytest.fixture
-def _without_plots(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Charts are drawn after the rows are complete, and take longer than they do."""
-    monkeypatch.setattr(study_run, "draw", lambda chart, folder: None)
 
 
 def contents_without_plots(folder: Path) -> dict[str, bytes]:
@@ -143,6 +110,7 @@ def test_study_killed_at_random_moments_resumes_to_the_same_files(finished: Path
         time.sleep(rng.uniform(0, seconds / 3))
         os.kill(child, signal.SIGKILL)
         os.waitpid(child, 0)
+        assert not list(folder.glob(f"{INDEX}-*")), "an interrupted run leaves no journal"
     assert os.waitpid(forked(folder), 0)[1] == 0
     assert contents_without_plots(folder) == contents_without_plots(finished)
     with sqlite3.connect(folder / INDEX) as index:
@@ -195,38 +163,6 @@ def test_ctrl_c_during_the_start_of_a_worker_pool_raises_keyboard_interrupt(monk
     )
     with pytest.raises(KeyboardInterrupt):
         list(in_processes(PLAN, list(PLAN.chunks()), 2))
-
-
-@pytest.mark.usefixtures("_without_plots")
-def test_chunk_written_but_not_yet_indexed_is_counted_once(finished: Path, copied: Path) -> None:
-    """Every third chunk lacks its index entries; another chunk's file is half written."""
-    chunks = list(PLAN.chunks())
-    for chunk in chunks[::3]:
-        with sqlite3.connect(copied / INDEX) as index:
-            index.execute("DELETE FROM chunks WHERE name = ?", (chunk.name,))
-            for table in ("samples", "runs"):
-                index.execute(
-                    f"DELETE FROM {table} WHERE cell = ? AND place BETWEEN ? AND ?",
-                    (chunk.cell, chunk.start, chunk.stop - 1),
-                )
-    (copied / "rows" / chunks[1].name).unlink()
-    (copied / "rows" / f"{UNFINISHED}{chunks[1].name}").write_text("half a li")
-    run_study(PLAN, copied, workers=1, quiet=True, resume=True)
-    assert contents(copied) == contents(finished)
-
-
-@pytest.mark.parametrize("damage", ["absent", "text", "truncated", "zeros"])
-@pytest.mark.usefixtures("_without_plots")
-def test_damaged_index_is_rebuilt(finished: Path, copied: Path, damage: str) -> None:
-    index = copied / INDEX
-    intact = index.read_bytes()
-    if damage == "absent":
-        index.unlink()
-    else:
-        damaged = {"text": b"this is no database" * 99, "truncated": intact[: len(intact) // 2]}
-        index.write_bytes(damaged.get(damage, bytes(len(intact))))
-    run_study(PLAN, copied, workers=1, quiet=True, resume=True)
-    assert contents(copied) == contents(finished)
 
 
 @pytest.mark.parametrize("writes", [1, 2, 9, 12])
@@ -385,36 +321,3 @@ def test_store_answers_the_queries_of_reports(finished: Path) -> None:
                 store.counts(invalid)
     finally:
         store.close()
-
-
-def test_file_of_rows_that_is_not_of_the_plan_is_named(copied: Path) -> None:
-    (copied / "rows/0009-000000000.jsonl").write_text("{}\n")
-    with pytest.raises(StudyFileError, match=r"0009-000000000.jsonl is not a chunk of this study"):
-        run_study(PLAN, copied, workers=1, quiet=True, resume=True)
-
-
-@pytest.mark.parametrize("damage", ["empty", "short", "truncated", "noise", "different", "long", "list"])
-@pytest.mark.usefixtures("_without_plots")
-def test_damaged_file_of_rows_is_named_and_not_counted(finished: Path, copied: Path, damage: str) -> None:
-    path = copied / "rows/0000-000000005.jsonl"
-    intact = path.read_bytes()
-    lines = intact.splitlines(keepends=True)
-    path.write_bytes(
-        {
-            "empty": b"",
-            "short": b"".join(lines[:-1]),
-            "truncated": intact[:-9],
-            "noise": b"\xff\x00" * 400,
-            "different": (copied / "rows/0000-000000010.jsonl").read_bytes(),
-            "long": intact + lines[0],
-            "list": b"[1]\n" * 5,
-        }[damage]
-    )
-    for index in copied.glob(f"{INDEX}*"):
-        index.unlink()
-    with pytest.raises(StudyFileError, match=r"0000-000000005.jsonl: line \d is damaged") as rejection:
-        run_study(PLAN, copied, workers=1, quiet=True, resume=True)
-    assert "\n" not in str(rejection.value)
-    path.unlink()
-    run_study(PLAN, copied, workers=1, quiet=True, resume=True)
-    assert contents(copied) == contents(finished)
