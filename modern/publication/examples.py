@@ -14,13 +14,14 @@ from functools import cache
 from modern.edition.apparatus import Row
 from modern.edition.chapter6 import EXAMPLES, Device, DeviceLayout
 from modern.edition.chapter6_cards import Card, Chapter, cards, load_chapter, printed_lines
-from modern.edition.reproduce import Report, reproduce
+from modern.edition.reproduce import EXACT, ORDER, Report, reproduce
 from modern.edition.segments import Place, Segments, reading, segments
 from modern.edition.sources import sources
 
 _LAYERS = ("ocr", "typist")
 Spans = tuple[tuple[int, int], ...]
 TITLES = {"deck": "cards read", "punch": "cards punched", "typewriter": "lines typed"}
+VERDICTS = {EXACT: "identical", ORDER: "the same hull in another order"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +59,6 @@ class Part:
     example: int
     program: int
     device: Device
-    file: str
     stated: bool
     cards: tuple[Shown, ...]
     reports: tuple[Report, ...]
@@ -68,6 +68,10 @@ class Part:
     def id(self) -> str:
         """The id on the page, such as ``program1-punch``."""
         return f"program{self.program}-{self.device}"
+
+    @property
+    def title(self) -> str:
+        return f"Program {self.program}: {TITLES[self.device]}"
 
 
 @cache
@@ -107,7 +111,8 @@ def _origins(lines: Sequence[Segments]) -> dict[str, list[Segments]]:
 
 
 def _part(chapter: Chapter, entry: DeviceLayout, lines: dict[str, list[Segments]], reports: Sequence[Report]) -> Part:
-    reports_of_part = tuple(r for r in reports if (r.program, r.device) == (entry.program, entry.device))
+    of_part = (r for r in reports if (r.program, r.device) == (entry.program, entry.device))
+    reports_of_part = tuple(sorted(of_part, key=lambda report: report.state))
     produced = next((r.produced for r in reports_of_part if r.state == "examples"), None)
     shown_cards: list[Shown] = []
     shown_lines: set[str] = set()
@@ -119,16 +124,8 @@ def _part(chapter: Chapter, entry: DeviceLayout, lines: dict[str, list[Segments]
         shown_cards.append(_shown(n + 1, card, run, lines, shown_lines))
     rows_used = {row for line in printed_lines(chapter, entry) for row in line.rows}
     rows = tuple(row for row in chapter.text.rows if row.id in rows_used)
-    return Part(
-        entry.example,
-        entry.program,
-        entry.device,
-        entry.file,
-        entry.layer == "stated",
-        tuple(shown_cards),
-        reports_of_part,
-        rows,
-    )
+    stated = entry.layer == "stated"
+    return Part(entry.example, entry.program, entry.device, stated, tuple(shown_cards), reports_of_part, rows)
 
 
 def _shown(
@@ -139,14 +136,9 @@ def _shown(
     new = tuple(line for line in line_ids if line not in shown_lines)
     shown_lines |= set(new)
     image = card.image if card else ""
-    return Shown(
-        number,
-        image,
-        tuple(_source(lines[line]) for line in new),
-        tuple(line for line in line_ids if line not in new),
-        run,
-        () if run is None else differing(image, run),
-    )
+    sources_of_card = tuple(_source(lines[line]) for line in new)
+    continued = tuple(line for line in line_ids if line not in new)
+    return Shown(number, image, sources_of_card, continued, run, () if run is None else differing(image, run))
 
 
 def _source(family: Sequence[Segments]) -> Source:

@@ -79,6 +79,11 @@ class Card:
     variants: tuple[Variant, ...] = ()
     also: tuple[str, ...] = ()
 
+    @property
+    def concerned(self) -> tuple[str, ...]:
+        """The rows that change this card, or would change it if their layers were applied."""
+        return tuple(dict.fromkeys([*self.rows, *(row for variant in self.variants for row in variant.rows)]))
+
 
 @dataclass(frozen=True)
 class Facing:
@@ -97,16 +102,13 @@ class Facing:
 
     def rows(self) -> tuple[Row, ...]:
         """Return the rows that change this deck, in any layer, in the order of the apparatus."""
-        ids = {row for card in self.cards for row in card.rows}
-        ids |= {row for card in self.cards for variant in card.variants for row in variant.rows}
+        ids = {row for card in self.cards for row in card.concerned}
         ids |= {row.id for row in self.everywhere} | {row for row, _ in self.dropped}
         return tuple(row for row in self.text.rows if row.id in ids)
 
     def cards_of(self, row: str) -> tuple[Card, ...]:
         """Return the cards that a row changes, or would change if its layer were applied."""
-        return tuple(
-            card for card in self.cards if row in card.rows or any(row in variant.rows for variant in card.variants)
-        )
+        return tuple(card for card in self.cards if row in card.concerned)
 
     def pages(self) -> Iterator[tuple[str, tuple[Card, ...]]]:
         """Return the pages of the thesis in order, each with its cards."""
@@ -130,29 +132,14 @@ def facing(name: str) -> Facing:
     for number, (line, (place, kind, label)) in enumerate(zip(lines, places, strict=True), 1):
         rows = tuple(name for name in line.rows if name not in everywhere)
         witness, changed = _compared(pieces.get(line.id, ()), line.text)
-        cards.append(
-            Card(
-                number,
-                place,
-                kind,
-                label,
-                line.page,
-                line.text,
-                witness,
-                changed,
-                rows,
-                tuple(dict.fromkeys(layer_of[name] for name in rows)),
-                variants.get(line.id, ()),
-                further_places.get(place, ()),
-            )
-        )
-    return Facing(
-        name, entry.title, text, tuple(cards), tuple(row for row in text.rows if row.id in everywhere), dropped
-    )
+        of_layers = tuple(dict.fromkeys(layer_of[name] for name in rows))
+        card = Card(number, place, kind, label, line.page, line.text, witness, changed, rows, of_layers)
+        cards.append(replace(card, variants=variants.get(line.id, ()), also=further_places.get(place, ())))
+    rows_everywhere = tuple(row for row in text.rows if row.id in everywhere)
+    return Facing(name, entry.title, text, tuple(cards), rows_everywhere, dropped)
 
 
 def _everywhere(lines: Sequence[Line]) -> frozenset[str]:
-    """Return the rows that change more than half of all cards."""
     counts = Counter(row for line in lines for row in set(line.rows))
     return frozenset(row for row, count in counts.items() if 2 * count > len(lines))
 
@@ -347,10 +334,7 @@ def _variants(text: Text, lines: Sequence[Line], layers: Sequence[str]) -> Mappi
             if [card.text for card in cards] == [line.text]:
                 continue
             changed_by = tuple(dict.fromkeys(r for card in cards for r in card.rows if r in rows))
-            changed_by = changed_by or tuple(row.id for row in text.rows if row.id in rows and name in _lines(row))
+            if not changed_by:  # the layer removes the card
+                changed_by = tuple(r.id for r in text.rows if r.id in rows and any(c.line == name for c in r.changes))
             variants.setdefault(name, []).append(Variant(layer, changed_by, tuple(card.text for card in cards)))
     return {name: tuple(of_card) for name, of_card in variants.items()}
-
-
-def _lines(row: Row) -> set[str]:
-    return {change.line for change in row.changes}

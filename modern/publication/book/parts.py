@@ -15,14 +15,13 @@ from modern.drawing.stages import frames, strip
 from modern.edition import programs
 from modern.edition.apparatus import Row
 from modern.edition.chapter6 import EXAMPLES, input_deck
-from modern.edition.reproduce import EXACT, ORDER
 from modern.formats.points import parse_input
 from modern.geometry.mesh import ExportError
 from modern.port import convex_hull
 from modern.publication.book.markup import block, call, code, heading, label, say, string, table
 from modern.publication.chart import chart
 from modern.publication.chart_svg import chart_svg
-from modern.publication.examples import TITLES, example, homes
+from modern.publication.examples import TITLES, VERDICTS, example, homes
 from modern.publication.facing import Card, Facing, facing
 from modern.publication.flow import flow
 
@@ -30,20 +29,19 @@ SavePicture = Callable[[str, str], str]
 """Saves a picture, given its name and SVG, and returns the name by which Typst finds it."""
 
 _FONTS = re.compile(r"font-family(=|:)\s*(\"[^\"]*\"|[^;\"}]*)")
-_VERDICTS = {EXACT: "identical", ORDER: "the same hull in another order"}
 _SHORT = {"holds": "holds", "holds with a condition": "with a condition", "does not hold": "does not hold"}
 
 
 def fitted(svg: str) -> str:
     """Return a picture with the fonts of the book and without links."""
     svg = re.sub(r"</?a\b[^>]*>", "", svg)
-    return _FONTS.sub(_font, svg)
 
+    def font(match: re.Match[str]) -> str:
+        monospaced = "mono" in match[2].lower() or "courier" in match[2].lower()
+        family = "DejaVu Sans Mono" if monospaced else "Libertinus Serif"
+        return f'font-family="{family}"' if match[1] == "=" else f"font-family:'{family}'"
 
-def _font(match: re.Match[str]) -> str:
-    monospaced = "mono" in match[2].lower() or "courier" in match[2].lower()
-    family = "DejaVu Sans Mono" if monospaced else "Libertinus Serif"
-    return f'font-family="{family}"' if match[1] == "=" else f"font-family:'{family}'"
+    return _FONTS.sub(font, svg)
 
 
 def listings() -> Iterator[str]:
@@ -58,14 +56,10 @@ def listings() -> Iterator[str]:
                 yield _entry(row, listing)
         for page, cards in listing.pages():
             yield heading(f"Page {page}", 3, label(name, f"page-{page}"))
-            yield from map(_card, [name] * len(cards), cards)
-            rows = [row for row in listing.rows() if row.id not in shown and _concerns(row, cards)]
-            shown |= {row.id for row in rows}
-            yield from (_entry(row, listing) for row in rows)
-
-
-def _concerns(row: Row, cards: tuple[Card, ...]) -> bool:
-    return any(row.id in card.rows or any(row.id in variant.rows for variant in card.variants) for card in cards)
+            yield from (_card(name, card) for card in cards)
+            concerned = {row for card in cards for row in card.concerned} - shown
+            shown |= concerned
+            yield from (_entry(row, listing) for row in listing.rows() if row.id in concerned)
 
 
 def _card(name: str, card: Card) -> str:
@@ -82,12 +76,10 @@ def _entry(row: Row, listing: Facing) -> str:
     at = f" {', '.join(card.place for card in cards[:6])}" if cards else ""
     if len(cards) > 6:
         at += f" and {len(cards) - 6} more"
-    head = f"#[{call('strong', say(row.id))}] <{label('row', row.id)}>"
     kinds = call("text", say(f"{row.layer}, {row.kind}; {row.certainty}"), style='"italic"')
-    readings = f"{code(row.witness or ' ')} → {code(row.lemma or ' ')}"
     rejected = "".join(f" Rejected: {code(r.reading)} {say(r.reason)}" for r in row.rejected)
     ground = row.ground.get("kind", "none: a conjecture")
-    text = f"{head}{say(at)} {kinds}. {readings}. {say(row.reason)}{rejected} {say(row.evidence)} "
+    text = f"{_head(row)}{say(at)} {kinds}. {_readings(row)}{say(row.reason)}{rejected} {say(row.evidence)} "
     return f"#entry[{text}{say(f'Ground: {ground}.')}]\n\n"
 
 
@@ -102,8 +94,8 @@ def charts(save: SavePicture) -> Iterator[str]:
                 yield heading(f"Flow chart of {name}", 2, label("chart", name))
             yield heading(f"Sheet {number} of {len(drawn.pages)}", 3, label("chart", name, str(number)))
             file = save(f"chart-{name}-{number}", chart_svg(drawn, number))
-            drawn_in = f'image({string(file)}, alt: {string(title)}, height: 1fr, fit: "contain")'
-            yield f"#align(center, {drawn_in})\n#pagebreak(weak: true)\n\n"
+            image = f'image({string(file)}, alt: {string(title)}, height: 1fr, fit: "contain")'
+            yield f"#align(center, {image})\n#pagebreak(weak: true)\n\n"
 
 
 def examples(save: SavePicture) -> Iterator[str]:
@@ -111,36 +103,32 @@ def examples(save: SavePicture) -> Iterator[str]:
     for number in EXAMPLES:
         yield heading(f"Example {number}", 2, label(f"example{number}.md"))
         parts = example(number)
-        rows = [
-            [
-                say(f"program {part.program}, {TITLES[part.device]}"),
-                *(
-                    say(_VERDICTS.get(r.verdict.kind, r.verdict.kind))
-                    for r in sorted(part.reports, key=lambda r: r.state)
-                ),
-            ]
-            for part in parts
-            if part.reports
-        ]
-        yield table(
-            [say(title) for title in ("", "program 1 in the state of the examples", "program 1 as listed")],
-            rows,
-            (30, 30, 30),
-        )
+        rows = []
+        for part in parts:
+            if part.reports:
+                verdicts = [say(VERDICTS.get(r.verdict.kind, r.verdict.kind)) for r in part.reports]
+                rows.append([say(f"program {part.program}, {TITLES[part.device]}"), *verdicts])
+        head = [say(title) for title in ("", "program 1 in the state of the examples", "program 1 as listed")]
+        yield table(head, rows, (30, 30, 30))
         yield from _pictures(number, save)
         for part in parts:
             cards = "\n".join(card.print for card in part.cards)
             if cards.strip():
-                yield heading(f"Program {part.program}: {TITLES[part.device]}", 3, label(f"example{number}", part.id))
+                yield heading(part.title, 3, label(f"example{number}", part.id))
                 yield block(cards, "7pt")
-            first_shown = [row for row in part.rows if homes()[row.id] == (number, part.id)]
-            yield from (_short(row) for row in first_shown)
+            yield from (_short(row) for row in part.rows if homes()[row.id] == (number, part.id))
+
+
+def _head(row: Row) -> str:
+    return f"#[{call('strong', say(row.id))}] <{label('row', row.id)}>"
+
+
+def _readings(row: Row) -> str:
+    return f"{code(row.witness or ' ')} → {code(row.lemma or ' ')}. "
 
 
 def _short(row: Row) -> str:
-    """Return a row of a print in one or two lines."""
-    head = f"#[{call('strong', say(row.id))}] <{label('row', row.id)}>"
-    text = f"{head} {say(f'{row.kind}, {row.certainty}: ')}{code(row.witness or ' ')} → {code(row.lemma or ' ')}. "
+    text = f"{_head(row)} {say(f'{row.kind}, {row.certainty}: ')}{_readings(row)}"
     return f"#entry[{text}{say(row.reason)}]\n\n"
 
 

@@ -1,11 +1,8 @@
-"""A row of the apparatus in HTML: reading, rejected readings, reason, ground, evidence and certainty.
-
-This module also has the short descriptions of layers, grounds and causes.
-"""
+"""The witness and the rows of the apparatus in HTML, for the pages of listings and of printed examples."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from functools import cache
 
 from modern.edition import programs
@@ -40,9 +37,8 @@ def entry(row: Row, cards: Iterable[tuple[str, str]], page: str) -> str:
     """Return a row as an HTML article.  ``cards`` are the ids and names of the cards it changes on ``page``."""
     card_links = ", ".join(link(page, id, card_name) for id, card_name in cards)
     head = element("h3", text("a", row.id, href=f"#{row.id}", cls="rowid"), cls="row-head")
-    head += text("p", f"{row.layer}, {row.kind}; ", cls="row-kind").replace(
-        "</p>", f"{text('strong', row.certainty)}</p>"
-    )
+    kind = escape(f"{row.layer}, {row.kind}; ") + text("strong", row.certainty)
+    head += element("p", kind, cls="row-kind")
     fields = definitions(
         (
             ("witness", _reading(row.witness)),
@@ -60,6 +56,22 @@ def entry(row: Row, cards: Iterable[tuple[str, str]], page: str) -> str:
     return element("article", head + fields, cls=f"row of-{row.layer}", id=row.id, aria_label=f"row {row.id}")
 
 
+def column(name: str, inner: str, cls: str = "") -> str:
+    """Return a cell of a comparison; its name is read by screen readers and, in lower case, the default class."""
+    return element("div", text("span", f"{name} ", cls="sr") + inner, cls=cls or name.lower())
+
+
+def sign(character: str, meaning: str) -> str:
+    """Return a sign with its meaning as tooltip and for screen readers."""
+    return text("span", character, cls="sign", title=meaning, role="img", aria_label=meaning)
+
+
+def witness_line(page: str, line: int | str, source: int, inner: str) -> str:
+    """Return a line of the witness with its number; ``source`` is its line in the OCR text of the document."""
+    where = f"p. {page}, line {line} of the witness, {source} of the thesis's OCR text"
+    return element("span", text("span", str(line), cls="line", title=where) + inner, cls="piece")
+
+
 def _reading(reading: str) -> str:
     return " / ".join(text("code", line) for line in reading.split(" | "))
 
@@ -68,17 +80,12 @@ def _ground(row: Row) -> str:
     kind = str(row.ground.get("kind", ""))
     if not kind:
         return "none: a conjecture"
-    parameters = ", ".join(_parameters(row))
+    values = ((key, value) for key, value in row.ground.items() if key != "kind")
+    parameters = ", ".join(f"{k} {', '.join(map(str, v)) if isinstance(v, list) else v}" for k, v in values)
     in_program = row.text in programs.TEXTS
     meaning = GROUNDS[kind] if in_program or kind != "deck" else "the number also occurs in a deck"
     sentence = f"{escape(kind)}: {escape(meaning)}" + (f" ({escape(parameters)})" if parameters else "") + "."
     return sentence + (f" {text('span', 'Checked: ' + _observed(row.text, row.id), cls='seen')}" if in_program else "")
-
-
-def _parameters(row: Row) -> Iterator[str]:
-    for key, value in row.ground.items():
-        if key != "kind":
-            yield f"{key} {', '.join(map(str, value)) if isinstance(value, list) else value}"
 
 
 @cache

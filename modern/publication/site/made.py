@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection
 from dataclasses import dataclass
 from importlib import import_module
 from pkgutil import iter_modules
@@ -54,6 +54,11 @@ class Maker(Protocol):
     def make(self, argument: str) -> Made: ...
 
 
+def slug(prefix: str, title: str) -> str:
+    """Return the id of a heading: the prefix, and the title with a hyphen for everything but letters and digits."""
+    return f"{prefix}-" + "".join(c if c.isalnum() else "-" for c in title.lower())
+
+
 def names() -> tuple[str, ...]:
     """Return the names that the directive ``made`` accepts."""
     return tuple(sorted(module.name.replace("_", "-") for module in iter_modules(pages.__path__)))
@@ -67,9 +72,8 @@ def make(name: str, argument: str) -> Made:
     return maker.make(argument)
 
 
-def one_of(argument: str, known: Iterable[str]) -> str:
-    """Return the argument if it is one of the known ones.  Raise ValueError otherwise."""
-    choices = tuple(known)
+def one_of(argument: str, choices: Collection[str]) -> str:
+    """Return the argument if it is one of the choices.  Raise ValueError otherwise."""
     if argument not in choices:
         raise ValueError(f"{argument!r} is not one of {', '.join(choices)}")
     return argument

@@ -1,23 +1,18 @@
 """Functions that write HTML as strings: elements with escaped text and attributes, and addresses within the site.
 
-A parameter called ``words`` is plain text and is escaped.  A parameter called ``inner`` is HTML already.
+A parameter called ``inner`` is HTML; other texts are plain and are escaped.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from html import escape as _escape
+from html import escape as escape
 
 HERE = "@/"
 """The prefix of addresses within the site; :func:`relative` replaces it when the depth of the page is known."""
 _OPERATOR = re.compile(r"(?<=[\w)])[-+*/=,](?=\S)")
 _NO_END = frozenset({"input", "br", "img", "hr", "col"})
-
-
-def escape(words: str) -> str:
-    """Escape text for use between tags or in an attribute."""
-    return _escape(words, quote=True)
 
 
 def element(name: str, inner: str = "", /, **attributes: str | bool) -> str:
@@ -34,14 +29,28 @@ def _attribute(key: str, value: str | bool) -> str:
     name = "class" if key == "cls" else key.rstrip("_").replace("_", "-")
     if value is True:
         return f" {name}"
-    if not value and name not in ("alt", "value"):
-        return ""
-    return f' {name}="{escape(str(value))}"'
+    return f' {name}="{escape(str(value))}"' if value or name in ("alt", "value") else ""
 
 
-def text(name: str, words: str, /, **attributes: str | bool) -> str:
+def text(name: str, content: str, /, **attributes: str | bool) -> str:
     """Return an element that contains plain text."""
-    return element(name, escape(words), **attributes)
+    return element(name, escape(content), **attributes)
+
+
+def preformatted(content: str, name: str) -> str:
+    """Return lines of plain text, which the keyboard can scroll; ``name`` is their label for screen readers."""
+    return text("pre", content, tabindex="0", aria_label=name)
+
+
+def details(summary: str, inner: str, **attributes: str | bool) -> str:
+    """Return content that is shown when the reader opens its summary, which is plain text."""
+    return element("details", text("summary", summary) + inner, **attributes)
+
+
+def bar(shares: Iterable[tuple[str, int]]) -> str:
+    """Return a bar that is divided in proportion to numbers, each with the CSS class of its part."""
+    parts = (element("span", "", cls=cls, style=f"flex-grow:{share}") for cls, share in shares if share)
+    return element("span", "".join(parts), cls="weight", aria_hidden="true")
 
 
 def address(page: str, id: str = "") -> str:
@@ -49,9 +58,9 @@ def address(page: str, id: str = "") -> str:
     return f"{HERE}{page}.html{'#' + id if id else ''}"
 
 
-def link(page: str, id: str, words: str, **attributes: str | bool) -> str:
+def link(page: str, id: str, content: str, **attributes: str | bool) -> str:
     """Return a link to a page, or to an element of it if ``id`` is not empty."""
-    return element("a", escape(words), href=address(page, id), **attributes)
+    return text("a", content, href=address(page, id), **attributes)
 
 
 def definitions(pairs: Iterable[tuple[str, str]], **attributes: str | bool) -> str:
@@ -65,7 +74,7 @@ def table(head: Iterable[str], rows: Iterable[Iterable[str]], name: str, caption
 
     The first cell of a row is the row's heading.  ``name`` is the label of the table for screen readers.
     """
-    top = "".join(f'<th scope="col">{escape(words)}</th>' for words in head)
+    top = "".join(f'<th scope="col">{escape(heading)}</th>' for heading in head)
     body = []
     for row in rows:
         first, *rest = row
@@ -75,19 +84,18 @@ def table(head: Iterable[str], rows: Iterable[Iterable[str]], name: str, caption
     return element("section", element("table", inner), cls="wide", tabindex="0", aria_label=name)
 
 
-def marked(words: str, spans: Iterable[tuple[int, int]], name: str) -> str:
+def marked(content: str, spans: Iterable[tuple[int, int]], name: str) -> str:
     """Return plain text with the given spans of characters wrapped in an element."""
     pieces, end = [], 0
     for first, last in spans:
-        pieces += [escape(words[end:first]), text(name, words[first:last])]
+        pieces += [escape(content[end:first]), text(name, content[first:last])]
         end = last
-    return "".join([*pieces, escape(words[end:])])
+    return "".join([*pieces, escape(content[end:])])
 
 
-def code(words: str, spans: Iterable[tuple[int, int]] = (), name: str = "mark") -> str:
+def code(card: str, spans: Iterable[tuple[int, int]] = (), name: str = "mark") -> str:
     """Return a card as code in which lines may break after an operator or a comma, but not after the leading blanks."""
-    inner = marked(words, spans, name)
-    pieces = re.split(r"(<[^>]*>|&[a-z0-9#]+;)", inner)
+    pieces = re.split(r"(<[^>]*>|&[a-z0-9#]+;)", marked(card, spans, name))
     # The odd pieces are tags and character references, in which nothing may be inserted.
     broken = "".join(piece if n % 2 else _OPERATOR.sub(r"\g<0><wbr>", piece) for n, piece in enumerate(pieces))
     return element("code", re.sub(r"^( +)([^<&\s])", r'<span class="lead">\1\2</span>', broken))

@@ -10,7 +10,6 @@ from collections.abc import Iterable
 
 from emulator.errors import explanations
 from modern.edition import programs
-from modern.edition.apparatus import Row
 from modern.publication.facing import facing
 from modern.publication.site.made import Made, Part
 from modern.publication.site.markup import element, link, text
@@ -23,13 +22,14 @@ def make(argument: str) -> Made:
     field += element("input", type="search", id="find", autocomplete="off", spellcheck="false", disabled=True)
     field += text("button", "Go to the first match", type="submit")
     field += text("output", "", for_="find", id="found")
-    parts = [Part(html=element("form", field, cls="finder", role="search", aria_label="Find in the index"))]
-    parts.append(Part("Error numbers", "error-numbers", html=_list(_errors())))
-    parts.append(Part("Rows of the apparatus", "rows", html=_list(_rows())))
-    parts.append(Part("Names", "names", html=_list(_names())))
-    for name in programs.NAMES:
-        parts.append(Part(f"Cards of {name}", f"cards-{name}", html=_list(_cards(name))))
-    return Made(tuple(parts))
+    form = element("form", field, cls="finder", role="search", aria_label="Find in the index")
+    lists = (
+        Part("Error numbers", "error-numbers", html=_list(_errors())),
+        Part("Rows of the apparatus", "rows", html=_list(_rows())),
+        Part("Names", "names", html=_list(_names())),
+    )
+    cards = (Part(f"Cards of {name}", f"cards-{name}", html=_list(_cards(name))) for name in programs.NAMES)
+    return Made((Part(html=form), *lists, *cards))
 
 
 def _list(items: Iterable[tuple[str, str]]) -> str:
@@ -45,16 +45,10 @@ def _errors() -> Iterable[tuple[str, str]]:
 def _rows() -> Iterable[tuple[str, str]]:
     for name in programs.TEXTS:
         for row in programs.text(name).rows:
-            yield (
-                link(page_of(row), row.id, row.id),
-                f"{row.layer}, {row.kind}, {row.certainty}: {programs.cards_of(row)}",
-            )
-
-
-def page_of(row: Row) -> str:
-    """Return the page that shows a row: that of its listing, or that of the state of the examples."""
-    listed = {other.id for other in facing(row.text).rows()}
-    return row.text if row.id in listed else f"{row.text}_examples"
+            # The state of the examples shows the rows that its listing does not have.
+            page = name if row in facing(name).rows() else f"{name}_examples"
+            description = f"{row.layer}, {row.kind}, {row.certainty}: {programs.cards_of(row)}"
+            yield link(page, row.id, row.id), description
 
 
 def _names() -> Iterable[tuple[str, str]]:

@@ -8,7 +8,7 @@ from modern.publication.chart_svg import chart_svg
 from modern.publication.facing import facing
 from modern.publication.flow import Box, Flow, flow
 from modern.publication.site.made import Made, Part, Target, one_of
-from modern.publication.site.markup import address, element, escape, link, table, text
+from modern.publication.site.markup import address, details, element, escape, link, table, text
 from modern.publication.site.pictures import inline
 
 _ORIGIN = "Drawn from the compiled program. The charts of the thesis are lost."
@@ -20,19 +20,16 @@ def make(argument: str) -> Made:
     control_flow = flow(programs.program(name))
     drawn = chart(control_flow)
     parts: list[Part] = []
-    for page in range(1, len(drawn.pages) + 1):
-        svg = inline(
-            chart_svg(drawn, page, lambda box: address(name, _place(name, box))), f"{name}-{page}", "flow", 125
-        )
-        first, last = (control_flow.boxes[drawn.pages[page - 1].boxes[n].box] for n in (0, -1))
+    targets: list[Target] = []
+    for page, sheet in enumerate(drawn.pages, 1):
+        picture = chart_svg(drawn, page, lambda box: address(name, _place(name, box)))
+        svg = inline(picture, f"{name}-{page}", "flow", 125)
+        first, last = (control_flow.boxes[sheet.boxes[n].box] for n in (0, -1))
         caption = f"Sheet {page} of {len(drawn.pages)}: from {first.name} to {last.name}. {_ORIGIN}"
         html = element("figure", svg + text("figcaption", caption), cls="chart")
         parts.append(Part(f"Sheet {page}", f"sheet-{page}", html=html))
+        targets.append(Target(f"sheet-{page}", f"chart {name} {page}", f"flow chart of {name}, sheet {page}"))
     parts.append(Part("Table of transitions", "ways", html=_transitions(name, control_flow)))
-    targets = [
-        Target(f"sheet-{page}", f"chart {name} {page}", f"flow chart of {name}, sheet {page}")
-        for page in range(1, len(drawn.pages) + 1)
-    ]
     return Made(tuple(parts), tuple(targets))
 
 
@@ -49,8 +46,5 @@ def _transitions(name: str, control_flow: Flow) -> str:
         for box in control_flow.boxes
         for way in box.exits
     ]
-    return element(
-        "details",
-        text("summary", f"{len(rows)} transitions between boxes")
-        + table(("from", "condition", "to"), rows, "Transitions between boxes"),
-    )
+    transitions = table(("from", "condition", "to"), rows, "Transitions between boxes")
+    return details(f"{len(rows)} transitions between boxes", transitions)

@@ -10,40 +10,36 @@ from modern.drawing.punched import cards_svg
 from modern.drawing.stages import frames, strip
 from modern.edition.chapter6 import EXAMPLES, input_deck
 from modern.edition.programs import program
-from modern.edition.reproduce import EXACT, ORDER, Report
+from modern.edition.reproduce import Report
 from modern.formats.points import parse_input
-from modern.geometry.hull import Hull
 from modern.geometry.mesh import ExportError
 from modern.port import convex_hull
-from modern.publication.examples import TITLES, Part, Shown, Source, example, homes, rest
+from modern.publication.examples import TITLES, VERDICTS, Part, Shown, Source, example, homes, rest
 from modern.publication.measured import runs
-from modern.publication.site.entries import entry
+from modern.publication.site.entries import column, entry, sign, witness_line
 from modern.publication.site.made import Made, Target, one_of
 from modern.publication.site.made import Part as Section
-from modern.publication.site.markup import definitions, element, escape, link, marked, table, text
+from modern.publication.site.markup import definitions, details, element, escape, link, marked, table, text
 from modern.publication.site.pictures import figure
 
-VERDICTS = {EXACT: "identical", ORDER: "the same hull in another order"}
 STATES = {"examples": "program 1 in the state that ran the examples", "listing": "program 1 as listed"}
 
 
 def make(argument: str) -> Made:
     """Return the example of that number; for ``rest``, the rows of chapter 6 that belong to no example."""
     if one_of(argument, ("rest", *map(str, EXAMPLES))) == "rest":
-        html = "".join(entry(row, (), "examples") for row in rest())
-        return Made(
-            (Section("Rows that concern no card", "rest", html=html),), tuple(_target(row.id) for row in rest())
+        section = Section(
+            "Rows that concern no card", "rest", html="".join(entry(row, (), "examples") for row in rest())
         )
+        return Made((section,), tuple(_target(row.id) for row in rest()))
     number = int(argument)
     parts = example(number)
     sections = [Section("Verdict", "verdict", html=_verdicts(parts)), *_pictures(number)]
     targets: list[Target] = []
     for part in parts:
-        title = f"Program {part.program}: {TITLES[part.device]}"
-        sections.append(Section(title, part.id, html=_part(part)))
-        targets.append(Target(part.id, f"example {number} {part.id}", f"example {number}, {title.lower()}"))
-        first_shown = (row.id for row in part.rows if homes()[row.id] == (number, part.id))
-        targets += [_target(row) for row in first_shown]
+        sections.append(Section(part.title, part.id, html=_part(part)))
+        targets.append(Target(part.id, f"example {number} {part.id}", f"example {number}, {part.title.lower()}"))
+        targets += [_target(row.id) for row in part.rows if homes()[row.id] == (number, part.id)]
     sections.append(Section("Time on the 1620", "time", html=_time(number)))
     return Made(tuple(sections), tuple(targets))
 
@@ -53,22 +49,14 @@ def _target(row: str) -> Target:
 
 
 def _verdicts(parts: tuple[Part, ...]) -> str:
-    rows = [
-        (
-            link_to(part, f"program {part.program}, {TITLES[part.device]}"),
-            *(_verdict(report) for report in sorted(part.reports, key=lambda r: r.state)),
-        )
-        for part in parts
-        if part.reports
-    ]
+    rows = []
+    for part in parts:
+        if part.reports:
+            name = text("a", f"program {part.program}, {TITLES[part.device]}", href=f"#{part.id}")
+            rows.append((name, *map(_verdict, part.reports)))
     head = ("printed or stated result", *(STATES[state] for state in sorted(STATES)))
     command = text("code", f"hull1620 reproduce {parts[0].example} --show")
     return table(head, rows, name="Verdicts") + element("p", f"To reproduce this comparison: {command}.")
-
-
-def link_to(part: Part, words: str) -> str:
-    """Return a link to a device on the same page."""
-    return text("a", words, href=f"#{part.id}")
 
 
 def _verdict(report: Report) -> str:
@@ -84,75 +72,52 @@ def _pictures(number: int) -> Iterator[Section]:
     deck = input_deck(number)
     points = parse_input(deck.text(), f"example{number}").points
     hull = convex_hull(points, "exact", history=True, on_refusal="return")
-    drawn = figure(
-        draw_svg(hull, width=520), f"hull{number}", "The hull in exact arithmetic. The programs punch the same hull."
-    )
-    punched = element(
-        "details",
-        text("summary", f"The {len(deck.cards)} cards of the input deck as punched cards")
-        + figure(cards_svg(deck, title=f"the input deck of example {number}"), f"deck{number}", "", "punched"),
-    )
-    yield Section("The hull", "hull", html=drawn + punched)
-    construction = _construction(hull, number)
-    if construction:
-        yield Section("The construction", "construction", html=construction)
-
-
-def _construction(hull: Hull, number: int) -> str:
+    caption = "The hull in exact arithmetic. The programs punch the same hull."
+    drawn = figure(draw_svg(hull, width=520), f"hull{number}", caption)
+    punched = figure(cards_svg(deck, title=f"the input deck of example {number}"), f"deck{number}", "", "punched")
+    summary = f"The {len(deck.cards)} cards of the input deck as punched cards"
+    yield Section("The hull", "hull", html=drawn + details(summary, punched))
     try:
         stages = frames(hull)
     except ExportError:
-        return ""
+        return
     steps = "".join(text("li", "; ".join(filter(None, stage.caption))) for stage in stages)
     caption = "The hulls H1 to Hf, each with the vertex that was added, all from the same direction."
-    return figure(strip(stages), f"stages{number}", caption) + element("ol", steps, cls="steps")
+    construction = figure(strip(stages), f"stages{number}", caption) + element("ol", steps, cls="steps")
+    yield Section("The construction", "construction", html=construction)
 
 
 def _part(part: Part) -> str:
     head = ("witness", "corrected print", *(("run",) if part.reports else ()))
-    note = "The thesis describes these lines but does not print them." if part.stated else ""
-    cards = "".join(_card(card, part) for card in part.cards)
+    html = text("p", "The thesis describes these lines but does not print them.") if part.stated else ""
     top = element("div", "".join(text("span", name) for name in head), cls="print-head", aria_hidden="true")
-    html = (text("p", note) if note else "") + element(
-        "div", top + element("ol", cards, cls="print-cards"), cls=f"print columns-{len(head)}"
-    )
+    cards = element("ol", "".join(_card(card, part) for card in part.cards), cls="print-cards")
+    html += element("div", top + cards, cls=f"print columns-{len(head)}")
     if part.rows:
         shown_here = [row for row in part.rows if homes()[row.id] == (part.example, part.id)]
         rows = "".join(entry(row, (), f"example{part.example}") for row in shown_here)
         shown_elsewhere = [link(f"example{homes()[r.id][0]}", r.id, r.id) for r in part.rows if r not in shown_here]
         if shown_elsewhere:
             rows += element("p", f"And {', '.join(shown_elsewhere)}, which also concern other cards.")
-        summary = text("summary", f"{len(part.rows)} rows of the apparatus correct the witness of this print")
-        html += element("details", summary + rows, cls="rows-of-print")
+        summary = f"{len(part.rows)} rows of the apparatus correct the witness of this print"
+        html += details(summary, rows, cls="rows-of-print")
     return html
 
 
 def _card(card: Shown, part: Part) -> str:
-    continued = (
-        text("span", f"line {', '.join(card.continued)} continued", cls="quiet")
-        if card.continued and not card.sources
-        else ""
-    )
-    left = (
-        "".join(map(_source, card.sources)) or continued or text("span", "blank" if not card.print else "", cls="quiet")
-    )
-    cells = [element("div", text("span", "Witness ", cls="sr") + left, cls="witness")]
-    cells.append(element("div", text("span", "Print ", cls="sr") + text("code", card.print or " "), cls="corrected"))
+    note = f"line {', '.join(card.continued)} continued" if card.continued else "" if card.print else "blank"
+    witness = "".join(map(_source, card.sources)) or text("span", note, cls="quiet")
+    cells = column("Witness", witness) + column("Print", text("code", card.print or " "), "corrected")
     if card.run is not None:
-        sign = "=" if not card.differs else "\u2260"
-        comparison = "the same" if not card.differs else "differs"
-        mark = element("span", sign, cls="sign", title=comparison, role="img", aria_label=comparison)
-        code = element("code", marked(card.run or " ", card.differs, "ins"))
-        cells.append(element("div", text("span", "Run ", cls="sr") + mark + code, cls="run"))
-    return element("li", "".join(cells), id=f"{part.id}-{card.number}")
+        comparison = sign("\u2260", "differs") if card.differs else sign("=", "the same")
+        cells += column("Run", comparison + element("code", marked(card.run or " ", card.differs, "ins")))
+    return element("li", cells, id=f"{part.id}-{card.number}")
 
 
 def _source(source: Source) -> str:
-    where = f"p. {source.page}, line {source.line} of the witness, {source.at} of the thesis's OCR text"
-    number = text("span", source.line, cls="line", title=where)
-    line_text = source.text.replace("\t", "  ")
     spans = source.changed if "\t" not in source.text else ()
-    return element("span", number + element("code", marked(line_text, spans, "del")), cls="piece")
+    code = element("code", marked(source.text.replace("\t", "  "), spans, "del"))
+    return witness_line(source.page, source.line, source.at, code)
 
 
 def _time(number: int) -> str:
@@ -160,19 +125,11 @@ def _time(number: int) -> str:
     for name in ("program1_examples", "program2", "program3"):
         for run in runs(name):
             if run.example == number:
-                rows.append(
-                    (
-                        link(name, "", program(name).source),
-                        f"{run.statements:,}",
-                        _seconds(run.seconds),
-                        _seconds(run.total),
-                    )
-                )
+                times = (f"{run.statements:,}", _seconds(run.seconds), _seconds(run.total))
+                rows.append((link(name, "", program(name).source), *times))
     head = ("program", "statements", "processor", "with reader, punch and typewriter, without overlap")
-    note = definitions(
-        (("how sure", "within ten per cent where IBM gives times; the rest are estimates"),), cls="facts"
-    )
-    return table(head, rows, name="Time on a 1620 Model 1") + note
+    accuracy = (("how sure", "within ten per cent where IBM gives times; the rest are estimates"),)
+    return table(head, rows, name="Time on a 1620 Model 1") + definitions(accuracy, cls="facts")
 
 
 def _seconds(seconds: float) -> str:

@@ -9,23 +9,21 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from modern.edition import programs
-from modern.edition.apparatus import Row
 from modern.publication.facing import Card, Facing, Piece, Variant, facing
-from modern.publication.measured import DETECTED_BY, Run, runs, weights
-from modern.publication.site.entries import entry
+from modern.publication.measured import DETECTED_BY, runs, weights
+from modern.publication.site.entries import column, entry, sign, witness_line
 from modern.publication.site.made import Made, Part, Target, one_of
-from modern.publication.site.markup import code, definitions, element, escape, link, text
-from modern.publication.site.pages.symbols import symbols
+from modern.publication.site.markup import bar, code, definitions, details, element, escape, link, preformatted, text
+from modern.publication.site.pages import symbols
 from modern.publication.tei import LAYERS
-from modern.publication.uses import Jump, uses
+from modern.publication.uses import uses
 
-SIGNS = {"ours": "+", "changed": "\u2260", "blanks": "\u2423"}
-"""The sign of a card that is not in the witness, differs from it, or differs in blanks only."""
-SIGN_MEANINGS = {
-    "ours": "not in the witness",
-    "changed": "differs from the witness",
-    "blanks": "differs from the witness in blanks only",
+SIGNS = {
+    "changed": ("\u2260", "differs from the witness"),
+    "blanks": ("\u2423", "differs from the witness in blanks only"),
+    "ours": ("+", "not in the witness"),
 }
+"""The kinds of difference between a card and the witness, each with its sign and meaning."""
 
 
 def make(argument: str) -> Made:
@@ -34,13 +32,14 @@ def make(argument: str) -> Made:
     listing = facing(name)
     first_cards = {row.id: cards[0] for row in listing.rows() if (cards := listing.cards_of(row.id))}
     parts = [Part(html=_controls(listing))]
+    titles = ("place", "witness: line and text", "deck", "executions, time")
+    head = element("div", "".join(text("span", title) for title in titles), cls="card-head", aria_hidden="true")
     if listing.everywhere or listing.dropped:
         parts.append(Part("Rows that concern most cards", "everywhere", html=_everywhere(listing)))
     for page, cards in listing.pages():
         items = "".join(_card(listing, card, first_cards) for card in cards)
-        html = _head() + element("ol", items, cls="cards")
-        parts.append(Part(f"Page {page}", f"page-{page}", html=html))
-    tables = symbols(name)
+        parts.append(Part(f"Page {page}", f"page-{page}", html=head + element("ol", items, cls="cards")))
+    tables = symbols.make(name)
     return Made((*parts, *tables.parts), (*_targets(listing), *tables.targets))
 
 
@@ -65,57 +64,36 @@ def _controls(listing: Facing) -> str:
     name = listing.program
     present = [layer for layer in listing.text.layers if any(row.layer == layer for row in listing.rows())]
     shown = programs.built_in(name).layers
-    layers = "".join(_choice("checkbox", f"layer-{n}", "layer", n, n in shown, n, LAYERS[n]) for n in present)
-    chosen = runs(name)
-    default = chosen[-1].example
-    examples = "".join(
-        _choice("radio", f"example-{run.example}", "example", str(run.example), run.example == default, *_run(run))
-        for run in chosen
-    )
-    html = element("fieldset", text("legend", "Layers") + layers)
-    html += element("fieldset", text("legend", "Executions and time: example") + examples)
-    key = definitions(
-        (
-            (SIGNS["changed"], escape(SIGN_MEANINGS["changed"])),
-            (SIGNS["blanks"], escape(SIGN_MEANINGS["blanks"])),
-            (SIGNS["ours"], escape(SIGN_MEANINGS["ours"])),
-        ),
-        cls="key",
-    )
+    html = text("legend", "Layers")
+    for layer in present:
+        html += _choice("checkbox", "layer", layer, layer in shown, LAYERS[layer])
+    examples = text("legend", "Executions and time: example")
+    for run in runs(name):
+        times = f"{run.seconds:.0f} s of processor time, {run.total:.0f} s in total"
+        is_default = run is runs(name)[-1]
+        examples += _choice("radio", "example", str(run.example), is_default, f"{run.statements} statements, {times}")
+    html = element("fieldset", html) + element("fieldset", examples)
+    key = definitions(((character, escape(meaning)) for character, meaning in SIGNS.values()), cls="key")
     keys = element("p", "Press <kbd>n</kbd> for the next emendation and <kbd>p</kbd> for the previous one.", cls="keys")
     return element("div", html + key + keys, cls="controls", role="group", aria_label="Display options")
 
 
-def _choice(kind: str, id: str, name: str, value: str, checked: bool, label: str, title: str) -> str:
-    box = element("input", type=kind, id=id, name=name, value=value, checked=checked)
-    return element("label", box + " " + text("span", label), title=title)
-
-
-def _run(run: Run) -> tuple[str, str]:
-    """Return the label and the title of an example's control."""
-    times = f"{run.seconds:.0f} s of processor time, {run.total:.0f} s in total"
-    return str(run.example), f"{run.statements} statements, {times}"
+def _choice(kind: str, name: str, value: str, checked: bool, title: str) -> str:
+    box = element("input", type=kind, id=f"{name}-{value}", name=name, value=value, checked=checked)
+    return element("label", box + " " + text("span", value), title=title)
 
 
 def _everywhere(listing: Facing) -> str:
     html = "".join(element("div", entry(row, (), listing.program), cls="panel") for row in listing.everywhere)
     for row_id, pieces in listing.dropped:
         lines = "\n".join(f"{piece.line:>4}  {piece.text}" for piece in pieces)
-        html += element(
-            "details",
-            text("summary", f"{row_id} replaces {len(pieces)} lines of the witness")
-            + element("pre", escape(lines), tabindex="0", aria_label="lines of the witness"),
-            cls="dropped",
-        )
+        summary = f"{row_id} replaces {len(pieces)} lines of the witness"
+        html += details(summary, preformatted(lines, "lines of the witness"), cls="dropped")
     return html
 
 
-def _head() -> str:
-    names = ("place", "witness: line and text", "deck", "executions, time")
-    return element("div", "".join(text("span", name) for name in names), cls="card-head", aria_hidden="true")
-
-
-def _sign(card: Card) -> str:
+def _difference(card: Card) -> str:
+    """Return the key of :data:`SIGNS` for a card, or an empty string if it equals the witness."""
     if not card.witness:
         return "ours"
     if card.changed or any(piece.changed for piece in card.witness):
@@ -125,40 +103,24 @@ def _sign(card: Card) -> str:
 
 def _card(listing: Facing, card: Card, first_cards: dict[str, Card]) -> str:
     """Return a card with its address, witness, deck and details."""
-    sign = _sign(card)
-    number = text(
-        "a", card.place, href=f"#{card.place}", cls="place", title=f"card {card.number}: its permanent address"
-    )
-    left = "".join(_piece(piece) for piece in card.witness) or text("span", SIGN_MEANINGS["ours"], cls="none")
-    witness = element("div", text("span", "Witness ", cls="sr") + left, cls="witness")
-    card_html = code(card.text, card.changed if card.witness else (), "ins")
-    card_html += text("span", str(card.number), cls="number", title="card of the deck")
-    mark = (
-        element("span", SIGNS[sign], cls="sign", title=SIGN_MEANINGS[sign], role="img", aria_label=SIGN_MEANINGS[sign])
-        if sign
-        else ""
-    )
-    deck = element("div", text("span", "Deck ", cls="sr") + mark + card_html, cls="deck")
-    variants = "".join(_variant(listing, variant) for variant in card.variants)
-    names = " ".join([card.kind, *(f"of-{layer}" for layer in card.layers), *([sign] if sign else []), *_tall(card)])
-    also = "".join(element("span", "", id=place, cls="also-at") for place in card.also)
-    return element(
-        "li",
-        also + number + witness + deck + _details(listing, card, first_cards) + variants,
-        cls=f"card {names}",
-        id=card.place,
-    )
-
-
-def _tall(card: Card) -> tuple[str, ...]:
-    """Return the CSS class that makes room for the ids of the rows in the margin."""
-    return ("many",) if len(card.rows) > 1 else ("noted",) if card.rows else ()
+    difference = _difference(card)
+    html = "".join(element("span", "", id=place, cls="also-at") for place in card.also)
+    title = f"card {card.number}: its permanent address"
+    html += text("a", card.place, href=f"#{card.place}", cls="place", title=title)
+    html += column("Witness", "".join(map(_piece, card.witness)) or text("span", SIGNS["ours"][1], cls="none"))
+    deck = sign(*SIGNS[difference]) if difference else ""
+    deck += code(card.text, card.changed if card.witness else (), "ins")
+    html += column("Deck", deck + text("span", str(card.number), cls="number", title="card of the deck"))
+    html += _details(listing, card, first_cards)
+    html += "".join(_variant(listing, variant) for variant in card.variants)
+    # The class many or noted makes room for the ids of the rows in the margin.
+    noted = "many" if len(card.rows) > 1 else "noted" if card.rows else ""
+    classes = ("card", card.kind, *(f"of-{layer}" for layer in card.layers), difference, noted)
+    return element("li", html, cls=" ".join(filter(None, classes)), id=card.place)
 
 
 def _piece(piece: Piece) -> str:
-    where = f"p. {piece.page}, line {piece.line} of the witness, {piece.source} of the thesis's OCR text"
-    number = text("span", str(piece.line), cls="line", title=where)
-    return element("span", number + code(piece.text, piece.changed, "del"), cls="piece")
+    return witness_line(piece.page, piece.line, piece.source, code(piece.text, piece.changed, "del"))
 
 
 def _variant(listing: Facing, variant: Variant) -> str:
@@ -170,10 +132,13 @@ def _variant(listing: Facing, variant: Variant) -> str:
 
 def _details(listing: Facing, card: Card, first_cards: dict[str, Card]) -> str:
     """Return the details of a card below the margin: rows, jumps, names and the weight of evidence."""
-    touching = [*card.rows, *(row for variant in card.variants for row in variant.rows)]
-    here = [listing.text.row(name) for name in dict.fromkeys(touching) if first_cards[name] is card]
-    there = [name for name in dict.fromkeys(touching) if first_cards[name] is not card]
-    inner = "".join(entry(row, _addresses(listing, row), listing.program) for row in here)
+    inner, there = "", []
+    for name in card.concerned:
+        if first_cards[name] is card:
+            addresses = [(other.place, other.place) for other in listing.cards_of(name)]
+            inner += entry(listing.text.row(name), addresses, listing.program)
+        else:
+            there.append(name)
     if there:
         links = ", ".join(link(listing.program, name, name) for name in there)
         inner += element("p", f"Also concerned: {links}.", cls="also")
@@ -182,10 +147,6 @@ def _details(listing: Facing, card: Card, first_cards: dict[str, Card]) -> str:
     summary = (text("span", shown, cls="rows") if shown else "") + _margin(listing, card)
     summary += text("span", f" details of card {card.place}", cls="sr")
     return element("details", element("summary", summary) + element("div", inner, cls="panel"), cls="about")
-
-
-def _addresses(listing: Facing, row: Row) -> list[tuple[str, str]]:
-    return [(card.place, card.place) for card in listing.cards_of(row.id)]
 
 
 def _margin(listing: Facing, card: Card) -> str:
@@ -209,37 +170,32 @@ def _seconds(seconds: float) -> str:
 
 def _facts(listing: Facing, card: Card) -> str:
     known = uses(listing.program)
-    by_number = {other.number: other for other in listing.cards}
     weight = weights(listing.program).get(card.number)
 
     def to(number: int, condition: str = "") -> str:
-        place = by_number[number].place
+        place = listing.cards[number - 1].place
         return link(listing.program, place, place) + (f" ({escape(condition)})" if condition else "")
 
-    def joined(jumps: list[Jump], end: str) -> str:
-        return ", ".join(to(getattr(jump, end), jump.taken) for jump in jumps)
+    def come(kind: str) -> str:
+        return ", ".join(to(jump.card, jump.taken) for jump in known.to(card.number) if jump.kind == kind)
 
-    comes = [jump for jump in known.to(card.number) if jump.kind == "jump"]
-    goes = [jump for jump in known.jumps if jump.card == card.number and jump.kind == "jump"]
-    ends = [jump for jump in known.jumps if jump.card == card.number and jump.kind == "again"]
-    starts = [jump for jump in known.to(card.number) if jump.kind == "again"]
-    forms = [jump for jump in known.jumps if jump.card == card.number and jump.kind == "format"]
-    users = [jump for jump in known.to(card.number) if jump.kind == "format"]
+    def go(kind: str) -> str:
+        jumps = (jump for jump in known.jumps if jump.card == card.number and jump.kind == kind)
+        return ", ".join(to(jump.target, jump.taken) for jump in jumps)
+
     names = ", ".join(link(listing.program, f"name-{name}", name) for name in known.of(card.number))
-    return definitions(
-        (
-            ("card", f"{card.number} of {len(listing.cards)}; p. {card.page}"),
-            ("reached from", joined(comes, "card")),
-            ("goes to", joined(goes, "target")),
-            ("ends the loop that begins at", joined(ends, "target")),
-            ("the loop ends at", joined(starts, "card")),
-            ("FORMAT", joined(forms, "target")),
-            ("used by", joined(users, "card")),
-            ("names", names),
-            ("altered readings", _weight(weight.detected, weight.formula) if weight else ""),
-        ),
-        cls="facts",
+    facts = (
+        ("card", f"{card.number} of {len(listing.cards)}; p. {card.page}"),
+        ("reached from", come("jump")),
+        ("goes to", go("jump")),
+        ("ends the loop that begins at", go("again")),
+        ("the loop ends at", come("again")),
+        ("FORMAT", go("format")),
+        ("used by", come("format")),
+        ("names", names),
+        ("altered readings", _weight(weight.detected, weight.formula) if weight else ""),
     )
+    return definitions(facts, cls="facts")
 
 
 def _weight(detected: tuple[int, ...], formula: str) -> str:
@@ -249,10 +205,5 @@ def _weight(detected: tuple[int, ...], formula: str) -> str:
         for check, count in zip(DETECTED_BY, detected, strict=True)
         if count
     )
-    bar = "".join(
-        element("span", "", cls=f"w-{check}", style=f"flex-grow:{count}")
-        for check, count in zip(DETECTED_BY, detected, strict=True)
-        if count
-    )
     sentence = f"{sum(detected)}: {counts}" + (f"; computes {formula}" if formula else "")
-    return escape(sentence) + element("span", bar, cls="weight", aria_hidden="true")
+    return escape(sentence) + bar((f"w-{check}", count) for check, count in zip(DETECTED_BY, detected, strict=True))

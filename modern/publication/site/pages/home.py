@@ -21,10 +21,10 @@ from modern.publication.chart_svg import chart_svg
 from modern.publication.facing import Card, facing
 from modern.publication.flow import flow
 from modern.publication.site.made import Made, Part, one_of
-from modern.publication.site.markup import address, element, escape, link, marked, table, text
+from modern.publication.site.markup import address, bar, element, escape, link, marked, preformatted, table, text
+from modern.publication.site.pages.statements import SIGNS
 from modern.publication.site.pictures import figure
 
-SIGNS = {"holds": "\u2713", "holds with a condition": "(\u2713)", "does not hold": "\u2717", "not testable": "\u2013"}
 _SHOWN = ("105+3", "130", "131+2", "143", "167")
 """Cards of program 3 that the OCR misread visibly."""
 
@@ -42,61 +42,42 @@ def _pictures() -> str:
     caption = f"The damaged text and the cards restored from it: {page}, card by card."
     restored = element("figure", element("div", rows, cls="mended") + element("figcaption", caption))
     card = cards["105+3"]
-    punched = figure(
-        cards_svg(Deck("program3.f", (programs.deck("program3").cards[card.number - 1],)), title="a punched card"),
-        "card",
-        f"Statement {link('program3', card.place, card.place)} of program 3 as a punched card.",
-        "punched",
-    )
+    deck = Deck("program3.f", (programs.deck("program3").cards[card.number - 1],))
+    caption = f"Statement {link('program3', card.place, card.place)} of program 3 as a punched card."
+    punched = figure(cards_svg(deck, title="a punched card"), "card", caption, "punched")
     points = parse_input(input_deck(6).text(), "example6").points
     hull = convex_hull(points, "exact", on_refusal="return")
-    drawn = figure(
-        draw_svg(hull), "hull", "The hull of example 6 in exact arithmetic. The programs punch the same hull."
+    caption = "The hull of example 6 in exact arithmetic. The programs punch the same hull."
+    drawn = figure(draw_svg(hull), "hull", caption)
+    sheet = chart_svg(chart(flow(programs.program("program3"))), 1, lambda box: address("chart3", "sheet-1"))
+    caption = (
+        f"{link('charts', '', 'Flow charts')} drawn from the compiled programs. The charts of the thesis are lost."
     )
-    sheet = figure(
-        chart_svg(chart(flow(programs.program("program3"))), 1, lambda box: address("chart3", "sheet-1")),
-        "chart",
-        f"{link('charts', '', 'Flow charts')} drawn from the compiled programs. The charts of the thesis are lost.",
-        "flow",
-    )
-    return element("div", restored + punched + drawn + sheet, cls="plates broad")
+    return element("div", restored + punched + drawn + figure(sheet, "chart", caption, "flow"), cls="plates broad")
 
 
 def _restored(card: Card) -> str:
     """Show the witness's reading of a card next to the restored card."""
     piece = card.witness[0]
-    left = element("code", marked(piece.text.strip(), _shifted(piece.text, piece.changed), "del"))
-    right = element("code", marked(card.text, card.changed, "ins"))
-    return element("div", left + element("span", "\u2192", cls="sign", aria_hidden="true") + right)
-
-
-def _shifted(text: str, spans: tuple[tuple[int, int], ...]) -> list[tuple[int, int]]:
-    """Move spans of a text to where they are without the leading blanks."""
-    blanks = len(text) - len(text.lstrip())
-    return [(first - blanks, last - blanks) for first, last in spans]
+    blanks = len(piece.text) - len(piece.text.lstrip())
+    changed = [(first - blanks, last - blanks) for first, last in piece.changed]
+    before = element("code", marked(piece.text.strip(), changed, "del"))
+    after = element("code", marked(card.text, card.changed, "ins"))
+    return element("div", before + element("span", "\u2192", cls="sign", aria_hidden="true") + after)
 
 
 def _verdicts() -> str:
     """Return the numbers of verdicts for the five documents, and the comparison of the printed examples."""
     rows = []
+    signs = {verdict: text("span", SIGNS[verdict], cls="quiet", aria_hidden="true") for verdict in VERDICTS}
     for name in DOCUMENTS:
-        document = next(
-            document
-            for document in sources().documents
-            if document.id.startswith(name) or (name == THESIS and "thesis" in document.kind)
-        )
+        prefix = "butler" if name == THESIS else name
+        document = next(document for document in sources().documents if document.id.startswith(prefix))
         count = Counter(row.verdict for row in statements_of(name))
-        cells = [
-            f"{count[verdict]}&nbsp;{text('span', SIGNS[verdict], cls='quiet', aria_hidden='true')}"
-            for verdict in VERDICTS
-        ]
-        bar = "".join(
-            element("span", "", cls=f"v-{at}", style=f"flex-grow:{count[verdict]}")
-            for at, verdict in enumerate(VERDICTS)
-            if count[verdict]
-        )
+        cells = (f"{count[verdict]}&nbsp;{sign}" for verdict, sign in signs.items())
+        shares = bar((f"v-{at}", count[verdict]) for at, verdict in enumerate(VERDICTS))
         document_link = f"{escape(document.author)} {link(f'statements/{name}', '', document.title)}"
-        rows.append((document_link, *cells, element("span", bar, cls="weight", aria_hidden="true")))
+        rows.append((document_link, *cells, shares))
     statements = table(("document", *VERDICTS, "share"), rows, "Verdicts", "Statements of the five documents")
     return statements + _examples()
 
@@ -106,12 +87,8 @@ def _examples() -> str:
     examples = []
     for example in EXAMPLES:
         ok, exact, reordered, different = summary(reproduce((example,), states=("examples",)))
-        if different:
-            verdict = "different"
-        elif ok and not reordered:
-            verdict = "exact"
-        else:
-            verdict = f"{exact} exact, {reordered} in another order"
+        verdict = "exact" if ok and not reordered else f"{exact} exact, {reordered} in another order"
+        verdict = "different" if different else verdict
         examples.append(element("li", link(f"example{example}", "", f"Example {example}") + escape(f": {verdict}")))
     head = text("p", "The printed results of the six examples in chapter 6, compared with today's runs:")
     return head + element("ul", "".join(examples), cls="examples")
@@ -126,16 +103,9 @@ def _programs() -> str:
         rows_used = [row for row in listing.rows() if row.layer in built_in.layers]
         certainty = Counter(row.certainty for row in rows_used)
         counts = ", ".join(f"{certainty[c]} {c}" for c in ("certain", "probable", "conjecture") if certainty[c])
-        chart_page = built_in.name.replace("program", "chart")
-        rows.append(
-            (
-                link(built_in.name, "", built_in.title),
-                text("span", f"{pages[0]}\u2013{pages[-1]}", cls="whole"),
-                str(len(listing.cards)),
-                f"{len(rows_used)}: {counts}",
-                link(chart_page, "", "flow chart"),
-            )
-        )
+        title, page_range = link(built_in.name, "", built_in.title), f"{pages[0]}\u2013{pages[-1]}"
+        cells = (title, text("span", page_range, cls="whole"), str(len(listing.cards)), f"{len(rows_used)}: {counts}")
+        rows.append((*cells, link(built_in.name.replace("program", "chart"), "", "flow chart")))
     return table(("program", "pages", "cards", "emendations", "control flow"), rows, "Programs")
 
 
@@ -148,20 +118,13 @@ def _cite() -> str:
         f"@software{{hull1620,\n  author  = {{{{{author}}}}},\n  title   = {{{fields['title']}}},\n"
         f"  version = {{{fields['version']}}},\n  year    = {{{year}}}\n}}"
     )
-    decks = [
-        (text("code", f"{name}.f"), str(len(programs.deck(name).cards)), text("code", _digest(name)))
-        for name in programs.NAMES
-    ]
-    hashes = table(("deck", "cards", "SHA-256"), decks, "Hashes", "The decks of this edition")
-    inner = element("blockquote", text("p", reference)) + element(
-        "pre", escape(bibtex), tabindex="0", aria_label="BibTeX"
-    )
-    addresses = (
-        f"Cite a card by its address, such as {text('code', 'program3.html#147+2')}, "
-        "and a row of the apparatus by its id."
-    )
-    return inner + element("p", addresses) + hashes
-
-
-def _digest(name: str) -> str:
-    return hashlib.sha256(programs.deck(name).text().encode("ascii")).hexdigest()
+    rows = []
+    for name in programs.NAMES:
+        deck = programs.deck(name)
+        digest = hashlib.sha256(deck.text().encode("ascii")).hexdigest()
+        rows.append((text("code", f"{name}.f"), str(len(deck.cards)), text("code", digest)))
+    hashes = table(("deck", "cards", "SHA-256"), rows, "Hashes", "The decks of this edition")
+    card = text("code", "program3.html#147+2")
+    addresses = f"Cite a card by its address, such as {card}, and a row of the apparatus by its id."
+    citations = element("blockquote", text("p", reference)) + preformatted(bibtex, "BibTeX")
+    return citations + element("p", addresses) + hashes

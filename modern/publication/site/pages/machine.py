@@ -13,7 +13,7 @@ from modern.publication import core
 from modern.publication.core import ARRAY, CORE, CoreMap, Region, core_map
 from modern.publication.measured import Run, runs
 from modern.publication.site.made import Made, Part, one_of
-from modern.publication.site.markup import element, escape, link, table, text
+from modern.publication.site.markup import details, element, escape, link, table, text
 from modern.publication.site.pictures import figure
 
 PER_PIXEL = 50
@@ -21,14 +21,8 @@ PER_PIXEL = 50
 _LEFT, _WIDE = 42, 104
 _TOP, _FOOT = 8, 8
 _FONT = f'font-family="{svg.FONT}" font-size="9.5" fill="#000"'
-_GREYS = {
-    core.SYSTEM: "#b4b4b4",
-    core.PROGRAM: "#dcdcdc",
-    core.FREE: "#fff",
-    core.ARRAY: "#f0f0f0",
-    core.SINGLE: "#c8c8c8",
-    core.NAMES: "#555",
-}
+_KINDS = (core.SYSTEM, core.PROGRAM, core.FREE, core.ARRAY, core.SINGLE, core.NAMES)
+_GREYS = dict(zip(_KINDS, ("#b4b4b4", "#dcdcdc", "#fff", "#f0f0f0", "#c8c8c8", "#555"), strict=True))
 _LINE, _TWO_LINES = 9, 26
 """The smallest heights in pixels for a region with its name, and with its name and size on two lines."""
 
@@ -43,15 +37,11 @@ PARTS = {
 }
 """The parts of a bar, each with the causes in the time table that it adds up."""
 _FILLS = ("#222", "#666", "#999", "#ddd", "url(#rising)", "url(#upright)", "url(#level)")
-_PATTERNS = (
-    "<defs>"
-    '<pattern id="rising" width="5" height="5" patternUnits="userSpaceOnUse"><rect width="5" height="5" fill="#fff"/>'
-    '<path d="M-1 1L1-1M0 5L5 0M4 6L6 4" stroke="#000" stroke-width="0.9"/></pattern>'
-    '<pattern id="upright" width="4" height="4" patternUnits="userSpaceOnUse"><rect width="4" height="4" fill="#fff"/>'
-    '<path d="M2 0V4" stroke="#000" stroke-width="0.9"/></pattern>'
-    '<pattern id="level" width="4" height="4" patternUnits="userSpaceOnUse"><rect width="4" height="4" fill="#fff"/>'
-    '<path d="M0 2H4" stroke="#000" stroke-width="0.9"/></pattern>'
-    "</defs>"
+_HATCHINGS = (("rising", 5, "M-1 1L1-1M0 5L5 0M4 6L6 4"), ("upright", 4, "M2 0V4"), ("level", 4, "M0 2H4"))
+_PATTERNS = "".join(
+    f'<pattern id="{id}" width="{side}" height="{side}" patternUnits="userSpaceOnUse">'
+    f'<rect width="{side}" height="{side}" fill="#fff"/><path d="{path}" stroke="#000" stroke-width="0.9"/></pattern>'
+    for id, side, path in _HATCHINGS
 )
 _WIDTH, _BAR_WIDTH = 360, 330
 """The widths of the picture of times and of its longest bar in pixels."""
@@ -66,20 +56,12 @@ def make(argument: str) -> Made:
 
 def _storage() -> tuple[Part, ...]:
     maps = [core_map(name) for name in PROGRAMS]
-    pictures = "".join(
-        figure(
-            map_svg(storage),
-            f"core-{storage.program}",
-            link(storage.program, "", _title(storage)),
-            description=_description(storage),
-        )
-        for storage in maps
-    )
-    return (
-        Part(html=element("div", pictures, cls="maps")),
-        Part(html=_sizes(maps)),
-        Part(html="".join(map(_addresses, maps))),
-    )
+    pictures = ""
+    for storage in maps:
+        caption = link(storage.program, "", _title(storage))
+        pictures += figure(map_svg(storage), f"core-{storage.program}", caption, description=_description(storage))
+    sections = (element("div", pictures, cls="maps"), _sizes(maps), "".join(map(_addresses, maps)))
+    return tuple(Part(html=html) for html in sections)
 
 
 def _title(storage: CoreMap) -> str:
@@ -158,16 +140,15 @@ def _labelled_addresses(storage: CoreMap) -> Iterator[int]:
 
 def _sizes(maps: list[CoreMap]) -> str:
     rows = []
-    for kind in (core.SYSTEM, core.PROGRAM, core.FREE, core.ARRAY, core.SINGLE, core.NAMES):
+    for kind in _KINDS:
         estimate_sign = "~" if kind in (core.PROGRAM, core.FREE) else ""
         name = f"{kind}s" if kind == ARRAY else kind
         rows.append((escape(name), *(f"{estimate_sign}{storage.positions(kind):,}" for storage in maps)))
     rows.append(("total", *(f"{sum(region.positions for region in storage.regions):,}" for storage in maps)))
     for size, _ in maps[0].points:
-        cells = (dict(storage.points)[size] for storage in maps)
-        rows.append(
-            (f"points that fit into {size:,}", *(f"~{points}" if points else "does not fit" for points in cells))
-        )
+        most = (dict(storage.points)[size] for storage in maps)
+        cells = (f"~{points}" if points else "does not fit" for points in most)
+        rows.append((f"points that fit into {size:,}", *cells))
     caption = "Positions of core storage; ~ means estimated"
     return table(("region", *map(_title, maps)), rows, "Storage of the programs", caption)
 
@@ -176,16 +157,12 @@ def _addresses(storage: CoreMap) -> str:
     """Return a table of all regions, which the reader can open."""
     rows = []
     for region in reversed(storage.regions):
-        fields = ", ".join(_fields(kind, count) for kind, count in region.fields)
+        plurals = ((count, {"temporary": "temporaries"}.get(kind, f"{kind}s"), kind) for kind, count in region.fields)
+        fields = ", ".join(f"{count} {plural if count != 1 else kind}" for count, plural, kind in plurals)
         rows.append((escape(_region_name(region)), fields, f"{region.high:,}", f"{region.low:,}", _count(region)))
     inner = table(("region", "fields", "from", "down to", "positions"), rows, f"Addresses of {_title(storage)}")
     command = element("p", "A map with every variable: " + text("code", f"hull1620 map {storage.program}"))
-    return element("details", text("summary", f"Addresses of {_title(storage)}") + inner + command)
-
-
-def _fields(kind: str, count: int) -> str:
-    plural = {"temporary": "temporaries"}.get(kind, f"{kind}s")
-    return f"{count} {plural if count != 1 else kind}"
+    return details(f"Addresses of {_title(storage)}", inner + command)
 
 
 def example_runs() -> list[Run]:
@@ -214,12 +191,8 @@ def _time() -> tuple[Part, ...]:
         name = link(f"example{run.example}", "time", f"example {run.example}, {_called(run)}", cls="whole")
         rows.append((name, *(f"{part:.1f}" for part in seconds_of(run)), f"{run.total:.1f}"))
     drawn = figure(time_svg(all_runs), "time", caption, "drawing bars", description)
-    return (
-        Part(
-            html=drawn
-            + table(("run", *PARTS, "total"), rows, "Composition of running time", "Seconds on a 1620 Model 1")
-        ),
-    )
+    figures = table(("run", *PARTS, "total"), rows, "Composition of running time", "Seconds on a 1620 Model 1")
+    return (Part(html=drawn + figures),)
 
 
 def _called(run: Run) -> str:
@@ -227,7 +200,7 @@ def _called(run: Run) -> str:
 
 
 def time_svg(all_runs: list[Run]) -> str:
-    """Stacked bars of runs, on one scale, as the text of an SVG file; ``data-seconds`` of a part says how long."""
+    """Draw the times of runs as stacked bars of the same scale, in SVG.  ``data-seconds`` is the time of a part."""
     longest = max(run.total for run in all_runs)
     key = 4 * 17 + 14
 
@@ -254,7 +227,7 @@ def time_svg(all_runs: list[Run]) -> str:
             yield svg.text(Pixel(100 * (x + 26), 100 * (y + 10)), name)
 
     items = [
-        _PATTERNS,
+        f"<defs>{_PATTERNS}</defs>",
         *svg.group("key", _TEXT, samples()),
         *svg.group("names", _TEXT, names()),
         *svg.group("parts", 'stroke="#000" stroke-width="0.6"', bars()),

@@ -23,7 +23,7 @@ from modern.papers.appel_will.star import vorticity
 from modern.papers.kovalevsky_schulz.tables import all_rows
 from modern.publication import steps
 from modern.publication.site.made import Made, Part, one_of
-from modern.publication.site.markup import element, escape, table, text
+from modern.publication.site.markup import details, element, escape, preformatted, table, text
 from modern.publication.site.pictures import figure
 from modern.publication.steps import EDGE_OF_CONTOUR, EYE, HIDDEN, REMOVED, SEEN, Level, Plate, Stroke
 
@@ -58,7 +58,12 @@ def make(argument: str) -> Made:
 
 def _strip(figures: Iterable[str]) -> str:
     """Return pictures side by side, as many as the window has room for."""
-    return element("ol", "".join(element("li", each) for each in figures), cls="strip")
+    return element("ol", "".join(element("li", picture) for picture in figures), cls="strip")
+
+
+def _captioned(picture: str, key: str, caption: str) -> str:
+    """Return a picture whose caption, in plain text, also describes it for screen readers."""
+    return figure(picture, key, escape(caption), description=caption)
 
 
 def _appel_will() -> Iterator[str]:
@@ -68,29 +73,24 @@ def _appel_will() -> Iterator[str]:
     yield _strip((_solid(printed, "4"), _solid(found_solid("fig18"), "18")))
     fig4 = appel_will(printed.points, printed.surfaces)
     yield _strip((_star(fig4, fig4.edges[0]), _star(fig4, within(fig4))))
-    count = len(fig14.table.loops)
-    loops = (_loop(fig14, number, loop) for number, loop in enumerate(fig14.table.loops, 1))
-    yield text("p", f"The {count} loops of Fig. 22 in order. The number at an edge counts its uses so far.")
-    yield _strip(loops)
+    loops = fig14.table.loops
+    yield text("p", f"The {len(loops)} loops of Fig. 22 in order. The number at an edge counts its uses so far.")
+    yield _strip(_loop(fig14, number, loop) for number, loop in enumerate(loops, 1))
     caption = (
         f"The topological map of the object in Fig. 23, drawn in the plane: {len(fig23.vertices)} points, "
         f"{len(fig23.edges)} edges and {len(fig23.surfaces)} surfaces. No two edges cross."
     )
-    yield figure(map_svg(fig23.surfaces, fig23.edges, width=340), "map23", escape(caption), description=caption)
+    yield _captioned(map_svg(fig23.surfaces, fig23.edges, width=340), "map23", caption)
 
 
 def _solid(solid: Solid, number: str) -> str:
     hull = appel_will(solid.points, solid.surfaces)
     lines = {tuple(sorted(line)) for surface in solid.surfaces for line in sides(surface)}
-    gone = len(lines.difference(hull.edges))
-    made = len(set(hull.edges) - lines)
-    caption = (
-        f"Fig. {number}: {len(lines)} lines. {gone} of them are not convex edges, and {made} convex edges are new."
-    )
+    not_convex, new = len(lines.difference(hull.edges)), len(set(hull.edges) - lines)
+    caption = f"Fig. {number}: {len(lines)} lines. {not_convex} of them are not convex edges, and "
     points = [(str(x), str(y), str(z)) for x, y, z in solid.points]
-    return figure(
-        solid_svg(hull, points, solid.surfaces, width=320), f"solid{number}", escape(caption), description=caption
-    )
+    picture = solid_svg(hull, points, solid.surfaces, width=320)
+    return _captioned(picture, f"solid{number}", f"{caption}{new} convex edges are new.")
 
 
 def within(hull: Assembled) -> tuple[int, int]:
@@ -106,14 +106,13 @@ def _star(hull: Assembled, pair: tuple[int, int]) -> str:
     a, b = pair
     position = "outside, so the line is a convex edge" if pair in hull.edges else "inside, so it is not a convex edge"
     caption = f"Fig. 4, line {a + 1}-{b + 1} in the direction of the line: C is {position}."
-    return figure(star_svg(hull, pair, width=320), f"star{a + 1}-{b + 1}", escape(caption), description=caption)
+    return _captioned(star_svg(hull, pair, width=320), f"star{a + 1}-{b + 1}", caption)
 
 
 def _loop(hull: Assembled, number: int, loop: Loop) -> str:
     points = ", ".join(str(index + 1) for index in hull.surfaces[number - 1])
     entries = " ".join(map(str, loop.entries))
-    caption = f"Loop {number}: lines {entries}, surface {points}."
-    return figure(loop_svg(hull, number), f"loop{number}", escape(caption), description=caption)
+    return _captioned(loop_svg(hull, number), f"loop{number}", f"Loop {number}: lines {entries}, surface {points}.")
 
 
 def loop_svg(hull: Assembled, number: int) -> str:
@@ -192,15 +191,10 @@ def plates_svg(plates: Sequence[Plate], eye: Eye, titles: Sequence[str]) -> tupl
             yield svg.circle(at(point), "3.6", attributes='fill="#fff"' if hidden else 'fill="#000"')
 
     def drawn(plate: Plate, title: str) -> str:
-        items = [
-            *svg.group("faces", 'stroke="#000" stroke-width="0.8"', shades(plate)),
-            *(
-                item
-                for kind in (REMOVED, HIDDEN, SEEN, EDGE_OF_CONTOUR)
-                for item in svg.group(kind, _STYLES[kind], lines(plate.strokes, kind))
-            ),
-            *svg.group("points", 'stroke="#000" stroke-width="1.1"', dots(plate)),
-        ]
+        items = [*svg.group("faces", 'stroke="#000" stroke-width="0.8"', shades(plate))]
+        for kind in (REMOVED, HIDDEN, SEEN, EDGE_OF_CONTOUR):
+            items += svg.group(kind, _STYLES[kind], lines(plate.strokes, kind))
+        items += svg.group("points", 'stroke="#000" stroke-width="1.1"', dots(plate))
         return svg.page(WIDTH, height, title, items)
 
     return tuple(drawn(plate, title) for plate, title in zip(plates, titles, strict=True))
@@ -221,7 +215,7 @@ def _hidden_lines() -> Iterator[str]:
 
 def _figures(plates: Sequence[Plate], eye: Eye, captions: Sequence[str], key: str) -> Iterator[str]:
     for plate, picture, caption in zip(plates, plates_svg(plates, eye, captions), captions, strict=True):
-        yield figure(picture, f"{key}-{plate.name.replace(' ', '-')}", escape(caption), description=caption)
+        yield _captioned(picture, f"{key}-{plate.name.replace(' ', '-')}", caption)
 
 
 def _cells() -> Iterator[str]:
@@ -239,43 +233,30 @@ def _cells() -> Iterator[str]:
     head = ("complex", "0-cells", "1-cells", "2-cells", "3-cells")
     rows = [(escape(name), *map(str, numbers)) for name, numbers in complexes.counts]
     yield table(head, rows, "Numbers of cells", "Cells by dimension")
-    listed = element("pre", escape("\n".join(all_rows(hull))), tabindex="0", aria_label="the cell list")
-    yield element("details", text("summary", "The cell list in the form of Tables 1 to 3") + listed)
+    cell_list = preformatted("\n".join(all_rows(hull)), "the cell list")
+    yield details("The cell list in the form of Tables 1 to 3", cell_list)
 
 
 def _octree() -> Iterator[str]:
     hull, levels = steps.rods()
-    yield text(
-        "p",
-        f"Three rods of {steps.RODS} voxels along the axes, {hull.solid_voxels} voxels together, have a digital hull "
-        f"of {hull.voxels} voxels. Its octree, level by level:",
-    )
-    rows = [
-        (str(level.number), str(hull.side >> level.number), *map(str, (level.full, level.divided, level.empty)))
-        for level in levels
-    ]
-    yield table(
-        ("level", "side of a cube", "full", "divided", "empty"), rows, "The octree", "Cubes of the hull's octree"
-    )
+    rods = f"Three rods of {steps.RODS} voxels along the axes, {hull.solid_voxels} voxels together"
+    yield text("p", f"{rods}, have a digital hull of {hull.voxels} voxels. Its octree, level by level:")
+    head = ("level", "side of a cube", "full", "divided", "empty")
+    numbers = ((le.number, hull.side >> le.number, le.full, le.divided, le.empty) for le in levels)
+    yield table(head, (map(str, row) for row in numbers), "The octree", "Cubes of the hull's octree")
     shown = [level for level in levels if level.plate.strokes]
     captions = [f"The full cubes down to level {level.number}." for level in shown]
     yield _strip(_figures([level.plate for level in shown], steps.ABOVE, captions, "octree"))
-    yield text(
-        "p",
-        "The upper ceiling, a quadtree with the greatest height in every square. A dotted square has no column. "
-        "x increases to the right, y upward.",
-    )
+    ceiling = "The upper ceiling, a quadtree with the greatest height in every square."
+    yield text("p", f"{ceiling} A dotted square has no column. x increases to the right, y upward.")
     yield _strip(_square(level, hull.side) for level in levels)
 
 
 def _square(level: Level, side: int) -> str:
     columns = sum(quadrant.height is not None for quadrant in level.quadrants)
-    caption = (
-        f"Level {level.number}: columns in {columns} of {len(level.quadrants)} squares."
-        if level.number
-        else "Level 0: the whole square."
-    )
-    return figure(quadrants_svg(level, side), f"quadrants{level.number}", escape(caption), description=caption)
+    content = f"columns in {columns} of {len(level.quadrants)} squares" if level.number else "the whole square"
+    caption = f"Level {level.number}: {content}."
+    return _captioned(quadrants_svg(level, side), f"quadrants{level.number}", caption)
 
 
 def quadrants_svg(level: Level, side: int) -> str:
@@ -291,10 +272,8 @@ def quadrants_svg(level: Level, side: int) -> str:
                 wide = svg.number(quadrant.side * unit)
                 grey = f"{190 + 60 * (quadrant.height or 0) // side:02x}" * 3
                 fill = f"#{grey}" if occupied else "none"
-                yield (
-                    f'<rect x="{svg.number(x)}" y="{svg.number(y)}" width="{wide}" height="{wide}" fill="{fill}" '
-                    f'data-side="{quadrant.side}"/>'
-                )
+                place = f'x="{svg.number(x)}" y="{svg.number(y)}" width="{wide}" height="{wide}"'
+                yield f'<rect {place} fill="{fill}" data-side="{quadrant.side}"/>'
 
     def heights() -> Iterator[str]:
         for quadrant in level.quadrants:

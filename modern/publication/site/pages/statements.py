@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections import Counter
 
 from modern.claims.register import DOCUMENTS, VERDICTS, Statement, Verdict, counterexample, statements_of
-from modern.publication.site.made import Made, Part, Target, one_of
-from modern.publication.site.markup import definitions, element, escape, text
+from modern.publication.site.made import Made, Part, Target, one_of, slug
+from modern.publication.site.markup import definitions, details, element, escape, preformatted, text
 
 SIGNS: dict[Verdict, str] = {
     "holds": "\u2713",
@@ -17,12 +17,7 @@ SIGNS: dict[Verdict, str] = {
     "does not hold": "\u2717",
     "not testable": "\u2013",
 }
-_CLASSES: dict[Verdict, str] = {
-    "holds": "holds",
-    "holds with a condition": "condition",
-    "does not hold": "fails",
-    "not testable": "untested",
-}
+_CLASSES = dict(zip(SIGNS, ("holds", "condition", "fails", "untested"), strict=True))
 
 
 def make(argument: str) -> Made:
@@ -30,23 +25,15 @@ def make(argument: str) -> Made:
     name = one_of(argument, DOCUMENTS)
     rows = statements_of(name)
     parts = [Part(html=_controls(rows))]
-    for page, rows_of_page in _by_page(rows).items():
+    rows_of: dict[str, list[Statement]] = {}
+    for row in rows:
+        rows_of.setdefault(row.page, []).append(row)
+    for page, rows_of_page in rows_of.items():
         title = f"Page {page}" if page[:1].isdigit() else page.capitalize()
-        parts.append(Part(title, _slug(page), html=_list(rows_of_page)))
+        html = element("ol", "".join(map(_statement, rows_of_page)), cls="statements")
+        parts.append(Part(title, slug("page", page), html=html))
     targets = [Target(row.id, row.id, f"statement {row.id}") for row in rows]
     return Made(tuple(parts), tuple(targets))
-
-
-def _by_page(rows: tuple[Statement, ...]) -> dict[str, list[Statement]]:
-    """Group statements by page, in the order of the first statement of each page."""
-    pages: dict[str, list[Statement]] = {}
-    for row in rows:
-        pages.setdefault(row.page, []).append(row)
-    return pages
-
-
-def _slug(page: str) -> str:
-    return "page-" + "".join(c if c.isalnum() else "-" for c in page.lower())
 
 
 def _controls(rows: tuple[Statement, ...]) -> str:
@@ -61,10 +48,6 @@ def _controls(rows: tuple[Statement, ...]) -> str:
     shown = text("output", "", cls="shown")
     inner = element("fieldset", text("legend", "Verdicts shown") + boxes) + element("p", f"{field} {button} {shown}")
     return element("form", inner, cls="controls filter", aria_label="Filter of the statements", hidden=True)
-
-
-def _list(rows: list[Statement]) -> str:
-    return element("ol", "".join(map(_statement, rows)), cls="statements")
 
 
 def _statement(row: Statement) -> str:
@@ -83,7 +66,7 @@ def _statement(row: Statement) -> str:
         ),
         cls="facts",
     )
-    body = element("details", text("summary", "evidence") + facts) if facts else ""
+    body = details("evidence", facts) if facts else ""
     inner = element("div", head, cls="statement-head") + text("p", row.says) + body
     return element("li", inner, id=row.id, cls=_CLASSES[row.verdict])
 
@@ -96,4 +79,4 @@ def _counterexample(row: Statement) -> str:
     excerpt = "\n".join([*lines[:12], f"... {len(lines) - 12} more lines"]) if len(lines) > 14 else content.rstrip("\n")
     name = text("code", f"transcripts/counterexamples/{row.file}")
     run = element("p", "Command: " + text("code", row.run)) if row.run else ""
-    return name + element("pre", escape(excerpt), tabindex="0", aria_label=f"the counterexample {row.file}") + run
+    return name + preformatted(excerpt, f"the counterexample {row.file}") + run

@@ -6,8 +6,8 @@ import re
 
 from modern.edition.sources import Document, read, sources
 from modern.publication.numbered import Item, numbered
-from modern.publication.site.made import Made, Part, Target, one_of
-from modern.publication.site.markup import definitions, element, escape, table, text
+from modern.publication.site.made import Made, Part, Target, one_of, slug
+from modern.publication.site.markup import definitions, details, element, escape, preformatted, table, text
 
 _FILE = re.compile(r"\[([^\]]+)\]\((?!https?:)[^)]+\)")
 FILES = {"fortran_src/KNOWN-FAULTS.md": "fault", "fortran_src/OPEN-QUESTIONS.md": "question"}
@@ -27,12 +27,10 @@ def make(argument: str) -> Made:
     for item in items:
         if item.section != section:
             section = item.section
-            slug = "of-" + "".join(c if c.isalnum() else "-" for c in section.lower())
-            parts.append(Part(section, slug, text=_FILE.sub(r"\1", item.preamble)))
+            parts.append(Part(section, slug("of", section), text=_FILE.sub(r"\1", item.preamble)))
         level = 2 if section else 1
         parts.append(Part(f"{item.number}. {item.title}", f"{kind}-{item.number}", level, text=_linked(item)))
-        for deck in item.decks:
-            parts.append(Part(html=_deck(deck)))
+        parts += [Part(html=_deck(deck)) for deck in item.decks]
         targets.append(Target(f"{kind}-{item.number}", f"{kind} {item.number}", f"{kind} {item.number}"))
     if closing[0]:
         parts.append(Part(closing[0], "after", text=_FILE.sub(r"\1", closing[1])))
@@ -41,21 +39,19 @@ def make(argument: str) -> Made:
 
 def _linked(item: Item) -> str:
     """Return the text of an item with references to rows of the listings and without links to files."""
-    text = item.text
+    content = item.text
     for name in item.rows:
         if name.startswith("P"):
-            text = text.replace(name, f"{{row}}`{name}`", 1)
-    return _FILE.sub(r"\1", text)
+            content = content.replace(name, f"{{row}}`{name}`", 1)
+    return _FILE.sub(r"\1", content)
 
 
 def _deck(name: str) -> str:
     cards = read(f"fortran_src/grounds/{name}.deck").rstrip("\n")
     count = cards.count("\n") + 1
-    shown = element("pre", escape(cards), tabindex="0", aria_label=f"the deck {name}")
     run = element("p", "Command: " + text("code", f"hull1620 hull fortran_src/grounds/{name}.deck"))
-    return element(
-        "details", text("summary", f"the deck grounds/{name}: {count} cards") + shown + run, cls="deck-shown"
-    )
+    content = preformatted(cards, f"the deck {name}") + run
+    return details(f"the deck grounds/{name}: {count} cards", content, cls="deck-shown")
 
 
 def _document(document: Document) -> str:
@@ -87,5 +83,4 @@ def _document(document: Document) -> str:
     head = ("witness", "lines, and the line of the source where each range begins", "start of the SHA-256")
     excerpts = table(head, rows, name=f"Witnesses taken from {document.id}") if rows else ""
     pages = "".join(text("li", f"{page}: lines {first} to {last}") for page, first, last in document.pages)
-    where = element("details", text("summary", "pages and lines") + element("ul", pages))
-    return facts + excerpts + where
+    return facts + excerpts + details("pages and lines", element("ul", pages))

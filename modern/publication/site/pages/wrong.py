@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from fractions import Fraction
 
 from emulator.language.cards import deck_from_text
 from modern.comparison.card_differences import card_differences
@@ -12,11 +11,13 @@ from modern.drawing.draw import Show
 from modern.edition.programs import program
 from modern.edition.sources import read
 from modern.formats.points import parse_input
+from modern.geometry.numbers import coordinates
+from modern.geometry.vectors import cross, dot, minus
 from modern.port import convex_hull
 from modern.publication.facing import facing
 from modern.publication.parting import parted
 from modern.publication.site.made import Made, Part, one_of
-from modern.publication.site.markup import element, escape, link, text
+from modern.publication.site.markup import element, link, preformatted, text
 from modern.publication.site.pictures import figure
 from modern.thesis.cards import read_hull
 from modern.thesis.job import run_hull
@@ -34,48 +35,37 @@ def make(argument: str) -> Made:
     hull = convex_hull(points, "exact", on_refusal="return")
     claim = card_differences(read_hull(punched), hull, "cards")
     answer = parted("\n".join(" ".join(point) for point in points))
-    drawn = figure(
-        draw_against(hull, claim, width=520, show=Show("input")),
-        "wrong",
-        "The true hull, a tetrahedron. Red: missed by the programs. Blue: added by the programs.",
-        "drawing coloured",
-    )
-    cards = element("pre", escape("\n".join(punched)), tabindex="0", aria_label="the cards punched")
+    caption = "The true hull, a tetrahedron. Red: missed by the programs. Blue: added by the programs."
+    drawn = figure(draw_against(hull, claim, width=520, show=Show("input")), "wrong", caption, "drawing coloured")
+    cards = preformatted("\n".join(punched), "the cards punched")
     differences = "".join(text("li", line) for line in (*answer["says"], *answer["part"]))
     statement = _statement_link(answer["part"][0])
     command = element("p", "To reproduce this result: " + text("code", f"hull1620 hull {FILE}"))
-    return Made(
-        (
-            Part("The picture", "picture", html=drawn),
-            Part("Differences", "found", html=element("ul", differences) + statement + command),
-            Part("The cards punched", "cards", html=cards),
-            Part("The exact calculation", "exact", html=_worked(points)),
-        )
+    parts = (
+        Part("The picture", "picture", html=drawn),
+        Part("Differences", "found", html=element("ul", differences) + statement + command),
+        Part("The cards punched", "cards", html=cards),
+        Part("The exact calculation", "exact", html=_worked(points)),
     )
+    return Made(parts)
 
 
 def _statement_link(divergence: str) -> str:
     """Return a link to the card that a divergence names: ``program 3, card 185: ...``."""
     match = re.match(r"program (\d), card (\d+):", divergence)
-    assert match, "a divergence names its program and card"
+    assert match is not None, "a divergence names its program and card"
     name = f"program{match[1]}"
     card = next(card for card in facing(name).cards if card.number == int(match[2]))
     return element("p", f"The statement: {link(name, card.place, f'program {match[1]}, {card.place}')}.")
 
 
 def _worked(points: tuple[tuple[str, ...], ...]) -> str:
-    """Return the exact value of each plane through three of the points at the fourth point.
-
-    The value is the determinant of the three difference vectors.
-    """
-    exact = [tuple(Fraction(x) for x in point) for point in points]
+    """Return the exact value of each plane through three of the points at the fourth point: a triple product."""
+    exact = [coordinates(point) for point in points]
     rows = []
     for out in range(4):
         a, b, c = (exact[k] for k in range(4) if k != out)
-        u, v, w = ([p[k] - a[k] for k in range(3)] for p in (b, c, exact[out]))
-        value = (
-            u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) + u[2] * (v[0] * w[1] - v[1] * w[0])
-        )
+        value = dot(cross(minus(b, a), minus(c, a)), minus(exact[out], a))
         number = out + 1
         rows.append(f"<li>The plane through all points except {number} has the value {int(value):,} at {number}.</li>")
     conclusion = "No value is zero, so every point is a vertex and each plane has one point on its inner side."
