@@ -48,7 +48,6 @@ class Disagreement:
 
     @property
     def points(self) -> tuple[int, ...]:
-        """The points that are affected, sorted."""
         points = self.missed | self.added | self.misfiled
         return tuple(sorted(points if self.excluded_point is None else points | {self.excluded_point}))
 
@@ -92,8 +91,6 @@ def disagreement(outcome: Outcome, judge: Outcome, points: Sequence[Vector]) -> 
 
 
 class _Match(NamedTuple):
-    """The index of the nearest exact equation, or -1 if none is near, and the error."""
-
     place: int
     error: Fraction
 

@@ -54,7 +54,6 @@ class Outcome:
 
 
 def places(points: Sequence[Vector]) -> dict[Vector, int]:
-    """Return the index of the first point for each position."""
     first: dict[Vector, int] = {}
     for index, point in enumerate(points):
         first.setdefault(tuple(point), index)
@@ -62,7 +61,6 @@ def places(points: Sequence[Vector]) -> dict[Vector, int]:
 
 
 def from_cards(name: str, run: HullRun, points: Sequence[Vector]) -> Outcome:
-    """Return the outcome of an emulated run from the cards that its last program punched."""
     if run.refusal:
         return Outcome(name, run.refusal, -1)
     failed = next((step for step in run.steps if not step.result.ending.normal), None)
@@ -89,7 +87,6 @@ def from_card_hull(name: str, program: str, hull: CardHull, points: Sequence[Vec
 
 
 def from_hull(name: str, hull: Hull) -> Outcome:
-    """Return the outcome for a hull of the port."""
     equations = tuple(_four([Fraction(c) for c in face.coefficients]) for face in hull.faces)
     return Outcome(
         name,

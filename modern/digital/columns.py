@@ -20,7 +20,6 @@ Truth = NDArray[np.bool_]
 
 
 def slabs(array: NDArray[Any]) -> list[slice]:
-    """Return slices of the first axis with about ``SLAB`` voxels each."""
     step = max(1, SLAB // max(1, array[:1].size))
     return [slice(first, first + step) for first in range(0, len(array), step)]
 

@@ -59,7 +59,6 @@ class DigitalHull:
 
     @property
     def solidity(self) -> Fraction:
-        """The fraction of the hull's voxels that belong to the volume."""
         return Fraction(self.given, self.voxels)
 
     @property

@@ -64,7 +64,6 @@ def text(place: Pixel, content: str, attributes: str = "") -> str:
 
 
 def group(name: str, attributes: str, items: Iterable[str]) -> list[str]:
-    """Return the items in a group with common attributes, or nothing if there are no items."""
     elements = list(items)
     return [f'<g class="{name}"{_after_space(attributes)}>', *elements, "</g>"] if elements else []
 
@@ -115,7 +114,6 @@ INSIDE = Style("inside", "inside point", "cross", 'fill="none" stroke="#333" str
 
 
 def point_mark(style: Style, at: Pixel, title: str = "", attributes: str = "", small: bool = False) -> str:
-    """Return a dot or a cross, smaller in a picture with many points."""
     if style.shape == "cross":
         return saltire(at, _SMALL_ARM if small else _ARM, title, attributes)
     return circle(at, SMALL if small else RADIUS, title, attributes)

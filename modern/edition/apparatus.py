@@ -65,8 +65,6 @@ class Change:
 
 @dataclass(frozen=True, slots=True)
 class Rejected:
-    """A reading that was considered and rejected, with the reason."""
-
     reading: str
     reason: str
 
@@ -133,8 +131,6 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Text:
-    """A witness with its apparatus."""
-
     id: str
     title: str
     witness: tuple[Line, ...]
@@ -248,8 +244,6 @@ class RowMisfit(ApparatusError):
 
 
 class _Page:
-    """A text to which rows are applied: its lines by id, and their order."""
-
     def __init__(self, at: dict[str, Line], order: Iterable[str] = ()) -> None:
         self._at, self._order = at, list(order or at)
 
@@ -260,7 +254,6 @@ class _Page:
         return (self._at[name] for name in self._order)
 
     def apply(self, row: Row) -> None:
-        """Apply the changes of a row.  Raises RowMisfit."""
         inserted = 0
         for change in row.changes:
             line = self._line(row, change.line)

@@ -45,7 +45,6 @@ class Plane:
     printed: str
 
     def at(self, point: Point) -> Fraction:
-        """Return Ax + By + Cz + D at a point."""
         products = (a * x for a, x in zip(self.coefficients, point.at, strict=False))
         return sum(products, self.coefficients[3])
 
@@ -83,7 +82,6 @@ def chapter4_folder() -> Traversable:
 
 @cache
 def load_text() -> Text:
-    """Return the text of the three examples with its apparatus."""
     return load(chapter4_folder(), "chapter4")
 
 

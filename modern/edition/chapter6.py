@@ -163,7 +163,6 @@ def chapter6_folder() -> Traversable:
 
 
 def input_deck(example: int, folder: Traversable | None = None) -> Deck:
-    """Return the input data of an example for program 1."""
     name = f"example{example}/program1.deck"
     text = (folder or chapter6_folder()).joinpath(*name.split("/")).read_text(encoding="ascii")
     return deck_from_text(name, text)

@@ -56,7 +56,6 @@ def check_tie(chapter: Chapter) -> tuple[str, ...]:
 
 
 def check_rows(chapter: Chapter) -> tuple[str, ...]:
-    """Check the ground of every row (:mod:`modern.edition.chapter6_grounds`)."""
     return tuple(fault for row in chapter.text.rows for fault in row_faults(chapter, row))
 
 
@@ -195,7 +194,6 @@ def _counts(chapter: Chapter, example: int, size: int) -> list[str]:
 
 
 def check_files(chapter: Chapter, folder: Traversable) -> tuple[str, ...]:
-    """Check that each committed device file equals its build."""
     faults = []
     for name, contents in built_files(chapter):
         path = folder.joinpath(*name.split("/"))

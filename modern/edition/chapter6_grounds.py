@@ -65,7 +65,6 @@ def _touched(chapter: Chapter, row: Row) -> tuple[Line, ...]:
 
 
 def solid(text: str) -> str:
-    """Return the text without blanks."""
     return "".join(text.split())
 
 
@@ -133,7 +132,6 @@ def vertices(chapter: Chapter, example: int, program: int) -> tuple[tuple[Decima
 
 
 def plane_at(plane: Sequence[Decimal], point: Sequence[Decimal]) -> Decimal:
-    """Return Ax + By + Cz + D."""
     return sum((a * x for a, x in zip(plane[:3], point, strict=True)), plane[3])
 
 
@@ -149,7 +147,6 @@ def incidences(chapter: Chapter, example: int, program: int) -> dict[int, tuple[
 
 
 def planes(chapter: Chapter, example: int, program: int) -> dict[int, tuple[Decimal, ...]]:
-    """Map each equation number to its printed A, B, C, D."""
     if plane_cards := of_role(chapter, example, program, "plane"):
         return {n: numbers(card) for n, card in enumerate(plane_cards, start=1)}
     return {integers(c)[0]: numbers(c) for c in of_role(chapter, example, program, "equation")}

@@ -75,7 +75,6 @@ def _compiles(name: str, built: Deck, same: bool) -> bool:
 
 
 def check_row(row: Row) -> Proof:
-    """Check the ground of a row."""
     kind = str(row.ground.get("kind", ""))
     test = {"parse": _parse, "print": _print, "deck": _deck, "forced": _forced, "cosmetic": _cosmetic}.get(kind)
     if test is None:
@@ -89,7 +88,6 @@ def check_row(row: Row) -> Proof:
 
 
 def _several_steps(row: Row) -> tuple[Step, ...]:
-    """Return the steps of a row that has more than one; a single step is the row itself."""
     made = steps(row) or ()
     return made if len(made) > 1 else ()
 
@@ -119,7 +117,6 @@ def _without(row: Row, step: Step | None) -> Deck:
 
 
 def _compiled(row: Row, step: Step | None) -> tuple[Program | None, str]:
-    """Compile the program without the row, or without a step of it.  Return the program or an error message."""
     try:
         return _program(_without(row, step))
     except EmulatorError as error:
@@ -127,7 +124,6 @@ def _compiled(row: Row, step: Step | None) -> tuple[Program | None, str]:
 
 
 def _program(deck: Deck) -> tuple[Program | None, str]:
-    """Compile a deck.  Return the program or the first error message.  Raises DeckError for an empty deck."""
     try:
         return compile_deck(deck), ""
     except CompileError as error:
@@ -179,7 +175,6 @@ def _print(row: Row, step: Step | None) -> tuple[bool, str]:
 
 @cache
 def _printed(example: int, state: State, number: int) -> bool:
-    """Return True if the committed decks reproduce an example exactly."""
     return _exact(example, state, number, {})
 
 

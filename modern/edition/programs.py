@@ -56,7 +56,6 @@ def built_in(name: str) -> BuiltIn:
 
 @cache
 def text(name: str) -> Text:
-    """Return the witness and apparatus of ``program1``, ``program2`` or ``program3``."""
     return load(sources(), name)
 
 
@@ -102,7 +101,6 @@ def cards_of(row: Row) -> str:
 
 
 def committed(name: str) -> Deck:
-    """Return the committed deck of a built-in program."""
     return deck_from_text(f"{name}.f", sources().joinpath(f"{name}.f").read_text(encoding="ascii"))
 
 

@@ -73,7 +73,6 @@ def table() -> tuple[Pair, ...]:
 
 
 def solid(text: str) -> str:
-    """Return the text without blanks."""
     return "".join(text.split())
 
 
@@ -139,7 +138,6 @@ def _better(
 
 
 def without_step(row: Row, step: Step) -> Row:
-    """Return the row with one step undone."""
     change = row.changes[step.change]
     lemma = _blanked(change.lemma, step.to, len(step.pair.lemma), step.pair.witness)
     changes = tuple(replace(c, lemma=lemma) if n == step.change else c for n, c in enumerate(row.changes))

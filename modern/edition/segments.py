@@ -35,7 +35,6 @@ class Segments:
 
     @property
     def inserted(self) -> bool:
-        """True if a row inserted the line."""
         return not self.id.isdigit()
 
 

@@ -90,7 +90,6 @@ class Sources:
 
 @cache
 def sources() -> Sources:
-    """Read SOURCES.toml."""
     data = tomllib.loads(files("fortran_src").joinpath("SOURCES.toml").read_text(encoding="utf-8"))
     return Sources(
         tuple(

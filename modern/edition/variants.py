@@ -66,7 +66,6 @@ class Variant:
 
     @property
     def key(self) -> str:
-        """A unique key."""
         return f"{self.program} {self.card} {self.reads}"
 
 
@@ -115,7 +114,6 @@ def variants(name: str) -> tuple[Variant, ...]:
 
 
 def _altered(statement: Statement) -> Iterator[tuple[str, str]]:
-    """Yield (kind of change, new text) for every variant of a statement."""
     source, text = statement.source, statement.source.text
     if source.kind != "end":
         yield "card", ""

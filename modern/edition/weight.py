@@ -109,7 +109,6 @@ def _bench(program: Program, decks: Sequence[tuple[str, int, Deck]]) -> Bench:
 
 
 def judged(variant: Variant, known: dict[str, Bench]) -> str:
-    """Return the first check that detects a variant."""
     if variant.how == "number" and not _numbers(variant.reads) <= _numbers(variant.was) | _labels(variant.program):
         return "compiler"
     try:
@@ -173,7 +172,6 @@ def _begun(name: str) -> list[int]:
 
 
 def _differs(program: Program, bench: Bench, d: int) -> bool:
-    """Return True if a deck gives different cards, different typed lines or another kind of ending."""
     expected, actual = bench.results[d], _result(program, bench, d)
     if actual is None:
         return True

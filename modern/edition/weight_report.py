@@ -53,7 +53,6 @@ def unvouched(answers: Mapping[str, str]) -> list[Variant]:
 
 
 def report(answers: Mapping[str, str]) -> str:
-    """Return the report in Markdown."""
     everything = ordered()
     judged = [variant for variant in everything if variant.key in answers]
     counted = [variant for variant in judged if answers[variant.key] != "no change"]

@@ -71,7 +71,6 @@ def rank(vectors: Iterable[Sequence[int]]) -> int:
 
 
 def _are_integers(rows: Iterable[Iterable[object]]) -> bool:
-    """Return True if all members are Python integers; a single pass, because most points are."""
     return set(map(type, chain.from_iterable(rows))) == {int}
 
 
@@ -96,7 +95,6 @@ def _check_integers(points: Points, hull: ExactHull) -> None:
 
 
 def _check_classes(hull: ExactHull) -> None:
-    """Check that every index occurs once, that the classes are sorted, and that duplicates name the first point."""
     require(all(len(pair) == 2 for pair in hull.duplicates), "a duplicate is not a pair of indices")
     for name in ("vertices", "boundary", "inside", "duplicates"):
         members = getattr(hull, name)

@@ -115,7 +115,6 @@ class Cones:
 
 
 def cones(sides: Polygons, images: Images, o: Floats) -> Cones:
-    """Return the cones over all triangles."""
     # A polygon of n sides has n - 2 triangles, numbered consecutively facet after facet.
     triangles = sides.count - 2
     facet = np.repeat(np.arange(len(triangles)), triangles)

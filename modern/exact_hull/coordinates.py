@@ -101,7 +101,6 @@ def to_integers(points: Sequence[ExactPoint], scale: int) -> list[IntPoint]:
 
 
 def scaled_points(points: Sequence[ExactPoint]) -> tuple[int, list[IntPoint]]:
-    """Return the common scale and the integers."""
     if _plain(points):
         return 1, points
     scale = common_scale(points)

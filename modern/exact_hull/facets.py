@@ -20,12 +20,10 @@ Triangle = tuple[int, int, int]
 
 
 def minus(p: IntPoint, q: IntPoint) -> IntPoint:
-    """Return p - q."""
     return p[0] - q[0], p[1] - q[1], p[2] - q[2]
 
 
 def cross(u: IntPoint, v: IntPoint) -> IntPoint:
-    """Return the vector product of u and v."""
     return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
 
 

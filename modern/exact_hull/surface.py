@@ -185,18 +185,13 @@ class Surface:
                 self.waiting[triangle].append(p)
 
     def _exactly_seen(self, p: int, doubtful: NDArray[np.intp]) -> int:
-        """Return the first of the doubtful triangles that ``p`` sees, or -1."""
         for triangle in doubtful.tolist():
             if value(self.planes[triangle], self.frame.integers[p]) > 0:
                 return int(triangle)
         return -1
 
     def _visible(self, p: int) -> tuple[list[int], _Horizon]:
-        """Return the triangles that ``p`` sees, and the horizon.
-
-        The horizon is a list of (start, end, beyond): the edge in the direction of the visible triangle, and the
-        invisible triangle beyond it.
-        """
+        """Return the triangles that ``p`` sees, and the horizon: each edge (start, end) with the triangle beyond."""
         # The search begins at the remembered triangle and spreads across edges; visible triangles are connected.
         visible = [self.home[p]]
         horizon: _Horizon = []
@@ -250,7 +245,7 @@ class Surface:
 
 
 def convex_surface(frame: Frame, simplex: Sequence[int], order: Sequence[int]) -> list[tuple[Triangle, Plane]]:
-    """Return the hull of the frame's points as triangles, starting from four affinely independent points.
+    """Return the hull of the frame's points as triangles, from four affinely independent points.
 
     ``order`` lists all other points.  It affects the time but not the faces of the result.
     """

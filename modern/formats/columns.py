@@ -6,10 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 
 def aligned(rows: Iterable[Sequence[str]], right: Sequence[bool] | bool = False) -> Iterator[str]:
-    """Yield the rows as lines whose columns have equal widths, two blanks apart, without trailing blanks.
-
-    ``right`` tells which columns are aligned to the right, or whether all of them are.
-    """
+    """Yield the rows as lines whose columns have equal widths, two blanks apart; ``right`` aligns columns right."""
     cells = list(rows)
     columns = range(len(cells[0]) if cells else 0)
     widths = [max(len(row[k]) for row in cells) for k in columns]

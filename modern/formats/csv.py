@@ -61,10 +61,7 @@ def begins_with_point(text: str) -> bool:
 
 
 def points(text: str, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
-    """Return the points of a list, x y z in a row, and the line of each one.
-
-    Raise FileError, with line and field, if a row is not three decimal numbers.
-    """
+    """Return the points of a list, x y z in a row, and the line of each one.  Raise FileError for another row."""
     numbered = [(_point(row, source, line), line) for line, row in rows(text, source)]
     return tuple(point for point, _ in numbered), tuple(line for _, line in numbered)
 

@@ -78,8 +78,8 @@ class TooManyDigits(ValueError):
 def coordinate_field(text: str, truncate: bool = False) -> str:
     """Return a decimal number in the 14 columns of E14.8, as on the thesis's data sheet: ``+.20000000E+01``.
 
-    Raise TooManyDigits for more than eight significant digits unless ``truncate`` is true, and ValueError for an
-    exponent outside -99 to 99 and for a text that is not a decimal number.
+    Raise TooManyDigits for more than eight significant digits unless ``truncate`` is true, and ValueError for other
+    text and an exponent outside -99 to 99.
     """
     minus, whole, fraction, exponent = split_decimal(text.strip())
     digits = (whole + fraction).lstrip("0")
@@ -95,10 +95,7 @@ def coordinate_field(text: str, truncate: bool = False) -> str:
 
 
 class UnfitPoint(ValueError):
-    """A coordinate that no card can hold.
-
-    point, field: numbers from 1.  why: the reason.  digits: True if only the number of digits is too large.
-    """
+    """A coordinate, by ``point`` and ``field`` from 1, that no card can hold, perhaps only because of its digits."""
 
     def __init__(self, point: int, field: int, why: str, digits: bool) -> None:
         super().__init__(f"point {point}, field {field}: {why}")
@@ -108,8 +105,7 @@ class UnfitPoint(ValueError):
 def data_deck(points: Sequence[Sequence[str]], source: str, truncate: bool = False) -> Deck:
     """Return a deck of one data set for at least one point; ``source`` becomes its name.
 
-    Raise UnfitPoint for a coordinate that no card holds (see ``coordinate_field``), and ValueError for more points than
-    the field of N can hold.
+    Raise UnfitPoint for a coordinate that no card holds, and ValueError for more points than the field of N can hold.
     """
     if len(points) > MAX_N:
         raise ValueError(f"{len(points)} points; N has two columns, so a deck holds at most {MAX_N}")
@@ -126,10 +122,7 @@ def data_deck(points: Sequence[Sequence[str]], source: str, truncate: bool = Fal
 
 
 def with_epsilon(deck: Deck, epsilon: str) -> Deck:
-    """Return the deck of one data set with e punched after N, for the layer ``epsilon``.
-
-    Raise ValueError if no card can hold e.
-    """
+    """Return the deck of one data set with e punched after N.  Raise ValueError if no card can hold e."""
     first, *rest = (card.text for card in deck.cards)
     return deck_from_lines(deck.source, [first[: _E_FIRST - 1].ljust(_E_FIRST - 1) + coordinate_field(epsilon), *rest])
 
@@ -143,8 +136,7 @@ def read_coordinates(card: Card, rules: Rules) -> tuple[FieldNumber, FieldNumber
 def exact_points(deck: Deck) -> tuple[dict[int, Point], tuple[str, ...]]:
     """Return the points of a deck's first data set by card number, and warnings.
 
-    All digits of a field are read, whereas the programs on the machine would truncate it after the eighth digit.
-    Raise CardError or DeckError as ``check`` does.
+    All digits of a field are read, whereas the programs would truncate it after the eighth digit.
     """
     every = check(deck, _RULES)
     notes = []
@@ -169,8 +161,7 @@ def _decimal(number: FieldNumber) -> str:
 def check(deck: Deck, rules: Rules = TRUNCATING.rules, epsilon: bool = False) -> CheckedDeck:
     """Check every data set of a deck; with ``epsilon`` the programs read e after N.
 
-    Raise CardError if N is not an integer from 1 to 51, a coordinate is not a number, or e is negative or not a number.
-    Raise DeckError if the deck has fewer than N points.
+    Raise CardError for an invalid N (1 to 51), coordinate or e, and DeckError if the deck has fewer than N points.
     """
     sets: list[DataSet] = []
     warnings: list[DeckWarning] = []
@@ -257,5 +248,4 @@ def _point(deck: Deck, card: Card, rules: Rules, warnings: list[DeckWarning]) ->
 
 
 def _fields(card: Card) -> Iterable[tuple[int, str]]:
-    """Return the first column and the text of x, y and z."""
     return ((first, card.columns(first, first + 13)) for first in (1, 15, 29))

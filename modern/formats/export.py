@@ -27,10 +27,7 @@ def export_text(hull: Hull, form: str, digits: int | None = None) -> str:
 
 
 def mesh_text(surface: Mesh, form: str, digits: int | None = None) -> str:
-    """Return a surface as the text of a file in one of the formats ``MESHES``; see ``export_text`` for ``digits``.
-
-    Raise ExportError if the format is unknown or cannot hold the surface.
-    """
+    """Return a surface as the text of a file in one of the formats ``MESHES``; see ``export_text`` for ``digits``."""
     if form not in MESHES:
         raise ExportError(f"{form!r} is not a mesh format; the formats are {', '.join(MESHES)}")
     text: str = import_module(f"modern.formats.{form}").write(surface, digits)
@@ -57,8 +54,8 @@ def write_hull(hull: Hull, path: str, form: str | None = None, digits: int | Non
 def to_trimesh(hull: Hull) -> Any:
     """Return a ``trimesh.Trimesh`` of the vertices, in their order, and of the faces split into triangles.
 
-    Coordinates are rounded to the nearest binary float, and nothing is merged or reordered (``process=False``).
-    Raise ExportError if trimesh is not installed, the hull has no area, or a number is too large for a float.
+    Coordinates are rounded to the nearest binary float.  Raise ExportError if trimesh is not installed, the hull has no
+    area, or a number is too large for a float.
     """
     surface = mesh(hull)
     if surface.dimension < 2:

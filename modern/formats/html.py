@@ -14,10 +14,7 @@ from modern.geometry.mesh import ExportError, Mesh
 
 
 def write(mesh: Mesh, digits: int | None = None) -> str:
-    """Return the text of the page.  Its picture uses binary floats, its table the exact vertices.
-
-    ``digits`` applies to the table, as in the other formats.  Raise ExportError if a coordinate cannot be written.
-    """
+    """Return the text of the page: its picture uses binary floats, its table exact vertices or ``digits`` digits."""
     try:
         points = [[float(number) for number in point] for point in mesh.numbers()]
     except OverflowError:

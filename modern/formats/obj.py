@@ -29,19 +29,13 @@ def write(mesh: Mesh, digits: int | None = None) -> str:
 
 
 def parse(text: str, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
-    """Return the vertices as text and the line of each one.
-
-    Raise FileError, with line and column, if a vertex does not begin with three decimal numbers.
-    """
+    """Return the vertices as text and the line of each one.  Raise FileError for an invalid vertex."""
     vertices = [(vertex(source, line, tokens, 1, True), line) for line, tokens in lines(text) if tokens[0][0] == "v"]
     return tuple(point for point, _ in vertices), tuple(line for _, line in vertices)
 
 
 def surface(text: str, source: str) -> FileMesh:
-    """Return the vertices and faces.
-
-    Raise FileError, with line and column, for an invalid vertex and for a face with a missing vertex.
-    """
+    """Return the vertices and faces.  Raise FileError for an invalid vertex and for a face with a missing vertex."""
     points, point_lines = parse(text, source)
     faces = []
     vertices_before = 0

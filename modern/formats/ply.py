@@ -47,10 +47,7 @@ _MOST_HEADER = 1 << 16
 
 @dataclass(frozen=True, slots=True)
 class _Element:
-    """An element that a header announces.
-
-    properties: name and struct code of each property, with the code "" for a list.
-    """
+    """An element of a header: (name, struct code) of its properties, with the code "" for a list."""
 
     name: str
     count: int
@@ -58,11 +55,7 @@ class _Element:
 
 
 def parse(data: bytes, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
-    """Return the vertices of a PLY file, and the line of each one or, in a binary file, its number from 1.
-
-    Coordinates are decimal text as in the file, or the exact decimals of binary floats.  Raise FileError for an invalid
-    file.
-    """
+    """Return the vertices of a PLY file, exactly, and the line of each one or, in a binary file, its number from 1."""
     end = data.find(_END, 0, _MOST_HEADER)
     if end < 0:
         raise FileError(f"{source}: line 1, column 1: the header has no line end_header")
@@ -88,7 +81,6 @@ def parse(data: bytes, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]
 
 
 def _header(text: str, source: str) -> tuple[str, list[_Element]]:
-    """Return the format and the elements that a header announces."""
     kind, elements = "", list[_Element]()
     for line, tokens in islice(lines(text, ""), 1, None):
         match [text for text, _ in tokens]:

@@ -24,11 +24,7 @@ _NPY = b"\x93NUMPY"
 
 @dataclass(frozen=True, slots=True)
 class Input:
-    """The points of a file, as decimal text.
-
-    kind: the format, a key of ``POINTS``.  places: where each point stands in the file, such as ``card 3`` or
-    ``line 3``.  notes: warnings for the user, one line each.
-    """
+    """The points of a file as decimal text, their ``places`` (such as ``card 3``), and warnings for the user."""
 
     source: str
     kind: str
@@ -73,10 +69,7 @@ def parse_input(text: str, source: str) -> Input:
 
 
 def kind_of(data: bytes, source: str) -> str:
-    """Return the format of a file, a key of ``POINTS``, without reading its points.
-
-    Raise FileError if the file has none of these formats.
-    """
+    """Return the format of a file, a key of ``POINTS``.  Raise FileError if it has none of these formats."""
     return _binary_kind(data) or recognise(decoded(data, source), source)
 
 
@@ -150,7 +143,6 @@ def _input(
 
 
 def _npy(data: bytes, source: str) -> tuple[Point, ...]:
-    """Return the rows of an array of shape (n, 3)."""
     import numpy as np  # imported here because text formats do not need it
 
     try:

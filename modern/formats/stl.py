@@ -42,10 +42,7 @@ def write(mesh: Mesh, digits: int | None = None) -> str:
 
 
 def unit_text(vector: Vector) -> str:
-    """Return the unit vector in the direction of ``vector`` as three numbers truncated to nine decimals.
-
-    The zero vector stays zero.  The calculation uses integers only, so that no binary float is rounded.
-    """
+    """Return the unit vector of ``vector``, or zero, as three numbers truncated to nine decimals by integers only."""
     square = dot(vector, vector)
     return " ".join(_truncated_quotient(component, square) for component in vector)
 
@@ -65,11 +62,7 @@ def is_binary(data: bytes) -> bool:
 
 
 def surface_binary(data: bytes, source: str) -> FileMesh:
-    """Return the triangles of a binary STL file, single-precision floats as exact decimals.
-
-    The "line" of a point is the number of its first triangle, from 1.  Raise FileError for a coordinate that is not
-    finite.
-    """
+    """Return the triangles of a binary file as exact decimals; the "line" of a point is its first triangle."""
     indices: dict[Point, int] = {}
     first_triangles: list[int] = []
     faces = []
@@ -86,10 +79,7 @@ def surface_binary(data: bytes, source: str) -> FileMesh:
 
 
 def parse(text: str, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
-    """Return the distinct corners of an ASCII STL file as text, and the line in which each one first appears.
-
-    Raise FileError, with line and column, for a corner that is not three decimal numbers.
-    """
+    """Return the distinct corners of an ASCII file as text, and the line in which each one first appears."""
     mesh = surface(text, source, check_triangles=False)
     return mesh.points, mesh.lines
 
@@ -97,8 +87,7 @@ def parse(text: str, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
 def surface(text: str, source: str, check_triangles: bool = True) -> FileMesh:
     """Return the triangles of an ASCII STL file.
 
-    Raise FileError, with line and column, for a corner that is not three decimal numbers and, unless
-    ``check_triangles`` is false, for a loop that does not have three corners.
+    Raise FileError for an invalid corner and, unless ``check_triangles`` is false, for a loop without three corners.
     """
     indices: dict[Vector, int] = {}
     points: list[Point] = []

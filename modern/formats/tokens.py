@@ -17,11 +17,7 @@ Line = tuple[int, list[Token]]
 
 @dataclass(frozen=True, slots=True)
 class FileMesh:
-    """The surface in a file.
-
-    points: decimal text as in the file.  lines: the line of each point, or its triangle in a binary file.
-    faces: tuples of indices into ``points``, from 0.
-    """
+    """The surface in a file: points as decimal text with their lines (or triangles), and faces as indices."""
 
     source: str
     points: tuple[Point, ...]
@@ -53,10 +49,7 @@ def take(rows: Iterator[Line], count: int, source: str, last: int, what: str) ->
 
 
 def vertex(source: str, line: int, tokens: list[Token], first: int = 0, allow_more: bool = False) -> Point:
-    """Return the three coordinates in a line from token ``first`` on.
-
-    Raise FileError if there are not three numbers, or fewer than three with ``allow_more``.
-    """
+    """Return the three coordinates from token ``first`` on.  Raise FileError for others, unless ``allow_more``."""
     numbers = len(tokens) - first
     if numbers < 3 or (numbers > 3 and not allow_more):
         where = tokens[min(first + 3, len(tokens) - 1)]

@@ -232,7 +232,6 @@ def _plain(value: Decimal) -> str:
 
 
 def _integers(surface: Mesh) -> tuple[list[IntVector], int]:
-    """Return the points times the least common denominator of their coordinates, and that denominator."""
     numbers = surface.numbers()
     scale = math.lcm(*(value.denominator for point in numbers for value in point))
     points = []

@@ -116,7 +116,6 @@ def sides(face: Sequence[int]) -> Iterator[tuple[int, int]]:
 
 
 def _cycle(lines: list[tuple[int, ...]], count: int) -> tuple[int, ...]:
-    """Return the polygon whose sides are ``lines``, pairs of vertices, from vertex 0 on."""
     neighbours: list[list[int]] = [[] for _ in range(count)]
     for line in lines:
         if len(line) != 2:

@@ -29,10 +29,7 @@ _SAFE_BITS = 10_000
 
 
 class PointsError(EmulatorError, ValueError):
-    """An invalid point, or one that an arithmetic cannot represent; the message is one line that names the point.
-
-    Points are numbered from 0.
-    """
+    """An invalid point, counted from 0, or one that an arithmetic cannot represent; the message is one line."""
 
 
 def quoted(text: str) -> str:
@@ -41,10 +38,7 @@ def quoted(text: str) -> str:
 
 
 def split_decimal(text: str) -> tuple[bool, str, str, int]:
-    """Split a decimal such as ``-12.50E-3`` into (True if negative, "12", "50", -3).
-
-    Raise ValueError if the text is not a decimal number.
-    """
+    """Split ``-12.50E-3`` into (True if negative, "12", "50", -3).  Raise ValueError for text that is no decimal."""
     match = _DECIMAL.fullmatch(text.strip())
     if not match or not (match[2] or match[3]):
         raise ValueError(f"{text!r} is not a decimal number")
@@ -68,10 +62,7 @@ def decimal(text: str) -> Exact:
 
 
 def number(text: str) -> Fraction:
-    """Return the value of a decimal string or of a fraction ``p/q``.
-
-    Raise ValueError for other text; the message has a readable length.
-    """
+    """Return the value of a decimal string or of a fraction ``p/q``.  Raise ValueError with a short message."""
     stripped = text.strip()
     quotient = _QUOTIENT.fullmatch(stripped)
     try:
@@ -141,10 +132,7 @@ def decimal_text(text: str, digits: int | None = None) -> str:
 
 
 def sum_of_roots(squares: Iterable[Fraction], digits: int) -> Decimal:
-    """Return the sum of the square roots of fractions to the given number of significant digits.
-
-    It is exact if every root is a decimal with no more digits.
-    """
+    """Return the sum of square roots to the given number of digits; it is exact if no root has more digits."""
     work, total = Context(prec=digits + _GUARD, Emin=MIN_EMIN, Emax=MAX_EMAX), Decimal(0)
     for square in squares:
         # The quotient of two roots, unlike the root of a quotient, is exact if both roots are integers.
@@ -163,10 +151,7 @@ def decimal_places(denominator: int) -> int | None:
 
 
 def finite_decimal(value: Fraction) -> str | None:
-    """Return a fraction as a decimal string such as ``-0.25``, or None if its decimal expansion does not end.
-
-    Very large and very small numbers have an exponent: ``1E+90``.
-    """
+    """Return a fraction as a decimal such as ``-0.25`` or ``1E+90``, or None if its expansion does not end."""
     places = decimal_places(value.denominator)
     if places is None:
         return None

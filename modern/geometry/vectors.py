@@ -44,10 +44,7 @@ def lowest(vector: Sequence[int | Fraction]) -> tuple[int, int, int]:
 
 
 def area_vector(points: Sequence[tuple[N, N, N]], face: Sequence[int]) -> tuple[N, N, N]:
-    """Return the normal of a plane polygon with twice its area as length.
-
-    Seen from the side to which it points, the corners run counterclockwise.
-    """
+    """Return the normal, on the side from which the corners run counterclockwise, with twice the area as length."""
     origin = points[face[0]]
     total = minus(origin, origin)
     for here, ahead in pairwise(face[1:]):

@@ -42,7 +42,6 @@ def names() -> tuple[str, ...]:
 
 
 def study(name: str) -> Study:
-    """Return the built-in study of that name.  Raise KeyError if it is unknown."""
     if name not in names():
         raise KeyError(name)
     module: Study = import_module(f"{builtin.__name__}.{name.replace('-', '_')}")
@@ -50,7 +49,6 @@ def study(name: str) -> Study:
 
 
 def entries() -> Iterator[Entry]:
-    """Yield the entries of all built-in studies."""
     for name in names():
         module = study(name)
         plan = module.plan(module.SAMPLES, SEED)

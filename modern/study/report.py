@@ -36,13 +36,11 @@ class Table:
         return "\n".join([self.title, *lines, *self.notes]) + "\n"
 
     def csv(self) -> str:
-        """Return the heads and rows as CSV, without title and notes."""
         file = io.StringIO()
         csv.writer(file, lineterminator="\n").writerows([self.head, *self.rows])
         return file.getvalue()
 
     def markdown(self) -> str:
-        """Return the table as Markdown under its title in bold."""
         rule = ["--:" if is_numeric else ":--" for is_numeric in self._numeric()]
         lines = ["| " + " | ".join(c.replace("|", "\\|") for c in row) + " |" for row in (self.head, rule, *self.rows)]
         return "\n".join([f"**{self.title}**", "", *lines, *(f"\n{note}" for note in self.notes)]) + "\n"

@@ -29,7 +29,6 @@ class Sample:
     on: tuple[frozenset[int], ...]
 
     def figures(self) -> dict[str, int]:
-        """Return the size of the set and of its hull."""
         hull = self.hull
         return {
             "n": len(self.points),

@@ -27,8 +27,6 @@ LEVEL = 0.95
 
 @dataclass(frozen=True, slots=True)
 class Interval:
-    """An estimate and the limits of its confidence interval."""
-
     value: float
     low: float
     high: float

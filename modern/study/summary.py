@@ -33,7 +33,6 @@ class Summary:
     counts: Mapping[tuple[int, str], Counter[str]]
 
     def of(self, cell: int, route: str) -> int:
-        """Return the number of samples of a cell sent through a route."""
         return self.counts[cell, route].total()
 
     def hits(self, cell: int, route: str, outcomes: Iterable[str] = DETERMINED) -> int:
@@ -42,7 +41,6 @@ class Summary:
         return sum(counter[outcome] for outcome in frozenset(outcomes))
 
     def failed(self, cell: int, route: str) -> int:
-        """Return the number of samples without the right hull."""
         return self.of(cell, route) - self.hits(cell, route)
 
     def sound_from(self, cell: int, route: Callable[[int], str], tried: Sequence[int]) -> int | None:
@@ -65,7 +63,6 @@ class Summary:
 
 
 def summary(store: Store) -> Summary:
-    """Count the outcomes of a study."""
     counts: dict[tuple[int, str], Counter[str]] = {}
     for (cell, route, outcome), n in store.counts("cell", "route", "outcome").items():
         counts.setdefault((cell, route), Counter())[outcome] += n

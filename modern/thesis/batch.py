@@ -17,8 +17,7 @@ from modern.thesis.job import HullRun, Load, Step, punched_deck, second_program
 class Runs:
     """A cache of runs, because the routes of a study's cell often share program 1 or 2.
 
-    done: results or errors by the identity of the program, the options and the deck.
-    programs: the programs themselves, so that no other program can get the same identity.
+    Keys hold the identity of a program, so ``programs`` keeps the programs alive.
     """
 
     done: dict[tuple[int, Options, Deck], Result | EmulatorError] = field(default_factory=dict)
@@ -48,10 +47,7 @@ def _results(program: Program, decks: Sequence[Deck], options: Options) -> Seque
 def run_hulls(
     decks: Sequence[Deck], load: Load, options: Options | None = None, first: str = "program1", runs: Runs | None = None
 ) -> list[HullRun | EmulatorError]:
-    """Return for each deck of one data set what :func:`modern.thesis.job.run_hull` returns, or the error it raises.
-
-    ``runs`` is a cache that several calls can share.
-    """
+    """Return the result or error of :func:`modern.thesis.job.run_hull` for each deck; calls can share ``runs``."""
     options, runs = options or Options(), runs or Runs()
     program = load(first)
     hull_runs: list[HullRun | EmulatorError] = []

@@ -27,10 +27,7 @@ SECTIONS = ("inside", "boundary", "vertices", "equations", "plane")
 
 @dataclass(frozen=True, slots=True)
 class CardHull:
-    """A hull on cards: points and equations in the order of the cards.
-
-    satisfied: pairs of vertex numbers and the number of the equation that these vertices satisfy.
-    """
+    """A hull on cards: points and equations in order; ``satisfied`` are pairs of vertex numbers and an equation."""
 
     inside: tuple[Point, ...]
     boundary: tuple[Point, ...]
@@ -46,16 +43,12 @@ def number(text: str) -> Fraction:
 
 
 def floats(card: str) -> Point:
-    """Return the floating-point numbers on a card, in order."""
     return tuple(number(text) for text in _FLOAT.findall(card))
 
 
 @dataclass(frozen=True, slots=True)
 class Sections:
-    """The numbers of a hull on cards as text.
-
-    points: the rows of numbers of each section.  satisfied: the integers on each card of the last section.
-    """
+    """The numbers of a hull on cards as text: the rows of each section, and the integers of the last one."""
 
     points: Mapping[str, tuple[tuple[str, ...], ...]]
     satisfied: tuple[tuple[int, ...], ...]
@@ -93,8 +86,7 @@ def read_hull(cards: Sequence[str]) -> CardHull:
 def same_hull(first: CardHull, second: CardHull, oriented: bool) -> bool:
     """Return True if two hulls on cards are equal except for order and scale.
 
-    Equations are equal up to a factor, which must be positive if ``oriented`` is true, because programs 2 and 3 turn
-    planes and lines outward.
+    The scale must be positive if ``oriented`` is true, because programs 2 and 3 turn planes and lines outward.
     """
     return _canonical(first, oriented) == _canonical(second, oriented)
 
@@ -126,11 +118,9 @@ def scaled(equation: Point, oriented: bool) -> Point:
 
 @dataclass(frozen=True, slots=True)
 class IntermediateDeck:
-    """The cards that program 1 punches for the next program.
+    """The cards that program 1 punches for the next program, with N and, for coplanar points, KPROJ in ``count``.
 
-    planes: pairs of A, B, C, D and the numbers of the points that the card names.
-    count: N and, for coplanar points, KPROJ.
-    points: the points in their new order.
+    ``planes`` are pairs of A, B, C, D and the numbers of the points that the card names.
     """
 
     planes: tuple[tuple[Point, tuple[int, ...]], ...]
@@ -158,7 +148,6 @@ def planes_hold(deck: IntermediateDeck) -> bool:
 
 
 def _unprojected(deck: IntermediateDeck) -> list[Point]:
-    """Return the points as x, y, z: program 1 punches the coordinate that KPROJ drops last."""
     orders = {"1": (2, 0, 1), "2": (0, 2, 1), "3": (0, 1, 2)}
     order = orders.get(deck.count[1], (0, 1, 2)) if len(deck.count) > 1 else (0, 1, 2)
     return [tuple(point[k] for k in order) for point in deck.points if len(point) == 3]

@@ -37,13 +37,8 @@ CORRECTED = {1: "P3-025", 2: "P3-026", 3: "P3-027", 5: "P3-028", 16: "P2-023"}
 class Cause:
     """The cause of one step without a hull.
 
-    program: the number of the program.
-    message: the refusal that it typed; empty if it stopped for another reason.
-    decision: the last IF before that.
-    fault: the number of the known fault, or 0.
-    equation: the number of the equation in the table, or 0 if no equation is concerned.
-    point, value: the coordinates of the point that misses the equation, and the value there instead of zero, in the
-        numbers of the machine.
+    ``message`` is the refusal that the program typed, if any, and ``decision`` the last IF before it. ``fault`` is the
+    number of the known fault, and ``equation`` that of the equation, or 0. ``point`` misses the equation, by ``value``.
     """
 
     program: int
@@ -57,10 +52,7 @@ class Cause:
 
 
 def explain_run(run: Callable[..., HullRun], watch: Watch | None = None) -> tuple[HullRun, Cause | None]:
-    """Return a hull run, and the cause if it found no hull.
-
-    ``run`` is :func:`modern.thesis.job.run_hull` with all its arguments except ``watch``.
-    """
+    """Return a hull run and, if it found no hull, the cause; ``run`` is ``run_hull`` with all other arguments."""
     machines: list[Machine] = []
 
     def record(program: Program, machine: Machine) -> None:
@@ -74,10 +66,7 @@ def explain_run(run: Callable[..., HullRun], watch: Watch | None = None) -> tupl
 
 
 def cause(step: Step, machine: Session) -> Cause | None:
-    """Return the cause of a step without a hull, or None if it ended normally or the operator stopped it.
-
-    ``machine`` is the one that ran the step, in its final state.
-    """
+    """Return the cause of a step without a hull, or None; ``machine`` is the one that ran it, in its final state."""
     ending, refused = step.result.ending, refusal(step.result)
     if refused:
         event = next(e for e in reversed(step.result.events) if e.what == "type" and e.text in REFUSALS)
@@ -106,7 +95,6 @@ _CENTRES = {1: 204, 3: 132}
 
 
 def _search(label: int) -> str:
-    """Return the search of program 3 to which a statement belongs, or an empty text."""
     return "pair" if 141 <= label <= 155 else "repeat" if 164 <= label <= 173 else ""
 
 
@@ -152,7 +140,6 @@ def _unprojected(place: tuple[str, ...], projection: int) -> tuple[str, ...]:
 
 
 def _value(machine: Session, name: str, number: int = 1) -> str:
-    """Return the value of a variable, or of an element of an array, as text."""
     entry = next(entry for entry in machine.program.storage.entries if entry.name == name)
     return contents(machine, entry.first + number - 1)
 
