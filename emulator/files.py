@@ -82,8 +82,8 @@ def check_writable(*paths: str | None) -> None:
         raise FileError("two outputs have the same file name")
 
 
+# The beginning of the names of files that are still being written.
 UNFINISHED = ".unfinished-"
-"""The beginning of the names of files that are still being written."""
 
 
 @contextmanager

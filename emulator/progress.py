@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 from typing import TextIO
 
 _REDRAW = 0.2
+# Seconds between two updates of the bar, and between two lines if there is no terminal.
 _LINES = 60.0
-"""Seconds between two updates of the bar, and between two lines if there is no terminal."""
 
 
 @dataclass

@@ -21,8 +21,8 @@ from emulator.machine.machine import Machine
 from emulator.machine.result import Event, Options, Result, machine_errors, statements_begun
 
 T = TypeVar("T")
+# A function that receives one line for the user.
 Note = Callable[[str], None]
-"""A function that receives one line for the user."""
 
 
 def run_batch(

@@ -28,8 +28,8 @@ class Start(NamedTuple):
     exponents: Row
 
 
+# (limit, strict bounds, type error codes, end the run at any dev.READ if the hopper is empty).
 Setting = tuple[int, int, int, int]
-"""(limit, strict bounds, type error codes, end the run at any dev.READ if the hopper is empty)."""
 
 
 def run_decks(

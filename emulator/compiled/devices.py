@@ -45,14 +45,14 @@ KIND, WIDTH, DECIMALS, PLACE = range(4)
 PART = 4
 
 BEGUN, TAKEN, PUNCHED, TYPED, LINE_END = b"BRPT\n"
+# The number of the error code F8; those of E1 to E8 are 1 to 8.
 F8 = 9
-"""The number of the error code F8; those of E1 to E8 are 1 to 8."""
 CODES = 10
+# The columns of the line buffer, more than a record of any device has.
 LINE_ROOM = 4096
-"""The columns of the line buffer, more than a record of any device has."""
 ERROR_WORDS = b"ERROR E0"
+# The digits of a number in the log.
 STAMP = 6
-"""The digits of a number in the log."""
 
 
 # numba passes an array as seven or more numbers in every call, so that each function receives few tuples of arrays.

@@ -31,14 +31,14 @@ from emulator.numbers.fields import Field
 MAX_DIGITS = 9
 INSTEAD = "using the interpreter instead"
 
+# The largest number of decks in one call of the compiled code.
 BLOCK = 128
-"""The largest number of decks in one call of the compiled code."""
 LOG_ROOM = 1 << 20
+# Initial and largest size of a block's log; a deck that needs more runs in the interpreter.
 MOST_LOG_ROOM = 1 << 26
-"""Initial and largest size of a block's log; a deck that needs more runs in the interpreter."""
 
+# The keys of Result.numbers, in the order of Report.numbers.
 WAYS = ("E<", "E>", "F<", "F>", "I<", "I>")
-"""The keys of Result.numbers, in the order of Report.numbers."""
 
 _VERBS = {"READ": devices.READ, "PUNCH": devices.PUNCH, "ACCEPT": devices.ACCEPT}
 _KINDS = {"E": devices.E_FIELD, "F": devices.F_FIELD, "I": devices.I_FIELD}
@@ -117,10 +117,10 @@ class Run:
     counts: list[int]
     before: list[int]
     numbers: list[int]
+    # Pairs of CODES * statement + error code, and the number of occurrences.
     errors: list[tuple[int, int]]
-    """Pairs of CODES * statement + error code, and the number of occurrences."""
+    # The PAUSE statements that were executed, in order of their first execution.
     pauses: list[int]
-    """The PAUSE statements that were executed, in order of their first execution."""
 
     def lines(self) -> list[str]:
         """Return the lines of the log, each a letter and a text."""

@@ -31,13 +31,13 @@ def _punches() -> dict[str, str]:
     return code
 
 
+# The punches of each character, e.g. ``{"A": "12-1", "=": "3-8"}``, in the scientific (H) arrangement of the 026.
 PUNCHES: dict[str, str] = _punches()
-"""The punches of each character, e.g. ``{"A": "12-1", "=": "3-8"}``, in the scientific (H) arrangement of the 026."""
 
 CHARACTERS = frozenset(PUNCHES)
 
+# Graphics of the commercial (A) arrangement for the same punches. They are rejected with an explanation.
 COMMERCIAL = {"#": "=", "%": "(", "&": "+", "\u2311": ")", "\u00a4": ")"}
-"""Graphics of the commercial (A) arrangement for the same punches.  They are rejected with an explanation."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,8 +19,8 @@ from emulator.language.tree import Expression, Number, Power, Product, Reference
 from emulator.numbers.arithmetic import TRUNCATING
 from emulator.numbers.fields import FieldError, parse_constant
 
+# The library functions. Each may also be written with a final F (C26-5619 p. 63, 66).
 LIBRARY = ("SIN", "COS", "ATAN", "EXP", "LOG", "SQRT")
-"""The library functions.  Each may also be written with a final F (C26-5619 p. 63, 66)."""
 
 _ROLES = ("to", "from", "+", "-", "-r", "*", "/", "/r")
 _FLOATING = dict(zip(_ROLES, (op.TOFAC, op.FMFAC, op.FAD, op.FSB, op.FSBR, op.FMP, op.FDV, op.FDVR), strict=True))
@@ -46,11 +46,11 @@ class Emitter:
     subscripts: dict[Subscript, int] = field(default_factory=dict)
     arrays: dict[str, tuple[int, ...]] = field(default_factory=dict)
     counters: list[Counter] = field(default_factory=list)
+    # Array elements by array name and subscript, for subscripts that are a single name: these repeat most often.
     elements: dict[tuple[str, str], Operand] = field(default_factory=dict)
-    """Array elements by array name and subscript, for subscripts that are a single name: these repeat most often."""
     temporaries: int = 0
+    # True for fixed point, by the identity of an expression of the current statement.
     modes: dict[int, bool] = field(default_factory=dict)
-    """True for fixed point, by the identity of an expression of the current statement."""
 
     def emit(self, operation: int, operand: Operand | None = None, address: int = 0, second: int = 0) -> None:
         if operand is None:

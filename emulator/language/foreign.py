@@ -100,15 +100,16 @@ _STATEMENTS: tuple[tuple[str, ForeignStatement], ...] = (
     (r"\*", ForeignStatement("a control card", "the monitor of FORTRAN II-D or of another compiler", "leave it out")),
     (r"\$", ForeignStatement("a control card", "a monitor", "leave it out")),
 )
+# The kinds that :func:`~emulator.language.statements.classify` may give to a statement of another FORTRAN.
 _KINDS = {"unknown", "input_output", "go_to", "if", "assignment"}
-"""The kinds that :func:`~emulator.language.statements.classify` may give to a statement of another FORTRAN."""
 _COMPILED = tuple((re.compile(pattern), word) for pattern, word in _STATEMENTS)
 _LOGIC = re.compile(r"\.(EQ|NE|LT|LE|GT|GE|AND|OR|NOT|TRUE|FALSE)\.")
 _LOGICAL = ForeignStatement("a logical expression", _IV, "write IF (A-B) n1, n2, n3 for less, equal, greater")
+# Every statement that :func:`identify` knows.
 FOREIGN_STATEMENTS = (*(statement for _, statement in _STATEMENTS), _LOGICAL)
-"""Every statement that :func:`identify` knows."""
 STATEMENT_FUNCTION = ForeignStatement("a statement function", _II, "write its expression where it is used")
 
+# The replacement, in this FORTRAN, for functions of other FORTRANs.
 _INSTEAD = {
     "IF (X) n1, n2, n2 and, at n1, X=-X": ("ABS", "XABS", "IABS", "DABS"),
     "LOG": ("ALOG", "DLOG", "LN", "LOGE"),
@@ -123,9 +124,9 @@ _INSTEAD = {
     "N-N/M*M": ("MOD", "XMOD", "AMOD"),
     "IF (A-B) n1, n2, n3": ("SIGN", "ISIGN", "XSIGN", "DIM", "IDIM", "XDIM", "AMAX1", "AMIN1", "MAX0", "MIN0"),
 }
-"""The replacement, in this FORTRAN, for functions of other FORTRANs."""
 _BY_NAME = {name: replacement for replacement, names in _INSTEAD.items() for name in names}
 
+# FORMAT codes of other compilers, each with its message.
 FOREIGN_FIELDS = {
     "A": "an A field, for text, belongs to FORTRAN II and later; only numbers are read here, and H punches text",
     "G": "a G field belongs to FORTRAN IV; use E or F",
@@ -136,7 +137,6 @@ FOREIGN_FIELDS = {
     "T": "a T field belongs to FORTRAN IV; use X",
     "'": "text in quotes belongs to FORTRAN IV; use H",
 }
-"""FORMAT codes of other compilers, each with its message."""
 
 
 def identify(kind: str, text: str) -> ForeignStatement | None:
@@ -188,6 +188,7 @@ def suggest_function(name: str, library: Sequence[str]) -> str:
     return f"{known}; is {close[0]} meant?" if close else known
 
 
+# For each kind of node that may contain names, the fields to search.
 _PARTS: dict[type[object], tuple[str, ...]] = {
     node: tuple(name for name in node.__slots__ if name != "place")
     for node in (
@@ -195,7 +196,6 @@ _PARTS: dict[type[object], tuple[str, ...]] = {
         *(tree.Assignment, tree.ComputedGoTo, tree.If, tree.Do, tree.InputOutput, tree.Loop),
     )
 }
-"""For each kind of node that may contain names, the fields to search."""
 
 
 def references(node: object) -> list[tree.Reference]:

@@ -20,6 +20,7 @@ from emulator.language.tree import Place
 from emulator.numbers.work import STEPS
 
 # Operations with an address come first: the engines resolve a subscript before they decode the operation.
+# Every operation and its meaning. An operation is the index of its name, and the names below have the same order.
 MEANINGS = {
     "TOFAC": "field to FAC",
     "FMFAC": "FAC to field",
@@ -59,7 +60,6 @@ MEANINGS = {
     "PAUSE": "halt until START",
     "STOP": "end of the run",
 }
-"""Every operation and its meaning.  An operation is the index of its name, and the names below have the same order."""
 
 NAMES = tuple(MEANINGS)
 
@@ -111,11 +111,11 @@ def element_after(element: int, second: int) -> int:
     return element + 1 if element + 1 < abs(second) else 0
 
 
+# The name of a COUNT in the body of an indexed list. Each pass counts against the limit of statements.
 LIST_PASS = "pass of the list"
-"""The name of a COUNT in the body of an indexed list.  Each pass counts against the limit of statements."""
 
+# The name of a COUNT after an indexed list.
 LIST_REST = "rest of the list"
-"""The name of a COUNT after an indexed list."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,8 +184,8 @@ class Program:
         return tuple(numbers)
 
 
+# The number of entries of :attr:`Flat.table` per subscript.
 SUBSCRIPT = 8
-"""The number of entries of :attr:`Flat.table` per subscript."""
 
 
 class Flat(NamedTuple):

@@ -25,6 +25,9 @@ from emulator.language.statements import (
     sources,
 )
 
+# For each rule of the grammar the form shown in messages, and the error type (C26-5619 p. 56) or 0.
+#
+# An IF with a comma after its parenthesis is also type 7.
 _FORMS = {
     "assignment": ("variable = expression", 0),
     "go_to": ("GO TO n", 0),
@@ -39,14 +42,10 @@ _FORMS = {
     "dimension": ("DIMENSION v(d), v(d1, d2), ...", 9),
     "input_output": ("READ n, list (or PUNCH, PRINT, TYPE, ACCEPT)", 13),
 }
-"""For each rule of the grammar the form shown in messages, and the error type (C26-5619 p. 56) or 0.
-
-An IF with a comma after its parenthesis is also type 7.
-"""
 
 MAX_NESTING = 60
+# The longest statement in characters, without blanks: its object code would fill the largest machine.
 MAX_LENGTH = 20_000
-"""The longest statement in characters, without blanks: its object code would fill the largest machine."""
 _CACHED_LENGTH = 200
 _AFTER_END = "a card after END; the program's data belong in a separate deck"
 _EDGE = (LAST_COLUMN, LAST_COLUMN + 1)

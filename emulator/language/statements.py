@@ -17,8 +17,8 @@ from emulator.language.cards import Card, Deck
 from emulator.language.tree import Place
 
 LAST_COLUMN = 72
+# The column in which the text of a continuation card begins.
 _FIRST = 7
-"""The column in which the text of a continuation card begins."""
 _CAPITALS = str.maketrans(ascii_lowercase, ascii_uppercase)
 
 _VERB = re.compile(r"READ|ACCEPT|PUNCH|PRINT|TYPE")

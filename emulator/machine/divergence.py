@@ -36,8 +36,8 @@ from emulator.machine.state import Entry, Journal
 from emulator.numbers import Numbers
 from emulator.numbers.shadowed import ShadowedNumbers
 
+# The work that one run does before the other continues.
 _STRIDE = 1_000
-"""The work that one run does before the other continues."""
 
 
 @dataclass(frozen=True, slots=True)

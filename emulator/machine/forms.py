@@ -38,8 +38,8 @@ class _Walk(ABC):
 
     layout: Layout
     at: int = field(default=0, init=False)
+    # Repetitions of the FORMAT that :class:`emulator.machine.devices.Devices` has not counted yet.
     again: int = field(default=0, init=False)
-    """Repetitions of the FORMAT that :class:`emulator.machine.devices.Devices` has not counted yet."""
 
     def _to_field(self) -> Field:
         """Advance to the next field and return it, repeating the FORMAT if it has ended.  Raise NoField."""

@@ -32,14 +32,13 @@ SEND, TRANSMIT, COUNT, BRANCH, IF, DOTEST = op.SEND, op.TRANSMIT, op.COUNT, op.B
 AT_LIMIT, AT_STATEMENT, AT_BEGIN, AT_ITEM, AT_FINISH, AT_FUNCTION, AT_POWER, AT_POWERX, AT_PAUSE = range(9)
 AT_STOP, AT_EVENT, AT_UNDEFINED, AT_BOUNDS, AT_OUTSIDE, AT_SELECT, AT_COSTLY = range(9, 16)
 
+# Units of work a statement may do beyond the limit.
+#
+# The limit is checked only when a statement begins, so that the list of the largest possible array is still finished.
 SLACK = 6_000
-"""Units of work a statement may do beyond the limit.
 
-The limit is checked only when a statement begins, so that the list of the largest possible array is still finished.
-"""
-
+# The names of the two-operand operations in :meth:`emulator.numbers.base.Numbers.work`.
 _WORK_NAMES = {FAD: "add", FSB: "subtract", FSBR: "subtract", FMP: "multiply", FDV: "divide", FDVR: "divide"}
-"""The names of the two-operand operations in :meth:`emulator.numbers.base.Numbers.work`."""
 
 _REASONS = {op.BEGIN: AT_BEGIN, op.FINISH: AT_FINISH, op.FUNCTION: AT_FUNCTION, op.PAUSE: AT_PAUSE}
 _REASONS |= {op.POWER: AT_POWER, op.POWERX: AT_POWERX}

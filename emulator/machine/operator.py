@@ -19,11 +19,11 @@ from emulator.machine.words import action_line, halt_line, read_action
 
 _SETTING = ("SWITCH", "BREAK", "CLEAR", "STEP")
 
+# The work after which the operator is called again, a few hundredths of a second.
 SLICE = 20_000
-"""The work after which the operator is called again, a few hundredths of a second."""
 
+# A function that receives events in order.
 Output = Callable[[Sequence[Event]], None]
-"""A function that receives events in order."""
 
 
 @dataclass(frozen=True, slots=True)

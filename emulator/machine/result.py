@@ -13,8 +13,8 @@ from emulator.numbers import Number, Numbers, numbers
 DEFAULT_LIMIT = 5_000_000
 DEFAULT_CORE = 40_000
 
+# The units of work before the limit that are examined for a loop.
 LOOP_WINDOW = 2_000
-"""The units of work before the limit that are examined for a loop."""
 PUNCH_COLUMNS = 72
 TYPEWRITER_COLUMNS = 87
 
@@ -54,8 +54,8 @@ class Options:
     hopper: Literal["first", "any"] = "first"
 
 
+# A punched number: its first column, its number of columns, and its value.
 Uncut = tuple[int, int, Number]
-"""A punched number: its first column, its number of columns, and its value."""
 
 
 @dataclass(frozen=True, slots=True)

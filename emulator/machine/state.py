@@ -15,11 +15,11 @@ from emulator.numbers.arithmetic import UNDEFINED, ZERO
 from emulator.numbers.base import Number
 from emulator.numbers.work import STEPS
 
+# The kind of a field that holds a floating-point number, in any arithmetic.
 FLOATING = ZERO
-"""The kind of a field that holds a floating-point number, in any arithmetic."""
 
+# (instruction, field changed or next instruction, value stored or tested); for a COUNT (instruction, 0, None).
 Entry = tuple[int, int, Number]
-"""(instruction, field changed or next instruction, value stored or tested); for a COUNT (instruction, 0, None)."""
 
 
 @dataclass

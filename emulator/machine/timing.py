@@ -38,6 +38,7 @@ def _costs(cause: str, estimated: bool = False, **milliseconds: float) -> dict[s
     return {operation: Cost(time, cause, estimated) for operation, time in milliseconds.items()}
 
 
+# The cost of each operation of the object code.
 COSTS = {
     **_costs(ARITHMETIC, TOFAC=2, FMFAC=2, FAD=9.5, FSB=12.4, FSBR=12.9, FMP=18.3, FDV=54, FDVR=56, RSGN=0.5),
     **_costs(ARITHMETIC, estimated=True, FUNCTION=150, POWER=300, POWERX=60, FLOAT=3, FIX=3),
@@ -47,19 +48,18 @@ COSTS = {
     **_costs(CONVERSION, BEGIN=3.4, ITEM=0),
     **_costs(CONVERSION, estimated=True, FINISH=2),
 }
-"""The cost of each operation of the object code."""
 # COUNT is not on the machine: it costs nothing.  SEND and TRANSMIT are a single transmit field instruction, whose time
 # is booked at SEND.  The time of an ITEM is that of its conversion, FIELD_COSTS.
 
 SUBSCRIPT = Cost(2.0, SUBSCRIPTS, True)
 SUBSCRIPT_2 = Cost(7.0, SUBSCRIPTS, True)
+# The cost of a number read (<) or written (>), fitted to runs of examples 1 and 2 as PDQ FORTRAN compiles them.
 FIELD_COSTS = {
     **dict.fromkeys(("E<", "F<"), Cost(100, CONVERSION, True)),
     **dict.fromkeys(("E>", "F>"), Cost(180, CONVERSION, True)),
     "I<": Cost(20, CONVERSION, True),
     "I>": Cost(30, CONVERSION, True),
 }
-"""The cost of a number read (<) or written (>), fitted to runs of examples 1 and 2 as PDQ FORTRAN compiles them."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -30,8 +30,8 @@ from emulator.numbers.decimal import DecimalNumbers
 
 __all__ = ["HOSTED", "DecimalNumbers", "Number", "Numbers", "Trap", "Undecided", "hosted", "numbers"]
 
+# The names of the arithmetics that are not decimal profiles.
 HOSTED = ("float64", "float32", "mp:BITS", "exact")
-"""The names of the arithmetics that are not decimal profiles."""
 
 
 def hosted(name: str) -> Numbers | None:

@@ -19,8 +19,8 @@ from emulator.numbers.arithmetic import multiply as multiply_digits
 SUM_OVER, SUM_UNDER, PRODUCT_OVER, PRODUCT_UNDER = range(1, 5)
 QUOTIENT_OVER, QUOTIENT_UNDER, ZERO_DIVISOR, FIXED_ZERO_DIVISOR = range(5, 9)
 
+# Mantissa, exponent and event.
 State = tuple[int, int, int]
-"""Mantissa, exponent and event."""
 
 
 def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:

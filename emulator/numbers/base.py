@@ -18,11 +18,11 @@ from typing import Any
 from emulator.numbers.arithmetic import MAX_EXPONENT, MIN_EXPONENT, MINUS_ZERO, ZERO, Rules, rules_of
 from emulator.numbers.fields import FALLBACK, Field, Remark, read_floating, write_floating
 
+# A number of some number system.
 Number = Any
-"""A number of some number system."""
 
+# The number of digits shown to a reader.
 SHOWN = 20
-"""The number of digits shown to a reader."""
 
 
 class Trap(Exception):

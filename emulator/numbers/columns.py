@@ -10,15 +10,15 @@ from collections.abc import MutableSequence
 
 from emulator.numbers.arithmetic import MAX_EXPONENT, MIN_EXPONENT, MINUS_ZERO, ZERO, Rules
 
+# ASCII codes of the characters of a number. DIGIT is the code of 0.
 BLANK, PLUS, MINUS, POINT, DIGIT, LETTER_E = 32, 43, 45, 46, 48, 69
-"""ASCII codes of the characters of a number.  DIGIT is the code of 0."""
 
 # The status of a field that was read: below zero an error, above zero a warning.  CUT + n: n digits, some of them lost.
 NO_NUMBER, OUT_OF_RANGE = -1, -2
 FINE, BLANK_FIELD, BLANKS_INSIDE, BLANKS_AS_ZEROS, FOUR_KEPT, CUT = range(6)
 
+# The field E14.8, used for a number that is too large for its own field (C26-5619 p. 39-40).
 E_COLUMNS, E_DECIMALS = 14, 8
-"""The field E14.8, used for a number that is too large for its own field (C26-5619 p. 39-40)."""
 
 
 def squeeze(columns: MutableSequence[int], width: int) -> tuple[int, int]:

@@ -25,8 +25,8 @@ class _SignedZero(int):
 
 _MINUS = _SignedZero(0)
 
+# The longest number that may be stored, all parts together: repeated squaring would otherwise fill the memory.
 MAX_BITS = 100_000
-"""The longest number that may be stored, all parts together: repeated squaring would otherwise fill the memory."""
 
 _TOO_LONG = f"exact arithmetic does not hold a number of more than {MAX_BITS} bits"
 

@@ -33,12 +33,12 @@ from emulator.numbers.exact import ExactNumbers
 from emulator.numbers.fields import Field, Remark
 from emulator.numbers.multiprecision import MultiprecisionNumbers
 
+# Bits of a shadow beyond twice those of its number.
 _CARE = 64
-"""Bits of a shadow beyond twice those of its number."""
+# Steps of work that the test for rounding costs.
 _STEPS = 4
-"""Steps of work that the test for rounding costs."""
+# The longest number, in bits, that is tested. A longer one counts as rounded.
 _LONGEST = 4_096
-"""The longest number, in bits, that is tested.  A longer one counts as rounded."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -221,8 +221,8 @@ class ShadowedNumbers(Numbers):
         return self.inner.types_errors
 
 
+# The operations whose work is estimated even by a system that is not costly.
 _COSTED = ("SIN", "COS", "ATAN", "EXP", "LOG", "SQRT", "power", "integer_power")
-"""The operations whose work is estimated even by a system that is not costly."""
 
 
 def _length(value: Fraction) -> int:

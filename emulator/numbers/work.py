@@ -25,10 +25,10 @@ from __future__ import annotations
 
 from math import isqrt
 
+# Steps in a unit of work.
 STEPS = 34
-"""Steps in a unit of work."""
+# Steps of an error code: the interpreter is left and entered again.
 ERROR = 4
-"""Steps of an error code: the interpreter is left and entered again."""
 _PRODUCT, _QUOTIENT, _SERIES, _DECIMAL = 8_000, 650_000, 12_000, 40_000
 
 

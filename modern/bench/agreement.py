@@ -15,8 +15,8 @@ from decimal import Decimal
 from itertools import pairwise
 
 TOLERANCE = Decimal("1E-6")
+# The second card of each data set of programs 2 and 3. The first card is blank.
 HEADING = "CONVEX HULL"
-"""The second card of each data set of programs 2 and 3. The first card is blank."""
 
 _NUMBER = re.compile(r"[ 0-]\.\d{8}E[+-]\d\d")
 _ZERO = " .00000000E-99"

@@ -24,14 +24,14 @@ from modern.bench.timing import Figure, side_by_side, timed, timed_once
 from modern.edition import programs
 from modern.port import convex_hull
 
+# The plain engine runs one of fifty decks of the compiled engine, and the port one of five.
 PLAIN_SHARE, PORT_SHARE = 50, 5
-"""The plain engine runs one of fifty decks of the compiled engine, and the port one of five."""
 
 PLAIN, COMPILED, PORT, NATIVE = "plain engine", "compiled engine", "port, float64", "native program"
 COLD, WARM = "cold start: nothing compiled yet", "warm start: time to the first result"
 
+# A function that receives one line for the user.
 Say = Callable[[str], None]
-"""A function that receives one line for the user."""
 
 
 @dataclass(frozen=True, slots=True)

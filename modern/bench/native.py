@@ -13,8 +13,8 @@ from emulator.errors import EmulatorError
 from emulator.language.cards import Deck
 from modern.bench.translate import translated
 
+# The compilers tried in this order, after the one that the environment variable FC names.
 COMPILERS = ("gfortran", "flang", "flang-new", "ifx", "f95")
-"""The compilers tried in this order, after the one that the environment variable FC names."""
 
 _EXTRA = {"gfortran": ("-std=legacy", "-w"), "ifx": ("-w",)}
 _PATIENCE = 120

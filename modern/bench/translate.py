@@ -27,13 +27,13 @@ from emulator.language.parser import parse
 from emulator.numbers.fields import Field
 
 LIBRARY = {name + end: name for name in ("SQRT", "SIN", "COS", "ATAN", "EXP", "LOG") for end in ("", "F")}
+# The label of the end of the run. Statement numbers of the 1620 have four digits (C26-5619 p. 12).
 EMPTY = 90000
-"""The label of the end of the run. Statement numbers of the 1620 have four digits (C26-5619 p. 12)."""
 TOPS = 90001
+# The length after which a statement continues on the next line.
 LINE = 100
-"""The length after which a statement continues on the next line."""
+# The unit for typed lines.
 TYPED = 8
-"""The unit for typed lines."""
 
 
 def translated(deck: Deck, switches: Collection[int] = ()) -> str:

@@ -182,10 +182,10 @@ def check_everything(rows: list[Row], transcripts: bool, whole: str = "", worker
         pool.shutdown(cancel_futures=True)
 
 
+# The number of rows submitted to a process at a time; neighbouring rows share a program.
 _CHUNK = 8
-"""The number of rows submitted to a process at a time; neighbouring rows share a program."""
+# The number of rows from which on further processes save time.
 _MANY = 20
-"""The number of rows from which on further processes save time."""
 
 
 def _listed_transcripts(pair_uses: Mapping[tuple[str, str], int]) -> list[Proof]:

@@ -30,8 +30,8 @@ VERDICTS: tuple[Verdict, ...] = (HOLDS, CONDITION, FAILS, UNTESTABLE)
 _FROM_BEST: tuple[Verdict, ...] = (HOLDS, CONDITION, UNTESTABLE, FAILS)
 
 THESIS: Final = "thesis"
+# The five documents by their names on the command line.
 DOCUMENTS = (THESIS, "appel-will", "kovalevsky-schulz", "nakamae-nishita", "yau-srihari")
-"""The five documents by their names on the command line."""
 MOST_WORDS = 8
 _FIELDS = {"id", "page", "kind", "words", "says", "verdict", "why", "claim", "result", "test", "file", "run", "part"}
 
@@ -99,8 +99,8 @@ class Judged:
         return self.computed in (None, self.statement.verdict)
 
 
+# Returns the verdict on a result by document and id, or None for an unknown id.
 Results = Callable[[str, str], Verdict | None]
-"""Returns the verdict on a result by document and id, or None for an unknown id."""
 
 
 def statements_folder() -> Traversable:
@@ -200,8 +200,8 @@ def run_claim(claim: str) -> CheckResult:
     return result
 
 
+# The prefix of the id of a result of chapter 6; the number of the example follows.
 EXAMPLE: Final = "example "
-"""The prefix of the id of a result of chapter 6; the number of the example follows."""
 _VERDICT_OF_FINDING: Mapping[str, Verdict] = {
     EXACT: HOLDS,
     CORRECTED: HOLDS,

@@ -17,12 +17,12 @@ from modern.port import convex_hull
 
 Point = tuple[int, int, int]
 Plane = tuple[int, int, int, int]
+# The number of sets of each dimension that ``reproduce`` samples; the tests sample more.
 COUNT = "2"
-"""The number of sets of each dimension that ``reproduce`` samples; the tests sample more."""
 _COORDINATE_LIMIT, _FEWEST_POINTS, _MOST_POINTS = 5, 7, 11
+# The first two sets of each dimension contain the cases that claims are about: points inside the hull, a point on its
+# boundary and, in space, a face with four corners.
 _SEEDS = {2: 1965, 3: 313}
-"""The first two sets of each dimension contain the cases that claims are about: points inside the hull, a point on its
-boundary and, in space, a face with four corners."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 from modern.comparison.outcome import Equation, Outcome, Vector, integers_of
 
+# The largest difference of a coefficient at which two equations count as the same face with a numerical error.
 NEAR = Fraction(1, 1000)
-"""The largest difference of a coefficient at which two equations count as the same face with a numerical error."""
 
 
 @dataclass(frozen=True, slots=True)

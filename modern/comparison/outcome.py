@@ -24,8 +24,8 @@ from modern.thesis.job import HullRun
 Vector = tuple[Fraction, ...]
 Equation = tuple[Fraction, Fraction, Fraction, Fraction]
 
+# The status for the ending of a run; every other kind of ending is the status itself.
 _STATUS = {"limit": "endless", "bounds": "out of bounds", "outside": "out of bounds", "undefined": "undefined value"}
-"""The status for the ending of a run; every other kind of ending is the status itself."""
 
 
 @dataclass(frozen=True, slots=True)

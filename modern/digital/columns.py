@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+# The approximate number of voxels processed at a time.
 SLAB = 1 << 24
-"""The approximate number of voxels processed at a time."""
+# Another round of removal runs while the last one removed at least one point in this number.
 STILL_PAYS = 64
-"""Another round of removal runs while the last one removed at least one point in this number."""
 
 Grid = NDArray[np.int64]
 Truth = NDArray[np.bool_]

@@ -24,10 +24,10 @@ from modern.digital.polytope import compiled_hull, polyhedron
 from modern.digital.solids import NoVoxels, Volume, VolumeError
 from modern.digital.world import World, voxel_volume, world_of
 
+# The largest volume for which a product of three lengths fits in 64 bits. No memory holds as many voxels.
 MAX_VOXELS = 1 << 56
-"""The largest volume for which a product of three lengths fits in 64 bits. No memory holds as many voxels."""
+# The number of candidates from which compiled code is used if numba is installed.
 WORTH_COMPILING = 1000
-"""The number of candidates from which compiled code is used if numba is installed."""
 Kind = Literal["point", "segment", "polygon", "polyhedron"]
 KINDS: tuple[Kind, ...] = get_args(Kind)
 

@@ -26,8 +26,8 @@ def lower_chain(points: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
     return chain
 
 
+# The approximate number of columns processed at a time.
 BATCH = 1 << 20
-"""The approximate number of columns processed at a time."""
 
 
 def below_facets(points: Grid, corner: Grid, plane: Grid, shape: tuple[int, int]) -> tuple[Grid, Grid]:

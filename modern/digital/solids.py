@@ -21,8 +21,8 @@ __all__ = ["NoVoxels", "Volume", "VolumeError", "World", "as_volume", "ball", "h
 VOXEL, VERTEX = "voxel", "vertex"
 MAX_CELLS = 2**31
 DIGITS = 18
+# A bound for coordinates, so that sums with the sides of a box fit in 64 bits.
 FARTHEST = 10**DIGITS
-"""A bound for coordinates, so that sums with the sides of a box fit in 64 bits."""
 
 Voxels = NDArray[np.bool_]
 

@@ -19,8 +19,8 @@ from modern.geometry.numbers import Exact, PointsError, decimal, finite_decimal,
 Position = tuple[Fraction, ...]
 
 LPS, RAS, LAS = "left-posterior-superior", "right-anterior-superior", "left-anterior-superior"
+# The anatomical spaces of NRRD, named after the directions in which x, y and z increase.
 ANATOMICAL = (LPS, RAS, LAS)
-"""The anatomical spaces of NRRD, named after the directions in which x, y and z increase."""
 _OPPOSITE = {"left": "right", "posterior": "anterior", "superior": "inferior"}
 _OPPOSITE |= {there: here for here, there in _OPPOSITE.items()}
 _MOST_DIGITS, _MOST_EXPONENT = 100, 400

@@ -20,19 +20,18 @@ from modern.drawing.scene import Scene, scene
 from modern.geometry.hull import Hull
 from modern.geometry.mesh import ExportError
 
+# The largest number of vertices that are numbered.
 MOST_NUMBERS = 400
-"""The largest number of vertices that are numbered."""
 
 _WIDTH, _WIDER, _NARROWEST, _WIDEST = 640, 1000, 320, 4000
+# The numbers of points above which marks and numbers are smaller, and above which hidden vertices are not numbered.
 _MANY, _CROWD = 60, 120
-"""The numbers of points above which marks and numbers are smaller, and above which hidden vertices are not numbered."""
 _FONT = f'font-family="{svg.FONT}" font-size="13" fill="#000"'
 _DARKEST, _RANGE = 196, 56
 
+# The numbers of vertices: none, their place in ``Hull.vertices`` as the programs number them, or their place in the
+# input.
 Labels = Literal["none", "programs", "input"]
-"""The numbers of vertices: none, their place in ``Hull.vertices`` as the programs number them, or their place in the
-input.
-"""
 
 
 @dataclass(frozen=True, slots=True)

@@ -35,8 +35,8 @@ class Label:
     x: float
     y: float
     text: str
+    # The height of its type.
     size: float = HEIGHT
-    """The height of its type."""
 
     @property
     def half(self) -> Place:

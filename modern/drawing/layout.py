@@ -35,8 +35,8 @@ class Layout:
     vertices: tuple[Pixel, ...]
     boundary: tuple[Pixel, ...]
     inside: tuple[Pixel, ...]
+    # Groups of vertices that lie within 2.5 pixels and share a label.
     groups: tuple[tuple[int, ...], ...]
-    """Groups of vertices that lie within 2.5 pixels and share a label."""
 
 
 def lay_out(picture: Scene, width: int) -> Layout:

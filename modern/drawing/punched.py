@@ -16,20 +16,20 @@ from emulator.language.cards import COLUMNS, PUNCHES, Card, Deck, check_characte
 from modern.drawing import svg
 from modern.drawing.layout import Pixel
 
+# The largest number of cards in one picture, a full box.
 MOST_CARDS = 2000
-"""The largest number of cards in one picture, a full box."""
 
+# The rows of holes from the top edge.
 ROWS = ("12", "11", *map(str, range(10)))
-"""The rows of holes from the top edge."""
 
+# An inch in hundredths of a pixel.
 _INCH = 9600
-"""An inch in hundredths of a pixel."""
+# The size of a card in pixels.
 WIDTH, HEIGHT = 708, 312
-"""The size of a card in pixels."""
 _MARGIN = 12
 _HOLE = (528, 1200)
+# The cut of the upper left corner: a quarter of an inch along the edge, at 60 degrees to it.
 _CUT = Pixel(24_00, 41_57)
-"""The cut of the upper left corner: a quarter of an inch along the edge, at 60 degrees to it."""
 
 _CARD = 'fill="#f2f2f2" stroke="#666" stroke-width="1"'
 _HOLES = 'fill="#222"'

@@ -57,8 +57,8 @@ class Scene:
     boundary: tuple[Mark, ...]
     inside: tuple[Mark, ...]
     faces: int
+    # True if hidden edges and vertices are drawn.
     behind: bool = True
-    """True if hidden edges and vertices are drawn."""
 
 
 def scene(hull: Hull, eye: Sequence[Fraction] | None = None) -> Scene:

@@ -18,8 +18,8 @@ from modern.port import convex_hull
 
 _CELL, _BAND = 250, 46
 _COLUMNS = 3
+# The seconds for which a stage is shown, and the factor for the last stage.
 _SECONDS, _LAST = 1.6, 3
-"""The seconds for which a stage is shown, and the factor for the last stage."""
 _FONT = f'font-family="{svg.FONT}" font-size="12" fill="#000"'
 ADDED = svg.Style("added", "added", "dot", 'fill="#000" stroke="#fff" stroke-width="1"')
 WAITING = svg.Style("waiting", "not tested yet", "dot", 'fill="#fff" stroke="#777"')

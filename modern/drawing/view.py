@@ -17,6 +17,7 @@ from modern.geometry.vectors import Vector, cross, dot, lowest, minus
 Eye = tuple[int, int, int]
 Flat = tuple[Fraction, Fraction]
 
+# Directions tried for a view of a polyhedron: from the front and slightly above, then from other sides.
 EYES: tuple[Eye, ...] = (
     (24, -55, 29),
     (-31, -53, 28),
@@ -43,7 +44,6 @@ EYES: tuple[Eye, ...] = (
     (34, 31, 59),
     (27, -57, -22),
 )
-"""Directions tried for a view of a polyhedron: from the front and slightly above, then from other sides."""
 
 _CLEAR_FACE = 40
 _CLEAR_PAIR = 600
@@ -58,8 +58,8 @@ class View:
     eye: Eye
     right: Eye
     up: Eye
+    # The length of ``eye`` to 15 decimals. x of the image, multiplied by it, has the same scale as y.
     stretch: Fraction
-    """The length of ``eye`` to 15 decimals. x of the image, multiplied by it, has the same scale as y."""
 
     def project(self, point: Vector) -> Flat:
         """Return the image of a point, in the same scale along both axes."""

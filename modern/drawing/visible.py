@@ -16,13 +16,12 @@ from modern.geometry.mesh import sides
 
 N = TypeVar("N", int, Fraction)
 
+# The kinds of edges.
+#
+# inner: both faces are visible. contour: one face is visible. outline: no face is visible and one is edge-on, behind
+# the contour in the image. back: both faces are turned away. flat: both faces are in one plane, so that it is no edge
+# of the solid. joined: both faces are read as one, both visible or both turned away; an edge that is not drawn.
 Kind = Literal["inner", "contour", "outline", "back", "flat", "joined"]
-"""The kinds of edges.
-
-inner: both faces are visible. contour: one face is visible. outline: no face is visible and one is edge-on, behind the
-contour in the image. back: both faces are turned away. flat: both faces are in one plane, so that it is no edge of the
-solid. joined: both faces are read as one, both visible or both turned away; an edge that is not drawn.
-"""
 INNER: Final = "inner"
 CONTOUR: Final = "contour"
 OUTLINE: Final = "outline"

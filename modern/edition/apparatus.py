@@ -26,13 +26,13 @@ PAGE_MARK = "## page "
 LAST_COLUMN = 72
 _OURS = ("lacuna", "examples", "epsilon", "translation", "corrected")
 _LIKENESS = ("sibling",)
+# A snapshot of the page is stored before every sixteenth row.
 _SNAPSHOT_EVERY = 16
-"""A snapshot of the page is stored before every sixteenth row."""
+# Kinds that insert text that the witness does not have.
 _ADDS = ("lost", "lost-sign", "slip")
-"""Kinds that insert text that the witness does not have."""
 _CAUSES = ("ocr", "typist", "author", "editor", "undecidable")
+# The default cause of a row by its layer. For the other layers the cause is the editor.
 _CAUSE = {"ocr": "ocr", "typist": "typist", "author": "author", "print": "undecidable", "lacuna": "undecidable"}
-"""The default cause of a row by its layer.  For the other layers the cause is the editor."""
 _FIELDS = ("id", "layer", "kind", "reason", "evidence", "change")
 _OPTIONAL = ("ground", "cause", "editor", "date", "rdg")
 Certainty = Literal["certain", "probable", "conjecture"]
@@ -137,10 +137,10 @@ class Text:
     rows: tuple[Row, ...]
     layers: tuple[str, ...]
     default: tuple[str, ...]
+    # A cache by layers: their rows in order, and snapshots of the page before some rows, which builds share.
     pages: dict[tuple[str, ...], tuple[tuple[Row, ...], dict[int, _Page]]] = field(
         default_factory=dict, init=False, compare=False, repr=False
     )
-    """A cache by layers: their rows in order, and snapshots of the page before some rows, which builds share."""
 
     def row(self, row_id: str) -> Row:
         for row in self.rows:

@@ -20,16 +20,16 @@ from emulator.language.cards import Deck, deck_from_text
 EXAMPLES = (1, 2, 3, 4, 5, 6)
 
 Output = Literal["punch", "typewriter"]
+# The kind of a device file: the input deck, the punched cards or the typed lines.
 Device = Literal["deck", "punch", "typewriter"]
-"""The kind of a device file: the input deck, the punched cards or the typed lines."""
 
+# The layer of a device file: only its blanks come from the layout, or the text states it and does not print it.
 Origin = Literal["layout", "stated"]
-"""The layer of a device file: only its blanks come from the layout, or the text states it and does not print it."""
 
+# The contents of a card; empty for headings and blank cards.
 Role = Literal[
     "", "n", "point", "centre", "plane", "carrier", "inside", "boundary", "vertex", "endpoint", "equation", "incidence"
 ]
-"""The contents of a card; empty for headings and blank cards."""
 
 
 class LayoutError(ValueError):

@@ -59,12 +59,12 @@ class Chapter:
     layout: Layout
     layers: tuple[str, ...]
     without: frozenset[str]
+    # The index of each line in the print.
     places: Mapping[str, int] = field(default_factory=dict, compare=False)
-    """The index of each line in the print."""
+    # A cache of cards by device file and lines, shared by a chapter and its variants.
     read: dict[tuple[str, ...], tuple[Card, ...]] = field(default_factory=dict, compare=False)
-    """A cache of cards by device file and lines, shared by a chapter and its variants."""
+    # A cache of the latest variant without a row, because several checks of a row use it.
     last: dict[str, Chapter] = field(default_factory=dict, compare=False)
-    """A cache of the latest variant without a row, because several checks of a row use it."""
 
 
 def load_chapter(layers: Iterable[str] | None = None, without: Collection[str] = ()) -> Chapter:

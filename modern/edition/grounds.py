@@ -36,10 +36,10 @@ from modern.edition.reproduce import EXACT, State, reproduce
 from modern.thesis.job import run_hull
 
 LISTED = Options(limit=200_000)
+# The tables and cards of the optional layers need 60,000 digits of memory.
 LAYERED = Options(limit=1_000_000, core=60_000)
-"""The tables and cards of the optional layers need 60,000 digits of memory."""
+# A job without a row counts as different once it takes this many times the statements of the job with the row.
 LIMIT_FACTOR = 4
-"""A job without a row counts as different once it takes this many times the statements of the job with the row."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -40,8 +40,8 @@ CLASSES: Mapping[str, frozenset[Class]] = {
     "comment": frozenset({"comment"}),
 }
 KEEPS = ("fused", "spacing", "columns")
+# The kinds that have a rule.
 RULED = (*CLASSES, *KEEPS, "displaced", "lost", "doubled", "overlaid")
-"""The kinds that have a rule."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,8 +24,8 @@ from modern.thesis.cards import planes_hold, read_hull, read_intermediate, same_
 from modern.thesis.job import Load, Step, run_hull
 
 State = Literal["examples", "listing"]
+# The built-in program for each of the two states of program 1.
 STATES: dict[State, str] = {"examples": "program1_examples", "listing": "program1"}
-"""The built-in program for each of the two states of program 1."""
 
 EXACT: Final = "exact"
 SPACING: Final = "exact except for spacing"
@@ -33,8 +33,8 @@ ORDER: Final = "exact in another order"
 DIFFERENT: Final = "different"
 Kind = Literal["exact", "exact except for spacing", "exact in another order", "different"]
 
+# The parts that can agree in another order: the points of an intermediate deck, or the parts of a hull.
 Part = Literal["points", "inside", "boundary", "vertices", "equations"]
-"""The parts that can agree in another order: the points of an intermediate deck, or the parts of a hull."""
 
 _NUMBER = re.compile(r"[+-]?\.\d+E[+-]\d\d|(?<![A-Z0-9.])\d+")
 

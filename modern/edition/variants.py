@@ -27,6 +27,7 @@ from modern.edition.readings import table
 
 _NAME = re.compile(r"[A-Z][A-Z0-9]*")
 _NUMBER = re.compile(r"\d+")
+# The positions at which each kind of statement refers to other statement numbers.
 _LABELS = {
     "if": re.compile(r"\)(\d+(?:,\d+)*)$"),
     "if_switch": re.compile(r"\)(\d+(?:,\d+)*)$"),
@@ -35,7 +36,6 @@ _LABELS = {
     "do": re.compile(r"^DO(\d+)(?=[A-Z])"),
     "input_output": re.compile(r"^(?:READ|PUNCH|PRINT)(\d+)"),
 }
-"""The positions at which each kind of statement refers to other statement numbers."""
 _WORDS = {
     "if": "IF",
     "if_switch": "IF(SENSESWITCH",

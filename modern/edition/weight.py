@@ -46,9 +46,10 @@ from modern.thesis.job import punched_deck, run_hull
 
 NOTICED = ("compiler", "print", "machine", "equation", "sibling", "nothing")
 CORE = 60_000
+# The run of a variant is stopped after LIMIT_FACTOR times the statements of the listing's run, plus LIMIT_EXTRA.
 LIMIT_FACTOR, LIMIT_EXTRA = 3, 5_000
-"""The run of a variant is stopped after LIMIT_FACTOR times the statements of the listing's run, plus LIMIT_EXTRA."""
 
+# Program, first card, last card, and the formula of chapter 3 that their floating-point assignments compute.
 EQUATIONS: tuple[tuple[str, str, str, str], ...] = (
     ("program1", "113", "113+2", "(3.1)"),
     ("program1", "114", "114+2", "(3.2)"),
@@ -64,7 +65,6 @@ EQUATIONS: tuple[tuple[str, str, str, str], ...] = (
     ("program2", "133+13", "133+15", "(3.5)"),
     ("program3", "130+3", "130+10", "(3.4)"),
 )
-"""Program, first card, last card, and the formula of chapter 3 that their floating-point assignments compute."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -252,8 +252,8 @@ def ordered(names: Iterable[str] = programs.TEXTS) -> list[Variant]:
     return sorted(every, key=lambda v: hashlib.sha256(v.key.encode()).digest())
 
 
+# The benches of a worker process.
 _KNOWN: dict[str, Bench] = {}
-"""The benches of a worker process."""
 
 
 def _begin(runs: str) -> None:

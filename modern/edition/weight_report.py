@@ -13,8 +13,8 @@ from modern.edition import programs
 from modern.edition.variants import Variant
 from modern.edition.weight import EQUATIONS, NOTICED, alike, by_card, equation_of, ordered, silent
 
+# The checks that confirm a reading, apart from the compiler.
 CONFIRMING = ("print", "machine", "equation", "sibling")
-"""The checks that confirm a reading, apart from the compiler."""
 
 
 def write_weight(folder: Path, answers: Mapping[str, str]) -> str:

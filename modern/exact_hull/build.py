@@ -27,8 +27,8 @@ from modern.exact_hull.result import CertificateError, ExactHull, Facet, Plane
 from modern.exact_hull.surface import BOUND, convex_surface, frame, plane_image
 
 SEED = 1963
+# The number of points from which a hull is first proposed in rounded numbers.
 MANY = 500
-"""The number of points from which a hull is first proposed in rounded numbers."""
 _BLOCK = 1 << 16
 
 

@@ -41,8 +41,8 @@ from modern.exact_hull.incidences import Incidences, incidences
 from modern.exact_hull.polygons import check_convex, difference, dot, product
 from modern.exact_hull.result import Certificate, CertificateError, ExactHull, require
 
+# The number of points times facets from which a polyhedron is proved by its convexity.
 MANY = 1 << 18
-"""The number of points times facets from which a polyhedron is proved by its convexity."""
 
 
 def _is_plane(plane: Sequence[int]) -> bool:

@@ -89,10 +89,10 @@ from modern.exact_hull.result import CertificateError, ExactHull
 
 _BLOCK = 1 << 12
 _BALL = 2.0**-40
+# The number of triangles among which the first one of a walk is chosen.
 _STARTS = 256
-"""The number of triangles among which the first one of a walk is chosen."""
+# The maximum number of steps of a walk in integers, which begins near the cone.
 _STEPS = 64
-"""The maximum number of steps of a walk in integers, which begins near the cone."""
 
 
 class Undecided(Exception):

@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 
 LOW = (1 << 31) - 1
 DOUBT = 2.0**-18
+# The value of a point that sees a triangle, if only integers could decide it.
 SEEN = 1e-300
-"""The value of a point that sees a triangle, if only integers could decide it."""
+# The smallest value of a point that may lie on the surface before points were rounded.
 NEAR = -4.0
-"""The smallest value of a point that may lie on the surface before points were rounded."""
 
 
 class Surface(NamedTuple):

@@ -16,8 +16,8 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Objects = NDArray[np.object_]
 
+# Integers below 2**900, also multiplied by 2**100, are rounded to float64 without overflow.
 _WIDE, _APART = 1 << 900, 100
-"""Integers below 2**900, also multiplied by 2**100, are rounded to float64 without overflow."""
 
 
 def difference(p: Sequence[int], q: Sequence[int]) -> IntPoint:

@@ -36,10 +36,10 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 GRID_BITS = 30
+# The number of points from which loading the kernel costs less time than it saves.
 _VERY_MANY = 500_000
-"""The number of points from which loading the kernel costs less time than it saves."""
+# The largest number of new triangles for which one matrix product compares all points with all of them.
 _DENSE = 24
-"""The largest number of new triangles for which one matrix product compares all points with all of them."""
 
 
 @dataclass(frozen=True, slots=True)

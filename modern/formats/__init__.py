@@ -26,12 +26,13 @@ has one row for each valid file and for each way in which a file can be invalid;
 test_fuzz_readers.py`` damages files at random.  Documentation: ``docs/reference/files.md``.
 """
 
+# Formats of a surface. Each name is both a module of this package and the extension of the files.
 MESHES = ("off", "obj", "ply", "stl")
-"""Formats of a surface.  Each name is both a module of this package and the extension of the files."""
 
+# Formats of a hull: its surface, its complete data (JSON), or a page on which it can be turned (HTML).
 HULLS = (*MESHES, "json", "html")
-"""Formats of a hull: its surface, its complete data (JSON), or a page on which it can be turned (HTML)."""
 
+# Formats from which points are read, with their names in help and messages; ``points.py`` calls their readers.
 POINTS = {
     "deck": "a data deck",
     "csv": "a list (x,y,z a line, or with blanks, tabs, semicolons)",
@@ -42,4 +43,3 @@ POINTS = {
     "json": "JSON",
     "npy": "NPY",
 }
-"""Formats from which points are read, with their names in help and messages; ``points.py`` calls their readers."""

@@ -18,16 +18,16 @@ from emulator.numbers.arithmetic import TRUNCATING, Rules, profile
 from emulator.numbers.fields import Field, FieldError, FieldNumber, Remark, read_fixed, read_floating
 from modern.geometry.numbers import Point, finite_decimal, split_decimal
 
+# The number of points for which the programs' arrays are dimensioned.
 MAX_POINTS = 51
-"""The number of points for which the programs' arrays are dimensioned."""
+# The largest number that the two columns of N can hold.
 MAX_N = 99
-"""The largest number that the two columns of N can hold."""
 COORDINATE = Field("E", 14, 8)
 _LAST_COLUMN = 42
 _E_FIRST, _E_LAST = 3, 16
 _DIGITS = 14
+# Rules that keep every digit of a field of 14 columns.
 _RULES = profile(f"truncating:{_DIGITS}").rules
-"""Rules that keep every digit of a field of 14 columns."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,8 +12,8 @@ from modern.formats import obj, off, stl
 from modern.formats.points import kind_of
 from modern.formats.tokens import FileMesh
 
+# The formats of points (``POINTS``) from which faces are also read.
 SURFACES = ("off", "obj", "stl")
-"""The formats of points (``POINTS``) from which faces are also read."""
 
 
 def surface_kind(data: bytes, source: str) -> str:

@@ -14,8 +14,8 @@ from modern.formats.tokens import FileMesh, Token, error, lines, vertex
 from modern.geometry.mesh import Mesh
 from modern.geometry.numbers import Point, quoted
 
+# The keywords with which an OBJ file may begin.
 KEYWORDS = frozenset(("v", "vn", "vt", "vp", "f", "l", "p", "o", "g", "s", "mtllib", "usemtl"))
-"""The keywords with which an OBJ file may begin."""
 
 
 def write(mesh: Mesh, digits: int | None = None) -> str:

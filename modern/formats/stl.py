@@ -21,8 +21,8 @@ from modern.geometry.numbers import Point, coordinates, float_text
 from modern.geometry.vectors import Vector, cross, dot, minus
 
 _DECIMALS = 9
+# Bytes of the header of a binary file, and of each triangle.
 _HEAD, _TRIANGLE = 84, 50
-"""Bytes of the header of a binary file, and of each triangle."""
 
 
 def write(mesh: Mesh, digits: int | None = None) -> str:

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from emulator.errors import FileError
 from modern.geometry.numbers import Point, number, quoted
 
+# A token and the column in which it begins, from 1.
 Token = tuple[str, int]
-"""A token and the column in which it begins, from 1."""
+# The number of a line, from 1, and its tokens, at least one.
 Line = tuple[int, list[Token]]
-"""The number of a line, from 1, and its tokens, at least one."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -27,8 +27,8 @@ from modern.geometry.numbers import finite_decimal, real
 from modern.geometry.vectors import area_vector, cross, dot, lowest, minus
 
 IntVector = tuple[int, int, int]
+# The smallest number of faces of a solid.
 _LEAST = 4
-"""The smallest number of faces of a solid."""
 _SHOWN, _WORK, _LONGEST = 3, 60, 12
 
 FLAT = "the points lie in one plane: there are no faces to join"

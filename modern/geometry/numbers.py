@@ -18,8 +18,8 @@ Exact = int | Fraction
 Point = tuple[str, str, str]
 
 MAX_DIGITS, MAX_EXPONENT = 4000, 9999
+# Significant digits of an area, which is a sum of square roots.
 AREA_DIGITS = 50
-"""Significant digits of an area, which is a sum of square roots."""
 _DECIMAL = re.compile(r"([+-]?)([0-9]*)(?:\.([0-9]*))?(?:[eE]([+-]?[0-9]{1,6}))?")
 _QUOTIENT = re.compile(r"([+-]?[0-9]+)/([0-9]+)")
 _SHOWN = 40

@@ -21,8 +21,8 @@ from emulator.errors import EmulatorError
 from modern.geometry.numbers import Exact
 
 Vector = NDArray[Any]
+# One element of a vector.
 Scalar = Any
-"""One element of a vector."""
 
 
 class RangeError(EmulatorError, ValueError):

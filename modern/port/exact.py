@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 from modern.geometry.numbers import Exact, exact_text
 from modern.port.arithmetic import Arithmetic, Scalar, Vector
 
+# The value of a plane at a point is a sum of 24 products of three coordinates, and 24 is less than 2**5.
 _SPARE_BITS = 5
-"""The value of a plane at a point is a sum of 24 products of three coordinates, and 24 is less than 2**5."""
 
 
 @dataclass(frozen=True)

@@ -21,13 +21,13 @@ from modern.port.workspace import Cloud, Rules, Slots
 _CORRECTIONS = {THROUGH_CENTRE: workspace.THROUGH, TABLE_OF_PLANES: workspace.TABLE, LAST_PAIR: workspace.PAIR}
 
 _H1_VERTICES = 4
+# Initial free slots in addition to six for each equation. A stage needs at most four and a half for each plane.
 _SPARE_SLOTS = 1024
-"""Initial free slots in addition to six for each equation. A stage needs at most four and a half for each plane."""
+# One more free slot for this number of points. Most hulls then need no larger arrays, which would copy the points.
 _POINTS_PER_SLOT = 8
-"""One more free slot for this number of points. Most hulls then need no larger arrays, which would copy the points."""
 
+# The number of points from which loading the kernels costs less than it saves.
 _WORTH_LOADING = 5_000
-"""The number of points from which loading the kernels costs less than it saves."""
 
 
 @dataclass(frozen=True, slots=True)

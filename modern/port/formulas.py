@@ -10,8 +10,8 @@ from __future__ import annotations
 
 from typing import Any
 
+# A number or a vector of an arithmetic.
 Number = Any
-"""A number or a vector of an arithmetic."""
 Point = tuple[Number, Number, Number]
 
 

@@ -91,8 +91,8 @@ class Progress:
         self.corrected[name] = None
 
 
+# A function called at each H_j with its table and the fields of :class:`Grown`.
 Watcher = Callable[[Equations, tuple[int, ...], int, int, list[int]], None]
-"""A function called at each H_j with its table and the fields of :class:`Grown`."""
 
 
 class Growing(Protocol):

@@ -40,11 +40,11 @@ from modern.port.workspace import (
     tolerance,
 )
 
+# The result of a stage: completed, no further stage possible, left to numpy, or no free slots for its planes.
 GROWN, ENDED, UNUSUAL, FULL = range(4)
-"""The result of a stage: completed, no further stage possible, left to numpy, or no free slots for its planes."""
 
+# The number of points that are tested together before the largest value among them is determined.
 BLOCK = 256
-"""The number of points that are tested together before the largest value among them is determined."""
 
 
 def keeper_among(point: Any, slots: Any, first: int, last: int) -> int:

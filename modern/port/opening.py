@@ -15,12 +15,12 @@ from modern.port.formulas import Point, at, line, moments, plane
 from modern.port.table import Equations, PointTable, Slack, snapped
 
 Four = tuple[Scalar, Scalar, Scalar, Scalar]
+# The two coordinates of each of a line's equations by KPERP: (3.1) and (3.2), (3.1) and (3.3), (3.2) and (3.3).
 _PAIRS = {1: ((0, 1), (0, 2)), 2: ((0, 1), (1, 2)), 3: ((0, 2), (1, 2))}
-"""The two coordinates of each of a line's equations by KPERP: (3.1) and (3.2), (3.1) and (3.3), (3.2) and (3.3)."""
 
 
+# The label of the decision if the text's fourth point lies in the plane of the first three.
 NO_FOURTH = "chapter 3, p. 29"
-"""The label of the decision if the text's fourth point lies in the plane of the first three."""
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,8 @@ from modern.geometry.numbers import Exact
 from modern.port.arithmetic import Arithmetic, Scalar, Vector
 from modern.port.table import Equations, PointTable
 
+# The degrees, in the coordinates, of A, B, C, D of a plane and of the equation of a line.
 PLANE, LINE = (2, 2, 2, 3), (1, 1, 1, 2)
-"""The degrees, in the coordinates, of A, B, C, D of a plane and of the equation of a line."""
 
 
 def texts(arithmetic: Arithmetic, numbers: Sequence[Scalar], degrees: Sequence[int]) -> tuple[str, ...]:

@@ -19,8 +19,8 @@ from modern.port.exact import exact_arithmetic
 
 Coordinate = int | float | Fraction | Decimal | str | np.integer[Any] | np.floating[Any]
 Points = Iterable[Iterable[Coordinate]] | NDArray[Any]
+# A number, and whether it is a zero with a minus sign.
 Read = tuple[Exact, bool]
-"""A number, and whether it is a zero with a minus sign."""
 
 
 def read_number(value: object) -> Read:

@@ -18,8 +18,8 @@ from modern.port.growth import BETWEEN, NUMBERING, TABLE_OF_LINES, Progress, Rem
 from modern.port.table import Equations, PointTable, Slack, turned
 
 _LISTED_LINES = 51
+# MM and NN of the first three lines (102+9 to 103).
 _FIRST = np.array([(0, 1), (2, 1), (0, 2)]).T
-"""MM and NN of the first three lines (102+9 to 103)."""
 _FROM, _TO, _CONSTANT = np.array([0, 1, 2]), np.array([1, 2, 0]), np.array([0, 1, 0])
 
 

@@ -29,8 +29,8 @@ from modern.port.growth import (
 )
 from modern.port.table import Equations, PointTable, turned
 
+# The entries of the plane table in the listing, and in the layer ``corrected``: 4N-11 for N = 51.
 LISTED_PLANES, PLANES = 98, 193
-"""The entries of the plane table in the listing, and in the layer ``corrected``: 4N-11 for N = 51."""
 
 
 @dataclass(frozen=True)
@@ -56,8 +56,8 @@ class Polyhedron:
     vertices: int = 4
     to_check: int = 0
     remaining: Remaining = field(default_factory=Remaining)
+    # True to replace further planes in the order of their numbers, as the text does (p. 32).
     text: bool = False
-    """True to replace further planes in the order of their numbers, as the text does (p. 32)."""
 
     def run(self, grow_stage: Callable[[Polyhedron, bool], Grown | None] = stage) -> None:
         """Expand H_1 to the hull of all points (103 to 160) with the given function for a stage."""

@@ -52,8 +52,8 @@ class PointTable:
         return tuple(self.input_index[selection].tolist())
 
 
+# The number of values of the matrix, equations by points, that are computed at a time.
 _BLOCK = 1 << 16
-"""The number of values of the matrix, equations by points, that are computed at a time."""
 
 
 @dataclass(frozen=True)

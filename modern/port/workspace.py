@@ -10,22 +10,20 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+# Indices of the state vector.
+#
+# COUNT: points that remain. VERTICES: vertices among them. CHECK: the slot to check. CHECKED: the equations before it.
+# MADE: slots used. ALIVE: planes in them. TRIED: slots in use when the points were last tested. STRUCK: whether that
+# test eliminated a point. GONE: points eliminated so far. STAGES: stages so far. ADDED: the point added by the last
+# stage. OUTSIDE: the number of equations it lay outside of. KNOWN: the corrections recorded so far, a bit for each.
 COUNT, VERTICES, CHECK, CHECKED, MADE, ALIVE, TRIED, STRUCK, GONE, STAGES, ADDED, OUTSIDE, KNOWN = range(13)
-"""Indices of the state vector.
-
-COUNT: points that remain. VERTICES: vertices among them. CHECK: the slot to check. CHECKED: the equations before it.
-MADE: slots used. ALIVE: planes in them. TRIED: slots in use when the points were last tested. STRUCK: whether that
-test eliminated a point. GONE: points eliminated so far. STAGES: stages so far. ADDED: the point added by the last
-stage. OUTSIDE: the number of equations it lay outside of. KNOWN: the corrections recorded so far, a bit for each.
-"""
 STATE_SIZE = 13
 
+# Bits for corrections.
+#
+# THROUGH: a plane passes through C. TABLE: there are more planes than the listing's table holds. PAIR: the last pair of
+# equal planes was deleted.
 THROUGH, TABLE, PAIR = 1, 2, 4
-"""Bits for corrections.
-
-THROUGH: a plane passes through C. TABLE: there are more planes than the listing's table holds. PAIR: the last pair of
-equal planes was deleted.
-"""
 
 
 class Cloud(NamedTuple):

@@ -13,18 +13,18 @@ from math import log
 
 from modern.study.report import Bars, Chart, Lines
 
+# The approximate size of the axes of a chart without panels, in typographic points.
 WIDTH, HEIGHT = 430.0, 220.0
-"""The approximate size of the axes of a chart without panels, in typographic points."""
+# The least distance, in points, at which two markers can be distinguished.
 APART = 3.4
-"""The least distance, in points, at which two markers can be distinguished."""
+# The greatest shift, in points, from one series to the next at the same x.
 _WIDEST = 5.5
-"""The greatest shift, in points, from one series to the next at the same x."""
+# The share of the distance between two x values that the markers at one of them may occupy.
 _FILLED = 0.8
-"""The share of the distance between two x values that the markers at one of them may occupy."""
+# A series counts as hidden if more than this share of its markers is hidden.
 _HIDDEN = 1 / 3
-"""A series counts as hidden if more than this share of its markers is hidden."""
+# The greatest number of bars side by side in one chart.
 _MANY_BARS = 48
-"""The greatest number of bars side by side in one chart."""
 _RAISED = str.maketrans("0123456789-+k", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺ᵏ")
 
 

@@ -33,11 +33,11 @@ def versions() -> dict[str, str]:
     return installed
 
 
+# The packages whose code can change a row.
 _HASHED_PACKAGES = (
     *("emulator", "modern/geometry", "modern/formats", "modern/exact_hull", "modern/port", "modern/thesis"),
     *("modern/comparison", "modern/edition", "modern/study"),
 )
-"""The packages whose code can change a row."""
 
 
 def code_sums(plan: Plan) -> dict[str, str]:

@@ -54,6 +54,7 @@ Outcome = Literal[
     "wrong hull",
     "stopped otherwise",
 ]
+# The details of a wrong hull.
 Fault = Literal[
     "dimension wrong",
     "coordinates changed",
@@ -65,17 +66,16 @@ Fault = Literal[
     "equations wrong",
     "vertices of a plane wrong",
 ]
-"""The details of a wrong hull."""
 
 OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
+# The outcomes with the right hull.
 DETERMINED: tuple[Outcome, ...] = ("right", "reordered", "doubled plane")
-"""The outcomes with the right hull."""
 TABLE: Outcome = "table full"
 WRONG: Outcome = "wrong hull"
 OTHERWISE: Outcome = "stopped otherwise"
 _REFUSED: Mapping[str, Outcome] = {NOT_ACCEPTABLE: "DATA NOT ACCEPTABLE", ERROR: "ERROR IN PROGRAM"}
+# The arrays of program 3 that hold one number for each plane (thesis p. 88).
 _PLANE_TABLE = frozenset({"A", "B", "C", "D", "E", "MM", "NN", "KK"})
-"""The arrays of program 3 that hold one number for each plane (thesis p. 88)."""
 
 Figures = Mapping[str, int | str]
 _SHOWN = Context(prec=6)

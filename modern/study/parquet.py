@@ -17,8 +17,8 @@ from modern.study.plan import Plan, Value
 from modern.study.store import Store, placing
 
 NAME = "rows.parquet"
+# The number of answers written at once.
 _BATCH = 10_000
-"""The number of answers written at once."""
 Type = Literal["whole", "double", "text"]
 _ORDER: tuple[Type, ...] = ("whole", "double", "text")
 

@@ -18,22 +18,22 @@ from modern.study.plan import PlanError
 from modern.study.report import Bars, Chart, Lines, Series
 from modern.study.store import put
 
+# The colours of lines; each differs in lightness from all others, and most from its predecessor.
 COLOURS = ("#16164d", "#e8862e", "#1f6e43", "#8fbfe8", "#8c1c2b", "#4a7fc1")
-"""The colours of lines; each differs in lightness from all others, and most from its predecessor."""
 MARKERS = ("o", "s", "^", "D", "v", "X")
 LINES = ("-", "--", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 1.5)), (0, (8, 2)))
+# The colours of bars, light enough to show the error bars on them.
 FILLS = ("#6f8fc9", "#f6cf9a", "#ffffff", "#b9d8c2", "#dfe6f3", "#d98f86")
-"""The colours of bars, light enough to show the error bars on them."""
 HATCHES = ("", "", "", "///", "...", "xxx")
 _PALE = "0.8"
 _MARK: Any = {"color": "0.2", "linewidth": 1, "linestyle": (0, (4, 2)), "zorder": 1.5}
 _MANY_DECADES = 1e4
+# The height of a horizontal bar, in inches.
 _ROW = 0.17
-"""The height of a horizontal bar, in inches."""
+# The height of the note at the bottom, in inches.
 _NOTE = 0.22
-"""The height of the note at the bottom, in inches."""
+# The greatest length of a line below a bar, in characters, if names must be wrapped.
 _WRAPPED = 14
-"""The greatest length of a line below a bar, in characters, if names must be wrapped."""
 _STYLE: Any = {
     "font.size": 10,
     "axes.spines.top": False,

@@ -19,8 +19,8 @@ from modern.study.statistics import Interval, count, exact
 from modern.study.store import Store
 
 SEVENTY, TWO = 70, 2
+# Numbers of decimals in a thousand coordinates; 333 is the share on the data sheet.
 SHARES = (0, 2, 5, 10, 20, 50, 100, 250, 333)
-"""Numbers of decimals in a thousand coordinates; 333 is the share on the data sheet."""
 FORMS = {"alone": "as on the sheet (.0146)", "added": "added to a whole number (12.0146)"}
 
 
@@ -56,8 +56,8 @@ class Sheets:
         return exact(self.refused, self.sets)
 
 
+# The range of the probability of rejection in which two of seventy is the most probable number (binomial mode).
 TWO_LIKELIEST = (TWO / (SEVENTY + 1), (TWO + 1) / (SEVENTY + 1))
-"""The range of the probability of rejection in which two of seventy is the most probable number (binomial mode)."""
 
 
 def measured(plan: Plan, store: Store) -> tuple[Sheets, ...]:

@@ -13,8 +13,8 @@ from modern.exact_hull import ExactHull, exact_hull
 from modern.formats.deck import data_deck, read_coordinates
 from modern.study.families.draws import Drawn
 
+# Significant digits of a number on a card.
 CARD_DIGITS = 8
-"""Significant digits of a number on a card."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -32,19 +32,18 @@ from modern.study.routes import carry_out
 from modern.study.sample import Sample, judge
 from modern.thesis.batch import Runs
 
+# Chunks submitted for each worker: enough that none waits, few enough that memory use does not grow.
 AHEAD = 2
-"""Chunks submitted for each worker: enough that none waits, few enough that memory use does not grow."""
+# Seconds to wait for a scheduler.
 TIMEOUT = 10
-"""Seconds to wait for a scheduler."""
 _ADDRESS = re.compile(r"(\w+://)?[^\s:/]+:\d{1,5}|\w+://\[[0-9a-fA-F:]+\]:\d{1,5}")
 
+# A chunk and its rows.
 FinishedChunk = tuple[Chunk, str]
-"""A chunk and its rows."""
+# The rows of a chunk, or an empty text and an error message.
+#
+# An exception would have to be unpickled by the receiving process; text always can be.
 RowsOrError = tuple[str, str]
-"""The rows of a chunk, or an empty text and an error message.
-
-An exception would have to be unpickled by the receiving process; text always can be.
-"""
 
 
 def chunk_text(cell: Cell, seed: int, chunk: Chunk) -> str:

@@ -12,13 +12,13 @@ from collections.abc import Callable
 from emulator.language.objectcode import Program, code_positions
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 
+# Array lengths of the hull programs, at 51 points, as functions of the number of points.
 _SIZES: dict[int, Callable[[int], int]] = {
     51: lambda n: n,
     52: lambda n: n + 1,
     98: lambda n: max(2 * n - 4, 4),
     193: lambda n: max(4 * n - 11, 5),
 }
-"""Array lengths of the hull programs, at 51 points, as functions of the number of points."""
 _FORMULAS = {51: "N", 52: "N+1", 98: "2N-4", 193: "4N-11"}
 
 

@@ -15,10 +15,10 @@ COPLANAR = "POINTS ARE COPLANAR"
 NOT_COPLANAR = "POINTS ARE NOT COPLANAR"
 REFUSALS = ("DATA NOT ACCEPTABLE", "ERROR IN PROGRAM")
 
+# A function that returns a compiled program by name.
 Load = Callable[[str], Program]
-"""A function that returns a compiled program by name."""
+# A function that is called with each machine before it runs.
 Watch = Callable[[Program, Machine], None]
-"""A function that is called with each machine before it runs."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,19 +18,18 @@ from emulator.machine.session import Session
 from emulator.machine.trace import contents
 from modern.thesis.job import REFUSALS, HullRun, Step, Watch, refusal
 
+# The kinds of causes.
+#
+# - miss: a point that defines an equation does not satisfy it in the digits of the machine.
+# - centre: a plane or line passes through the point C in these digits.  zeros: its coefficients are all zero.
+# - pair: the search for pairs of planes inside the hull ran beyond the table.  repeat: so did that for repeated planes.
+# - unmet: no point satisfies three equations, so that no point becomes a vertex.
+# - room: a table is full.  endless: the statement limit was reached.
+# - stopped: the run met a value or an address with which it could not continue.  other: none of these.
 Kind = Literal["miss", "centre", "zeros", "pair", "repeat", "room", "endless", "unmet", "stopped", "other"]
-"""The kinds of causes.
 
-- miss: a point that defines an equation does not satisfy it in the digits of the machine.
-- centre: a plane or line passes through the point C in these digits.  zeros: its coefficients are all zero.
-- pair: the search for pairs of planes inside the hull ran beyond the table.  repeat: so did that for repeated planes.
-- unmet: no point satisfies three equations, so that no point becomes a vertex.
-- room: a table is full.  endless: the statement limit was reached.
-- stopped: the run met a value or an address with which it could not continue.  other: none of these.
-"""
-
+# Known faults, and the rows of the layer ``corrected`` that correct them.
 CORRECTED = {1: "P3-025", 2: "P3-026", 3: "P3-027", 5: "P3-028", 16: "P2-023"}
-"""Known faults, and the rows of the layer ``corrected`` that correct them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,14 +83,14 @@ def cause(step: Step, machine: Session) -> Cause | None:
 
 
 _SEARCHES = {"pair": 1, "repeat": 2}
+# For programs 2 and 3: the variable with the number of the equation, the array of its values, the label of each test
+# with the variable that has the number of the tested point, and the arrays of coordinates.
 _MISSES = {
     2: ("I", "D", ((124, "MR"), (125, "NR")), "RST"),
     3: ("J", "E", ((116, "MR"), (117, "NR"), (118, "KR")), "XYZ"),
 }
-"""For programs 2 and 3: the variable with the number of the equation, the array of its values, the label of each test
-with the variable that has the number of the tested point, and the arrays of coordinates."""
+# For programs 1 and 3: the label of the test whether an equation passes through C.
 _CENTRES = {1: 204, 3: 132}
-"""For programs 1 and 3: the label of the test whether an equation passes through C."""
 
 
 def _search(label: int) -> str:

@@ -26,21 +26,21 @@ from modern.papers.yau_srihari import octree_hull
 
 BARS = {128: "bar 1 s", 256: "bar 4 s", 512: "bar 30 s"}
 
+# The diameters of the balls whose octrees are measured. Their cubes have sides of 16, 32, ... 256.
 DIAMETERS = (15, 31, 63, 127, 254)
-"""The diameters of the balls whose octrees are measured. Their cubes have sides of 16, 32, ... 256."""
+# Complete processes: the hull, the diameter of a ball, and the bars.
 COMMANDS = (
     ("octree", 127, "bar 2 s, 500 MB"),
     ("octree", 254, "bar 10 s, 500 MB"),
     ("voxel", 255, "bar 1.4 s"),
     ("voxel", 511, "bar 10 s"),
 )
-"""Complete processes: the hull, the diameter of a ball, and the bars."""
 CURVES = (STYLES[0], STYLES[1], STYLES[2], STYLES[4])
+# Smaller solids measure the cost of a call.
 SLOPES_FROM = 10_000
-"""Smaller solids measure the cost of a call."""
 OCTREE, CELLS, FILLED, SCIKIT_IMAGE = "octree hull", "voxel hull, cell list", "digital hull", "skimage"
+# The largest diameter measured with scikit-image in a table. In the plot it is 63, which takes half a minute.
 SCIKIT_UP_TO = 31
-"""The largest diameter measured with scikit-image in a table. In the plot it is 63, which takes half a minute."""
 
 PEAK = """
 import resource, sys

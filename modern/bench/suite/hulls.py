@@ -25,8 +25,8 @@ from modern.geometry.hull import as_tuple
 from modern.port import convex_hull
 
 COUNTS = (100, 1_000, 10_000, 100_000, 1_000_000)
+# Smaller sets measure the cost of a call.
 SLOPES_FROM = 1_000
-"""Smaller sets measure the cost of a call."""
 WITH_FACES = "port, fast, with its faces as text"
 STYLES = (
     {"marker": "o", "linestyle": "-", "color": "0"},

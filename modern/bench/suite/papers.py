@@ -39,8 +39,8 @@ WAYS: tuple[tuple[Of, int, Coplanar], ...] = (
     (VERTICES, 6, INVISIBLE),
     (CENTRES, 26, VISIBLE),
 )
+# The diameter of the paper's ball, to which the bar of 2 s applies.
 BAR = 32
-"""The diameter of the paper's ball, to which the bar of 2 s applies."""
 
 
 def figures() -> Iterator[Figure]:

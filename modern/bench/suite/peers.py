@@ -14,9 +14,10 @@ from typing import Any
 
 from modern.bench.timing import Measured
 
+# The compilers tried in this order, after the one that the environment variable CXX names.
 COMPILERS = ("c++", "g++", "clang++")
-"""The compilers tried in this order, after the one that the environment variable CXX names."""
 
+# ``convex_hull_3`` with exact predicates, run twice to fill caches first. Prints processor seconds and vertices.
 CGAL = """
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
@@ -37,14 +38,13 @@ int main() {
   }
 }
 """
-"""``convex_hull_3`` with exact predicates, run twice to fill caches first. Prints processor seconds and vertices."""
 
 _LIBRARIES = (("-lgmp", "-lmpfr"), ("-lgmp",), ())
 _PATIENCE = 300
 
 Work = Callable[[], object]
+# A function from points (n, 3) to the computation of one hull.
 Peer = Callable[[Any], Work]
-"""A function from points (n, 3) to the computation of one hull."""
 
 
 class Peers(AbstractContextManager["Peers"]):

@@ -179,8 +179,8 @@ def _projections(points: Sequence[Point], judge: ExactHull) -> list[bool]:
 _PROPERTIES = {"1": _inside_of_all, "2": _cones, "3": _dihedral, "4": _faces, "5": _projections}
 
 
+# The number of cubes in each of the three arms of a star.
 ARM = 9
-"""The number of cubes in each of the three arms of a star."""
 
 
 def surface_area() -> CheckResult:

@@ -14,12 +14,12 @@ from modern.papers.appel_will.corners import triple_product
 from modern.papers.appel_will.edges import project
 from modern.papers.appel_will.star import as_corrected, as_printed, star_polygon, vorticity
 
+# The vectors I, K and L of [512], [723] and [643].
 FIG_18: tuple[tuple[Point, Point, Point], ...] = (
     ((-1, 0, 0), (0, 0, -1), (0, -1, 0)),
     ((-1, 0, 0), (0, -1, 0), (0, 0, -1)),
     ((1, 0, 0), (0, -1, 0), (0, 0, -1)),
 )
-"""The vectors I, K and L of [512], [723] and [643]."""
 
 
 def new_lines() -> CheckResult:

@@ -23,13 +23,13 @@ from modern.papers.appel_will.surfaces import area_normal, lines, oriented
 
 Whole = tuple[int, int, int]
 TETRAHEDRON: tuple[Point, ...] = ((0, 0, 0), (12, 0, 0), (0, 12, 0), (0, 0, 12))
+# The apex of the pit in each face of the tetrahedron.
 PITS: dict[tuple[int, int, int], Point] = {
     (0, 2, 1): (4, 4, 1),
     (0, 1, 3): (4, 1, 4),
     (0, 3, 2): (1, 4, 4),
     (1, 2, 3): (3, 3, 3),
 }
-"""The apex of the pit in each face of the tetrahedron."""
 
 
 @cache

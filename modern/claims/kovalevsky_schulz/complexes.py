@@ -23,8 +23,8 @@ from modern.papers.kovalevsky_schulz.corners import places
 
 Cells = frozenset[Point]
 SIDE = 2
+# The cells of a block of two voxels on each side.
 SPACE: Cells = frozenset((x, y, z) for x, y, z in product(range(2 * SIDE + 1), repeat=3))
-"""The cells of a block of two voxels on each side."""
 VOXELS: Cells = frozenset(c for c in SPACE if all(x % 2 for x in c))
 
 

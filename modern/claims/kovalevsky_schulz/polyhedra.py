@@ -22,8 +22,8 @@ from modern.papers.kovalevsky_schulz.hull import merged, straightened
 from modern.papers.kovalevsky_schulz.tables import cell_list_size, triangulation_size
 
 GRID = tuple(product(range(3), repeat=3))
+# The diameters of the half-balls of Table 5.
 DIAMETERS = (8, 10, 12, 14, 16, 18, 20, 22)
-"""The diameters of the half-balls of Table 5."""
 PYRAMID: tuple[Point, ...] = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 2))
 
 

@@ -69,8 +69,8 @@ def _apart(v: tuple[Place, ...], w: tuple[Place, ...]) -> bool:
     return any(all(value(line, p) <= 0 for p in flat(b)) for a, b in ((v, w), (w, v)) for line in lines_of(a))
 
 
+# A pyramid over an upright pentagon that is seen edge-on along z.
 ROOF: tuple[Point, ...] = ((0, 0, 0), (4, 0, 0), (4, 0, 2), (2, 0, 3), (0, 0, 2), (2, 5, 1))
-"""A pyramid over an upright pentagon that is seen edge-on along z."""
 
 
 def convex_contour() -> CheckResult:

@@ -231,8 +231,8 @@ def _ring(low: int, high: int) -> tuple[tuple[int, int], ...]:
     return (low, low), (high, low), (high, high), (low, high)
 
 
+# The numbers of polyhedra, vertices and faces in Table 1.
 COUNTS = {"a": (11, 116, 80), "c": (60, 480, 360), "d": (30, 216, 158)}
-"""The numbers of polyhedra, vertices and faces in Table 1."""
 
 
 def counts_of_table_1d() -> CheckResult:

@@ -28,10 +28,10 @@ from modern.geometry.vectors import cross, dot, minus
 from modern.port import convex_hull
 from modern.port.formulas import moments
 
+# A triangle, and a point on one of its sides that the procedure uses.
 _POINT_ON_A_SIDE: list[Point] = [(3, 0, 0), (4, 4, 0), (4, 2, 0), (4, 3, 0)]
-"""A triangle, and a point on one of its sides that the procedure uses."""
+# A pyramid over nine points of a square.
 PYRAMID: list[Point] = [(x, y, 0) for x in (0, 1, 2) for y in (0, 1, 2)] + [(1, 1, 2)]
-"""A pyramid over nine points of a square."""
 
 
 def all_hold(cases: Iterator[bool] | list[bool], message: str) -> CheckResult:
@@ -326,8 +326,8 @@ def duplicates_removed() -> CheckResult:
     )
 
 
+# A set in space for which the procedure uses a point that is not a vertex of the last hull.
 _TWO_PLANES: list[Point] = [(2, 1, 1), (1, 1, 3), (0, 1, 3), (0, 0, 0), (0, 2, 3), (0, 0, 2), (0, 1, 2)]
-"""A set in space for which the procedure uses a point that is not a vertex of the last hull."""
 
 
 def used_points_in_planes() -> CheckResult:

@@ -31,8 +31,8 @@ from modern.port import convex_hull
 from modern.thesis.job import run_hull
 
 Pair = tuple[int, int]
+# The statements of the listings that eliminate inside points (E), check a hull (C) and add a point (G).
 _ELIMINATE_CHECK_GROW = {"program2.f": {106: "E", 124: "C", 133: "G"}, "program3.f": {103: "E", 114: "C", 125: "G"}}
-"""The statements of the listings that eliminate inside points (E), check a hull (C) and add a point (G)."""
 
 
 def text_against_listing() -> CheckResult:

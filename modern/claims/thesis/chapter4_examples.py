@@ -26,8 +26,8 @@ from modern.port import convex_hull
 from modern.thesis.cards import scaled
 from modern.thesis.job import Load, run_hull
 
+# The precision of a number on a card: eight significant digits, the rest truncated.
 _CARD = Context(prec=8, rounding=ROUND_DOWN)
-"""The precision of a number on a card: eight significant digits, the rest truncated."""
 
 
 def theorem_of(name: str) -> Theorem:
@@ -56,13 +56,13 @@ def worked_example(theorem: str, claim: str, kind: str = "") -> CheckResult:
     return replace(result, verdict=CONDITION) if kind and result.verdict == HOLDS else result
 
 
+# Sets in space whose three to six distinct extreme points are coplanar; only the last point is not in their plane.
 EXTREMES_IN_A_PLANE: tuple[tuple[tuple[int, int, int], ...], ...] = (
     ((0, 3, 3), (2, 4, 2), (4, 1, -3), (1, 2, -2)),
     ((0, 2, -2), (3, 0, -3), (4, 2, -6), (1, 4, -5), (1, 1, -5)),
     ((1, 0, 2), (0, 3, -6), (2, 4, -4), (4, 3, 2), (3, 1, 4), (1, 1, -5)),
     ((0, 1, -1), (3, 1, 2), (4, 3, 1), (3, 4, -1), (1, 3, -2), (1, 0, 1), (1, 1, -1)),
 )
-"""Sets in space whose three to six distinct extreme points are coplanar; only the last point is not in their plane."""
 
 
 def number_of_extremes(claim: str) -> CheckResult:
@@ -142,8 +142,8 @@ def _not_supporting(theorem: Theorem) -> CheckResult:
     )
 
 
+# The vertices of H_5 of theorem 4.8: those of H_1, followed by one added at each step.
 ADDED = ("Q1", "Q6", "Q7", "Q2", "Q8", "Q5", "Q3", "Q4")
-"""The vertices of H_5 of theorem 4.8: those of H_1, followed by one added at each step."""
 
 
 def _growing(theorem: Theorem) -> CheckResult:

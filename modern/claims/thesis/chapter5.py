@@ -22,8 +22,8 @@ from modern.thesis.cards import read_hull
 from modern.thesis.job import COPLANAR, HullRun, run_hull
 
 MOST_POINTS = 51
+# Five points that are not coplanar.
 _SPACE = ((1, 2, 3), (2, 1, 5), (4, 4, 1), (3, 9, 2), (7, 1, 1))
-"""Five points that are not coplanar."""
 
 
 def error_in_program() -> CheckResult:
@@ -162,8 +162,9 @@ def first_card() -> CheckResult:
     return holds_if(passed, f"a deck of 8 points has {len(cards)} cards, and its first card is {cards[0]!r}")
 
 
+# Numbers of pages of the works of the bibliography (p. 121), except work 10 on pages 51 to 73 of its volume.
 _WORKS = {1: 73, 2: 180, 3: 38, 4: 136, 5: 297, 6: 290, 7: 94, 8: 302, 9: 329, 11: 306, 12: 301}
-"""Numbers of pages of the works of the bibliography (p. 121), except work 10 on pages 51 to 73 of its volume."""
+# The pages that the text cites (p. 2 to 50), by the number of the work.
 _CITED = {
     2: (38,),
     3: (),
@@ -174,7 +175,6 @@ _CITED = {
     10: (),
     11: (43, 110, 234),
 }
-"""The pages that the text cites (p. 2 to 50), by the number of the work."""
 
 
 def cited_pages() -> CheckResult:

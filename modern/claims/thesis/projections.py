@@ -12,8 +12,8 @@ from modern.claims.thesis.chapter4_examples import theorem_of
 from modern.exact_hull import ExactHull, exact_hull
 from modern.geometry.vectors import cross, dot, minus
 
+# A direction in which a ray from the sampled points meets no edge of the polyhedron.
 _RAY: Point = (101, 37, 11)
-"""A direction in which a ray from the sampled points meets no edge of the polyhedron."""
 
 
 def coordinate_planes() -> CheckResult:

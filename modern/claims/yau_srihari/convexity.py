@@ -136,6 +136,7 @@ def _on_segment(point: Place, p: Place, q: Place) -> bool:
 
 Height = Callable[[Fraction, Fraction], Fraction]
 
+# Four convex functions, one of them linear; two more concave functions; and three that are neither.
 FUNCTIONS: tuple[Height, ...] = (
     lambda x, y: x * x + y * y,
     lambda x, y: x * x - x * y + y * y,
@@ -147,7 +148,6 @@ FUNCTIONS: tuple[Height, ...] = (
     lambda x, y: x * x * x,
     lambda x, y: -abs(abs(x) - 1),
 )
-"""Four convex functions, one of them linear; two more concave functions; and three that are neither."""
 
 SHARES = (Fraction(1, 3), Fraction(1, 2), Fraction(2, 3))
 

@@ -22,8 +22,8 @@ DIGITS = tuple(range(1, 9))
 WORKING = tuple(range(4, 29))
 POINTS = 10
 LISTED, CORRECTED = "as listed", "corrected"
+# The numbers of the cells, with the digits of their coordinates.
 Cells = tuple[tuple[int, int], ...]
-"""The numbers of the cells, with the digits of their coordinates."""
 _SHOWN = (1, 2, 3, 4, 6, 8)
 
 

@@ -36,8 +36,8 @@ SETS: Mapping[str, tuple[str, Mapping[str, int]]] = {
     "gap of .001": ("near-coplanar", {"digits": 2, "gap": 3}),
 }
 _CHARTED = ("integers of 1 digit", "integers of 2 digits", "integers of 3 digits", "integers of 4 digits", "gap of .01")
+# The details of a swallowed vertex: a hull lacks one of its vertices, or a body counts as flat or as a line.
 SWALLOWED = ("vertex missed", "dimension wrong")
-"""The details of a swallowed vertex: a hull lacks one of its vertices, or a body counts as flat or as a line."""
 
 Name = Callable[[int], str]
 _MARKS = ", ".join("?" * len(DETERMINED))

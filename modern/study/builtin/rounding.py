@@ -31,8 +31,8 @@ DECIMAL: Mapping[str, str] = {
 BINARY = ("float32", "float64")
 WAYS = (*DECIMAL, *BINARY)
 SIZES = (9, 99, 150, 200, 250, 300, 350, 400, 500, 999, 9999)
+# Exponents of ten: half the width of the interval, divided by the largest coefficient A, B or C of the equation.
 WIDTHS = tuple(range(-6, 0))
-"""Exponents of ten: half the width of the interval, divided by the largest coefficient A, B or C of the equation."""
 BOXES = "whole numbers"
 TENTHS = "near a plane with a gap of .1"
 _EXACT: Mapping[str, tuple[str, Mapping[str, int]]] = {

@@ -29,11 +29,11 @@ SAMPLES = 2_000 * SEVENTY
 THESIS = 2
 LISTED, MENDED = "as listed", "last pair mended"
 _LIMIT = 200_000
+# An event that occurs in a smaller share of the groups of seventy is called unusual.
 _RARE = 0.05
-"""An event that occurs in a smaller share of the groups of seventy is called unusual."""
 _IN_SPACE = ("slab", "plane and points")
+# The number of the cell with the sets modelled on chapter 6; the following cells hold the data sheets.
 _EXAMPLES = 0
-"""The number of the cell with the sets modelled on chapter 6; the following cells hold the data sheets."""
 
 
 def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:

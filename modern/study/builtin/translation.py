@@ -29,8 +29,8 @@ PLANES = "planes like example 4"
 WORKING = tuple(range(4, 17))
 EIGHT = 8
 PARTS = ("additions", "products", "quotients", "seconds_processor")
+# The limits of the classes of planes of the hull per point.
 RATIOS = (0.0, 0.5, 1.0, 1.5, inf)
-"""The limits of the classes of planes of the hull per point."""
 _TIMED: Mapping[str, tuple[str, Mapping[str, object], tuple[int, ...]]] = {
     PLANES: ("thesis", {"kinds": {"plane": 1}}, (8, 16, 32)),
     "slabs like example 5": ("thesis", {"kinds": {"slab": 1}}, (15, 30)),

@@ -13,8 +13,8 @@ from modern.geometry.numbers import scaled_decimal
 T = TypeVar("T")
 Point = tuple[str, str, str]
 Whole = tuple[int, int, int]
+# A number of points, or the least and the greatest number, between which it is drawn.
 Count = int | Sequence[int]
-"""A number of points, or the least and the greatest number, between which it is drawn."""
 
 DIGITS = 8
 MOST = 51

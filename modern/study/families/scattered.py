@@ -10,8 +10,8 @@ from math import isqrt
 from modern.geometry.numbers import scaled_decimal
 from modern.study.families.draws import DIGITS, Count, Draw, Drawn, FamilyError, Whole, drawn, size_of, whole_range
 
+# The radius of the grid on which a direction is drawn before it is rounded.
 FINE = 10**12
-"""The radius of the grid on which a direction is drawn before it is rounded."""
 
 
 def integers(draw: Draw, digits: int, n: Count) -> Drawn:
