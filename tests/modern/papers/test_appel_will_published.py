@@ -41,7 +41,7 @@ def test_a_published_result_is_reproduced(name: str) -> None:
 
 @pytest.mark.parametrize("row", [row.id for row in TEXT.rows])
 def test_every_emendation_is_needed(row: str, tmp_path: Path) -> None:
-    """Without the row some result differs. AW-09 deletes lines that belong to no result."""
+    """Without the row some result differs. AW-09 deletes lines that do not belong to any result."""
     text = (FOLDER / "apparatus.toml").read_text(encoding="utf-8")
     head, *rows = text.split("[[row]]")
     remaining = [part for part in rows if f'id = "{row}"' not in part]
@@ -50,7 +50,7 @@ def test_every_emendation_is_needed(row: str, tmp_path: Path) -> None:
     for name in ("witness.txt", "results.toml"):
         (tmp_path / name).write_text((FOLDER / name).read_text(encoding="utf-8"), encoding="utf-8")
     if row == "AW-09":
-        with pytest.raises(ApparatusError, match="lines 51, 52 belong to no result"):
+        with pytest.raises(ApparatusError, match="lines 51, 52 do not belong to any result"):
             list(findings(PAPER, tmp_path))
     else:
         assert DIFFERENT in [finding.kind for finding in findings(PAPER, tmp_path)]

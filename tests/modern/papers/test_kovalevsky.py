@@ -345,7 +345,7 @@ def test_a_flat_hull_has_no_polyhedron() -> None:
 def test_an_array_of_truth_values_is_a_volume() -> None:
     array = half_ball(8).array
     assert voxel_hull(array).polyhedron.faces == voxel_hull(Volume(array, (0, 0, 0))).polyhedron.faces
-    with pytest.raises(VolumeError, match="a volume is an array of truth values"):
+    with pytest.raises(VolumeError, match="expected an array of truth values"):
         voxel_hull(np.ones((2, 2, 2)))
     with pytest.raises(VolumeError, match="volume: there are no voxels"):
         voxel_hull(np.zeros((2, 2, 2), dtype=np.bool_))
