@@ -15,17 +15,17 @@ def parsed(*lines: str) -> Parsed:
 
 
 def body(line: str) -> tree.Body:
-    found = parsed(line)
-    assert not found.diagnostics
-    return found.statements[0].body
+    result = parsed(line)
+    assert not result.diagnostics
+    return result.statements[0].body
 
 
 def test_assignment_keeps_columns() -> None:
-    found = body("  X(I) = A + 2.*B")
-    assert isinstance(found, tree.Assignment)
-    assert found.target == tree.Reference("X", (tree.Reference("I", (), Place(1, 5)),), Place(1, 3))
-    assert isinstance(found.value, tree.Sum)
-    ((sign, product),) = found.value.rest
+    statement = body("  X(I) = A + 2.*B")
+    assert isinstance(statement, tree.Assignment)
+    assert statement.target == tree.Reference("X", (tree.Reference("I", (), Place(1, 5)),), Place(1, 3))
+    assert isinstance(statement.value, tree.Sum)
+    ((sign, product),) = statement.value.rest
     assert sign == "+"
     assert isinstance(product, tree.Product)
     assert product.first == tree.Number("2.", Place(1, 14))
@@ -33,9 +33,9 @@ def test_assignment_keeps_columns() -> None:
 
 def expression(text: str) -> str:
     """Return an expression with all its parentheses."""
-    found = body(f"X={text}")
-    assert isinstance(found, tree.Assignment)
-    return shown(found.value)
+    statement = body(f"X={text}")
+    assert isinstance(statement, tree.Assignment)
+    return shown(statement.value)
 
 
 def shown(node: tree.Expression) -> str:
@@ -84,9 +84,9 @@ def test_control_statements() -> None:
     assert body("GO TO 10") == tree.GoTo(10)
     assert body("GO TO (10, 20), I") == tree.ComputedGoTo((10, 20), tree.Reference("I", (), Place(1, 17)))
     assert body("GO TO (10, 20) I") == tree.ComputedGoTo((10, 20), tree.Reference("I", (), Place(1, 16)))
-    found = body("IF (A-B) 1, 2, 3")
-    assert isinstance(found, tree.If)
-    assert found.labels == (1, 2, 3)
+    statement = body("IF (A-B) 1, 2, 3")
+    assert isinstance(statement, tree.If)
+    assert statement.labels == (1, 2, 3)
     assert body("IF (SENSE SWITCH 3) 1, 2") == tree.IfSwitch(3, (1, 2))
     assert body("CONTINUE") == tree.Continue()
     assert (body("PAUSE"), body("PAUSE 12")) == (tree.Pause(""), tree.Pause("12"))
@@ -95,27 +95,31 @@ def test_control_statements() -> None:
 
 
 def test_do() -> None:
-    found = body("DO 10 I=1,N,2")
-    assert isinstance(found, tree.Do)
-    assert (found.label, found.variable.name) == (10, "I")
-    assert [shown(b) for b in (found.first, found.last) + ((found.step,) if found.step else ())] == ["1", "N", "2"]
+    statement = body("DO 10 I=1,N,2")
+    assert isinstance(statement, tree.Do)
+    assert (statement.label, statement.variable.name) == (10, "I")
+    assert [shown(b) for b in (statement.first, statement.last) + ((statement.step,) if statement.step else ())] == [
+        "1",
+        "N",
+        "2",
+    ]
     plain = body("DO 10 I=1,N")
     assert isinstance(plain, tree.Do)
     assert plain.step is None
 
 
 def test_dimension() -> None:
-    found = body("DIMENSION X(51), A(4,5)")
-    assert found == tree.Dimension((("X", (51,), Place(1, 11)), ("A", (4, 5), Place(1, 18))))
+    statement = body("DIMENSION X(51), A(4,5)")
+    assert statement == tree.Dimension((("X", (51,), Place(1, 11)), ("A", (4, 5), Place(1, 18))))
 
 
 @pytest.mark.parametrize("verb", ["READ", "ACCEPT", "PUNCH", "PRINT", "TYPE"])
 def test_input_output(verb: str) -> None:
     assert body(f"{verb} 5") == tree.InputOutput(verb, 5, ())
-    found = body(f"{verb} 5, A, X(I), (B, (Y(I,J), J=1,3), I=1,N,2)")
-    assert isinstance(found, tree.InputOutput)
-    assert [type(item) for item in found.items] == [tree.Reference, tree.Reference, tree.Loop]
-    loop = found.items[2]
+    statement = body(f"{verb} 5, A, X(I), (B, (Y(I,J), J=1,3), I=1,N,2)")
+    assert isinstance(statement, tree.InputOutput)
+    assert [type(item) for item in statement.items] == [tree.Reference, tree.Reference, tree.Loop]
+    loop = statement.items[2]
     assert isinstance(loop, tree.Loop)
     assert loop.variable.name == "I"
     assert isinstance(loop.items[1], tree.Loop)
@@ -123,9 +127,9 @@ def test_input_output(verb: str) -> None:
 
 
 def test_format_holds_its_columns() -> None:
-    found = body("5 FORMAT(2H= ,I4)")
-    assert isinstance(found, tree.Format)
-    assert found.text.rstrip() == "(2H= ,I4)"
+    statement = body("5 FORMAT(2H= ,I4)")
+    assert isinstance(statement, tree.Format)
+    assert statement.text.rstrip() == "(2H= ,I4)"
 
 
 REFUSED = [
@@ -175,14 +179,14 @@ REFUSED = [
 ]
 
 
-@pytest.mark.parametrize(("line", "column", "number", "words"), REFUSED, ids=[line[:30] for line, *_ in REFUSED])
-def test_invalid_statement_is_rejected_with_column_and_type(line: str, column: int, number: int, words: str) -> None:
+@pytest.mark.parametrize(("line", "column", "number", "expected"), REFUSED, ids=[line[:30] for line, *_ in REFUSED])
+def test_invalid_statement_is_rejected_with_column_and_type(line: str, column: int, number: int, expected: str) -> None:
     """Error types of C26-5619 p. 56: 6 name, 7 sense switch, 8 DO, 9 DIMENSION, 13 input and output."""
-    found = parsed("C  FIRST CARD", line)
-    (message,) = found.diagnostics
+    result = parsed("C  FIRST CARD", line)
+    (message,) = result.diagnostics
     assert (message.card, message.column, message.number) == (2, column, number)
-    assert words in message.message
-    assert not found.statements
+    assert expected in message.message
+    assert not result.statements
 
 
 @pytest.mark.parametrize(
@@ -214,16 +218,16 @@ def test_a_statement_number_without_a_statement() -> None:
 
 
 def test_parsing_continues_after_an_invalid_card() -> None:
-    found = parsed("X=", "Y=1.", "Z==1.", "END")
-    assert [d.card for d in found.diagnostics] == [1, 3]
-    assert len(found.statements) == 2
+    result = parsed("X=", "Y=1.", "Z==1.", "END")
+    assert [d.card for d in result.diagnostics] == [1, 3]
+    assert len(result.statements) == 2
 
 
 def test_do_without_a_limit_is_an_assignment() -> None:
     """``DO10I`` is a name of five characters."""
-    found = body("DO 10 I=1")
-    assert isinstance(found, tree.Assignment)
-    assert found.target.name == "DO10I"
+    statement = body("DO 10 I=1")
+    assert isinstance(statement, tree.Assignment)
+    assert statement.target.name == "DO10I"
 
 
 @pytest.mark.parametrize(("first", "last"), [("100", ""), ("DIMENSION X(", "     1)"), ("X=1.E", ""), ("GO TO ", "")])

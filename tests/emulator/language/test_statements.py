@@ -12,8 +12,8 @@ from tests.support.deckwork import diagnostics, run, source
 
 
 def only(*lines: str) -> Source:
-    (found,) = sources(source(*lines))
-    return found
+    (statement,) = sources(source(*lines))
+    return statement
 
 
 @pytest.mark.parametrize(
@@ -32,16 +32,16 @@ def only(*lines: str) -> Source:
 )
 def test_a_statement_may_start_in_any_column(card: str, label: str, text: str) -> None:
     """C26-5619 p. 12.  The thesis punches ``28FORMAT(`` without a blank."""
-    found = only(card)
-    assert (found.label, found.text) == (label, text)
+    statement = only(card)
+    assert (statement.label, statement.text) == (label, text)
 
 
 def test_a_format_keeps_its_columns() -> None:
-    found = only("28FORMAT (3X,5HA B C)")
-    assert (found.label, found.kind) == ("28", "format")
-    assert found.text.rstrip() == "(3X,5HA B C)"
-    assert found.places[0] == Place(1, 10)
-    assert len(found.text) == len(found.places) == 72 - 9
+    statement = only("28FORMAT (3X,5HA B C)")
+    assert (statement.label, statement.kind) == ("28", "format")
+    assert statement.text.rstrip() == "(3X,5HA B C)"
+    assert statement.places[0] == Place(1, 10)
+    assert len(statement.text) == len(statement.places) == 72 - 9
 
 
 def test_statement_that_reaches_column_73_gives_one_warning() -> None:
@@ -55,9 +55,9 @@ def test_statement_that_reaches_column_73_gives_one_warning() -> None:
 
 
 def test_places_are_card_and_column() -> None:
-    found = only("C  X", " 10  A = B")
-    assert found.place == Place(2, 6)
-    assert [found.places[k] for k in range(len(found.places))] == [Place(2, 6), Place(2, 8), Place(2, 10)]
+    statement = only("C  X", " 10  A = B")
+    assert statement.place == Place(2, 6)
+    assert [statement.places[k] for k in range(len(statement.places))] == [Place(2, 6), Place(2, 8), Place(2, 10)]
 
 
 def test_columns_73_to_80_are_identification() -> None:
@@ -69,8 +69,7 @@ def test_columns_73_to_80_are_identification() -> None:
 @pytest.mark.parametrize("card", ["C  A COMMENT", "C", "C  ", "", "     ", "C     X=1."])
 def test_comments(card: str) -> None:
     """C26-5619 p. 12: C and two blanks.  A blank card is ignored (OPEN-QUESTIONS 2)."""
-    (found,) = source(card, "X=1.").cards[:1]
-    assert is_comment(found)
+    assert is_comment(source(card, "X=1.").cards[0])
     assert only(card, "X=1.").text == "X=1."
 
 
@@ -104,17 +103,17 @@ def test_card_with_identification_alone_is_ignored() -> None:
 
 
 def test_continuation_by_column_6() -> None:
-    found = only("      X = A +", "     1 B +", "     2C")
-    assert found.text == "X=A+B+C"
-    assert [card.number for card in found.cards] == [1, 2, 3]
-    assert found.places[-1] == Place(3, 7)
+    statement = only("      X = A +", "     1 B +", "     2C")
+    assert statement.text == "X=A+B+C"
+    assert [card.number for card in statement.cards] == [1, 2, 3]
+    assert statement.places[-1] == Place(3, 7)
 
 
 def test_hollerith_field_continues_in_column_7() -> None:
     first = "   10 FORMAT(6HAB"
-    found = only(first.ljust(70) + "12", "     1CD)")
-    assert found.text.rstrip() == (first[12:].ljust(58) + "12CD)")
-    assert found.places[found.text.index("C")] == Place(2, 7)
+    statement = only(first.ljust(70) + "12", "     1CD)")
+    assert statement.text.rstrip() == (first[12:].ljust(58) + "12CD)")
+    assert statement.places[statement.text.index("C")] == Place(2, 7)
 
 
 def test_a_comment_does_not_end_a_continued_statement() -> None:
@@ -190,13 +189,20 @@ def test_lower_case_becomes_capitals_except_in_comments() -> None:
     """Cards have no lower-case letters, not even in Hollerith fields.  A comment may contain anything after its C."""
     deck = deck_from_text("small.f", capitals(SMALL))
     assert deck.text() == SMALL.upper().replace("C  A COMMENT, AS IT WAS TYPED", "C  a comment, as it was typed")
-    assert [found.kind for found in sources(deck)] == ["do", "assignment", "continue", "input_output", "format", "end"]
+    assert [statement.kind for statement in sources(deck)] == [
+        "do",
+        "assignment",
+        "continue",
+        "input_output",
+        "format",
+        "end",
+    ]
 
 
 @pytest.mark.parametrize("text", ["", "\n", "C  \u00e9\u00df\r\n", "C " + "x" * 90 + "\n", "c#\n\nX=1.\n"])
 def test_capitals_keep_every_line(text: str) -> None:
-    found = capitals(text)
-    assert found == "C" + text[1:] if text.startswith(("c", "C")) else found == text
+    converted = capitals(text)
+    assert converted == "C" + text[1:] if text.startswith(("c", "C")) else converted == text
 
 
 def test_capitals_change_ascii_letters_only() -> None:

@@ -1,7 +1,7 @@
-"""Fields read by emulator/numbers/columns.py beside the same rules as regular expressions, and written beside
-Python's own.
+"""Fields of a FORMAT compared with other implementations of the same rules.
 
-The rules: C26-5619 p. 14, 35-40; blanks: OPEN-QUESTIONS 6.
+Reading is compared with regular expressions, and writing with Python's own conversion.  The rules are those of
+C26-5619 p. 14 and 35-40, and for blanks OPEN-QUESTIONS 6.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def dense(columns: str) -> tuple[str, bool]:
 
 
 def expected(columns: str, decimals: int, digits: int) -> tuple[int, int, bool] | None:
-    """Mantissa, exponent and whether there is a warning; None for an error."""
+    """Return mantissa, exponent and whether a warning is expected, or None for an error."""
     text, warned = dense(columns)
     if not text:
         return 0, ZERO, True
@@ -77,11 +77,11 @@ def expected(columns: str, decimals: int, digits: int) -> tuple[int, int, bool] 
 def test_floating_fields(columns: str, decimals: int, rules: tuple[int, ...]) -> None:
     want = expected(columns, decimals, rules.digits)
     try:
-        found = read_floating(Field("E", max(1, len(columns)), decimals), columns, rules)  # type: ignore[arg-type]
+        number_read = read_floating(Field("E", max(1, len(columns)), decimals), columns, rules)  # type: ignore[arg-type]
     except FieldError:
         assert want is None
         return
-    assert want == (found.mantissa, found.exponent, bool(found.remark))
+    assert want == (number_read.mantissa, number_read.exponent, bool(number_read.remark))
 
 
 @settings(max_examples=300)
@@ -90,21 +90,21 @@ def test_fixed_fields(columns: str) -> None:
     text, warned = dense(columns)
     match = FIXED.fullmatch(text)
     try:
-        found = read_fixed(columns)
+        number_read = read_fixed(columns)
     except FieldError:
         assert text
         assert match is None
         return
     value = int(match[1] + match[2]) if match else 0
     assert bool(match) == bool(text)
-    assert found.mantissa == (value % 10000 if value >= 0 else -(-value % 10000))
-    assert bool(found.remark) == (warned or not text or abs(value) > 9999)
+    assert number_read.mantissa == (value % 10000 if value >= 0 else -(-value % 10000))
+    assert bool(number_read.remark) == (warned or not text or abs(value) > 9999)
 
 
 @settings(max_examples=300)
 @given(st.data(), RULES, st.integers(1, 30), st.integers(0, 12), st.sampled_from([-99, 99, *range(-10, 13)]))
 def test_written_fields(data: st.DataObject, rules: tuple[int, ...], width: int, decimals: int, exponent: int) -> None:
-    """F: the decimal cut; E: the first digits; either in its width, or by E14.8 where it is too large."""
+    """An F field truncates the decimal, and an E field shows its first digits.  Larger numbers use E14.8."""
     size = data.draw(st.integers(rules.least, rules.limit - 1))
     mantissa = data.draw(st.sampled_from([size, -size]))
     minus = "-" if mantissa < 0 else ""
@@ -112,21 +112,21 @@ def test_written_fields(data: st.DataObject, rules: tuple[int, ...], width: int,
     text, overflowed = write_floating(Field("F", width, decimals), mantissa, exponent, rules)  # type: ignore[arg-type]
     cut = f"{int(value.scaleb(decimals)):0{decimals + 1}d}"
     whole = cut[: len(cut) - decimals].lstrip("0")
-    wanted = f"{minus}{whole}.{cut[len(cut) - decimals :]}"
+    expected = f"{minus}{whole}.{cut[len(cut) - decimals :]}"
     # One column is always the sign's (C26-5619 p. 39).
-    assert overflowed == (len(wanted.lstrip("-")) + 1 > width)
+    assert overflowed == (len(expected.lstrip("-")) + 1 > width)
     eight = str(size).ljust(8, "0")[:8]
     by_e = f"{minus}.{eight}E{exponent:+03d}".rjust(14)
-    assert text == (by_e if overflowed else wanted.rjust(width))
+    assert text == (by_e if overflowed else expected.rjust(width))
     text, overflowed = write_floating(Field("E", width, decimals), mantissa, exponent, rules)  # type: ignore[arg-type]
     count = 8 if width >= 14 else width - 6
-    left = count - decimals
-    if count < 1 or left < 0 or exponent - left < -99:
+    whole_digits = count - decimals
+    if count < 1 or whole_digits < 0 or exponent - whole_digits < -99:
         assert (text, overflowed) == (by_e, True)
     else:
         digits = str(size).ljust(count, "0")[:count]
-        wanted = f"{minus}{digits[:left]}.{digits[left:]}E{exponent - left:+03d}"
-        assert (text, overflowed) == (wanted.rjust(width), False)
+        expected = f"{minus}{digits[:whole_digits]}.{digits[whole_digits:]}E{exponent - whole_digits:+03d}"
+        assert (text, overflowed) == (expected.rjust(width), False)
 
 
 @given(st.integers(-9999, 9999), st.integers(1, 8))

@@ -21,18 +21,18 @@ mantissas = st.integers(10**7, 10**8 - 1)
 @given(mantissas, st.integers(-99, 99))
 def test_sqrt_is_the_exact_root_truncated(mantissa: int, exponent: int) -> None:
     """Executed on FORTRAN II-D: the exact square root, truncated."""
-    found = function("SQRT", mantissa, exponent, RULES)
-    assert 10**7 <= found.mantissa < 10**8
-    # root = found.mantissa * 10**(found.exponent - 8); compare squares as integers of a common scale.
-    scale = 2 * (found.exponent - 8)
+    result = function("SQRT", mantissa, exponent, RULES)
+    assert 10**7 <= result.mantissa < 10**8
+    # root = result.mantissa * 10**(result.exponent - 8); compare squares as integers of a common scale.
+    scale = 2 * (result.exponent - 8)
     value = mantissa * 10 ** (exponent - 8 - scale) if exponent - 8 >= scale else None
     if value is None:
-        low, high = (found.mantissa**2, (found.mantissa + 1) ** 2)
+        low, high = (result.mantissa**2, (result.mantissa + 1) ** 2)
         shift = 10 ** (scale - exponent + 8)
         assert low * shift <= mantissa < high * shift
     else:
-        assert isqrt(value) == found.mantissa
-    assert function("SQRT", -mantissa, exponent, RULES) == found
+        assert isqrt(value) == result.mantissa
+    assert function("SQRT", -mantissa, exponent, RULES) == result
 
 
 def cut(value: Decimal) -> tuple[int, int]:
@@ -106,14 +106,14 @@ def test_invalid_arguments_give_the_error_codes(
 def test_integer_powers_are_the_exact_power_truncated(m: int, e: int, count: int, over: bool, name: str) -> None:
     """IBM FORTRAN II-D, executed (pow, pow2 of tests/data/compiler_runs).  Rounded half up if products are."""
     exact = (Fraction(m) * Fraction(10) ** (e - 8)) ** (-count if over else count)
-    found = integer_power(m, e, -count if over else count, profile(name).rules)
-    unit = Fraction(10) ** (found.exponent - 8)
+    result = integer_power(m, e, -count if over else count, profile(name).rules)
+    unit = Fraction(10) ** (result.exponent - 8)
     if name == "truncating":
-        assert found.mantissa * unit <= exact < (found.mantissa + 1) * unit
+        assert result.mantissa * unit <= exact < (result.mantissa + 1) * unit
     else:
-        assert (found.mantissa - Fraction(1, 2)) * unit <= exact
-        assert exact < (found.mantissa + Fraction(1, 2)) * unit or found.mantissa == 10**7
-    assert 10**7 <= found.mantissa < 10**8
+        assert (result.mantissa - Fraction(1, 2)) * unit <= exact
+        assert exact < (result.mantissa + Fraction(1, 2)) * unit or result.mantissa == 10**7
+    assert 10**7 <= result.mantissa < 10**8
 
 
 @given(mantissas, st.integers(-3, 3), st.integers(1, 6))
@@ -182,7 +182,7 @@ def test_sqrt_is_rounded_if_products_are() -> None:
 def test_other_digit_counts(digits: int) -> None:
     text = "2.718281828459045235360287471352662497757"
     for family in ("truncating", "rounding"):
-        found = function("EXP", *(10 ** (digits - 1), 1), profile(f"{family}:{digits}").rules)
+        result = function("EXP", *(10 ** (digits - 1), 1), profile(f"{family}:{digits}").rules)
         expected = int(text.replace(".", "")[: digits + 1])
         expected = (expected + 5) // 10 if family == "rounding" else expected // 10
-        assert (found.mantissa, found.exponent) == (expected, 1)
+        assert (result.mantissa, result.exponent) == (expected, 1)

@@ -1,7 +1,7 @@
-"""Infinities in binary numbers: what has no finite operand cannot overflow, whichever operand is infinite.
+"""Infinities in binary numbers: an operation with an infinite operand does not overflow.
 
-IEEE 754-2008, 6.1: operations on infinite operands are exact and signal nothing, but for those without an answer
-(7.2), which give what is not a number.  Only finite operands overflow (7.4), which is noted with the machine's code.
+IEEE 754-2008, 6.1: operations on infinite operands are exact and signal nothing, except the invalid ones (7.2), which
+give NaN.  Only finite operands overflow (7.4), which is reported with the machine's code.
 """
 
 from __future__ import annotations
@@ -86,7 +86,7 @@ def test_multiprecision_infinity_does_not_overflow() -> None:
     with pytest.raises(Trap) as caught:
         system.divide(system.decimal(1, 0), system.decimal(0, 0))
     infinity, one = caught.value.value, system.decimal(1, 0)
-    for found in (system.add(one, infinity), system.add(infinity, one), system.multiply(one, infinity)):
-        assert found == infinity
+    for result in (system.add(one, infinity), system.add(infinity, one), system.multiply(one, infinity)):
+        assert result == infinity
     assert system.subtract(one, infinity) == system.negate(infinity)
     assert system.divide(one, infinity) == 0
