@@ -2,7 +2,7 @@
 
 A deck passes through ``cards.py`` (card code), ``statements.py`` (statements and their kinds), ``parser.py`` with
 ``dialect.lark`` and ``formats.py`` (syntax tree of ``tree.py``), and ``compiler.py`` with ``expressions.py`` and
-``storage.py`` (the object code of ``objectcode.py``).
+``storage.py`` (the object code of ``objectcode.py``).  ``control_flow.py`` warns about doubtful branches.
 
 To add a kind of statement:
 

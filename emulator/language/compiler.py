@@ -17,6 +17,7 @@ from emulator.errors import CompileError, DeckError, Diagnostic, Refused, merge_
 from emulator.language import objectcode as op
 from emulator.language import tree
 from emulator.language.cards import Deck
+from emulator.language.control_flow import flow_warnings
 from emulator.language.expressions import LIBRARY, Emitter, Operand, function_of, is_fixed_name, unknown_function
 from emulator.language.foreign import references
 from emulator.language.formats import FormatSpec, parse_format
@@ -52,9 +53,10 @@ def translate(deck: Deck) -> tuple[Program | None, tuple[Diagnostic, ...]]:
     )
     translation.diagnostics.extend(parsed.diagnostics)
     translation.run(broken=any(not message.warning for message in parsed.diagnostics))
-    messages = tuple(merge_repeated(translation.diagnostics))
-    failed = any(not d.warning for d in messages)
-    return (None if failed else translation.program()), messages
+    if not all(message.warning for message in translation.diagnostics):
+        return None, tuple(merge_repeated(translation.diagnostics))
+    program = translation.program()
+    return program, tuple(merge_repeated([*translation.diagnostics, *flow_warnings(program)]))
 
 
 @dataclass

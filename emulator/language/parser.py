@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from importlib.resources import files
@@ -13,7 +13,7 @@ from lark import Lark, Token, Tree, UnexpectedCharacters, UnexpectedInput, Unexp
 
 from emulator.errors import Diagnostic, Refused
 from emulator.language import tree
-from emulator.language.cards import Card, Deck
+from emulator.language.cards import COLUMNS, Card, Deck
 from emulator.language.foreign import STATEMENT_FUNCTION, ForeignStatement, declared_names, identify
 from emulator.language.statements import (
     LAST_COLUMN,
@@ -49,6 +49,8 @@ MAX_LENGTH = 20_000
 _CACHED_LENGTH = 200
 _AFTER_END = "a card after END; the program's data belong in a separate deck"
 _EDGE = (LAST_COLUMN, LAST_COLUMN + 1)
+_CODE = re.compile(r"[=+*/(),]")
+"""Characters that an identification in columns 73 to 80 would hardly contain."""
 _FORMAT_LIKE = re.compile(r"FO[A-Z]*\(")
 
 
@@ -82,7 +84,7 @@ def parse(deck: Deck) -> Parsed:
             diagnostics.append(Diagnostic(source.place.card, source.place.column, _AFTER_END, about="END"))
             continue
         ended = ended or source.kind == "end"
-        diagnostics.extend(_identification_warning(card) for card in source.cards if " " not in card.columns(*_EDGE))
+        diagnostics.extend(_column_warnings(source))
         try:
             statements.append(parse_statement(source))
         except Refused as refused:
@@ -116,9 +118,20 @@ def _begins_subprogram(source: Source) -> bool:
     return foreign is not None and foreign.has_body
 
 
-def _identification_warning(card: Card) -> Diagnostic:
-    what = f"columns {_EDGE[1]} to 80 are identification and not read, but column {_EDGE[0]} before them is punched"
-    return Diagnostic(card.number, _EDGE[1], what, warning=True, about="identification")
+def _column_warnings(source: Source) -> Iterator[Diagnostic]:
+    """Yield warnings about columns that other compilers read differently, or that nobody reads."""
+    first = source.cards[0]
+    if source.label and not first.columns(1, 5).strip() and first.columns(6, 6).isdigit():
+        what = f"statement number {source.label} begins in column 6, where other compilers expect a continuation mark"
+        yield Diagnostic(first.number, 6, what, warning=True, about="column 6")
+    not_read = f"columns {_EDGE[1]} to 80 are identification and not read"
+    for card in source.cards:
+        if " " not in card.columns(*_EDGE):
+            what = f"{not_read}, but column {_EDGE[0]} before them is punched"
+            yield Diagnostic(card.number, _EDGE[1], what, warning=True, about="identification")
+        elif _CODE.search(card.columns(_EDGE[1], COLUMNS)):
+            what = f"{not_read}, but they look like a part of the statement"
+            yield Diagnostic(card.number, _EDGE[1], what, warning=True, about="code")
 
 
 def _foreign_message(place: tree.Place, foreign: ForeignStatement) -> Diagnostic:

@@ -24,12 +24,13 @@ from dataclasses import dataclass, replace
 
 from emulator.errors import EmulatorError
 from emulator.language.cards import Deck
+from emulator.language.control_flow import successors
 from emulator.language.objectcode import Program
 from emulator.machine.comparison import Comparison, Decision, Difference, Loss
 from emulator.machine.endings import Ending
 from emulator.machine.machine import run_with_operator
 from emulator.machine.operator import Operator
-from emulator.machine.postdominators import meeting, post_dominators, successors
+from emulator.machine.postdominators import meeting, post_dominators
 from emulator.machine.result import Options, statements_begun
 from emulator.machine.session import Session
 from emulator.machine.state import Entry, Journal

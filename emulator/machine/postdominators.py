@@ -10,33 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from emulator.language import objectcode as op
-from emulator.language.objectcode import Program
-
-
-def successors(program: Program) -> list[tuple[int, ...]]:
-    """Return the possible successors of each instruction.  The number after the last stands for the end of the run.
-
-    A READ may end the run, because the hopper may be empty.
-    """
-    end = len(program.code)
-    following: list[tuple[int, ...]] = []
-    for pc, instruction in enumerate(program.code):
-        operation, address = instruction.operation, instruction.address
-        if operation in (op.BRANCH, op.IF, op.IFX, op.SWITCH):
-            following.append(program.branches[address])
-        elif operation == op.SELECT:
-            following.append(program.branches[instruction.second])
-        elif operation == op.DOTEST:
-            following.append((program.loops[address][3], pc + 1))
-        elif operation == op.STOP:
-            following.append((end,))
-        elif operation == op.BEGIN and program.verbs[address] == "READ":
-            following.append((pc + 1, end))
-        else:
-            following.append((pc + 1,))
-    return following
-
 
 def post_dominators(follow: Sequence[Sequence[int]]) -> list[int]:
     """Return the nearest post-dominator of each instruction, or -1 if no path from it leads to the end."""

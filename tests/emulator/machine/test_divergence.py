@@ -12,10 +12,11 @@ from hypothesis import strategies as st
 from emulator.errors import CardError, DeckError, EmulatorError
 from emulator.language.cards import deck_from_lines
 from emulator.language.compiler import translate
+from emulator.language.control_flow import successors
 from emulator.language.objectcode import Line, Program
 from emulator.machine.divergence import Divergence, diverge
 from emulator.machine.machine import Machine
-from emulator.machine.postdominators import meeting, post_dominators, successors
+from emulator.machine.postdominators import meeting, post_dominators
 from emulator.machine.result import Options
 from emulator.numbers import numbers
 from tests.support.decks_at_random import DATA, programs

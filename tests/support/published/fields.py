@@ -86,10 +86,10 @@ def write_floating(field: str, number: Number, by: Arithmetic) -> tuple[str, str
 
 
 def _written_e(width: int, decimals: int, number: Number) -> str | None:
-    """Return sign, digits with ``decimals`` of them after the point, E, sign and two digits, or None if they do not fit.
+    """Return sign, digits (``decimals`` of them after the point), E, sign and two digits, or None if they do not fit.
 
-    A field of fourteen or more columns has eight digits, a narrower one w - 6.  The exponent is adjusted to the position
-    of the point (p. 39).
+    A field of fourteen or more columns has eight digits, a narrower one w - 6.  The exponent is adjusted to the
+    position of the point (p. 39).
     """
     count = 8 if width >= 14 else width - 6
     if count < 1 or decimals > count:
