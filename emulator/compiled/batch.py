@@ -139,7 +139,7 @@ def _ending(program: Program, options: Options, run: Run) -> Ending:
     at, decision, address = registers[kernel.AT], registers[kernel.DECISION], registers[kernel.ADDRESS]
     subscripts = registers[kernel.INDEX], registers[kernel.INDEX2]
     if run.reason == devices.AT_HOPPER:
-        return Ending("hopper")
+        return Ending("hopper", program.source, program.line_at(at), any_read=options.hopper == "any")
     if run.reason == AT_LIMIT:
         return looped(program, options.limit, run.before, run.counts, decision, registers[kernel.COSTLY])
     if run.reason == AT_COSTLY:

@@ -168,6 +168,10 @@ class Program:
     verbs: tuple[str, ...]
     functions: tuple[str, ...]
 
+    def uses(self, *verbs: str) -> bool:
+        """Return True if the program has an input or output statement with one of these verbs."""
+        return any(i.operation == BEGIN and self.verbs[i.address] in verbs for i in self.code)
+
     def line_at(self, pc: int) -> Line:
         """Return the statement that the instruction at ``pc`` belongs to."""
         return self.statements[self.statement_numbers[min(pc, len(self.code) - 1)]]

@@ -34,6 +34,13 @@ class LineNeeded(Exception):
     """Raised if a line must be typed before the statement can continue."""
 
 
+def no_deck(program: Program) -> Deck:
+    """Return an empty deck for a program that reads no cards.  Raise DeckError if it has a READ."""
+    if program.uses("READ"):
+        raise DeckError(f"{program.source}: the program reads cards: a data deck is required")
+    return Deck("no deck", ())
+
+
 @dataclass
 class Devices:
     """The devices of one machine.
@@ -142,7 +149,7 @@ class Devices:
     def _take_card(self, here: Line, begins: bool) -> Card:
         if self.position >= len(self.deck.cards):
             if begins and self.position:
-                raise Ended(Ending("hopper"))
+                raise Ended(Ending("hopper", self.program.source, here, any_read=self.options.hopper == "any"))
             if not self.deck.cards:
                 raise DeckError(
                     f"{self.deck.source}: the hopper is empty at the first READ ({self.program.source}, {here.name})"

@@ -19,7 +19,7 @@ tell which outcome is right, and the comparison ends there.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from emulator.errors import EmulatorError
@@ -31,7 +31,7 @@ from emulator.machine.endings import Ending
 from emulator.machine.machine import run_with_operator
 from emulator.machine.operator import Operator
 from emulator.machine.postdominators import meeting, post_dominators
-from emulator.machine.result import Options, statements_begun
+from emulator.machine.result import Event, Options, statements_begun
 from emulator.machine.session import Session
 from emulator.machine.state import Entry, Journal
 from emulator.numbers import Numbers
@@ -61,6 +61,8 @@ class Divergence:
         The reason why the comparison ended early, or "" if both runs were compared to their ends.
     endings
         The ending of each run, or None for a run that was stopped.
+    typed
+        The last line that each run typed, or "".
     """
 
     program: str
@@ -78,7 +80,22 @@ class Divergence:
     statements: tuple[int, int]
     apart: str
     endings: tuple[Ending | None, Ending | None]
+    typed: tuple[str, str]
     losses: tuple[Loss, ...]
+
+    @property
+    def outcomes(self) -> tuple[str, ...]:
+        """How the runs ended, with the last line typed, unless ``apart`` says so: a line, or two if the runs differ."""
+        first, second = (
+            ending
+            and not (ending.message and ending.message in self.apart)
+            and ending.outcome + (f", after typing {line!r}" if line else "")
+            for ending, line in zip(self.endings, self.typed, strict=True)
+        )
+        if first and first == second:
+            return (f"both runs ended: {first}",)
+        pairs = zip(self.arithmetics, (first, second), strict=True)
+        return tuple(f"{name} ended: {outcome}" for name, outcome in pairs if outcome)
 
 
 def diverge(
@@ -158,6 +175,7 @@ def diverge(
         statements=(runs[0].statements, runs[1].statements),
         apart=apart,
         endings=(runs[0].ending, runs[1].ending),
+        typed=(runs[0].typed, runs[1].typed),
         losses=comparison.losses(),
     )
 
@@ -171,6 +189,7 @@ class _Run:
         self._session = Session(program, deck, options, journal=self._journal, keep=False)
         self._operator = operator
         self._program, self._limit = program, options.limit
+        self.typed = ""
         self.ending: Ending | None = None
         self.error: EmulatorError | None = None
 
@@ -184,7 +203,7 @@ class _Run:
         while self.ending is None:
             goal = min(goal + _STRIDE, self._limit)
             try:
-                self.ending = run_with_operator(self._session, self._operator, goal)
+                self.ending = run_with_operator(self._session, self._operator, goal, self._watch)
             except EmulatorError as error:
                 self.error, self.ending = error, Ending("input", trouble=str(error))
             if self.ending is not None and self.ending.kind == "limit":
@@ -192,6 +211,9 @@ class _Run:
                 self.ending = Ending("limit", count=self._limit)
             yield from self._journal.entries
             self._journal.entries.clear()
+
+    def _watch(self, events: Sequence[Event]) -> None:
+        self.typed = next((event.text for event in reversed(events) if event.what == "type"), self.typed)
 
 
 def _reached(entries: Iterator[Entry], junction: int) -> bool:
@@ -211,4 +233,8 @@ def _ended(runs: list[_Run], entry: Entry | None, reference_entry: Entry | None)
     if entry is None and reference_entry is None and runs[0].ending == runs[1].ending:
         return ""
     stopped = [run for run, last in zip(runs, (entry, reference_entry), strict=True) if last is None]
-    return "; ".join(f"{run.name} ended: {run.ending.message or run.ending.kind}" for run in stopped if run.ending)
+    texts = [f"{run.name} ended: {run.ending.message or run.ending.kind}" for run in stopped if run.ending]
+    # A number that exact arithmetic cannot hold, such as EXP(1.), has a close approximation in binary numbers.
+    if any(run.name == "exact" and run.ending and run.ending.kind == "undecided" for run in stopped):
+        texts.append("--against mp:200 compares with 200 bits instead")
+    return "; ".join(texts)

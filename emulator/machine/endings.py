@@ -24,7 +24,9 @@ class Ending:
     ``source`` names the program.  ``line`` is the statement at which the run ended, and ``decision`` is the last IF or
     computed GO TO before it.  The other fields depend on the kind:
 
-    - hopper, stop, end: normal ends, without other fields.
+    - stop, end: normal ends, without other fields.
+    - hopper: a normal end.  ``line`` is the READ that found the hopper empty.  With ``any_read`` the options allow this
+      end at any READ, not only at the one that begins a data set; the user is then told about it.
     - limit: ``count`` is the limit, and ``costly`` the work for operations that take longer than plain ones.  ``line``
       is set if the limit forbids a single operation.  ``loop`` holds the last statements in order of cards;
       ``repeats`` means that each of them was executed more than once.
@@ -55,6 +57,7 @@ class Ending:
     field: Field | None = None
     put_out: bool = False
     trouble: str = ""
+    any_read: bool = False
 
     @property
     def normal(self) -> bool:
@@ -65,6 +68,13 @@ class Ending:
         """The first and last card of the loop, or None without a loop."""
         cards = [line.place.card for line in self.loop]
         return (min(cards), max(cards)) if cards else None
+
+    @property
+    def outcome(self) -> str:
+        """One line that says how the run ended, normally or not."""
+        if self.kind == "hopper" and self.line is not None:
+            return f"the hopper was empty at the READ of {self.line.name}"
+        return self.message or ("STOP" if self.kind == "stop" else "the end of the program")
 
     @property
     def message(self) -> str:

@@ -108,13 +108,16 @@ def place_of(line: Line) -> str:
 
 
 def notes(program: Program, result: Result, reported: Collection[tuple[int, int]] = ()) -> Iterator[str]:
-    """Yield the warnings of a run and its error codes.
+    """Yield the warnings of a run, a note if it ended for lack of cards, and its error codes.
 
     reported: fields, as pairs of card and column, that another part of the program has already warned about.
     """
     for notice in result.notices:
         if notice.kind != "field" or (notice.card, notice.column) not in reported:
             yield f"warning: {notice.message}"
+    if result.ending.kind == "hopper" and result.ending.any_read:
+        cards = f"{result.cards_read} card{'s' * (result.cards_read != 1)}"
+        yield f"note: {program.source}: the run ended after {cards}, because {result.ending.outcome}"
     for error in result.errors:
         times = f", {error.times} times" if error.times > 1 else ""
         yield f"note: {program.source}: {error.code} on card {error.card}: {explanations()[error.code].title}{times}"

@@ -78,7 +78,8 @@ def _diff(parser: ArgumentParser) -> None:
 
 def _diverge(parser: ArgumentParser) -> None:
     parser.add_argument("program", metavar="PROGRAM.f")
-    parser.add_argument("deck", metavar="DECK", help="data cards: for program2 and program3 those program 1 punches")
+    words = "data cards: for program2 and program3 those program 1 punches; none for a program that reads none"
+    parser.add_argument("deck", metavar="DECK", nargs="?", help=words)
     parser.add_argument(
         "--against",
         metavar="NAME",

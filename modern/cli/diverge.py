@@ -12,6 +12,7 @@ from dataclasses import replace
 from emulator.files import check_writable, write_text
 from emulator.language.objectcode import Line
 from emulator.machine.comparison import Loss
+from emulator.machine.devices import no_deck
 from emulator.machine.divergence import Divergence, diverge
 from modern.cli.shared.console import DIFFERS, OK, UsageError
 from modern.cli.shared.inputs import deck_for
@@ -40,7 +41,7 @@ def main(args: argparse.Namespace) -> int:
     program = load_program(args.program, layers_of(args), args.upcase)
     found = diverge(
         program,
-        deck_for(args.program, args.deck),
+        deck_for(args.program, args.deck) if args.deck else no_deck(program),
         studied,
         reference,
         options,
@@ -64,6 +65,8 @@ def _report(found: Divergence, width: int, values: bool) -> Iterator[str]:
         yield from _wrapped(f"not compared further: {found.apart}", width)
     elif _cut_short(found):
         yield from _wrapped(f"not compared further: both were {_cut_short(found)}", width)
+    for outcome in found.outcomes:
+        yield from _wrapped(outcome, width)
     if found.losses and found.digits:
         yield ""
         yield from _table(found, width)

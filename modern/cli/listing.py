@@ -13,6 +13,7 @@ from emulator.files import check_writable, read_text, source_name, write_text
 from emulator.language.cards import Deck
 from emulator.language.compiler import translate
 from emulator.language.objectcode import Program
+from emulator.machine.devices import no_deck
 from emulator.machine.divergence import Divergence, diverge
 from emulator.machine.machine import Machine
 from emulator.machine.operator import FromFile, Operator
@@ -50,13 +51,13 @@ def main(args: argparse.Namespace) -> int:
     options = machine_options(args)
     source = source_deck(args.program, layers_of(args), args.upcase)
     program, messages = translate(source)
-    if program is None or args.deck is None:
+    if program is None or (args.deck is None and program.uses("READ", "ACCEPT")):
         _put_out(args.output, _plain(source, messages))
         return OK if program is not None else BAD_INPUT
     if args.program not in programs.NAMES:
         # Of its own decks the thesis's programs want whole data sets.
         options = replace(options, hopper="any")
-    deck = deck_for(args.program, args.deck)
+    deck = deck_for(args.program, args.deck) if args.deck else no_deck(program)
     answers = _answers(args.operator)
     result = Machine(program, deck, options).run(_operator(answers), output=lambda events: None)
     found = _compared(args, program, deck, options, answers)
