@@ -154,7 +154,11 @@ def test_a_point_that_stands_twice_is_mentioned(room: Path, capsys: pytest.Captu
 
 
 def test_run_ends_normally_at_the_empty_hopper(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert call(capsys, "run", "good.f", "x.deck") == (0, " .20000000E+01\n .30000000E+01\n", "")
+    assert call(capsys, "run", "good.f", "x.deck") == (
+        0,
+        " .20000000E+01\n .30000000E+01\n",
+        "note: good.f: the run ended after 2 cards, because the hopper was empty at the READ of statement 1 (card 1)\n",
+    )
 
 
 def test_hopper_empty_at_a_later_read_ends_a_run(room: Path, capsys: pytest.CaptureFixture[str]) -> None:

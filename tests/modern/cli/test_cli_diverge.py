@@ -115,7 +115,7 @@ def test_exact_numbers_lose_no_digits(room: Path, capsys: pytest.CaptureFixture[
 
 
 MISUSE = [
-    (["diverge", "program1"], "the following arguments are required: DECK"),
+    (["diverge", "program1"], "the program reads cards: a data deck is required"),
     (["diverge", "nosuch.f", "side.deck"], "nosuch.f: no such file"),
     (["diverge", "program1", "nosuch"], "nosuch: no such file"),
     (["diverge", ".", "side.deck"], ".: is a directory"),

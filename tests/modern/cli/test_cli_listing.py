@@ -35,9 +35,13 @@ def columns(line: str) -> tuple[str, str, str, str, str]:
 
 
 def test_without_a_deck_the_cards_and_the_warnings(mine: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    code, out, err = call(capsys, "listing", "my.f")
+    reads = [*MINE[:3], "      READ 9,A", *MINE[4:]]
+    (mine / "reads.f").write_text("\n".join(reads) + "\n")
+    code, out, err = call(capsys, "listing", "reads.f")
     assert (code, err) == (0, "")
-    assert out.splitlines() == ["my.f: 6 cards", *(f"{n:5d}  {card}" for n, card in enumerate(MINE, 1))]
+    assert out.splitlines() == ["reads.f: 6 cards", *(f"{n:5d}  {card}" for n, card in enumerate(reads, 1))]
+    # A program that reads no data is run without a deck.
+    assert call(capsys, "listing", "my.f")[1] == call(capsys, "listing", "my.f", "one.deck")[1]
     (mine / "bad.f").write_text("      A=1.\n      A=(B\n      END\n")
     code, out, _ = call(capsys, "listing", "bad.f", "one.deck")
     assert code == 2
@@ -69,7 +73,7 @@ def test_the_figures_are_those_of_profile_and_diverge(capsys: pytest.CaptureFixt
     made = programs.program(name)
     result = Machine(made, read_deck(path)).run()
     timing = measure(made, result)
-    rows = {int(row[0]): row for row in map(columns, out.splitlines()[3:])}
+    rows = {int(row[0]): row for row in map(columns, out.splitlines()[3:]) if row[0]}
     assert {made.statements[index].place.card: times for index, times in timing.statements} == {
         card: int(row[1]) for card, row in rows.items() if row[1] not in ("", "0")
     }
