@@ -65,7 +65,7 @@ def _report(found: Divergence, width: int, values: bool) -> Iterator[str]:
         yield from _wrapped(f"not compared further: {found.apart}", width)
     elif _cut_short(found):
         yield from _wrapped(f"not compared further: both were {_cut_short(found)}", width)
-    for outcome in found.outcomes:
+    for outcome in () if found.decisions and not values else found.outcomes:
         yield from _wrapped(outcome, width)
     if found.losses and found.digits:
         yield ""

@@ -129,7 +129,8 @@ def test_a_computed_go_to_is_a_decision() -> None:
 def test_an_ending_of_exact_numbers_is_reported() -> None:
     divergence = compared("A=2.", "B=SIN(A)", "C=B", "END")
     assert (divergence.decisions, divergence.values) == (0, 0)
-    assert divergence.apart == "exact ended: deck.f: card 2: exact arithmetic cannot hold SIN of 2, in B=SIN(A)"
+    message = "exact ended: deck.f: card 2: exact arithmetic cannot hold SIN of 2, in B=SIN(A)"
+    assert divergence.apart == f"{message}; --against mp:200 compares with 200 bits instead"
 
 
 def test_different_endings_at_the_same_statement_are_reported() -> None:
