@@ -10,7 +10,7 @@ from modern.publication.site.colours import DARK, LIGHT
 
 project = "hull1620"
 author = "The hull1620 developers"
-copyright = "2026, The hull1620 developers. MIT licence; the thesis's listings and prints as the objects restored"
+copyright = "2026, The hull1620 developers. MIT licence, except the quoted listings and prints of the thesis"
 
 extensions = [
     "myst_parser",

@@ -9,9 +9,10 @@ from pathlib import Path
 from xml.etree.ElementTree import Element
 
 from emulator.files import read_bytes, read_text, write_text
+from modern.claims.apparatus_checks import texts
 from modern.cli.shared.console import DIFFERS, OK, UsageError
 from modern.publication import tei_reading as reading
-from modern.publication.tei import names, schema, tei
+from modern.publication.tei import schema, tei
 
 
 def main(args: argparse.Namespace) -> int:
@@ -24,8 +25,8 @@ def main(args: argparse.Namespace) -> int:
         raise UsageError("--layers, --witness and --part are three things to read: choose one")
     if args.text is not None and (args.all or args.schema or args.read):
         raise UsageError(f"{args.text}: no text is named with --all, --schema or --read")
-    if args.text is not None and args.text not in names():
-        raise UsageError(f"there is no text {args.text!r}; there are {', '.join(names())}")
+    if args.text is not None and args.text not in texts():
+        raise UsageError(f"there is no text {args.text!r}; there are {', '.join(texts())}")
     if args.schema:
         write_text(args.output, schema())
     elif args.read:
@@ -35,7 +36,7 @@ def main(args: argparse.Namespace) -> int:
     elif args.all:
         _write_all(Path(args.all))
     elif args.text is None:
-        raise UsageError(f"name a text, or a folder with --all; there are {', '.join(names())}")
+        raise UsageError(f"name a text, or a folder with --all; there are {', '.join(texts())}")
     else:
         write_text(args.output, tei(args.text, _version()))
     return OK
@@ -53,7 +54,7 @@ def _write_all(folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise UsageError(f"{folder}: {(error.strerror or str(error)).lower()}") from None
-    for name in names():
+    for name in texts():
         write_text(str(folder / f"{name}.xml"), tei(name, _version()))
 
 
@@ -88,7 +89,7 @@ def _check(args: argparse.Namespace) -> int:
     except (etree.XMLSyntaxError, etree.RelaxNGParseError) as error:
         raise UsageError(f"{source}: no RELAX NG schema: {error}") from None
     wrong = 0
-    for name in (args.text,) if args.text else names():
+    for name in (args.text,) if args.text else texts():
         found = next(_faults(relax, etree.fromstring(tei(name, _version()).encode())), "")
         wrong += bool(found)
         print(f"{name}: {found or 'valid'}")

@@ -1,4 +1,4 @@
-"""What the three builds share: the site, the book and the deposit.
+"""The functions that the builds of the site, the book and the deposit share.
 
 Each build is a function that raises :class:`BuildError` with one line for the user; :func:`run` calls it and turns the
 error into an exit code.  :func:`citation` and :func:`newest_wheel` read files of the checkout.

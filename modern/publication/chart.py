@@ -9,7 +9,7 @@ of connectors with the number of the target statement.  Lengths are in pixels, a
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -110,7 +110,6 @@ def wrapped(line: str, width: int = WRAP) -> tuple[str, ...]:
 
 
 def _size(box: Box) -> tuple[int, tuple[str, ...]]:
-    """Return the height and the lines of a box."""
     if box.kind == "step":
         return 2 * RADIUS, ()
     if box.kind != "decision":
@@ -147,8 +146,7 @@ def _breaks(flow: Flow, height: int) -> list[tuple[int, int]]:
                 break
             candidates.append((best[start][0] + 10 + across[start], start))
         best[end] = min(candidates)
-    pages = []
-    end = count
+    pages, end = [], count
     while end:
         pages.append((best[end][1], end))
         end = best[end][1]
@@ -183,8 +181,7 @@ class _Plan:
 
 
 def _plan(flow: Flow, inside: range) -> _Plan:
-    ways = [(place, k) for place in inside for k in range(len(flow.boxes[place].exits))]
-    lanes = _lanes(_rails(flow, inside, ways))
+    lanes = _lanes(_rails(flow, inside))
     landed = [
         target
         for target in inside
@@ -245,13 +242,14 @@ def _joined(flow: Flow, inside: range, lanes: dict[tuple[int, Where], int], plac
     return _straight(flow, inside, place, k) or (flow.boxes[place].exits[k].target, _side(flow, place, k)) in lanes
 
 
-def _rails(flow: Flow, inside: range, ways: Iterable[tuple[int, int]]) -> list[_Rail]:
+def _rails(flow: Flow, inside: range) -> list[_Rail]:
     passed: dict[tuple[int, Where], list[int]] = {}
-    for place, k in ways:
-        target = flow.boxes[place].exits[k].target
-        if target in inside and not _straight(flow, inside, place, k):
-            # A rail ends in the gap above its target.
-            passed.setdefault((target, _side(flow, place, k)), []).extend((place, min(target, max(place, target - 1))))
+    for place in inside:
+        for k, way in enumerate(flow.boxes[place].exits):
+            if way.target in inside and not _straight(flow, inside, place, k):
+                # A rail ends in the gap above its target.
+                end = min(way.target, max(place, way.target - 1))
+                passed.setdefault((way.target, _side(flow, place, k)), []).extend((place, end))
     return [_Rail(target, side, min(places), max(places)) for (target, side), places in passed.items()]
 
 
@@ -263,7 +261,7 @@ def _lanes(rails: Sequence[_Rail]) -> dict[tuple[int, Where], int]:
         for lane in range(LANES):
             in_lane = taken.setdefault((rail.side, lane), [])
             # At least one box lies between two rails of a lane, so that no line ends where another begins.
-            if all(rail.first > other.last + 1 or rail.last + 1 < other.first for other in in_lane):
+            if all(rail.first > present.last + 1 or rail.last + 1 < present.first for present in in_lane):
                 in_lane.append(rail)
                 lanes[rail.target, rail.side] = lane
                 break
@@ -286,20 +284,17 @@ def _stack(
         placed.append(Placed(place, y, tall, lines))
         y += tall
         turns.append(y + _TURN)
-        bends = any(
-            way.side == "down" and not _straight(flow, inside, place, k)
-            for k, way in enumerate(flow.boxes[place].exits)
-        )
+        ways = enumerate(flow.boxes[place].exits)
+        bends = any(way.side == "down" and not _straight(flow, inside, place, k) for k, way in ways)
         y += _TURN + RADIUS + 5 if bends else _DOWN
     return tuple(placed), turns, lands, joins
 
 
 def _start(box: Box, placed: Placed, k: int) -> tuple[int, int]:
-    """Return the point where an exit leaves its box."""
     way = box.exits[k]
     if way.side == "down":
         return SPINE, placed.bottom
-    same = [j for j, other in enumerate(box.exits) if other.side == way.side]
+    same = [j for j, exit in enumerate(box.exits) if exit.side == way.side]
     if len(same) == 1:
         return (LEFT if way.side == "left" else RIGHT), placed.middle
     # Several exits on one side leave the slanted edge of the diamond one below the other.

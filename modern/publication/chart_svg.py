@@ -20,8 +20,7 @@ _STYLE = (
     ".n{font-weight:bold}.c{text-anchor:middle}.e{text-anchor:end}"
     ".b{fill:#fff;stroke:#000}.w{fill:none;stroke:#000}.r{fill:none;stroke:#000}.d{fill:#000;stroke:none}"
 )
-_SLANT = 8
-"""The horizontal offset of the slanted sides of the symbol for input and output."""
+_SLANT = 8  # the horizontal offset of the slanted sides of the symbol for input and output
 
 
 def chart_svg(chart: Chart, page: int | None = None, link: Link | None = None) -> str:
@@ -30,40 +29,39 @@ def chart_svg(chart: Chart, page: int | None = None, link: Link | None = None) -
         raise IndexError(page)
     pages = chart.pages if page is None else chart.pages[page - 1 : page]
     height = sum(sheet.height for sheet in pages)
-    left, right = extent(chart)
-    width = right - left
+    start, end = _extent(chart)
+    width = end - start
     title = f"Flow chart of {chart.flow.source}" + ("" if page is None else f", page {page} of {len(chart.pages)}")
     # A screen reader does not look for links inside an image.
     role = "img" if link is None else "group"
     boxes = sum(len(sheet.boxes) for sheet in pages)
     lines = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
-        f'viewBox="{left} 0 {width} {height}" role="{role}" aria-labelledby="title desc">',
+        f'viewBox="{start} 0 {width} {height}" role="{role}" aria-labelledby="title desc">',
         f'<title id="title">{escape(title)}</title>',
         f'<desc id="desc">{boxes} boxes in the order of the cards, from the compiled program. The exits of an IF '
         "are left for minus, below for zero and right for plus. A number in a circle is the target of a jump.</desc>",
         f"<style>{_STYLE}</style>",
-        f'<rect x="{left}" width="{width}" height="{height}" fill="#fff"/>',
+        f'<rect x="{start}" width="{width}" height="{height}" fill="#fff"/>',
     ]
     top = 0
     for number, sheet in enumerate(pages, page or 1):
         lines.append(f'<g class="page" transform="translate(0 {top})">')
         lines += _page(chart, sheet, link)
         if len(chart.pages) > 1:
-            lines.append(f'<text class="e" x="{right - MARGIN}" y="{sheet.height - 4}">{number}</text>')
+            lines.append(f'<text class="e" x="{end - MARGIN}" y="{sheet.height - 4}">{number}</text>')
         lines.append("</g>")
         top += sheet.height
     return "\n".join([*lines, "</svg>"]) + "\n"
 
 
-def extent(chart: Chart) -> tuple[int, int]:
+def _extent(chart: Chart) -> tuple[int, int]:
     """Return the left and right edges of the pages, which are as wide as the page with the most lanes."""
-    lines = [path.corners for page in chart.pages for path in page.paths]
-    edges = [x for corners in lines for x, _ in corners] + [LEFT - ZONE, RIGHT + ZONE]
+    edges = [x for page in chart.pages for path in page.paths for x, _ in path.corners] + [LEFT - ZONE, RIGHT + ZONE]
     return min(edges) - MARGIN, max(edges) + MARGIN
 
 
-def short(box: Box) -> str:
+def _short(box: Box) -> str:
     """Return the text of a connector to a box: its statement number, or ``c`` and the number of its card."""
     return box.label or f"c{box.cards[0]}"
 
@@ -93,11 +91,10 @@ def _page(chart: Chart, page: Page, link: Link | None) -> Iterator[str]:
         yield from _taken(boxes[path.box], path, page.boxes[path.box - page.boxes[0].box].middle)
         if path.connector:
             to = boxes[way.target]
-            yield from _connector(path.connector, short(to), f"to {to.name}, page {_page_of(chart, way.target)}")
+            yield from _connector(path.connector, _short(to), f"to {to.name}, page {_page_of(chart, way.target)}")
     for landing in page.landings:
-        yield from _connector(
-            landing.centre, short(boxes[landing.box]), f"from other exits to {boxes[landing.box].name}"
-        )
+        box = boxes[landing.box]
+        yield from _connector(landing.centre, _short(box), f"from other exits to {box.name}")
 
 
 def _page_of(chart: Chart, box: int) -> int:
@@ -109,7 +106,6 @@ def _line(corners: Sequence[tuple[int, int]]) -> str:
 
 
 def _symbol(box: Box, placed: Placed) -> Iterator[str]:
-    """Yield a box: its outline, its number and its text."""
     top, bottom, middle = placed.top, placed.bottom, placed.middle
     if box.kind == "step":
         yield from _connector((SPINE, middle), box.label, f"step {box.name}")

@@ -18,14 +18,9 @@ from modern.thesis.capacity import array_lengths, largest
 
 CORE = 40_000
 """The positions of core storage in the machine of 1963."""
-SYSTEM, PROGRAM, FREE, ARRAY, SINGLE, NAMES = (
-    "subroutines and tables",
-    "object program",
-    "free",
-    "array",
-    "single fields",
-    "names of functions",
-)
+SYSTEM, PROGRAM, FREE = "subroutines and tables", "object program", "free"
+ARRAY, SINGLE, NAMES = "array", "single fields", "names of functions"
+KINDS = (SYSTEM, PROGRAM, FREE, ARRAY, SINGLE, NAMES)
 """The kinds of regions."""
 
 
@@ -87,16 +82,14 @@ def core_map(name: str) -> CoreMap:
 def _data(entries: tuple[Entry, ...]) -> Iterator[Region]:
     """Return the regions of the data, lowest first: each array, and each group of adjacent single fields."""
     for single, group in groupby(reversed(entries), key=lambda entry: not entry.shape):
+        group_entries = tuple(group)
         if single:
-            yield _single(tuple(group))
+            kinds = Counter(entry.kind for entry in group_entries)
+            yield Region(SINGLE, *_ends(group_entries[0], group_entries[-1]), "", tuple(kinds.items()))
             continue
-        for entry in group:
+        for entry in group_entries:
             name = f"{entry.name}({','.join(map(str, entry.shape))})"
             yield Region(ARRAY, *_ends(entry, entry), name, (("field", entry.size),))
-
-
-def _single(entries: tuple[Entry, ...]) -> Region:
-    return Region(SINGLE, *_ends(entries[0], entries[-1]), "", tuple(Counter(entry.kind for entry in entries).items()))
 
 
 def _ends(lowest: Entry, highest: Entry) -> tuple[int, int]:

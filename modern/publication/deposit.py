@@ -23,22 +23,14 @@ from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
 
+from modern.claims.apparatus_checks import texts
 from modern.edition.sources import sources
 from modern.publication import tei
 from modern.publication.building import DIST, ROOT, BuildError, check_replaceable, newest_wheel, read_citation, run
 from modern.publication.metadata import Work, codemeta, crate, data_package, work
 
-_NOT_SOURCE = {
-    ".git",
-    ".venv",
-    "dist",
-    "build",
-    "node_modules",
-    "__pycache__",
-    ".mypy_cache",
-    ".ruff_cache",
-    ".pytest_cache",
-}
+_CACHES = {"node_modules", "__pycache__", ".mypy_cache", ".ruff_cache", ".pytest_cache"}
+_NOT_SOURCE = {".git", ".venv", "dist", "build"} | _CACHES
 FOLDERS = {
     "source": "all files of the project: decks in fortran_src, prints in transcripts, vectors in tests/data",
     "wheel": "the package that pip installs",
@@ -87,7 +79,7 @@ def gather(wheel: Path, site: Path, book: Path, rows: Path | None = None, root: 
     files[f"book/{book.name}"] = book.read_bytes()
     files |= {f"site/{name}": data for name, data in _tree(site)}
     about = described(root)
-    files |= {f"tei/{name}.xml": tei.tei(name, about.version).encode() for name in tei.names()}
+    files |= {f"tei/{name}.xml": tei.tei(name, about.version).encode() for name in texts()}
     files["tei/hull1620.rng"] = tei.schema().encode()
     if rows is not None:
         if not rows.is_dir():
@@ -215,22 +207,19 @@ def write(out: Path, parts: Parts, root: Path = ROOT) -> tuple[Path, Path]:
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_bytes(data)
             path.chmod(0o755 if name in parts.executable else 0o644)
-        bagit.make_bag(str(new_bag), _information(about), checksums=["sha512"])
+        information = {
+            "Source-Organization": about.author,
+            "External-Description": about.description,
+            "External-Identifier": f"{about.name} {about.version}",
+            "Bagging-Date": about.date,
+        }
+        bagit.make_bag(str(new_bag), information, checksums=["sha512"])
         new_archive.write_bytes(_packed(new_bag, parts.executable))
         if bag.exists():
             shutil.move(bag, Path(folder) / "before")
         new_bag.rename(bag)
         new_archive.replace(archive)
     return bag, archive
-
-
-def _information(about: Work) -> dict[str, str]:
-    return {
-        "Source-Organization": about.author,
-        "External-Description": about.description,
-        "External-Identifier": f"{about.name} {about.version}",
-        "Bagging-Date": about.date,
-    }
 
 
 def _packed(folder: Path, executable: frozenset[str]) -> bytes:

@@ -65,8 +65,7 @@ class _Visitor(Operator):
 class Desk:
     """A machine with its program, its decks and its operator.
 
-    ``clock`` returns seconds and ends a slice.  ``small`` is the number of operations between two readings of the
-    clock.
+    ``clock`` returns seconds and ends a slice.  It is read after every ``small`` operations.
     """
 
     clock: Callable[[], float] = time.monotonic
@@ -135,7 +134,7 @@ class Desk:
         ``messages``.
         """
         session = self._session
-        if session is None or self._ending:
+        if session is None or self._logged is None or self._ending:
             return self._answer()
         end_of_slice = self.clock() + milliseconds / 1000
         furthest = self._seconds(session) + pace * milliseconds / 1000
@@ -143,7 +142,7 @@ class Desk:
         while True:
             goal = session.state.work + (self.small if not pace else max(1, self.small // 200))
             try:
-                ending = run_with_operator(session, self._operator(), goal, self._see)
+                ending = run_with_operator(session, self._logged, goal, self._see)
             except _Unanswered:
                 break
             except EmulatorError as error:
@@ -161,7 +160,7 @@ class Desk:
                 messages.append(f"hull1620: {failure or result.ending.message}")
         return self._answer(messages)
 
-    def act(self, words: str) -> Answer:
+    def act(self, line: str) -> Answer:
         """Process a command of the operator, or a line for ACCEPT (``ENTER`` and the line).
 
         The answer has ``lines`` to show.  The next slice executes the action.
@@ -169,31 +168,29 @@ class Desk:
         session = self._session
         if session is None or self._ending:
             return {"lines": ["nothing is running: load a program first"]}
-        if words.startswith("ENTER"):
+        if line.startswith("ENTER"):
             if not (session.halt and session.halt.what == "accept"):
                 return {"lines": ["the program does not ask for a line"]}
-            action = Action("ENTER", text=words[6:].upper().rstrip())
-        elif words == "ATTN":
+            action = Action("ENTER", text=line[6:].upper().rstrip())
+        elif line == "ATTN":
             action = Action("ATTN")
         else:
             # A command either changes the machine, or shows something.
-            action_or_lines = command(session, words, self._cards, _WIDTH)
+            action_or_lines = command(session, line, self._cards, _WIDTH)
             if isinstance(action_or_lines, list):
                 return {"lines": action_or_lines}
             action = action_or_lines
-        if session.halt is not None and action.word == "ATTN":
-            return {"lines": []}
-        if session.halt is None and action.word == "START":
+        if action.word == ("START" if session.halt is None else "ATTN"):
             return {"lines": []}
         if session.halt and session.halt.what == "accept" and action.word in ("START", "STEP"):
             return {"lines": [halt_line(session.halt)]}
         self._visitor.actions.append(action)
         return {"lines": [action_line(action)] if action.word in ("SWITCH", "BREAK", "CLEAR", "STEP") else []}
 
-    def show(self, words: str) -> Answer:
+    def show(self, line: str) -> Answer:
         """Execute a command that only shows something, such as ``VARIABLES``; the answer has ``lines``."""
         session = self._session
-        lines = [] if session is None else command(session, words, self._cards, _WIDTH)
+        lines = [] if session is None else command(session, line, self._cards, _WIDTH)
         return {"lines": lines if isinstance(lines, list) else []}
 
     def log(self) -> str:
@@ -214,10 +211,6 @@ class Desk:
         if isinstance(deck, str):
             return next((input_deck(n) for n in EXAMPLES if deck == f"example{n}"), None) or _unknown(deck)
         return deck_from_text(str(deck[0]), str(deck[1]))
-
-    def _operator(self) -> Operator:
-        assert self._logged is not None, "load sets the operator"
-        return self._logged
 
     def _see(self, events: Sequence[Event]) -> None:
         self._happened += events

@@ -49,7 +49,7 @@ class Piece:
 
 @dataclass(frozen=True, slots=True)
 class Variant:
-    """The cards that replace a card if a further layer is applied; there are none if the layer removes the card."""
+    """The cards that replace a card if a further layer is applied.  A layer that removes the card has no cards here."""
 
     layer: str
     rows: tuple[str, ...]
@@ -145,7 +145,6 @@ def _everywhere(lines: Sequence[Line]) -> frozenset[str]:
 
 
 def _places(lines: Iterable[Line]) -> Iterator[tuple[str, Kind, int]]:
-    """Return the place, the kind and the statement number of each card."""
     comments: list[int] = []  # indices of comments whose following statement has not come yet
     places: list[tuple[str, Kind, int]] = []
     number, steps = 0, 0  # the last statement number, and the statements since then

@@ -37,47 +37,43 @@ class Cell:
     column: str
 
 
-def _cell(table: str, row: str | tuple[str, ...], column: str) -> Cell:
-    return Cell(table, (row,) if isinstance(row, str) else row, column)
-
-
-_LISTED, _CORRECTED = "as listed", "last pair mended"
+_LISTED, _CORRECTED = ("as listed",), ("last pair mended",)
 _SHEET = ("33.3 %", "as on the sheet (.0146)")
-_TENTH = "near a plane with a gap of .1"
+_TENTH = ("near a plane with a gap of .1",)
 CELLS: Mapping[str, Cell] = {
-    "seventy.sets": _cell("studies/seventy/table.csv", _LISTED, "sets"),
-    "seventy.failures": _cell("studies/seventy/table.csv", _LISTED, "failures in 70"),
-    "seventy.mended": _cell("studies/seventy/table.csv", _CORRECTED, "failures in 70"),
-    "seventy.two-or-more": _cell("studies/seventy/table.csv", _LISTED, "70s with 2 or more"),
-    "seventy.sheets-refused": _cell("studies/seventy/decimals.csv", _SHEET, "refused"),
-    "seventy.sheets-for-two": _cell("studies/seventy/decimals.csv", _SHEET, "sheets in 70 for two"),
-    "capacity.first": _cell("studies/capacity/table.csv", "sphere", "more than 98 from N ="),
-    "capacity.full": _cell("studies/capacity/table.csv", "sphere", "table full, as listed"),
-    "capacity.most": _cell("studies/capacity/storage.csv", "most places seen", "places"),
-    "capacity.listed": _cell("studies/capacity/storage.csv", "as listed", "places"),
-    "capacity.core": _cell("studies/capacity/storage.csv", "most places seen", "smallest core"),
-    "digits.two-listed": _cell("studies/digits/table.csv", "2", "hull found, as listed"),
-    "digits.two-corrected": _cell("studies/digits/table.csv", "2", "hull found, corrected"),
-    "digits.three-corrected": _cell("studies/digits/table.csv", "3", "hull found, corrected"),
-    "digits.two-needs": _cell("studies/digits/table.csv", "2", "least P without failure"),
-    "digits.three-needs": _cell("studies/digits/table.csv", "3", "least P without failure"),
-    "rounding.truncating": _cell("studies/rounding/table.csv", "truncating", "whole numbers up to"),
-    "rounding.rounding": _cell("studies/rounding/table.csv", "rounding", "whole numbers up to"),
-    "rounding.float32": _cell("studies/rounding/table.csv", "float32", "whole numbers up to"),
-    "rounding.tenth-truncating": _cell("studies/rounding/exact.csv", _TENTH, "truncating"),
-    "rounding.tenth-float64": _cell("studies/rounding/exact.csv", _TENTH, "float64"),
-    "epsilon.best": _cell("studies/epsilon/best.csv", "as it is", "best e"),
-    "epsilon.found": _cell("studies/epsilon/best.csv", "as it is", "hulls found with it"),
-    "epsilon.greater-wrong": _cell("studies/epsilon/price.csv", "greater", "of these sets"),
-    "translation.least": _cell("studies/translation/ratio.csv", "less than 0.5", "processor time saved"),
-    "translation.most": _cell("studies/translation/ratio.csv", "1.5 and more", "processor time saved"),
-    "translation.kept": _cell("studies/translation/digits.csv", "numbers to 99", "eight digits, origin kept"),
-    "translation.moved": _cell("studies/translation/digits.csv", "numbers to 99", "eight digits, origin moved to C"),
-    "time.sphere": _cell("studies/machine-time/table.csv", "sphere", "minutes"),
-    "time.ball": _cell("studies/machine-time/table.csv", "ball", "minutes"),
-    "time.points": _cell("studies/machine-time/table.csv", "sphere", "N"),
-    "divergence.share": _cell("studies/divergence/table.csv", "program1 196+2", "of all sets"),
-    "divergence.nowhere": _cell("studies/divergence/table.csv", "nowhere", "of all sets"),
+    "seventy.sets": Cell("studies/seventy/table.csv", _LISTED, "sets"),
+    "seventy.failures": Cell("studies/seventy/table.csv", _LISTED, "failures in 70"),
+    "seventy.mended": Cell("studies/seventy/table.csv", _CORRECTED, "failures in 70"),
+    "seventy.two-or-more": Cell("studies/seventy/table.csv", _LISTED, "70s with 2 or more"),
+    "seventy.sheets-refused": Cell("studies/seventy/decimals.csv", _SHEET, "refused"),
+    "seventy.sheets-for-two": Cell("studies/seventy/decimals.csv", _SHEET, "sheets in 70 for two"),
+    "capacity.first": Cell("studies/capacity/table.csv", ("sphere",), "more than 98 from N ="),
+    "capacity.full": Cell("studies/capacity/table.csv", ("sphere",), "table full, as listed"),
+    "capacity.most": Cell("studies/capacity/storage.csv", ("most places seen",), "places"),
+    "capacity.listed": Cell("studies/capacity/storage.csv", ("as listed",), "places"),
+    "capacity.core": Cell("studies/capacity/storage.csv", ("most places seen",), "smallest core"),
+    "digits.two-listed": Cell("studies/digits/table.csv", ("2",), "hull found, as listed"),
+    "digits.two-corrected": Cell("studies/digits/table.csv", ("2",), "hull found, corrected"),
+    "digits.three-corrected": Cell("studies/digits/table.csv", ("3",), "hull found, corrected"),
+    "digits.two-needs": Cell("studies/digits/table.csv", ("2",), "least P without failure"),
+    "digits.three-needs": Cell("studies/digits/table.csv", ("3",), "least P without failure"),
+    "rounding.truncating": Cell("studies/rounding/table.csv", ("truncating",), "whole numbers up to"),
+    "rounding.rounding": Cell("studies/rounding/table.csv", ("rounding",), "whole numbers up to"),
+    "rounding.float32": Cell("studies/rounding/table.csv", ("float32",), "whole numbers up to"),
+    "rounding.tenth-truncating": Cell("studies/rounding/exact.csv", _TENTH, "truncating"),
+    "rounding.tenth-float64": Cell("studies/rounding/exact.csv", _TENTH, "float64"),
+    "epsilon.best": Cell("studies/epsilon/best.csv", ("as it is",), "best e"),
+    "epsilon.found": Cell("studies/epsilon/best.csv", ("as it is",), "hulls found with it"),
+    "epsilon.greater-wrong": Cell("studies/epsilon/price.csv", ("greater",), "of these sets"),
+    "translation.least": Cell("studies/translation/ratio.csv", ("less than 0.5",), "processor time saved"),
+    "translation.most": Cell("studies/translation/ratio.csv", ("1.5 and more",), "processor time saved"),
+    "translation.kept": Cell("studies/translation/digits.csv", ("numbers to 99",), "eight digits, origin kept"),
+    "translation.moved": Cell("studies/translation/digits.csv", ("numbers to 99",), "eight digits, origin moved to C"),
+    "time.sphere": Cell("studies/machine-time/table.csv", ("sphere",), "minutes"),
+    "time.ball": Cell("studies/machine-time/table.csv", ("ball",), "minutes"),
+    "time.points": Cell("studies/machine-time/table.csv", ("sphere",), "N"),
+    "divergence.share": Cell("studies/divergence/table.csv", ("program1 196+2",), "of all sets"),
+    "divergence.nowhere": Cell("studies/divergence/table.csv", ("nowhere",), "of all sets"),
 }
 """The figures that are cells of committed tables, by name."""
 
@@ -125,7 +121,7 @@ def read_cell(docs: Path, cell: Cell) -> str:
 
 
 def _formatted(value: str) -> str:
-    """Write an integer of five or more digits with commas, like the other figures."""
+    # An integer of five or more digits gets commas, like the other figures.
     return f"{int(value):,}" if value.isdigit() and len(value) > 4 else value
 
 

@@ -108,8 +108,7 @@ def _parts(program: Program) -> list[_Part]:
 
 def _box(program: Program, part: _Part, parts: Sequence[_Part]) -> Box:
     """Return the box of a part.  Its exits lead to indices of parts."""
-    index_of = {other.start: index for index, other in enumerate(parts)}
-    index = index_of[part.start]
+    index_of = {known.start: index for index, known in enumerate(parts)}
     code = program.code[part.start : part.end]
     last = code[-1]
     label, written = (str(part.line.label or ""), part.written) if part.begins else ("", "")
@@ -127,19 +126,15 @@ def _box(program: Program, part: _Part, parts: Sequence[_Part]) -> Box:
     if last.operation == op.SELECT:
         return box("decision", (written.rpartition(",")[2].strip(),), *_selected(program.branches[last.second]))
     if last.operation == op.DOTEST and not part.begins:
-        return box(
-            "decision",
-            (_loop_test(program, last),),
-            ("again", "left", program.loops[last.address][3]),
-            ("done", "down", part.end),
-        )
+        test, first = _loop_test(program, last), program.loops[last.address][3]
+        return box("decision", (test,), ("again", "left", first), ("done", "down", part.end))
     if last.operation == op.STOP:
         return box("end", (written or "END",))
     if last.operation == op.BRANCH:
         return box("step", (), ("", "down", program.branches[last.address][0]))
     uses_device = any(i.operation in (op.BEGIN, op.PAUSE) for i in code)
     kind: Kind = "input/output" if uses_device else "processing" if len(code) > 1 else "step"
-    after = part.end if index + 1 < len(parts) else part.start
+    after = part.start if part is parts[-1] else part.end
     return box(kind, (_first_value(written),) if kind != "step" else (), ("", "down", after))
 
 
@@ -159,9 +154,8 @@ def _first_value(written: str) -> str:
 
 def _loop_test(program: Program, test: Instruction) -> str:
     """Return the test that closes a DO: ``I+1 <= N``."""
-    variable, step, limit = (
-        program.storage.name_of(field).removeprefix("constant ") for field in program.loops[test.address][:3]
-    )
+    names = map(program.storage.name_of, program.loops[test.address][:3])
+    variable, step, limit = (name.removeprefix("constant ") for name in names)
     return f"{variable}+{step} <= {limit}"
 
 
@@ -180,8 +174,6 @@ def _forwarded(boxes: Sequence[Box]) -> list[Box | None]:
     for place, box in enumerate(boxes):
         before = forwarded[place - 1] if place else None
         if box.kind != "step" or box.label or come_from[place] != [place - 1] or before is None:
-            continue
-        if box.exits[0].target == place:
             continue
         ways = tuple(replace(way, target=box.exits[0].target) if way.target == place else way for way in before.exits)
         forwarded[place - 1] = replace(before, exits=ways, cards=_union(before.cards, box.cards))
@@ -205,9 +197,8 @@ def _merged(boxes: Sequence[Box | None]) -> tuple[Box, ...]:
             and last.exits[0].target == place
         )
         if last is not None and joins_last:
-            merged[-1] = replace(
-                last, cards=_union(last.cards, box.cards), lines=last.lines + box.lines, exits=box.exits
-            )
+            cards = _union(last.cards, box.cards)
+            merged[-1] = replace(last, cards=cards, lines=last.lines + box.lines, exits=box.exits)
         else:
             merged.append(box)
         new_index[place] = len(merged) - 1
@@ -217,7 +208,6 @@ def _merged(boxes: Sequence[Box | None]) -> tuple[Box, ...]:
 
 
 def _sources(boxes: Sequence[Box | None]) -> list[list[int]]:
-    """Return for each box the indices of the boxes that lead to it."""
     sources: list[list[int]] = [[] for _ in boxes]
     for place, box in enumerate(boxes):
         for way in box.exits if box else ():

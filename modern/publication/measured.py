@@ -62,19 +62,11 @@ def _job(example: int, first: str) -> tuple[Run, ...]:
     for step in steps:
         timing = measure(step.program, step.result)
         counts, seconds = dict(timing.statements), shares(step.program, step.result)
-        cards = {line.place.card: line.index for line in step.program.statements}
-        job_runs.append(
-            Run(
-                example,
-                step.name,
-                {card: counts[index] for card, index in cards.items() if counts.get(index)},
-                {card: seconds[index] for card, index in cards.items() if counts.get(index)},
-                step.result.statements,
-                timing.processor_seconds,
-                timing.seconds,
-                (*timing.processor, *timing.devices),
-            )
-        )
+        cards = {line.place.card: line.index for line in step.program.statements if counts.get(line.index)}
+        executions = {card: counts[index] for card, index in cards.items()}
+        times = {card: seconds[index] for card, index in cards.items()}
+        totals = (step.result.statements, timing.processor_seconds, timing.seconds)
+        job_runs.append(Run(example, step.name, executions, times, *totals, (*timing.processor, *timing.devices)))
     return tuple(job_runs)
 
 

@@ -39,10 +39,7 @@ class Work:
 
 
 def work(citation: Mapping[str, Any], project: Mapping[str, Any], references: Iterable[str]) -> Work:
-    """Combine the fields of CITATION.cff with the table ``project`` of pyproject.toml.
-
-    Raise ValueError if the two disagree about version or licence.
-    """
+    """Combine the fields of CITATION.cff with those of pyproject.toml.  Raise ValueError if they contradict."""
     for key in ("version", "license"):
         if citation[key] != project[key]:
             raise ValueError(f"CITATION.cff has {key} {citation[key]}, pyproject.toml {project[key]}")

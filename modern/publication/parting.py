@@ -75,9 +75,8 @@ def scaled(points: Sequence[tuple[Fraction, Fraction, Fraction]]) -> list[Whole]
 def true_hull(points: Sequence[Whole]) -> tuple[int, tuple[tuple[int, ...], ...]]:
     """Return the dimension of the hull and its faces as loops of indices.
 
-    A polygon has one face, a line the loop of its two ends, and a point the loop of itself.  A plane through three
-    points supports a face if all points lie on one side of it.  Of equal points only the first is used.  A loop has
-    corners only, not the other points on its edges or in its face.
+    A polygon has one face, a line the loop of its two ends, and a point the loop of itself.  Only the first of equal
+    points is used.  A loop has corners only, not the other points on its edges or in its face.
     """
     places = sorted({point: n for n, point in reversed(list(enumerate(points)))}.values())
     first = places[0]
@@ -102,6 +101,7 @@ def _faces(points: Sequence[Whole], places: Sequence[int]) -> Iterator[tuple[int
         normal = cross(minus(points[b], points[a]), minus(points[c], points[a]))
         if not any(normal) or any({a, b, c} <= face for face in known_faces):
             continue
+        # A plane through three points supports a face if all points lie on one side of it.
         level, sides = dot(normal, points[a]), set()
         within = []
         for n in places:
@@ -143,7 +143,6 @@ def _loop(points: Sequence[Whole], within: Sequence[int], normal: Whole) -> tupl
 def _program_hull(
     run: HullRun, cause: Cause | None, typed: Sequence[Sequence[str]]
 ) -> tuple[list[str], dict[str, Any]]:
-    """Return messages about a run, and the hull that it punched as data."""
     no_hull: dict[str, Any] = {"dimension": -1, "vertices": [], "faces": []}
     if not run.complete:
         ending = run.final.result.ending

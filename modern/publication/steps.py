@@ -76,8 +76,8 @@ _WHOLE: Spans = [(Fraction(0), Fraction(1))]
 def hidden_lines(name: str = "house") -> tuple[Eye, tuple[Plate, ...]]:
     """Draw a scene in four steps (Nakamae and Nishita, sections 3.1 to 3.5), and return the eye and the steps.
 
-    The steps are: all edges; without the edges between two faces turned away from the eye; without the parts behind a
-    nearer contour; without the lines that only divide an object (ghost lines).
+    The first step has all edges.  The others remove the edges between two faces turned away from the eye, then the
+    parts behind a nearer contour, then the lines that only divide an object (ghost lines).
     """
     model = scene(name)
     x, y, z = (int(number) for number in model.sight.eye)
@@ -115,7 +115,6 @@ def hidden_lines(name: str = "house") -> tuple[Eye, tuple[Plate, ...]]:
 
 
 def _visible_spans(drawing: Drawing) -> dict[tuple[int, int, int], Spans]:
-    """Return the visible spans of every segment."""
     visible: dict[tuple[int, int, int], Spans] = {}
     for piece in drawing.pieces:
         if piece.seen:
@@ -124,7 +123,6 @@ def _visible_spans(drawing: Drawing) -> dict[tuple[int, int, int], Spans]:
 
 
 def _without(spans: Spans, others: Spans) -> Spans:
-    """Subtract the other spans from the spans."""
     for low, high in others:
         spans = [part for a, b in spans for part in ((a, min(b, low)), (max(a, high), b)) if part[0] < part[1]]
     return spans
@@ -164,10 +162,8 @@ def cells(diameter: int = 5) -> Cells:
     volume = ball(diameter)
     polyhedron = voxel_hull(volume, order=RASTER).polyhedron
     counts = [("the ball's voxels and their boundary", (*_boundary(volume), volume.count))]
-    for name, cell_list in (
-        ("its hull, as triangles", polyhedron.triangles),
-        ("its hull, coplanar triangles merged", polyhedron.faces),
-    ):
+    triangles, merged = ("its hull, as triangles", "its hull, coplanar triangles merged")
+    for name, cell_list in ((triangles, polyhedron.triangles), (merged, polyhedron.faces)):
         counts.append((name, (len(cell_list.vertices), len(cell_list.edges), len(cell_list.faces), 1)))
     points = [_vector(point) for point in polyhedron.faces.points]
     faces = tuple(tuple(k - 1 for k in face.vertices[::-1]) for face in polyhedron.faces.faces)
@@ -192,8 +188,7 @@ def cells(diameter: int = 5) -> Cells:
     return Cells(diameter, plates, tuple(counts), polyhedron.faces)
 
 
-_GAP = Fraction(1, 8)
-"""The share of a cell that is omitted at each end, so that adjacent cells are visibly separate."""
+_GAP = Fraction(1, 8)  # the share of a cell that is omitted at each end, so that adjacent cells are visibly separate
 
 
 def _vector(point: Iterable[int]) -> Vector:
@@ -230,7 +225,6 @@ def _drawn(solids: list[Polyhedron], eye: Eye) -> tuple[Stroke, ...]:
 
 
 def _boundary(volume: Volume) -> tuple[int, int, int]:
-    """Return the numbers of corners, edges and squares on the boundary of the voxels."""
     voxels = {tuple(where) for where in volume.coordinates().tolist()}
     squares: set[tuple[int, ...]] = set()
     # In doubled coordinates a cell is its centre: a coordinate is odd if the cell extends along the axis, else even.
@@ -296,16 +290,9 @@ def rods() -> tuple[OctreeHull, tuple[Level, ...]]:
         nodes = 8 * levels[-1].divided if levels else 1
         full, divided_nodes = sum(level == number for _, level in leaves), divided(hull.hull, number)
         drawn = [cube for cube, level in leaves if level <= number]
-        levels.append(
-            Level(
-                number,
-                tuple(_quadrants(top, number)),
-                full,
-                divided_nodes,
-                nodes - full - divided_nodes,
-                Plate(f"level {number}", _drawn(drawn, ABOVE) if drawn else ()),
-            )
-        )
+        plate = Plate(f"level {number}", _drawn(drawn, ABOVE) if drawn else ())
+        quadrants, empty = tuple(_quadrants(top, number)), nodes - full - divided_nodes
+        levels.append(Level(number, quadrants, full, divided_nodes, empty, plate))
     return hull, tuple(levels)
 
 

@@ -11,7 +11,7 @@ Source: TEI P5 Guidelines, chapter 2 (header), 12.1 (apparatus entries), 12.2.3 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from importlib.resources import files
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
@@ -77,17 +77,17 @@ def _header(root: Element, edition: _Edition, version: str) -> None:
     header = SubElement(root, "teiHeader")
     file = SubElement(header, "fileDesc")
     title = SubElement(file, "titleStmt")
-    _words(title, "title", text.title)
-    _words(title, "author", document.author)
+    _add(title, "title", text.title)
+    _add(title, "author", document.author)
     role = SubElement(title, "respStmt", {_ID: "ed"})
-    _words(role, "resp", "witness, apparatus and cards")
-    _words(role, "name", ", ".join(dict.fromkeys(row.editor for row in text.rows if row.editor)) or "the editors")
-    _words(SubElement(file, "editionStmt"), "edition", f"hull1620 {version}", n=version)
+    _add(role, "resp", "witness, apparatus and cards")
+    _add(role, "name", ", ".join(dict.fromkeys(row.editor for row in text.rows if row.editor)) or "the editors")
+    _add(SubElement(file, "editionStmt"), "edition", f"hull1620 {version}", n=version)
     published = SubElement(file, "publicationStmt")
-    _words(published, "publisher", "The hull1620 developers")
+    _add(published, "publisher", "The hull1620 developers")
     rights = SubElement(published, "availability", status="restricted")
-    _words(rights, "p", f"The text: {document.rights}")
-    _words(rights, "licence", "The apparatus is CC0 1.0.", target="https://creativecommons.org/publicdomain/zero/1.0/")
+    _add(rights, "p", f"The text: {document.rights}")
+    _add(rights, "licence", "The apparatus is CC0 1.0.", target="https://creativecommons.org/publicdomain/zero/1.0/")
     _source(SubElement(file, "sourceDesc"), edition)
     _encoding(SubElement(header, "encodingDesc"), edition)
     dates = sorted({row.date for row in text.rows if row.date}, reverse=True)
@@ -95,97 +95,74 @@ def _header(root: Element, edition: _Edition, version: str) -> None:
         revision = SubElement(header, "revisionDesc")
         for date in dates:
             rows = sum(row.date == date for row in text.rows)
-            _words(revision, "change", f"{rows} rows", when=date, who="#ed")
+            _add(revision, "change", f"{rows} rows", when=date, who="#ed")
 
 
 def _source(source: Element, edition: _Edition) -> None:
     document = edition.document
     witness = SubElement(SubElement(source, "listWit"), "witness", {_ID: "ocr"})
     bibl = SubElement(witness, "bibl")
-    _words(bibl, "author", document.author)
-    _words(bibl, "title", document.title)
-    _words(bibl, "publisher", document.institution)
-    _words(bibl, "date", document.year)
+    _add(bibl, "author", document.author)
+    _add(bibl, "title", document.title)
+    _add(bibl, "publisher", document.institution)
+    _add(bibl, "date", document.year)
     if document.volume:
-        _words(bibl, "biblScope", document.volume, unit="volume")
-    _words(bibl, "biblScope", document.extent, unit="page")
+        _add(bibl, "biblScope", document.volume, unit="volume")
+    _add(bibl, "biblScope", document.extent, unit="page")
     if document.doi.startswith("10."):
-        _words(bibl, "idno", document.doi, type="DOI")
-    _words(bibl, "note", document.held)
-    _words(bibl, "idno", document.sha256, type="SHA-256")
-    _words(bibl, "idno", sources().excerpt(edition.text.id).sha256, type="SHA-256-of-the-excerpt")
+        _add(bibl, "idno", document.doi, type="DOI")
+    _add(bibl, "note", document.held)
+    _add(bibl, "idno", document.sha256, type="SHA-256")
+    _add(bibl, "idno", sources().excerpt(edition.text.id).sha256, type="SHA-256-of-the-excerpt")
 
 
 def _encoding(encoding: Element, edition: _Edition) -> None:
-    _words(
-        SubElement(encoding, "projectDesc"),
-        "p",
-        "The OCR text of the pages is the only witness. Every departure from it is an app with the id of its row.",
-    )
+    witness = "The OCR text of the pages is the only witness. Every departure from it is an app with the id of its row."
+    _add(SubElement(encoding, "projectDesc"), "p", witness)
     editorial = SubElement(encoding, "editorialDecl")
-    _words(
-        editorial,
-        "p",
+    conventions = (
         "lem is the reading of the edition, rdg with wit that of the witness, rdg with resp alone that of a further "
         "layer, and rdg of type rejected a reading that was considered and not accepted. An empty lem or rdg is an "
         "omission. A line whose readings are all empty does not exist in that state. cert is high for certain, medium "
         "for probable, low for conjecture. n of an ab is the line of the witness, and n of its lb the line of the "
-        "whole document.",
+        "whole document."
     )
+    _add(editorial, "p", conventions)
     SubElement(encoding, "variantEncoding", method="parallel-segmentation", location="internal")
     classes = SubElement(encoding, "classDecl")
     for kind, names in (("layer", edition.text.layers), ("kind", sorted({row.kind for row in edition.text.rows}))):
         taxonomy = SubElement(classes, "taxonomy", {_ID: kind})
         for name in names:
             category = SubElement(taxonomy, "category", {_ID: f"{kind}-{name}"})
-            _words(category, "catDesc", LAYERS[name] if kind == "layer" else name)
+            _add(category, "catDesc", LAYERS[name] if kind == "layer" else name)
 
 
 def _witness(div: Element, edition: _Edition, source: str) -> None:
     """Write every line of the witness in order, each followed by the lines that rows insert after it."""
-    excerpt = sources().excerpt(edition.text.id)
-    groups = _with_insertions(segments(edition.text))
+    groups: dict[str, list[Segments]] = {}  # each line of the witness with the lines inserted after it
+    last = ""
+    for line in segments(edition.text):
+        last = last if line.inserted else line.id
+        groups.setdefault(last, []).append(line)
     number = 0
     for raw in source.removesuffix("\n").split("\n"):
         if raw.startswith(PAGE_MARK):
             SubElement(div, "pb", n=raw[len(PAGE_MARK) :].strip(), ed="print")
             continue
         number += 1
-        lines = groups.get(str(number))
-        source_line = excerpt.line(number)
-        if lines is None:
+        if str(number) not in groups:
             # A line outside the text: a page number, a heading, or a blank line.
-            kind = "furniture" if raw.strip() else "blank"
-            _ab(div, edition, f"l{number}", kind, (raw,) if raw else (), source_line, str(number))
-            continue
-        for line in lines:
-            if line.inserted:
-                _ab(div, edition, line.id, "line", line.pieces, None, "")
-            else:
-                _ab(div, edition, f"l{line.id}", "line", line.pieces, source_line, line.id)
+            _ab(div, edition, f"l{number}", "furniture" if raw.strip() else "blank", (raw,) if raw else ())
+        for line in groups.get(str(number), ()):
+            _ab(div, edition, _place(line.id), "line", line.pieces)
 
 
-def _with_insertions(lines: Iterable[Segments]) -> dict[str, list[Segments]]:
-    """Group each line of the witness with the lines inserted after it."""
-    groups: dict[str, list[Segments]] = {}
-    last = ""
-    for line in lines:
-        last = last if line.inserted else line.id
-        groups.setdefault(last, []).append(line)
-    return groups
-
-
-def _ab(
-    div: Element,
-    edition: _Edition,
-    place: str,
-    kind: str,
-    pieces: tuple[Piece, ...],
-    source_line: int | None,
-    number: str,
-) -> None:
-    names = {_ID: f"{edition.text.id}-{place}", "type": kind, _SPACE: "preserve"}
-    ab = SubElement(div, "ab", names | ({"n": number} if number else {}))
+def _ab(div: Element, edition: _Edition, place: str, kind: str, pieces: tuple[Piece, ...]) -> None:
+    """Write a line.  The id of a line of the witness is its number after an l; other lines have the id of a row."""
+    attributes = {_ID: f"{edition.text.id}-{place}", "type": kind, _SPACE: "preserve"}
+    number = place.removeprefix("l") if place.startswith("l") else ""
+    ab = SubElement(div, "ab", attributes | ({"n": number} if number else {}))
+    source_line = sources().excerpt(edition.text.id).line(int(number)) if number else None
     if source_line is not None:
         SubElement(ab, "lb", n=str(source_line), ed="ocr")
     _write(ab, edition, pieces)
@@ -194,7 +171,10 @@ def _ab(
 def _write(parent: Element, edition: _Edition, pieces: Iterable[Piece]) -> None:
     for piece in pieces:
         if isinstance(piece, str):
-            _append(parent, piece)
+            if len(parent):
+                parent[-1].tail = (parent[-1].tail or "") + piece
+            else:
+                parent.text = (parent.text or "") + piece
             continue
         row = piece.row
         edition.app_counts[row.id] = edition.app_counts.get(row.id, 0) + 1
@@ -216,12 +196,12 @@ def _write(parent: Element, edition: _Edition, pieces: Iterable[Piece]) -> None:
 
 def _notes(app: Element, row: Row) -> None:
     for rejected in row.rejected:
-        _words(app, "rdg", rejected.reading, type="rejected", resp="#ed")
-        _words(app, "note", rejected.reason, type="rejected")
-    _words(app, "note", row.reason, type="reason")
-    _words(app, "note", row.evidence, type="evidence")
+        _add(app, "rdg", rejected.reading, type="rejected", resp="#ed")
+        _add(app, "note", rejected.reason, type="rejected")
+    _add(app, "note", row.reason, type="reason")
+    _add(app, "note", row.evidence, type="evidence")
     if row.ground:
-        _words(app, "note", "; ".join(f"{key}: {_plain(value)}" for key, value in row.ground.items()), type="ground")
+        _add(app, "note", "; ".join(f"{key}: {_plain(value)}" for key, value in row.ground.items()), type="ground")
 
 
 def _plain(value: object) -> str:
@@ -241,14 +221,14 @@ def _devices(div: Element, chapter: Chapter) -> None:
             ab = SubElement(part, "ab", {"type": "card", "n": str(card.number), _SPACE: "preserve"})
             if layout.layer == "stated":
                 if card.image:
-                    _words(ab, "supplied", card.image, reason="stated", resp="#ed")
+                    _add(ab, "supplied", card.image, reason="stated", resp="#ed")
                 continue
             column = 1
             for token in card.tokens:
                 if token.first > column:
                     blanks = str(token.first - column)
                     SubElement(ab, "space", dim="horizontal", unit="chars", quantity=blanks, resp="#ed")
-                _words(ab, "seg", token.text, corresp=f"#chapter6-{_place(token.line)}")
+                _add(ab, "seg", token.text, corresp=f"#chapter6-{_place(token.line)}")
                 column = token.last + 1
 
 
@@ -256,38 +236,18 @@ def _place(line: str) -> str:
     return f"l{line}" if line.isdigit() else line
 
 
-def _words(parent: Element, name: str, words: str, **attributes: str) -> Element:
-    element = SubElement(parent, name, attributes)
-    element.text = words
-    return element
-
-
-def _append(parent: Element, words: str) -> None:
-    """Append characters to the content of an element."""
-    if len(parent):
-        parent[-1].tail = (parent[-1].tail or "") + words
-    else:
-        parent.text = (parent.text or "") + words
+def _add(parent: Element, name: str, content: str, **attributes: str) -> None:
+    SubElement(parent, name, attributes).text = content
 
 
 def _indent(root: Element) -> None:
     """Indent the document, except the ``ab`` elements, in which blanks are significant."""
-    originals = {id(ab): _copy(ab) for ab in root.iter("ab")}
+    originals = [(element, element.text, element.tail) for ab in root.iter("ab") for element in ab.iter()]
     indent(root, " ")
-    for ab in root.iter("ab"):
-        text, inner = originals[id(ab)]
-        ab.text = text
-        for element, (words, tail) in zip(list(ab.iter())[1:], inner, strict=True):
-            element.text, element.tail = words, tail
-
-
-def _copy(ab: Element) -> tuple[str | None, list[tuple[str | None, str | None]]]:
-    return ab.text, [(element.text, element.tail) for element in list(ab.iter())[1:]]
-
-
-def names() -> Iterator[str]:
-    """Return the names of the texts."""
-    yield from texts()
+    for element, content, tail in originals:
+        element.text = content
+        if element.tag != "ab":  # the characters after an ab are not part of it
+            element.tail = tail
 
 
 def schema() -> str:

@@ -172,13 +172,6 @@ def _read(expression: tree.Expression) -> Iterator[tuple[str, How]]:
 
 def _name(name: str, how: dict[How, list[int]], storage: Storage) -> Name:
     entry = next((entry for entry in storage.entries if entry.name == name), None)
-    return Name(
-        name,
-        name[0] not in "IJKLMN",
-        entry.shape if entry else (),
-        entry.size if entry else 0,
-        entry is None,
-        tuple(how["declared"]),
-        tuple(how["set"]),
-        tuple(how["used"]),
-    )
+    shape, fields = (entry.shape, entry.size) if entry else ((), 0)
+    declared, assigned, used = tuple(how["declared"]), tuple(how["set"]), tuple(how["used"])
+    return Name(name, name[0] not in "IJKLMN", shape, fields, entry is None, declared, assigned, used)

@@ -26,6 +26,7 @@ from modern.publication.numbered import numbered
 DOCS = ROOT / "docs"
 STANDARD: Final = "a-2a"
 MISSING_TYPST = "Typst typesets the book: pip install 'hull1620[edition]'"
+_PAPERS = ("appel_will", "nakamae_nishita", "kovalevsky_schulz", "yau_srihari")
 CHAPTERS: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("Introduction", ("article.md",)),
     ("The algorithm", ("explanation/method.md", "explanation/eight-digits.md", "reference/concordance.md")),
@@ -87,7 +88,6 @@ def _parts(name: str, texts: dict[str, str]) -> Sequence[str]:
 
 
 def _front() -> Iterator[str]:
-    """Write the title page and the table of contents."""
     fields = citation()
     thesis = next(document for document in sources().documents if document.id == "butler-1963")
     released = fields["date-released"]

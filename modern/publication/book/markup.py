@@ -19,35 +19,34 @@ _DIRECTIVE = re.compile(r"^:::\{.*?^:::$\n?|^```\{.*?^```$\n?", re.MULTILINE | r
 _HEAD = re.compile(r"\A---\n.*?\n---\n", re.DOTALL)
 _COMMENT = re.compile(r"<!--.*?-->\n?", re.DOTALL)
 _ROLE = re.compile(r"\{([a-z]+)\}\Z")
-_FIRST_UNSUPPORTED = 0x2E80
-"""The first code point of the East Asian scripts, which the fonts of Typst do not contain."""
+_FIRST_UNSUPPORTED = 0x2E80  # the first code point of the East Asian scripts, which the fonts of Typst do not contain
+# Widths in characters: of a table, the largest weight of a column, of a cell that is not a sentence, the default for
+# the longest word, and of the gap between columns.
 _LINE, _LONG, _CELL, _WORD, _GAP = 104, 90, 40, 12, 2
-"""Widths in characters: a table; the largest weight of a column; a cell that is not a sentence; the default for the
-longest word; the gap between columns."""
+# Font sizes of tables in points: the normal size, the smallest for cells on one line, and the smallest of all.
 _USUAL, _SMALL, _SMALLEST = 8.5, 6.5, 5.0
-"""Font sizes of tables in points: the normal size; the smallest for cells on one line; the smallest of all."""
 
 
-def string(words: str) -> str:
+def string(text: str) -> str:
     """Return a Typst string.  A character that the fonts lack, such as a Chinese full stop, becomes its code."""
-    words = "".join(c if ord(c) < _FIRST_UNSUPPORTED else f"[U+{ord(c):04X}]" for c in words)
-    escaped = words.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n").replace("\t", "  ")
+    text = "".join(c if ord(c) < _FIRST_UNSUPPORTED else f"[U+{ord(c):04X}]" for c in text)
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n").replace("\t", "  ")
     return f'"{escaped}"'
 
 
-def say(words: str) -> str:
+def say(text: str) -> str:
     """Return plain text as markup."""
-    return f"#{string(words)};" if words else ""
+    return f"#{string(text)};" if text else ""
 
 
-def code(words: str) -> str:
+def code(text: str) -> str:
     """Return program text within a line."""
-    return f"#raw({string(words)});"
+    return f"#raw({string(text)});"
 
 
-def block(words: str, size: str = "7.8pt") -> str:
+def block(text: str, size: str = "7.8pt") -> str:
     """Return lines of a program as a block."""
-    return f"#listing({size}, {string(words.rstrip(chr(10)))})\n\n"
+    return f"#listing({size}, {string(text.rstrip(chr(10)))})\n\n"
 
 
 def call(name: str, *content: str, **named: str) -> str:
@@ -62,9 +61,9 @@ def label(*parts: str) -> str:
     return "".join(c if c.isalnum() and c.isascii() else "-" if c in "-_ " else f".{ord(c):x}." for c in joined)
 
 
-def heading(words: str, level: int, place: str) -> str:
+def heading(title: str, level: int, place: str) -> str:
     """Return a heading with its label."""
-    return f"{'=' * level} {say(words)} <{place}>\n\n"
+    return f"{'=' * level} {say(title)} <{place}>\n\n"
 
 
 def to(place: str, content: str) -> str:
@@ -73,16 +72,16 @@ def to(place: str, content: str) -> str:
 
 
 def table(
-    head: Sequence[str], rows: Iterable[Sequence[str]], widths: Sequence[int], words: Sequence[int] | None = None
+    head: Sequence[str], rows: Iterable[Sequence[str]], widths: Sequence[int], longest: Sequence[int] | None = None
 ) -> str:
-    """Return a table.  ``widths`` are the longest cell of each column in characters, ``words`` the longest words."""
-    size, columns = columns_of(widths, [min(width, _WORD) for width in widths] if words is None else words)
+    """Return a table.  ``widths`` are the longest cell of each column in characters, ``longest`` the longest words."""
+    size, columns = columns_of(widths, [min(width, _WORD) for width in widths] if longest is None else longest)
     cells = "".join(f"[{cell}], " for row in rows for cell in row)
     top = "".join(f"[{call('strong', cell)}], " for cell in head)
     return f"#tabular({size:.1f}pt, ({', '.join(columns)},), ({top}), ({cells}))\n\n"
 
 
-def columns_of(widths: Sequence[int], words: Sequence[int]) -> tuple[float, list[str]]:
+def columns_of(widths: Sequence[int], longest: Sequence[int]) -> tuple[float, list[str]]:
     """Return the font size of a table in points and the widths of its columns in Typst's notation.
 
     If all cells fit on one line, columns get their natural width.  If no cell is a sentence, the font may be reduced
@@ -94,11 +93,11 @@ def columns_of(widths: Sequence[int], words: Sequence[int]) -> tuple[float, list
         return _USUAL, ["auto"] * len(widths)
     if sum(widths) * _SMALL <= room * _USUAL and max(widths) <= _CELL:
         return _USUAL * room / sum(widths), [f"{width + _GAP}fr" for width in widths]
-    least = sum(words)
+    least = sum(longest)
     size = max(_SMALLEST, min(_USUAL, _USUAL * room / least))
-    extra = [min(width, _LONG) - word if width > word else 0 for width, word in zip(widths, words, strict=True)]
+    extra = [min(width, _LONG) - word if width > word else 0 for width, word in zip(widths, longest, strict=True)]
     spare = max(0.0, room * _USUAL / size - least) / max(1, sum(extra))
-    return size, [f"{word + _GAP + spare * weight:.1f}fr" for word, weight in zip(words, extra, strict=True)]
+    return size, [f"{word + _GAP + spare * weight:.1f}fr" for word, weight in zip(longest, extra, strict=True)]
 
 
 @dataclass
@@ -131,15 +130,15 @@ class Markdown:
     def _block(self, token: Token, inner: Sequence[Token]) -> str:
         match token.type:
             case "heading_open":
-                words = _plain(inner[0])
-                first, place = not self._slugs, label(self.name, self._slug(words))
+                title = _plain(inner[0])
+                first, place = not self._slugs, label(self.name, self._slug(title))
                 itself = f"#[] <{label(self.name)}>\n" if first else ""
-                return itself + heading(words, self.level + int(token.tag[1]) - 1, place)
+                return itself + heading(title, self.level + int(token.tag[1]) - 1, place)
             case "paragraph_open":
-                words = self._inline(inner[0])
+                markup = self._inline(inner[0])
                 if _is_title(inner[0]):
-                    return call("block", words, sticky="true") + "\n\n"
-                return words + ("\n" if token.hidden else "\n\n")
+                    return call("block", markup, sticky="true") + "\n\n"
+                return markup + ("\n" if token.hidden else "\n\n")
             case "bullet_list_open":
                 return call("list", *self._items(inner)) + "\n\n"
             case "ordered_list_open":
@@ -187,11 +186,11 @@ class Markdown:
             elif token.type == "inline":
                 rows[-1].append(token)
         columns = [[_plain(row[k]) for row in rows] for k in range(len(rows[0]))]
-        words = [max(len(word) for cell in column for word in cell.split() or ("",)) for column in columns]
+        longest = [max(len(word) for cell in column for word in cell.split() or ("",)) for column in columns]
         # A heading may be broken into lines; the width depends on the cells.
-        widths = [max(word, *map(len, column[1:])) for word, column in zip(words, columns, strict=True)]
+        widths = [max(word, *map(len, column[1:])) for word, column in zip(longest, columns, strict=True)]
         head, *body = [[self._inline(cell) for cell in row] for row in rows]
-        return table(head, body, widths, words)
+        return table(head, body, widths, longest)
 
     def _inline(self, token: Token) -> str:
         out: list[str] = []
@@ -255,9 +254,9 @@ class Markdown:
     def _outside(self, address: str) -> str:
         return f"#link({string(address)})[" if re.match(r"https?:", address) else ""
 
-    def _slug(self, words: str) -> str:
+    def _slug(self, title: str) -> str:
         """Return the anchor of a heading as MyST derives it; a repeated anchor gets a number."""
-        slug = re.sub(r"[^\w\- ]", "", words.lower()).replace(" ", "-")
+        slug = re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-")
         times = self._slugs.get(slug, 0)
         self._slugs[slug] = times + 1
         return f"{slug}-{times}" if times else slug

@@ -28,5 +28,5 @@ to a file that is no page, such as ``[README](../fortran_src/README.md)``, becom
 file, or plain text.  ``:::{whole} FILE`` includes a file.  A result is quoted by its name between double braces
 (:mod:`modern.publication.figures`).
 
-Addresses are permanent: derive an id from what the thesis or the data call a thing, never from a running number.
+Addresses are permanent: derive an id from a name in the thesis or in the data, never from a running number.
 """

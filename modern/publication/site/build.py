@@ -18,8 +18,7 @@ from modern.publication.building import DIST, ROOT, BuildError, check_replaceabl
 from modern.publication.console import install_machine
 
 MISSING_SPHINX = "Sphinx builds the site: pip install 'hull1620[edition]'"
-_MARKER = ".hull1620-edition"
-"""A file in every site.  A folder without it is not replaced."""
+_MARKER = ".hull1620-edition"  # a file in every site; a folder without it is not replaced
 _NOT_PUBLISHED = (".buildinfo", ".doctrees", "objects.inv", "_sources")
 
 
@@ -59,16 +58,9 @@ def _run_sphinx(docs: Path, out: Path, trees: Path, quiet: bool) -> None:
     os.environ.setdefault("SOURCE_DATE_EPOCH", "0")
     try:
         with patch_docutils(str(docs)), docutils_namespace():
-            app = Sphinx(
-                str(docs),
-                str(docs),
-                str(out),
-                str(trees),
-                "html",
-                status=None if quiet else sys.stdout,
-                warning=sys.stderr,
-                warningiserror=True,
-            )
+            folders = (str(docs), str(docs), str(out), str(trees))
+            status = None if quiet else sys.stdout
+            app = Sphinx(*folders, "html", status=status, warning=sys.stderr, warningiserror=True)
             app.build(force_all=True)
     except SphinxError as error:
         raise BuildError(f"the site was not built: {error}") from None

@@ -6,8 +6,6 @@ sign: coloured text is also underlined, marked with a sign or labelled.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 ROLES = {
     "paper": ("#fdfcf8", "#17181a"),
     "desk": ("#f6f3ea", "#1e1f21"),
@@ -29,39 +27,25 @@ ROLES = {
 }
 """Each role with its colour in the light and in the dark theme."""
 
+# For each role, the CSS variables of the theme Furo that have its colour, without "color-".
 _FURO = {
-    "color-background-primary": "paper",
-    "color-background-secondary": "desk",
-    "color-background-hover": "card",
-    "color-background-hover--transparent": "card",
-    "color-background-border": "rule",
-    "color-background-item": "desk",
-    "color-foreground-primary": "ink",
-    "color-foreground-secondary": "quiet",
-    "color-foreground-muted": "quiet",
-    "color-foreground-border": "rule",
-    "color-brand-primary": "link",
-    "color-brand-content": "link",
-    "color-brand-visited": "visited",
-    "color-content-foreground": "ink",
-    "color-code-background": "desk",
-    "color-code-foreground": "ink",
-    "color-inline-code-background": "desk",
-    "color-sidebar-link-text--top-level": "ink",
-    "color-sidebar-caption-text": "quiet",
-    "color-sidebar-search-background": "paper",
-    "color-highlight-on-target": "card",
-    "color-admonition-background": "desk",
-    "color-announcement-background": "desk",
+    "paper": "background-primary sidebar-search-background",
+    "desk": "background-secondary background-item code-background inline-code-background admonition-background "
+    "announcement-background",
+    "card": "background-hover background-hover--transparent highlight-on-target",
+    "rule": "background-border foreground-border",
+    "ink": "foreground-primary content-foreground code-foreground sidebar-link-text--top-level",
+    "quiet": "foreground-secondary foreground-muted sidebar-caption-text",
+    "link": "brand-primary brand-content",
+    "visited": "brand-visited",
 }
-"""The names of the theme's CSS variables, each with the role of its colour."""
 
 
-def _variables(theme: int) -> Mapping[str, str]:
+def _variables(theme: int) -> dict[str, str]:
     variables = {f"e-{role}": colours[theme] for role, colours in ROLES.items()}
     variables["e-turned"] = str(theme)
-    return variables | {name: ROLES[role][theme] for name, role in _FURO.items()}
+    return variables | {f"color-{name}": ROLES[role][theme] for role, names in _FURO.items() for name in names.split()}
 
 
-LIGHT, DARK = dict(_variables(0)), dict(_variables(1))
+LIGHT, DARK = _variables(0), _variables(1)
 """The CSS variables of the light and of the dark theme, named without the two dashes."""

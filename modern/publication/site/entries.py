@@ -30,12 +30,12 @@ CAUSES = {
     "editor": "the editor",
     "undecidable": "cannot be decided",
 }
-"""Who or what caused the difference between the witness and our reading."""
+"""The possible causes of a difference between the witness and our reading."""
 
 
-def entry(row: Row, cards: Iterable[tuple[str, str]], page: str) -> str:
-    """Return a row as an HTML article.  ``cards`` are the ids and names of the cards it changes on ``page``."""
-    card_links = ", ".join(link(page, id, card_name) for id, card_name in cards)
+def entry(row: Row, places: Iterable[str], page: str) -> str:
+    """Return a row as an HTML article.  ``places`` are those of the cards that it changes on ``page``."""
+    card_links = ", ".join(link(page, place, place) for place in places)
     head = element("h3", text("a", row.id, href=f"#{row.id}", cls="rowid"), cls="row-head")
     kind = escape(f"{row.layer}, {row.kind}; ") + text("strong", row.certainty)
     head += element("p", kind, cls="row-kind")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import posixpath
 import re
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -47,20 +46,19 @@ class MadeDirective(SphinxDirective):
         except ValueError as error:
             raise self.error(f"made: {error}") from None
         _register(self.env, content)
-        top: list[nodes.Node] = []
-        stack: list[tuple[int, nodes.Element]] = []  # the open sections with their levels, the innermost last
+        top = nodes.container()
+        stack: list[tuple[int, nodes.Element]] = [(0, top)]  # the open sections with their levels, the innermost last
         for part in content.parts:
-            while part.heading and stack and stack[-1][0] >= part.level:
-                stack.pop()
             inner = self._inner(part)
             if part.heading:
+                while stack[-1][0] >= part.level:
+                    stack.pop()
                 section = nodes.section("", nodes.title("", part.heading), *inner, ids=[part.id], names=[part.id])
-                _add(stack, top, section)
+                stack[-1][1].append(section)
                 stack.append((part.level, section))
             else:
-                for node in inner:
-                    _add(stack, top, node)
-        return top
+                stack[-1][1].extend(inner)
+        return [*top.children]
 
     def _inner(self, part: Part) -> list[nodes.Node]:
         content: list[nodes.Node] = []
@@ -70,13 +68,6 @@ class MadeDirective(SphinxDirective):
             html = relative(part.html, self.env.docname.count("/"))
             content.append(nodes.raw("", html, format="html"))
         return content
-
-
-def _add(stack: Sequence[tuple[int, nodes.Element]], top: list[nodes.Node], node: nodes.Node) -> None:
-    if stack:
-        stack[-1][1].append(node)
-    else:
-        top.append(node)
 
 
 def _register(env: BuildEnvironment, content: Made) -> None:
@@ -100,23 +91,12 @@ def _role(kind: str) -> Any:
     ) -> tuple[list[nodes.Node], list[nodes.system_message]]:
         title, _, target = text.partition(" <")
         label = ROLES.get(kind, "{}").format(target.rstrip(">") if target else text).lower()
-        if target:
-            shown = title
-        else:
-            # Of "program3 147+2" the reader sees "147+2".
-            shown = text.rpartition(" ")[2] if kind in ("card", "name") else text
-        reference = addnodes.pending_xref(
-            rawtext,
-            refdomain="std",
-            reftype="ref",
-            reftarget=label,
-            refexplicit=True,
-            refwarn=True,
-            classes=[f"to-{kind}"],
-        )
+        # The reference "program3 147+2" is shown as "147+2".
+        shown = title if target else text.rpartition(" ")[2] if kind in ("card", "name") else text
+        properties = {"refdomain": "std", "reftype": "ref", "refexplicit": True, "refwarn": True}
+        reference = addnodes.pending_xref(rawtext, reftarget=label, classes=[f"to-{kind}"], **properties)
         reference += nodes.inline("", shown, classes=["std", "std-ref"])
-        env = inliner.document.settings.env
-        reference["refdoc"] = env.docname
+        reference["refdoc"] = inliner.document.settings.env.docname
         return [reference], []
 
     return role

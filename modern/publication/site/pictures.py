@@ -23,10 +23,11 @@ def inline(svg: str, key: str, cls: str = "drawing", percent: int = 100) -> str:
     svg = svg[svg.index("<svg") :]
     svg = re.sub(r"<style>.*?</style>\n?", "", svg, flags=re.DOTALL)
     svg = _GROUND.sub("", svg, count=1)
-    svg = _SIZE.sub(
-        lambda m: f'{m[1]}width="{int(m[2]) * percent // 100}" height="{int(m[3]) * percent // 100}"', svg, 1
-    )
     known = set(re.findall(r'\bid="([^"]+)"', svg))
+
+    def scaled(match: re.Match[str]) -> str:
+        width, height = (int(match[k]) * percent // 100 for k in (2, 3))
+        return f'{match[1]}width="{width}" height="{height}"'
 
     def unique(match: re.Match[str]) -> str:
         attribute, hash_sign, names, url = match.groups()
@@ -38,16 +39,15 @@ def inline(svg: str, key: str, cls: str = "drawing", percent: int = 100) -> str:
             return f'{attribute}="{" ".join(f"{name}-{key}" for name in names.split())}"'
         return match[0]
 
-    return _REFERENCE.sub(unique, svg).replace("<svg ", f'<svg class="{cls}" ', 1).strip()
+    return _REFERENCE.sub(unique, _SIZE.sub(scaled, svg, 1)).replace("<svg ", f'<svg class="{cls}" ', 1).strip()
 
 
 def described(svg: str, description: str) -> str:
     """Add a description after the title of a picture, unless it has one."""
     if "<desc" in svg:
         return svg
-    titled = svg.replace("<title>", '<title id="title">', 1).replace(
-        "</title>", f'</title>\n<desc id="desc">{escape(description)}</desc>', 1
-    )
+    titled = svg.replace("<title>", '<title id="title">', 1)
+    titled = titled.replace("</title>", f'</title>\n<desc id="desc">{escape(description)}</desc>', 1)
     return titled.replace("<svg ", '<svg aria-labelledby="title" aria-describedby="desc" ', 1)
 
 

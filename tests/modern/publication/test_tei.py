@@ -16,11 +16,11 @@ from modern.edition.chapter6_cards import device_files, load_chapter
 from modern.edition.programs import BUILT_INS, TEXTS
 from modern.edition.sources import read, sources
 from modern.publication import tei_reading as reading
-from modern.publication.tei import CERTAINTY, names, schema, tei
+from modern.publication.tei import CERTAINTY, schema, tei
 from tests.support.commands import call
 
 TEI = "{http://www.tei-c.org/ns/1.0}"
-NAMES = tuple(names())
+NAMES = tuple(texts())
 
 
 @cache

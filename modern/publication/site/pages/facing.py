@@ -102,7 +102,6 @@ def _difference(card: Card) -> str:
 
 
 def _card(listing: Facing, card: Card, first_cards: dict[str, Card]) -> str:
-    """Return a card with its address, witness, deck and details."""
     difference = _difference(card)
     html = "".join(element("span", "", id=place, cls="also-at") for place in card.also)
     title = f"card {card.number}: its permanent address"
@@ -135,8 +134,8 @@ def _details(listing: Facing, card: Card, first_cards: dict[str, Card]) -> str:
     inner, there = "", []
     for name in card.concerned:
         if first_cards[name] is card:
-            addresses = [(other.place, other.place) for other in listing.cards_of(name)]
-            inner += entry(listing.text.row(name), addresses, listing.program)
+            places = [changed.place for changed in listing.cards_of(name)]
+            inner += entry(listing.text.row(name), places, listing.program)
         else:
             there.append(name)
     if there:

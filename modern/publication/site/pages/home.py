@@ -90,12 +90,12 @@ def _examples() -> str:
         verdict = "exact" if ok and not reordered else f"{exact} exact, {reordered} in another order"
         verdict = "different" if different else verdict
         examples.append(element("li", link(f"example{example}", "", f"Example {example}") + escape(f": {verdict}")))
-    head = text("p", "The printed results of the six examples in chapter 6, compared with today's runs:")
+    runs = "runs of program 1 in the state that was reconstructed from them"
+    head = text("p", f"The printed results of the six examples in chapter 6, compared with {runs}:")
     return head + element("ul", "".join(examples), cls="examples")
 
 
 def _programs() -> str:
-    """Return a table of the programs with their pages, cards, emendations and flow charts."""
     rows = []
     for built_in in programs.BUILT_INS:
         listing = facing(built_in.name)

@@ -1,4 +1,4 @@
-"""How the programs use the machine: storage maps to scale and the composition of running time, each with a table."""
+"""Storage maps to scale and the composition of running time, each with a table."""
 
 from __future__ import annotations
 
@@ -16,15 +16,13 @@ from modern.publication.site.made import Made, Part, one_of
 from modern.publication.site.markup import details, element, escape, link, table, text
 from modern.publication.site.pictures import figure
 
-PER_PIXEL = 50
-"""Positions of core storage for each pixel of the map."""
+PER_PIXEL = 50  # positions of core storage for each pixel of the map
 _LEFT, _WIDE = 42, 104
 _TOP, _FOOT = 8, 8
 _FONT = f'font-family="{svg.FONT}" font-size="9.5" fill="#000"'
-_KINDS = (core.SYSTEM, core.PROGRAM, core.FREE, core.ARRAY, core.SINGLE, core.NAMES)
-_GREYS = dict(zip(_KINDS, ("#b4b4b4", "#dcdcdc", "#fff", "#f0f0f0", "#c8c8c8", "#555"), strict=True))
+_GREYS = dict(zip(core.KINDS, ("#b4b4b4", "#dcdcdc", "#fff", "#f0f0f0", "#c8c8c8", "#555"), strict=True))
+# The smallest heights in pixels for a region with its name, and with its name and size on two lines.
 _LINE, _TWO_LINES = 9, 26
-"""The smallest heights in pixels for a region with its name, and with its name and size on two lines."""
 
 PARTS = {
     "floating point": (ARITHMETIC,),
@@ -43,8 +41,8 @@ _PATTERNS = "".join(
     f'<rect width="{side}" height="{side}" fill="#fff"/><path d="{path}" stroke="#000" stroke-width="0.9"/></pattern>'
     for id, side, path in _HATCHINGS
 )
+# The widths of the picture of times and of its longest bar in pixels.
 _WIDTH, _BAR_WIDTH = 360, 330
-"""The widths of the picture of times and of its longest bar in pixels."""
 _STEP, _BAR = 37, 15
 _TEXT = f'font-family="{svg.FONT}" font-size="11" fill="#000"'
 
@@ -140,7 +138,7 @@ def _labelled_addresses(storage: CoreMap) -> Iterator[int]:
 
 def _sizes(maps: list[CoreMap]) -> str:
     rows = []
-    for kind in _KINDS:
+    for kind in core.KINDS:
         estimate_sign = "~" if kind in (core.PROGRAM, core.FREE) else ""
         name = f"{kind}s" if kind == ARRAY else kind
         rows.append((escape(name), *(f"{estimate_sign}{storage.positions(kind):,}" for storage in maps)))
