@@ -11,6 +11,18 @@ class EmulatorError(Exception):
     """The base class of all errors raised for bad input.  ``str`` is a one-line message for the user."""
 
 
+class ArgumentError(EmulatorError, ValueError):
+    """An invalid argument of a function."""
+
+
+def expect(value: object, kind: type | tuple[type, ...], name: str) -> None:
+    """Raise ArgumentError unless an argument called ``name`` has one of these types."""
+    if not isinstance(value, kind):
+        kinds = kind if isinstance(kind, tuple) else (kind,)
+        expected = " or ".join(each.__name__ for each in kinds)
+        raise ArgumentError(f"{name}: expected {expected}, found {type(value).__name__}")
+
+
 class FileError(EmulatorError):
     """A file, or standard input or output, that cannot be read or written, or whose content is invalid."""
 

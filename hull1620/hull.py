@@ -13,6 +13,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from emulator.errors import ArgumentError
 from emulator.files import write_text
 from modern.drawing.draw import Labels, Show, draw_svg
 from modern.exact_hull.result import Certificate
@@ -21,7 +22,7 @@ from modern.geometry.coplanar import coplanar, distance_text
 from modern.geometry.hull import Face, Stage, as_tuple
 from modern.geometry.hull import Hull as Record
 from modern.geometry.mesh import ExportError, Mesh, mesh
-from modern.geometry.numbers import AREA_DIGITS, coordinates, real, sum_of_roots
+from modern.geometry.numbers import AREA_DIGITS, coordinates, real, sum_of_roots, value_of
 from modern.geometry.vectors import Vector, six_volumes
 from modern.port.outcome import PointTexts
 
@@ -31,6 +32,23 @@ Path = str | os.PathLike[str]
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 Array = TypeVar("Array", bound=NDArray[Any])
+
+
+class Area(float):
+    """An area as a double, which numpy functions and Fractions accept, unlike a Decimal.
+
+    Attributes
+    ----------
+    digits : Decimal
+        The area to 50 significant digits.
+    """
+
+    digits: Decimal
+
+    def __new__(cls, digits: Decimal) -> Area:
+        area = super().__new__(cls, digits)
+        area.digits = digits
+        return area
 
 
 @dataclass(frozen=True, repr=False)
@@ -64,6 +82,14 @@ class Hull:
     def determined(self) -> bool:
         """True if the procedure found a hull."""
         return self.record.determined
+
+    @property
+    def closes(self) -> bool:
+        """True if the procedure found a hull and its faces close to a surface, so that it has a volume."""
+        try:
+            return bool(self._closed)
+        except ExportError:
+            return False
 
     @property
     def statement(self) -> str:
@@ -101,7 +127,7 @@ class Hull:
         points = self.record.points
         if isinstance(points, PointTexts):
             return _read_only(points.floats())
-        return _read_only(np.array([[_float(text) for text in point] for point in points], np.float64).reshape(-1, 3))
+        return _read_only(np.array([[_nearest_to(text) for text in point] for point in points]))
 
     @property
     def exact_points(self) -> tuple[Vector, ...]:
@@ -152,9 +178,29 @@ class Hull:
         for (a, b, c, d), polygon in zip(self._mesh.planes(self.record), self._mesh.faces, strict=True):
             # Exact division by the largest coefficient first, so that no product of doubles can overflow.
             largest = max(abs(a), abs(b), abs(c)) or Fraction(1)
-            row = np.array([float(number / largest) for number in (a, b, c, d)])
-            rows += [row / (np.linalg.norm(row[:3]) or 1.0)] * (len(polygon) - 2)
+            row = np.array([_nearest(number / largest) for number in (a, b, c, d)])
+            length = float(np.linalg.norm(row[:3])) or 1.0
+            if np.isinf(row[3]):
+                row[3] = _nearest(d / largest / Fraction(length)) * length
+            rows += [row / length] * (len(polygon) - 2)
         return _read_only(np.array(rows, np.float64).reshape(-1, 4))
+
+    @cached_property
+    def neighbors(self) -> Indices:
+        """The neighbours of each of ``simplices``, shape (m, 3), as in scipy's ConvexHull.
+
+        Entry k of a row is the row of the triangle on the other side of the edge opposite corner k, or -1 if there is
+        none, which happens only at the sides of a polygon.
+
+        Raises
+        ------
+        ExportError
+            The procedure found no hull.
+        """
+        corners = self.simplices.tolist()
+        owner = {(c[k - 2], c[k - 1]): row for row, c in enumerate(corners) for k in range(3)}
+        rows = [[owner.get((c[k - 1], c[k - 2]), -1) for k in range(3)] for c in corners]
+        return _read_only(np.array(rows, np.intp).reshape(-1, 3))
 
     @cached_property
     def volume(self) -> Fraction:
@@ -169,18 +215,19 @@ class Hull:
         return six_volumes(surface.numbers(), surface.faces) / 6 if self.dimension == 3 else Fraction(0)
 
     @cached_property
-    def area(self) -> Decimal:
-        """The area of the surface to 50 significant digits; for a polygon the area of one side.
+    def area(self) -> Area:
+        """The area of the surface; for a polygon the area of one side.
 
-        The area is a sum of square roots.  It is exact if the area of every face is a decimal of at most 50 digits;
-        ``squared_areas`` are always exact.
+        It is the nearest double, and ``area.digits`` is the same number to 50 significant digits.  The area is a sum of
+        square roots, so unlike ``volume`` it is no fraction.  Its digits are exact if the area of every face is a
+        decimal of at most 50 digits, and ``squared_areas`` are always exact.
 
         Raises
         ------
         ExportError
             The procedure found no hull, or its faces do not close because numbers were rounded.
         """
-        return sum_of_roots(self.squared_areas, AREA_DIGITS)
+        return Area(sum_of_roots(self.squared_areas, AREA_DIGITS))
 
     @cached_property
     def squared_areas(self) -> tuple[Fraction, ...]:
@@ -244,16 +291,14 @@ class Hull:
         ------
         ExportError
             The hull cannot be drawn, or ``eye`` does not have three numbers.
-        ValueError
+        ArgumentError
             ``eye`` contains something that is not a number.
 
         See Also
         --------
         modern.drawing.draw.draw_svg
         """
-        direction = None if eye is None else [Fraction(real(number)) for number in eye]
-        if direction is not None and len(direction) != 3:
-            raise ExportError(f"the direction of view has three numbers, not {len(direction)}")
+        direction = None if eye is None else _direction(eye)
         return draw_svg(self.record, direction, title, width, Show(labels, hidden, others))
 
     def save(self, path: Path, digits: int | None = None) -> None:
@@ -315,12 +360,26 @@ class Hull:
         return self._mesh
 
 
-def _float(text: str) -> float:
+def _direction(eye: Sequence[Any]) -> list[Fraction]:
+    try:
+        direction = [Fraction(real(number)) for number in eye]
+    except (TypeError, ValueError) as error:
+        raise ArgumentError(f"eye: {error}") from None
+    if len(direction) != 3:
+        raise ExportError(f"the direction of view has three numbers, not {len(direction)}")
+    return direction
+
+
+def _nearest_to(text: str) -> float:
+    return _nearest(value_of(text)) if "/" in text else float(text)
+
+
+def _nearest(value: Fraction) -> float:
     """Return the nearest double, or an infinity beyond the largest one."""
     try:
-        return float(Fraction(text)) if "/" in text else float(text)
+        return float(value)
     except OverflowError:
-        return float("-inf") if text.startswith("-") else float("inf")
+        return float("-inf") if value < 0 else float("inf")
 
 
 def _read_only(array: Array) -> Array:

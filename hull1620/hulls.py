@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 from emulator.language.cards import Deck
@@ -14,12 +15,12 @@ from modern import port
 from modern.comparison.outcome import as_hull
 from modern.drawing.draw import Labels
 from modern.edition import programs
-from modern.exact_hull.coordinates import Points
 from modern.exact_hull.coordinates import read_points as exact_points
 from modern.formats import deck as decks
 from modern.formats.points import read_input
-from modern.geometry.hull import HullRefused
-from modern.geometry.numbers import exact_text, real
+from modern.geometry.hull import NOT_CLOSED, HullRefused
+from modern.geometry.numbers import exact_text
+from modern.geometry.points import Points
 from modern.port.procedure import Epsilon, OnRefusal
 from modern.thesis import job
 from modern.thesis.job import HullRun
@@ -45,14 +46,15 @@ def convex_hull(
         ``exact``, ``float64``, ``float32``, ``mp:BITS``, ``truncating`` (the eight digits of the thesis), ``ibm1962``,
         ``truncating:P``, ``guarded:P`` or ``rounding:P``.
     epsilon : number or str, optional
-        The e of chapter 7: values from -e to e count as zero.  ``"rel:1e-9"`` is relative to the equation.
+        The e of chapter 7: values from -e to e count as zero.  ``"rel:1e-9"`` is relative to the equation.  If e is so
+        large that the faces do not close to a surface, there is no hull.
     translate : bool, optional
         Move the origin to the point C first, as chapter 7 proposes.
     history : bool, optional
         Record the approximations H1, H2, ...
     fast : bool, optional
-        Use (True) or do not use (False) compiled kernels, which need the extra ``fast``.  The default uses them for
-        many points.
+        Use (True) or do not use (False) compiled kernels for ``float64`` and ``float32``, which need the extra
+        ``fast``.  The default uses them for many points.
     on_refusal : {"raise", "return"}, optional
         What happens if the procedure finds no hull in this arithmetic, as for most doubles in ``float64``: raise
         HullRefused, or return the incomplete result.
@@ -71,8 +73,8 @@ def convex_hull(
         The procedure found no hull; ``result`` of the exception has the reason.
     RangeError
         A number is beyond the range of the arithmetic (a subclass of ValueError).
-    ValueError
-        Another argument is invalid.
+    ArgumentError
+        Another argument is invalid, or ``fast`` is true and numba is not installed (a subclass of ValueError).
 
     See Also
     --------
@@ -84,9 +86,17 @@ def convex_hull(
     <hull: polyhedron, 4 vertices, 4 faces; 4 points, exact>
     """
     try:
-        return Hull(port.convex_hull(points, arithmetic, epsilon, translate, history, fast, on_refusal, text))
+        record = port.convex_hull(points, arithmetic, epsilon, translate, history, fast, on_refusal, text)
     except HullRefused as error:
         raise HullRefused(Hull(error.result)) from None
+    hull = Hull(record)
+    # With a large epsilon the procedure ends normally although it has merged different faces.
+    if epsilon is None or not hull.determined or hull.closes:
+        return hull
+    hull = Hull(replace(record, status=NOT_CLOSED))
+    if on_refusal == "raise":
+        raise HullRefused(hull)
+    return hull
 
 
 def exact_hull(points: Points, fast: bool | None = None) -> Hull:
@@ -109,7 +119,7 @@ def exact_hull(points: Points, fast: bool | None = None) -> Hull:
     ------
     PointsError
         There are no points, or a point is invalid (a subclass of ValueError).
-    ValueError
+    ArgumentError
         ``fast`` is true and numba is not installed.
 
     Examples
@@ -183,8 +193,8 @@ def data_deck(points: Points, truncate: bool = False, epsilon: Epsilon = None) -
     ------
     PointsError
         There are no points, or a point is invalid.
-    ValueError
-        A number has too many digits for a card, or its exponent is out of range.
+    ArgumentError
+        There are more than 99 points, or a number has too many digits for a card or an exponent out of range.
 
     Examples
     --------
@@ -194,7 +204,7 @@ def data_deck(points: Points, truncate: bool = False, epsilon: Epsilon = None) -
     """
     texts = [[exact_text(number) for number in point] for point in exact_points(points)]
     deck = decks.data_deck(texts, "points", truncate)
-    return deck if epsilon is None else decks.with_epsilon(deck, exact_text(real(epsilon)))
+    return deck if epsilon is None else decks.with_epsilon(deck, epsilon)
 
 
 def run_hull(deck: Deck, layers: Sequence[str] = (), options: Options | None = None) -> HullRun:

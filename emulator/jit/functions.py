@@ -17,11 +17,25 @@ from pathlib import Path
 from types import FunctionType, ModuleType
 from typing import Any
 
+from emulator.errors import ArgumentError
+
 Function = Callable[..., Any]
 
 
-class NotInstalled(ValueError):
+class NotInstalled(ArgumentError):
     """Raised with a one-line message if numba is missing, turned off, or cannot compile a function."""
+
+
+def require_numba() -> Any:
+    """Return the module numba.  Raise NotInstalled if it is missing, or turned off by NUMBA_DISABLE_JIT."""
+    try:
+        import numba
+    except ImportError as error:
+        raise NotInstalled(f"compiled code needs numba: pip install 'hull1620[fast]' ({error})") from None
+    config: Any = numba.config
+    if config.DISABLE_JIT:
+        raise NotInstalled("compiled code is turned off by NUMBA_DISABLE_JIT")
+    return numba
 
 
 class Compiled:
@@ -33,13 +47,7 @@ class Compiled:
         Raise NotInstalled without numba, or if NUMBA_DISABLE_JIT is set: run by Python on NumPy arrays, the functions
         would compute something else, because arrays of eight-bit codes overflow.
         """
-        try:
-            import numba
-        except ImportError as error:
-            raise NotInstalled(f"compiled code needs numba: pip install 'hull1620[fast]' ({error})") from None
-        config: Any = numba.config
-        if config.DISABLE_JIT:
-            raise NotInstalled("compiled code is turned off by NUMBA_DISABLE_JIT")
+        numba = require_numba()
         for helper in called(entry)[1:]:
             _make_callable(helper)
         # numba's cache notices changes only in the file of the entry.  The digest in the name covers the other files.

@@ -24,6 +24,7 @@ or ``exact.py`` and its name to ``NAMES`` and ``fixed_arithmetic`` in ``modern/p
 
 from __future__ import annotations
 
+from emulator.errors import ArgumentError, expect
 from emulator.numbers.arithmetic import Profile, profile
 from emulator.numbers.base import Number, Numbers, Trap, Undecided
 from emulator.numbers.decimal import DecimalNumbers
@@ -37,7 +38,7 @@ HOSTED = ("float64", "float32", "mp:BITS", "exact")
 def hosted(name: str) -> Numbers | None:
     """Return the system ``float64``, ``float32``, ``mp:BITS`` or ``exact``, or None for any other name.
 
-    Raise ValueError if the number of bits is out of range.
+    Raise ArgumentError if the number of bits is out of range.
     """
     if name in ("float64", "float32"):
         from emulator.numbers.binary import FloatNumbers
@@ -52,13 +53,14 @@ def hosted(name: str) -> Numbers | None:
         from emulator.numbers.multiprecision import MAX_BITS, MIN_BITS, MultiprecisionNumbers
 
         if not (count.isdecimal() and count.isascii() and len(count) < 9 and MIN_BITS <= int(count) <= MAX_BITS):
-            raise ValueError(f"{name}: the number of bits must be {MIN_BITS} to {MAX_BITS}")
+            raise ArgumentError(f"{name}: the number of bits must be {MIN_BITS} to {MAX_BITS}")
         return MultiprecisionNumbers(int(count))
     return None
 
 
 def numbers(name: str | Profile) -> Numbers:
-    """Return the number system of a name or profile.  Raise ValueError for an unknown name."""
+    """Return the number system of a name or profile.  Raise ArgumentError for an unknown name."""
+    expect(name, (str, Profile), "name")
     if isinstance(name, Profile):
         return DecimalNumbers(name)
     system = hosted(name)
@@ -66,6 +68,6 @@ def numbers(name: str | Profile) -> Numbers:
         return system
     try:
         return DecimalNumbers(profile(name))
-    except ValueError as error:
+    except ArgumentError as error:
         more = f", {', '.join(HOSTED)}" if str(error).startswith("no arithmetic") else ""
-        raise ValueError(f"{error}{more}") from None
+        raise ArgumentError(f"{error}{more}") from None

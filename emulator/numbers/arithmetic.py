@@ -15,6 +15,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from emulator.errors import ArgumentError, expect
+
 ZERO = -99
 MINUS_ZERO = -100
 FIXED_POINT = 998
@@ -356,13 +358,14 @@ def profile(name: str) -> Profile:
 
     ``guarded:P`` is ``truncating:P``, except that a sum keeps the first of the digits that the smaller operand would
     lose before the addition.  ``rounding:P`` gives the exact result of + - * / rounded half up in magnitude.  Raise
-    ValueError for any other name.
+    ArgumentError for any other name.
     """
+    expect(name, str, "name")
     if name in PROFILES:
         return PROFILES[name]
     family, colon, count = name.partition(":")
     if not (colon and family in _FAMILIES and count.isdecimal() and count.isascii()):
-        raise ValueError(f"no arithmetic is called {name!r}; the names are {', '.join((*PROFILES, *FAMILIES))}")
+        raise ArgumentError(f"no arithmetic is called {name[:40]!r}; the names are {', '.join((*PROFILES, *FAMILIES))}")
     if len(count) > 9 or not MIN_DIGITS <= int(count) <= MAX_DIGITS:
-        raise ValueError(f"{name}: the number of digits must be {MIN_DIGITS} to {MAX_DIGITS}")
+        raise ArgumentError(f"{name[:40]}: the number of digits must be {MIN_DIGITS} to {MAX_DIGITS}")
     return _FAMILIES[family](name, int(count))

@@ -13,6 +13,7 @@ from modern.cli.shared import pictured
 from modern.cli.shared.arguments import (
     compared_machine,
     core_argument,
+    epsilon_text,
     layers_argument,
     output_argument,
     points_argument,
@@ -51,7 +52,10 @@ def _hull(parser: ArgumentParser) -> None:
         help="numbers go from program 1 to the next with all their digits, not with the eight a card holds",
     )
     parser.add_argument(
-        "--epsilon", metavar="E", help="punch chapter 7's e after N and add the layer epsilon, which reads it there"
+        "--epsilon",
+        metavar="E",
+        type=epsilon_text,
+        help="punch chapter 7's e after N and add the layer epsilon, which reads it there",
     )
     parser.add_argument("--explain", action="store_true", help="say at length why there is no hull, and what to try")
     result_arguments(parser)
@@ -63,13 +67,21 @@ def _cards(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--truncate", action="store_true", help="cut digits a card cannot hold instead of refusing them"
     )
-    parser.add_argument("--epsilon", metavar="E", help="punch chapter 7's e after N, for the layer epsilon")
+    parser.add_argument(
+        "--epsilon",
+        metavar="E",
+        type=epsilon_text,
+        help="punch chapter 7's e after N, for the layer epsilon",
+    )
 
 
 def _diff(parser: ArgumentParser) -> None:
     points_argument(parser)
     parser.add_argument(
-        "--epsilon", metavar="E", help="chapter 7's e for layer epsilon and the port; rel:E, for the port only"
+        "--epsilon",
+        metavar="E",
+        type=epsilon_text,
+        help="chapter 7's e for layer epsilon and the port; rel:E, for the port only",
     )
     parser.add_argument("--json", metavar="FILE", help="write the comparison as JSON")
     parser.add_argument("--explain", action="store_true", help="say at length why a program came to no hull")

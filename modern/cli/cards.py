@@ -26,7 +26,7 @@ def main(args: argparse.Namespace) -> int:
         try:
             deck = with_epsilon(deck, args.epsilon)
         except ValueError as error:
-            raise UsageError(f"--epsilon: {error}") from None
+            raise UsageError(f"--{error}") from None
     write_text(args.output, deck.text())
     say(f"note: {note}" for note in found.notes)
     if len(points) > MAX_POINTS:

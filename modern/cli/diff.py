@@ -96,7 +96,7 @@ def _routes(args: argparse.Namespace, found: Input, points: list[Vector]) -> Ite
         try:
             data = with_epsilon(deck, args.epsilon or "0") if "epsilon" in chosen else deck
         except ValueError as error:
-            raise UsageError(f"--epsilon: {error}") from None
+            raise UsageError(f"--{error}") from None
         options = Options(limit=_LIMIT, core=60000 if chosen else 40000)
         run, cause = explain_run(partial(run_hull, data, programs.loader(chosen), options))
         yield Route(from_cards(name, run, points), cause=cause, layers=chosen)

@@ -84,4 +84,4 @@ def _with_epsilon(deck: Deck, epsilon: str) -> Deck:
     try:
         return with_epsilon(deck, epsilon)
     except ValueError as error:
-        raise UsageError(f"--epsilon: {error}") from None
+        raise UsageError(f"--{error}") from None

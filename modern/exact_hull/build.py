@@ -9,8 +9,9 @@ from operator import attrgetter
 
 import numpy as np
 
+from emulator.jit.functions import require_numba
 from modern.exact_hull.certificate import certify
-from modern.exact_hull.coordinates import ExactPoint, IntPoint, Points, read_points, scaled_points
+from modern.exact_hull.coordinates import ExactPoint, IntPoint, read_points, scaled_points
 from modern.exact_hull.facets import (
     faces,
     independent,
@@ -25,6 +26,7 @@ from modern.exact_hull.facets import (
 from modern.exact_hull.proposal import propose
 from modern.exact_hull.result import CertificateError, ExactHull, Facet, Plane
 from modern.exact_hull.surface import BOUND, convex_surface, frame, plane_image
+from modern.geometry.points import Points
 
 SEED = 1963
 # The number of points from which a hull is first proposed in rounded numbers.
@@ -136,9 +138,11 @@ def exact_hull(points: Points, fast: bool | None = None) -> ExactHull:
     For many points in space a hull is first proposed in rounded numbers.  If its proof fails, the hull is constructed
     exactly.
 
-    Raise PointsError for invalid points, ValueError if ``fast`` is true and numba is missing, and CertificateError if
+    Raise PointsError for invalid points, NotInstalled if ``fast`` is true and numba is missing, and CertificateError if
     the proof of the constructed hull fails.
     """
+    if fast:
+        require_numba()
     exact = read_points(points)
     prepared = _distinct(exact)
     distinct = prepared.distinct

@@ -36,10 +36,11 @@ from contextlib import suppress
 from itertools import chain
 
 from modern.exact_hull.convexity import Undecided, prove
-from modern.exact_hull.coordinates import IntPoint, Points, read_points
+from modern.exact_hull.coordinates import IntPoint, read_points
 from modern.exact_hull.incidences import Incidences, incidences
 from modern.exact_hull.polygons import check_convex, difference, dot, product
 from modern.exact_hull.result import Certificate, CertificateError, ExactHull, require
+from modern.geometry.points import Points
 
 # The number of points times facets from which a polyhedron is proved by its convexity.
 MANY = 1 << 18

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
-from decimal import Decimal
-from fractions import Fraction
+from collections.abc import Sequence
 from itertools import chain
 from typing import Any, TypeGuard
 
@@ -13,11 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from modern.geometry.numbers import Exact, PointsError, real
+from modern.geometry.points import Points, check_array, point_rows
 
-Coordinate = int | float | Fraction | Decimal | str | np.integer[Any] | np.floating[Any]
 ExactPoint = tuple[Exact, Exact, Exact]
 IntPoint = tuple[int, int, int]
-Points = Iterable[Iterable[Coordinate]] | NDArray[Any]
 
 
 def _plain(points: Sequence[Any]) -> TypeGuard[list[IntPoint]]:
@@ -41,12 +38,7 @@ def _whole(points: NDArray[Any]) -> bool:
 def read_points(points: Points) -> list[ExactPoint]:
     """Return the exact coordinates of every point, in input order.  Raise PointsError for an invalid point."""
     if isinstance(points, np.ndarray):
-        if points.dtype.kind not in "iufOU":
-            raise PointsError(f"an array of {points.dtype} does not hold real numbers")
-        if not points.size:
-            raise PointsError("there are no points")
-        if points.ndim != 2:
-            raise PointsError(f"an array of points must have the shape (n, 3), not {points.shape}")
+        check_array(points)
         # Arrays of integers, or of floats that are integers, are converted as a whole.
         if points.shape[1] == 3 and (points.dtype.kind in "iu" or _whole(points)):
             whole = points if points.dtype.kind in "iu" else points.astype(np.int64)
@@ -55,20 +47,7 @@ def read_points(points: Points) -> list[ExactPoint]:
     if isinstance(points, list) and points and _plain(points):
         return list(map(tuple, points))  # type: ignore[arg-type]
     exact: list[ExactPoint] = []
-    for index, point in enumerate(points):
-        if type(point) in (tuple, list) and len(point) == 3:  # a fast path for the usual point
-            x, y, z = point
-            if type(x) is int and type(y) is int and type(z) is int:
-                exact.append((x, y, z))
-                continue
-        if isinstance(point, str):
-            raise PointsError(f"point {index}: expected three coordinates, found a str")
-        try:
-            row = tuple(point)
-        except TypeError:
-            raise PointsError(f"point {index}: expected three coordinates, found a {type(point).__name__}") from None
-        if len(row) != 3:
-            raise PointsError(f"point {index}: expected three coordinates, found {len(row)}")
+    for index, row in enumerate(point_rows(points)):
         numbers: list[Exact] = []
         for axis, value in zip("xyz", row, strict=True):
             try:
@@ -76,8 +55,6 @@ def read_points(points: Points) -> list[ExactPoint]:
             except ValueError as error:
                 raise PointsError(f"point {index}, coordinate {axis}: {error}") from None
         exact.append((numbers[0], numbers[1], numbers[2]))
-    if not exact:
-        raise PointsError("there are no points")
     return exact
 
 

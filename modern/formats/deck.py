@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 
-from emulator.errors import CardError, DeckError
+from emulator.errors import ArgumentError, CardError, DeckError
 from emulator.language.cards import Card, Deck, deck_from_lines
 from emulator.numbers.arithmetic import TRUNCATING, Rules, profile
 from emulator.numbers.fields import Field, FieldError, FieldNumber, Remark, read_fixed, read_floating
-from modern.geometry.numbers import Point, finite_decimal, split_decimal
+from modern.geometry.numbers import Point, exact_text, finite_decimal, read_epsilon, split_decimal
 
 # The number of points for which the programs' arrays are dimensioned.
 MAX_POINTS = 51
@@ -71,7 +71,7 @@ class CheckedDeck:
         return Deck(self.source, self.sets[index].cards)
 
 
-class TooManyDigits(ValueError):
+class TooManyDigits(ArgumentError):
     """A number with more digits than the field of a card holds."""
 
 
@@ -89,12 +89,12 @@ def coordinate_field(text: str, truncate: bool = False) -> str:
     if len(digits) > COORDINATE.decimals and not truncate:
         raise TooManyDigits(f"{len(digits)} significant digits; a card holds 8")
     if not -99 <= exponent <= 99:
-        raise ValueError("out of range: the exponent of a card is -99 to 99")
+        raise ArgumentError("out of range: the exponent of a card is -99 to 99")
     power = f"{'-' if exponent < 0 else '+'}{abs(exponent):02d}"
     return f"{'-' if minus else '+'}.{digits[:8].ljust(8, '0')}E{power}"
 
 
-class UnfitPoint(ValueError):
+class UnfitPoint(ArgumentError):
     """A coordinate, by ``point`` and ``field`` from 1, that no card can hold, perhaps only because of its digits."""
 
     def __init__(self, point: int, field: int, why: str, digits: bool) -> None:
@@ -105,10 +105,10 @@ class UnfitPoint(ValueError):
 def data_deck(points: Sequence[Sequence[str]], source: str, truncate: bool = False) -> Deck:
     """Return a deck of one data set for at least one point; ``source`` becomes its name.
 
-    Raise UnfitPoint for a coordinate that no card holds, and ValueError for more points than the field of N can hold.
+    Raise UnfitPoint for a coordinate that no card holds, and ArgumentError for more than 99 points.
     """
     if len(points) > MAX_N:
-        raise ValueError(f"{len(points)} points; N has two columns, so a deck holds at most {MAX_N}")
+        raise ArgumentError(f"{len(points)} points; N has two columns, so a deck holds at most {MAX_N}")
     cards = [f"{len(points):2d}"]
     for point_number, point in enumerate(points, 1):
         fields = []
@@ -121,10 +121,20 @@ def data_deck(points: Sequence[Sequence[str]], source: str, truncate: bool = Fal
     return deck_from_lines(source, cards)
 
 
-def with_epsilon(deck: Deck, epsilon: str) -> Deck:
-    """Return the deck of one data set with e punched after N.  Raise ValueError if no card can hold e."""
+def with_epsilon(deck: Deck, epsilon: object) -> Deck:
+    """Return the deck of one data set with e, a number or its text, punched after N, for the layer ``epsilon``.
+
+    Raise ArgumentError if e is invalid or no card can hold it.
+    """
+    size = read_epsilon(epsilon)
+    if size is None or size[1]:
+        raise ArgumentError("epsilon: a card holds an absolute e, not a relative one (rel:)")
+    try:
+        field = coordinate_field(epsilon if isinstance(epsilon, str) else exact_text(size[0]))
+    except ValueError as error:
+        raise ArgumentError(f"epsilon: {error}") from None
     first, *rest = (card.text for card in deck.cards)
-    return deck_from_lines(deck.source, [first[: _E_FIRST - 1].ljust(_E_FIRST - 1) + coordinate_field(epsilon), *rest])
+    return deck_from_lines(deck.source, [first[: _E_FIRST - 1].ljust(_E_FIRST - 1) + field, *rest])
 
 
 def read_coordinates(card: Card, rules: Rules) -> tuple[FieldNumber, FieldNumber, FieldNumber]:

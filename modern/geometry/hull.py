@@ -17,6 +17,7 @@ DETERMINED = "determined"
 NOT_ACCEPTABLE = "DATA NOT ACCEPTABLE"
 ERROR = "ERROR IN PROGRAM"
 TABLE_FULL = "table of planes is full"
+NOT_CLOSED = "the faces do not close to a surface"
 
 Coefficients = tuple[str, str, str, str]
 T = TypeVar("T")
@@ -136,8 +137,8 @@ class Hull:
     """A convex hull as determined by a procedure in some arithmetic.
 
     arithmetic: the name of the arithmetic.
-    status: ``determined``, the message with which the programs end, or ``table of planes is full`` if they would
-        write beyond their arrays.
+    status: ``determined``, the message with which the programs end, ``table of planes is full`` if they would write
+        beyond their arrays, or ``the faces do not close to a surface`` if epsilon merged too many.
     dimension: 0 to 3.
     points: the input as numbers of the arithmetic.
     vertices, boundary, inside: points in the order in which the programs punch them.  For a segment the programs punch
@@ -179,8 +180,9 @@ class HullRefused(EmulatorError):
     """A procedure ended without a hull in its arithmetic; ``result`` holds the incomplete result with its status."""
 
     def __init__(self, result: Any) -> None:
+        way = "a smaller epsilon may find" if result.status == NOT_CLOSED else "'exact' always finds"
         super().__init__(
             f"no hull in {result.arithmetic}: {result.status}, decided at {result.statement}; "
-            "'exact' always finds a hull, and on_refusal='return' returns the incomplete result"
+            f"{way} a hull, and on_refusal='return' returns the incomplete result"
         )
         self.result = result

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from emulator.errors import EmulatorError
 from modern.geometry.hull import Hull
-from modern.geometry.numbers import Point, coordinates, decimal_text, number
+from modern.geometry.numbers import Point, coordinates, decimal_text, value_of
 from modern.geometry.vectors import Vector, area_vector, dot
 
 Triangle = tuple[int, int, int]
@@ -59,7 +59,7 @@ class Mesh:
         points = self.numbers()
         for order, polygon in enumerate(self.faces):
             if self.dimension == 3:
-                a, b, c, d = map(Fraction, hull.faces[order].coefficients)
+                a, b, c, d = map(value_of, hull.faces[order].coefficients)
             else:
                 a, b, c = area_vector(points, polygon)
                 d = -dot((a, b, c), points[polygon[0]])
@@ -136,5 +136,5 @@ def _cycle(lines: list[tuple[int, ...]], count: int) -> tuple[int, ...]:
 
 def _turned(face: tuple[int, ...], points: tuple[Vector, ...], plane: tuple[str, ...]) -> tuple[int, ...]:
     """Return the face, reversed if necessary, counterclockwise seen from the side to which (A, B, C) points."""
-    normal = (number(plane[0]), number(plane[1]), number(plane[2]))
+    normal = coordinates(plane[:3])
     return face if dot(area_vector(points, face), normal) >= 0 else (face[0], *face[:0:-1])

@@ -12,12 +12,14 @@ from decimal import MAX_EMAX, MIN_EMIN, ROUND_HALF_EVEN, Context, Decimal
 from fractions import Fraction
 from numbers import Rational, Real
 
-from emulator.errors import EmulatorError
+from emulator.errors import ArgumentError
 
 Exact = int | Fraction
 Point = tuple[str, str, str]
 
 MAX_DIGITS, MAX_EXPONENT = 4000, 9999
+# The bits of 10**13999, the largest denominator of a text with 4000 digits and the exponent -9999.
+_MAX_BITS = 46_505
 # Significant digits of an area, which is a sum of square roots.
 AREA_DIGITS = 50
 _DECIMAL = re.compile(r"([+-]?)([0-9]*)(?:\.([0-9]*))?(?:[eE]([+-]?[0-9]{1,6}))?")
@@ -28,7 +30,7 @@ _LONGEST = 80
 _SAFE_BITS = 10_000
 
 
-class PointsError(EmulatorError, ValueError):
+class PointsError(ArgumentError):
     """An invalid point, counted from 0, or one that an arithmetic cannot represent; the message is one line."""
 
 
@@ -41,7 +43,7 @@ def split_decimal(text: str) -> tuple[bool, str, str, int]:
     """Split ``-12.50E-3`` into (True if negative, "12", "50", -3).  Raise ValueError for text that is no decimal."""
     match = _DECIMAL.fullmatch(text.strip())
     if not match or not (match[2] or match[3]):
-        raise ValueError(f"{text!r} is not a decimal number")
+        raise ValueError(f"{quoted(text)} is not a decimal number")
     return match[1] == "-", match[2], match[3] or "", int(match[4] or 0)
 
 
@@ -55,7 +57,7 @@ def decimal(text: str) -> Exact:
     if len(whole) + len(fraction) > MAX_DIGITS:
         raise ValueError(f"{len(whole) + len(fraction)} digits; at most {MAX_DIGITS} are read")
     if abs(exponent) > MAX_EXPONENT:
-        raise ValueError(f"the exponent of {text!r} is not within -{MAX_EXPONENT} to {MAX_EXPONENT}")
+        raise ValueError(f"the exponent of {quoted(text)} is not within -{MAX_EXPONENT} to {MAX_EXPONENT}")
     size = int(whole + fraction)
     value, exponent = -size if minus else size, exponent - len(fraction)
     return value * 10**exponent if exponent >= 0 else Fraction(value, 10**-exponent)
@@ -80,28 +82,59 @@ def number(text: str) -> Fraction:
 def real(value: object) -> Exact:
     """Return a real number of any type exactly; a binary float, also one of numpy, has the value it stores.
 
-    Text may be a decimal or a fraction ``p/q``.  Raise ValueError for infinities, NaN, booleans and all other types.
+    Text may be a decimal or a fraction ``p/q``.  Raise ValueError for infinities, NaN, booleans, numbers whose
+    numerator or denominator exceeds 10**13999, and all other types.
     """
-    if type(value) is int:
+    if type(value) is int and value.bit_length() <= _MAX_BITS:
         return value
     if isinstance(value, str):
         return number(value) if "/" in value else decimal(value)
+    if isinstance(value, Decimal):
+        if not value.is_finite():
+            raise ValueError(f"{value} is not finite")
+        return number(str(value))
     if isinstance(value, Rational) and not isinstance(value, bool):
         over, under = int(value.numerator), int(value.denominator)
-    elif isinstance(value, Real | Decimal) and not isinstance(value, bool):
+    elif isinstance(value, Real) and not isinstance(value, bool):
         try:
-            over, under = map(int, value.as_integer_ratio())  # type: ignore[union-attr]
+            over, under = map(int, value.as_integer_ratio())  # type: ignore[attr-defined]
         except (OverflowError, ValueError):
             raise ValueError(f"{value} is not finite") from None
     else:
         kind = type(value).__name__
         raise ValueError(f"expected an int, a float, a Fraction, a Decimal or a decimal string; found {kind}")
+    if max(over.bit_length(), under.bit_length()) > _MAX_BITS:
+        raise ValueError(f"the numerator or the denominator exceeds 10**{MAX_DIGITS + MAX_EXPONENT}")
     return over if under == 1 else Fraction(over, under)
 
 
+def read_epsilon(epsilon: object) -> tuple[Fraction, bool] | None:
+    """Return e of chapter 7 and whether it is relative (``"rel:E"``), or None for None.
+
+    Raise ArgumentError unless e is a real number, also as text, that is not negative.
+    """
+    if epsilon is None:
+        return None
+    relative = isinstance(epsilon, str) and epsilon.startswith("rel:")
+    try:
+        value = Fraction(real(epsilon.removeprefix("rel:") if isinstance(epsilon, str) else epsilon))
+    except ValueError as error:
+        raise ArgumentError(f"epsilon: {error}") from None
+    if value < 0:
+        raise ArgumentError("epsilon: expected a number that is not negative")
+    return value, relative
+
+
+def value_of(text: str) -> Fraction:
+    """Return the value of a valid decimal or fraction ``p/q`` of any length, such as the numbers of a hull."""
+    # Decimals of any length can be converted, whereas int() refuses more than 4300 digits.
+    over, _, under = text.partition("/")
+    return Fraction(Decimal(over)) / Fraction(Decimal(under)) if under else Fraction(Decimal(over))
+
+
 def coordinates(point: Sequence[str]) -> tuple[Fraction, Fraction, Fraction]:
-    """Return the three numbers of a point.  Raise ValueError if one is not a number."""
-    x, y, z = (number(text) for text in point)
+    """Return the three numbers of a point, which are valid decimals or fractions."""
+    x, y, z = map(value_of, point)
     return x, y, z
 
 
@@ -117,7 +150,7 @@ def decimal_text(text: str, digits: int | None = None) -> str:
     raises ValueError if ``digits`` is None.
     """
     stripped = text.strip()
-    value = number(stripped)
+    value = value_of(stripped)
     if "/" not in stripped:
         return stripped.removeprefix("+")
     exact = finite_decimal(value)

@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from decimal import Decimal
-from fractions import Fraction
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from emulator.errors import ArgumentError, expect
 from emulator.numbers.arithmetic import FAMILIES, PROFILES, profile
-from modern.geometry.numbers import Exact, PointsError, real
+from modern.geometry.numbers import Exact, PointsError, quoted, real
+from modern.geometry.points import Points, check_array, point_rows
 from modern.port.arithmetic import Arithmetic, RangeError, Vector
 from modern.port.binary import MAX_BITS, MIN_BITS, FloatArithmetic, MultiprecisionArithmetic
 from modern.port.decimal import Arithmetic1620
 from modern.port.exact import exact_arithmetic
 
-Coordinate = int | float | Fraction | Decimal | str | np.integer[Any] | np.floating[Any]
-Points = Iterable[Iterable[Coordinate]] | NDArray[Any]
 # A number, and whether it is a zero with a minus sign.
 Read = tuple[Exact, bool]
 
@@ -33,24 +29,13 @@ def read_number(value: object) -> Read:
 
 def read_points(points: Points) -> list[Read]:
     """Return the coordinates of all points in one list. Raise PointsError for invalid input."""
-    if isinstance(points, np.ndarray):
-        _check_shape(points)
-        points = points.tolist()
     numbers: list[Read] = []
-    index = -1
-    for index, point in enumerate(points):
-        if isinstance(point, str) or not isinstance(point, Iterable):
-            raise PointsError(f"point {index}: expected three coordinates, found {type(point).__name__}")
-        row = list(point)
-        if len(row) != 3:
-            raise PointsError(f"point {index}: expected 3 coordinates, found {len(row)}")
+    for index, row in enumerate(point_rows(points)):
         for axis, value in zip("xyz", row, strict=True):
             try:
                 numbers.append(read_number(value))
             except ValueError as error:
                 raise PointsError(f"point {index}, coordinate {axis}: {error}") from None
-    if index < 0:
-        raise PointsError("there are no points")
     return numbers
 
 
@@ -70,6 +55,7 @@ NAMES = ("exact", "float64", "float32", "mp:BITS", *PROFILES, *FAMILIES)
 
 def fixed_arithmetic(name: str) -> Arithmetic | None:
     """Return the arithmetic with the given name, or None for ``exact``, which depends on the points."""
+    expect(name, str, "arithmetic")
     if name == "exact":
         return None
     if name == "float64":
@@ -78,12 +64,12 @@ def fixed_arithmetic(name: str) -> Arithmetic | None:
         return FloatArithmetic(np.float32)
     family, _, count = name.partition(":")
     if family == "mp":
-        if count.isdecimal() and count.isascii() and MIN_BITS <= int(count) <= MAX_BITS:
+        if count.isdecimal() and count.isascii() and len(count) < 9 and MIN_BITS <= int(count) <= MAX_BITS:
             return MultiprecisionArithmetic(int(count))
-        raise ValueError(f"{name}: mp expects a number of bits from {MIN_BITS} to {MAX_BITS}, such as mp:100")
+        raise ArgumentError(f"{name[:40]}: mp expects a number of bits from {MIN_BITS} to {MAX_BITS}, such as mp:100")
     if family in PROFILES or f"{family}:P" in FAMILIES:
         return Arithmetic1620(profile(name))
-    raise ValueError(f"no arithmetic is called {name!r}; choose one of {', '.join(NAMES)}")
+    raise ArgumentError(f"no arithmetic is called {quoted(name)}; choose one of {', '.join(NAMES)}")
 
 
 def take(points: Points, name: str, wide: bool = False) -> tuple[Arithmetic, Vector]:
@@ -99,17 +85,8 @@ def take(points: Points, name: str, wide: bool = False) -> tuple[Arithmetic, Vec
     return arithmetic, _numbers(arithmetic, read)
 
 
-def _check_shape(points: Vector) -> None:
-    if points.dtype.kind not in "iufOU":
-        raise PointsError(f"expected an array of real numbers, found {points.dtype}")
-    if not points.size:
-        raise PointsError("there are no points")
-    if points.ndim != 2 or (points.shape[1] != 3 and points.dtype.kind != "O"):
-        raise PointsError(f"expected an array of shape (n, 3), found {points.shape}")
-
-
 def _floats(points: Vector) -> Vector:
-    _check_shape(points)
+    check_array(points)
     not_finite = np.flatnonzero(~np.isfinite(points).all(axis=1))
     if not_finite.size:
         raise PointsError(f"point {not_finite[0]}: a coordinate is not finite")

@@ -9,15 +9,18 @@ from typing import Any, Literal
 
 import numpy as np
 
+from emulator.errors import ArgumentError
+from emulator.jit.functions import require_numba
 from modern.geometry.hull import DETERMINED, ERROR, Hull, HullRefused
-from modern.geometry.numbers import real
+from modern.geometry.numbers import quoted, read_epsilon
+from modern.geometry.points import Points
 from modern.port.arithmetic import Arithmetic, RangeError, Scalar, Vector
 from modern.port.fast import choose
 from modern.port.formulas import at, less
 from modern.port.growth import Progress, Stopped
 from modern.port.opening import Opening, mean, open_hull, tetrahedron
 from modern.port.outcome import LINE, PLANE, Faces, Historian, coefficients, point_texts, texts
-from modern.port.points import Points, first_of_equals, take
+from modern.port.points import first_of_equals, take
 from modern.port.polygon import Polygon, projection, strike_between
 from modern.port.polyhedron import Polyhedron, are_vertices, strike_repeats
 from modern.port.table import Equations, PointTable, Slack, turned
@@ -45,10 +48,12 @@ def convex_hull(
     and the order of the planes a point is outside of (p. 32). The corrections of the layer ``corrected`` are built in,
     and :attr:`Hull.corrected` names the rows that mattered. Raise PointsError for invalid points, HullRefused if no
     hull was determined (unless ``on_refusal`` is ``"return"``), RangeError if an intermediate result is too large for
-    a float, and ValueError for any other invalid argument or if kernels were requested and numba is missing.
+    a float, and ArgumentError for any other invalid argument or if kernels were requested and numba is missing.
     """
     if on_refusal not in ("raise", "return"):
-        raise ValueError(f"on_refusal: expected 'raise' or 'return', found {on_refusal!r}")
+        raise ArgumentError(f"on_refusal: expected 'raise' or 'return', found {quoted(str(on_refusal))}")
+    if fast:
+        require_numba()
     size = read_epsilon(epsilon)
     with np.errstate(over="raise", invalid="raise", divide="raise", under="ignore"):
         numbers, coordinates = take(points, arithmetic, wide=size is not None)
@@ -59,20 +64,6 @@ def convex_hull(
     if on_refusal == "raise" and not hull.determined:
         raise HullRefused(hull)
     return hull
-
-
-def read_epsilon(epsilon: Epsilon) -> tuple[Fraction, bool] | None:
-    """Return e, and whether it is relative. Raise ValueError if it is not a valid number."""
-    if epsilon is None:
-        return None
-    relative = isinstance(epsilon, str) and epsilon.startswith("rel:")
-    try:
-        value = Fraction(real(epsilon.removeprefix("rel:") if isinstance(epsilon, str) else epsilon))
-    except ValueError as error:
-        raise ValueError(f"epsilon: {error}") from None
-    if value < 0:
-        raise ValueError("epsilon: expected a number that is not negative")
-    return value, relative
 
 
 @dataclass

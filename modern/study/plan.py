@@ -68,12 +68,15 @@ class Programs:
     layers: tuple[str, ...] = ()
     rows: tuple[str, ...] = ()
     arithmetic: str = "truncating"
-    epsilon: str = ""
+    epsilon: str | float = ""
     limit: int = DEFAULT_LIMIT
     core: int = DEFAULT_CORE
     bounds: Literal["strict", "core"] = "strict"
     uncut: bool = False
     measures: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "epsilon", str(self.epsilon))  # 0.001 is the e that "0.001" is
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,10 +88,13 @@ class Port:
 
     name: str
     arithmetic: str = "exact"
-    epsilon: str = ""
+    epsilon: str | float = ""
     translate: bool = False
     history: bool = False
     measures: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "epsilon", str(self.epsilon))  # 0.001 is the e that "0.001" is
 
 
 Route = Programs | Port

@@ -18,7 +18,7 @@ from emulator.numbers import numbers
 from emulator.numbers.decimal import DecimalNumbers
 from emulator.progress import Progress
 from modern.edition import programs
-from modern.formats.deck import coordinate_field
+from modern.formats.deck import with_epsilon
 from modern.port import convex_hull
 from modern.study.chartfile import write_charts
 from modern.study.families import draw_sample
@@ -258,9 +258,9 @@ def _check_route(route: Route) -> None:
     if bool(route.epsilon) != ("epsilon" in route.layers):
         raise PlanError(f"route {route.name}: an epsilon needs the layer 'epsilon', and that layer an epsilon")
     try:
-        coordinate_field(route.epsilon or "0")
+        with_epsilon(deck_from_lines(route.name, ["1"]), route.epsilon or "0")
     except ValueError as error:
-        raise PlanError(f"route {route.name}: epsilon: {error}") from None
+        raise PlanError(f"route {route.name}: {error}") from None
     # A machine is made for each program: this fails if a program does not fit into the core.
     options = options_of(route)
     first, load = programs_of(route)

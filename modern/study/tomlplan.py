@@ -131,7 +131,8 @@ def _route(raw: Mapping[str, Any], where: str) -> Route:
     default = route_type("")
     for name, value in values.items():
         has_only_text = not isinstance(value, tuple) or all(isinstance(element, str) for element in value)
-        if type(value) is not type(getattr(default, name)) or not has_only_text:
+        types = (str, int, float) if name == "epsilon" else (type(getattr(default, name)),)
+        if type(value) not in types or not has_only_text:
             raise PlanError(f"{where}: {name} = {value!r} has the wrong type")
     route: Route = route_type(**values)
     return route

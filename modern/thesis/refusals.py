@@ -83,11 +83,12 @@ def cause(step: Step, machine: Session) -> Cause | None:
 
 
 _SEARCHES = {"pair": 1, "repeat": 2}
-# For programs 2 and 3: the variable with the number of the equation, the array of its values, the label of each test
-# with the variable that has the number of the tested point, and the arrays of coordinates.
+# For programs 2 and 3: the variable with the number of the equation, the array of its values, the tests, and the arrays
+# of coordinates.  A test has its label, the label of the second IF of the layer ``epsilon``, and the variable with the
+# number of the tested point.
 _MISSES = {
-    2: ("I", "D", ((124, "MR"), (125, "NR")), "RST"),
-    3: ("J", "E", ((116, "MR"), (117, "NR"), (118, "KR")), "XYZ"),
+    2: ("I", "D", ((124, 192, "MR"), (125, 193, "NR")), "RST"),
+    3: ("J", "E", ((116, 217, "MR"), (117, 218, "NR"), (118, 219, "KR")), "XYZ"),
 }
 # For programs 1 and 3: the label of the test whether an equation passes through C.
 _CENTRES = {1: 204, 3: 132}
@@ -103,13 +104,15 @@ def _refused(step: Step, machine: Session, message: str, decision: Line | None) 
     # A point that defines an equation does not satisfy it.
     if step.number in _MISSES:
         index, values, tests, axes = _MISSES[step.number]
-        for test, name in tests:
-            if label == test and message == REFUSALS[0]:
+        for test, second_test, name in tests:
+            if label in (test, second_test) and message == REFUSALS[0]:
                 equation, point = _integer(machine, index), _integer(machine, name)
                 place = tuple(_value(machine, axis, point) for axis in axes)
                 if step.number == 2:
                     place = _unprojected(place, _integer(machine, "KPROJ"))
-                value = _value(machine, values, equation)
+                # The layer epsilon keeps the value in EE instead of E(J).
+                has_scalar = decision is not None and "EE" in decision.text
+                value = _value(machine, "EE") if has_scalar else _value(machine, values, equation)
                 return Cause(step.number, "miss", message, decision, 6, equation, place, value)
     # The value of an equation at C is zero.
     if step.number in _CENTRES and label == _CENTRES[step.number]:

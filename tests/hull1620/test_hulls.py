@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import pickle
+from contextlib import suppress
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
@@ -15,6 +17,7 @@ from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
 
 from hull1620 import (
+    EmulatorError,
     ExportError,
     Hull,
     HullRefused,
@@ -121,7 +124,7 @@ def test_volume_and_area_are_exact(hull_of: Any) -> None:
     corner = hull_of([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
     assert corner.volume == Fraction(1, 6)
     # 3/2 and half the root of 3, whose digits are known (OEIS A002194).
-    assert corner.area == Decimal("2.3660254037844386467637231707529361834714026269052")
+    assert corner.area.digits == Decimal("2.3660254037844386467637231707529361834714026269052")
     assert sorted(corner.squared_areas) == [Fraction(1, 4)] * 3 + [Fraction(3, 4)]
     third = hull_of([("1/3", 0, 0), (0, 1, 0), (0, 0, 1), (0, 0, 0)])
     assert third.volume == Fraction(1, 18)
@@ -149,19 +152,71 @@ def test_a_refusal_has_the_incomplete_result() -> None:
         convex_hull(CUBE, on_refusal="ignore")  # type: ignore[arg-type]
 
 
-def test_faces_that_do_not_close_have_no_volume() -> None:
-    """With a wide interval, different faces count as the same."""
+def test_an_epsilon_that_merges_too_many_faces_is_refused_and_every_determined_hull_has_a_volume() -> None:
     points = np.random.default_rng(4).integers(-9, 10, (30, 3))
-    found = [convex_hull(points, "float64", epsilon=e, on_refusal="return") for e in range(0, 400, 20)]
-    refused = 0
-    for hull in found:
-        try:
-            volume = hull.volume
-        except ExportError:
-            refused += 1
-        else:
-            assert 0 <= volume <= exact_hull(points).volume * 2
-    assert 0 < refused < len(found)
+    hulls = [convex_hull(points, "float64", epsilon=e, on_refusal="return") for e in range(0, 400, 20)]
+    refused = [hull for hull in hulls if hull.status == "the faces do not close to a surface"]
+    assert 0 < len(refused) < len(hulls)
+    for hull in hulls:
+        if hull.determined:
+            assert 0 <= hull.volume <= exact_hull(points).volume * 2
+    e = 20 * hulls.index(refused[0])
+    with pytest.raises(
+        HullRefused, match=r"do not close to a surface, decided at .*; a smaller epsilon may find a hull"
+    ):
+        convex_hull(points, "float64", epsilon=e)
+
+
+@pytest.mark.parametrize("epsilon", [-1, "-1", "", "rel:x", "rel:-1", "nan", float("nan"), True, [1], b"1", "1/0"])
+def test_an_invalid_epsilon_is_an_input_error(epsilon: Any) -> None:
+    for call in (lambda: convex_hull(CUBE, epsilon=epsilon), lambda: data_deck(CUBE, epsilon=epsilon)):
+        with pytest.raises(EmulatorError, match=r"^epsilon: [^\n]*$"):
+            call()
+
+
+def test_an_area_works_with_numpy_and_fractions_and_keeps_its_digits() -> None:
+    corner = exact_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
+    assert corner.area / corner.volume == pytest.approx(14.19615242270663)
+    assert np.sqrt(corner.area) ** 2 == pytest.approx(2.366025403784439)
+    again = pickle.loads(pickle.dumps(corner.area))
+    assert (again, again.digits) == (corner.area, corner.area.digits)
+
+
+@pytest.mark.parametrize("hull_of", BOTH)
+def test_neighbors_have_the_order_of_scipy(hull_of: Any) -> None:
+    def links(hull: Any) -> set[object]:
+        rows = [frozenset(row) for row in hull.simplices.tolist()]
+        return {
+            (row, corner, rows[neighbor])
+            for row, corners, neighbors in zip(rows, hull.simplices.tolist(), hull.neighbors.tolist(), strict=True)
+            for corner, neighbor in zip(corners, neighbors, strict=True)
+        }
+
+    assert links(hull_of(DOUBLES)) == links(ConvexHull(DOUBLES))
+    assert hull_of(SQUARE).neighbors.tolist() == [[-1, 1, -1], [-1, -1, 0]]
+
+
+FAR = [
+    [(2.0**1023, 0, 0), (0, 2.0**1023, 0), (0, 0, 2.0**1023), (-1.7e308,) * 3, (1.7e308,) * 3],
+    [(10**4900, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1)],
+    [(np.ldexp(np.longdouble(1.1), 16200), 0, 0), (0, 1, 0), (0, 0, np.ldexp(np.longdouble(1.1), -16400)), (1, 1, 1)],
+    [("1.23e-9999", 0, 0), (0, 1, 0), (0, 0, "1e9999"), (1, 1, 1)],
+    [("9" * 4000, 0, 0), (0, "1/3", 0), (0, 0, 1), (1, 1, 1)],
+]
+
+
+@pytest.mark.parametrize("hull_of", BOTH)
+@pytest.mark.parametrize("points", FAR)
+def test_an_accepted_hull_of_very_large_or_small_numbers_can_be_used(hull_of: Any, points: Any, tmp_path: Path) -> None:
+    hull = hull_of(points)
+    assert hull.volume > 0
+    assert hull.area.digits > 0
+    assert hull.points.shape == (len(points), 3)
+    assert not np.isnan(hull.equations).any()
+    assert len(hull.exact_points) == len(points)
+    for extension in ("off", "obj", "ply", "stl", "json", "html", "svg"):
+        with suppress(ExportError):
+            hull.save(tmp_path / f"hull.{extension}", digits=9)
 
 
 def test_the_repr_of_a_hull_is_a_summary() -> None:

@@ -5,7 +5,7 @@ As in ``modern/cli/arguments.py`` nothing is imported that only a run needs.
 
 from __future__ import annotations
 
-from argparse import ArgumentParser
+from argparse import ArgumentParser, ArgumentTypeError
 from collections.abc import Iterable
 
 from modern.formats import POINTS
@@ -158,3 +158,14 @@ def listed(names: Iterable[str]) -> str:
     """``a, b or c``."""
     *others, last = names
     return f"{', '.join(others)} or {last}"
+
+
+def epsilon_text(text: str) -> str:
+    """Return the text of a valid e of chapter 7, also ``rel:E``."""
+    from modern.geometry.numbers import read_epsilon  # imported here because few command lines have an e
+
+    try:
+        read_epsilon(text)
+    except ValueError as error:
+        raise ArgumentTypeError(str(error).removeprefix("epsilon: ")) from None
+    return text

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from modern.exact_hull.coordinates import Points, common_scale, read_points, to_integers
+from modern.exact_hull.coordinates import common_scale, read_points, to_integers
+from modern.geometry.points import Points
 from modern.geometry.vectors import cross, dot, minus
 from modern.papers.appel_will.corners import Preprocessing, Rule, preprocess
 from modern.papers.appel_will.edges import Deleted, IntPoint, Pair, convex_edges

@@ -101,4 +101,15 @@ def test_epsilon_is_punched_and_read(own: Path, capsys: pytest.CaptureFixture[st
         for bad in ("x", ".123456789", "rel:1"):
             code, _, err = call(capsys, *words, "--epsilon", bad)
             assert (code, err.count("\n")) == (2, 1)
-            assert err.startswith("hull1620: --epsilon: ")
+            assert err.startswith("hull1620")
+            assert "--epsilon: " in err
+
+
+@pytest.mark.parametrize("epsilon", ["-1", "", "rel:x", "rel:-1", "nan"])
+@pytest.mark.parametrize("command", ["hull", "diff", "cards"])
+def test_an_invalid_epsilon_is_rejected_in_one_line(
+    command: str, epsilon: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    code, out, err = call(capsys, command, "example1", f"--epsilon={epsilon}")
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert err.startswith(f"hull1620 {command}: argument --epsilon: ")

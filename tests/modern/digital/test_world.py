@@ -84,7 +84,7 @@ def test_measures_are_those_of_the_judge(seed: int, world: World) -> None:
         measures = voxel_hull(volume, of).measures()
         judged = proved(image_of_every_voxel(volume, world, of))
         assert measures.hull_volume == judged.volume
-        assert abs(measures.hull_area - judged.area) <= judged.area.scaleb(-48)
+        assert abs(measures.hull_area - judged.area.digits) <= judged.area.digits.scaleb(-48)
         assert measures.volume == volume.count * abs(determinant(world.steps))
         if of == VERTICES:
             assert measures.solidity == measures.volume / judged.volume <= 1

@@ -90,10 +90,10 @@ def test_numpy_integers_do_not_overflow() -> None:
     ("points", "message"),
     [
         ([], "there are no points"),
-        ([(1, 2)], "point 0: expected three coordinates, found 2"),
-        ([(1, 2, 3), (1, 2, 3, 4)], "point 1: expected three coordinates, found 4"),
-        ([(1, 2, 3), 5], "point 1: expected three coordinates, found a int"),
-        (["123"], "point 0: expected three coordinates, found a str"),
+        ([(1, 2)], "point 0: expected 3 coordinates, found 2"),
+        ([(1, 2, 3), (1, 2, 3, 4)], "point 1: expected 3 coordinates, found 4"),
+        ([(1, 2, 3), 5], "point 1: expected 3 coordinates, found int"),
+        (["123"], "point 0: expected 3 coordinates, found str"),
         ([(1, 2, float("nan"))], "point 0, coordinate z: nan is not finite"),
         ([(1, float("-inf"), 0)], "point 0, coordinate y: -inf is not finite"),
         (
@@ -114,12 +114,12 @@ def test_numpy_integers_do_not_overflow() -> None:
         ),
         ([(1, 2, Decimal("inf"))], "point 0, coordinate z: Infinity is not finite"),
         (np.array([(0.0, 0, float("nan"))]), "point 0, coordinate z: nan is not finite"),
-        (np.zeros((4, 3), dtype=bool), "an array of bool does not hold real numbers"),
-        (np.zeros((4, 3), dtype=complex), "an array of complex128 does not hold real numbers"),
+        (np.zeros((4, 3), dtype=bool), "expected an array of real numbers, found bool"),
+        (np.zeros((4, 3), dtype=complex), "expected an array of real numbers, found complex128"),
         (np.zeros((0, 3)), "^there are no points$"),
         (np.zeros(0), "^there are no points$"),
-        (np.zeros(3, dtype=int), r"an array of points must have the shape \(n, 3\), not \(3,\)"),
-        (np.zeros((4, 2), dtype=int), "point 0: expected three coordinates, found 2"),
+        (np.zeros(3, dtype=int), r"expected an array of shape \(n, 3\), found \(3,\)"),
+        (np.zeros((4, 2), dtype=int), r"expected an array of shape \(n, 3\), found \(4, 2\)"),
     ],
 )
 def test_invalid_points_are_rejected_with_their_index(points, message: str) -> None:

@@ -36,8 +36,8 @@ INVALID_POINTS = (
         (True, 2, 3),
         "point 1, coordinate x: expected an int, a float, a Fraction, a Decimal or a decimal string; found bool",
     ),
-    ("123", "point 1: expected three coordinates, found str"),
-    (7, "point 1: expected three coordinates, found int"),
+    ("123", "point 1: expected 3 coordinates, found str"),
+    (7, "point 1: expected 3 coordinates, found int"),
     ((1, 2, "1e99999"), "point 1, coordinate z: the exponent of '1e99999' is not within -9999 to 9999"),
 )
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 
@@ -10,7 +11,7 @@ import pytest
 from emulator.language.cards import Deck, read_deck
 from emulator.machine.result import Options
 from modern.edition import programs
-from modern.formats.deck import check, data_deck
+from modern.formats.deck import check, data_deck, with_epsilon
 from modern.port.points import fixed_arithmetic
 from modern.thesis.cards import read_intermediate
 from modern.thesis.job import run_hull
@@ -100,6 +101,14 @@ def test_the_point_that_does_not_satisfy_its_equation_is_named(
         a, b, c, d = (eight.number(number) for number in middle.planes[found.equation - 1][0])
         x, y, z = (eight.number(number) for number in place)
         assert eight.exact(a * x + b * y + c * z + d, 3) == Fraction(found.value)
+
+
+@pytest.mark.parametrize("points", [SOLID, FLAT, FOUR])
+def test_the_cause_with_an_epsilon_of_zero_is_that_without_epsilon(points: list[tuple[str, str, str]]) -> None:
+    deck = data_deck(points, "points")
+    listed, with_zero = cause_of(deck), cause_of(with_epsilon(deck, "0"), ("epsilon",))
+    assert with_zero.fault == 6
+    assert replace(with_zero, decision=None) == replace(listed, decision=None)
 
 
 def test_points_that_satisfy_no_three_equations_are_identified() -> None:
