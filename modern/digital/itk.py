@@ -1,6 +1,7 @@
 """Volumes read by SimpleITK (the extra ``volumes``): NIfTI, MetaImage, TIFF, and DICOM files or series folders.
 
-The library runs in a separate process, ``itk_child.py``. Its output is hidden from the user, and any failure (an
+The modules of :mod:`modern.digital.integrity` check the file first, because the library accepts damaged files. The
+library runs in a separate process, ``itk_child.py``. Its output is hidden from the user, and any failure (an
 error, a crash, a hang) becomes one line here. The process returns the array as an NPY file in a temporary folder. It
 returns spacing, origin and directions as the shortest decimal text that identifies each double; they are exact from
 then on.
@@ -12,16 +13,21 @@ import importlib.util
 import json
 import os
 import signal
+import stat
 import subprocess
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from emulator.files import read_bytes, reason
+from modern.digital.integrity.dicom import Unverifiable, check_dicom, has_signature
+from modern.digital.integrity.metaimage import check_metaimage
+from modern.digital.integrity.nifti import NiftiHeader, check_nifti, position_notes
+from modern.digital.integrity.tiff import check_tiff
 from modern.digital.scans import Scan
 from modern.digital.solids import MAX_CELLS, VolumeError
 from modern.digital.world import LPS, Position, World, length_text
@@ -39,8 +45,8 @@ KINDS = {
 """The format of a file by the extension of its name."""
 LIMIT = 60
 """The seconds allowed for reading a file, plus one for each megabyte."""
+_NO_PIXELS = "expected pixel data, found none"
 _CHILD = str(Path(__file__).with_name("itk_child.py"))
-_DICOM = (128, b"DICM")
 
 
 def kind_of(path: str) -> str | None:
@@ -57,8 +63,8 @@ def read_itk(path: str, kind: str, series: str | None = None) -> Scan:
 
     ``series`` identifies one of several DICOM series in a folder. Positions are those of the library: LPS, in
     millimetres if the format states it. A TIFF file has no position. Raise FileError if the file cannot be read. Raise
-    VolumeError if SimpleITK is not installed, rejects the file, crashes or exceeds ``LIMIT``, if voxels have several
-    values, or for more than ``MAX_CELLS`` voxels.
+    VolumeError if the file is damaged, if SimpleITK is not installed, rejects the file, crashes or exceeds ``LIMIT``,
+    if voxels have several values, or for more than ``MAX_CELLS`` voxels.
     """
     if kind == SERIES:
         _check_folder(path)
@@ -66,6 +72,8 @@ def read_itk(path: str, kind: str, series: str | None = None) -> Scan:
         _check_file(path)
     if importlib.util.find_spec("SimpleITK") is None:
         raise VolumeError(f"{path}: reading {kind} needs SimpleITK: pip install 'hull1620[volumes]'")
+    sizes, nifti = _checked(path, kind)
+    verdicts = _slices(path) if kind == SERIES else {}
     with tempfile.TemporaryDirectory(prefix="hull1620-") as folder:
         seconds = LIMIT + _bytes(path) // 10**6
         code = _run([kind, os.path.abspath(path), folder, str(MAX_CELLS), series or ""], path, seconds)
@@ -75,12 +83,77 @@ def read_itk(path: str, kind: str, series: str | None = None) -> Scan:
         if "error" in facts:
             raise VolumeError(f"{path}: {_plain(facts['error'])}")
         array = np.load(Path(folder, "array.npy"), allow_pickle=False)
-    notes = tuple(f"{path}: {_plain(note)}" for note in facts["notes"])
-    return Scan(array, (0,) * array.ndim, path, _world(facts, path), notes)
+    if sizes is not None and _without_ones(array.shape) != _without_ones(sizes):
+        stated, returned = (" x ".join(map(str, shape)) for shape in (sizes, array.shape))
+        raise VolumeError(f"{path}: the header states {stated} voxels, but SimpleITK returns {returned}")
+    notes = list(facts["notes"])
+    if kind == SERIES:
+        notes += _slice_notes(path, facts["files"], verdicts)
+    world = _world(facts, path)
+    if nifti is not None:
+        notes += [*position_notes(nifti, world), *([nifti.scaling] if nifti.scaling else [])]
+    return Scan(array, (0,) * array.ndim, path, world, tuple(f"{path}: {_plain(note)}" for note in notes))
+
+
+def _checked(path: str, kind: str) -> tuple[Sequence[int] | None, NiftiHeader | None]:
+    """Return the number of voxels along each axis, if the format states it, and the header of a NIfTI file.
+
+    Raise VolumeError if the file is damaged.
+    """
+    if kind == "NIfTI":
+        header = check_nifti(path)
+        return header.sizes, header
+    if kind == "DICOM":
+        sizes = check_dicom(path)
+        if sizes is None:
+            raise VolumeError(f"{path}: {_NO_PIXELS}")
+        return sizes, None
+    checks: Mapping[str, Callable[[str], Sequence[int]]] = {"MetaImage": check_metaimage, "TIFF": check_tiff}
+    return (checks[kind](path) if kind in checks else None), None
+
+
+def _slices(folder: str) -> dict[str, str]:
+    """Check every DICOM file of a folder. Return a remark for each, which is empty for an intact image.
+
+    Raise VolumeError for a damaged file, because SimpleITK may leave it out of its series.
+    """
+    remarks = {}
+    with os.scandir(folder) as entries:
+        for entry in sorted(entries, key=lambda entry: entry.name):
+            if not entry.is_file() or not (has_signature(entry.path) or entry.name.lower().endswith(".dcm")):
+                continue
+            try:
+                remarks[entry.name] = _NO_PIXELS if check_dicom(entry.path) is None else ""
+            except Unverifiable as error:
+                remarks[entry.name] = str(error).removeprefix(f"{entry.path}: ")
+    return remarks
+
+
+def _slice_notes(folder: str, used: Sequence[str], remarks: Mapping[str, str]) -> list[str]:
+    """Return notes about files without pixel data. Raise VolumeError if a slice was not verified."""
+    for name in used:
+        remark = remarks.get(name, "not a DICOM file with the mark DICM")
+        if remark:
+            raise VolumeError(f"{os.path.join(folder, name)}: {remark}")
+    empty = [name for name, remark in remarks.items() if remark == _NO_PIXELS and name != "DICOMDIR"]
+    if empty:
+        names = ", ".join(empty[:4]) + (", ..." if len(empty) > 4 else "")
+        return [f"{len(empty)} DICOM files without pixel data are left out: {names}"]
+    return []
+
+
+def _without_ones(sizes: Sequence[int]) -> list[int]:
+    """Return the sizes without axes of length 1 at the end."""
+    kept = list(sizes)
+    while kept and kept[-1] == 1:
+        kept.pop()
+    return kept
 
 
 def _check_file(path: str) -> None:
     try:
+        if not stat.S_ISREG(os.stat(path).st_mode):
+            raise VolumeError(f"{path}: expected a regular file")
         with open(path, "rb"):
             return
     except (OSError, ValueError):
@@ -89,14 +162,10 @@ def _check_file(path: str) -> None:
 
 def _check_folder(path: str) -> None:
     """Raise VolumeError for a folder without DICOM files, which have their signature after 128 bytes."""
-    place, mark = _DICOM
     try:
         with os.scandir(path) as entries:
-            for entry in entries:
-                if entry.is_file():
-                    with open(entry.path, "rb") as file:
-                        if file.read(place + len(mark))[place:] == mark:
-                            return
+            if any(entry.is_file() and has_signature(entry.path) for entry in entries):
+                return
     except OSError as error:
         raise VolumeError(f"{path}: {reason(error)}") from None
     raise VolumeError(f"{path}: is a directory without a DICOM file; expected a file, or a folder with a DICOM series")

@@ -1,7 +1,8 @@
 """The process in which SimpleITK reads a file. It is run by path, imports nothing of the project and prints nothing.
 
 The arguments are the format, the path, a folder for the result, the largest number of voxels and a series identifier.
-The result is ``array.npy``, x fastest, and ``facts.json`` with spacing, origin and direction as text, or an ``error``.
+The result is ``array.npy``, x fastest, and ``facts.json`` with spacing, origin and direction as text and the names of
+the files of a series, or an ``error``.
 """
 
 from __future__ import annotations
@@ -51,6 +52,7 @@ def read(kind: str, path: str, target: Path, most: int, series: str) -> dict[str
     sitk.ProcessObject.SetGlobalWarningDisplay(False)
     reader: Any
     notes: list[str] = []
+    files: Sequence[str] = ()
     if kind in READERS:
         reader = sitk.ImageFileReader()
         reader.SetImageIO(READERS[kind])
@@ -84,7 +86,8 @@ def read(kind: str, path: str, target: Path, most: int, series: str) -> dict[str
     if kind == "NIfTI":
         unit = _nifti(reader, notes)
     texts = {"spacing": spacing[:width], "origin": origin[:width], "direction": direction}
-    return {"placed": placed, "unit": unit, "notes": notes} | {
+    names = [os.path.basename(name) for name in files]
+    return {"placed": placed, "unit": unit, "notes": notes, "files": names} | {
         name: [repr(float(number)) for number in numbers] for name, numbers in texts.items()
     }
 
@@ -157,6 +160,7 @@ def _message_of(error: Exception) -> str:
     message = re.split(r"(?:itk::|sitk::|ITK )ERROR: ", message)[-1]
     message = re.sub(r"\b\w+\((?:0x)?[0-9a-fA-F]+\): ", "", message)
     message = re.sub(r"(?:/[^\s/]+)+/", "", message)
+    message = re.sub(r"\W*Reason: Success\W*$", "", message)  # the system's text for no error
     return (message or type(error).__name__)[:_LONGEST_MESSAGE]
 
 

@@ -33,6 +33,7 @@ ARRAYS = (".npy", ".nrrd")
 _BALL = re.compile(r"(half-)?ball:([0-9]{1,9})(?::(voxel|vertex))?", re.ASCII)
 _INTEGER = re.compile(r"[+-]?[0-9]+", re.ASCII)
 _EXAMINED = 1 << 16
+_PAIR = (".hdr", ".img", ".hdr.gz", ".img.gz")
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,6 +158,10 @@ def _parsed(data: bytes, source: str, stated: Stated) -> Scan:
         text = None if b"\0" in data[:_EXAMINED] else data.decode("utf-8-sig")
     except UnicodeDecodeError:
         text = None
+    if text is None and source.lower().endswith(_PAIR):
+        raise VolumeError(
+            f"{source}: a pair of files .hdr and .img (NIfTI or Analyze) is not supported; convert it to one .nii file"
+        )
     if text is None:
         raise VolumeError(f"{source}: not NPY, NRRD or UTF-8 text; raw data need --shape NX,NY,NZ")
     return _scan(_listed(text, source))
@@ -178,6 +183,9 @@ def _with_position(scan: Scan, stated: Stated) -> Scan:
         raise VolumeError(
             f"{scan.source}: the file states the position of its voxels; spacing and origin cannot be given"
         )
+    for number in stated.spacing or ():
+        if str(number).startswith("-"):
+            raise VolumeError(f"{scan.source}: spacing: expected positive numbers, found {number}")
     try:
         return replace(scan, world=world_of(scan.values.ndim, stated.spacing, stated.origin))
     except VolumeError as error:

@@ -216,13 +216,16 @@ def test_one_of_several_series_can_be_selected() -> None:
     [
         (lambda: "missing.nii", "missing.nii: no such file or directory"),
         (lambda: made_folder("empty"), "empty: is a directory without a DICOM file"),
-        (lambda: saved("a.nii", b""), "a.nii: SimpleITK cannot read it as NIfTI: "),
-        (lambda: saved("a.mha", b"ObjectType = Image\nNDims = 3\n"), "a.mha: SimpleITK cannot read it as MetaImage: "),
-        (lambda: saved("a.mhd", Path(written("b.mhd")).read_bytes().replace(b"b.raw", b"c.raw")), "a.mhd: SimpleITK "),
-        (lambda: saved("a.tif", b"no picture"), "a.tif: SimpleITK cannot read it as TIFF: "),
-        (lambda: saved("a.dcm", b"no slice"), "a.dcm: SimpleITK cannot read it as DICOM: "),
+        (lambda: saved("a.nii", b""), "a.nii: not a NIfTI-1 file"),
+        (lambda: saved("a.mha", b"ObjectType = Image\nNDims = 3\n"), "a.mha: the header is truncated"),
+        (
+            lambda: saved("a.mhd", Path(written("b.mhd")).read_bytes().replace(b"b.raw", b"c.raw")),
+            "a.mhd: c.raw: no such file",
+        ),
+        (lambda: saved("a.tif", b"no picture"), "a.tif: not a TIFF file"),
+        (lambda: saved("a.dcm", b"no slice"), "a.dcm: not a DICOM file"),
         (lambda: rgb("a.mha"), "a.mha: expected one number for each voxel, found 3"),
-        (lambda: endless("a.mha"), "a.mha: SimpleITK "),
+        (lambda: endless("a.mha"), "a.mha: NDims: expected integers"),
         (lambda: huge("a.mha"), "a.mha: expected at most 2147483648 voxels, found 9000 x 9000 x 9000"),
     ],
 )
@@ -341,6 +344,8 @@ def test_voxels_of_a_file_read_by_the_library_can_be_selected() -> None:
 
 def test_time_limit_grows_with_the_size_of_the_files(monkeypatch: pytest.MonkeyPatch) -> None:
     limits = []
+    monkeypatch.setattr(itk, "_checked", lambda path, kind: (None, None))
+    monkeypatch.setattr(itk, "_slices", lambda path: {})
     monkeypatch.setattr(itk, "_run", lambda arguments, path, seconds: limits.append(seconds) or 1)
     Path("far").mkdir()
     for name in ("a.nii", "far/a.mhd"):

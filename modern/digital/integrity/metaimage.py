@@ -1,0 +1,176 @@
+"""Check a MetaImage file (``.mha``, ``.mhd``): its header, and the length and checksum of the data it names.
+
+The data follow the header (``ElementDataFile = LOCAL``) or are in one file or in several: a ``LIST`` of names, one on
+each line, or a pattern ``NAME%03d.raw FIRST LAST STEP``. SimpleITK leaves memory uninitialised if a list is too short.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+from collections.abc import Mapping
+from pathlib import Path
+
+from emulator.files import reason
+from modern.digital.integrity.streams import check_compressed, check_length, check_sizes
+from modern.digital.solids import VolumeError
+
+_BYTES = {
+    "MET_CHAR": 1,
+    "MET_UCHAR": 1,
+    "MET_SHORT": 2,
+    "MET_USHORT": 2,
+    "MET_INT": 4,
+    "MET_UINT": 4,
+    "MET_LONG": 4,
+    "MET_ULONG": 4,
+    "MET_LONG_LONG": 8,
+    "MET_ULONG_LONG": 8,
+    "MET_FLOAT": 4,
+    "MET_DOUBLE": 8,
+}
+"""The bytes of a number, by the name of its type."""
+_FIELD = re.compile(rb"\s*(\w+)\s*[=:]\s*(.*?)\s*", re.DOTALL)
+_INTEGER = re.compile(r"-?[0-9]{1,18}", re.ASCII)
+_PATTERN = re.compile(r"([^%]*%(?:0?[0-9])?d[^%]*?)((?:\s+[0-9]{1,9})*)", re.ASCII)
+_DATA = "ElementDataFile"
+_FLAGS = {"True": True, "true": True, "1": True, "False": False, "false": False, "0": False}
+_LONGEST_HEADER = 1 << 20
+
+
+def check_metaimage(path: str) -> tuple[int, ...]:
+    """Return the number of voxels along each axis.
+
+    Raise VolumeError for an invalid header, and for data that are damaged, missing or of another length.
+    """
+    with open(path, "rb") as file:
+        head = file.read(_LONGEST_HEADER)
+    fields, local = _fields(head, path)
+    axes = _integer(fields, "NDims", path)
+    sizes = tuple(_integers(fields, "DimSize", path))
+    if len(sizes) != axes:
+        raise VolumeError(f"{path}: DimSize: expected {axes} sizes, found {len(sizes)}")
+    check_sizes(path, sizes)
+    if not _flag(fields, "BinaryData", path, "BinaryData" not in fields):
+        raise VolumeError(f"{path}: BinaryData = False (numbers as text) is not supported; save it as binary data")
+    if fields.get("ElementType") not in _BYTES:
+        raise VolumeError(f"{path}: ElementType: {fields.get('ElementType', '')[:40]!r} is not supported")
+    size = _BYTES[fields["ElementType"]] * _integer(fields, "ElementNumberOfChannels", path, 1)
+    name = fields[_DATA]
+    if name in ("LOCAL", "Local", "local"):
+        _check_data(path, path, local, math.prod(sizes) * size, fields)
+        return sizes
+    names, axes_of_file = [name], axes
+    if name.startswith("LIST"):
+        names, axes_of_file = _listed(head[local:], name, sizes, path)
+    elif "%" in name:
+        names, axes_of_file = _numbered(name, sizes, path), axes - 1
+    if len(names) > 1 and _flag(fields, "CompressedData", path):
+        raise VolumeError(f"{path}: compressed data in several files are not supported")
+    for data in names:
+        source = f"{path}: {data[:80]}"
+        _check_data(source, str(Path(path).absolute().parent / data), 0, math.prod(sizes[:axes_of_file]) * size, fields)
+    return sizes
+
+
+def _check_data(source: str, path: str, start: int, expected: int, fields: Mapping[str, str]) -> None:
+    """Check the data in one file, which begin at ``start`` unless the header states their place."""
+    skipped = _integer(fields, "HeaderSize", source, 0)
+    is_packed = _flag(fields, "CompressedData", source)
+    try:
+        with open(path, "rb") as file:
+            available = os.fstat(file.fileno()).st_size
+            if skipped < 0 and is_packed:
+                raise VolumeError(f"{source}: HeaderSize = {skipped} is not supported for compressed data")
+            # HeaderSize counts from the start of the file; -1 means that the data are at its end.
+            start = skipped or start
+            if skipped < 0:
+                start = max(available - expected, 0)
+            if not is_packed:
+                check_length(source, expected, max(available - start, 0))
+                return
+            stored = _integer(fields, "CompressedDataSize", source, available - start)
+            check_length(source, stored, available - start)
+            file.seek(start)
+            check_compressed(source, file, stored, expected)
+    except OSError as error:
+        raise VolumeError(f"{source}: {reason(error)}") from None
+    except ValueError:
+        raise VolumeError(f"{source}: not a file name") from None
+
+
+def _fields(head: bytes, path: str) -> tuple[dict[str, str], int]:
+    """Return the fields of the header, and the position after its last line, which names the data."""
+    fields: dict[str, str] = {}
+    position = 0
+    for number, line in enumerate(head.splitlines(keepends=True), 1):
+        position += len(line)
+        match = _FIELD.fullmatch(line)
+        if not match:
+            if line.strip():
+                raise VolumeError(f"{path}: line {number}: expected a field of a MetaImage header")
+            continue
+        name, text = match[1].decode("latin-1"), os.fsdecode(match[2])
+        if name in fields:
+            raise VolumeError(f"{path}: line {number}: duplicate field {name[:40]}")
+        fields[name] = text
+        if name == _DATA:
+            if not line.endswith(b"\n") and len(text.split()) != 1:
+                raise VolumeError(f"{path}: line {number}: the header has no end")
+            return fields, position
+    raise VolumeError(f"{path}: the header is truncated: it has no field {_DATA}")
+
+
+def _listed(lines: bytes, name: str, sizes: tuple[int, ...], path: str) -> tuple[list[str], int]:
+    """Return the names of a list, and the number of axes of each file."""
+    words = name.split()
+    axes = int(words[1]) if len(words) == 2 and re.fullmatch("[1-9]", words[1], re.ASCII) else len(sizes) - 1
+    if words[0] != "LIST" or len(words) > 2 or not 1 <= axes < len(sizes):
+        raise VolumeError(
+            f"{path}: {_DATA}: expected LIST and a number of axes below {len(sizes)}, found {name[:40]!r}"
+        )
+    *complete, rest = lines.split(b"\n")
+    if rest.strip():
+        raise VolumeError(f"{path}: the list of files is truncated: its last line has no end")
+    names = [os.fsdecode(line.rstrip()) for line in complete if line.strip()]
+    count = math.prod(sizes[axes:])
+    if len(names) != count:
+        raise VolumeError(f"{path}: expected a list of {count} files, found {len(names)}")
+    return names, axes
+
+
+def _numbered(name: str, sizes: tuple[int, ...], path: str) -> list[str]:
+    """Return the names of a pattern."""
+    count = sizes[-1]
+    match = _PATTERN.fullmatch(name)
+    numbers = [int(word) for word in match[2].split()] if match else []
+    first, last, step = numbers if len(numbers) == 3 else (1, count, 1) if not numbers else (0, 0, 0)
+    if match is None or step < 1 or len(range(first, last + 1, step)) != count:
+        raise VolumeError(f"{path}: {_DATA}: expected NAME%03d FIRST LAST STEP for {count} files, found {name[:60]!r}")
+    return [match[1] % number for number in range(first, last + 1, step)]
+
+
+def _flag(fields: Mapping[str, str], name: str, path: str, default: bool = False) -> bool:
+    text = fields.get(name)
+    if text is None:
+        return default
+    if text not in _FLAGS:
+        raise VolumeError(f"{path}: {name}: expected True or False, found {text[:40]!r}")
+    return _FLAGS[text]
+
+
+def _integers(fields: Mapping[str, str], name: str, path: str) -> list[int]:
+    words = fields.get(name, "").split()
+    if not words or not all(map(_INTEGER.fullmatch, words)):
+        raise VolumeError(f"{path}: {name}: expected integers, found {fields.get(name, 'nothing')[:40]!r}")
+    return [int(word) for word in words]
+
+
+def _integer(fields: Mapping[str, str], name: str, path: str, default: int | None = None) -> int:
+    if default is not None and name not in fields:
+        return default
+    (number, *others) = _integers(fields, name, path)
+    if others:
+        raise VolumeError(f"{path}: {name}: expected one integer, found {1 + len(others)}")
+    return number

@@ -1,0 +1,191 @@
+"""Check a NIfTI-1 file (nifti1.h): its header, the length of its data, and whether it states one position.
+
+SimpleITK replaces sizes, offsets and spacings that are invalid by others, and applies ``scl_inter`` even if
+``scl_slope`` is 0, where the standard says that values are not scaled. Such headers are rejected. If ``qform`` and
+``sform`` differ, or the ``sform`` has another spacing than ``pixdim``, notes say which is used.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import struct
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from modern.digital.integrity.streams import check_length, check_sizes, read_gzip
+from modern.digital.solids import MAX_CELLS, VolumeError
+from modern.digital.world import World
+
+_HEADER, _FIRST_DATA = 348, 352
+_NIFTI_2 = 540
+_BITS = {
+    2: 8,
+    4: 16,
+    8: 32,
+    16: 32,
+    32: 64,
+    64: 64,
+    128: 24,
+    256: 8,
+    512: 16,
+    768: 32,
+    1024: 64,
+    1280: 64,
+    1536: 128,
+    1792: 128,
+    2048: 256,
+    2304: 32,
+}
+"""The bits of a value, by the code of its type."""
+_MILLIMETRES = {1: 1000.0, 3: 0.001}
+"""Units of length other than millimetres, by their code."""
+_WIDEST = 16 * MAX_CELLS
+_TO_LPS = np.diag([-1.0, -1.0, 1.0])
+_SAME = 0.01
+"""Positions that differ by less than this fraction of a voxel are considered equal."""
+
+Affine = NDArray[np.float64]
+"""Three rows of four numbers: the steps of the axes and the origin, in LPS and millimetres."""
+
+
+@dataclass(frozen=True, slots=True)
+class NiftiHeader:
+    """The sizes and positions that a NIfTI header states.
+
+    ``forms`` has the positions called qform and sform, as far as the header states them. ``scaling`` is a note about
+    scaled values, or empty.
+    """
+
+    sizes: tuple[int, ...]
+    spacing: tuple[float, ...]
+    forms: Mapping[str, Affine]
+    scaling: str
+
+
+def check_nifti(path: str) -> NiftiHeader:
+    """Return what the header states. Raise VolumeError for an invalid header, and for data of another length."""
+    with open(path, "rb") as file:
+        head = file.read(_FIRST_DATA)
+        available = os.fstat(file.fileno()).st_size
+    is_packed = path.lower().endswith(".gz") and head[:2] == b"\x1f\x8b"
+    if is_packed:
+        head, _ = read_gzip(path, path, -1, _FIRST_DATA)
+    header, first, expected = _parsed(head, path)
+    if is_packed:
+        _, available = read_gzip(path, path, first + expected, 0)
+    check_length(path, expected, max(0, available - first))
+    return header
+
+
+def _parsed(head: bytes, path: str) -> tuple[NiftiHeader, int, int]:
+    """Return the header, the position of the data and their length in bytes."""
+    order = next((mark for mark in "<>" if head[:4] == struct.pack(f"{mark}i", _HEADER)), "")
+    if any(head[:4] == struct.pack(f"{mark}i", _NIFTI_2) for mark in "<>"):
+        raise VolumeError(f"{path}: NIfTI-2 is not supported; convert the file to NIfTI-1")
+    if head[344:348] == b"ni1\0":
+        raise VolumeError(f"{path}: a pair of files .hdr and .img is not supported; convert it to one .nii file")
+    if not order or len(head) < _FIRST_DATA or head[344:348] != b"n+1\0":
+        raise VolumeError(f"{path}: not a NIfTI-1 file, or its header is damaged or truncated")
+    count, *dims = struct.unpack_from(f"{order}8h", head, 40)
+    kind, bits = struct.unpack_from(f"{order}2h", head, 70)
+    qfac, *spacing, offset, slope, intercept = struct.unpack_from(f"{order}11f", head, 76)
+    if not 1 <= count <= 7:
+        raise VolumeError(f"{path}: dim[0]: expected 1 to 7 axes, found {count}")
+    sizes = tuple(dims[:count])
+    check_sizes(path, sizes)
+    if _BITS.get(kind) != bits:
+        raise VolumeError(f"{path}: datatype {kind} does not have bitpix {bits}, or is not supported")
+    if not (offset >= _FIRST_DATA and offset < _WIDEST and offset == int(offset)):
+        raise VolumeError(f"{path}: vox_offset: expected an integer of at least {_FIRST_DATA}, found {offset:g}")
+    for axis, length in enumerate(spacing[: min(count, 3)], 1):
+        if not (length > 0 and math.isfinite(length)):
+            raise VolumeError(f"{path}: pixdim[{axis}]: expected a positive number, found {length:g}")
+    scaling = _scaling(slope, intercept, path)
+    scale = _MILLIMETRES.get(head[123] & 7, 1.0)
+    forms = _forms(head, order, qfac, tuple(spacing[:3]), scale, path)
+    header = NiftiHeader(sizes, tuple(scale * length for length in spacing[: min(count, 3)]), forms, scaling)
+    return header, int(offset), math.prod(sizes) * bits // 8
+
+
+def _scaling(slope: float, intercept: float, path: str) -> str:
+    # 0 means that values are not scaled, and so does nan, which nibabel writes.
+    if slope == 0 or math.isnan(slope):
+        if intercept != 0 and not math.isnan(intercept):
+            raise VolumeError(f"{path}: scl_inter is {intercept:g}, but scl_slope is {slope:g} (values not scaled)")
+        return ""
+    if not (math.isfinite(slope) and math.isfinite(intercept)):
+        raise VolumeError(f"{path}: scl_slope and scl_inter: expected finite numbers, found {slope:g}, {intercept:g}")
+    if (slope, intercept) == (1, 0):
+        return ""
+    return f"the values are scaled: {slope:g} times the stored value plus {intercept:g} (scl_slope, scl_inter)"
+
+
+def _forms(
+    head: bytes, order: str, qfac: float, spacing: tuple[float, ...], scale: float, path: str
+) -> dict[str, Affine]:
+    qform_code, sform_code = struct.unpack_from(f"{order}2h", head, 252)
+    b, c, d, *offsets = struct.unpack_from(f"{order}6f", head, 256)
+    rows = struct.unpack_from(f"{order}12f", head, 280)
+    forms: dict[str, Affine] = {}
+    if qform_code > 0:
+        square = b * b + c * c + d * d
+        if not (square < 1.001 and math.isfinite(qfac) and all(map(math.isfinite, offsets))):
+            raise VolumeError(f"{path}: qform: expected a unit quaternion and finite numbers")
+        # The rotation matrix of the quaternion a + bi + cj + dk. The third axis is reversed if qfac is negative.
+        a = math.sqrt(max(0.0, 1 - square))
+        rotation = np.array(
+            [
+                [a * a + b * b - c * c - d * d, 2 * (b * c - a * d), 2 * (b * d + a * c)],
+                [2 * (b * c + a * d), a * a + c * c - b * b - d * d, 2 * (c * d - a * b)],
+                [2 * (b * d - a * c), 2 * (c * d + a * b), a * a + d * d - b * b - c * c],
+            ]
+        )
+        steps = rotation * np.array([1.0, 1.0, -1.0 if qfac < 0 else 1.0]) * np.nan_to_num(spacing)
+        forms["qform"] = scale * _TO_LPS @ np.column_stack([steps, offsets])
+    if sform_code > 0:
+        if not all(map(math.isfinite, rows)):
+            raise VolumeError(f"{path}: sform: expected finite numbers")
+        forms["sform"] = scale * _TO_LPS @ np.array(rows).reshape(3, 4)
+    return forms
+
+
+def position_notes(header: NiftiHeader, world: World | None) -> list[str]:
+    """Return notes about positions in the header that differ from each other, and which one ``world`` has."""
+    if world is None or len(world.steps) != 3:
+        return []
+    used = np.array([[float(number) for number in vector] for vector in (*world.steps, world.origin)]).T
+    notes = []
+    sform, qform = header.forms.get("sform"), header.forms.get("qform")
+    if sform is not None and qform is not None and _distance(sform, qform, header) > 0:
+        origin_of = {name: _distance(form, used, header, spacing=False) for name, form in header.forms.items()}
+        name = min(origin_of, key=lambda form: origin_of[form])
+        notes.append(f"qform and sform differ by up to {_distance(sform, qform, header):.3g} mm; the {name} is used")
+    if sform is not None and _distance(sform, used, header, spacing=False) == 0:
+        lengths = np.linalg.norm(sform[:, : len(header.spacing)], axis=0)
+        if np.abs(lengths / header.spacing - 1).max() > _SAME:
+            stated, pixdim = (" ".join(f"{x:.6g}" for x in values) for values in (lengths, header.spacing))
+            notes.append(f"the sform has the spacing {stated} mm, but pixdim has {pixdim} mm, which is used")
+    return notes
+
+
+def _distance(first: Affine, second: Affine, header: NiftiHeader, spacing: bool = True) -> float:
+    """Return the largest distance between the positions of a corner of the volume, or 0 if it is negligible.
+
+    Without ``spacing`` both have the steps of ``pixdim`` along the directions of their axes.
+    """
+    sides = np.array([*header.sizes, 1, 1][:3], dtype=np.float64)
+    corners = np.array([[x, y, z, 1] for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * [*sides, 1]
+    if not spacing:
+        first, second = (_with_unit_steps(form) for form in (first, second))
+        corners[:, :3] = np.sign(corners[:, :3]) * sides * [*header.spacing, 1, 1][:3]
+    distance = float(np.linalg.norm(corners @ (first - second).T, axis=1).max())
+    return distance if distance > _SAME * min(header.spacing) else 0.0
+
+
+def _with_unit_steps(form: Affine) -> Affine:
+    lengths = np.linalg.norm(form[:, :3], axis=0)
+    return np.column_stack([form[:, :3] / np.where(lengths > 0, lengths, 1), form[:, 3]])

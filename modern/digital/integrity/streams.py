@@ -1,0 +1,85 @@
+"""Lengths of data, and decompression that verifies a checksum without keeping the data."""
+
+from __future__ import annotations
+
+import gzip
+import math
+import zlib
+from collections.abc import Iterator, Sequence
+from typing import BinaryIO
+
+from modern.digital.solids import MAX_CELLS, VolumeError
+
+CHUNK = 1 << 20
+_ZLIB_OR_GZIP = 47
+"""The ``wbits`` of zlib that recognise both headers. Each format ends with a checksum."""
+
+
+def check_length(source: str, expected: int, available: int) -> None:
+    """Raise VolumeError unless the data have the expected number of bytes."""
+    if available < expected:
+        raise VolumeError(f"{source}: expected {expected} bytes of data, found {available}")
+    if available > expected:
+        raise VolumeError(f"{source}: expected {expected} bytes of data, found more")
+
+
+def check_sizes(source: str, sizes: Sequence[int]) -> None:
+    """Raise VolumeError if a size is not positive or the sizes have more than ``MAX_CELLS`` voxels."""
+    text = " x ".join(map(str, sizes))[:80]
+    if not sizes or min(sizes) < 1:
+        raise VolumeError(f"{source}: expected positive sizes, found {text or 'none'}")
+    if math.prod(sizes) > MAX_CELLS:
+        raise VolumeError(f"{source}: expected at most {MAX_CELLS} voxels, found {text}")
+
+
+def chunks_of(file: BinaryIO, count: int) -> Iterator[bytes]:
+    """Yield the next ``count`` bytes of a file, or fewer at its end, in pieces."""
+    while count > 0 and (chunk := file.read(min(CHUNK, count))):
+        count -= len(chunk)
+        yield chunk
+
+
+def check_compressed(source: str, file: BinaryIO, stored: int, expected: int) -> None:
+    """Check the next ``stored`` bytes of a file, one zlib or gzip stream.
+
+    Raise VolumeError if they are damaged, are followed by other data, or do not decompress to ``expected`` bytes.
+    """
+    decompressor = zlib.decompressobj(_ZLIB_OR_GZIP)
+    size, remaining = 0, stored
+    try:
+        for chunk in chunks_of(file, stored):
+            remaining -= len(chunk)
+            # The output is limited too, because a small damaged stream may decompress to any size.
+            pending = chunk
+            while pending and not decompressor.eof and size <= expected:
+                size += len(decompressor.decompress(pending, CHUNK))
+                pending = decompressor.unconsumed_tail
+            if decompressor.eof or size > expected:
+                break
+        while not decompressor.eof and size <= expected and (piece := decompressor.decompress(b"", CHUNK)):
+            size += len(piece)
+    except zlib.error as error:
+        raise VolumeError(f"{source}: the data cannot be decompressed: {str(error).lower()}") from None
+    if size > expected:
+        check_length(source, expected, size)
+    if not decompressor.eof:
+        raise VolumeError(f"{source}: the data cannot be decompressed: they end before their checksum")
+    check_length(source, expected, size)
+    if remaining or decompressor.unused_data:
+        raise VolumeError(f"{source}: the compressed data are followed by other bytes")
+
+
+def read_gzip(source: str, path: str, most: int, keep: int) -> tuple[bytes, int]:
+    """Return the first ``keep`` decompressed bytes of a gzip file, and the number of all, at most ``most`` + 1.
+
+    Raise VolumeError if the file is damaged. The checksum is verified unless there are more than ``most`` bytes.
+    """
+    try:
+        with gzip.open(path) as file:
+            head = file.read(keep)
+            size = len(head)
+            while size <= most and (chunk := file.read(min(CHUNK, most + 1 - size))):
+                size += len(chunk)
+            return head, size
+    except (OSError, EOFError, zlib.error) as error:
+        raise VolumeError(f"{source}: the data cannot be decompressed: {str(error).lower()}") from None
