@@ -1,4 +1,4 @@
-"""The order of the rooms and the size of the modules, as ``pyproject.toml`` states them; each guard is also tripped."""
+"""The order of the packages and the length of the modules match ``pyproject.toml``, and each check can fail."""
 
 from __future__ import annotations
 
@@ -8,137 +8,119 @@ from pathlib import Path
 
 import pytest
 
-from tests.support import house
+from tests.support import architecture
 from tests.support.paths import ROOT
 
-LIMITS = house.limits(ROOT)
+LIMITS = architecture.limits(ROOT)
 EMULATOR = ("compiled", "machine", "language", "numbers", "jit")
-MODERN = tuple(
-    (
-        "cli publication bench study claims papers drawing digital edition comparison "
-        "thesis port exact_hull formats geometry"
-    ).split()
-)
 
 
-def test_a_room_imports_only_rooms_below_it() -> None:
-    kept, printed = house.contracts(ROOT)
-    assert kept, printed
+def test_packages_import_only_lower_packages() -> None:
+    are_kept, report = architecture.check_contracts(ROOT)
+    assert are_kept, report
 
 
-def test_no_files_import_one_another_in_a_circle() -> None:
-    assert house.circle("emulator", "modern", "hull1620") == ()
+def test_imports_form_no_cycle() -> None:
+    assert architecture.import_cycle("emulator", "modern", "hull1620") == ()
 
 
-def test_modern_has_no_loose_module() -> None:
-    assert house.loose(ROOT) == []
-
-
-def test_modern_has_no_more_rooms_than_allowed() -> None:
-    assert len(house.rooms(ROOT)) <= LIMITS.rooms, house.rooms(ROOT)
-
-
-def test_no_module_is_too_long() -> None:
-    assert house.too_long(ROOT, LIMITS) == []
-
-
-def test_few_modules_are_short() -> None:
-    found = house.short(ROOT, LIMITS)
-    assert len(found) <= LIMITS.short_modules, found
+def test_modules_and_packages_keep_the_limits() -> None:
+    assert architecture.modules_outside_packages(ROOT) == []
+    assert len(architecture.packages_of_modern(ROOT)) <= LIMITS.max_packages
+    assert architecture.wrong_lengths(ROOT, LIMITS) == []
+    short = architecture.short_modules(ROOT, LIMITS)
+    assert len(short) <= LIMITS.max_short_modules, short
 
 
 @pytest.fixture
-def made_up(tmp_path: Path) -> Path:
-    """A house of empty rooms, with the contracts of this one."""
+def empty_project(tmp_path: Path) -> Path:
+    """A project of empty packages with the contracts of this one."""
     shutil.copy(ROOT / "pyproject.toml", tmp_path)
-    for package, names in (("emulator", EMULATOR), ("modern", MODERN), ("hull1620", ())):
+    packages = (("emulator", EMULATOR), ("modern", architecture.packages_of_modern(ROOT)), ("hull1620", ()))
+    for package, names in packages:
         for folder in (tmp_path / package, *(tmp_path / package / name for name in names)):
             folder.mkdir()
             (folder / "__init__.py").touch()
-    (tmp_path / "emulator" / "errors.py").touch()
-    (tmp_path / "emulator" / "files.py").touch()
-    (tmp_path / "emulator" / "progress.py").touch()
-    (tmp_path / "hull1620" / "hulls.py").touch()
+    for module in ("emulator/errors.py", "emulator/files.py", "emulator/progress.py", "hull1620/hulls.py"):
+        (tmp_path / module).touch()
     return tmp_path
 
 
-def test_the_contracts_are_kept_by_empty_rooms(made_up: Path) -> None:
-    kept, printed = house.contracts(made_up)
-    assert kept, printed
-    assert "Contracts: 4 kept, 0 broken." in printed
+def test_empty_packages_keep_the_contracts(empty_project: Path) -> None:
+    are_kept, report = architecture.check_contracts(empty_project)
+    assert are_kept, report
+    assert "Contracts: 4 kept, 0 broken." in report
 
 
 @pytest.mark.parametrize(
-    ("place", "line", "contract"),
+    ("module", "line", "contract"),
     [
-        ("emulator/numbers/a.py", "from emulator.machine import b", "the rooms of emulator"),
-        ("emulator/errors.py", "import emulator.files", "the rooms of emulator"),
-        ("modern/geometry/a.py", "def f():\n    from modern.formats import b", "the rooms of modern"),
-        ("modern/thesis/a.py", "import modern.comparison.b", "the rooms of modern"),
+        ("emulator/numbers/a.py", "from emulator.machine import b", "packages of emulator"),
+        ("emulator/errors.py", "import emulator.files", "packages of emulator"),
+        ("modern/geometry/a.py", "def f():\n    from modern.formats import b", "packages of modern"),
+        ("modern/thesis/a.py", "import modern.comparison.b", "packages of modern"),
         ("emulator/compiled/a.py", "import modern.geometry.b", "never the other way"),
         ("modern/geometry/a.py", "import hull1620.hulls", "never the other way"),
         ("modern/port/a.py", "import tests.support", "nothing imports tests"),
     ],
 )
-def test_an_import_of_an_upper_room_is_found(made_up: Path, place: str, line: str, contract: str) -> None:
+def test_an_import_of_a_higher_package_is_reported(empty_project: Path, module: str, line: str, contract: str) -> None:
     for folder in ("emulator/machine", "modern/formats", "modern/comparison", "modern/geometry"):
-        (made_up / folder / "b.py").touch()
-    (made_up / place).write_text(line + "\n", encoding="utf-8")
-    kept, printed = house.contracts(made_up)
-    assert not kept
-    assert f"{contract} BROKEN" in printed
-    assert "Contracts: 3 kept, 1 broken." in printed
+        (empty_project / folder / "b.py").touch()
+    (empty_project / module).write_text(line + "\n", encoding="utf-8")
+    are_kept, report = architecture.check_contracts(empty_project)
+    assert not are_kept
+    assert f"{contract} BROKEN" in report
+    assert "Contracts: 3 kept, 1 broken." in report
 
 
-@pytest.mark.parametrize("room", ["modern/attic", "emulator/attic"])
-def test_a_room_that_has_no_place_in_the_order_is_found(made_up: Path, room: str) -> None:
-    (made_up / room).mkdir()
-    (made_up / room / "__init__.py").touch()
-    kept, printed = house.contracts(made_up)
-    assert not kept
-    assert "attic" in printed
+@pytest.mark.parametrize("package", ["modern/extra", "emulator/extra"])
+def test_a_package_that_no_contract_names_is_reported(empty_project: Path, package: str) -> None:
+    (empty_project / package).mkdir()
+    (empty_project / package / "__init__.py").touch()
+    are_kept, report = architecture.check_contracts(empty_project)
+    assert not are_kept
+    assert "extra" in report
 
 
-def test_a_circle_of_files_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    package = tmp_path / "round_house"
+def test_an_import_cycle_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    package = tmp_path / "cyclic"
     package.mkdir()
-    lines = {"__init__": "", "a": "from round_house.b import x", "b": "import round_house.c", "c": ""}
-    for name, line in lines.items():
+    for name, line in {"__init__": "", "a": "from cyclic.b import x", "b": "import cyclic.c", "c": ""}.items():
         (package / f"{name}.py").write_text(line + "\n", encoding="utf-8")
     monkeypatch.syspath_prepend(str(tmp_path))
-    assert house.circle("round_house") == ()
-    (package / "c.py").write_text("def f():\n    from round_house import a\n", encoding="utf-8")
-    found = house.circle("round_house")
-    assert found[0] == found[-1]
-    assert set(found) == {"round_house.a", "round_house.b", "round_house.c"}
+    assert architecture.import_cycle("cyclic") == ()
+    (package / "c.py").write_text("def f():\n    from cyclic import a\n", encoding="utf-8")
+    cycle = architecture.import_cycle("cyclic")
+    assert cycle[0] == cycle[-1]
+    assert set(cycle) == {"cyclic.a", "cyclic.b", "cyclic.c"}
 
 
-def test_a_loose_module_and_a_room_too_many_are_found(made_up: Path) -> None:
-    assert house.loose(made_up) == []
-    (made_up / "modern" / "points.py").touch()
-    assert house.loose(made_up) == ["points.py"]
-    assert len(house.rooms(made_up)) == LIMITS.rooms
-    (made_up / "modern" / "attic").mkdir()
-    (made_up / "modern" / "attic" / "__init__.py").touch()
-    assert len(house.rooms(made_up)) > LIMITS.rooms
+def test_a_module_outside_the_packages_and_a_surplus_package_are_reported(empty_project: Path) -> None:
+    assert architecture.modules_outside_packages(empty_project) == []
+    (empty_project / "modern" / "points.py").touch()
+    assert architecture.modules_outside_packages(empty_project) == ["points.py"]
+    assert len(architecture.packages_of_modern(empty_project)) == LIMITS.max_packages
+    (empty_project / "modern" / "extra").mkdir()
+    (empty_project / "modern" / "extra" / "__init__.py").touch()
+    assert len(architecture.packages_of_modern(empty_project)) > LIMITS.max_packages
 
 
-def test_a_long_module_and_an_exception_not_needed_are_found(made_up: Path) -> None:
-    module = made_up / "modern" / "port" / "a.py"
-    module.write_text("x = 1\n" * LIMITS.lines, encoding="utf-8")
-    assert house.too_long(made_up, LIMITS) == []
-    exempt = replace(LIMITS, long={"modern/port/a.py": "a table"})
-    assert house.too_long(made_up, exempt) == ["modern/port/a.py"]
-    module.write_text("x = 1\n" * (LIMITS.lines + 1), encoding="utf-8")
-    assert house.too_long(made_up, LIMITS) == ["modern/port/a.py"]
-    assert house.too_long(made_up, exempt) == []
+def test_a_long_module_and_a_needless_exception_are_reported(empty_project: Path) -> None:
+    module = empty_project / "modern" / "port" / "a.py"
+    with_exception = replace(LIMITS, exceptions={"modern/port/a.py": "a table"})
+    module.write_text("x = 1\n" * LIMITS.max_lines, encoding="utf-8")
+    assert architecture.wrong_lengths(empty_project, LIMITS) == []
+    assert architecture.wrong_lengths(empty_project, with_exception) == ["modern/port/a.py"]
+    module.write_text("x = 1\n" * (LIMITS.max_lines + 1), encoding="utf-8")
+    assert architecture.wrong_lengths(empty_project, LIMITS) == ["modern/port/a.py"]
+    assert architecture.wrong_lengths(empty_project, with_exception) == []
 
 
-def test_a_short_module_is_counted(made_up: Path) -> None:
+def test_a_short_module_is_reported(empty_project: Path) -> None:
     empty = ["emulator/errors.py", "emulator/files.py", "emulator/progress.py", "hull1620/hulls.py"]
-    assert house.short(made_up, LIMITS) == empty
-    module = made_up / "modern" / "port" / "a.py"
-    module.write_text("x = 1\n" * (LIMITS.short - 1), encoding="utf-8")
-    assert house.short(made_up, LIMITS) == [*empty, "modern/port/a.py"]
-    module.write_text("x = 1\n" * LIMITS.short, encoding="utf-8")
-    assert house.short(made_up, LIMITS) == empty
+    module = empty_project / "modern" / "port" / "a.py"
+    module.write_text("x = 1\n" * (LIMITS.short_lines - 1), encoding="utf-8")
+    assert architecture.short_modules(empty_project, LIMITS) == [*empty, "modern/port/a.py"]
+    module.write_text("x = 1\n" * LIMITS.short_lines, encoding="utf-8")
+    assert architecture.short_modules(empty_project, LIMITS) == empty

@@ -1,7 +1,7 @@
-"""The measure of the house: which rooms there are, how long their modules are, and whether imports run in circles.
+"""Checks of the architecture: the packages, the length of their modules, and circular imports.
 
-The order of the rooms is the import-linter contracts of ``pyproject.toml``; the numbers stand beside them, in
-``[tool.house]``.
+The order of the packages is stated by the import-linter contracts of ``pyproject.toml``, and the limits by its table
+``[tool.architecture]``.
 """
 
 from __future__ import annotations
@@ -20,36 +20,40 @@ import grimp
 
 @dataclass(frozen=True)
 class Limits:
-    """What ``[tool.house]`` allows; ``long`` names modules that may be longer (path below the root, reason)."""
+    """The limits of ``[tool.architecture]``.
 
-    rooms: int
-    lines: int
-    short: int
-    short_modules: int
-    long: Mapping[str, str]
+    max_packages: packages in ``modern``.  max_lines: lines of a module.  short_lines: a module with fewer lines is
+    short.  max_short_modules: short modules of the project.  exceptions: longer modules, from path to reason.
+    """
+
+    max_packages: int
+    max_lines: int
+    short_lines: int
+    max_short_modules: int
+    exceptions: Mapping[str, str]
 
 
 def limits(root: Path) -> Limits:
-    """The limits that the ``pyproject.toml`` of this folder states."""
+    """Return the limits stated in ``root/pyproject.toml``."""
     with (root / "pyproject.toml").open("rb") as stream:
-        return Limits(**tomllib.load(stream)["tool"]["house"])
+        return Limits(**tomllib.load(stream)["tool"]["architecture"])
 
 
-def contracts(root: Path) -> tuple[bool, str]:
-    """Whether import-linter finds every contract of ``root/pyproject.toml`` kept, and what it prints."""
+def check_contracts(root: Path) -> tuple[bool, str]:
+    """Run import-linter in ``root``; return True if every contract is kept, and its output."""
     command = [sys.executable, "-c", "from importlinter.cli import lint_imports_command as main; main()"]
     environment = {**os.environ, "PYTHONPATH": str(root), "COLUMNS": "200"}
     options = ["--config", "pyproject.toml", "--no-cache"]
-    done = subprocess.run(
+    process = subprocess.run(
         [*command, *options], cwd=root, env=environment, capture_output=True, text=True, encoding="utf-8", check=False
     )
-    return done.returncode == 0, done.stdout + done.stderr
+    return process.returncode == 0, process.stdout + process.stderr
 
 
-def circle(*packages: str) -> tuple[str, ...]:
-    """The modules of one circle of imports, the first one repeated at the end; empty where there is none.
+def import_cycle(*packages: str) -> tuple[str, ...]:
+    """Return the modules of one import cycle, the first repeated at the end, or () if there is no cycle.
 
-    An import of a package is an import of its ``__init__``; imports inside functions count.
+    Importing a package counts as importing its ``__init__``.  Imports inside functions count.
     """
     graph = grimp.build_graph(*packages, cache_dir=None)
     try:
@@ -59,34 +63,31 @@ def circle(*packages: str) -> tuple[str, ...]:
     return ()
 
 
-def loose(root: Path) -> list[str]:
-    """Modules that lie in ``modern`` and in none of its rooms."""
+def modules_outside_packages(root: Path) -> list[str]:
+    """Return the modules that lie directly in ``modern``."""
     return sorted(path.name for path in (root / "modern").glob("*.py") if path.name != "__init__.py")
 
 
-def rooms(root: Path) -> list[str]:
-    """The rooms of ``modern``."""
+def packages_of_modern(root: Path) -> list[str]:
+    """Return the names of the packages of ``modern``."""
     return sorted(path.parent.name for path in (root / "modern").glob("*/__init__.py"))
 
 
-def too_long(root: Path, allowed: Limits) -> list[str]:
-    """Modules of more lines than allowed, and exceptions that need not be made any more."""
-    lengths = _lengths(root)
-    over = {name for name, lines in lengths.items() if lines > allowed.lines}
-    return sorted(over ^ set(allowed.long))
+def wrong_lengths(root: Path, allowed: Limits) -> list[str]:
+    """Return the modules that are too long without an exception, and the exceptions that are not needed."""
+    too_long = {name for name, lines in _lengths(root).items() if lines > allowed.max_lines}
+    return sorted(too_long ^ set(allowed.exceptions))
 
 
-def short(root: Path, allowed: Limits) -> list[str]:
-    """Modules below the length under which a module is short, ``__init__`` not counted."""
-    return sorted(name for name, lines in _lengths(root).items() if lines < allowed.short)
+def short_modules(root: Path, allowed: Limits) -> list[str]:
+    """Return the short modules, except ``__init__`` files."""
+    return sorted(name for name, lines in _lengths(root).items() if lines < allowed.short_lines)
 
 
 def _lengths(root: Path) -> dict[str, int]:
+    paths = [path for package in ("emulator", "modern", "hull1620") for path in sorted((root / package).rglob("*.py"))]
     return {
-        path.relative_to(root).as_posix(): len(path.read_text(encoding="utf-8").splitlines()) for path in _modules(root)
+        path.relative_to(root).as_posix(): len(path.read_text(encoding="utf-8").splitlines())
+        for path in paths
+        if path.name != "__init__.py"
     }
-
-
-def _modules(root: Path) -> list[Path]:
-    found = [path for package in ("emulator", "modern", "hull1620") for path in sorted((root / package).rglob("*.py"))]
-    return [path for path in found if path.name != "__init__.py"]
